@@ -51,6 +51,7 @@ __all__ = [
     "roll_torque",
     "shared",
     "star",
+    "terms",
     "turning",
     "vanishing",
     "vee_throws",
@@ -65,6 +66,7 @@ LONGEST_FILE: int
 
 _Parts: TypeAlias = tuple[float, float, float, float, float]
 _Weight: TypeAlias = tuple[float, str, float, int | None]
+_Cranks: TypeAlias = tuple[Sequence[tuple[float, float, int]], Sequence[int]]
 _Kept: TypeAlias = tuple[float | None, float | None, tuple[float, float, float] | None]
 _Shaft: TypeAlias = tuple[str, int, float, float, Sequence[_Weight]]
 _Pairs: TypeAlias = Sequence[tuple[int, complex]]
@@ -128,8 +130,7 @@ class Engine:
         bank: Sequence[int] | None,
         z: Sequence[float],
         rotating_mass: Sequence[float],
-        name: str,
-        source: str,
+        cranks: _Cranks | None,
     ) -> Engine: ...
     @staticmethod
     def inline(parts: _Parts, layout: dict[str, Any]) -> Engine: ...
@@ -191,13 +192,10 @@ class Engine:
     def mains(self) -> list[float]: ...
     @property
     def bearings(self) -> list[float]: ...
-    def throws(self) -> list[list[tuple[list[int], float, float]]]: ...
+    def throws(self) -> list[list[tuple[list[int], float, float, int]]]: ...
     def throw_places(self) -> list[tuple[float, list[int]]]: ...
     @property
-    def cranks(self) -> tuple[list[tuple[float, float, int]], list[int]]: ...
-    def with_cranks(
-        self, cranks: Sequence[tuple[float, float, int]], crank_of: Sequence[int]
-    ) -> Engine: ...
+    def cranks(self) -> _Cranks: ...
     @property
     def details(self) -> list[_Kept]: ...
     def keeping(
@@ -491,6 +489,15 @@ def balance(
     spectrum: _Pairs | None,
     torque: bool,
 ) -> Balance: ...
+def terms(
+    engine: Engine,
+    rpm: float,
+    orders: Sequence[float],
+    reference_z: float | None,
+    spectrum: _Pairs | None,
+    torque: bool,
+    aside: Sequence[float],
+) -> list[tuple[str, int, Balance]]: ...
 def star(
     firing: Firing, halves: Sequence[int], weights: Sequence[float]
 ) -> tuple[_Complex, _Complex, NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]: ...

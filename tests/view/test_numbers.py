@@ -8,12 +8,14 @@ that, and far below a digit that is shown.
 from __future__ import annotations
 
 import itertools
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
 import numpy as np
 import pytest
 from chromium import Open, values
+from several_cranks import fired_engine, random_engine
 from view_engines import everything, radial
 
 if TYPE_CHECKING:
@@ -33,6 +35,8 @@ ENGINES = {
     },
     "everything": everything(),
     "radial": radial(),
+    "cranks of many speeds": random_engine(26),
+    "cranks of both senses": random_engine(24, ratios=(1, -1)),
 }  # fmt: skip
 ANGLES = [0.0, 90.0, 97.25, -1234.5, 33.3333333, 1e6 + 0.125]
 WITHIN = 1e-9
@@ -56,12 +60,19 @@ def sizes(engine: cp.Engine, rpm: float) -> dict[str, float]:
     square = (rpm * np.pi / 30) ** 2
     masses = np.array([c.reciprocating_mass for c in engine.cylinders]) + engine.rotating_mass
     radii = np.array([c.crank_radius for c in engine.cylinders])
-    force = float((masses * radii).sum()) * square
+    x, y, ratio = on_cranks(engine).T
+    force = float((masses * radii * ratio**2).sum()) * square
     return {
         "force": force,
         "moment": force * max(np.ptp(engine.z), 0.1),
-        "torque": force * float(radii.max()),
+        "torque": force * float((radii + np.hypot(x, y)).max()),
     }
+
+
+def on_cranks(engine: cp.Engine) -> np.ndarray:
+    """Return axis and speed ratio of each cylinder's crank: (n_cylinders, 3)."""
+    cranks, crank_of = engine._core.cranks
+    return np.array([cranks[k] for k in crank_of])
 
 
 def assert_agree(page: Page, engine: cp.Engine, rpm: float, angle: float) -> None:
@@ -77,8 +88,10 @@ def assert_agree(page: Page, engine: cp.Engine, rpm: float, angle: float) -> Non
         found["torque"], np.asarray(wave.torque)[0], rtol=0, atol=WITHIN * scale["torque"]
     )
     heights = [
-        float(cylinder.position(angle % 360 - tdc))
-        for cylinder, tdc in zip(engine.cylinders, engine.tdc_deg, strict=True)
+        float(cylinder.position(abs(ratio) * (angle % 360 - tdc)))
+        for cylinder, tdc, (_, _, ratio) in zip(
+            engine.cylinders, engine.tdc_deg, on_cranks(engine), strict=True
+        )
     ]
     shown = [found[f"piston-{number}"] for number in range(1, len(engine) + 1)]
     np.testing.assert_allclose(shown, heights, rtol=WITHIN)
@@ -249,7 +262,7 @@ def two_stroke() -> cp.Engine:
     return engine.replace(firing_order=[1, 3, 2]).with_cycle(cycle)
 
 
-@pytest.mark.parametrize("of", [fired, two_stroke])
+@pytest.mark.parametrize("of", [fired, two_stroke, partial(fired_engine, 24)])
 def test_gas_at_any_angle(open_engine: Open, of: Callable[[], cp.Engine]) -> None:
     engine = of()
     page = open_engine(engine)
@@ -294,7 +307,7 @@ def assert_speed_agrees(page: Page, engine: cp.Engine, rpm: float, inertia: floa
         assert shown == pytest.approx(expected, abs=OF_FLUCTUATION * span)
 
 
-@pytest.mark.parametrize("of", [fired, two_stroke])
+@pytest.mark.parametrize("of", [fired, two_stroke, partial(fired_engine, 24)])
 def test_speed_of_the_crank(open_engine: Open, of: Callable[[], cp.Engine]) -> None:
     engine = of()
     given = cp.flywheel(engine, rpm=3000, irregularity=0.01).inertia
@@ -323,7 +336,7 @@ def test_a_crank_that_would_stop(open_engine: Open) -> None:
     assert_speed_agrees(page, fired(), 3000, 0.1)
 
 
-@pytest.mark.parametrize("name", ["i4", "v8-crossplane", "everything"])
+@pytest.mark.parametrize("name", ["i4", "v8-crossplane", "everything", "cranks of many speeds"])
 def test_a_compact_page_has_the_same_numbers(open_engine: Open, name: str) -> None:
     engine = ENGINES[name]
     page = open_engine(engine, save={"compact": True})

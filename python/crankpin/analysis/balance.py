@@ -159,6 +159,8 @@ class Balance(ByOrder, Tabled):
             return False
         core, plane = engine_core(self.engine), self.request.reference_z
         vanishes = _core.vanishing(core, [round(2 * order)], plane, None)[0][0]
+        if whole == "crank_torque" and any(ratio < 0 for _, _, ratio in core.cranks[0]):
+            return False  # cranks of opposite senses exert on the block what adds up on the crank
         # A torque of inertia on the crank vanishes with that on the block.
         at = {"force": slice(0, 2), "moment": slice(4, 6)}
         parts = {"inertia": slice(8, 9), "gas": slice(9, 10), "": slice(8, 10 if self.fired else 9)}

@@ -113,7 +113,7 @@ class Explanation(Record):
         for sums, k in shaking:
             for finding in sums.shaking(k):
                 yield finding
-                if finding.reason == "counterweights":
+                if finding.kind == "remedy" and finding.reason:
                     yield from weights  # once
         noticed = np.abs(force.cylinders).sum(axis=(0, 1)) > MATTERS * self.unit
         for sums in both:
@@ -165,10 +165,14 @@ class Explanation(Record):
     # --- other findings -------------------------------------------------------------------------
 
     def _bob_weights(self) -> Iterator[Finding]:
-        """Yield the bob weight that removes what turns with the crank: half of the pistons'."""
+        """Yield the bob weight that removes what turns with a crank: half of the pistons'."""
         offset = any(each.pin_offset for each in self.engine.cylinders)
-        if not offset and not any(shaft.ratio == 1 for shaft in self.engine.shafts):
-            yield Finding("bob weights", "", (1,), (0.5,))
+        ratios = {ratio for _, _, ratio in self.engine._core.cranks[0]}
+        if offset or any(shaft.ratio in ratios for shaft in self.engine.shafts):
+            return
+        if all(abs(ratio) == 1 for ratio in ratios):  # others have their first order elsewhere
+            sense = "one sense" if ratios == {1} else "own sense"
+            yield Finding("bob weights", "", (1,), (0.5,), sense)
 
     def _torques(self) -> Iterator[Finding]:
         """Yield the largest orders of roll torque: of inertia, and of gas if it counts."""
@@ -189,6 +193,8 @@ class Explanation(Record):
         fires = self.engine.firing()
         reason = "evenly" if fires.even else "unevenly"
         yield Finding("firing", "", (), tuple(fires.intervals_deg.tolist()), reason, (fires.order,))
+        if any(ratio < 0 for _, _, ratio in self.engine._core.cranks[0]):
+            return  # what cancels on the block is not what cancels on the crank
         in_two_turns = 4 * len(self.engine) // self.engine.strokes
         orders = [half / 2 for half in range(1, in_two_turns + 1)]
         gas = self.engine.vanishing_orders(orders).gas_torque
@@ -197,8 +203,11 @@ class Explanation(Record):
 
     def _shared_pins(self) -> Iterator[Finding]:
         """Yield the rows of a radial, whose articulated rods are not modelled."""
-        pins: dict[tuple[float, float], list[int]] = {}
-        where = zip(self.engine.z.tolist(), self.engine.pin_deg.round(6).tolist(), strict=True)
+        pins: dict[tuple[float, float, int], list[int]] = {}
+        cranks = self.engine._core.cranks[1]
+        where = zip(
+            self.engine.z.tolist(), self.engine.pin_deg.round(6).tolist(), cranks, strict=True
+        )
         for number, pin in enumerate(where, start=1):
             pins.setdefault(pin, []).append(number)
         rows = tuple(tuple(row) for row in pins.values() if len(row) > 2)

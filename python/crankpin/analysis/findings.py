@@ -61,6 +61,9 @@ class Sums:
         self.shakes = (self.peaks > MATTERS * size) & (self.peaks > 0.0)
         self.cylinders = np.array([each.phasors for each in parts[: len(self.engine)]])
         """What each cylinder adds: (n_cylinders, 2, n_orders)."""
+        cranks, crank_of = self.engine._core.cranks
+        self.ratios = np.array([cranks[each][2] for each in crank_of])
+        """Speed of each cylinder's crank over that of the main one: (n_cylinders,)."""
         self.hardware = {
             group: np.sum([each.phasors for each in parts if each.group == group], axis=0)
             for group in FITTED
@@ -99,22 +102,31 @@ class Sums:
         values = (forward, backward, float(self.tilt_deg[k]))
         yield Finding("shakes", self.name, (order,), values, reason)
         if order <= REMOVABLE:
-            # A part that would not be mentioned alone is not worth hardware of its own.
-            ahead, against = (part > MATTERS * self.size for part in (forward, backward))
-            weights = "counterweights" if ahead and order == 1 else ""
-            ratios = [order] * bool(ahead and order > 1) + [-order] * bool(against)
-            kept = backward if weights else forward * (not ahead) + backward * (not against)
-            if weights or ratios:
+            # A part that would not be mentioned alone is not worth hardware of its own; a weight on
+            # a crank turns with it.
+            parts = {order: forward, -order: backward}
+            worth = [ratio for ratio, part in parts.items() if part > MATTERS * self.size]
+            weighed = [ratio for ratio in worth if ratio in {1, *self.ratios.tolist()}]
+            ratios = [ratio for ratio in worth if ratio not in weighed]
+            weights = "" if not weighed else "counterweights"
+            weights += " on other cranks" * (weighed not in ([], [1]))
+            kept = sum(part for ratio, part in parts.items() if ratio not in (weighed or worth))
+            if worth:
                 yield Finding("remedy", self.name, (order,), (kept, *map(float, ratios)), weights)
 
     def _together(self, k: int) -> bool:
         """Return whether all pistons pull at once, each along its own bore."""
-        bores = np.exp(-1j * np.radians(self.engine.bank_deg))
-        pulls = self.cylinders[:, 1, k] * bores  # counterweights and throws have no backward part
+        pulls = self._pulls(k)
         largest = np.abs(pulls).max()
         if len(pulls) < 2 or not largest:
             return False
         return bool(abs(np.abs(pulls).sum() - abs(pulls.sum())) <= ROUNDING * largest)
+
+    def _pulls(self, k: int) -> NDArray[np.complex128]:
+        """Return half the pull of each piston along its bore: (n_cylinders,)."""
+        along = self.cylinders[:, :, k] * np.exp(-1j * np.radians(self.engine.bank_deg))[:, None]
+        # What rotates has no part that turns against its own crank.
+        return np.where(self.ratios > 0, along[:, 1].conj(), along[:, 0])
 
     # --- why orders cancel ----------------------------------------------------------------------
 
@@ -153,7 +165,7 @@ class Sums:
 
     def _evenly(self, k: int, bank: Sequence[int]) -> bool:
         """Return whether the pistons of a bank pull as strongly, at even intervals."""
-        pulls = self.cylinders[bank, 1, k]
+        pulls = self._pulls(k)[bank]
         pulls = pulls / np.abs(pulls).max()
         distinct, counts = np.unique(np.round(pulls / pulls[0], 6), return_counts=True)
         same = np.abs(pulls ** len(distinct) - pulls[0] ** len(distinct)).max()

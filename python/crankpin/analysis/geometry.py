@@ -32,10 +32,12 @@ class Geometry:
 
     theta_deg: float
     """Crank angle, degrees."""
+    axis: NDArray[np.complex128]
+    """Axes of the cranks, m; 0 of the main one."""
     along: NDArray[np.complex128]
     """Directions of the bores, unit length."""
     foot: NDArray[np.complex128]
-    """Points of the bores' axes nearest to the crank's axis, m; 0 without pin offset."""
+    """Points of the bores' axes nearest to the crank's axis, m; on it without pin offset."""
     crankpin: NDArray[np.complex128]
     """Crankpins, m."""
     wrist_pin: NDArray[np.complex128]
@@ -53,19 +55,28 @@ def geometry(engine: Engine, theta_deg: float = 0.0) -> Geometry:
     figures = [(each.crank_radius, each.rod_length, each.pin_offset) for each in cylinders]
     radius, length, offset = np.array(figures).T
     along = direction(engine.bank_deg)
+    axis, ratio = _cranks(engine)
     # The offset is on the side to which the crankpin swings after top dead centre.
-    foot = 1j * offset * along
-    turns = theta - engine.tdc_deg
+    foot = axis + 1j * np.sign(ratio) * offset * along
+    turns = abs(ratio) * (theta - engine.tdc_deg)
     height = [float(each.position(at)) for each, at in zip(cylinders, turns, strict=True)]
     return Geometry(
         theta_deg=theta,
+        axis=axis,
         along=along,
         foot=foot,
-        crankpin=radius * direction(engine.pin_deg + theta),
+        crankpin=axis + radius * direction(engine.pin_deg + ratio * theta),
         wrist_pin=foot + height * along,
         lowest=np.sqrt((length - radius) ** 2 - offset**2),
         highest=np.sqrt((length + radius) ** 2 - offset**2),
     )
+
+
+def _cranks(engine: Engine) -> tuple[NDArray[np.complex128], NDArray[np.float64]]:
+    """Return the axis and the speed of each cylinder's crank."""
+    cranks, crank_of = engine._core.cranks
+    x, y, ratio = np.array([cranks[k] for k in crank_of]).T
+    return x + 1j * y, ratio
 
 
 class Weight(NamedTuple):
@@ -77,15 +88,33 @@ class Weight(NamedTuple):
     """Mass × eccentricity, kg·m."""
     angle_deg: float
     """Direction from +x, degrees."""
+    axis: complex = 0j
+    """Axis that it turns about, m; 0 of the main crank."""
 
 
 def weights_on_crank(engine: Engine, theta_deg: float = 0.0) -> list[Weight]:
     """Return the counterweights, turned to a crank angle."""
-    pins = engine.pin_deg.tolist()
-    return [
-        _turned(each, theta_deg + (0.0 if each.pin is None else pins[each.pin - 1]))
-        for each in engine.counterweights
-    ]
+    pins, (axes, ratios) = engine.pin_deg, _cranks(engine)
+    found = []
+    for each in engine.counterweights:
+        if each.pin is None:
+            found.append(_turned(each, theta_deg))
+            continue
+        k = each.pin - 1
+        # Ahead of the pin in the sense in which its crank turns.
+        ahead = np.sign(ratios[k]) * inputs.degrees(each.angle_deg)
+        angle = float(pins[k] + ratios[k] * theta_deg + ahead)
+        found.append(Weight(each.z, each.amount, angle % 360.0, complex(axes[k])))
+    return found
+
+
+def rotating_masses(engine: Engine, theta_deg: float = 0.0) -> list[Weight]:
+    """Return the unbalances of the cylinders' rotating masses at a crank angle."""
+    amounts = engine.rotating_mass * [each.crank_radius for each in engine.cylinders]
+    axes, ratios = _cranks(engine)
+    angles = engine.pin_deg + ratios * theta_deg
+    lists = (engine.z.tolist(), amounts.tolist(), angles.tolist(), axes.tolist())
+    return [Weight(*each) for each in zip(*lists, strict=True) if each[1]]
 
 
 def weights_on_shafts(engine: Engine, theta_deg: float = 0.0) -> list[list[Weight]]:

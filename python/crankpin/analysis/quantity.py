@@ -235,9 +235,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
     @property
     def error_bound(self) -> float:
         """Upper bound on what the omitted orders add at any crank angle, N or N·m."""
-        bound = self.result.error_bound
-        lever = sum(map(abs, self.result.request.aside)) if self.name == "torque" else 0.0
-        return bound[self.name.partition(".")[0]] + lever * bound["force"]
+        return self.result.error_bound[self.name.partition(".")[0]]
 
     @property
     def status(self) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from types import MappingProxyType
 from typing import TYPE_CHECKING
@@ -85,9 +86,10 @@ class Request(Record):
         return ("force", "moment", *torques)
 
     def bounds(self, of_vectors_and_torque: Iterable[float]) -> Mapping[str, float]:
-        """Return quantity → bound, of bounds on force, moment and torque."""
+        """Return quantity → bound, of bounds on force, moment and torque about the crank's axis."""
         force, moment, torque = of_vectors_and_torque
-        found = dict(zip(QUANTITIES, (force, moment, torque, torque), strict=True))
+        roll = torque + math.hypot(*self.aside) * force  # as force times distance, at most
+        found = dict(zip(QUANTITIES, (force, moment, roll, torque), strict=True))
         return MappingProxyType({name: found[name] for name in self.quantities})
 
     def named(self, quantities: tuple[str, ...], *, fired: bool) -> tuple[str, ...]:

@@ -141,6 +141,7 @@ def _remedy(finding: Finding, whole: Explanation) -> str:
     kept, *ratios = finding.values
     what = f"the {words(finding)} of {orders(finding.orders)}"
     other = "other counterweights" if whole.engine.counterweights else "counterweights"
+    other += " on the cranks" * finding.reason.endswith("cranks")
     least = f"down to {size(kept, finding.quantity, whole)}" if kept else ""
     if not ratios and kept > LINE * whole.unit:
         return f"{other} could bring {what} {least}, too little for a balance shaft"
@@ -155,7 +156,7 @@ def _remedy(finding: Finding, whole: Explanation) -> str:
         both = f"one {senses[0]} the crank and one {senses[1]} it"
         shaft = f"{two} balance shafts at {speed}, {both}"
     if finding.reason:
-        rest = f"the rest turns against the crank, and takes {one} balance shaft that does so"
+        rest = f"the rest turns {senses[0]} the crank, and takes {one} balance shaft that does so"
         return f"{other} could bring {what} {least}; {rest} at {speed}"
     if finding.orders == (1,):
         return f"no counterweight reaches {what}: it takes {shaft}"
@@ -167,9 +168,10 @@ def _remedy(finding: Finding, whole: Explanation) -> str:
 def _bob_weights(finding: Finding, whole: Explanation) -> str:
     rotating = "all rotating and " if whole.engine.rotating_mass.any() else ""
     instead = " in place of the counterweights" if whole.engine.counterweights else ""
+    crank = "the crank" if finding.reason == "one sense" else "the crank of each piston"
     return (
         f"bob weights of {rotating}half the reciprocating mass{instead} remove what turns with "
-        f"the crank at {orders(finding.orders)}, of force and moment"
+        f"{crank} at {orders(finding.orders)}, of force and moment"
     )
 
 

@@ -18,10 +18,12 @@ class Crankpin(NamedTuple):
     """Direction from +x at θ = 0, degrees."""
     z: float
     """Place along the crank, midway between its cylinders', m."""
+    crank: int = 0
+    """Index of its crankshaft: 0 is the main one."""
 
 
 class Bay(NamedTuple):
-    """Part of the crankshaft between two main bearings, with one throw or several.
+    """Part of the main crankshaft between two main bearings, with one throw or several.
 
     Bearings are the engine's :attr:`~crankpin.Engine.mains`. Webs are midway between a throw and
     the bearing or throw beside it.
@@ -54,12 +56,12 @@ class Bay(NamedTuple):
 def throws(engine: Engine) -> list[list[Crankpin]]:
     """Return the crankpins of an engine from front to flywheel, those of one throw a list.
 
-    Cylinders of different banks whose places are less than a crank radius apart are on one throw.
-    Those of them whose pins are at one place share a crankpin; a throw has several where pins are
-    split, and in a boxer.
+    Cylinders of one crank and different banks whose places are less than a crank radius apart are
+    on one throw. Those of them whose pins are at one place share a crankpin; a throw has several
+    where pins are split, and in a boxer.
     """
     return [
-        [Crankpin(tuple(cylinders), pin_deg, z) for cylinders, pin_deg, z in throw]
+        [Crankpin(tuple(cylinders), pin_deg, z, crank) for cylinders, pin_deg, z, crank in throw]
         for throw in engine._core.throws()
     ]
 
@@ -71,7 +73,10 @@ def crankpins(engine: Engine) -> tuple[Crankpin, ...]:
 
 
 def bays(engine: Engine) -> tuple[Bay, ...]:
-    """Return the bays with throws from front to flywheel; those at one place are one throw."""
+    """Return the bays of the main crankshaft that have throws, from front to flywheel.
+
+    Throws at one place are one.
+    """
     places, found = engine._core.throw_places(), []
     for front, rear in pairwise(engine._core.bearings):
         between = [(z, numbers) for z, numbers in places if front < z < rear]

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 Hold: TypeAlias = Literal["pins", "firing"]
 _CoreEngine: TypeAlias = _core.Engine
+Cranks: TypeAlias = tuple[Sequence[tuple[float, float, int]], Sequence[int]]
+"""Axis and speed ratio of each crankshaft, and the index of each cylinder's own."""
 
 BANK_ANGLE, PINS = "{bank_angle}", "{pins}"
 """Placeholders of names: the bank angle in degrees, and "shared pins" or "split pins"."""
@@ -369,9 +371,8 @@ class EngineData:
             mains=bearings,
             reference_z=plane,
             bank=self._core.bank if bank_deg is None else None,
+            cranks=self._core.cranks if len(self._core.cranks[0]) > 1 else None,
         )
-        if len(self._core.cranks[0]) > 1:
-            core = core.with_cranks(*self._core.cranks)
         weights = self.counterweights if counterweights is None else counterweights
         core = rotating.with_counterweights(core, weights)
         core = rotating.with_shafts(core, self.shafts if shafts is None else shafts)
@@ -618,6 +619,7 @@ def core_of_lists(
     mains: ArrayLike | None,
     reference_z: float | None,
     bank: list[int] | None = None,
+    cranks: Cranks | None = None,
 ) -> _CoreEngine:
     """Return the engine of :meth:`Engine.from_lists`; cylinders of equal ``bank`` form one."""
     banks = inputs.angles("bank_deg", bank_deg)
@@ -635,8 +637,7 @@ def core_of_lists(
         bank,
         inputs.vector("z", z).tolist(),
         inputs.per_item("rotating_mass", rotating_mass, len(banks)),
-        "",
-        "",
+        cranks,
     )
     bearings = [] if mains is None else inputs.vector("mains", mains).tolist()
     plane = inputs.optional_number("reference_z", reference_z)

@@ -12,6 +12,7 @@ from crankpin.analysis.geometry import (
     assumed_bores,
     direction,
     geometry,
+    rotating_masses,
     weights_on_crank,
     weights_on_shafts,
 )
@@ -33,7 +34,6 @@ from crankpin.plot.shapes import (
     outside,
     pins_in_line,
     radius_of_amounts,
-    rotating_masses,
     text_corner,
     wedge,
 )
@@ -68,8 +68,7 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # n
     """
     ink = inks_of(ax)
     largest = crank_radius(engine)
-    turn = complex(direction(theta_deg))
-    pins = {at * turn: cylinders for at, cylinders in pins_in_line(engine).items()}
+    pins = pins_in_line(engine, theta_deg)
     half = 0.65 * JOURNAL * largest
     rotating = by_direction(rotating_masses(engine, theta_deg))
     weights = by_direction(weights_on_crank(engine, theta_deg))
@@ -155,7 +154,8 @@ class Stretch(NamedTuple):
 def side(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # noqa: ANN401
     """Draw journals, crankpins, webs, unbalances and balance shafts over z, as seen from x < 0."""
     ink = inks_of(ax)
-    up = geometry(engine, theta_deg).crankpin.imag
+    at = geometry(engine, theta_deg)
+    up = (at.crankpin - at.axis).imag  # every crank on one line
     drawn, pitch = _stretches(engine)
     thick = 0.09 * pitch
     half = JOURNAL * crank_radius(engine)

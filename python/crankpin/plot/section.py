@@ -25,7 +25,6 @@ from crankpin.plot.shapes import (
     inks_of,
     listed,
     outside,
-    pins_in_line,
     points,
     radius_of_amounts,
     wedge,
@@ -70,7 +69,7 @@ def _walls(engine: Engine, ax: Axes, at: Geometry, bores: NDArray[np.float64], i
     for k, (along, foot) in enumerate(zip(at.along, at.foot, strict=True)):
         place = (along.real, along.imag, foot.real, foot.imag, bores[k], heads[k])
         seen.setdefault(tuple(np.round(place, 9).tolist()), []).append(k)
-    reached = [disc(0.0, 1.8 * crank_radius(engine))]
+    reached = [disc(axis, 1.8 * crank_radius(engine)) for axis in (0j, *at.axis.tolist())]
     for cylinders in seen.values():
         k = cylinders[0]
         corners = box(at.foot[k], at.along[k], bores[k], at.lowest[k] - SKIRT * bores[k], heads[k])
@@ -89,15 +88,16 @@ def _crank(engine: Engine, ax: Axes, at: Geometry, ink: Inks) -> None:
     weights = weights_on_crank(engine, at.theta_deg)
     radii = radius_of_amounts(engine, [each.amount for each in weights])
     sectors = [
-        wedge(0.0, radius, each.angle_deg)
+        wedge(each.axis, radius, each.angle_deg)
         for radius, each in zip(radii, weights, strict=True)
         if radius
     ]
     add(ax, sectors, facecolor=ink.weight, edgecolor=ink.line, linewidth=0.6, zorder=2.5)
-    turn = complex(direction(at.theta_deg))
-    webs = [bar(0.0, pin * turn, 1.3 * width, width) for pin in pins_in_line(engine)]
+    pins = zip(at.axis.tolist(), at.crankpin.round(9).tolist(), strict=True)
+    webs = [bar(*each, 1.3 * width, width) for each in dict.fromkeys(pins)]
     add(ax, webs, facecolor=ink.web, edgecolor=ink.line, linewidth=0.6, zorder=3)
-    add(ax, [disc(0.0, 0.5 * width)], facecolor=ink.paper, edgecolor=ink.line, zorder=3.1)
+    journals = [disc(axis, 0.5 * width) for axis in dict.fromkeys([0j, *at.axis.tolist()])]
+    add(ax, journals, facecolor=ink.paper, edgecolor=ink.line, zorder=3.1)
     arc = 1.7 * largest * direction(np.linspace(-75.0, -15.0, 25))
     ax.plot(arc.real, arc.imag, color=ink.faint, linewidth=1.0, linestyle="-", zorder=2)
     arrow_round(ax, 1.7 * largest, -15.0, ink)
@@ -116,7 +116,7 @@ def _moving_parts(
     for k in np.argsort(engine.z, kind="stable"):
         eye = 0.16 * bores[k]
         pin, wrist = at.crankpin[k], at.wrist_pin[k]
-        width = 2.0 * JOURNAL * abs(pin)
+        width = 2.0 * JOURNAL * abs(pin - at.axis[k])
         low, high = -SKIRT * bores[k], CROWN * bores[k]
         outlines += [
             box(wrist, at.along[k], 0.97 * bores[k], low, high),

@@ -10,9 +10,9 @@ from matplotlib.collections import PolyCollection
 from matplotlib.patches import Patch
 
 from crankpin.analysis.geometry import (
-    Weight,
     direction,
     geometry,
+    rotating_masses,
     weights_on_crank,
     weights_on_shafts,
 )
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
+    from crankpin.analysis.geometry import Weight
     from crankpin.model.engine import Engine
 
 ROUND = direction(np.arange(0.0, 360.0, 18.0))
@@ -147,21 +148,15 @@ def add(
 # --- crank and unbalances -----------------------------------------------------------------------
 
 
-def pins_in_line(engine: Engine) -> dict[complex, list[int]]:
-    """Return the crankpins seen from the flywheel: place at θ = 0, m → cylinders on all there."""
-    at = geometry(engine).crankpin
+def pins_in_line(engine: Engine, theta_deg: float = 0.0) -> dict[complex, list[int]]:
+    """Return the crankpins as seen from the flywheel: place from the axis, m → cylinders there."""
+    places = geometry(engine, theta_deg)
+    at = places.crankpin - places.axis
     found: dict[complex, list[int]] = {}
-    for numbers, _, _ in crankpins(engine):
-        found.setdefault(complex(at[numbers[0] - 1].round(9)), []).extend(numbers)
+    for pin in crankpins(engine):
+        place = complex(at[pin.cylinders[0] - 1].round(9))
+        found.setdefault(place, []).extend(pin.cylinders)
     return {complex(at[numbers[0] - 1]): sorted(numbers) for numbers in found.values()}
-
-
-def rotating_masses(engine: Engine, theta_deg: float = 0.0) -> list[Weight]:
-    """Return the unbalances of the cylinders' rotating masses at a crank angle."""
-    amounts = engine.rotating_mass * [each.crank_radius for each in engine.cylinders]
-    angles = engine.pin_deg + theta_deg
-    found = zip(engine.z.tolist(), amounts.tolist(), angles.tolist(), strict=True)
-    return [Weight(*each) for each in found if each[1]]
 
 
 def radius_of_amounts(engine: Engine, amounts: Sequence[float]) -> list[float]:

@@ -12,6 +12,7 @@ from crankpin._support import inputs
 from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.explain import Explanation
 from crankpin.analysis.flywheel import flywheel
+from crankpin.analysis.request import engine_core
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -114,6 +115,9 @@ def figures(
         "highest_order": HIGHEST_ORDER,
         "bank_angle_deg": angle,
         "bisector_deg": None if angle is None else float(right) + 0.5 * angle,
+        "cranks": [
+            {"x": x, "y": y, "ratio": ratio} for x, y, ratio in engine_core(engine).cranks[0]
+        ],
         "cylinders": _cylinders(engine),
         "counterweights": _unbalances(engine.counterweights),
         "shafts": [
@@ -142,8 +146,10 @@ def core_numbers(
     In the form in which the page computes its own: forces in N, moments and torques in N·m.
     """
     changed = settings.applied(engine)
-    ratios = {abs(shaft.ratio) for shaft in engine.shafts}
-    orders = sorted({*range(1, HIGHEST_ORDER + 1), *ratios, *(spectrum or ())})
+    cranks = {abs(ratio) for _, _, ratio in engine_core(engine).cranks[0]}
+    shafts = {abs(shaft.ratio) for shaft in engine.shafts}
+    given = {order * ratio for order in spectrum or () for ratio in cranks}
+    orders = sorted({*range(1, HIGHEST_ORDER + 1), *shafts, *given})
     balance = changed.balance(settings.rpm, orders=orders, spectrum=spectrum, torque=False)
     turns = 180.0 * changed.strokes if changed.fired else 360.0
     waveform = changed.waveform(
@@ -218,10 +224,12 @@ def _cylinders(engine: Engine) -> list[dict[str, Any]]:
     starts = engine.firing_deg.tolist() if engine.cycles else cycles
     places = {each: k for k, each in enumerate(_distinct_cycles(engine))}
     banks = {number: k for k, bank in enumerate(engine.banks.values()) for number in bank}
+    cranks = engine_core(engine).cranks[1]
     return [
         {
             "number": number,
             "bank": banks[number],
+            "crank": cranks[number - 1],
             "crank_radius": cylinder.crank_radius,
             "rod_length": cylinder.rod_length,
             "reciprocating_mass": cylinder.reciprocating_mass,

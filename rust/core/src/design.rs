@@ -144,7 +144,7 @@ impl Merit {
         let fixed = || [vec![0.0; variables.len()], vec![0.0; variables.len()]];
         let pistons = (0..engine.stations().len()).map(of_cylinder);
         let weights =
-            engine.crank_unbalances().map(|each| each.pin.map_or_else(fixed, of_cylinder));
+            engine.crank_unbalances().map(|(_, each)| each.pin.map_or_else(fixed, of_cylinder));
         let mut all_turns: Vec<_> = pistons.chain(weights).collect();
         all_turns.resize_with(loads.list.len(), fixed);
         let arithmetic =
@@ -163,7 +163,7 @@ impl Merit {
             .iter()
             .enumerate()
             .map(|(k, &order)| {
-                let terms = superpose(&arithmetic, &loads, order, wanted);
+                let terms = superpose(&arithmetic, &loads.list, order, wanted);
                 quantities(&terms, i64::from(order.as_whole().unwrap_or(0)), removed, |term| {
                     gears.of(term.harmonic, k)
                 })

@@ -27,7 +27,7 @@ mod list;
 
 pub(crate) use self::list::Loads;
 use crate::Complex64;
-use crate::engine::Hold;
+use crate::engine::{Hold, Origin};
 use crate::numbers::angle::Angle;
 use crate::numbers::order::Order;
 use crate::wrench::Planar;
@@ -56,8 +56,11 @@ pub(crate) enum Source {
 /// A periodic load on the engine.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Load {
+    /// Part of the engine that it belongs to.
+    pub origin: Origin,
     pub source: Source,
-    /// m·r of a piston, the unbalance of a shaft, kg·m; area times crank radius of pressure, m³.
+    /// m·r of a piston, the unbalance of a shaft, kg·m; area times crank radius of pressure, m³; below
+    /// zero where the load acts the other way.
     pub weight: f64,
     /// Direction of the force when the crank stands at `phase`, from +x.
     pub direction: Angle,
@@ -176,12 +179,12 @@ pub(crate) struct Wanted {
 /// Sums of one order, by harmonic and, if wanted, by bank.
 pub(crate) fn superpose<A: Arithmetic>(
     arithmetic: &A,
-    loads: &Loads,
+    loads: &[Load],
     order: Order,
     wanted: Wanted,
 ) -> Vec<Term<A::Sum>> {
     let mut terms = Vec::new();
-    for at @ (_, load) in loads.list.iter().enumerate().filter(|(_, load)| load.acts_at(order)) {
+    for at @ (_, load) in loads.iter().enumerate().filter(|(_, load)| load.acts_at(order)) {
         let bank = load.bank.filter(|_| wanted.by_bank);
         if let Source::Pressure { gear } = load.source {
             if wanted.roll {
@@ -266,10 +269,10 @@ pub(crate) struct Phasors {
     pub reference: f64,
 }
 
-/// A complex sum and Σ|terms|, on which its rounding error depends.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct PhasorSum {
-    pub value: Complex64,
+/// A sum and Σ|terms|, on which its rounding error depends.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct PhasorSum<T = Complex64> {
+    pub value: T,
     pub size: f64,
 }
 
@@ -294,19 +297,20 @@ impl Arithmetic for Phasors {
         unit: &Complex64,
         times: Times,
     ) {
+        let weight_and_size = |weight: f64| (weight, weight.abs());
         let (weight, size) = match (weight, load.source) {
-            (Weight::Force | Weight::Volume, _) => (load.weight, load.weight),
+            (Weight::Force | Weight::Volume, _) => weight_and_size(load.weight),
             // Rounding of a lever is relative to what it is the difference of.
             (Weight::Moment, _) => (
                 load.weight * (load.z - self.reference),
-                load.weight * (load.z.abs() + self.reference.abs()),
+                load.weight.abs() * (load.z.abs() + self.reference.abs()),
             ),
-            (Weight::ArmX, _) => (load.weight * load.axis.re, load.weight * load.axis.re.abs()),
-            (Weight::ArmY, _) => (load.weight * load.axis.im, load.weight * load.axis.im.abs()),
+            (Weight::ArmX, _) => weight_and_size(load.weight * load.axis.re),
+            (Weight::ArmY, _) => weight_and_size(load.weight * load.axis.im),
             (Weight::Torque, Source::Piston { second_moment, .. }) => {
-                (second_moment, second_moment)
+                weight_and_size(second_moment)
             }
-            (Weight::Rod, Source::Piston { rod_inertia, .. }) => (rod_inertia, rod_inertia.abs()),
+            (Weight::Rod, Source::Piston { rod_inertia, .. }) => weight_and_size(rod_inertia),
             (Weight::Torque | Weight::Rod, _) => (0.0, 0.0),
         };
         sum.value += times.of(*unit) * weight;

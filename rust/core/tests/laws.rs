@@ -11,8 +11,8 @@ use crankpin_core::balance::{TorquePart, Vector, balance};
 use crankpin_core::harmonics::{self, torque::TorqueHarmonics};
 use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::{
-    Angle, Balance, Cancel, Complex64, Cylinder, Engine, Hold, Order, Orders, Request, Spectrum,
-    Station, Sweep, waveform,
+    Angle, Balance, Cancel, Complex64, Crank, Cylinder, Engine, Hold, Order, Orders, Request,
+    Spectrum, Station, Sweep, waveform,
 };
 use proptest::prelude::*;
 
@@ -182,7 +182,7 @@ proptest! {
         let turning: Complex64 = engine
             .stations()
             .iter()
-            .map(|p| p.pin().cis(1) * p.rotating_mass * p.cylinder.crank_radius() * omega * omega)
+            .map(|p| Crank::MAIN.pin(p.bank, p.tdc).cis(1) * p.rotating_mass * p.cylinder.crank_radius() * omega * omega)
             .sum();
         same(with[0][0] - without[0][0], turning, size(&engine));
     }
@@ -205,7 +205,7 @@ proptest! {
                 let phase = p.tdc.cis(-i64::from(n)) * square;
                 let along = alone * phase * c.first_order();
                 let turning = if n == 1 {
-                    p.pin().cis(1) * (p.rotating_mass * radius * square)
+                    Crank::MAIN.pin(p.bank, p.tdc).cis(1) * (p.rotating_mass * radius * square)
                 } else {
                     Complex64::default()
                 };

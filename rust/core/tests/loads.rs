@@ -13,8 +13,8 @@ use crankpin_core::harmonics;
 use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::wrench::{Torque, Wrench};
 use crankpin_core::{
-    Angle, Balance, Cancel, Complex64, CrankAngles, Cylinder, Engine, Hold, Order, Orders, Request,
-    Shaft, Station, Sweep, Unbalance, waveform,
+    Angle, Balance, Cancel, Complex64, Crank, CrankAngles, Cylinder, Engine, Hold, Order, Orders,
+    Request, Shaft, Station, Sweep, Unbalance, waveform,
 };
 use proptest::prelude::*;
 
@@ -74,7 +74,7 @@ fn sum_of_orders(balance: &Balance, θ: f64) -> [f64; 6] {
 /// Weights wherever they are: at a pin or not, as free ones.
 fn freed(engine: &Engine) -> Vec<Unbalance> {
     let free = |weight: &Unbalance| {
-        let pin = weight.pin.map_or(Angle::ZERO, |i| engine.stations()[i].pin());
+        let pin = weight.pin.map_or(Angle::ZERO, |i| engine.pin(i));
         Unbalance { angle: (weight.angle + pin).reduced(), pin: None, ..*weight }
     };
     engine.counterweights().iter().map(free).collect()
@@ -147,7 +147,7 @@ proptest! {
             let turned = changed(&engine, |p| {
                 let right = p.bank == banks.directions[0];
                 let bank = if right { banks.bisector() - half } else { banks.bisector() + half };
-                let tdc = if firing { p.tdc } else { bank - p.pin() };
+                let tdc = if firing { p.tdc } else { bank - Crank::MAIN.pin(p.bank, p.tdc) };
                 Station { bank, tdc, ..*p }
             });
             // With pins held a pin and its weight stay; with the firing held they follow the bank.
@@ -324,8 +324,8 @@ proptest! {
         for p in plain.stations() {
             let a1 = harmonics::coefficients(&p.cylinder.proportions(), &[1], &Cancel::new());
             let left = (a1.unwrap()[0] - 1.0) * (0.5 * p.cylinder.first_order() * square());
-            force += left * p.pin().cis(1);
-            moment += Complex64::i() * p.z * left * p.pin().cis(1);
+            force += left * Crank::MAIN.pin(p.bank, p.tdc).cis(1);
+            moment += Complex64::i() * p.z * left * Crank::MAIN.pin(p.bank, p.tdc).cis(1);
         }
         for (vector, left) in VECTORS.into_iter().zip([force, moment]) {
             let [forward, backward] = turning(&after, vector)[0];

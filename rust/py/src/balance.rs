@@ -2,6 +2,7 @@
 
 use crankpin_core as core;
 use crankpin_core::balance::{Orders, Request, TorquePart, Vector};
+use crankpin_core::engine::Origin;
 use crankpin_core::{Complex64, Error};
 use ndarray::{Array1, Array2};
 use numpy::{PyArray1, PyArrayDyn};
@@ -39,6 +40,35 @@ pub fn balance(
     let engine = engine.get().with_spectrum(spectrum)?;
     interrupt::run(py, |cancel| core::balance::balance(&engine, &request, &orders, cancel))
         .map(Balance)
+}
+
+/// What each part of an engine adds to a balance of these orders: its kind, index and balance.
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "the wrapper in Python has defaults for them")]
+pub fn terms(
+    py: Python<'_>,
+    engine: &Bound<'_, Engine>,
+    rpm: f64,
+    orders: Vec<OrderNumber>,
+    reference_z: Option<f64>,
+    spectrum: Option<Vec<(u32, Complex64)>>,
+    torque: bool,
+    aside: [f64; 2],
+) -> PyResult<Vec<(&'static str, usize, Balance)>> {
+    let orders = convert::orders(&orders)?;
+    let request = Request { rpm, reference_z, torque };
+    let engine = engine.get().with_spectrum(spectrum)?;
+    let terms =
+        interrupt::run(py, |cancel| core::terms::terms(&engine, &request, aside, &orders, cancel))?;
+    let named = |(origin, balance)| {
+        let (kind, index) = match origin {
+            Origin::Cylinder(index) => ("cylinder", index),
+            Origin::Counterweight(index) => ("counterweight", index),
+            Origin::Shaft(index) => ("shaft", index),
+        };
+        (kind, index, Balance(balance))
+    };
+    Ok(terms.into_iter().map(named).collect())
 }
 
 /// ω in rad/s.

@@ -49,8 +49,11 @@ type GivenWeight = (f64, Angle, f64, Option<usize>);
 /// Bore, piston mass, and the rod's mass, inertia and place of its centre.
 type Kept = (Option<f64>, Option<f64>, Option<(f64, f64, f64)>);
 
-/// Numbers of the cylinders on a crankpin, its direction in degrees, and its place in m.
-type Pin = (Vec<usize>, f64, f64);
+/// Numbers of the cylinders on a crankpin, its direction in degrees, its place in m, index of its crank.
+type Pin = (Vec<usize>, f64, f64, usize);
+
+/// Axis and speed ratio of each crankshaft, the main one first, and of each cylinder the index of its own.
+type Cranks = (Vec<(f64, f64, i32)>, Vec<usize>);
 
 /// Cylinders by number.
 pub fn numbers(cylinders: &[usize]) -> Vec<usize> {
@@ -180,23 +183,20 @@ impl Engine {
         bank: Option<Vec<usize>>,
         z: Vec<f64>,
         rotating_mass: Vec<f64>,
-        name: String,
-        source: String,
+        cranks: Option<Cranks>,
     ) -> PyResult<Self> {
         let count = bank_deg.len();
         same_length("cylinder", cylinders.len(), count)?;
         same_length("z", z.len(), count)?;
         same_length("rotating_mass", rotating_mass.len(), count)?;
         let banks = angles(bank_deg);
-        let tdcs = match (tdc_deg, pin_deg) {
-            (Some(tdcs), None) => {
-                same_length("tdc_deg", tdcs.len(), count)?;
-                angles(tdcs)
-            }
-            (None, Some(pins)) => {
-                same_length("pin_deg", pins.len(), count)?;
-                angles(pins).into_iter().zip(&banks).map(|(pin, &bank)| bank - pin).collect()
-            }
+        let given = |argument: &str, list: Option<Vec<Angle>>| -> PyResult<_> {
+            list.map(|list| same_length(argument, list.len(), count).map(|()| angles(list)))
+                .transpose()
+        };
+        let (tdcs, pins) = match (given("tdc_deg", tdc_deg)?, given("pin_deg", pin_deg)?) {
+            (Some(tdcs), None) => (tdcs, None),
+            (None, Some(pins)) => (vec![core::Angle::ZERO; count], Some(pins)),
             (tdcs, _) => {
                 let given = if tdcs.is_some() { "both given" } else { "neither given" };
                 let hint = "give either the crank angles of top dead centre or the pins' angles";
@@ -216,11 +216,19 @@ impl Engine {
         let engine = match bank {
             Some(bank) => {
                 same_length("bank", bank.len(), count)?;
-                core::Engine::in_banks(name, source, stations, &bank)
+                core::Engine::in_banks("", "", stations, &bank)
             }
-            None => core::Engine::new(name, source, stations),
+            None => core::Engine::new("", "", stations),
         };
-        engine.or_raise().map(Self::from)
+        let engine = engine.and_then(|engine| match cranks {
+            Some((cranks, crank_of)) => {
+                let crank = |(x, y, ratio)| Crank { axis: [x, y], ratio };
+                engine.with_cranks(cranks.into_iter().map(crank).collect(), crank_of)
+            }
+            None => Ok(engine),
+        });
+        let engine = engine.or_raise()?;
+        Ok(pins.map_or(engine.clone(), |pins| engine.with_pins(&pins)).into())
     }
 
     #[staticmethod]
@@ -315,7 +323,8 @@ impl Engine {
 
     #[getter]
     fn pin_deg<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        self.column(py, |p| p.pin().degrees())
+        let pins = (0..self.0.stations().len()).map(|i| self.0.pin(i).degrees());
+        frozen(py, pins.collect())
     }
 
     #[getter]
@@ -372,7 +381,7 @@ impl Engine {
 
     /// Crankpins from front to flywheel, those of one throw a list.
     fn throws(&self) -> Vec<Vec<Pin>> {
-        let pin = |pin: Crankpin| (numbers(&pin.cylinders), pin.pin.degrees(), pin.z);
+        let pin = |pin: Crankpin| (numbers(&pin.cylinders), pin.pin.degrees(), pin.z, pin.crank);
         let throw = |throw: Vec<Crankpin>| throw.into_iter().map(pin).collect();
         self.0.throws().into_iter().map(throw).collect()
     }
@@ -383,19 +392,11 @@ impl Engine {
         places.map(|place| (place.z, numbers(&place.cylinders))).collect()
     }
 
-    /// Axis and speed ratio of each crankshaft, the main one first, and of each cylinder the index of
-    /// its own.
     #[getter]
-    fn cranks(&self) -> (Vec<(f64, f64, i32)>, Vec<usize>) {
+    fn cranks(&self) -> Cranks {
         let crank = |&Crank { axis: [x, y], ratio }: &Crank| (x, y, ratio);
         let of = (0..self.0.stations().len()).map(|i| self.0.crank_of(i));
         (self.0.cranks().iter().map(crank).collect(), of.collect())
-    }
-
-    fn with_cranks(&self, cranks: Vec<(f64, f64, i32)>, crank_of: Vec<usize>) -> PyResult<Self> {
-        let crank = |(x, y, ratio)| Crank { axis: [x, y], ratio };
-        let cranks = cranks.into_iter().map(crank).collect();
-        self.0.with_cranks(cranks, crank_of).or_raise().map(Self::from)
     }
 
     #[getter]

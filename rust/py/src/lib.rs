@@ -38,7 +38,7 @@ mod _core {
 
     #[pymodule_export]
     use crate::{
-        balance::{Balance, angular_speed, balance},
+        balance::{Balance, angular_speed, balance, terms},
         balancing::{fit_shafts, least_weights, pair_heights, roll_torque, shared, turning},
         closed_form::closed_form,
         convert::{exact_angle, near_miss},

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -33,6 +33,10 @@ if TYPE_CHECKING:
 
 TABULATED = (0.0, 0.5, 1.0)
 """Factors in the table of residuals."""
+ALIKE = 1e-12
+"""Factors that differ by less, and relative figures below, are rounding."""
+HALVINGS = 60
+"""Of an interval of factors, to the last digits of a double."""
 
 
 def bob_weight(engine: Engine, factor: float = 0.5, oil: float = 0.0) -> BobWeight:
@@ -40,8 +44,8 @@ def bob_weight(engine: Engine, factor: float = 0.5, oil: float = 0.0) -> BobWeig
 
     A crankshaft is balanced with ``rotating + factor · reciprocating`` mass clamped to each pin,
     that of all rods on the pin together. Its counterweights then cancel these masses. Half of the
-    reciprocating mass leaves no forward part of force and moment in any engine without pin offset;
-    the backward part stays whatever the factor.
+    reciprocating mass leaves no part of force and moment that turns with a pin's own crank, in any
+    engine without pin offset; what turns against it stays whatever the factor.
 
     Parameters
     ----------
@@ -111,8 +115,8 @@ class BobWeight(Tabled):
     def crankpins(self) -> tuple[Crankpin, ...]:
         """The crankpins.
 
-        Cylinders share one if they are of different banks, their pins point the same way, and their
-        places are less than a crank radius apart; split pins are two.
+        Cylinders of one crankshaft share one if they are of different banks, their pins point the
+        same way, and their places are less than a crank radius apart; split pins are two.
         """
         return crankpins(self.engine)
 
@@ -163,19 +167,29 @@ class BobWeight(Tabled):
         return over_square(self.fitted, [1])
 
     @cached_property
-    def _first_order(self) -> dict[str, tuple[complex, complex, complex]]:
-        """Forward part at factor 0, its change to factor 1, and backward part, over ω²."""
-        none, whole = (with_bob_weights(self.engine, factor) for factor in (0.0, 1.0))
-        there = zip(turning(none, 1), turning(whole, 1), turning(none, -1), strict=True)
-        parts = [(start, after - start, backward) for start, after, backward in there]
-        return dict(zip(Turning._fields, parts, strict=True))
+    def _first_order(self) -> dict[str, tuple[Part, Part]]:
+        """Forward and backward part of force and of moment, over ω².
+
+        A bob weight changes the part that turns with its own crank.
+        """
+        ratios = {ratio for _, _, ratio in self.engine._core.cranks[0]}
+        engines = [with_bob_weights(self.engine, factor) for factor in (0.0, 1.0)]
+        senses = []
+        for sense in (1, -1):
+            start, after = (turning(engine, sense) for engine in engines)
+            weighed = sense in ratios
+            pairs = zip(start, after, strict=True)
+            senses.append([Part(one, other - one if weighed else 0j) for one, other in pairs])
+        return dict(zip(Turning._fields, zip(*senses, strict=True), strict=True))
 
     def half_axes(self, quantity: str, factor: ArrayLike) -> tuple[Any, Any]:
         """Return the longest and shortest half axis of order 1 by balance factor, over ω².
 
-        Without pin offset they are ``|1 − 2κ|·|forward| ± |backward|``, in which forward and
-        backward are those of the pistons alone. The shortest is negative where the vector turns
-        against the crank. Of this bob weight they are ``residual[1].force.peak`` and ``.minor``.
+        On one crankshaft, without pin offset, they are ``|1 − 2κ|·|forward| ± |backward|``, in
+        which forward and backward are those of the pistons alone. On a crank that turns against the
+        main one bob weights act on the backward part. The shortest is negative where the vector
+        turns against the main crank. Of this bob weight they are ``residual[1].force.peak`` and
+        ``.minor``.
 
         Parameters
         ----------
@@ -192,64 +206,58 @@ class BobWeight(Tabled):
         parts = self._parts(quantity)
         factors = inputs.array("factor", factor)
         check_factor("factor", factors)
-        forward, backward = map(abs, _turning_parts(*parts, factors))
+        forward, backward = (abs(part.at(factors)) for part in parts)
         longest, shortest = forward + backward, forward - backward
         found = (longest, np.where(abs(shortest) < 1e-14 * longest, 0.0, shortest))
         return read_only(found) if factors.ndim else (float(found[0]), float(found[1]))
 
     def least(self, quantity: str) -> float | None:
-        """Return the factor of the least longest vector: 0.5 without pin offset.
+        """Return the factor of the least longest vector: 0.5 on one crankshaft, without pin offset.
 
         From 0 to 10, as ``factor`` is taken. None if the factor makes no difference: the pistons
-        have no forward part.
+        have no part that turns with their crank.
 
         Parameters
         ----------
         quantity
             ``"force"`` or ``"moment"``.
         """
-        start, change, _ = self._parts(quantity)
-        if not change:
+        weighed = [part for part in self._parts(quantity) if part.change]
+        if not weighed:
             return None
-        return min(max(self._nearest(start, change), 0.0), LARGEST_FACTOR)
-
-    @staticmethod
-    def _nearest(start: complex, change: complex) -> float:
-        return -(start * change.conjugate()).real / abs(change) ** 2
+        # The sum of two convex sizes is least between the factors at which either is.
+        low, high = min(part.nearest for part in weighed), max(part.nearest for part in weighed)
+        for _ in range(HALVINGS if high - low > ALIKE else 0):
+            middle = 0.5 * (low + high)
+            if sum(part.slope(middle) for part in weighed) > 0.0:
+                high = middle
+            else:
+                low = middle
+        return min(max(low, 0.0), LARGEST_FACTOR)
 
     def straight(self, quantity: str) -> tuple[tuple[float, float], ...]:
         """Return the factors that leave a vector along a straight line, and its direction.
 
-        Without pin offset ``½(1 ± |backward|/|forward|)``; none if either part is zero, and
-        those below 0 or above 10 are left out. Directions are degrees from +x in (−90, 90].
+        On one crankshaft, without pin offset, ``½(1 ± |backward|/|forward|)``; none if either part
+        is zero, or if every factor does, as of two cranks that mirror each other. Those below 0 or
+        above 10 are left out. Directions are degrees from +x in (−90, 90].
 
         Parameters
         ----------
         quantity
             ``"force"`` or ``"moment"``.
         """
-        start, change, backward = self._parts(quantity)
-        if not change or not backward:
-            return ()
-        # |start + κ·change| = |backward|, about the factor at which the left side is least.
-        middle = self._nearest(start, change)
-        least = abs(start + middle * change)
-        reach = (abs(backward) - least) * (abs(backward) + least)
-        if reach < 0.0:
-            return ()
-        apart = math.sqrt(reach) / abs(change)
-        # A root of zero comes out beside it.
-        roots = [0.0 if abs(each) < 1e-12 else each for each in (middle - apart, middle + apart)]
+        forward, backward = self._parts(quantity)
         found = []
-        for factor in dict.fromkeys(roots):
-            if 0.0 <= factor <= LARGEST_FACTOR:
-                forward, _ = _turning_parts(start, change, backward, np.array(factor))
-                # A part that vanishes has no direction.
-                tilt = round(float(np.angle(forward * backward, deg=True)) / 2.0, 9)
+        for factor in _of_one_size(forward, backward):
+            parts = [complex(part.at(np.array(factor))) for part in (forward, backward)]
+            # A part that vanishes has no direction.
+            if 0.0 <= factor <= LARGEST_FACTOR and all(parts):
+                tilt = round(float(np.angle(parts[0] * parts[1], deg=True)) / 2.0, 9)
                 found.append((factor, 90.0 if tilt <= -90.0 else tilt + 0.0))  # no −0
         return tuple(found)
 
-    def _parts(self, quantity: str) -> tuple[complex, complex, complex]:
+    def _parts(self, quantity: str) -> tuple[Part, Part]:
         return self._first_order[inputs.one_of("quantity", quantity, ["force", "moment"])]
 
     # --- tables ---------------------------------------------------------------------------------
@@ -300,11 +308,11 @@ class BobWeight(Tabled):
         words: dict[float, list[str]] = {float(factor): [] for factor in given}
         for factor, text in self._remarkable() if factors is None else ():
             # 0.5 comes out as 0.49999999999999994 at times.
-            near = next((each for each in words if abs(each - factor) < 1e-12), factor)
+            near = next((each for each in words if abs(each - factor) < ALIKE), factor)
             words.setdefault(near, []).extend([text] if text else [])
         listed = sorted(words)
         # An engine without force or moment of order 1 has no columns of it.
-        quantities = [name for name in PLANE_VECTORS if any(self._parts(name))]
+        quantities = [name for name in PLANE_VECTORS if any(map(any, self._parts(name)))]
         header, columns = ["factor", ""], []
         for name in quantities or ["moment"]:
             longest, shortest = self.half_axes(name, listed)
@@ -339,13 +347,60 @@ class BobWeight(Tabled):
         return draw(self, ax, quantity=quantity, **style)  # type: ignore[no-any-return]
 
 
-def _turning_parts(
-    start: complex, change: complex, backward: complex, factor: NDArray[np.float64]
-) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
-    """Return forward and backward part by factor, rounding of a part that vanishes as zero."""
-    forward = start + factor * change
-    none = np.abs(forward) < 1e-14 * (abs(start) + np.abs(factor * change))
-    return np.where(none, 0.0, forward), np.full(factor.shape, backward)
+class Part(NamedTuple):
+    """Part of a vector that turns in one sense, by balance factor."""
+
+    start: complex
+    """At factor 0."""
+    change: complex
+    """To factor 1."""
+
+    def at(self, factor: NDArray[np.float64]) -> NDArray[np.complex128]:
+        """Return the part by factor, rounding of one that vanishes as zero."""
+        part = self.start + factor * self.change
+        none = np.abs(part) < 1e-14 * (abs(self.start) + np.abs(factor * self.change))
+        return np.where(none, 0.0, part)
+
+    @property
+    def nearest(self) -> float:
+        """Factor at which the part is smallest."""
+        return -(self.start * self.change.conjugate()).real / abs(self.change) ** 2
+
+    def slope(self, factor: float) -> float:
+        """Return the change of its size per unit of factor."""
+        part = self.start + factor * self.change
+        return (part.conjugate() * self.change).real / abs(part) if part else 0.0
+
+
+def _of_one_size(forward: Part, backward: Part) -> list[float]:
+    """Return the factors at which two parts have one size, unless all have."""
+    if forward.change and backward.change:
+        # |forward|² − |backward|² is quadratic in the factor.
+        pairs = ((forward, 1.0), (backward, -1.0))
+        terms = [
+            [sign * abs(part.change) ** 2 for part, sign in pairs],
+            [2.0 * sign * (part.start.conjugate() * part.change).real for part, sign in pairs],
+            [sign * abs(part.start) ** 2 for part, sign in pairs],
+        ]
+        largest = max(abs(each) for pair in terms for each in pair)
+        sums = [sum(pair) if abs(sum(pair)) > ALIKE * largest else 0.0 for pair in terms]
+        if not any(sums):
+            return []
+        found = [each for each in np.roots(sums) if abs(each.imag) <= ALIKE * abs(each)]
+        return sorted({float(each.real) for each in found})
+    moving, still = (forward, backward) if forward.change else (backward, forward)
+    if not moving.change or not still.start:
+        return []
+    # |start + κ·change| = |still|, about the factor at which the left side is least.
+    middle = moving.nearest
+    least = abs(moving.start + middle * moving.change)
+    reach = (abs(still.start) - least) * (abs(still.start) + least)
+    if reach < 0.0:
+        return []
+    apart = math.sqrt(reach) / abs(moving.change)
+    # A root of zero comes out beside it.
+    roots = [0.0 if abs(each) < ALIKE else each for each in (middle - apart, middle + apart)]
+    return list(dict.fromkeys(roots))
 
 
 def _numbers(pin: Crankpin) -> str:

@@ -259,6 +259,7 @@ def bay_alone(engine: Engine, bay: Bay) -> Engine:
     """Return the cylinders of a bay with what rotates there: an engine of one throw, about it."""
     places = [number - 1 for number in bay.cylinders]
     tdc_deg, bank_deg = ([angles[k] for k in places] for angles in engine._core.exact_angles)
+    crank_of = engine._core.cranks[1]
     return Engine.from_lists(
         [engine.cylinders[k] for k in places],
         tdc_deg=tdc_deg,
@@ -266,7 +267,9 @@ def bay_alone(engine: Engine, bay: Bay) -> Engine:
         z=engine.z[places],
         rotating_mass=engine.rotating_mass[places],
         counterweights=[
-            _in_bay(engine, weight) for weight in engine.counterweights if bay.holds(weight.z)
+            _in_bay(engine, weight)
+            for weight in engine.counterweights
+            if bay.holds(weight.z) and (weight.pin is None or crank_of[weight.pin - 1] == 0)
         ],
         reference_z=bay.z,
     )

@@ -11,9 +11,12 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
+from crankpin._support.quantities import PLANE_VECTORS
 from crankpin._support.record import Record, Tabled
 from crankpin._support.tables import Column, Table
+from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import over_square
+from crankpin.analysis.contributions import contributions, phasors
 from crankpin.analysis.request import engine_core
 from crankpin.analysis.tolerances.spreads import deviating
 from crankpin.model import checks
@@ -77,39 +80,37 @@ class MeasuredParts(Record):
     @cached_property
     def start(self) -> NDArray[np.float64]:
         """What remains of the engine with its own masses, over ω², as real numbers."""
-        return self._vector(self.engine)
+        balance = over_square(self.engine, self.orders)
+        return self._vector(*(phasors(balance, name) for name in PLANE_VECTORS))
 
     @cached_property
     def kinds(self) -> tuple[Kind, ...]:
         """Deviations of the parts from their means, and what a unit of each does."""
-        count = len(self.engine)
-        reciprocating = np.stack([self._influence(k, rotating=False) for k in range(count)])
+        reciprocating = self._influences(rotating=False)
         found = [Kind((self.pistons - self.pistons.mean())[:, None], reciprocating[:, None])]
         if self.rods is not None:
-            rotating = np.stack([self._influence(k, rotating=True) for k in range(count)])
-            both = np.stack([reciprocating, rotating], axis=1)
+            both = np.stack([reciprocating, self._influences(rotating=True)], axis=1)
             found.append(Kind(self.rods - self.rods.mean(axis=0), both))
         return tuple(found)
 
-    def _influence(self, place: int, *, rotating: bool) -> NDArray[np.float64]:
-        """Return what a kilogram more in one cylinder adds: what remains is linear in masses."""
-        engine = self.engine
-        if rotating:
-            masses = engine.rotating_mass.copy()
-            masses[place] += 1.0
-            return self._vector(engine.replace(rotating_mass=masses)) - self.start
-        cylinders = list(engine.cylinders)
-        mass = cylinders[place].reciprocating_mass
-        cylinders[place] = cylinders[place].replace(reciprocating_mass=mass + 1.0)
-        return self._vector(engine.replace(cylinder=cylinders)) - self.start
+    def _influences(self, *, rotating: bool) -> NDArray[np.float64]:
+        """Return what a kilogram in each cylinder adds: (n_cylinders, n_dimensions)."""
+        mass = float(not rotating)
+        cylinders = [each.replace(reciprocating_mass=mass) for each in self.engine.cylinders]
+        with suppressed():  # of a kilogram
+            laden = self.engine.replace(
+                cylinder=cylinders, rotating_mass=float(rotating), counterweights=(), shafts=()
+            )
+        balance = over_square(laden, self.orders)
+        pairs = zip(*(contributions(balance, name) for name in PLANE_VECTORS), strict=True)
+        return np.stack([self._vector(force.phasors, moment.phasors) for force, moment in pairs])
 
-    def _vector(self, engine: Engine) -> NDArray[np.float64]:
-        found = over_square(engine, self.orders)
+    def _vector(
+        self, force: NDArray[np.complex128], moment: NDArray[np.complex128]
+    ) -> NDArray[np.float64]:
+        """Return forward and backward parts as real numbers, moments over half the length."""
         half = 0.5 * (self.engine.z.max() - self.engine.z.min())
-        parts = [found.force.forward, found.force.backward]
-        if half > 0.0:
-            parts += [found.moment.forward / half, found.moment.backward / half]
-        together = np.concatenate(parts)
+        together = np.concatenate([*force, *(moment / half if half > 0.0 else ())])
         return np.concatenate([together.real, together.imag])
 
     def chosen(self, assignment: Assignment) -> tuple[NDArray[np.intp], ...]:

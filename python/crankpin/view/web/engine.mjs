@@ -54,6 +54,7 @@ export function configure(figures, settings) {
 
 function cylinderAt(figures, settings, given) {
   const { crank_radius: r, pin_offset: e, bank } = given;
+  const { x, y, ratio } = figures.cranks[given.crank];
   const l = settings.rod_ratio === null || settings.rod_ratio === r / given.rod_length
     ? given.rod_length
     : r / settings.rod_ratio;
@@ -62,17 +63,23 @@ function cylinderAt(figures, settings, given) {
   if (bankAngle !== null && bankAngle !== figures.bank_angle_deg) {
     const half = 0.5 * bankAngle;
     bankDeg = figures.bisector_deg + (bank === 0 ? -half : half);
+    // Of one crank alone, which has a bank angle.
     if (settings.hold === "pins") tdcDeg = reduced(bankDeg - (given.bank_deg - given.tdc_deg));
   }
+  const pinDeg = bankDeg - ratio * tdcDeg;
   return {
     ...given,
     rod_length: l,
     proportions: proportions(r, l, e),
     tdc_deg: tdcDeg,
     bank_deg: bankDeg,
-    pin_deg: bankDeg - tdcDeg,
+    pin_deg: pinDeg,
+    ratio,
+    axis: [x, y],
+    // To which side the path of the piston pin is moved: that to which the crankpin swings.
+    shift: Math.sign(ratio) * e,
     direction: unit(bankDeg),
-    pin: unit(bankDeg - tdcDeg),
+    pin: unit(pinDeg),
     tdc: unit(tdcDeg),
     strokes: strokes(figures, given, tdcDeg, l),
     gas: gasLoad(figures, given, tdcDeg),
@@ -108,16 +115,18 @@ function turningPoints(r, l, e) {
   return [Math.asin(e / (l + r)) / DEGREE, 180 + Math.asin(e / (l - r)) / DEGREE];
 }
 
-/** Everything that rotates: rotating masses and counterweights at ratio 1, and balance shafts. */
+/** Everything that rotates: rotating masses and counterweights on their cranks, and balance shafts. */
 function unbalances(figures, cylinders) {
   const found = [];
-  for (const { rotating_mass: mass, crank_radius: r, pin, z } of cylinders) {
-    if (mass) found.push({ kind: "pin", ratio: 1, axis: [0, 0], amount: mass * r, start: pin, z });
+  for (const { rotating_mass: mass, crank_radius: r, pin, ratio, axis, z } of cylinders) {
+    if (mass) found.push({ kind: "pin", ratio, axis, amount: mass * r, start: pin, z });
   }
+  const main = { pin_deg: 0, ratio: 1, axis: [0, 0] };
   for (const { amount, angle_deg: angle, pin, z } of figures.counterweights) {
-    const from = pin === null ? 0 : cylinders[pin].pin_deg;
-    const start = unit(angle + from);
-    found.push({ kind: "counterweight", ratio: 1, axis: [0, 0], amount, start, z });
+    const { pin_deg: from, ratio, axis } = pin === null ? main : cylinders[pin];
+    // Ahead of the pin in the sense in which its crank turns.
+    const start = unit(from + Math.sign(ratio) * angle);
+    found.push({ kind: "counterweight", ratio, axis, amount, start, z });
   }
   for (const { ratio, x, y, unbalances: carried } of figures.shafts) {
     for (const { amount, angle_deg: angle, z } of carried) {

@@ -35,6 +35,7 @@ export class Handle {
     this.hit.setAttribute("r", 1.7 * reach);
     this.sense.setAttribute("d", senseArrow(cx, cy, 1.62 * reach));
     this.pins = pinNumbers(engine);
+    this.axes = engine.cylinders.map(({ axis }) => axis);
     const bores = boreGroups(engine).map(({ numbers, cylinder }) => {
       const [dx, dy] = cylinder.direction;
       const { top, axis } = boreEnds(cylinder);
@@ -55,11 +56,13 @@ export class Handle {
   }
 
   pose({ cylinders }) {
-    const [cx, cy] = this.centre;
     for (const { first, text, level } of this.pins) {
-      const [x, y] = cylinders[first].crankpin;
+      const { projection } = this.scene;
+      const [a, b] = this.axes[first];
+      const [cx, cy] = projection.point([a, b, 0]);
+      const [x, y] = [cylinders[first].crankpin[0] - a, cylinders[first].crankpin[1] - b];
       const length = Math.hypot(x, y);
-      const reach = length * this.scene.projection.scale + PIN_NUMBER + level * LINE;
+      const reach = length * projection.scale + PIN_NUMBER + level * LINE;
       place(text, [cx + (reach * x) / length, cy - (reach * y) / length + 4]);
     }
   }
@@ -95,8 +98,8 @@ export class Handle {
 
 /** Numbers of the cylinders at each crankpin, further out beside a close one; none for one pin. */
 function pinNumbers({ cylinders }) {
-  const groups = grouped(cylinders, ({ pin, crank_radius: r }) =>
-    pin.map((part) => (part * r).toFixed(9)).join(" "));
+  const groups = grouped(cylinders, ({ pin, crank, crank_radius: r }) =>
+    [crank, ...pin.map((part) => (part * r).toFixed(9))].join(" "));
   if (groups.length === 1) return [];
   const angle = ({ cylinder }) => reduced(cylinder.pin_deg);
   groups.sort((a, b) => angle(a) - angle(b));
@@ -110,8 +113,8 @@ function pinNumbers({ cylinders }) {
 
 /** Cylinders whose bores have one direction and one offset. */
 function boreGroups({ cylinders }) {
-  return grouped(cylinders, ({ bank, direction, pin_offset: e }) =>
-    [bank, ...direction.map((part) => part.toFixed(9)), e].join(" "));
+  return grouped(cylinders, ({ bank, crank, direction, pin_offset: e }) =>
+    [bank, crank, ...direction.map((part) => part.toFixed(9)), e].join(" "));
 }
 
 function grouped(cylinders, keyOf) {

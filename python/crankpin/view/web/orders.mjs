@@ -20,7 +20,7 @@ export function phasors(engine, highest) {
   };
   for (const load of pistons(engine, highest)) {
     for (const [order, amplitude] of load.amplitudes) {
-      const half = scale(amplitude, 0.5 * square);
+      const half = scale(amplitude, 0.5 * square * load.ratio ** 2);
       // Forward ½·A·e^{i(β − n·tdc)}, backward ½·conj(A)·e^{i(β + n·tdc)}.
       const lag = unit(order * load.tdc_deg);
       const forward = multiply(multiply(half, load.direction), conjugate(lag));
@@ -60,17 +60,21 @@ export function shown(all, most) {
 /** Longest vector of an order. */
 export const longest = ({ forward, backward }) => magnitude(forward) + magnitude(backward);
 
-/** Amplitudes of each cylinder over ω², kg·m: m·r·aₙ, or the spectrum that replaces them. */
+/**
+ * Amplitudes of each cylinder over the square of its crank's speed, kg·m, by order of the main crank's:
+ * m·r·aₙ, or the spectrum that replaces them.
+ */
 function pistons({ cylinders, spectrum }, highest) {
   const known = new Map();
   return cylinders.map((each) => {
-    if (spectrum) return { ...each, amplitudes: spectrum };
+    const speed = Math.abs(each.ratio);
+    if (spectrum) return { ...each, amplitudes: spectrum.map(([n, a]) => [n * speed, a]) };
     const { rod, offset } = each.proportions;
     const key = `${rod} ${offset}`;
     if (!known.has(key)) known.set(key, harmonics(each.proportions, highest));
     const size = each.reciprocating_mass * each.crank_radius;
-    const amplitudes = known.get(key).map((a, k) => [k + 1, scale(a, size)]);
-    return { ...each, amplitudes };
+    const amplitudes = known.get(key).map((a, k) => [(k + 1) * speed, scale(a, size)]);
+    return { ...each, amplitudes: amplitudes.filter(([order]) => order <= highest) };
   });
 }
 

@@ -1,6 +1,6 @@
 // Everything at one crank angle: where the parts stand, and the force, moment and torque they make.
 
-import { multiply, unit } from "./complex.mjs";
+import { add, multiply, scale, unit } from "./complex.mjs";
 import { gasTorque, pressureAt } from "./gas.mjs";
 import { motion, swing } from "./motion.mjs";
 
@@ -10,7 +10,8 @@ export const angularSpeed = (rpm) => (rpm * 2 * Math.PI) / 60;
  * Places in metres, force in N, moment and torque in N·m, at a crank angle in degrees.
  *
  * Exact kinematics; an engine with a given spectrum sums `orders`, and its torque is null. Of the
- * torque `gas` and `inertia` are the parts; `moving` is the moment of inertia of pistons and rods.
+ * torque on the block `gas` and `inertia` are the parts; `driving` is that of the gas on the main crank,
+ * and `moving` the moment of inertia of pistons and rods as seen from it.
  */
 export function poseAt(engine, orders, thetaDeg) {
   const crank = unit(thetaDeg);
@@ -31,20 +32,24 @@ export function turnedBy(crank, n) {
 }
 
 function cylinderPose(cylinder, crank, thetaDeg) {
-  const [cos, sin] = multiply(crank, [cylinder.tdc[0], -cylinder.tdc[1]]);
+  const { ratio, axis } = cylinder;
+  const past = multiply(crank, [cylinder.tdc[0], -cylinder.tdc[1]]);
+  // Offsets are on the side to which the crankpin swings, so that either sense moves the piston alike.
+  const [cos, sin] = turnedBy(past, Math.abs(ratio));
   const moved = motion(cylinder.proportions, cos, sin);
   const [dx, dy] = cylinder.direction;
   const height = cylinder.crank_radius * moved.position;
-  const offset = cylinder.pin_offset;
+  const throwTo = scale(multiply(turnedBy(crank, ratio), cylinder.pin), cylinder.crank_radius);
   return {
     cos,
     sin,
     moved,
     height,
     pressure: cylinder.gas && pressureAt(cylinder.gas, thetaDeg),
-    crankpin: multiply(crank, cylinder.pin).map((part) => part * cylinder.crank_radius),
-    // The path of the piston pin lies left of the bore's direction by the offset.
-    wrist: [height * dx - offset * dy, height * dy + offset * dx],
+    crankpin: add(axis, throwTo),
+    // The path of the piston pin lies left of the bore's direction by the offset, on a crank that turns as
+    // the main one does.
+    wrist: add(axis, [height * dx - cylinder.shift * dy, height * dy + cylinder.shift * dx]),
   };
 }
 
@@ -53,35 +58,43 @@ function exactLoads(engine, cylinders, weights, square) {
   const moment = [0, 0];
   let inertia = 0;
   let gas = 0;
+  let driving = 0;
   let moving = 0;
-  const apply = (fx, fy, z) => {
+  const apply = (fx, fy, z, axis) => {
     const lever = z - engine.reference;
     force[0] += fx;
     force[1] += fy;
     moment[0] -= lever * fy;
     moment[1] += lever * fx;
+    inertia += axis[0] * fy - axis[1] * fx;
   };
   engine.cylinders.forEach((cylinder, k) => {
     const { cos, sin, moved, pressure } = cylinders[k];
-    const { crank_radius: r, reciprocating_mass: m, rod_inertia_excess: excess } = cylinder;
-    const along = -m * r * square * moved.acceleration;
-    apply(along * cylinder.direction[0], along * cylinder.direction[1], cylinder.z);
-    inertia -= along * r * (moved.velocity + cylinder.proportions.offset);
-    moving += m * (r * moved.velocity) ** 2;
-    if (pressure !== null) gas += gasTorque(cylinder.gas, r, pressure, moved.velocity);
+    const { crank_radius: r, reciprocating_mass: m, rod_inertia_excess: excess, ratio } = cylinder;
+    const own = square * ratio * ratio;
+    // Turning the other way mirrors the torque on the block; power on the crank is torque times speed.
+    const sense = Math.sign(ratio);
+    const along = -m * r * own * moved.acceleration;
+    apply(along * cylinder.direction[0], along * cylinder.direction[1], cylinder.z, cylinder.axis);
+    inertia -= sense * along * r * (moved.velocity + cylinder.proportions.offset);
+    moving += m * (ratio * r * moved.velocity) ** 2;
+    if (pressure !== null) {
+      const onBlock = gasTorque(cylinder.gas, r, pressure, moved.velocity);
+      gas += sense * onBlock;
+      driving -= onBlock;
+    }
     if (excess) {
       const { velocity, acceleration } = swing(cylinder.proportions, cos, sin);
-      inertia += excess * square * acceleration * (1 + velocity);
-      moving += excess * velocity ** 2;
+      inertia += sense * excess * own * acceleration * (1 + velocity);
+      moving += excess * (ratio * velocity) ** 2;
     }
   });
   engine.unbalances.forEach(({ ratio, axis, amount, z }, k) => {
     const size = amount * ratio * ratio * square;
     const [fx, fy] = [size * weights[k][0], size * weights[k][1]];
-    apply(fx, fy, z);
-    inertia += axis[0] * fy - axis[1] * fx;
+    apply(fx, fy, z, axis);
   });
-  return { force, moment, torque: inertia + gas, inertia, gas, moving };
+  return { force, moment, torque: inertia + gas, inertia, gas, driving, moving };
 }
 
 /** Sum of orders: x + iy = Σ forward·e^{inθ} + backward·e^{−inθ}. */

@@ -108,7 +108,7 @@ export class Scene {
         ends = boreEnds(cylinders[k]);
         const places = this.projection.tube(direction, ends.low, ends.top, (BORE / 2) * r);
         element.setAttribute("d", path(places, true));
-        return this.projection.depth([direction[0] * ends.low, direction[1] * ends.low, z]);
+        return this.projection.depth([...add(cylinders[k].axis, scale(direction, ends.low)), z]);
       },
       pose: (_pose, _strokes, shift) => translate(element, this.at(ends.axis, z, shift)),
     };
@@ -181,7 +181,7 @@ export class Scene {
         const { direction, rod_length: length, crank_radius: r } = cylinders[k];
         z = cylinders[k].z;
         bar.width = 0.3 * r * this.projection.scale;
-        return this.projection.depth([...direction.map((part) => part * 0.5 * length), z]);
+        return this.projection.depth([...add(cylinders[k].axis, scale(direction, 0.5 * length)), z]);
       },
       pose: ({ cylinders }, _strokes, shift) => {
         const { crankpin, wrist } = cylinders[k];
@@ -192,21 +192,22 @@ export class Scene {
 
   throw(k) {
     const bar = new Bar("throw");
+    let axis;
     let z;
     return {
       kind: "throw",
       element: bar.element,
       layout: ({ cylinders }) => {
-        z = cylinders[k].z;
+        ({ axis, z } = cylinders[k]);
         bar.width = 0.46 * cylinders[k].crank_radius * this.projection.scale;
-        return this.projection.depth([0, 0, z]);
+        return this.projection.depth([...axis, z]);
       },
       pose: ({ cylinders }, _strokes, shift) => {
         const { crankpin } = cylinders[k];
         const half = this.dimensions.halfThrow;
         bar.draw([
-          this.at([0, 0], z - half, shift), this.at(crankpin, z - half, shift),
-          this.at(crankpin, z + half, shift), this.at([0, 0], z + half, shift),
+          this.at(axis, z - half, shift), this.at(crankpin, z - half, shift),
+          this.at(crankpin, z + half, shift), this.at(axis, z + half, shift),
         ]);
       },
     };
@@ -318,14 +319,15 @@ function dimensions(engine) {
   return { radius, places, stretch, halfThrow, ends, largestWeight };
 }
 
-/** Lower end and head of a bore, and where its axis passes the crank's. */
-export function boreEnds({ crank_radius: r, rod_length: l, pin_offset: e, direction: [dx, dy] }) {
+/** Lower end and head of a bore, and where its axis passes its crank's. */
+export function boreEnds(cylinder) {
+  const { crank_radius: r, rod_length: l, pin_offset: e, shift, direction: [dx, dy] } = cylinder;
   const highest = Math.sqrt((l + r) ** 2 - e ** 2);
   const lowest = Math.sqrt((l - r) ** 2 - e ** 2);
   return {
     low: Math.max(lowest - SKIRT * r, 1.1 * r),
     top: highest + (CROWN + HEAD) * r,
-    axis: [-e * dy, e * dx],
+    axis: add(cylinder.axis, [-shift * dy, shift * dx]),
   };
 }
 
@@ -334,6 +336,9 @@ function extremes(engine, { radius, ends, stretch }) {
   const around = (x, y, z, reach) => [[x - reach, y - reach, z], [x + reach, y + reach, z],
     [x - reach, y + reach, z], [x + reach, y - reach, z]];
   const points = ends.flatMap((z) => around(0, 0, z, WEIGHT * radius));
+  for (const { axis: [x, y] } of engine.cylinders) {
+    points.push(...ends.flatMap((z) => around(x, y, z, WEIGHT * radius)));
+  }
   for (const { x, y } of engine.shafts) {
     points.push(...ends.flatMap((z) => around(x, y, z, SHAFT_WEIGHT * radius)));
   }

@@ -14,13 +14,13 @@ const SLOWEST = 1e-4;
  * The first integral ½·J(θ)·ω² = E + ∫(T − mean)dθ, where T is the torque of the gas on the crank, J has
  * pistons and rods, and E makes the mean speed that of turns over time.
  */
-export function speeds({ flywheel, cycle, settings }, { gas, moving }) {
+export function speeds({ flywheel, cycle, settings }, { driving, moving }) {
   const mean = angularSpeed(settings.rpm);
   if (flywheel === null || mean === 0) return null;
-  const count = gas.length - 1;
+  const count = driving.length - 1;
   const step = (cycle * Math.PI) / 180 / count;
-  const at = (k) => -gas[(k + count) % count];
-  const average = gas.slice(1).reduce((sum, torque) => sum - torque, 0) / count;
+  const at = (k) => driving[(k + count) % count];
+  const average = driving.slice(1).reduce((sum, torque) => sum + torque, 0) / count;
   const work = [0];
   for (let k = 0; k < count; k++) {
     // The integral of the cubic through four samples, between the middle two.

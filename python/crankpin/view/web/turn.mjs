@@ -14,9 +14,10 @@ const BETWEEN = 0.03;
 
 /** Forces, moments, torques and speeds of a turn, its last sample that of the first; with gas of a cycle. */
 export function turn(engine, orders) {
-  const curve = { force: [], moment: [], torque: [], inertia: [], gas: [], moving: [] };
+  const curve = { force: [], moment: [], torque: [], inertia: [], gas: [], driving: [], moving: [] };
   for (let theta = 0; theta <= (engine.gas ? engine.cycle : 360); theta += STEP) {
-    const { force, moment, torque, inertia, gas, moving } = poseAt(engine, orders, theta);
+    const pose = poseAt(engine, orders, theta);
+    const { force, moment, torque, inertia, gas, driving, moving } = pose;
     if (theta <= 360) {
       curve.force.push(force);
       curve.moment.push(moment);
@@ -24,6 +25,7 @@ export function turn(engine, orders) {
     curve.torque.push(torque);
     curve.inertia.push(inertia);
     curve.gas.push(gas);
+    curve.driving.push(driving);
     curve.moving.push(moving);
   }
   return { ...curve, speed: speeds(engine, curve) };
@@ -32,12 +34,12 @@ export function turn(engine, orders) {
 /** Bounds of what the cylinders make one by one, at order 1. */
 export function sizes({ cylinders, reference, settings }) {
   const square = angularSpeed(settings.rpm) ** 2;
-  const size = (lever) => cylinders.reduce((sum, each) => sum + square * lever(each)
+  const size = (lever) => cylinders.reduce((sum, each) => sum + square * each.ratio ** 2 * lever(each)
     * (each.reciprocating_mass + each.rotating_mass) * each.crank_radius, 0);
   return {
     force: size(() => 1),
     moment: size(({ z }) => Math.abs(z) + Math.abs(reference)),
-    torque: size((each) => each.crank_radius) + cylinders.reduce((sum, { gas, crank_radius: r }) =>
+    torque: size(({ crank_radius: r, axis }) => r + Math.hypot(...axis)) + cylinders.reduce((sum, { gas, crank_radius: r }) =>
       sum + (gas ? Math.max(...gas.samples) * gas.area * r : 0), 0),
   };
 }

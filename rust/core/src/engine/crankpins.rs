@@ -13,13 +13,15 @@ const SAME_PLACE: f64 = 1e-6;
 pub struct Crankpin {
     /// Cylinders by index, ascending.
     pub cylinders: Vec<usize>,
+    /// Index of its crank.
+    pub crank: usize,
     /// Direction from +x at θ = 0.
     pub pin: Angle,
     /// Place along the crank, midway between its cylinders', m.
     pub z: f64,
 }
 
-/// Throws at one place along the crank.
+/// Throws at one place along the main crank.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ThrowPlace {
     /// Place, m.
@@ -29,19 +31,22 @@ pub struct ThrowPlace {
 }
 
 impl Engine {
-    /// The crankpins from front to flywheel, those of one throw a list.
+    /// The crankpins of all cranks from front to flywheel, those of one throw a list.
     ///
-    /// Cylinders of different banks whose places are less than a crank radius apart are on one throw.
+    /// Cylinders of one crank and different banks whose places are less than a crank radius apart are on
+    /// one throw.
     /// Those of them whose pins are at one place share a crankpin; a throw has several where pins are
     /// split, and in a boxer.
     #[must_use]
     pub fn throws(&self) -> Vec<Vec<Crankpin>> {
         let stations = self.stations();
         let radius = |k: usize| stations[k].cylinder.crank_radius();
-        let pins: Vec<Angle> = stations.iter().map(super::Station::pin).collect();
+        let pins: Vec<Angle> = (0..stations.len()).map(|k| self.pin(k)).collect();
         let on_one_throw = |k: usize, other: usize| {
             let apart = (stations[k].z - stations[other].z).abs();
-            self.bank_of(k) != self.bank_of(other) && apart < radius(k)
+            self.crank_of(k) == self.crank_of(other)
+                && self.bank_of(k) != self.bank_of(other)
+                && apart < radius(k)
         };
         let on_one_pin = |k: usize, other: usize| {
             let turned = (pins[k].degrees() - pins[other].degrees() + 180.0).rem_euclid(360.0);
@@ -50,7 +55,7 @@ impl Engine {
         let crankpin = |mut cylinders: Vec<usize>| {
             let (pin, z) = (pins[cylinders[0]], middle(cylinders.iter().map(|&k| stations[k].z)));
             cylinders.sort_unstable();
-            Crankpin { cylinders, pin, z }
+            Crankpin { crank: self.crank_of(cylinders[0]), cylinders, pin, z }
         };
         let mut from_front: Vec<usize> = (0..stations.len()).collect();
         from_front.sort_by(|&a, &b| stations[a].z.total_cmp(&stations[b].z));
@@ -58,7 +63,7 @@ impl Engine {
         throws.map(|on| grouped(&on, on_one_pin).into_iter().map(crankpin).collect()).collect()
     }
 
-    /// Places of the throws along the crank, ascending; those at one place are one.
+    /// Places of the throws along the main crank, ascending; those at one place are one.
     #[must_use]
     pub fn throw_places(&self) -> Vec<ThrowPlace> {
         let most = SAME_PLACE * self.largest_crank_radius();
@@ -66,7 +71,8 @@ impl Engine {
             z: middle(throw.iter().map(|pin| pin.z)),
             cylinders: throw.into_iter().flat_map(|pin| pin.cylinders).collect(),
         };
-        let mut places: Vec<ThrowPlace> = self.throws().into_iter().map(place).collect();
+        let on_main = self.throws().into_iter().filter(|throw| throw[0].crank == 0);
+        let mut places: Vec<ThrowPlace> = on_main.map(place).collect();
         places.sort_by(|a, b| a.z.total_cmp(&b.z));
         places.dedup_by(|next, place| {
             let is_same = next.z - place.z <= most;
@@ -78,15 +84,18 @@ impl Engine {
         places
     }
 
-    /// Places of the main bearings along the crank, ascending, m: those given, or else one midway between
-    /// neighbouring throws and one as far beyond the first and the last as the next is from them.
+    /// Places of the bearings along the main crank, ascending, m: those given, or else one midway between
+    /// neighbouring throws and one as far beyond the first and the last as the next is from them; none
+    /// where it has no throws.
     #[must_use]
     pub fn bearings(&self) -> Vec<f64> {
         if !self.mains().is_empty() {
             return self.mains().to_vec();
         }
         let places: Vec<f64> = self.throw_places().iter().map(|place| place.z).collect();
-        let [first, last] = [places[0], places[places.len() - 1]];
+        let [Some(&first), Some(&last)] = [places.first(), places.last()] else {
+            return Vec::new();
+        };
         let between = places.windows(2).map(|pair| f64::midpoint(pair[0], pair[1]));
         let between: Vec<f64> = between.collect();
         let (Some(front), Some(rear)) = (between.first(), between.last()) else {

@@ -374,9 +374,9 @@ impl EngineFile {
         engine
             .firing_as(self.firing_order, strokes)?
             .with_details(details)?
+            .with_cranks(cranks, crank_of)?
             .with_mains(self.mains)?
             .with_reference(self.reference_z)?
-            .with_cranks(cranks, crank_of)?
             .with_counterweights(unbalances(&self.counterweights, "counterweights")?)?
             .with_shafts(shafts.collect::<Result<_>>()?)
             .and_then(|engine| gas.map_or(Ok(engine.clone()), |gas| engine.with_gas(gas)))
@@ -563,11 +563,11 @@ mod tests {
                 };
                 let details = (0..engine.stations().len()).map(details).collect();
                 let engine = engine.with_details(details).unwrap();
-                let engine = engine.with_mains(engine.bearings()).unwrap();
                 let engine = engine.with_reference(Some(0.125)).unwrap();
                 let other = Crank { axis: [0.25, -0.125], ratio: -1 };
                 let crank_of = (0..engine.stations().len()).map(|i| i % 2).collect();
                 let engine = engine.with_cranks(vec![Crank::MAIN, other], crank_of).unwrap();
+                let engine = engine.with_mains(engine.bearings()).unwrap();
                 engine.with_counterweights(weights).unwrap().with_shafts(shafts).unwrap()
             },
         )

@@ -347,8 +347,8 @@ mod tests {
     }
 
     fn pins(engine: &Engine) -> Vec<f64> {
-        let first = engine.stations()[0].pin();
-        engine.stations().iter().map(|p| (p.pin() - first).reduced().degrees()).collect()
+        let pin = |i| (engine.pin(i) - engine.pin(0)).reduced().degrees();
+        (0..engine.stations().len()).map(pin).collect()
     }
 
     #[test]
@@ -411,13 +411,9 @@ mod tests {
             };
             let engine = layout.engine(cylinder()).unwrap();
             // Bank, place, mass, pin relative to the first cylinder's.
-            let first = engine.stations()[0].pin();
             assert_eq!(engine.stations()[0].tdc, angle(7.0));
-            let of = |p: &Station| {
-                let pin = (p.pin() - first).reduced().degrees();
-                (p.bank.degrees(), p.z, p.rotating_mass, pin)
-            };
-            engine.stations().iter().map(of).collect::<Vec<_>>()
+            let of = |(p, pin): (&Station, f64)| (p.bank.degrees(), p.z, p.rotating_mass, pin);
+            engine.stations().iter().zip(pins(&engine)).map(of).collect::<Vec<_>>()
         };
         let right = [(55.0, 0.0, 0.5, 0.0), (55.0, 0.1, 0.5, 100.0), (55.0, 0.2, 0.5, 240.0)];
         let left = [

@@ -15,7 +15,7 @@ use self::banks::right_bank;
 pub use self::banks::{Banks, Hold, bank_angle_in_range};
 pub use self::gas::Gas;
 use self::layout::Strokes;
-pub use self::shaft::{Crank, Shaft, Unbalance};
+pub use self::shaft::{Crank, Origin, Shaft, Unbalance};
 use crate::gear::slider_crank::Cylinder;
 use crate::gear::spectrum::Spectrum;
 use crate::numbers::angle::Angle;
@@ -35,14 +35,6 @@ pub struct Station {
     pub z: f64,
     /// Mass that turns at crank radius with the crankpin, kg.
     pub rotating_mass: f64,
-}
-
-impl Station {
-    /// Direction of the crankpin, from +x, at θ = 0.
-    #[must_use]
-    pub fn pin(&self) -> Angle {
-        (self.bank - self.tdc).reduced()
-    }
 }
 
 /// Figures of a cylinder that its forces do not depend on; the engine keeps them for its user.
@@ -241,6 +233,23 @@ impl Engine {
         self.crank_of[cylinder]
     }
 
+    /// Direction of a cylinder's crankpin, from +x, at θ = 0.
+    #[must_use]
+    pub fn pin(&self, cylinder: usize) -> Angle {
+        let Station { bank, tdc, .. } = self.stations[cylinder];
+        self.cranks[self.crank_of[cylinder]].pin(bank, tdc)
+    }
+
+    /// The same engine with its crankpins in these directions, from +x, at θ = 0, one for each cylinder.
+    #[must_use]
+    pub fn with_pins(&self, pins: &[Angle]) -> Self {
+        let mut turned = self.clone();
+        for (i, (station, &pin)) in turned.stations.iter_mut().zip(pins).enumerate() {
+            station.tdc = self.cranks[self.crank_of[i]].tdc(station.bank, pin);
+        }
+        turned
+    }
+
     /// Rejects several cranks, where a quantity is defined for one alone.
     pub fn check_one_crank(&self, argument: &'static str) -> Result<()> {
         if self.cranks.len() == 1 {
@@ -262,16 +271,18 @@ impl Engine {
         &self.shafts
     }
 
-    /// All that rotates with the crankshaft: the cylinders' rotating masses at their pins, and the
+    /// All that rotates with a crankshaft: the cylinders' rotating masses at their pins, and the
     /// counterweights.
-    pub fn crank_unbalances(&self) -> impl Iterator<Item = Unbalance> {
-        let masses = self.stations.iter().enumerate().map(|(i, place)| Unbalance {
-            amount: place.rotating_mass * place.cylinder.crank_radius(),
-            angle: Angle::ZERO,
-            z: place.z,
-            pin: Some(i),
-        });
-        masses.filter(|mass| mass.amount > 0.0).chain(self.counterweights.iter().copied())
+    pub fn crank_unbalances(&self) -> impl Iterator<Item = (Origin, Unbalance)> {
+        let mass = |(i, place): (usize, &Station)| {
+            let amount = place.rotating_mass * place.cylinder.crank_radius();
+            let unbalance = Unbalance { amount, angle: Angle::ZERO, z: place.z, pin: Some(i) };
+            (Origin::Cylinder(i), unbalance)
+        };
+        let masses = self.stations.iter().enumerate().map(mass);
+        let weights = self.counterweights.iter().enumerate();
+        let weights = weights.map(|(k, &weight)| (Origin::Counterweight(k), weight));
+        masses.filter(|(_, mass)| mass.amount > 0.0).chain(weights)
     }
 
     /// z midway between the first and the last cylinder: the default reference plane.
@@ -332,9 +343,7 @@ impl Engine {
         }
         for shaft in &mut turned.shafts {
             for unbalance in &mut shaft.unbalances {
-                let turned = (0..shaft.ratio.abs()).fold(Angle::ZERO, |sum, _| sum + turn);
-                let turned = if shaft.ratio > 0 { turned } else { -turned };
-                unbalance.angle = (unbalance.angle - turned).reduced();
+                unbalance.angle = (unbalance.angle - turn.times(shaft.ratio)).reduced();
             }
         }
         turned
@@ -355,7 +364,9 @@ impl Engine {
             let hint = format!("give the number of a crank, below {}", cranks.len());
             return Err(Error::value(format!("crank_of[{k}]"), crank_of[k], hint));
         }
-        Self { cranks, crank_of, ..self.clone() }.with_known_torque()
+        let engine = Self { cranks, crank_of, ..self.clone() };
+        engine.check_throws_between(&engine.mains)?;
+        engine.with_known_torque()
     }
 
     /// The same engine with these counterweights on the crankshaft instead of those it has.
@@ -442,7 +453,7 @@ pub(crate) fn first_equal<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<
 }
 
 /// Values without repetition, and for each the index of its own.
-fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> (Vec<T>, Vec<usize>) {
+pub(crate) fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> (Vec<T>, Vec<usize>) {
     let mut found: Vec<T> = Vec::new();
     let index = |value| {
         found.iter().position(|other| *other == value).unwrap_or_else(|| {
@@ -521,9 +532,7 @@ mod tests {
         let engine = vee(60.0, 120.0);
         let by_pins = engine.with_bank_angle(degrees(90.0), Hold::Pins).unwrap();
         let by_firing = engine.with_bank_angle(degrees(90.0), Hold::Firing).unwrap();
-        for (before, after) in engine.stations().iter().zip(by_pins.stations()) {
-            assert_eq!(before.pin(), after.pin());
-        }
+        assert!((0..2).all(|i| engine.pin(i) == by_pins.pin(i)));
         for (before, after) in engine.stations().iter().zip(by_firing.stations()) {
             assert_eq!(before.tdc, after.tdc);
         }
@@ -596,9 +605,11 @@ mod tests {
         stations[1].rotating_mass = 0.4;
         let engine = Engine::new("", "", stations).unwrap();
         let engine = engine.with_counterweights(vec![weight(30.0, None)]).unwrap();
-        let found: Vec<Unbalance> = engine.crank_unbalances().collect();
+        let found: Vec<(Origin, Unbalance)> = engine.crank_unbalances().collect();
         let mass = Unbalance { amount: 0.4 * 0.05, angle: Angle::ZERO, z: 0.1, pin: Some(1) };
-        assert_eq!(found, [mass, weight(30.0, None)]);
+        let expected =
+            [(Origin::Cylinder(1), mass), (Origin::Counterweight(0), weight(30.0, None))];
+        assert_eq!(found, expected);
     }
 
     #[test]

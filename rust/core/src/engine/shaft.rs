@@ -18,6 +18,17 @@ pub struct Unbalance {
     pub pin: Option<usize>,
 }
 
+/// Part of an engine to which a load belongs, by index.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Origin {
+    /// A cylinder: piston, rod, rotating mass and gas.
+    Cylinder(usize),
+    /// An unbalance of a crank besides rotating masses.
+    Counterweight(usize),
+    /// A balance shaft with all that it carries.
+    Shaft(usize),
+}
+
 /// A balance shaft: it turns at a fixed ratio to the crankshaft about an axis parallel to it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shaft {
@@ -47,6 +58,21 @@ const FASTEST: i32 = 20;
 impl Crank {
     /// The main crank, to which crank angles and ratios refer.
     pub const MAIN: Self = Self { axis: [0.0; 2], ratio: 1 };
+
+    /// Direction of a crankpin, from +x, at θ = 0: it points along its bore at top dead centre, a crank
+    /// angle of the main crank.
+    #[must_use]
+    pub fn pin(&self, bank: Angle, tdc: Angle) -> Angle {
+        (bank - tdc.times(self.ratio)).reduced()
+    }
+
+    /// First crank angle of the main crank, from 0°, at which a crankpin of this direction at θ = 0 points
+    /// along its bore.
+    #[must_use]
+    pub fn tdc(&self, bank: Angle, pin: Angle) -> Angle {
+        let ahead = if self.ratio > 0 { bank - pin } else { pin - bank };
+        ahead.reduced().over(self.ratio.abs())
+    }
 }
 
 /// Rejects a ratio and an axis that no shaft or crank has; `place` is its name in errors.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{Load, PhasorSum, Phasors, Source, Term, Wanted, superpose};
 use crate::Complex64;
-use crate::engine::{Crank, Engine, first_equal};
+use crate::engine::{Crank, Engine, Origin, Unbalance, first_equal};
 use crate::gear::slider_crank::Cylinder;
 use crate::gear::{Gear, GearKind, Pressure};
 use crate::numbers::angle::Angle;
@@ -56,7 +56,8 @@ impl Loads {
             let (phase, bank) = (engine.stations()[i].tdc, Some(engine.bank_of(i)));
             Load { phase, bank, ratio, axis: Complex64::new(x, y), ..load }
         };
-        let on_main = |source, weight, direction: Angle, z| Load {
+        let on_main = |origin, source, weight, direction: Angle, z| Load {
+            origin,
             source,
             weight,
             direction,
@@ -75,27 +76,29 @@ impl Loads {
                 rod_inertia: cylinder.rod_inertia_excess(),
             };
             let weight = if spectrum.is_some() { 1.0 } else { cylinder.first_order() };
-            on_crank_of(i, on_main(source, weight, place.bank, place.z))
+            on_crank_of(i, on_main(Origin::Cylinder(i), source, weight, place.bank, place.z))
         });
-        let on_crank = engine.crank_unbalances().map(|unbalance| {
-            let load = |angle| on_main(Source::Unbalance, unbalance.amount, angle, unbalance.z);
+        let on_crank = engine.crank_unbalances().map(|(origin, unbalance)| {
+            let Unbalance { amount, z, .. } = unbalance;
+            let load = |angle| on_main(origin, Source::Unbalance, amount, angle, z);
             let Some(i) = unbalance.pin else { return load(unbalance.angle) };
             // A crankpin points along its bore at top dead centre.
             let (angle, bore) = (unbalance.angle, engine.stations()[i].bank);
             let ahead = if crank(i).ratio > 0 { bore + angle } else { bore - angle };
             on_crank_of(i, load(ahead))
         });
-        let on_shafts = engine.shafts().iter().flat_map(|shaft| {
-            shaft.unbalances.iter().map(|unbalance| Load {
+        let on_shafts = engine.shafts().iter().enumerate().flat_map(|(k, shaft)| {
+            shaft.unbalances.iter().map(move |&Unbalance { amount, angle, z, .. }| Load {
                 ratio: shaft.ratio,
                 axis: Complex64::new(shaft.axis[0], shaft.axis[1]),
-                ..on_main(Source::Unbalance, unbalance.amount, unbalance.angle, unbalance.z)
+                ..on_main(Origin::Shaft(k), Source::Unbalance, amount, angle, z)
             })
         });
         let in_cylinders = (0..count).filter_map(|i| {
             let (_, weight) = (cycle_of(i)?, engine.swept_by_radius(i)?);
             let source = Source::Pressure { gear: gear_of[i] };
-            let load = on_main(source, weight, Angle::ZERO, engine.stations()[i].z);
+            let z = engine.stations()[i].z;
+            let load = on_main(Origin::Cylinder(i), source, weight, Angle::ZERO, z);
             Some(Load { phase: engine.firing_phase(i).half(), ..on_crank_of(i, load) })
         });
         let list = pistons.chain(on_crank).chain(on_shafts).chain(in_cylinders);
@@ -104,15 +107,17 @@ impl Loads {
 
     /// Complex sums of one order, by harmonic and, if wanted, by bank.
     pub fn sums(&self, order: Order, wanted: Wanted) -> Vec<Term<PhasorSum>> {
-        superpose(&Phasors { reference: self.reference }, self, order, wanted)
+        superpose(&Phasors { reference: self.reference }, &self.list, order, wanted)
     }
 
-    /// Σ area × crank radius of the pistons under pressure of each gear, m³.
-    pub fn volumes(&self) -> Vec<f64> {
-        let mut volumes = vec![0.0; self.gears.len()];
+    /// Σ area × crank radius of the pistons under pressure of each gear, m³, and Σ of the magnitudes, of
+    /// which bounds are made.
+    pub fn volumes(&self) -> Vec<PhasorSum<f64>> {
+        let mut volumes = vec![PhasorSum::default(); self.gears.len()];
         for load in &self.list {
             if let Source::Pressure { gear } = load.source {
-                volumes[gear] += load.weight;
+                volumes[gear].value += load.weight;
+                volumes[gear].size += load.weight.abs();
             }
         }
         volumes
@@ -126,13 +131,13 @@ impl Loads {
         orders
     }
 
-    /// Slider-cranks of the gears; none where a spectrum replaces them.
-    pub fn cylinders(&self) -> Vec<Cylinder> {
+    /// Slider-cranks of the gears, by their index; none where a spectrum replaces them.
+    pub fn cylinders(&self) -> Option<Vec<Cylinder>> {
         let cylinder = |gear: &Gear| match gear.kind {
             GearKind::SliderCrank { cylinder, .. } => Some(cylinder),
             GearKind::Given(_) => None,
         };
-        self.gears.iter().filter_map(cylinder).collect()
+        self.gears.iter().map(cylinder).collect()
     }
 
     /// Largest magnitude of the inertia of a rod of this gear beyond that of its two masses, kg·m².

@@ -102,7 +102,7 @@ fn loads_are_pistons_then_crank_unbalances_then_shafts() {
 }
 
 /// The [`engine`] with bores and one cycle, and area times crank radius of each cylinder.
-fn fired(cycle_of: [Option<usize>; 3]) -> (Engine, [f64; 3]) {
+pub(crate) fn fired(cycle_of: [Option<usize>; 3]) -> (Engine, [f64; 3]) {
     let theta_deg: Vec<f64> = (0..72).map(|k| 10.0 * f64::from(k)).collect();
     let pressure = theta_deg.iter().map(|theta| 1e5 * (2.0 + theta.to_radians().cos())).collect();
     let given = Given { name: String::new(), strokes: 4, theta_deg, pressure, degree: None };
@@ -126,9 +126,29 @@ fn volumes_are_of_the_pistons_under_pressure_by_gear() {
     let expected = [swept[0] + swept[2], swept[1]];
     for (found, expected) in loads(&all).volumes().into_iter().zip(expected) {
         // Some roundings of half a unit in the last place.
-        assert!((found - expected).abs() < 1e-15 * expected, "{found} {expected}");
+        assert!((found.value - expected).abs() < 1e-15 * expected, "{found:?} {expected}");
     }
-    assert_eq!(loads(&fired([None, Some(0), None]).0).volumes()[0], 0.0);
+    assert_eq!(loads(&fired([None, Some(0), None]).0).volumes()[0], PhasorSum::default());
+}
+
+/// As of the under side of a piston.
+#[test]
+fn what_acts_the_other_way_has_the_same_sizes() {
+    let (engine, _) = fired([Some(0); 3]);
+    let ahead = loads(&engine);
+    let mut opposite = loads(&engine);
+    opposite.list.iter_mut().for_each(|load| load.weight *= -1.0);
+    for (a, b) in ahead.volumes().into_iter().zip(opposite.volumes()) {
+        assert_eq!((a.value, a.size), (-b.value, b.size));
+    }
+    for order in 1..4 {
+        for (a, b) in sums(&ahead, order, true).iter().zip(sums(&opposite, order, true)) {
+            let sums = [a, &b].map(|term| [term.force, term.moment, [term.roll; 2]]);
+            for (a, b) in sums[0].iter().flatten().zip(sums[1].iter().flatten()) {
+                assert!(a.size == b.size && b.size >= b.value.norm() * (1.0 - 1e-15));
+            }
+        }
+    }
 }
 
 /// Σ area · radius · e^{−inφ} over the cylinders of a gear, φ the firing top dead centre.

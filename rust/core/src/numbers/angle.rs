@@ -186,10 +186,26 @@ impl Angle {
     /// Half the angle.
     #[must_use]
     pub fn half(self) -> Self {
-        let half = self.turns().and_then(|(numerator, denominator)| {
-            turns(numerator.into(), i128::from(denominator) * 2)
+        self.over(2)
+    }
+
+    /// The angle over a whole number that is not zero.
+    #[must_use]
+    pub fn over(self, parts: i32) -> Self {
+        let signed = if parts < 0 { -self } else { self };
+        let part = signed.turns().and_then(|(numerator, denominator)| {
+            turns(numerator.into(), i128::from(denominator) * i128::from(parts.unsigned_abs()))
         });
-        half.unwrap_or_else(|| Self::of_double(self.degrees() / 2.0))
+        part.unwrap_or_else(|| Self::of_double(self.degrees() / f64::from(parts)))
+    }
+
+    /// A whole multiple of the angle.
+    #[must_use]
+    pub fn times(self, count: i32) -> Self {
+        let multiple = self.turns().and_then(|(numerator, denominator)| {
+            turns(i128::from(numerator) * i128::from(count), denominator.into())
+        });
+        multiple.unwrap_or_else(|| Self::of_double(self.degrees() * f64::from(count)))
     }
 
     /// The unit phasor `e^{i·n·angle}`.

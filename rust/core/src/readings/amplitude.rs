@@ -2,7 +2,7 @@
 
 use crate::Complex64;
 use crate::gear::harmonics::rod::TorqueHarmonics;
-use crate::load::{Harmonic, Loads, Source, Wanted};
+use crate::load::{Harmonic, Load, Loads, Phasors, Source, Wanted, superpose};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
@@ -24,41 +24,8 @@ pub(crate) fn wrenches(
     cancel: &Cancel,
 ) -> Result<(Vec<Wrench>, [f64; 2])> {
     let gears = GearHarmonics::new(loads, torque, orders, gas, cancel)?;
-    let unbalanced = loads.unbalance_orders();
-    let wrench = |(k, &order): (usize, &Order)| {
-        cancel.check()?;
-        let mut wrench = Wrench::default();
-        // Odd orders above 1 of pistons without offset are exactly zero.
-        let planar = gears.have_force(k) || unbalanced.contains(&order);
-        for term in loads.sums(order, Wanted { planar, roll: torque, by_bank: false }) {
-            let [on_force, roll, crank] = gears.of(term.harmonic, k);
-            let [force, moment] = term.planar();
-            wrench.force.add_scaled(&force, on_force);
-            wrench.moment.add_scaled(&moment, on_force);
-            let torque = match term.harmonic {
-                Harmonic::Gas(_) => &mut wrench.gas,
-                _ => &mut wrench.inertia,
-            };
-            torque.roll += term.roll.value * roll;
-            torque.crank += term.roll.value * crank;
-            torque.size += term.roll.size * roll.norm().max(crank.norm());
-        }
-        let factor = rounding(loads.list.len(), order.number());
-        let snap = |vector: &Planar| vector.snapped(vector.size * factor);
-        (wrench.force, wrench.moment) = (snap(&wrench.force), snap(&wrench.moment));
-        for torque in [&mut wrench.inertia, &mut wrench.gas] {
-            let bound = torque.size * factor;
-            for phasor in [&mut torque.roll, &mut torque.crank] {
-                *phasor = snapped(*phasor, bound);
-            }
-        }
-        Ok(wrench)
-    };
-    let mut wrenches = memory::room(orders.len())?;
-    for each in orders.iter().enumerate() {
-        wrenches.push(wrench(each)?);
-    }
-    Ok((wrenches, gears.mean(loads)))
+    let wrenches = gears.wrenches(&loads.list, loads.reference, torque, orders, cancel)?;
+    Ok((wrenches, gears.mean(&loads.list)))
 }
 
 /// Harmonics of every gear at some orders.
@@ -93,10 +60,57 @@ impl GearHarmonics {
         Ok(Self { force, torque: torques, gas })
     }
 
-    /// Mean torques of pressure on the block and on the crank.
-    fn mean(&self, loads: &Loads) -> [f64; 2] {
+    /// Wrenches of some of the loads at the orders of these harmonics, about a plane; as [`wrenches`].
+    pub fn wrenches(
+        &self,
+        loads: &[Load],
+        reference: f64,
+        torque: bool,
+        orders: &[Order],
+        cancel: &Cancel,
+    ) -> Result<Vec<Wrench>> {
+        let wrench = |(k, &order): (usize, &Order)| {
+            cancel.check()?;
+            let mut wrench = Wrench::default();
+            // Odd orders above 1 of pistons without offset are exactly zero.
+            let is_unbalanced = |load: &Load| load.unbalance_order() == Some(order);
+            let planar = self.have_force(k) || loads.iter().any(is_unbalanced);
+            let wanted = Wanted { planar, roll: torque, by_bank: false };
+            for term in superpose(&Phasors { reference }, loads, order, wanted) {
+                let [on_force, roll, crank] = self.of(term.harmonic, k);
+                let [force, moment] = term.planar();
+                wrench.force.add_scaled(&force, on_force);
+                wrench.moment.add_scaled(&moment, on_force);
+                let torque = match term.harmonic {
+                    Harmonic::Gas(_) => &mut wrench.gas,
+                    _ => &mut wrench.inertia,
+                };
+                torque.roll += term.roll.value * roll;
+                torque.crank += term.roll.value * crank;
+                torque.size += term.roll.size * roll.norm().max(crank.norm());
+            }
+            let factor = rounding(loads.len(), order.number());
+            let snap = |vector: &Planar| vector.snapped(vector.size * factor);
+            (wrench.force, wrench.moment) = (snap(&wrench.force), snap(&wrench.moment));
+            for torque in [&mut wrench.inertia, &mut wrench.gas] {
+                let bound = torque.size * factor;
+                for phasor in [&mut torque.roll, &mut torque.crank] {
+                    *phasor = snapped(*phasor, bound);
+                }
+            }
+            Ok(wrench)
+        };
+        let mut wrenches = memory::room(orders.len())?;
+        for each in orders.iter().enumerate() {
+            wrenches.push(wrench(each)?);
+        }
+        Ok(wrenches)
+    }
+
+    /// Mean torques of pressure on the block and on the crank, of some of the loads.
+    pub fn mean(&self, loads: &[Load]) -> [f64; 2] {
         let mut mean = [0.0; 2];
-        for load in &loads.list {
+        for load in loads {
             let Source::Pressure { gear } = load.source else { continue };
             let Some(Some((_, of_gear))) = self.gas.get(gear) else { continue };
             mean = [0, 1].map(|k| mean[k] + load.weight * of_gear[k]);

@@ -86,6 +86,18 @@ pub enum Vector {
 }
 
 impl Balance {
+    /// Of wrenches of orders that were given, and mean torques; of this many loads.
+    pub(super) fn of_orders(
+        orders: Vec<Order>,
+        wrenches: Vec<Wrench>,
+        mean: [f64; 2],
+        has_torque: bool,
+        loads: usize,
+    ) -> Self {
+        let (omitted, error_bound) = (Vec::new(), [0.0; 3]);
+        Self { orders, omitted, wrenches, mean, error_bound, has_torque, loads }
+    }
+
     /// Force or moment of the k-th order.
     #[must_use]
     pub fn planar(&self, vector: Vector, k: usize) -> &Planar {

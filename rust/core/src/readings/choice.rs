@@ -174,7 +174,7 @@ pub(crate) fn tail(loads: &Loads, last: Option<&Order>, torque: bool, gears: &[G
         let Source::Piston { gear, second_moment, rod_inertia } = load.source else { continue };
         let [force, masses, rod] = bounds[gear];
         let square = f64::from(load.ratio * load.ratio);
-        let force = times(load.weight, force) * square;
+        let force = times(load.weight.abs(), force) * square;
         sum[0] += force;
         sum[1] += times((load.z - loads.reference).abs(), force);
         if torque {
@@ -201,14 +201,14 @@ pub(crate) fn scales(engine: &Engine, loads: &Loads) -> [f64; 3] {
         let (of_load, of_torque) = match load.source {
             Source::Piston { gear, second_moment, rod_inertia } => match &loads.gears[gear].kind {
                 GearKind::SliderCrank { proportions, .. } => {
-                    (load.weight, second_moment.max(rod_inertia.abs() / proportions.rod))
+                    (load.weight.abs(), second_moment.max(rod_inertia.abs() / proportions.rod))
                 }
                 GearKind::Given(spectrum) => (spectrum.largest(), 0.0),
             },
             Source::Pressure { .. } => continue,
             Source::Unbalance => {
                 let arm = engine.largest_crank_radius().max(load.axis.norm());
-                (load.weight, load.weight * arm)
+                (load.weight.abs(), load.weight.abs() * arm)
             }
         };
         force = force.max(square * of_load);
@@ -255,7 +255,7 @@ impl GasOrders {
         for load in &loads.list {
             let Source::Pressure { gear: k } = load.source else { continue };
             let Some(of_cylinder) = gears[k].largest_gas() else { continue };
-            largest = largest.max(load.weight * of_cylinder);
+            largest = largest.max(load.weight.abs() * of_cylinder);
             if gears[k].pressure.as_ref().is_some_and(|p| p.cycle.strokes() == Strokes::Four) {
                 step = 1;
             }
@@ -270,7 +270,7 @@ impl GasOrders {
             for (gear, weight) in gears.iter().zip(&volumes) {
                 let found = gear.gas_up_to(Order::whole(highest)?, cancel)?;
                 torques.push(found.map(|(torque, of_gear)| {
-                    let own = of_gear.into_iter().map(|tail| times(*weight, tail));
+                    let own = of_gear.into_iter().map(|tail| times(weight.size, tail));
                     tails.iter_mut().zip(own).for_each(|(sum, tail)| *sum += tail);
                     torque
                 }));
@@ -316,6 +316,24 @@ mod tests {
         assert_eq!(share([0.0, 0.0], 0), 0.0);
         assert_eq!(share([0.002, -0.008], 0), 0.002);
         assert_eq!(share([0.002, -0.008], 1), 0.0);
+    }
+
+    #[test]
+    fn loads_that_act_the_other_way_are_bounded_alike() {
+        let engine = crate::load::tests::fired([Some(0); 3]).0;
+        let ahead = Loads::new(&engine, 0.0);
+        let mut opposite = Loads::new(&engine, 0.0);
+        opposite.list.iter_mut().for_each(|load| load.weight *= -1.0);
+        let last = Order::whole(4).unwrap();
+        let bounds = |loads: &Loads| {
+            let gas = GasOrders::new(0.1, loads, &loads.gears, FIRST_OF_GAS, &Cancel::new());
+            let gas = gas.unwrap();
+            let inertia = tail(loads, Some(&last), true, &loads.gears);
+            (inertia, scales(&engine, loads), gas.tail, gas.allowed)
+        };
+        let found = bounds(&opposite);
+        assert_eq!(bounds(&ahead), found);
+        assert!(found.0.iter().all(|&bound| bound > 0.0) && found.2 > 0.0 && found.3 > 0.0);
     }
 
     #[test]

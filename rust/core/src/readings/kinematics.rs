@@ -6,7 +6,7 @@ use std::ops::Range;
 use crate::Complex64;
 use crate::gear::rod::Swing;
 use crate::gear::slider_crank::{CrankPosition, Cylinder, Proportions};
-use crate::gear::{Gear, Pressure};
+use crate::gear::{Gear, GearKind, Pressure};
 use crate::load::{Loads, Source, found_or};
 use crate::numbers::angle::Angle;
 use crate::numbers::crank_angles::CrankAngles;
@@ -93,7 +93,11 @@ impl Kinematics {
         let (mut pistons, mut unbalances) = (Vec::<Pistons>::new(), Vec::<Unbalances>::new());
         let mut pressures = Vec::<Pressures>::new();
         let mut zero_bounds = [0.0; 2];
-        let cylinders = loads.cylinders();
+        // Of a force that was given no motion is known.
+        let slider_crank = |gear: usize| match loads.gears[gear].kind {
+            GearKind::SliderCrank { cylinder, .. } => Some(cylinder),
+            GearKind::Given(_) => None,
+        };
         for load in &loads.list {
             let ratio = load.ratio;
             let square = f64::from(ratio * ratio);
@@ -109,10 +113,11 @@ impl Kinematics {
             }
             match load.source {
                 Source::Piston { gear, second_moment, rod_inertia } => {
+                    let Some(cylinder) = slider_crank(gear) else { continue };
                     let same = |p: &Pistons| p.gear == gear && p.tdc == load.phase;
                     let sum = found_or(&mut pistons, same, || Pistons {
                         gear,
-                        cylinder: cylinders[gear],
+                        cylinder,
                         ratio,
                         senses: loads.gears[gear].senses(),
                         tdc: load.phase,
@@ -140,12 +145,13 @@ impl Kinematics {
                     sum.roll += load.axis.conj() * force;
                 }
                 Source::Pressure { gear } => {
+                    let Some(cylinder) = slider_crank(gear) else { continue };
                     let same = |p: &Pressures| (p.gear_index, p.firing) == (gear, load.phase);
                     let sum = found_or(&mut pressures, same, || Pressures {
                         gear_index: gear,
                         firing: load.phase,
                         gear: loads.gears[gear].clone(),
-                        proportions: cylinders[gear].proportions(),
+                        proportions: cylinder.proportions(),
                         // Its phase is half of it.
                         firing_deg: 2.0 * load.phase.degrees(),
                         phase: load.phase.cis(-2),

@@ -10,5 +10,6 @@ pub mod internal;
 mod kinematics;
 pub mod peaks;
 pub mod sweep;
+pub mod terms;
 pub mod tolerances;
 pub mod waveform;

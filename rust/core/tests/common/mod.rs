@@ -168,8 +168,8 @@ pub fn turning(balance: &Balance, vector: Vector) -> Vec<[Complex64; 2]> {
 /// Force x, y, moment x, y, roll and crank torque over ω²; and the sizes of their terms.
 pub fn kinematics(engine: &Engine, reference: f64, θ: f64) -> ([f64; 6], [f64; 6]) {
     let (mut sums, mut sizes) = ([0.0; 6], [0.0; 6]);
-    for p in engine.stations() {
-        let (c, bank, pin) = (p.cylinder, p.bank.cis(1), p.pin().degrees().to_radians());
+    for (i, p) in engine.stations().iter().enumerate() {
+        let (c, bank, pin) = (p.cylinder, p.bank.cis(1), engine.pin(i).degrees().to_radians());
         let (r, lever) = (c.crank_radius(), p.z - reference);
         let (sin, cos) = (θ - p.tdc.degrees().to_radians()).sin_cos();
         // x = cos θ + h with h² = (l/r)² − u², u = sin θ − e/r, in radii.
@@ -217,7 +217,7 @@ pub fn kinematics(engine: &Engine, reference: f64, θ: f64) -> ([f64; 6], [f64; 
         }
     };
     for weight in engine.counterweights() {
-        let pin = weight.pin.map_or(Angle::ZERO, |i| engine.stations()[i].pin());
+        let pin = weight.pin.map_or(Angle::ZERO, |i| engine.pin(i));
         let turned = pin.degrees().to_radians() + weight.angle.degrees().to_radians() + θ;
         add(Complex64::cis(turned) * weight.amount, weight.z, [0.0; 2]);
     }

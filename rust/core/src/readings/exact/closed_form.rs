@@ -152,12 +152,16 @@ pub fn closed_form(
     if order.as_whole().is_none() {
         return Err(refused("order", order, "a whole order: inertia has no others"));
     }
-    let mut loads = super::loads(engine, reference_z)?;
-    if loads.gears.len() > 1 {
+    let (mut loads, cylinders) = super::loads(engine, reference_z)?;
+    if loads.gears.iter().any(|gear| gear.ratio.abs() != 1) {
+        let hint = "cylinders on cranks as fast as the main one";
+        return Err(refused("cranks", "of different speeds", hint));
+    }
+    if cylinders.len() > 1 {
         return Err(refused("cylinders", "of different proportions", "rods and offsets alike"));
     }
     loads.list.retain(|load| load.unbalance_order().is_none_or(|of| of == order));
-    let offset = loads.cylinders()[0].pin_offset();
+    let offset = cylinders[0].pin_offset();
     let (unit, weights) = weights(&loads.list, cancel)?;
     if loads.list.len() > engine.stations().len() {
         if order > Order::FIRST {
@@ -225,7 +229,7 @@ fn sums(
 ) -> Result<(i128, [RootSum; 2])> {
     let (weights, measure) = whole(products)?;
     let wanted = Wanted { planar: true, roll: false, by_bank: false };
-    let terms = superpose(&FormalSum::new(loads, cancel)?, loads, order, wanted);
+    let terms = superpose(&FormalSum::new(loads, cancel)?, &loads.list, order, wanted);
     let of = |side: usize| -> Result<Vec<(i128, i128, i128)>> {
         let shares =
             terms.iter().flat_map(|t| if moment { &t.moment[side] } else { &t.force[side] });

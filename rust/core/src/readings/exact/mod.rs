@@ -58,22 +58,30 @@ impl TypedProportions {
     }
 }
 
-/// All loads; pistons share a gear where their proportions are equal as typed, though quotients of
-/// doubles may differ.
-fn loads(engine: &Engine, reference: Option<f64>) -> Result<Loads> {
-    engine.check_one_crank("an exact sum")?;
+/// All loads, and the slider-cranks of their gears; pistons share a gear where their proportions are equal
+/// as typed, though quotients of doubles may differ, and their cranks turn as fast, in either sense: offsets
+/// are on the side to which the crankpin swings.
+fn loads(engine: &Engine, reference: Option<f64>) -> Result<(Loads, Vec<Cylinder>)> {
     let mut loads = Loads::new(engine, engine.reference(reference)?);
     // Pressure is no rational multiple of anything.
     loads.list.retain(|load| !matches!(load.source, Source::Pressure { .. }));
-    let same = first_equal(loads.cylinders().iter().map(TypedProportions::of));
+    let Some(mut cylinders) = loads.cylinders() else {
+        let reason = "its forces are a spectrum that was given".to_owned();
+        return Err(Error::Undefined { argument: "an exact sum", reason });
+    };
+    let speeds = loads.gears.iter().map(|gear| gear.ratio.abs());
+    let same = first_equal(cylinders.iter().map(TypedProportions::of).zip(speeds));
     for load in &mut loads.list {
         if let Source::Piston { gear, .. } = &mut load.source {
             *gear = same[*gear];
         }
     }
+    let is_first = |i: usize| !same[..i].contains(&same[i]);
     let mut index = 0..;
-    loads.gears.retain(|_| index.next().is_some_and(|i| !same[..i].contains(&same[i])));
-    Ok(loads)
+    loads.gears.retain(|_| index.next().is_some_and(is_first));
+    let mut index = 0..;
+    cylinders.retain(|_| index.next().is_some_and(is_first));
+    Ok((loads, cylinders))
 }
 
 /// Levers of all loads, each a sum of rational multiples of few units of length.

@@ -63,22 +63,26 @@ impl Stars {
         Ok(Self { fire, halves, weights, multiples, groups })
     }
 
-    /// Of the gas of an engine, as it fires if it has no cycles: alike are cylinders of equal radius,
-    /// rod, offset, bore and cycle.
+    /// Of the roll torque of the gas of an engine, as it fires if it has no cycles: alike are cylinders of
+    /// equal radius, rod, offset, bore and cycle on cranks of one speed; the torque of one that turns
+    /// against the main crank has the opposite sign.
     pub fn of_gas(engine: &Engine, firing: Option<&Firing>, cancel: &Cancel) -> Result<Self> {
         let gas = engine.gas();
         let phases = || (0..engine.stations().len()).map(|i| engine.firing_phase(i)).collect();
         let fire = firing.filter(|_| gas.is_none()).map_or_else(phases, Firing::phases);
         let cycle_of = |i: usize| gas.map_or(Some(0), |gas| gas.cycle_of[i]);
+        let ratio = |i: usize| engine.cranks()[engine.crank_of(i)].ratio;
         let sizes = |(i, place): (usize, &Station)| {
             let gear = &place.cylinder;
             let sizes = [gear.crank_radius(), gear.rod_length(), gear.pin_offset().abs()];
-            (sizes, engine.details()[i].bore, cycle_of(i))
+            (sizes, engine.details()[i].bore, cycle_of(i), ratio(i).abs())
         };
         let groups = first_equal(engine.stations().iter().enumerate().map(sizes)).into_iter();
         let mirrored = engine.stations().iter().map(|place| place.cylinder.pin_offset() < 0.0);
         let groups: Vec<_> = groups.zip(mirrored).collect();
-        let weights = (0..groups.len()).map(|i| f64::from(u8::from(cycle_of(i).is_some())));
+        let fired =
+            |i: usize| if cycle_of(i).is_some() { f64::from(ratio(i).signum()) } else { 0.0 };
+        let weights = (0..groups.len()).map(fired);
         Self::new(fire, weights.collect(), groups, cancel)
     }
 

@@ -169,7 +169,7 @@ impl Proof {
         }
         Ok(match &left[..] {
             [] => Verdict::Vanishes,
-            [(symbol, _)] if self.is_nonzero(symbol.channel, order, torque, view, cancel)? => {
+            [(symbol, _)] if self.is_nonzero(symbol.channel, order, view, cancel)? => {
                 Verdict::Remains
             }
             [_, _] if order == Order::FIRST && !torque && self.balanced_angle(&left, order)? => {
@@ -234,27 +234,27 @@ impl Proof {
         &self,
         channel: Channel,
         order: Order,
-        torque: bool,
         view: View,
         cancel: &Cancel,
     ) -> Result<bool> {
-        use Channel::{Gear, Masses, OddOfGear, OddOfMasses, OddOfRod, One, Rod};
-        let (cylinder, [masses, inertia]) = match channel {
+        use Channel::{Force, Gear, Masses, OddOfGear, OddOfMasses, OddOfRod, One, Rod};
+        let of_motion = |motion: usize| (self.motions[motion], self.own_order(motion, order));
+        let ((cylinder, own), [masses, inertia]) = match channel {
             One => return Ok(true),
-            Masses(motion) | OddOfMasses(motion) => (self.motions[motion], [1.0, 0.0]),
-            Rod(motion) | OddOfRod(motion) => (self.motions[motion], [0.0, 1.0]),
+            Force(motion) | Masses(motion) | OddOfMasses(motion) => (of_motion(motion), [1.0, 0.0]),
+            Rod(motion) | OddOfRod(motion) => (of_motion(motion), [0.0, 1.0]),
             Gear(gear) | OddOfGear(gear) => {
-                let gear = self.gears[gear];
-                (gear, [gear.second_moment(), gear.rod_inertia_excess()])
+                let (gear, speed) = self.gears[gear];
+                let weights = [gear.second_moment(), gear.rod_inertia_excess()];
+                ((gear, order.halves() / 2 / speed), weights)
             }
         };
+        let torque = !matches!(channel, Force(_));
         let centred = cylinder.pin_offset() == 0.0;
-        if (centred && inertia == 0.0 && masses != 0.0)
-            || (!torque && order == Order::FIRST && !view.parts)
-        {
+        if (centred && inertia == 0.0 && masses != 0.0) || (!torque && own == 1 && !view.parts) {
             return Ok(true);
         }
-        let (proportions, own) = (cylinder.proportions(), order.halves() / 2);
+        let proportions = cylinder.proportions();
         let terms = if torque {
             let of_masses = harmonics::torque::torque(&proportions, &[own], cancel)?.roll[0];
             let of_rod = harmonics::rod::torque(&proportions, &[own], cancel)?.roll[0];
@@ -267,13 +267,13 @@ impl Proof {
         let value = match (view.parts, channel) {
             (false, _) => value.norm(),
             (true, OddOfMasses(_) | OddOfRod(_) | OddOfGear(_)) => value.re.abs(),
-            (true, _) if torque || order.is_odd() => value.im.abs(),
+            (true, _) if torque || own % 2 == 1 => value.im.abs(),
             (true, _) => value.re.abs(),
         };
         // p₂ of l/r and e/r.
         let reach = proportions.rod - proportions.offset.abs();
         let root = 1.0 / (reach + (reach * reach - 1.0).max(0.0).sqrt());
-        let n = order.number();
+        let n = f64::from(own);
         let made_of = n * n * root.powf(n - 2.0) * (masses + inertia.abs());
         Ok(value > 1e-12 * made_of && value > 1e-9 * (terms[0].norm() + terms[1].norm()))
     }
@@ -301,10 +301,13 @@ impl Proof {
         if self.roots.directions[cylinders..].iter().any(|direction| direction.symbol > 0) {
             found.push("angles of unbalances that are no simple part of a turn".to_owned());
         }
-        if self.motions.len() > 1 {
+        let speed = |motion: usize| self.loads.gears[motion].ratio.unsigned_abs();
+        if (0..self.motions.len()).any(|motion| speed(motion) != speed(0)) {
+            found.push("cranks of different speeds".to_owned());
+        } else if self.motions.len() > 1 {
             found.push("slider-cranks of different proportions".to_owned());
         }
-        let inertia = |gear: &Cylinder| gear.rod_inertia_excess();
+        let inertia = |(gear, _): &(Cylinder, u32)| gear.rod_inertia_excess();
         if self.gears.iter().any(|gear| inertia(gear) != inertia(&self.gears[0])) {
             found.push("rods of different moments of inertia".to_owned());
         }
@@ -317,10 +320,13 @@ impl Proof {
                 found
                     .push("unbalances of orders above 1, no rational multiples of pistons'".into());
             }
-            let beside = |load: &Load| load.axis != Complex64::default();
-            if self.loads.list.iter().any(beside) {
-                found.push("roll torques of shafts, no rational multiples of pistons'".to_owned());
-            }
+        }
+        let beside = |load: &Load| load.axis != Complex64::default();
+        if self.loads.list[cylinders..].iter().any(beside) {
+            found.push("roll torques of shafts, no rational multiples of pistons'".to_owned());
+        }
+        if self.loads.list[..cylinders].iter().any(beside) {
+            found.push("roll torques of forces on cranks beside the main one".to_owned());
         }
         let mut units: Vec<usize> =
             self.levers.of.iter().flatten().map(|&(unit, _)| unit).collect();
@@ -335,7 +341,7 @@ impl Proof {
                 "pin offsets: harmonics with no rational relation to what rotates".to_owned(),
             );
         }
-        if found.is_empty() && self.gears.iter().any(Cylinder::has_rod_inertia) {
+        if found.is_empty() && self.gears.iter().any(|(gear, _)| gear.has_rod_inertia()) {
             found.push("rod inertia: its torque nearly cancels that of the masses".to_owned());
         }
         found
@@ -434,7 +440,7 @@ fn evaluated(
     let loads = Loads::new(engine, engine.reference(reference_z)?);
     let volumes = loads.volumes().into_iter().zip(&loads.gears);
     let largest: f64 =
-        volumes.filter_map(|(volume, gear)| Some(volume * gear.largest_gas()?)).sum();
+        volumes.filter_map(|(volume, gear)| Some(volume.size * gear.largest_gas()?)).sum();
     let zero = |k: usize| {
         let of = |vector: Vector| {
             let [x, y] = found.xy(vector, k);

@@ -147,7 +147,8 @@ impl Sweep {
             let mut tail = 0.0;
             for (gear, volume) in loads.gears.iter().zip(&volumes) {
                 let found = self.at_point(gear, point)?.gas_up_to(last, cancel)?;
-                tail += volume * found.and_then(|(_, tails)| tails.last().copied()).unwrap_or(0.0);
+                tail +=
+                    volume.size * found.and_then(|(_, tails)| tails.last().copied()).unwrap_or(0.0);
             }
             worst = worst.max(tail);
         }

@@ -160,7 +160,7 @@ impl Sweep {
                 let mut mean = 0.0;
                 for (gear, volume) in loads.gears.iter().zip(&volumes) {
                     let (_, of_gear) = self.at_point(gear, point)?.gas(&[], None, cancel)?;
-                    mean += volume * of_gear[usize::from(on_crank)];
+                    mean += volume.value * of_gear[usize::from(on_crank)];
                 }
                 means.push(mean);
             }

@@ -169,7 +169,7 @@ impl Terms {
             cancel.check()?;
             let arithmetic = Samples { loads: &loads, k, phasors: Phasors { reference } };
             let mut sums = SampleSums { force: [ZEROS; 2], moment: [ZEROS; 2], torque: [ZEROS; 2] };
-            for term in superpose(&arithmetic, &self.loads, order, wanted) {
+            for term in superpose(&arithmetic, &self.loads.list, order, wanted) {
                 // Empty where nothing was added: an unbalance turns one way.
                 let planar = sums.force.iter_mut().chain(&mut sums.moment);
                 for (sum, part) in planar.zip(term.force.iter().chain(&term.moment)) {

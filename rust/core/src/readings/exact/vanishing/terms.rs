@@ -6,7 +6,7 @@ use num_traits::CheckedMul;
 use super::super::roots::{FormalSum, PartOfTurn, Share, SymbolEntry, parts_of_turn};
 use super::super::{Levers, TypedProportions, too_long};
 use super::ProofQuantity;
-use crate::engine::{Engine, first_equal};
+use crate::engine::{Engine, distinct, first_equal};
 use crate::gear::slider_crank::Cylinder;
 use crate::load::{self, Harmonic, Load, Loads, Source, Wanted, superpose};
 use crate::numbers::cancel::Cancel;
@@ -20,7 +20,9 @@ pub(super) enum Channel {
     /// 1: the first order of pistons without offset, and unbalances.
     #[default]
     One,
-    /// Of the masses of a motion.
+    /// Of the force of a motion.
+    Force(usize),
+    /// Torque of the masses of a motion.
     Masses(usize),
     OddOfMasses(usize),
     /// Torque of the rod inertia of a motion.
@@ -41,7 +43,7 @@ pub(super) enum SymbolWeights {
     Masses,
     /// Rod inertia, kg·m².
     Rod,
-    /// Unbalance times x or y of the shaft's axis, kg·m².
+    /// m·r or unbalance times x or y of the axis of its crank or shaft, kg·m².
     Arm,
     /// 1.
     Gear,
@@ -88,7 +90,7 @@ pub(super) type SymbolSums = Vec<load::Term<Vec<Share>>>;
 /// Everything about an engine that does not depend on the order.
 pub(super) struct Proof {
     pub loads: Loads,
-    /// A slider-crank of each gear.
+    /// A slider-crank of each gear, of proportions and speed of a crank.
     pub motions: Vec<Cylinder>,
     pub roots: FormalSum,
     /// Directions, equal ones by one symbol.
@@ -101,14 +103,15 @@ pub(super) struct Proof {
     pub levers: Levers,
     /// For each motion the first of its size but for the sign of the offset.
     mirrored: Vec<usize>,
-    pub gears: Vec<Cylinder>,
+    /// Running gears that differ, each with the speed of its crank, whichever its sense.
+    pub gears: Vec<(Cylinder, u32)>,
     /// Running gear of each cylinder, and the first of its size but for the sign of the offset.
     pub gear_of: Vec<(usize, usize)>,
 }
 
 impl Proof {
     pub fn new(engine: &Engine, reference: Option<f64>, cancel: &Cancel) -> Result<Self> {
-        let loads = super::super::loads(engine, reference)?;
+        let (loads, motions) = super::super::loads(engine, reference)?;
         let levers = Levers::new(engine, &loads, reference, cancel)?;
         let weights = |of: &dyn Fn(&Load) -> f64| {
             Multiples::new(&loads.list.iter().map(of).collect::<Vec<_>>(), cancel)
@@ -117,23 +120,23 @@ impl Proof {
             Source::Piston { second_moment, rod_inertia, .. } => of(second_moment, rod_inertia),
             _ => 0.0,
         };
-        let arms = loads.list.iter().flat_map(|load| match load.source {
-            Source::Unbalance => [load.weight * load.axis.re, load.weight * load.axis.im],
-            _ => [0.0; 2],
-        });
+        let arms = loads.list.iter();
+        let arms = arms.flat_map(|load| [load.axis.re, load.axis.im].map(|arm| load.weight * arm));
         let bores = loads.list.iter().map(|load| load.direction);
-        let motions = loads.cylinders();
+        let speeds = loads.gears.iter().map(|gear| gear.ratio.unsigned_abs());
         let sizes = motions.iter().map(|motion| TypedProportions::of(motion).mirrored());
-        let gears = engine.gears().to_vec();
-        let of_gear = first_equal(gears.iter().map(|gear| {
+        let driven = |i: usize| {
+            let crank = engine.cranks()[engine.crank_of(i)];
+            (engine.gears()[engine.gear_of(i)], crank.ratio.unsigned_abs())
+        };
+        let (gears, of_cylinder) = distinct((0..engine.stations().len()).map(driven));
+        let of_gear = first_equal(gears.iter().map(|(gear, speed)| {
             let inertia = gear.rod_inertia_excess();
             let offset = gear.pin_offset().abs();
-            [gear.crank_radius(), gear.rod_length(), offset, gear.reciprocating_mass(), inertia]
+            let mass = gear.reciprocating_mass();
+            ([gear.crank_radius(), gear.rod_length(), offset, mass, inertia], *speed)
         }));
-        let gear_of = (0..engine.stations().len()).map(|i| {
-            let gear = engine.gear_of(i);
-            (gear, of_gear[gear])
-        });
+        let gear_of = of_cylinder.into_iter().map(|gear| (gear, of_gear[gear]));
         Ok(Self {
             roots: FormalSum::new(&loads, cancel)?,
             bores: parts_of_turn(bores, false, cancel)?,
@@ -142,7 +145,7 @@ impl Proof {
             rods: weights(&|load| piston(load, |_, rod_inertia| rod_inertia))?,
             arms: Multiples::new(&arms.collect::<Vec<_>>(), cancel)?,
             levers,
-            mirrored: first_equal(sizes),
+            mirrored: first_equal(sizes.zip(speeds)),
             motions,
             gear_of: gear_of.collect(),
             gears,
@@ -152,21 +155,27 @@ impl Proof {
 
     pub fn sums(&self, order: Order) -> SymbolSums {
         let wanted = Wanted { planar: true, roll: true, by_bank: false };
-        superpose(&self.roots, &self.loads, order, wanted)
+        superpose(&self.roots, &self.loads.list, order, wanted)
+    }
+
+    /// Multiple of the speed of its own crank that an order is for a motion.
+    pub fn own_order(&self, motion: usize, order: Order) -> u32 {
+        order.halves() / 2 / self.loads.gears[motion].ratio.unsigned_abs()
     }
 
     /// Channels of a piston's force and their signs; none where its harmonic is zero.
     fn force_channels(&self, motion: usize, order: Order, view: View) -> Vec<(Channel, i128)> {
-        use Channel::{Masses, One};
-        let (mirrored, odd) = (self.mirrored[motion], order.is_odd());
+        use Channel::{Force, One};
+        let own = self.own_order(motion, order);
+        let (mirrored, odd) = (self.mirrored[motion], own % 2 == 1);
         let offset = self.motions[motion].pin_offset();
         let sign = offset.signum() as i128;
-        match (offset == 0.0, order == Order::FIRST, view.parts) {
+        match (offset == 0.0, own == 1, view.parts) {
             (true, true, _) => vec![(One, 1)],
             (true, _, _) if odd => vec![],
-            (_, true, true) => vec![(One, 1), (Masses(mirrored), sign)],
-            (_, _, false) => vec![(Masses(motion), 1)],
-            (_, _, true) => vec![(Masses(mirrored), if odd { sign } else { 1 })],
+            (_, true, true) => vec![(One, 1), (Force(mirrored), sign)],
+            (_, _, false) => vec![(Force(motion), 1)],
+            (_, _, true) => vec![(Force(mirrored), if odd { sign } else { 1 })],
         }
     }
 
@@ -174,17 +183,22 @@ impl Proof {
     /// its size.
     fn torque_channels(
         &self,
-        motion: usize,
+        (motion, load): (usize, usize),
         view: View,
         [whole, odd]: [fn(usize) -> Channel; 2],
         (own, mirrored): (usize, usize),
     ) -> Vec<(Channel, i128)> {
         let offset = self.motions[motion].pin_offset();
+        // A crank that turns the other way mirrors the torque on the block.
+        let sense = i128::from(self.loads.list[load].ratio.signum());
         // T(θ) of an offset is −T(−θ) of the opposite one: sines are even in it.
         match (view.parts, offset == 0.0) {
-            (false, _) => vec![(whole(own), 1)],
-            (true, true) => vec![(whole(mirrored), 1)],
-            (true, false) => vec![(whole(mirrored), 1), (odd(mirrored), offset.signum() as i128)],
+            (false, _) => vec![(whole(own), sense)],
+            (true, true) => vec![(whole(mirrored), sense)],
+            (true, false) => {
+                let sign = offset.signum() as i128;
+                vec![(whole(mirrored), sense), (odd(mirrored), sense * sign)]
+            }
         }
     }
 
@@ -202,18 +216,19 @@ impl Proof {
             Harmonic::Force(motion) => self.force_channels(motion, order, view),
             Harmonic::Torque(motion) if view.gears => {
                 let named = [Channel::Gear, Channel::OddOfGear];
-                self.torque_channels(motion, view, named, self.gear_of[share.load])
+                let of_gear = self.gear_of[share.load];
+                self.torque_channels((motion, share.load), view, named, of_gear)
             }
             Harmonic::Torque(motion) => {
                 let named = [Channel::Masses, Channel::OddOfMasses];
-                self.torque_channels(motion, view, named, both(motion))
+                self.torque_channels((motion, share.load), view, named, both(motion))
             }
             // In that of the gear; gas is not among these loads.
             Harmonic::Rod(_) if view.gears => vec![],
             Harmonic::Gas(_) => vec![],
             Harmonic::Rod(motion) => {
                 let named = [Channel::Rod, Channel::OddOfRod];
-                self.torque_channels(motion, view, named, both(motion))
+                self.torque_channels((motion, share.load), view, named, both(motion))
             }
         }
     }

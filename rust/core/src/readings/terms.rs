@@ -1,0 +1,50 @@
+//! What each part of an engine adds to an order: forward, backward, roll and the bound of its rounding.
+//!
+//! A balance is the sum of these: both superpose the one list of loads, this reading the loads of each
+//! part apart.
+
+use super::amplitude::GearHarmonics;
+use super::balance::{Balance, Request, angular_speed};
+use crate::engine::{Engine, Origin};
+use crate::load::{Load, Loads};
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::Result;
+use crate::numbers::limits;
+use crate::numbers::order::{self, Order};
+use crate::wrench::Wrench;
+
+/// The terms of an engine at some orders, of each part with what it adds: cylinders, counterweights,
+/// shafts.
+///
+/// Moments are about the plane of the request, and the roll torque about the point `aside`, x and y from
+/// the axis of the main crank, m.
+pub fn terms(
+    engine: &Engine,
+    request: &Request,
+    aside: [f64; 2],
+    orders: &[Order],
+    cancel: &Cancel,
+) -> Result<Vec<(Origin, Balance)>> {
+    order::check_list(orders)?;
+    let [x, y] = aside;
+    for (name, place) in [("x", x), ("y", y)] {
+        limits::finite(name, place)?;
+    }
+    let omega = angular_speed(request.rpm)?;
+    let torque = request.torque && engine.spectrum().is_none();
+    let loads = Loads::new(engine, engine.reference(request.reference_z)?);
+    let gears = GearHarmonics::new(&loads, torque, orders, &[], cancel)?;
+    let count = |origin: fn(usize) -> Origin, count: usize| (0..count).map(origin);
+    let parts = count(Origin::Cylinder, engine.stations().len())
+        .chain(count(Origin::Counterweight, engine.counterweights().len()))
+        .chain(count(Origin::Shaft, engine.shafts().len()));
+    let of_part = |origin: Origin| {
+        let own: Vec<Load> = loads.list.iter().filter(|l| l.origin == origin).copied().collect();
+        let wrenches = gears.wrenches(&own, loads.reference, torque, orders, cancel)?;
+        let there = |wrench: &Wrench| wrench.at_speed(omega * omega).moved([x, y, 0.0]);
+        let wrenches = wrenches.iter().map(there).collect();
+        let mean = gears.mean(&own);
+        Ok((origin, Balance::of_orders(orders.to_vec(), wrenches, mean, torque, own.len())))
+    };
+    parts.map(of_part).collect()
+}

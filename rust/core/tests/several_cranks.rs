@@ -1,0 +1,200 @@
+//! Laws of engines with several cranks, random ones.
+
+mod common;
+
+use common::angle;
+use common::random::{angles, cylinders, weighted};
+use crankpin_core::balance::{Balance, Request, TorquePart, Vector};
+use crankpin_core::engine::Origin;
+use crankpin_core::exact::vanishing::{QUANTITIES, Verdict, vanishing};
+use crankpin_core::{
+    Cancel, Complex64, Crank, Cylinder, Engine, Order, Orders, Station, Unbalance, balance, terms,
+};
+use proptest::prelude::*;
+use proptest::sample::select;
+
+const REQUEST: Request = Request { rpm: 3000.0, reference_z: Some(0.07), torque: true };
+
+fn orders() -> Vec<Order> {
+    Order::all_whole(&[1, 2, 3, 4, 6]).unwrap()
+}
+
+fn of(engine: &Engine) -> Balance {
+    balance::balance(engine, &REQUEST, &Orders::Given(orders()), &Cancel::new()).unwrap()
+}
+
+/// Cylinders on one to three cranks of either sense, some of them without cylinders.
+fn engines() -> impl Strategy<Value = Engine> {
+    let crank = (select(vec![1, -1, 2, -2]), [-0.3..0.3, -0.3..0.3]);
+    let crank = crank.prop_map(|(ratio, axis)| Crank { axis, ratio });
+    let place = (cylinders(true), angles(), angles(), -0.5..0.5, 0.0..2.0, 0_usize..3);
+    let lists = (proptest::collection::vec(crank, 1..3), proptest::collection::vec(place, 1..7));
+    lists.prop_map(|(others, places)| {
+        let cranks: Vec<Crank> = std::iter::once(Crank::MAIN).chain(others).collect();
+        let on = places.iter().map(|place| place.5 % cranks.len()).collect();
+        let stations = places.into_iter().map(|(cylinder, tdc, bank, z, rotating_mass, _)| {
+            Station { cylinder, tdc, bank, z, rotating_mass }
+        });
+        Engine::new("", "", stations.collect()).unwrap().with_cranks(cranks, on).unwrap()
+    })
+}
+
+/// Phasors of an order: forward and backward of force and moment, roll and torque on the crank.
+fn phasors(balance: &Balance, k: usize) -> [Complex64; 6] {
+    let [force, moment] = [Vector::Force, Vector::Moment].map(|v| *balance.planar(v, k));
+    let torque = balance.torque(TorquePart::Whole, k);
+    let turning = [force.forward, force.backward(), moment.forward, moment.backward()];
+    let [a, b, c, d] = turning;
+    [a, b, c, d, torque.roll, torque.crank]
+}
+
+/// Bounds of the rounding of the same.
+fn bounds(balance: &Balance, k: usize) -> [f64; 6] {
+    let [force, moment] = [Vector::Force, Vector::Moment].map(|v| balance.zero_bound(v, k));
+    let torque = balance.torque_zero_bound(TorquePart::Whole, k);
+    [force, force, moment, moment, torque, torque]
+}
+
+#[test]
+fn a_crankpin_points_along_its_bore_at_top_dead_centre_whichever_way_it_turns() {
+    for (ratio, pin) in [(1, 60.0), (-1, 120.0), (2, 30.0), (-2, 150.0)] {
+        let crank = Crank { axis: [0.1, 0.0], ratio };
+        assert_eq!(crank.pin(angle(90.0), angle(30.0)), angle(pin), "{ratio}");
+        assert_eq!(crank.tdc(angle(90.0), angle(pin)), angle(30.0), "{ratio}");
+    }
+}
+
+#[test]
+fn cylinders_on_two_cranks_share_no_crankpin_nor_throw() {
+    let cylinder = Cylinder::new(0.04, 0.13, 0.6, 0.0).unwrap();
+    let at = |bank: f64| Station {
+        cylinder,
+        tdc: angle(bank),
+        bank: angle(bank),
+        z: 0.0,
+        rotating_mass: 0.0,
+    };
+    let engine = Engine::new("", "", vec![at(60.0), at(120.0)]).unwrap();
+    let beside = Crank { axis: [0.2, 0.0], ratio: 1 };
+    let apart = engine.with_cranks(vec![Crank::MAIN, beside], vec![0, 1]).unwrap();
+    let pins = |engine: &Engine| -> Vec<(usize, Vec<usize>)> {
+        engine.throws().into_iter().flatten().map(|pin| (pin.crank, pin.cylinders)).collect()
+    };
+    assert_eq!(pins(&engine), [(0, vec![0, 1])]);
+    assert_eq!(pins(&apart), [(0, vec![0]), (1, vec![1])]);
+    // Throws and bearings along the main crank are of what is on it.
+    assert_eq!(apart.throw_places().len(), 1);
+    assert_eq!(apart.throw_places()[0].cylinders, [0]);
+    let none = engine.with_cranks(vec![Crank::MAIN, beside], vec![1, 1]).unwrap();
+    assert!(none.throw_places().is_empty() && none.bearings().is_empty());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(192))]
+
+    #[test]
+    fn a_mass_on_a_crankpin_pulls_along_it(engine in engines(), cylinder in 0_usize..6) {
+        let cylinder = cylinder % engine.stations().len();
+        let still: Vec<Station> =
+            engine.stations().iter().map(|p| Station { rotating_mass: 0.0, ..*p }).collect();
+        let on: Vec<usize> = (0..still.len()).map(|i| engine.crank_of(i)).collect();
+        let still = Engine::new("", "", still).unwrap();
+        let still = still.with_cranks(engine.cranks().to_vec(), on).unwrap();
+        let weight = Unbalance { amount: 0.1, angle: angle(0.0), z: 0.0, pin: Some(cylinder) };
+        let laden = still.with_counterweights(vec![weight]).unwrap();
+        let ratio = engine.cranks()[engine.crank_of(cylinder)].ratio;
+        let k = orders().iter().position(|o| o.as_whole() == Some(ratio.unsigned_abs())).unwrap();
+        let side = usize::from(ratio < 0);
+        let added = phasors(&of(&laden), k)[side] - phasors(&of(&still), k)[side];
+        let square = (3000.0 * std::f64::consts::TAU / 60.0).powi(2) * f64::from(ratio * ratio);
+        let expected = engine.pin(cylinder).cis(1) * 0.1 * square;
+        let bound = bounds(&of(&laden), k)[0] + bounds(&of(&still), k)[0];
+        prop_assert!((added - expected).norm() <= bound, "{added} {expected}");
+    }
+
+    #[test]
+    fn pins_say_as_much_as_top_dead_centres(engine in engines()) {
+        let pins: Vec<_> = (0..engine.stations().len()).map(|i| engine.pin(i)).collect();
+        let again = engine.with_pins(&pins);
+        for i in 0..pins.len() {
+            let ratio = engine.cranks()[engine.crank_of(i)].ratio.unsigned_abs();
+            let apart = again.stations()[i].tdc.degrees() - engine.stations()[i].tdc.degrees();
+            // Cranks twice as fast are at top dead centre twice a turn.
+            let turns = apart * f64::from(ratio) / 360.0;
+            prop_assert!((turns - turns.round()).abs() < 1e-12);
+            prop_assert!((again.pin(i).degrees() - pins[i].degrees()).abs() < 1e-10);
+        }
+    }
+
+    #[test]
+    fn terms_add_up_to_the_balance_about_any_point(
+        engine in weighted(engines()), aside in [-0.5..0.5, -0.5..0.5]
+    ) {
+        let whole = of(&engine);
+        let terms = terms::terms(&engine, &REQUEST, aside, &orders(), &Cancel::new()).unwrap();
+        let count = engine.stations().len();
+        prop_assert_eq!(terms[count - 1].0, Origin::Cylinder(count - 1));
+        prop_assert_eq!(terms.len(), count + engine.counterweights().len() + engine.shafts().len());
+        for k in 0..orders().len() {
+            let mut sums = [Complex64::default(); 6];
+            let mut bound = bounds(&whole, k);
+            for (_, term) in &terms {
+                let both = phasors(term, k).into_iter().zip(bounds(term, k));
+                for ((sum, bound), (phasor, own)) in sums.iter_mut().zip(&mut bound).zip(both) {
+                    *sum += phasor;
+                    *bound += own;
+                }
+            }
+            let mut expected = phasors(&whole, k);
+            expected[4] = whole.wrenches[k].moved([aside[0], aside[1], 0.0]).torque().roll;
+            for ((sum, expected), bound) in sums.into_iter().zip(expected).zip(bound) {
+                prop_assert!((sum - expected).norm() <= bound, "{k} {sum} {expected} {bound}");
+            }
+        }
+    }
+
+    #[test]
+    fn verdicts_are_not_refuted_by_the_balance(engine in weighted(engines())) {
+        let found = vanishing(&engine, &orders(), Some(0.07), None, &Cancel::new()).unwrap();
+        let balance = of(&engine);
+        for (k, verdicts) in found.verdicts.iter().enumerate() {
+            let [force, moment] =
+                [Vector::Force, Vector::Moment].map(|vector| balance.xy(vector, k));
+            let [f, b, m, n, roll, _] = phasors(&balance, k);
+            let values = [force[0], force[1], f, b, moment[0], moment[1], m, n, roll];
+            for ((value, verdict), quantity) in values.iter().zip(verdicts).zip(QUANTITIES) {
+                prop_assert!(
+                    *verdict != Verdict::Vanishes || *value == Complex64::default(),
+                    "{k} {quantity:?} {value}"
+                );
+            }
+        }
+    }
+
+    /// Twins of opposite senses, or one crank beside another: what cancels is proved, and nothing else.
+    #[test]
+    fn verdicts_of_twins_are_those_of_their_figures(
+        cylinder in cylinders(true),
+        tdc in 0_i64..24,
+        lag in select(vec![0_i64, 12]),
+        bank in select(vec![0_i64, 12]),
+        ratio in select(vec![1, -1]),
+    ) {
+        let step = |k: i64| angle(15.0 * k as f64);
+        let at = |tdc: i64, bank: i64| Station {
+            cylinder, tdc: step(tdc), bank: step(bank), z: 0.0, rotating_mass: 0.0
+        };
+        let beside = Crank { axis: [0.125, 0.0], ratio };
+        let engine = Engine::new("", "", vec![at(tdc, 6), at(tdc + lag, 6 + bank)]).unwrap();
+        let engine = engine.with_cranks(vec![Crank::MAIN, beside], vec![0, 1]).unwrap();
+        let found = vanishing(&engine, &orders(), None, None, &Cancel::new()).unwrap();
+        for (verdicts, within) in found.verdicts.iter().zip(&found.within_rounding) {
+            for k in 0..9 {
+                let decided = verdicts[k] != Verdict::Undecided;
+                // The roll torque of a force beside the axis has no ratio to that of the masses.
+                prop_assert!(decided || k == 8, "{k} {:?}", found.obstacles);
+                prop_assert!(!decided || (verdicts[k] == Verdict::Vanishes) == within[k], "{k}");
+            }
+        }
+    }
+}

@@ -1,0 +1,364 @@
+"""Do the laws hold of engines with several cranks, dead cylinders and shafts, about any point?"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import TYPE_CHECKING
+
+import crankpin as cp
+import numpy as np
+import pytest
+from crankpin.analysis.contributions import contributions, phasors
+from crankpin.analysis.geometry import geometry, rotating_masses, weights_on_crank
+from crankpin.model.crankpins import crankpins
+from several_cranks import Draft, fired_engine, random_engine, size
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+RPM = 3000.0
+ORDERS = (1, 2, 3, 4, 6)
+SEEDS = range(24)
+QUANTITIES = ("force", "moment", "torque", "crank_torque")
+POINT = (0.3, -0.2, 0.15)
+ROUNDING = 1e-12
+"""Of terms of unlike sizes, at phases known to 1e-13: far above what sums of a dozen leave."""
+
+
+def same(found: cp.types.Balance, expected: cp.types.Balance, names: tuple[str, ...]) -> None:
+    allowed = ROUNDING * size(expected.engine, RPM)
+    for name in names:
+        apart = np.abs(np.asarray(getattr(found, name)) - np.asarray(getattr(expected, name)))
+        assert apart.max() <= allowed, name
+
+
+# --- crankpins ------------------------------------------------------------------------------------
+
+PAIR = """
+schema = 1
+cranks = [{{ x = {x}, y = 0, ratio = {ratio} }}]
+placements = [
+  {{ tdc_deg = 0, bank_deg = 60, z = 0 }}, {{ tdc_deg = {tdc}, bank_deg = 120, z = 0, crank = 1 }}
+]
+cylinder = {{ crank_radius = 0.05, rod_length = 0.15, reciprocating_mass = 0.7 }}
+"""
+
+
+def pair(*, x: float = 0.2, ratio: int = 1, tdc: float = 60.0) -> cp.Engine:
+    return cp.Engine.from_toml(PAIR.format(x=x, ratio=ratio, tdc=tdc))
+
+
+def test_a_crankpin_of_a_crank_that_turns_the_other_way() -> None:
+    engine = pair(ratio=-1, tdc=30.0)
+    assert engine.pin_deg.tolist() == [60.0, 150.0]
+    assert engine.replace(pin_deg=[60, 150]) == engine
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_pins_are_where_a_mass_on_them_pulls(seed: int) -> None:
+    engine = random_engine(seed)
+    still = engine.replace(rotating_mass=0.0, counterweights=(), shafts=())
+    for k, radius in enumerate(each.crank_radius for each in engine.cylinders):
+        masses = np.zeros(len(engine))
+        masses[k] = 1.0
+        pulls = [
+            one.waveform(RPM, theta_deg=[0.0]).force[0]
+            for one in (still, still.replace(rotating_mass=masses))
+        ]
+        x, y = pulls[1] - pulls[0]
+        apart = math.remainder(math.degrees(math.atan2(y, x)) - engine.pin_deg[k], 360.0)
+        # Differences of forces that are some times as large as that of a kilogram.
+        assert abs(apart) < 1e-9 * max(1.0, size(engine, RPM) / (radius * RPM**2))
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_pins_say_as_much_as_top_dead_centres(seed: int) -> None:
+    engine = random_engine(seed, ratios=(1, -1))  # faster cranks are at TDC several times a turn
+    again = engine.replace(pin_deg=[repr(pin) for pin in engine.pin_deg.tolist()])
+    same(again.balance(RPM, orders=ORDERS), engine.balance(RPM, orders=ORDERS), QUANTITIES)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_drawings_show_pins_and_weights_where_they_pull(seed: int) -> None:
+    engine, theta = random_engine(seed), 77.0
+    places = geometry(engine, theta)
+    rods = np.abs(places.wrist_pin - places.crankpin)
+    np.testing.assert_allclose(rods, [each.rod_length for each in engine.cylinders], rtol=1e-12)
+    for weights, kept in (
+        (weights_on_crank(engine, theta), {"rotating_mass": 0.0}),
+        (rotating_masses(engine, theta), {"counterweights": ()}),
+    ):
+        alone = engine.replace(
+            cylinder=[each.replace(reciprocating_mass=0.0) for each in engine.cylinders],
+            shafts=(),
+            **kept,
+        )
+        cranks = {(x, y): ratio for x, y, ratio in engine._core.cranks[0]}
+        pulls = [
+            each.amount
+            * cranks[each.axis.real, each.axis.imag] ** 2
+            * np.exp(1j * np.radians(each.angle_deg))
+            for each in weights
+        ]
+        force = alone.waveform(30.0 / np.pi, theta_deg=[theta]).force[0]
+        assert abs(complex(*force) - sum(pulls)) <= 1e-12 * (1.0 + sum(map(abs, pulls)))
+
+
+def test_cylinders_on_two_cranks_share_no_bob_weight() -> None:
+    engine = pair()
+    assert [pin.cylinders for pin in crankpins(engine)] == [(1,), (2,)]
+    assert cp.bob_weight(engine).grams.tolist() == [350.0, 350.0]
+    assert [list(pin.cylinders) for pin in crankpins(engine.replace(tdc_deg=[0, 0]))] == [[1], [2]]
+
+
+# --- parts ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("make", [random_engine, fired_engine])
+@pytest.mark.parametrize("seed", SEEDS)
+def test_parts_add_up_to_the_whole_about_any_point(
+    seed: int, make: Callable[[int], cp.Engine]
+) -> None:
+    engine = make(seed)
+    whole = engine.balance(RPM, orders=(0.5, *ORDERS)).about(POINT)
+    for name in (*QUANTITIES, *(("torque.gas", "torque.inertia") if engine.fired else ())):
+        parts = contributions(whole, name)
+        assert len(parts) == len(engine) + len(engine.counterweights) + len(engine.shafts)
+        expected = (
+            phasors(whole, name)
+            if "." not in name
+            else whole.torque._part(name.partition(".")[2]).phasor[np.newaxis]
+        )
+        total = np.sum([part.phasors for part in parts], axis=0)
+        # What vanishes to within a bound is zero, of parts and of the whole.
+        bound = sum(part.zero_bound for part in parts) + whole.read(name, "zero_bound")
+        assert (np.abs(total - expected) <= bound).all(), name
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_what_a_kilogram_adds_is_linear(seed: int) -> None:
+    engine = random_engine(seed)
+    random = np.random.default_rng(seed)
+    engine = engine.replace(
+        cylinder=[each.replace(reciprocating_mass=1.0) for each in engine.cylinders]
+    )
+    pistons = random.uniform(0.9, 1.1, len(engine))
+    found = cp.match_parts(engine, pistons, by="balance")
+    best = min(
+        np.linalg.norm(_vector(engine, pistons[list(order)] - pistons.mean()))
+        for order in itertools.permutations(range(len(engine)))
+    )
+    # A rest may be some thousandths of what it is the difference of.
+    assert found.values[0] == pytest.approx(best, rel=1e-9)
+
+
+def _vector(engine: cp.Engine, more: NDArray[np.float64]) -> NDArray[np.complex128]:
+    """Return what remains with other pistons, over ω²."""
+    pairs = zip(engine.cylinders, more.tolist(), strict=True)
+    changed = engine.replace(
+        cylinder=[
+            each.replace(reciprocating_mass=each.reciprocating_mass + mass) for each, mass in pairs
+        ]
+    )
+    balance = changed.balance(30.0 / np.pi, orders=[1, 2], torque=False)
+    half = 0.5 * np.ptp(engine.z)
+    parts = [balance.force.forward, balance.force.backward]
+    if half > 0.0:
+        parts += [balance.moment.forward / half, balance.moment.backward / half]
+    return np.concatenate(parts)
+
+
+# --- laws -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_mirrored_engine_mirrors(seed: int) -> None:
+    draft = Draft(seed)
+    draft.crank_of = [each % (len(draft.cranks) - 1) + 1 for each in draft.crank_of]
+    plain, image = (each.engine() for each in (draft, draft.mirrored()))
+    here, there = (each.balance(RPM, orders=ORDERS) for each in (plain, image))
+    allowed = ROUNDING * size(plain, RPM)
+    for (name, axis), sign in {
+        ("force", 0): -1, ("force", 1): 1, ("moment", 0): 1, ("moment", 1): -1,
+    }.items():  # fmt: skip
+        one, other = (getattr(each, name).xy[:, axis] for each in (here, there))
+        assert np.abs(other - sign * one).max() <= allowed, (name, axis)
+    assert np.abs(there.torque + here.torque).max() <= allowed
+    assert np.abs(there.crank_torque - here.crank_torque).max() <= allowed
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_moving_all_axes_moves_levers_alone(seed: int) -> None:
+    draft = Draft(seed)
+    draft.crank_of = [each % (len(draft.cranks) - 1) + 1 for each in draft.crank_of]
+    here = draft.engine().balance(RPM, orders=ORDERS)
+    x, y = 0.17, -0.23
+    draft.cranks = [draft.cranks[0], *((a + x, b + y, n) for a, b, n in draft.cranks[1:])]
+    draft.shafts = [each.replace(x=each.x + x, y=each.y + y) for each in draft.shafts]
+    moved = draft.engine().balance(RPM, orders=ORDERS)
+    same(moved, here, ("force", "moment", "crank_torque"))
+    same(moved.about((x, y, draft.reference_z)), here, ("torque",))
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_two_halves_make_a_cylinder(seed: int) -> None:
+    draft = Draft(seed)
+    whole = draft.engine().balance(RPM, orders=ORDERS)
+    first = draft.cylinders[0]
+    half = first.replace(
+        reciprocating_mass=0.5 * first.reciprocating_mass,
+        rod_inertia_excess=0.5 * first.rod_inertia_excess,
+    )
+    draft.cylinders = [half, *draft.cylinders[1:], half]
+    draft.rotating_mass[0] *= 0.5
+    for name in ("tdc_deg", "bank_deg", "z", "rotating_mass"):
+        values = getattr(draft, name)
+        setattr(draft, name, np.append(values, values[0]))
+    draft.crank_of = [*draft.crank_of, draft.crank_of[0]]
+    same(draft.engine().balance(RPM, orders=ORDERS), whole, QUANTITIES)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_crank_without_cylinders_changes_nothing(seed: int) -> None:
+    draft = Draft(seed)
+    before = draft.engine()
+    draft.cranks = [*draft.cranks, (0.4, 0.1, -3)]
+    after = draft.engine()
+    same(after.balance(RPM, orders=ORDERS), before.balance(RPM, orders=ORDERS), QUANTITIES)
+    assert after.pin_deg.tolist() == before.pin_deg.tolist()
+    assert after.vanishing_orders(ORDERS).table == before.vanishing_orders(ORDERS).table
+    assert cp.bob_weight(after).table == cp.bob_weight(before).table
+
+
+# --- bounds about another point -------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("make", [random_engine, fired_engine])
+@pytest.mark.parametrize("seed", SEEDS)
+def test_bounds_hold_about_any_point(seed: int, make: Callable[[int], cp.Engine]) -> None:
+    engine = make(seed)
+    theta = np.linspace(0.0, 720.0, 289)
+    exact = cp.sweep(engine, rpm=[RPM]).about(POINT).waveform(theta, exact=True)
+    swept = cp.sweep(engine, rpm=[RPM], rtol=0.05).about(POINT)
+    summed = swept.waveform(theta)
+    single = engine.balance(RPM, rtol=0.05).about(POINT)
+    turning = np.exp(1j * np.radians(theta)[:, None] * np.array(single.orders))
+    for name in QUANTITIES:
+        bound = swept.error_bound[name]
+        apart = np.abs(np.asarray(getattr(summed, name)) - np.asarray(getattr(exact, name))).max()
+        rounding = ROUNDING * size(engine, RPM) + 1e-9
+        assert apart <= bound * (1 + 1e-9) + rounding, name
+        assert summed.error_bound[name] == bound
+        at = swept.sel(rpm=RPM)
+        assert at.error_bound[name] == getattr(at, name).error_bound == bound
+        bound = single.error_bound[name]
+        assert getattr(single, name).error_bound == bound
+        if name in ("torque", "crank_torque"):
+            values = (turning * np.asarray(getattr(single, name))).real.sum(axis=1)
+            values += getattr(single, name).mean
+            apart = np.abs(values - np.asarray(getattr(exact, name)).reshape(-1)).max()
+            assert apart <= bound * (1 + 1e-9) + rounding, name
+
+
+def test_the_bound_about_a_point_is_one_figure_everywhere() -> None:
+    i4 = cp.Engine.preset("i4")
+    b = i4.balance(6000, rtol=0.1).about((0.5, 0, 0.1))
+    bound = b.error_bound["torque"]
+    plain = i4.balance(6000, rtol=0.1).error_bound
+    assert bound == plain["torque"] + 0.5 * plain["force"]
+    assert b.torque.error_bound == b.torque.inertia.error_bound == bound
+    data = b.to_xarray("torque")
+    assert data.attrs["torque_error_bound"] == bound
+    assert b.error_bound["crank_torque"] == plain["crank_torque"]
+
+
+# --- the forward theorem --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_bob_weights_act_in_the_sense_of_their_cranks(seed: int) -> None:
+    engine = random_engine(seed, ratios=(1, -1), offset=seed % 2 == 1)
+    bob = cp.bob_weight(engine)
+    for name in ("force", "moment"):
+        scale = 1e-12 * size(engine, 30.0 / np.pi)
+        for factor in (0.0, 0.3, 0.5, 1.0, 1.7):
+            left = getattr(cp.bob_weight(engine, factor).residual[1], name)
+            longest, shortest = bob.half_axes(name, factor)
+            assert abs(longest - left.peak) <= scale
+            assert abs(shortest - left.minor) <= scale
+        least = bob.least(name)
+        if least is not None:
+            longest, _ = bob.half_axes(name, np.linspace(0.0, 3.0, 601))
+            assert bob.half_axes(name, least)[0] <= longest.min() + scale
+        for factor, direction in bob.straight(name):
+            left = getattr(cp.bob_weight(engine, factor).residual[1], name)
+            assert abs(left.minor) <= 1e-9 * left.peak
+            assert math.remainder(left.tilt_deg - direction, 180.0) == pytest.approx(0.0, abs=1e-5)
+
+
+def test_a_bob_weight_on_a_crank_that_turns_against_the_main_one_meets_the_backward_part() -> None:
+    twins = pair(ratio=-1, tdc=0.0).replace(bank_deg=[90, 90], tdc_deg=[0, 0])
+    bob = cp.bob_weight(twins)
+    # Each crank leaves half the pull of its piston, turning the other way: a line, half as long.
+    before, _ = bob.half_axes("force", 0.0)
+    assert bob.half_axes("force", 0.5) == (before / 2.0, 0.0)
+    assert bob.half_axes("force", 0.5)[0] == bob.residual[1].force.peak
+    text = str(twins.explain(3000))
+    assert "Counterweights on the cranks could remove all of the shaking force of order 1" in text
+    assert "what turns with the crank of each piston" in text
+
+
+# --- proofs ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("make", [random_engine, fired_engine])
+@pytest.mark.parametrize("seed", SEEDS)
+def test_what_is_said_does_not_fail(seed: int, make: Callable[[int], cp.Engine]) -> None:
+    engine = make(seed)
+    assert engine.explain(RPM).sentences
+    assert engine.balance(RPM)._repr_html_()
+    assert cp.bob_weight(engine)._repr_html_()
+    if engine.mains.size:
+        assert cp.counterweights(engine)._repr_html_()
+    found = engine.vanishing_orders(ORDERS)
+    balance = engine.balance(RPM, orders=ORDERS)
+    for name in ("force", "moment", "torque"):
+        for order in getattr(found, name).vanishing:
+            quantity = balance.torque.inertia if name == "torque" else getattr(balance, name)
+            assert quantity[order].peak == 0.0
+            assert quantity[order].status == "zero, proved"
+    message = ""
+    try:
+        engine.closed_form(2)
+    except cp.InputError as error:
+        message = str(error)
+    # What no closed form can have is said in the words of its input.
+    assert not message or "a closed form needs" in message or "exact sums" in message
+
+
+def test_a_square_four_is_proved() -> None:
+    square = cp.Engine.from_toml(
+        """
+        schema = 1
+        cranks = [{ x = 0.12, y = 0, ratio = -1 }]
+        placements = [
+          { tdc_deg = 0, bank_deg = 90, z = 0 }, { tdc_deg = 180, bank_deg = 90, z = 0.1 },
+          { tdc_deg = 180, bank_deg = 90, z = 0, crank = 1 },
+          { tdc_deg = 0, bank_deg = 90, z = 0.1, crank = 1 },
+        ]
+        cylinder = { crank_radius = 0.025, rod_length = 0.1, reciprocating_mass = 0.25 }
+        """
+    )
+    found = square.vanishing_orders([1, 2])
+    assert found.force[1] == "vanishes"
+    assert found.force[2] == "remains"
+    assert found.moment[1] == "vanishes"
+    assert found.obstacles is not None
+    balance = square.balance(6000)
+    assert balance.force[1].status == "zero, proved"
+    # Roll torques cancel on the block, and add up on the crank.
+    assert balance.crank_torque[2].peak > 0.0
+    assert str(square.closed_form(2, quantity="force"))
