@@ -135,13 +135,13 @@ proptest! {
     fn pins_say_as_much_as_top_dead_centres(engine in engines()) {
         let pins: Vec<_> = (0..engine.stations().len()).map(|i| engine.pin(i)).collect();
         let again = engine.with_pins(&pins);
-        for i in 0..pins.len() {
+        for (i, pin) in pins.iter().enumerate() {
             let ratio = engine.cranks()[engine.crank_of(i)].ratio.unsigned_abs();
             let apart = again.stations()[i].tdc.degrees() - engine.stations()[i].tdc.degrees();
             // Cranks twice as fast are at top dead centre twice a turn.
             let turns = apart * f64::from(ratio) / 360.0;
             prop_assert!((turns - turns.round()).abs() < 1e-12);
-            prop_assert!((again.pin(i).degrees() - pins[i].degrees()).abs() < 1e-10);
+            prop_assert!((again.pin(i).degrees() - pin.degrees()).abs() < 1e-10);
         }
     }
 
