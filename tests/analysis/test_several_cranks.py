@@ -57,6 +57,20 @@ def test_a_crankpin_of_a_crank_that_turns_the_other_way() -> None:
     assert engine.replace(pin_deg=[60, 150]) == engine
 
 
+def test_throws_of_two_cranks_do_not_compare() -> None:
+    for engine in (pair(), pair().replace(bank_deg=[90, 90])):
+        for name in ("throws_deg", "pin_split_deg"):
+            with pytest.raises(AttributeError, match="on 2 crankshafts"):
+                getattr(engine, name)
+        assert "another crankshaft: ratio +1" in repr(engine)
+    crossed = cp.Engine.from_toml(pair().replace(bank_deg=[120, 60]).to_toml())
+    assert (crossed.banks, crossed.bank_angle_deg) == ({"right": (2,), "left": (1,)}, 60.0)
+    with pytest.raises(cp.InputError, match="it has 2 cranks; one is needed"):
+        crossed.with_bank_angle(90, hold="pins")
+    with pytest.raises(cp.InputError, match="it has 2 cranks; one is needed"):
+        cp.sweep(crossed, rpm=3000, bank_angle_deg=[60, 90], hold="pins")
+
+
 @pytest.mark.parametrize("seed", SEEDS)
 def test_pins_are_where_a_mass_on_them_pulls(seed: int) -> None:
     engine = random_engine(seed)
@@ -309,6 +323,12 @@ def test_a_bob_weight_on_a_crank_that_turns_against_the_main_one_meets_the_backw
     text = str(twins.explain(3000))
     assert "Counterweights on the cranks could remove all of the shaking force of order 1" in text
     assert "what turns with the crank of each piston" in text
+
+
+def test_what_counterweights_leave_is_said_of_one_sense_alone() -> None:
+    ranked = [cp.rank([pair(ratio=ratio)], 3000, by="[1].force.backward") for ratio in (1, -1)]
+    leaves = ["what the best counterweight leaves" in each.table.title for each in ranked]
+    assert leaves == [True, False]
 
 
 # --- proofs ---------------------------------------------------------------------------------------

@@ -195,11 +195,12 @@ class EngineData:
 
     @property
     def mains(self) -> NDArray[np.float64]:
-        """Places of the main bearings along the crank, m, ascending: (n_mains,).
+        """Places of the bearings along the main crankshaft, m, ascending: (n_mains,).
 
         Those given; by default one midway between neighbouring throws, and one at either end as far
         outside the last throw as the bearing on its other side. An engine with throws at one place
-        only has one a crank radius in front of them and one behind.
+        only has one a crank radius in front of them and one behind; a crankshaft without throws has
+        none.
         """
         return read_only(np.array(self._core.bearings))
 
@@ -278,9 +279,10 @@ class EngineData:
     def throws_deg(self) -> NDArray[np.float64]:
         """Crankpins in the direction of rotation from the front one, degrees in [0, 360).
 
-        Those of the right bank if there are two; undefined for more. Of shape (n_throws,).
+        Those of the right bank if there are two; undefined for more, and for cylinders on several
+        crankshafts. Of shape (n_throws,).
         """
-        found = self.banks
+        found = self._banks_of_one_crank("throws_deg")
         if len(found) > 2:
             raise self._undefined("throws_deg", "one or two are needed; see pin_deg")
         pins = self.pin_deg[self._along(next(iter(found.values())))]
@@ -290,9 +292,9 @@ class EngineData:
     def pin_split_deg(self) -> NDArray[np.float64]:
         """Left pin minus right pin of each throw, degrees in (−180, 180]: (n_throws,).
 
-        Undefined unless there are two banks of as many cylinders.
+        Undefined unless there are two banks of as many cylinders, on one crankshaft.
         """
-        found = self.banks
+        found = self._banks_of_one_crank("pin_split_deg")
         if len(found) != 2:
             raise self._undefined("pin_split_deg", "exactly two are needed")
         right, left = (self._along(numbers) for numbers in found.values())
@@ -303,6 +305,13 @@ class EngineData:
             )
         split = _reduced(self.pin_deg[left] - self.pin_deg[right])
         return read_only(np.where(split > 180.0, split - 360.0, split))
+
+    def _banks_of_one_crank(self, name: str) -> dict[str, tuple[int, ...]]:
+        """Return the banks; directions of crankpins on several crankshafts do not compare."""
+        if (count := len(set(self._core.cranks[1]))) > 1:
+            reason = f"its cylinders are on {count} crankshafts; one is needed, see pin_deg"
+            raise AbsentError(f"{name} is undefined for this engine: {reason}")
+        return self.banks
 
     def _along(self, numbers: tuple[int, ...]) -> NDArray[np.intp]:
         """Return the places in the lists of these cylinders, front to flywheel."""

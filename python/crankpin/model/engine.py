@@ -546,6 +546,7 @@ class Engine(Builders):
 
     def _throws_text(self) -> str:
         """Return throws and pin split, where they are defined."""
+        throws = ""
         try:
             throws = "throws " + "-".join(f"{angle:.6g}" for angle in self.throws_deg) + "°"
             splits = self.pin_split_deg

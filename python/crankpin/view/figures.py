@@ -42,7 +42,7 @@ class Settings:
     rpm: float
     """Crank speed."""
     bank_angle_deg: float | None
-    """Angle between the two banks, degrees; None for an engine that has not two."""
+    """Angle between the two banks, degrees; None for an engine that has not two on one crank."""
     rod_ratio: float | None
     """Crank radius over rod length of all cylinders; None while they differ."""
     hold: Hold = "pins"
@@ -54,7 +54,7 @@ class Settings:
         ratios = {cylinder.rod_ratio for cylinder in engine.cylinders}
         return cls(
             rpm=inputs.number("rpm", rpm),
-            bank_angle_deg=getattr(engine, "bank_angle_deg", None),
+            bank_angle_deg=_bank_angle(engine),
             rod_ratio=ratios.pop() if len(ratios) == 1 else None,
         )
 
@@ -105,7 +105,7 @@ def figures(
     Settings.of(engine, rpm).check(engine)
     inputs.warn_of_units(mean_piston_speed(engine, float(rpm)))
     pairs = inputs.spectrum(spectrum)
-    angle = getattr(engine, "bank_angle_deg", None)
+    angle = _bank_angle(engine)
     right = engine.bank_deg[next(iter(engine.banks.values()))[0] - 1]
     return {
         "name": engine.name,
@@ -180,6 +180,12 @@ def core_numbers(
             "speed": _speeds(changed, settings.rpm, inertia, waveform.theta_deg),
         },
     }
+
+
+def _bank_angle(engine: Engine) -> float | None:
+    """Return the bank angle that a page can set, degrees: of two banks on one crank."""
+    several = len(engine_core(engine).cranks[0]) > 1
+    return None if several else getattr(engine, "bank_angle_deg", None)
 
 
 def _inertia(engine: Engine, rpm: float, inertia: float | None) -> float | None:

@@ -89,6 +89,25 @@ fn cylinders_on_two_cranks_share_no_crankpin_nor_throw() {
     assert!(none.throw_places().is_empty() && none.bearings().is_empty());
 }
 
+#[test]
+fn pistons_of_unlike_cranks_have_unlike_harmonics() {
+    let at = |mass: f64, bank: f64| Station {
+        cylinder: Cylinder::new(0.04, 0.13, mass, 0.0).unwrap(),
+        tdc: angle(0.0),
+        bank: angle(bank),
+        z: 0.0,
+        rotating_mass: 0.0,
+    };
+    let engine = Engine::new("", "", vec![at(1.0, 90.0), at(0.25, 270.0)]).unwrap();
+    let twice = Crank { axis: [0.0, 0.2], ratio: 2 };
+    let engine = engine.with_cranks(vec![Crank::MAIN, twice], vec![0, 1]).unwrap();
+    // Order 2 is a₂ of the first and a₁ of the second, of one weight: they do not cancel.
+    let second = [Order::whole(2).unwrap()];
+    let found = vanishing(&engine, &second, None, None, &Cancel::new()).unwrap();
+    assert!(found.verdicts[0][1] != Verdict::Vanishes && !found.within_rounding[0][1]);
+    assert!(found.obstacles[0].contains("cranks of different speeds"), "{:?}", found.obstacles);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(192))]
 
@@ -116,13 +135,13 @@ proptest! {
     fn pins_say_as_much_as_top_dead_centres(engine in engines()) {
         let pins: Vec<_> = (0..engine.stations().len()).map(|i| engine.pin(i)).collect();
         let again = engine.with_pins(&pins);
-        for i in 0..pins.len() {
+        for (i, pin) in pins.iter().enumerate() {
             let ratio = engine.cranks()[engine.crank_of(i)].ratio.unsigned_abs();
             let apart = again.stations()[i].tdc.degrees() - engine.stations()[i].tdc.degrees();
             // Cranks twice as fast are at top dead centre twice a turn.
             let turns = apart * f64::from(ratio) / 360.0;
             prop_assert!((turns - turns.round()).abs() < 1e-12);
-            prop_assert!((again.pin(i).degrees() - pins[i].degrees()).abs() < 1e-10);
+            prop_assert!((again.pin(i).degrees() - pin.degrees()).abs() < 1e-10);
         }
     }
 
@@ -179,20 +198,22 @@ proptest! {
         lag in select(vec![0_i64, 12]),
         bank in select(vec![0_i64, 12]),
         ratio in select(vec![1, -1]),
+        above in any::<bool>(),
     ) {
         let step = |k: i64| angle(15.0 * k as f64);
         let at = |tdc: i64, bank: i64| Station {
             cylinder, tdc: step(tdc), bank: step(bank), z: 0.0, rotating_mass: 0.0
         };
-        let beside = Crank { axis: [0.125, 0.0], ratio };
+        let beside = Crank { axis: if above { [0.0, 0.125] } else { [0.125, 0.0] }, ratio };
         let engine = Engine::new("", "", vec![at(tdc, 6), at(tdc + lag, 6 + bank)]).unwrap();
         let engine = engine.with_cranks(vec![Crank::MAIN, beside], vec![0, 1]).unwrap();
         let found = vanishing(&engine, &orders(), None, None, &Cancel::new()).unwrap();
         for (verdicts, within) in found.verdicts.iter().zip(&found.within_rounding) {
             for k in 0..9 {
                 let decided = verdicts[k] != Verdict::Undecided;
-                // The roll torque of a force beside the axis has no ratio to that of the masses.
-                prop_assert!(decided || k == 8, "{k} {:?}", found.obstacles);
+                // The roll torque of a force beside the axis has no ratio to that of the masses; along
+                // the bores there is none.
+                prop_assert!(decided || (k == 8 && !above), "{k} {:?}", found.obstacles);
                 prop_assert!(!decided || (verdicts[k] == Verdict::Vanishes) == within[k], "{k}");
             }
         }

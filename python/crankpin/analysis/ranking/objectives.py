@@ -27,6 +27,10 @@ MOST_CYLINDERS = 8
 """Cylinders up to which a table has the unevenness of firing, which takes all firing orders."""
 
 
+LEFT = " (what the best counterweight leaves)"
+"""Of the backward part of order 1, where no crank turns against the main one."""
+
+
 class Objective(NamedTuple):
     """A number for an engine at a bank angle; the smallest is best."""
 
@@ -172,7 +176,7 @@ def named(label: str) -> Objective:
     }[what]
     words = f"{sort} {name}, " + ("all orders" if order is None else f"order {order}")
     if (what, order) == ("backward", 1):
-        words += " (what the best counterweight leaves)"
+        words += LEFT
 
     def of_sweep(swept: Sweep) -> NDArray[np.float64]:
         source = swept.total if order is None else swept[order]

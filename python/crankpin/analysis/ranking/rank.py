@@ -9,8 +9,8 @@ from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.arrangements.search import Arrangement, ArrangementSearch
+from crankpin.analysis.ranking.objectives import LEFT, tie_tolerance
 from crankpin.analysis.ranking.objectives import listed as listed_objectives
-from crankpin.analysis.ranking.objectives import tie_tolerance
 from crankpin.analysis.ranking.ranking import Ranking, chosen
 from crankpin.analysis.sweeps.sweep import sweep
 from crankpin.model.engine import Engine
@@ -92,7 +92,8 @@ def rank(
     ``total.torque.peak``, ``total.crank_torque.peak``
         Largest roll torque on the block, or inertia torque on the crank.
     ``[1].moment.backward``, ``[1].force.backward``
-        Magnitude of the first order's backward part, which the best counterweights leave.
+        Magnitude of the first order's backward part, which the best counterweights on the main
+        crankshaft leave.
     ``[2].moment.peak``, ``[2].force.peak``, ``[2].torque.peak``
         Largest of one order, any of which can be named; ``peak_xy``, ``forward`` and ``backward``
         as well. ``moment[2].peak`` is another name for ``[2].moment.peak``.
@@ -156,6 +157,9 @@ def rank(
         choices = chosen(swept, ranked_by, values, tolerance, refine=between)
     inputs.warn_of_units(swept.mean_piston_speed)
     bare = tuple(objective.bare() for objective in ranked_by)
+    if any(ratio < 0 for engine in swept.engines for _, _, ratio in engine._core.cranks[0]):
+        # There counterweights on other cranks reach it.
+        bare = tuple(each._replace(words=each.words.removesuffix(LEFT)) for each in bare)
     return Ranking(swept, bare, tuple(values), choices)
 
 

@@ -39,7 +39,6 @@ impl Banks {
 impl Engine {
     /// The two banks of a vee.
     pub fn banks(&self) -> Result<Banks> {
-        self.check_one_crank("bank_angle_deg")?;
         let directions = self.bank_directions();
         let Some(right) = self.right else {
             let listed: Vec<String> = directions.iter().map(|bank| format!("{bank}°")).collect();
@@ -55,10 +54,17 @@ impl Engine {
         Ok(Banks { right, directions: [directions[right], directions[1 - right]] })
     }
 
+    /// The two banks; rejects engines whose cylinders do not all turn with one crank, where a change of
+    /// bank angle would have to say about which.
+    pub(crate) fn check_bank_angle_can_change(&self) -> Result<Banks> {
+        self.check_one_crank("a change of bank_angle_deg")?;
+        self.banks()
+    }
+
     /// The same engine with its two banks at another angle about the same bisector.
     pub fn with_bank_angle(&self, bank_angle: Angle, hold: Hold) -> Result<Self> {
         bank_angle_in_range(bank_angle.degrees())?;
-        let vee = self.banks()?;
+        let vee = self.check_bank_angle_can_change()?;
         let (middle, half) = (vee.bisector(), bank_angle.half());
         let mut turned = self.clone();
         for i in 0..self.stations.len() {

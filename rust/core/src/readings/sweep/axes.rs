@@ -52,7 +52,9 @@ impl Axes {
         if let Some((angles, _)) = &self.bank_angle {
             length("bank_angle_deg", angles.len())?;
             each(angles, cancel, |angle| bank_angle_in_range(angle).map(drop))?;
-            engines.iter().try_for_each(|engine| engine.banks().map(drop))?;
+            for engine in engines {
+                engine.check_bank_angle_can_change()?;
+            }
         }
         for (name, values) in [("rod_ratio", &self.rod_ratio), ("pin_offset", &self.pin_offset)] {
             let Some(values) = values else { continue };
