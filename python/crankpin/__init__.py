@@ -9,6 +9,7 @@ flywheel x points right, y up, z from the front to the flywheel, and the crank t
 counter-clockwise. Classes of results are in :mod:`crankpin.types`.
 """
 
+import crankpin._support.interrupted  # noqa: F401 - before the imports that take time
 from crankpin import types
 from crankpin._core import InputError, __version__
 from crankpin.analysis.arrangements.search import search_arrangements

@@ -2,8 +2,10 @@
 
 import io
 import os
+import signal
 import sys
 
+from crankpin._support import interrupted
 from crankpin.cli import main
 
 
@@ -13,7 +15,15 @@ def run() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # for terminals that lack "·"
-    sys.exit(main())
+    try:
+        if signal.getsignal(signal.SIGINT) is interrupted.leave:
+            # From here on files are written, which are cleaned up on the way out.
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+        status = main()
+        interrupted.leave_quietly()
+    except KeyboardInterrupt:
+        status = interrupted.STATUS
+    sys.exit(status)
 
 
 if __name__ == "__main__":

@@ -3,10 +3,16 @@
 from __future__ import annotations
 
 import warnings
+from typing import TYPE_CHECKING
 
 import crankpin as cp
 import numpy as np
 import pytest
+from crankpin.cli import main
+from matplotlib import pyplot as plt
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 I4 = cp.Engine.preset("i4")
 PARTS = I4.cylinders[0]
@@ -103,3 +109,35 @@ def test_zeros_are_above_zero(name: str, fired: bool) -> None:
     piston = engine.cylinders[0]
     zeros += (signs_of_zeros(of([0, 90, 180], 0)) for of in (piston.velocity, piston.acceleration))
     assert not np.concatenate(zeros).any()
+
+
+@pytest.mark.filterwarnings("ignore::UserWarning")
+def test_a_result_without_orders_is_a_result(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    generator = np.random.default_rng(47)
+    for name in generator.permutation(list(cp.presets()))[:6]:
+        preset = cp.Engine.preset(str(name))
+        parts = [each.replace(reciprocating_mass=0.0) for each in preset.cylinders]
+        parts = [each.replace(rod_inertia_excess=0.0) for each in parts]
+        engine = preset.replace(cylinder=parts, rotating_mass=0.0, counterweights=(), shafts=())
+        point = generator.uniform(-0.5, 0.5, 3)
+        speeds = generator.uniform(500, 6000, 3)
+        balance = engine.balance(rpm=speeds[0])
+        sweeps = [cp.sweep(engine, rpm=speeds), cp.sweep([engine, engine], rpm=speeds)]
+        for result in (balance, *sweeps):
+            assert result.orders == ()
+            moved = result.about(point)
+            shape = np.shape(result.total.torque.peak)
+            assert np.array_equal(moved.total.torque.peak, np.zeros(shape))
+            assert moved.torque.peak.shape[-1] == 0
+            for made in (moved.table.to_csv, moved.table.text, moved.table.to_pandas):
+                assert made() is not None
+            assert moved.to_xarray() is not None
+            moved.plot(quantity="torque")
+        plt.close("all")
+        file = tmp_path / "engine.toml"
+        engine.save(file)
+        for options in ([], ["--csv"]):
+            assert main(["sweep", str(file), "--rpm", "1000:2000:500", *options]) == 0
+            assert "1500" in capsys.readouterr().out

@@ -294,6 +294,8 @@ def total_peaks(
     orders: tuple[Order, ...], phasors: NDArray[np.complex128], mean: ArrayLike = 0.0
 ) -> NDArray[np.float64]:
     """Return the largest magnitude over θ of a mean and all orders: (…), of (…, n_orders)."""
+    if not orders:
+        return np.array(np.broadcast_to(np.abs(mean), phasors.shape[:-1]))
     rows = np.ascontiguousarray(phasors.reshape(-1, len(orders)))
     means = np.broadcast_to(mean, phasors.shape[:-1]).ravel().tolist()
     return _core.peaks_of_sums(list(orders), rows, means).reshape(phasors.shape[:-1])

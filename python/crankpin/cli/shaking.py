@@ -133,10 +133,12 @@ def _tables_of(result: Sweep, given: Given) -> tuple[list[Table], str]:
     if given.text("--csv"):
         shown, left = tuple(range(len(result.orders))), ()
     note = f"{labels.not_shown(left)}\n" if left else ""
-    rows = peaks.reshape(-1, len(result.orders), len(symbols))[:, list(shown)]
-    rows = rows.reshape(len(result.engines), -1, len(shown) * len(symbols))
     dims = [dim for dim in result.coords if dim != "engine"]
     swept = list(itertools.product(*(np.asarray(result.coords[dim]).tolist() for dim in dims)))
+    # Without -1, which has no value where there is no order.
+    shape = (len(result.engines), len(swept), len(result.orders), len(symbols))
+    rows = peaks.reshape(shape)[:, :, list(shown)]
+    rows = rows.reshape(*shape[:2], len(shown) * len(symbols))
     heads = [(name, unit.strip()) for name, unit in map(labels.SWEPT.__getitem__, dims)]
     heads += [
         (f"{symbol} order {order}", QUANTITIES[quantity].unit)
@@ -152,7 +154,7 @@ def _tables_of(result: Sweep, given: Given) -> tuple[list[Table], str]:
         ], note
     points = [(name, *point) for name in result.coords["engine"] for point in swept]
     title = f"{how[0].upper()}{how[1:]}"
-    table = rows.reshape(len(points), -1)
+    table = rows.reshape(len(points), rows.shape[-1])
     return [Table.from_rows(title, ["engine", *heads], points, table, decimals)], note
 
 
