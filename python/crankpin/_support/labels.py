@@ -101,6 +101,29 @@ def not_shown(orders: Sequence[Order]) -> str:
     return f"Not shown: {orders_text(orders)} ({peak} below {NEGLIGIBLE:g} of the largest)."
 
 
+def gas_text(names: Sequence[str | None], count: int = 1) -> str:
+    """Return which gas pressure counts: ``gas: petrol; cylinder 3 does not fire``.
+
+    Parameters
+    ----------
+    names
+        Name of the cycle of each cylinder, which may be empty; None where it has no cycle.
+    count
+        Number of different cycles.
+    """
+    if all(name is None for name in names):
+        return "without gas pressure"
+    named = [name for name in dict.fromkeys(printable(each or "") for each in names) if name]
+    words = cut(", ".join(named)) or "unnamed cycle"
+    if count > max(1, len(named)):
+        words = f"{count} cycles, {words}" if named else f"{count} cycles"
+    dead = [str(number) for number, name in enumerate(names, start=1) if name is None]
+    if not dead:
+        return f"gas: {words}"
+    verb = "cylinder {} does" if len(dead) == 1 else "cylinders {} do"
+    return f"gas: {words}; {verb.format(cut(', '.join(dead), 30))} not fire"
+
+
 def cut(text: str, longest: int = 60) -> str:
     """Return a text that fits a title."""
     return text if len(text) <= longest else f"{text[: longest - 1]}…"

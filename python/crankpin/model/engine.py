@@ -524,16 +524,7 @@ class Engine(Builders):
 
     def _gas_text(self) -> str:
         """Return what is known of the pressure in the cylinders."""
-        if (cycles := self.cycles) is None:
-            return ""
-        fired = [each for each in cycles if each is not None]
-        kinds = len(set(fired))
-        names = {labels.printable(each.name) for each in fired} - {""}
-        text = f"gas pressure in {len(fired)} of {len(self)} cylinders"
-        text = "gas pressure" if len(fired) == len(self) else text
-        text += f", {kinds} cycles" if kinds > 1 else ""
-        text += f": {labels.cut(', '.join(sorted(names)))}" if names else ""
-        return f"{text}, crankcase {self.crankcase:.6g} Pa"
+        return f"{self.loads_counted}; crankcase {self.crankcase:.6g} Pa" if self.fired else ""
 
     def _parts_text(self) -> str:
         """Return stroke, rod and reciprocating mass of the cylinders, as ranges if they differ."""
