@@ -476,9 +476,11 @@ def shorten(value: object) -> str:
     return short if len(short) <= 80 else short[:79] + "…"
 
 
-def rejected(name: str, value: object, hint: str) -> InputError:
+def rejected(
+    name: str, value: object, hint: str, kind: type[InputError] = InputError
+) -> InputError:
     """Return the error of an argument: its name, its value and a hint."""
-    return InputError(f"{name} = {shorten(value)}: {hint}")
+    return kind(f"{name} = {shorten(value)}: {hint}")
 
 
 def reason(error: Exception) -> str:

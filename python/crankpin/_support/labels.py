@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
@@ -58,9 +60,9 @@ NEGLIGIBLE = 1e-6
 
 def coordinates(coords: Mapping[str, Any]) -> dict[str, Any]:
     """Return coordinates with their units, in the form that xarray takes."""
+    units = {name: {"units": XARRAY_UNITS[name]} for name in coords if name in XARRAY_UNITS}
     return {
-        name: (name, values, {"units": XARRAY_UNITS[name]} if name in XARRAY_UNITS else {})
-        for name, values in coords.items()
+        name: (name, np.asarray(values), units.get(name, {})) for name, values in coords.items()
     }
 
 

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any, TypeAlias, overload
 import numpy as np
 
 from crankpin._support import inputs, optional
-from crankpin._support.record import Record
+from crankpin._support.record import AbsentItemError, Record, changed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
     from pathlib import Path
 
     import pandas as pd
@@ -119,8 +119,20 @@ class Table(Record):
         return len(self.columns[0].values) if self.columns else 0
 
     def __getitem__(self, name: str) -> Column:
-        """Return the column of a name."""
-        return next(column for column in self.columns if column.name == name)
+        """Return the column of a name, or raise an InputError."""
+        for column in self.columns:
+            if isinstance(name, str) and column.name == name:
+                return column
+        names = [column.name for column in self.columns]
+        hint = f"the columns are {', '.join(map(repr, names))}{inputs.nearest(name, names)}"
+        raise inputs.rejected("column", name, hint, AbsentItemError)
+
+    def __iter__(self) -> Iterator[str]:
+        """Return an iterator over the names of the columns."""
+        return (column.name for column in self.columns)
+
+    def __contains__(self, name: object) -> bool:
+        return isinstance(name, str) and any(column.name == name for column in self.columns)
 
     def cells(self) -> list[list[str]]:
         """Return the rows as text, numbers rounded and exact zeros as 0."""
@@ -235,5 +247,5 @@ def stacked(*tables: Table) -> Table:
     """Return the first of some tables with the others below it."""
     *above, whole = tables
     for table in reversed(above):
-        whole = table.replace(below=whole)
+        whole = changed(table, below=whole)
     return whole

@@ -8,6 +8,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support.quantities import PLANE_VECTORS
+from crankpin._support.record import changed
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.request import engine_core
 from crankpin.model.engine import Engine
@@ -36,12 +37,12 @@ def contributions(whole: Balance, quantity: str) -> list[Contribution]:
     Each is the balance of an engine that has this part alone, at the same place, about the same
     reference plane. A cylinder's rotating mass counts with it.
     """
-    given = whole.request.replace(orders=whole.orders, reference_z=whole.reference_z)
+    given = changed(whole.request, orders=whole.orders, reference_z=whole.reference_z)
     found = []
     for part, group, alone in _parts(whole.engine):
         # A spectrum is that of a cylinder.
         pairs = given.pairs if part.isdigit() else None
-        result = Balance(alone, whole.rpm, given.replace(pairs=pairs))
+        result = Balance(alone, whole.rpm, changed(given, pairs=pairs))
         found.append(Contribution(part, group, phasors(result, quantity)))
     return found
 

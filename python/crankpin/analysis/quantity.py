@@ -11,7 +11,14 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import KINDS, PARTS, Kind
-from crankpin._support.record import AbsentError, Record, Tabled, read_only
+from crankpin._support.record import (
+    AbsentError,
+    AbsentItemError,
+    Record,
+    Tabled,
+    changed,
+    read_only,
+)
 from crankpin._support.tables import Column, Table
 
 if TYPE_CHECKING:
@@ -61,7 +68,10 @@ class Keyed:
             """Multiples of crank speed: ints, and floats for halves."""
 
     def __contains__(self, order: object) -> bool:
-        return order in self.orders
+        try:
+            return inputs.order(order) in self.orders
+        except (TypeError, ValueError, OverflowError):
+            return False
 
     def __iter__(self) -> Iterator[Order]:
         return iter(self.orders)
@@ -71,9 +81,13 @@ class Keyed:
 
     def _place(self, order: object) -> int:
         """Return the index of an order, or raise an InputError."""
-        if order not in self.orders:
-            raise inputs.rejected("order", order, f"choose from {labels.orders_text(self.orders)}")
-        return self.orders.index(order)
+        if order not in self:
+            hint = f"choose from {labels.orders_text(self.orders)}"
+            raise inputs.rejected("order", order, hint, AbsentItemError)
+        return self.orders.index(inputs.order(order))
+
+    def __reversed__(self) -> Iterator[Order]:
+        return reversed(self.orders)
 
 
 # --- quantities ---------------------------------------------------------------------------------
@@ -272,7 +286,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
     def _part(self, part: str) -> Self:
         if (name := f"{self.name}.{part}") not in PARTS:
             raise AbsentError(f"{part} is a part of torque and crank_torque, not of {self.name}")
-        return self.replace(name=name)
+        return changed(self, name=name)
 
     def _planar(self, what: str) -> Any:  # noqa: ANN401 - as above
         if not self.kind.planar:
@@ -281,7 +295,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
 
     def __getitem__(self, order: Order | Literal["all"]) -> Self:
         """Return the quantity at one order, or at ``"all"``, of the orders that it has."""
-        return self.replace(order=order_key(order))
+        return changed(self, order=order_key(order))
 
     # --- an array of phasors --------------------------------------------------------------------
 
@@ -298,7 +312,30 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
         if any(isinstance(out, Quantity) for out in keywords.get("out", ())):
             return NotImplemented
         plain = [np.asarray(a) if isinstance(a, Quantity) else a for a in arguments]
-        return getattr(ufunc, method)(*plain, **keywords)
+        try:
+            return getattr(ufunc, method)(*plain, **keywords)
+        except (ValueError, OverflowError) as error:
+            shown = " and ".join(map(inputs.shorten, arguments))
+            hint = f"give numbers, or an array that broadcasts ({inputs.reason(error)})"
+            raise InputError(f"{ufunc.__name__} of {shown}: {hint}") from None
+
+    def __eq__(self, other: object) -> Any:  # noqa: ANN401 - an array, or a bool
+        """Return where phasors are equal, as of arrays; False for what is no array of their shape.
+
+        All orders together have no phasors: they are equal as other results are.
+        """
+        if self.order == ALL or (isinstance(other, Quantity) and other.order == ALL):
+            return isinstance(other, Quantity) and Record.__eq__(self, other)
+        try:
+            return np.equal(self, other)  # type: ignore[call-overload] # of anything
+        except (TypeError, ValueError, OverflowError):
+            return False
+
+    def __ne__(self, other: object) -> Any:  # noqa: ANN401 - as above
+        equal = self == other
+        return not equal if isinstance(equal, bool) else np.logical_not(equal)
+
+    __hash__ = None  # type: ignore[assignment] # equal item by item, as arrays are
 
     @property
     def shape(self) -> tuple[int, ...]:

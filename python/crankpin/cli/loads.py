@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from crankpin._core import InputError
 from crankpin._support import labels
 from crankpin._support.quantities import LOADS
+from crankpin._support.record import changed
 from crankpin.analysis.bearings import AXES, bearing_loads
 from crankpin.cli.arguments import command, option
 from crankpin.cli.outputs import Shown, left_out
@@ -52,7 +53,7 @@ def _torque(given: Given) -> Shown:
     table = getattr(balance, quantity).table
     title = f"{labels.name_of(engine)} at {rpm:g} rpm: {table.title}"
     note += left_out(balance) if chosen["orders"] == "auto" else ""
-    return Shown(table.replace(title=title), drawn, {"quantity": quantity}, note=note)
+    return Shown(changed(table, title=title), drawn, {"quantity": quantity}, note=note)
 
 
 @command(

@@ -9,7 +9,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs
-from crankpin._support.record import Tabled, read_only
+from crankpin._support.record import Input, Tabled, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.model.cycle import Cycle
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from crankpin.model.cylinder import Cylinder
 
 
-class CycleMap(Tabled):
+class CycleMap(Tabled, Input):
     """Cycles at speeds and loads, and linear interpolation of pressure between them.
 
     Parameters

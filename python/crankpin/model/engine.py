@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from crankpin._support import labels
-from crankpin._support.record import AbsentError
+from crankpin._support.record import AbsentError, changed
 from crankpin._support.tables import SHOWN, Table
 from crankpin.model import shafts as rotating
 from crankpin.model.builders import Builders
@@ -551,7 +551,7 @@ class Engine(Builders):
         return "\n".join([*self._summary(), self.table.text(SHOWN)])
 
     def _repr_html_(self) -> str:
-        table = self.table.replace(title="; ".join(self._summary()))._repr_html_()
+        table = changed(self.table, title="; ".join(self._summary()))._repr_html_()
         picture = self._picture()
         return table if picture is None else f"<div>{picture}</div>{table}"
 

@@ -7,7 +7,6 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias
 
 import numpy as np
@@ -17,7 +16,7 @@ from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin._support.record import Tabled, read_only
+from crankpin._support.record import Tabled, changed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder
@@ -258,7 +257,7 @@ class Sweep(ByOrder, Tabled):
         return (*(["engine"] if self.names is not None else []), *swept)
 
     @cached_property
-    def coords(self) -> Mapping[str, NDArray[np.float64] | list[str]]:
+    def coords(self) -> Mapping[str, NDArray[np.float64] | tuple[str, ...]]:
         """Swept dimension → its values, in the order of the result's dimensions.
 
         Engines with the same name, or none, are numbered.
@@ -268,13 +267,13 @@ class Sweep(ByOrder, Tabled):
             pairs = zip(self.names, self.engines, strict=True)
             coords["engine"] = _distinct([name or _name_of(engine) for name, engine in pairs])
         coords |= {name: self.axes[name] for name in self.dims if name != "engine"}
-        return MappingProxyType(coords)
+        return read_only(coords)
 
     @cached_property
     def fixed(self) -> Mapping[str, float]:
         """Argument that was given as a single value → the value."""
         given = {name: self.axes[name] for name in AXES if name in self.axes}
-        return MappingProxyType(
+        return read_only(
             {name: float(value) for name, value in given.items() if name not in self.dims}
         )
 
@@ -299,7 +298,7 @@ class Sweep(ByOrder, Tabled):
 
     def _with_request(self, request: Request) -> Self:
         """Return the same sweep by another request."""
-        return self.replace(request=check_request(request, "crankpin.sweep"))
+        return changed(self, request=check_request(request, "crankpin.sweep"))
 
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
         with progress_bar.shown(self.progress, f"{quantity}, {what}") as report:
@@ -356,7 +355,7 @@ class Sweep(ByOrder, Tabled):
                     engines, names = (engines[place],), None
                 else:
                     axes[name] = float(self.coords[name][place])
-            return self.replace(engines=engines, names=names, axes=axes)
+            return changed(self, engines=engines, names=names, axes=axes)
         return self._balance_at(tuple(places[name] for name in self.dims))
 
     def least(self, values: ArrayLike) -> Balance:
@@ -664,11 +663,11 @@ def _name_of(engine: Engine) -> str:
     return labels.name_of(engine) if engine.name else ""
 
 
-def _distinct(names: Sequence[str]) -> list[str]:
+def _distinct(names: Sequence[str]) -> tuple[str, ...]:
     """Return names, numbered where they do not distinguish the engines."""
     if "" not in names and len(set(names)) == len(names):
-        return list(names)
-    return [f"{name} ({k})" if name else f"{k}" for k, name in enumerate(names, start=1)]
+        return tuple(names)
+    return tuple(f"{name} ({k})" if name else f"{k}" for k, name in enumerate(names, start=1))
 
 
 def engine_titles(sweep: Sweep) -> list[str]:
