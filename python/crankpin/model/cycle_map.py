@@ -86,8 +86,8 @@ class CycleMap(Tabled, Input):
         rpm, load
             Within the map: nothing is extrapolated.
         """
-        by_speed = _weights("rpm", self.rpm, inputs.number("rpm", rpm))
-        by_load = _weights("load", self.load, inputs.number("load", load))
+        rpm, load = inputs.number("rpm", rpm), inputs.number("load", load)
+        by_speed, by_load = _weights("rpm", self.rpm, rpm), _weights("load", self.load, load)
         parts = [
             (float(w * v), self.cycles[k][j]._core)
             for k, w in enumerate(by_speed)

@@ -215,7 +215,7 @@ class BobWeight(Tabled):
 
     @staticmethod
     def _nearest(start: complex, change: complex) -> float:
-        return -(start * change.conjugate()).real / abs(change) ** 2
+        return -(start / change).real  # no square, which would underflow
 
     def straight(self, quantity: str) -> tuple[tuple[float, float], ...]:
         """Return the factors that leave a vector along a straight line, and its direction.
@@ -234,10 +234,10 @@ class BobWeight(Tabled):
         # |start + κ·change| = |backward|, about the factor at which the left side is least.
         middle = self._nearest(start, change)
         least = abs(start + middle * change)
-        reach = (abs(backward) - least) * (abs(backward) + least)
-        if reach < 0.0:
+        over, under = abs(backward) + least, abs(backward) - least
+        if under < 0.0:
             return ()
-        apart = math.sqrt(reach) / abs(change)
+        apart = math.sqrt(under / abs(change)) * math.sqrt(over / abs(change))
         # A root of zero comes out beside it.
         roots = [0.0 if abs(each) < 1e-12 else each for each in (middle - apart, middle + apart)]
         found = []

@@ -108,7 +108,7 @@ def _normalized(
             tuple(wanted.values()), shape=tuple(sizes.values()), dtype=np.complex128
         )
         if any(
-            length < 1
+            not length >= 1  # NaN too
             for size, lengths_of in zip(sizes.values(), found, strict=True)
             for length in lengths_of
             if size

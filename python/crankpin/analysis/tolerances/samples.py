@@ -287,7 +287,8 @@ class Tolerances(ByOrder, Tabled):
         parts = inputs.array("q", q)
         if not ((parts >= 0.0) & (parts <= 1.0)).all():
             raise inputs.rejected("q", q, "give numbers from 0 to 1")
-        return np.quantile(self.values(by), parts) if parts.size else parts
+        found: NDArray[np.float64] = np.quantile(self.values(by), parts.ravel())
+        return found.reshape(parts.shape)[()]
 
     @cached_property
     def shares(self) -> Table:
