@@ -17,7 +17,7 @@ def test_polar_diagrams_trace_the_loads_once() -> None:
     for line, expected in zip(series(ax), LOADED.main[[2, 0]], strict=True):
         # Without gas a turn is all there is.
         np.testing.assert_array_equal(line.get_xydata(), expected[:361])
-    assert title_of(ax) == "Inline-4\nmain bearing loads, 6000 rpm"
+    assert title_of(ax) == "Inline-4\nmain bearing loads, 6000 rpm, without gas pressure"
     assert ax.get_aspect() == 1.0
 
 

@@ -103,6 +103,10 @@ def not_shown(orders: Sequence[Order]) -> str:
     return f"Not shown: {orders_text(orders)} ({peak} below {NEGLIGIBLE:g} of the largest)."
 
 
+SPECTRUM_GIVEN = "spectrum given"
+"""Loads of a result whose forces are those of a spectrum."""
+
+
 def gas_text(names: Sequence[str | None], count: int = 1) -> str:
     """Return which gas pressure counts: ``gas: petrol; cylinder 3 does not fire``.
 
@@ -124,6 +128,22 @@ def gas_text(names: Sequence[str | None], count: int = 1) -> str:
         return f"gas: {words}"
     verb = "cylinder {} does" if len(dead) == 1 else "cylinders {} do"
     return f"gas: {words}; {verb.format(cut(', '.join(dead), 30))} not fire"
+
+
+def loads_of(engines: Sequence[Engine], titles: Sequence[str]) -> str:
+    """Return which gas pressure counts in results of several engines, once where it is the same."""
+    texts = [engine.loads_counted for engine in engines]
+    if len(set(texts)) == 1:
+        return texts[0]
+    names: dict[str, list[str]] = {}
+    for title, text in zip(titles, texts, strict=True):
+        names.setdefault(text, []).append(printable(title))
+    return "; ".join(f"{text} ({cut(', '.join(each), 40)})" for text, each in names.items())
+
+
+def attributes(loads: str) -> dict[str, str]:
+    """Return the attributes of a data frame or dataset that say which loads it counts."""
+    return {"loads": loads} if loads else {}
 
 
 def cut(text: str, longest: int = 60) -> str:

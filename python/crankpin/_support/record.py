@@ -83,6 +83,8 @@ class Record:
         return tuple(getattr(self, each.name) for each in self._fields if each.compare)
 
     def __eq__(self, other: object) -> bool:
+        if isinstance(other, np.ndarray):
+            return False  # a masked array would take the record for a sequence
         if not isinstance(other, Record) or type(other) is not type(self):
             return NotImplemented
         return equal(self._compared(), other._compared())

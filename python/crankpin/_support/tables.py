@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
 import numpy as np
 
-from crankpin._support import inputs, optional
+from crankpin._support import inputs, labels, optional
 from crankpin._support.record import AbsentItemError, Record, changed
 
 if TYPE_CHECKING:
@@ -83,6 +83,8 @@ class Table(Record):
     """Line under the table in text and HTML."""
     below: Table | None = None
     """A further table of the same result, shown below this one."""
+    loads: str = ""
+    """Loads that its numbers count, where more could: the last line under the table."""
 
     @classmethod
     def from_rows(
@@ -94,6 +96,7 @@ class Table(Record):
         decimals: int | None = None,
         note: str = "",
         below: Table | None = None,
+        loads: str = "",
     ) -> Table:
         """Return a table of rows: labels before numbers; heads are names or (name, unit)."""
         listed = [[label] if isinstance(label, str) else list(label) for label in labels]
@@ -108,7 +111,7 @@ class Table(Record):
             Column(name, tuple(values), unit, decimals=decimals)
             for (name, unit), values in zip(heads[before:], rows.T.tolist(), strict=True)
         ]
-        return cls(title, tuple(columns), note, below)
+        return cls(title, tuple(columns), note, below, loads)
 
     @property
     def header(self) -> list[str]:
@@ -182,6 +185,8 @@ class Table(Record):
             yield self.note
         if any(each.least and TINY in each.cells()[:rows] for each in self.columns):
             yield f"{TINY}: not zero, but too small to matter."
+        if self.loads:
+            yield f"{self.loads[0].upper()}{self.loads[1:]}."
 
     @overload
     def to_csv(self) -> str: ...
@@ -212,7 +217,7 @@ class Table(Record):
     def to_pandas(self) -> pd.DataFrame:
         """Return a DataFrame, names and units as the heads of its columns (needs pandas)."""
         data = {head: list(each.values) for head, each in self._distinct()}
-        return optional.data_frame(data)
+        return optional.data_frame(data, attributes=labels.attributes(self.loads))
 
     def to_xarray(self) -> xr.Dataset:
         """Return a Dataset over the rows, units as attributes (needs xarray)."""
@@ -220,7 +225,7 @@ class Table(Record):
             head: ("row", np.array(each.values), {"units": each.unit} if each.unit else {})
             for head, each in self._distinct(units=False)
         }
-        return optional.dataset(arrays, {}, {"title": self.title})
+        return optional.dataset(arrays, {}, {"title": self.title} | labels.attributes(self.loads))
 
     def _distinct(self, *, units: bool = True) -> Iterable[tuple[str, Column]]:
         """Yield the columns with heads that are distinct."""

@@ -276,4 +276,4 @@ class Balance(ByOrder, Tabled):
             ]
         given = " of the orders given" if self.request.orders is not None else ""
         title = f"{labels.name_of(self.engine)} {labels.at_speed(self.rpm)}: peaks{given}"
-        return Table(title, tuple(columns), labels.not_shown(left_out))
+        return Table(title, tuple(columns), labels.not_shown(left_out), loads=self.loads_counted)

@@ -159,17 +159,17 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
     @property
     def xy(self) -> NDArray[np.complex128]:
         """Peak phasors along (about) x and y, N or N·m: (…, n_orders, 2)."""
-        return self._planar("phasors")  # type: ignore[no-any-return]
+        return self._planar("phasors", "xy")  # type: ignore[no-any-return]
 
     @property
     def x(self) -> NDArray[np.complex128]:
         """Peak phasors along (about) x, N or N·m: (…, n_orders)."""
-        return self.xy[..., 0]
+        return self._planar("phasors", "x")[..., 0]  # type: ignore[no-any-return]
 
     @property
     def y(self) -> NDArray[np.complex128]:
         """Peak phasors along (about) y, N or N·m: (…, n_orders)."""
-        return self.xy[..., 1]
+        return self._planar("phasors", "y")[..., 1]  # type: ignore[no-any-return]
 
     @property
     def forward(self) -> NDArray[np.complex128]:
@@ -192,7 +192,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
 
         Negative where it turns against the crank, 0 on a straight line. ``peak`` is the longest.
         """
-        return self._of_one_order(np.abs(self.forward) - np.abs(self.backward))
+        forward, backward = (self._planar(part, "minor") for part in labels.TURNING)
+        return self._of_one_order(np.abs(forward) - np.abs(backward))
 
     @property
     def tilt_deg(self) -> Any:  # noqa: ANN401 - as above
@@ -200,10 +201,11 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
 
         0 for a circle.
         """
-        f, b = np.abs(self.forward), np.abs(self.backward)
+        forward, backward = (self._planar(part, "tilt_deg") for part in labels.TURNING)
+        f, b = np.abs(forward), np.abs(backward)
         with np.errstate(invalid="ignore", divide="ignore"):
             # Half the sum of the phases; of the two directions of the axis the upper one.
-            tilt = np.angle(np.sqrt(self.forward / f * (self.backward / b)), deg=True)
+            tilt = np.angle(np.sqrt(forward / f * (backward / b)), deg=True)
         directed = (f != 0.0) & (b != 0.0)
         return self._of_one_order(np.where(tilt <= -90.0, 90.0, np.where(directed, tilt, 0.0)))
 
@@ -288,9 +290,13 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
             raise AbsentError(f"{part} is a part of torque and crank_torque, not of {self.name}")
         return changed(self, name=name)
 
-    def _planar(self, what: str) -> Any:  # noqa: ANN401 - as above
+    def _planar(self, what: str, name: str = "") -> Any:  # noqa: ANN401 - as above
+        """Return an array of a vector; of a torque raise an error that names what is read."""
         if not self.kind.planar:
-            raise AbsentError(f"{what} is defined for a vector; {self.name} is about z alone")
+            hint = "it has phasor and peak"
+            raise AbsentError(
+                f"{name or what} is that of a vector; {self.name} is about z alone: {hint}"
+            )
         return self._read(what)
 
     def __getitem__(self, order: Order | Literal["all"]) -> Self:
@@ -353,6 +359,12 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
 
     # --- text -----------------------------------------------------------------------------------
 
+    @property
+    def loads_counted(self) -> str:
+        """Loads that count where more could, in words; empty for a force or a moment."""
+        gas = self.name in ("torque", "crank_torque")
+        return self.result.loads_counted if gas or self.result.request.pairs is not None else ""
+
     def _columns(self) -> dict[str, str]:
         """Head of each column of the table → array that it shows."""
         if not self.kind.planar:
@@ -381,7 +393,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
                 values, whole = values[:, int(axis)], float(total._read(name)[int(axis)])
             columns.append(Column(head, (*values.tolist(), whole)))
         title = f"{self.kind.words}, {self.unit}"
-        return Table(title, tuple(columns), labels.not_shown(left_out))
+        return Table(title, tuple(columns), labels.not_shown(left_out), loads=self.loads_counted)
 
     def _table_of_parts(self, shown: list[int], note: str) -> Table:
         """Return mean, peaks and phases of a torque and of its parts."""
@@ -402,19 +414,20 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
                 ),
                 Column(f"{part} phase".strip(), (None, *angles, None), "°", digits=4),
             ]
-        return Table(self.kind.words, tuple(columns), note)
+        return Table(self.kind.words, tuple(columns), note, loads=self.loads_counted)
 
     def __repr__(self) -> str:
         name = self.kind.words
         which = f" of {'all orders' if self.order == ALL else f'order {self.order}'}"
+        loads = f", {self.loads_counted}" if self.loads_counted else ""
         if self.result.dims:
             dims, shape = self.result.dims, self.peak.shape
             if self.order is None:
                 dims, shape, which = self.dims, self.shape, ""
             over = ", ".join(f"{d}: {n}" for d, n in zip(dims, shape, strict=True))
-            return f"<Quantity {name}{which}, {self.unit}, over ({over})>"
+            return f"<Quantity {name}{which}, {self.unit}, over ({over}){loads}>"
         if self.order is not None:
-            return f"<Quantity {name}{which}: peak {self.peak:.5g} {self.unit}>"
+            return f"<Quantity {name}{which}: peak {self.peak:.5g} {self.unit}{loads}>"
         return repr(self.table)
 
     def _repr_html_(self) -> str | None:
@@ -473,6 +486,7 @@ class OrderBalance(Quantities, Tabled):
     rocking moment  N·m   0       0        0        0         0  zero, proved
     roll torque     N·m   –       –   657.31        –         –  summed
     crank torque    N·m   –       –   657.31        –         –  summed
+    Without gas pressure.
     """
 
     result: ByOrder
@@ -506,7 +520,13 @@ class OrderBalance(Quantities, Tabled):
         speed = labels.at_speed(self.result._attributes["rpm"])
         where = f"{labels.name_of(self.result._engines[0])} {speed}"
         title = f"{where}: {self._which}"
-        return Table(title, tuple(Column(head, values) for head, values in columns))
+        listed = tuple(Column(head, values) for head, values in columns)
+        return Table(title, listed, loads=self.loads_counted)
+
+    @property
+    def loads_counted(self) -> str:
+        """Loads that count where more could, in words: as of the balance or sweep."""
+        return self.result.loads_counted
 
     def _each(self) -> Iterator[Quantity]:
         """Yield the quantities, and the parts of torques of a fired engine."""

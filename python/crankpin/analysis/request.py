@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from crankpin import _core
-from crankpin._support import inputs
+from crankpin._support import inputs, labels
 from crankpin._support.quantities import KINDS, PARTS, QUANTITIES
 from crankpin._support.record import AbsentError, Record, changed
 
@@ -72,6 +72,12 @@ class Request(Record):
     def at_orders(self, orders: tuple[Order, ...]) -> Request:
         """Return the same request of the orders given."""
         return changed(self, orders=orders)
+
+    def loads_counted(self, gas: str) -> str:
+        """Return the loads that a result counts, where more could: in torque gas pressure does."""
+        if self.pairs is not None:
+            return labels.SPECTRUM_GIVEN
+        return gas if self.torque else ""
 
     @property
     def spectrum(self) -> Spectrum | None:

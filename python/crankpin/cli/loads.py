@@ -124,6 +124,5 @@ def _fired(given: Given, name: str, otherwise: str | None = None) -> tuple[Engin
     fired = engine.replace(cylinder=cylinders).with_cycle(
         cycle, crankcase=given.number("--crankcase", "Pa")
     )
-    shown = labels.cut(labels.printable(cycle.name) or typed)
-    note = " Bores that are not known are taken to equal the stroke." if unknown else ""
-    return fired, f"Cycle: {shown}.{note}\n"
+    note = "Bores that are not known are taken to equal the stroke.\n" if unknown else ""
+    return fired, note

@@ -166,8 +166,18 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
         rows_of = [(each.place, each.name, _several(each.bank_angles_deg)) for each in choices]
         rows = np.array([each.values for each in choices]).reshape(-1, len(heads))
         return Table.from_rows(
-            title, ["place", "engine", ("bank angle", "°"), *heads], rows_of, rows
+            title,
+            ["place", "engine", ("bank angle", "°"), *heads],
+            rows_of,
+            rows,
+            loads=self.loads_counted,
         )
+
+    @property
+    def loads_counted(self) -> str:
+        """Loads that count where more could, in words; empty for objectives without torque."""
+        loads = self.sweep.loads_counted
+        return loads if self._of_torque or loads == labels.SPECTRUM_GIVEN else ""
 
 
 def _several(angles: tuple[float, ...]) -> str:

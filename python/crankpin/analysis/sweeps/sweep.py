@@ -241,6 +241,17 @@ class Sweep(ByOrder, Tabled):
         return self.gas_map is not None or any(engine.fired for engine in self.engines)
 
     @property
+    def _titles(self) -> tuple[str, ...]:
+        return self.coords.get("engine", ("",))  # type: ignore[return-value] # one engine is no dimension
+
+    @property
+    def loads_counted(self) -> str:
+        """Loads that count where more could, in words: as :attr:`Balance.loads_counted`."""
+        if self.gas_map is None:
+            return super().loads_counted
+        return self.request.loads_counted(self.gas_map.loads_counted)
+
+    @property
     def _core(self) -> _core.Sweep:
         """Compiled counterpart."""
         return self.__dict__["_core"]  # type: ignore[no-any-return]
@@ -560,7 +571,8 @@ class Sweep(ByOrder, Tabled):
         orders
             Orders to draw, a row for each; by default as above.
         **options
-            ``label``, put before the names in the legend; colour, line width and other properties
+            ``log=True`` for curves on a logarithmic scale; ``label``, put before the names in the
+            legend; colour, line width and other properties
             of matplotlib lines, of maps those of ``pcolormesh``.
 
         Returns
@@ -604,7 +616,7 @@ class Sweep(ByOrder, Tabled):
                 kind = QUANTITIES[name]
                 values = tuple(peaks(name).ravel().tolist())
                 columns.append(Column(kind.vector_symbol, values, kind.unit))
-        return Table(title, tuple(columns))
+        return Table(title, tuple(columns), loads=self.loads_counted)
 
     def _title(self, of: str = "") -> str:
         given = " of the orders given" if self.request.orders is not None else ""
@@ -619,7 +631,8 @@ class Sweep(ByOrder, Tabled):
         if math.prod(len(values) for values in self.coords.values()) <= MOST_SHOWN:
             return repr(self.table)
         swept = ", ".join(f"{name}: {len(values)}" for name, values in self.coords.items())
-        return f"<Sweep over ({swept})> {self._title()}"
+        loads = f", {self.loads_counted}" if self.loads_counted else ""
+        return f"<Sweep over ({swept})> {self._title()}{loads}"
 
     def _repr_html_(self) -> str | None:
         points = math.prod(len(values) for values in self.coords.values())
