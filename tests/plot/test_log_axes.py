@@ -34,7 +34,7 @@ def test_limits_follow_a_scale_that_becomes_logarithmic(name: str) -> None:
         drawn = [
             np.asarray(line.get_ydata(), dtype=float)
             for line in ax.lines
-            if line.get_transform() == ax.transData
+            if line.get_gid() == SERIES
         ]
         drawn = [values[np.isfinite(values) & (values > 0.0)] for values in drawn]
         largest = max((values.max() for values in drawn if values.size), default=0.0)
