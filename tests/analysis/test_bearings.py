@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import warnings
 
 import crankpin as cp
@@ -437,12 +436,10 @@ def test_errors_name_the_argument(call: object, message: str) -> None:
 def test_results_are_records_over_named_dimensions() -> None:
     loads = cp.bearing_loads(MIXED, RPM, THETA)
     assert loads == cp.bearing_loads(MIXED, RPM, THETA)
-    assert loads.replace(rpm=1000.0) == cp.bearing_loads(MIXED, 1000.0, THETA)
     data = loads.to_xarray()
     assert data.main.sel(main_bearing=2, axis="x").dims == ("theta_deg",)
     np.testing.assert_array_equal(data.side_thrust.sel(cylinder=3), loads.side_thrust[2])
     assert not loads.main.flags.writeable
-    assert dataclasses.is_dataclass(loads)
     assert loads.table["crankpin"].values == tuple(loads.peak("crankpin"))
     below = loads.table.below
     assert below is not None

@@ -56,7 +56,7 @@ def test_options_are_those_of_a_balance() -> None:
 
 def test_the_table_has_what_matters_before_and_after() -> None:
     text = repr(cp.compare(I4, FITTED, rpm=5000, orders=[1, 2, 4]))
-    title, header, *lines = text.splitlines()
+    title, header, *lines, loads = text.splitlines()
     assert title == "Inline-4 → Inline-4 with 2 balance shafts at 5000 rpm: peaks"
     assert header.split() == ["quantity", "order", "before", "after", "change", "%"]
     assert [line.split()[:4] for line in lines] == [
@@ -67,6 +67,7 @@ def test_the_table_has_what_matters_before_and_after() -> None:
         ["roll", "torque,", "N·m", "4"],
         ["roll", "torque,", "N·m", "all"],
     ]
+    assert loads == "Without gas pressure."
     assert repr(cp.compare(I4, V6, rpm=5000)).startswith("Inline-4 → V6 60°, shared pins at 5000")
     assert "<td>roll torque, N·m</td>" in cp.compare(I4, V6, rpm=5000)._repr_html_()
 

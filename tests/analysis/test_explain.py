@@ -547,12 +547,12 @@ SENTENCES: list[tuple[cp.Engine, float | None, str]] = [
     (
         I4.replace(cylinder=CYLINDER).with_cycle(MOTORED),
         None,
-        "Gas pressure does no work over a cycle; its torque has peaks of ",
+        ") does no work over a cycle; its torque has peaks of ",
     ),
     (
         I4.replace(cylinder=CYLINDER).with_cycle(BRAKING),
         None,
-        "Gas pressure brakes the crank with ",
+        "Gas pressure (unnamed cycle) brakes the crank with ",
     ),
     # What turns with the crank is removed by the counterweights alone.
     (

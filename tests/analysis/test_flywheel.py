@@ -9,6 +9,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from conftest import I4
+from crankpin._support.record import changed
 from rederivation import flywheel as rederived
 
 if TYPE_CHECKING:
@@ -240,7 +241,7 @@ def test_an_irregularity_is_kept(wanted: float) -> None:
     fit = cp.flywheel(wave(100, sin1=50, cos3=20), rpm=600, irregularity=wanted)
     found = cp.flywheel(wave(100, sin1=50, cos3=20), rpm=600, inertia=fit.inertia)
     assert found.irregularity == pytest.approx(wanted, rel=1e-11)
-    assert found == fit.replace(irregularity=found.irregularity)
+    assert found == changed(fit, irregularity=found.irregularity)
     speeds = found.speed_rpm
     assert (speeds.max() - speeds.min()) / 600 == pytest.approx(wanted, rel=1e-3)
 

@@ -245,7 +245,7 @@ def test_a_cylinder_without_gas_and_one_that_is_weak() -> None:
     assert np.allclose(found, expected, rtol=0.0, atol=1e-7 * abs(expected).max())
     assert missing.balance(rpm=3000, orders=[0.5])[0.5].crank_torque.peak > 5.0
     assert i4.with_cycle([None] * 4) == i4
-    assert "gas pressure in 3 of 4 cylinders, 2 cycles: bump, crankcase 110000 Pa" in repr(missing)
+    assert "gas: 2 cycles, bump; cylinder 2 does not fire; crankcase 110000 Pa" in repr(missing)
 
 
 def test_khurmi_15_7() -> None:

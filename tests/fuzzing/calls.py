@@ -16,12 +16,12 @@ import numpy as np
 from hypothesis import strategies as st
 
 from fuzzing.sound import JSON, PARTS, TOML
-from fuzzing.surface import SOUND, Target
+from fuzzing.surface import OPERATORS, SOUND, Target
 from fuzzing.values import VALUES
 
 SECONDS = float(os.environ.get("CRANKPIN_FUZZ_SECONDS", "0"))
 PATIENCE = 5.0  # seconds to a call: the longest honest one takes a twentieth of one
-ALLOWED = (TypeError, ValueError, OSError, ImportError)
+ALLOWED = (cp.InputError, OSError, ImportError)
 
 MAP = dict[str, Any]
 
@@ -133,15 +133,33 @@ def unsound(value: Any) -> str:
     return ""
 
 
+def of_operator(call: Call) -> bool:
+    """Whether an operator is called, whose answer is as odd as what it was given."""
+    return call.target.label.rpartition(" ")[2] in OPERATORS
+
+
+def by_python(error: TypeError, call: Call) -> bool:
+    """Whether Python itself raised it: of a call's arguments, or of an operand or a key."""
+    if of_operator(call) or any(callable(value) for value in call.arguments.values()):
+        return True  # or a function given, whose errors pass through
+    last = error.__traceback__
+    while last is not None and last.tb_next is not None:
+        last = last.tb_next
+    return last is not None and last.tb_frame.f_code.co_filename == __file__
+
+
 def problem(call: Call) -> str:
     """What comes of a call but a sound result or an allowed error; nothing if all is well."""
     start = time.monotonic()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)  # of units and pin splits
         try:
-            found = unsound(invoke(call))
+            answer = invoke(call)
+            found = "" if of_operator(call) else unsound(answer)
         except ALLOWED:
             found = ""
+        except TypeError as error:
+            found = "" if by_python(error, call) else f"raised a bare TypeError: {shown(error)}"
         except (KeyboardInterrupt, SystemExit):
             raise
         except BaseException as error:

@@ -1,8 +1,11 @@
 """Everything public that can be called, with what may be given to it."""
 
+# ruff: noqa: ANN401 - operands of any type are the point
+
 from __future__ import annotations
 
 import inspect
+import operator
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -156,6 +159,14 @@ SUBJECTS: dict[str, Any] = {
     "waveforms of a sweep": swept().waveform([0.0, 1.0]),
     "waveforms of a sweep, exact": swept().waveform([0.0, 1.0], exact=True),
 }
+OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
+    "==": operator.eq,
+    "!=": operator.ne,
+    "in": operator.contains,
+    "[]": operator.getitem,
+    "+": operator.add,
+}
+"""What ``subject OPERATOR value`` calls; a TypeError of an operand is Python's or NumPy's."""
 PLAIN = {"Choice", "InputError", "OrderBalance"}  # take anything, and hold it
 RESULTS_MADE_ELSEWHERE = {
     "Balance",
@@ -204,5 +215,26 @@ def targets() -> Iterator[Target]:
                 yield target(f"{label}.{name}", getattr(subject, name))
 
 
+def operators() -> Iterator[Target]:
+    """Every operator that a subject has."""
+    for label, subject in (SUBJECTS | {"quantity": SUBJECTS["balance"].moment}).items():
+        if isinstance(subject, type):
+            continue
+        for name, of in OPERATORS.items():
+            if name == "[]" and not hasattr(type(subject), "__getitem__"):
+                continue
+            if name == "in" and not hasattr(type(subject), "__iter__"):
+                continue
+            if name == "+" and not isinstance(subject, cp.types.Quantity):
+                continue
+
+            def operated(value: Any, subject: Any = subject, of: Any = of) -> Any:
+                return of(subject, value)
+
+            value = inspect.Parameter("value", inspect.Parameter.POSITIONAL_OR_KEYWORD)
+            yield Target(f"{label} {name}", operated, (value,))
+
+
 TARGETS = [each for each in targets() if each.label.rpartition(".")[2] not in SLOW]
+TARGETS += operators()
 PICTURES = [each for each in targets() if each.label.rpartition(".")[2] in SLOW]

@@ -204,6 +204,6 @@ def test_examples_are_engines_of_their_kind() -> None:
     assert 50e5 < petrol.pressure.max() < 80e5
     assert 13e5 < diesel.imep(CYLINDER) < 18e5
     assert 90e5 < diesel.pressure.max() < 160e5
-    assert "computed" in petrol.name
+    assert petrol.name == "example petrol, full load"
     with pytest.raises(cp.InputError, match='kind = \'gas\': give "petrol" or "diesel"'):
         cp.Cycle.example("gas")  # type: ignore[arg-type]

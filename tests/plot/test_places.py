@@ -36,7 +36,7 @@ if TYPE_CHECKING:
         (lambda: V6.waveform(3000).plot(quantity="Moment"), "quantity"),
         (lambda: V6.waveform(3000).plot(kind="orbit", quantity="torque"), "traces no curve"),
         (lambda: over_bank_angle().plot(quantity="power"), "quantity"),
-        (lambda: over_bank_angle().plot(x="rod_ratio"), "choose from: engine, bank_angle_deg"),
+        (lambda: over_bank_angle().plot(x="rod_ratio"), 'give "engine" or "bank_angle_deg"'),
         (lambda: over_bank_angle().plot(kind="map"), 'give kind="curves"'),
         (lambda: over_bank_angle().plot(kind="bars"), "engines alone"),
         (lambda: over_bank_angle().plot(orders=[3.25]), "orders"),
@@ -114,7 +114,7 @@ def test_a_second_result_without_a_label_is_named_by_its_engine() -> None:
     I4.waveform(5000).plot(ax, quantity="torque")
     assert legend_texts(ax) == ["about z (roll)", "Inline-4"]
     # What the two have in common.
-    assert title_of(ax) == "5000 rpm, exact kinematics"
+    assert title_of(ax) == "5000 rpm, exact kinematics, without gas pressure"
 
 
 def test_sweeps_on_the_same_axes_are_told_apart() -> None:

@@ -17,7 +17,7 @@ def test_polar_diagrams_trace_the_loads_once() -> None:
     for line, expected in zip(series(ax), LOADED.main[[2, 0]], strict=True):
         # Without gas a turn is all there is.
         np.testing.assert_array_equal(line.get_xydata(), expected[:361])
-    assert title_of(ax) == "Inline-4\nmain bearing loads, 6000 rpm"
+    assert title_of(ax) == "Inline-4\nmain bearing loads, 6000 rpm, without gas pressure"
     assert ax.get_aspect() == 1.0
 
 
@@ -89,7 +89,9 @@ def test_curves_are_magnitudes_of_vectors_and_values_of_others() -> None:
 
 def test_bending_is_drawn_along_z_with_the_main_bearings() -> None:
     ax = LOADED.plot(kind="bending")
-    LOADED.replace(rpm=3000.0).plot(ax, kind="bending", part="crankcase", label="slow")
+    cp.bearing_loads(LOADED.engine, 3000.0, LOADED.theta_deg).plot(
+        ax, kind="bending", part="crankcase", label="slow"
+    )
     moments = [LOADED.bending(part) for part in ("crank", "crankcase")]
     expected = [np.hypot(*np.moveaxis(each, -1, 0)).max(axis=1) for each in moments]
     np.testing.assert_array_equal(heights(ax)[:2], expected)
@@ -103,7 +105,9 @@ def test_bending_is_drawn_along_z_with_the_main_bearings() -> None:
 
 def test_an_engine_at_rest_says_so() -> None:
     for kind in ("polar", "curves", "bending"):
-        for panel in np.ravel(LOADED.replace(rpm=0.0).plot(kind=kind)):
+        for panel in np.ravel(
+            cp.bearing_loads(LOADED.engine, 0.0, LOADED.theta_deg).plot(kind=kind)
+        ):
             texts = {text.get_text() for text in panel.texts}
             assert not panel.get_visible() or "zero throughout" in texts
 

@@ -1,8 +1,9 @@
 """Does any call with hostile arguments give anything worse than an error?
 
-Every public function, method and constructor is called with hostile values in place of one to three
-arguments: each call must return finite figures or raise TypeError, ValueError (InputError is one),
-OSError or ImportError, within seconds. A panic of the compiled core is none of these, nor is
+Every public function, method, constructor and operator is called with hostile values in place of
+one to three arguments: each call must return finite figures or raise InputError, OSError or
+ImportError, within seconds; TypeError only where Python itself raises it, of arguments that a
+signature has no place for and of operands. A panic of the compiled core is none of these, nor is
 MemoryError.
 
 By default that takes a minute, the same calls each time. With ``CRANKPIN_FUZZ_SECONDS=600`` in the
@@ -77,6 +78,8 @@ def test_fuzz_reaches_the_whole_public_surface() -> None:
     for label in ("firing.gaps", "firing.valves", "i4.firings", "throws", "ValveTiming"):
         assert label in labels
     for label in ("Engine.from_lists", "v6.balance", "sweep.to_pandas", "balance.plot", "i4.save"):
+        assert label in labels
+    for label in ("balance []", "quantity ==", "sweep in", "ranking []"):
         assert label in labels
     for label in ("rank", "ranking.to_pandas", "ranking.plot"):
         assert label in labels

@@ -9,6 +9,7 @@ libraries that draw and tabulate?
 from __future__ import annotations
 
 import copy
+import dataclasses
 import doctest
 import inspect
 import pickle
@@ -16,7 +17,7 @@ import re
 import subprocess
 import sys
 import sysconfig
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import partial
 from html.parser import HTMLParser
@@ -50,6 +51,8 @@ ODD = cp.Engine.from_lists(
     rotating_mass=[0.0, 0.1, 1e-30],
     name='quotes " and \\ and\nlines, Ω',
 )
+I4 = cp.Engine.preset("i4", cylinder=OFFSET.replace(bore=0.09))
+FIRED = I4.with_cycle([cp.Cycle.example(), cp.Cycle.example(), None, cp.Cycle.example()])
 SPECTRUM = {1: 0.5, 2: 0.1 + 0.05j}
 THETA = np.arange(0.0, 720.0, 10.0)
 
@@ -125,6 +128,27 @@ OBJECTS: dict[str, Any] = {
     "Designs": designs(),
     "Designs by a function": designs(by=lambda b: b.total.moment.peak, shafts=[-1, 2]),
     "Design": designs()[0],
+    "Rod": cp.Rod(mass=0.6, inertia=0.0025, length=0.15, to_crankpin=0.05),
+    "Shaft": cp.Shaft(-1, [cp.Unbalance(0.01, 0.1)], x=0.1),
+    "Unbalance": cp.Unbalance(0.01, 0.1, "360/7"),
+    "ValveTiming": cp.ValveTiming(),
+    "PortTiming": cp.PortTiming(exhaust_opens_deg=80),
+    "Arrangement": cp.search_arrangements(6)[0],
+    "ArrangementSearch": cp.search_arrangements(6),
+    "BalanceShafts": cp.balance_shafts(I4, [2, -2]),
+    "BalancerOptions": cp.balancer_options(V6, rpm=1000, most_shafts=1),
+    "BalancerOption": cp.balancer_options(V6, rpm=1000, most_shafts=1)[0],
+    "Firing": I4.firing(),
+    "Match": cp.match_parts(I4, [0.5, 0.51, 0.49, 0.5, 0.505]),
+    "Quantity": balance()[1].moment,
+    "Table": balance().table,
+    "Tolerances": cp.tolerances(I4, rpm=1000, reciprocating_mass=0.01, samples=200),
+    "Verdicts": V6.vanishing_orders().force,
+    "Balance, fired": FIRED.balance(3000),
+    "BearingLoads, fired": cp.bearing_loads(FIRED, 3000, THETA),
+    "Waveform, fired": FIRED.waveform(3000, theta_deg=THETA),
+    "Flywheel, fired": cp.flywheel(FIRED, 3000, inertia=0.1),
+    "TorsionalExcitation, fired": cp.torsional_excitation(FIRED, 3000),
 }
 every_object = pytest.mark.parametrize("name", OBJECTS)
 
@@ -196,6 +220,15 @@ def test_arrays_are_read_only(name: str) -> None:
     found = list(arrays(OBJECTS[name]))
     without = (
         "Cylinder",
+        "Rod",
+        "Shaft",
+        "Unbalance",
+        "ValveTiming",
+        "PortTiming",
+        "Arrangement",
+        "Match",
+        "Table",
+        "Verdicts",
         "Sweep of one",
         "Balance",
         "OrderBalance",
@@ -213,6 +246,41 @@ def test_arrays_are_read_only(name: str) -> None:
         assert not array.flags.writeable, attribute
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 0
+
+
+def test_every_class_is_among_the_objects() -> None:
+    classes = {type(value) for value in OBJECTS.values()}
+    public = {getattr(module, name) for module in (cp, cp.types) for name in module.__all__}
+    assert {each for each in public if isinstance(each, type)} - classes == {cp.InputError}
+
+
+def changed_in_place(value: Any) -> Iterator[str]:
+    """Change all that can be changed of a value, to the bottom; yield how."""
+    if isinstance(value, np.ndarray) and value.flags.writeable and value.size:
+        value[...] = 0
+        yield "an array"
+    elif isinstance(value, dict | list | set):
+        yield from (how for each in list(value) for how in changed_in_place(each))
+        if isinstance(value, dict):
+            yield from (how for each in value.values() for how in changed_in_place(each))
+        value.clear()
+        yield f"a {type(value).__name__}"
+    elif isinstance(value, Mapping):
+        yield from (how for each in value.values() for how in changed_in_place(each))
+    elif isinstance(value, tuple):
+        yield from (how for each in value for how in changed_in_place(each))
+
+
+@every_object
+def test_what_is_read_cannot_be_changed(name: str) -> None:
+    """Fields are frozen to the bottom; of what a property makes anew, the next reader sees none."""
+    value = OBJECTS[name]
+    fields = {each.name for each in getattr(type(value), "_fields", ())}
+    for attribute in figures(value):
+        before = repr(getattr(value, attribute))
+        ways = list(changed_in_place(getattr(value, attribute)))
+        assert not (ways and attribute in fields), attribute
+        assert repr(getattr(value, attribute)) == before, attribute
 
 
 def test_given_arrays_are_copied() -> None:
@@ -234,6 +302,57 @@ def test_given_arrays_are_copied() -> None:
 def test_completion_offers_what_is_public() -> None:
     assert dir(cp) == sorted(cp.__all__)
     assert [name for name in dir(cp) if inspect.ismodule(getattr(cp, name))] == ["types"]
+
+
+# --- another question is another call -------------------------------------------------------------
+
+INPUTS = (cp.Engine, cp.Cylinder, cp.Rod, cp.Shaft, cp.Unbalance, cp.Cycle, cp.CycleMap)
+INPUTS += (cp.ValveTiming, cp.PortTiming, cp.types.Arrangement)
+
+
+@every_object
+def test_inputs_alone_have_replace(name: str) -> None:
+    value = OBJECTS[name]
+    if isinstance(value, INPUTS):
+        assert value.replace() == value
+        with pytest.raises((cp.InputError, TypeError)):
+            value.replace(nonsense=1)
+        return
+    assert not hasattr(value, "replace")
+    assert not hasattr(value, "__replace__")
+    with pytest.raises(TypeError):
+        dataclasses.replace(value)
+
+
+FRESH: dict[str, Callable[[Any], Any]] = {
+    "Balance": lambda b: b.engine.balance(b.rpm, orders=b.request.orders, spectrum=b.spectrum),
+    "BalanceShafts": lambda s: cp.balance_shafts(s.engine, [2, -2]),
+    "BearingLoads": lambda b: cp.bearing_loads(b.engine, b.rpm, b.theta_deg),
+    "Comparison": lambda c: cp.compare(c.before.engine, c.after.engine, c.rpm, orders=[1, 2]),
+    "Explanation": lambda e: e.engine.explain(e.rpm),
+    "Firing": lambda f: f.engine.firing(f.order, strokes=f.strokes),
+    "StarDiagram": lambda d: cp.star_diagram(d.engine, d.orders, mode_shape=d.mode_shape),
+    "Sweep": lambda s: cp.sweep(
+        dict(zip(s.names, s.engines, strict=True)), **s.axes, hold=s.hold, orders=s.orders
+    ),
+    "TorsionalExcitation": lambda t: cp.torsional_excitation(t.engine, t.rpm, orders=t.orders),
+    "VanishingOrders": lambda v: v.engine.vanishing_orders(v.orders),
+    "Waveform": lambda w: w.engine.waveform(w.rpm, theta_deg=w.theta_deg, orders=w.orders),
+    "Balance, fired": lambda b: b.engine.balance(b.rpm),
+    "BearingLoads, fired": lambda b: cp.bearing_loads(b.engine, b.rpm, b.theta_deg),
+    "Flywheel, fired": lambda f: cp.flywheel(f.engine, f.rpm, inertia=f.inertia),
+    "TorsionalExcitation, fired": lambda t: cp.torsional_excitation(t.engine, t.rpm),
+    "Waveform, fired": lambda w: w.engine.waveform(w.rpm, theta_deg=w.theta_deg),
+}
+
+
+@pytest.mark.parametrize("name", FRESH)
+def test_equal_fields_are_equal_numbers(name: str) -> None:
+    """A result's fields put to its function again give the same figures, to the last bit."""
+    value = OBJECTS[name]
+    again = FRESH[name](value)
+    assert again == value
+    assert_same(figures(again), figures(value))
 
 
 # --- copies -------------------------------------------------------------------------------------
@@ -413,8 +532,75 @@ def test_rankings_are_compared_by_what_was_asked_and_found() -> None:
 def test_nothing_equals_something_else() -> None:
     for value in OBJECTS.values():
         for other in (None, 0, "V6", object()):
-            assert value != other
-            assert not value == other  # noqa: SIM201 - the other operator
+            # Of a quantity, an array, item by item.
+            assert np.all(value != other)
+            assert not np.any(value == other)
+
+
+# What nobody means as a key, an item or an operand; True is 1 to Python.
+ODD_VALUES: list[Any] = [
+    None, True, 0, -1, 2.5, float("nan"), 1j, "x", "all", "", b"x", [], (1, 2), {}, {1: 2}, set(),
+    np.array([1, 2]), np.array([]), np.datetime64("2020"), object(), ...,
+    slice(None), slice("a", 1), 10**400, "\ud800", cp.Engine, len,
+]  # fmt: skip
+TOTALS = {"Quantity, all orders": balance().total.moment, "Presets": cp.presets()}
+
+
+@pytest.mark.parametrize("name", [*OBJECTS, *TOTALS])
+def test_operators_answer_whatever_they_meet(name: str) -> None:
+    """``==`` and ``in`` answer; a key that is not there is an InputError, and one of lookups."""
+    value = (OBJECTS | TOTALS)[name]
+    for other in ODD_VALUES:
+        assert np.all(value != other)
+        assert not np.any(value == other)
+        if hasattr(value, "__iter__"):
+            known = isinstance(other, float) and other in list(value)
+            assert (other in value) is known
+        if hasattr(value, "__getitem__"):
+            try:
+                value[other]
+            except cp.InputError as error:
+                assert str(error)  # noqa: PT017 - some keys are there
+    if not isinstance(value, cp.types.Quantity):
+        assert hash(value) == hash(value)
+        assert value == value  # noqa: PLR0124 - the law
+        assert not value != value  # noqa: PLR0124, SIM202 - the law
+        assert bool(value) == (len(value) > 0 if hasattr(value, "__len__") else True)
+
+
+def test_a_quantity_is_equal_item_by_item_and_has_no_hash() -> None:
+    b = balance()
+    assert not isinstance(b.moment, Hashable)
+    with pytest.raises(TypeError, match="unhashable"):
+        hash(b.moment)
+    assert (b.moment == b.moment.xy).all()
+    assert (b.moment != b.force).any()
+    assert (b.moment == [1, 2, 3, 4, 5]) is False
+    assert (b.total.moment == None) is False  # noqa: E711 - the comparison meant
+    assert (b.total.moment == balance().total.moment) is True
+    assert b.total.moment != b.total.force
+    with pytest.raises(cp.InputError, match=r"add of .*: give numbers, or an array"):
+        np.add(b.moment, [1, 2, 3, 4, 5])
+    assert True not in b
+    assert np.array([1, 2]) not in b
+    assert 1.0 in b
+    assert list(reversed(b)) == [6, 2, 1]
+
+
+def test_missing_items_are_input_errors_and_those_of_lookups() -> None:
+    listed = {cp.search_arrangements(6): 99, ranking(): 99, designs(): "x", balance().table: "x"}
+    for value, key in listed.items():
+        with pytest.raises(cp.InputError) as caught:
+            value[key]
+        assert isinstance(caught.value, KeyError)
+        assert isinstance(caught.value, IndexError)
+        assert str(caught.value).startswith(("index = ", "column = "))
+    with pytest.raises(cp.InputError, match='did you mean "order"'):
+        balance().table["ordre"]
+    assert next(iter(balance().table)) == "order"
+    assert "order" in balance().table
+    with pytest.raises(cp.InputError, match="order = True"):
+        cp.star_diagram(I4)[True]
 
 
 def test_zero_has_one_sign_for_equality_and_hash() -> None:
@@ -524,7 +710,7 @@ class Cells(HTMLParser):
 def test_repr_is_short_and_names_the_kind(name: str) -> None:
     text = repr(OBJECTS[name])
     assert text.isprintable() or "\n" in text
-    assert len(text) < 1000
+    assert len(text) < 2200  # thirty rows and notes
     tables = ("Balance", "OrderBalance", "Comparison", "Engine", "Vanishing", "ClosedForm")
     tables += (
         "Ranking",
@@ -534,6 +720,10 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
         "BobWeight",
         "Explanation",
         "Flywheel",
+        "Match",
+        "Quantity",
+        "Table",
+        "Tolerances",
         "TwoPlane",
         "Star",
         "Sweep",
@@ -552,7 +742,8 @@ def test_columns_have_their_units_apart(name: str) -> None:
 
 
 def test_a_balance_is_shown_as_a_table() -> None:
-    lines = repr(balance()).splitlines()
+    *lines, loads = repr(balance()).splitlines()
+    assert loads == "Without gas pressure."
     assert "V6" in lines[0]
     assert "5000 rpm" in lines[0]
     assert [line.split()[0] for line in lines[1:]] == ["order", "1", "2", "6", "all"]

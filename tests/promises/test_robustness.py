@@ -601,3 +601,54 @@ def test_files_that_cannot_be_read(tmp_path: Path) -> None:
             cp.Engine.load(tmp_path / name)
     with pytest.raises(OSError, match="absent"):
         I4.save(tmp_path / "absent" / "engine.toml")
+
+
+FIRED = cp.Engine.preset("i4", cylinder=cp.Cylinder(0.05, 0.15, 0.5, bore=0.08)).with_cycle(
+    cp.Cycle.example()
+)
+SWEPT = cp.sweep(FIRED, rpm=[1000, 2000], orders=[1, 2])
+BARE: dict[str, tuple[Callable[[], object], str]] = {
+    "objective": (
+        lambda: cp.rank([FIRED], rpm=3000, by="total.torque_gas.peak"),
+        "by = 'total.torque_gas.peak'",
+    ),
+    "nothing swept": (
+        lambda: cp.sweep(FIRED, rpm=3).sel(rpm=3),
+        "dimension = 'rpm': there is none",
+    ),
+    "column": (lambda: FIRED.balance(1000).table["x"], "column = 'x': the columns are 'order'"),
+    "torque along x": (lambda: FIRED.balance(1000).torque.x, "x is that of a vector; torque is"),
+    "torque's axis": (lambda: FIRED.balance(1000).torque.minor, "minor is that of a vector"),
+    "progress": (
+        lambda: cp.tolerances(I4, rpm=1000, z=1e-4, samples=200).evaluate(progress=[1]),  # type: ignore[arg-type]
+        r"progress = \[1\]: give True",
+    ),
+    "star": (lambda: cp.star_diagram(FIRED).plot(order="x"), "order = 'x': choose from orders"),  # type: ignore[arg-type]
+    "cycle": (lambda: cp.Cycle.example().plot(cylinder="x"), "cylinder = 'x': give a crankpin"),  # type: ignore[arg-type]
+    "timing": (lambda: cp.PortTiming("\ud800"), "transfer_opens_deg = .*: give degrees"),
+    "sentences": (lambda: FIRED.explain(1000).html(count=-1), "count = -1: give a whole number"),
+    "dimension": (lambda: SWEPT.plot(x=[1]), r"x = \[1\]: give \"rpm\""),  # type: ignore[arg-type]
+    "chunks": (lambda: SWEPT.to_dask(chunks=[float("nan")]), "chunks = .*: give a number"),  # type: ignore[arg-type]
+}
+
+
+@pytest.mark.parametrize("name", BARE)
+def test_errors_name_argument_value_and_hint(name: str) -> None:
+    call, message = BARE[name]
+    with pytest.raises(cp.InputError, match=message):
+        call()
+
+
+def test_bob_weights_of_throws_that_are_almost_one_place() -> None:
+    """Squares of moments over 1e-160 m would underflow."""
+    cylinder = cp.Cylinder(0.05, 0.15, 0.5)
+    for spacing in 10.0 ** np.arange(-300, -20, 20):
+        engine = cp.Engine.inline(cylinder, throws_deg=[0, 90], spacing=float(spacing))
+        weight, usual = (
+            cp.bob_weight(engine),
+            cp.bob_weight(cp.Engine.inline(cylinder, throws_deg=[0, 90], spacing=0.1)),
+        )
+        assert repr(weight)
+        assert weight.least("moment") == pytest.approx(usual.least("moment"), rel=1e-12)
+        directions = [at for _, at in weight.straight("moment")]
+        assert directions == pytest.approx([at for _, at in usual.straight("moment")], abs=1e-6)

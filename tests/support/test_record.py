@@ -50,7 +50,7 @@ def made(**changes: Any) -> Made:  # noqa: ANN401 - of any field
 
 def test_records_compare_hash_pickle_and_copy_by_their_fields() -> None:
     one = made()
-    for other in (made(), made(note="other"), copy.copy(one), copy.deepcopy(one), one.replace()):
+    for other in (made(), made(note="other"), copy.copy(one), copy.deepcopy(one)):
         assert other == one
         assert hash(other) == hash(one)
     for other in (made(name="y"), made(values=np.ones(2)), made(by_name={}), 1, None):

@@ -52,6 +52,9 @@ LARGEST_BINARY = 2**44
 MOST_EXACT = 10**18
 """Fractions are exact up to this value and this denominator; others become floats."""
 
+LARGEST_WHOLE = 10**100
+"""Largest whole number taken: Python refuses to write those of thousands of digits."""
+
 HIGHEST_ORDER = 10_000
 """Highest order that the core sums."""
 
@@ -266,6 +269,8 @@ def whole(name: str, value: object, least: int | None = None) -> int:
         raise rejected(name, value, "give a whole number") from None
     if least is not None and found < least:
         raise rejected(name, found, f"give a whole number, {least} or more")
+    if abs(found) > LARGEST_WHOLE:
+        raise rejected(name, found, "give a whole number of fewer digits")
     return found
 
 
@@ -296,6 +301,8 @@ def one_of(name: str, value: object, choices: Iterable[str]) -> str:
     """Return one of a few words."""
     listed = list(choices)
     if not isinstance(value, str) or value not in listed:
+        if not listed:
+            raise rejected(name, value, "there is none; leave it out")
         *before, last = (f'"{choice}"' for choice in listed)
         hint = f"{', '.join(before)} or {last}" if before else last
         raise rejected(name, value, f"give {hint}{nearest(value, listed)}")
@@ -341,7 +348,8 @@ def angle(name: str, value: object) -> str:
         return angle(name, value[()])
     elif isinstance(value, (Decimal, np.longdouble)):
         value = str(value)
-    return _core.exact_angle(name, value if isinstance(value, str) else number(name, value))
+    known = text(name, value, "give degrees") if isinstance(value, str) else number(name, value)
+    return _core.exact_angle(name, known)
 
 
 def angles(name: str, values: object) -> list[str]:
@@ -479,9 +487,11 @@ def shorten(value: object) -> str:
     return short if len(short) <= 80 else short[:79] + "…"
 
 
-def rejected(name: str, value: object, hint: str) -> InputError:
+def rejected(
+    name: str, value: object, hint: str, kind: type[InputError] = InputError
+) -> InputError:
     """Return the error of an argument: its name, its value and a hint."""
-    return InputError(f"{name} = {shorten(value)}: {hint}")
+    return kind(f"{name} = {shorten(value)}: {hint}")
 
 
 def reason(error: Exception) -> str:

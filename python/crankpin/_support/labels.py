@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
@@ -58,9 +60,9 @@ NEGLIGIBLE = 1e-6
 
 def coordinates(coords: Mapping[str, Any]) -> dict[str, Any]:
     """Return coordinates with their units, in the form that xarray takes."""
+    units = {name: {"units": XARRAY_UNITS[name]} for name in coords if name in XARRAY_UNITS}
     return {
-        name: (name, values, {"units": XARRAY_UNITS[name]} if name in XARRAY_UNITS else {})
-        for name, values in coords.items()
+        name: (name, np.asarray(values), units.get(name, {})) for name, values in coords.items()
     }
 
 
@@ -99,6 +101,49 @@ def not_shown(orders: Sequence[Order]) -> str:
         return ""
     peak = "its peak is" if len(orders) == 1 else "their peaks are"
     return f"Not shown: {orders_text(orders)} ({peak} below {NEGLIGIBLE:g} of the largest)."
+
+
+SPECTRUM_GIVEN = "spectrum given"
+"""Loads of a result whose forces are those of a spectrum."""
+
+
+def gas_text(names: Sequence[str | None], count: int = 1) -> str:
+    """Return which gas pressure counts: ``gas: petrol; cylinder 3 does not fire``.
+
+    Parameters
+    ----------
+    names
+        Name of the cycle of each cylinder, which may be empty; None where it has no cycle.
+    count
+        Number of different cycles.
+    """
+    if all(name is None for name in names):
+        return "without gas pressure"
+    named = [name for name in dict.fromkeys(printable(each or "") for each in names) if name]
+    words = cut(", ".join(named)) or "unnamed cycle"
+    if count > max(1, len(named)):
+        words = f"{count} cycles, {words}" if named else f"{count} cycles"
+    dead = [str(number) for number, name in enumerate(names, start=1) if name is None]
+    if not dead:
+        return f"gas: {words}"
+    verb = "cylinder {} does" if len(dead) == 1 else "cylinders {} do"
+    return f"gas: {words}; {verb.format(cut(', '.join(dead), 30))} not fire"
+
+
+def loads_of(engines: Sequence[Engine], titles: Sequence[str]) -> str:
+    """Return which gas pressure counts in results of several engines, once where it is the same."""
+    texts = [engine.loads_counted for engine in engines]
+    if len(set(texts)) == 1:
+        return texts[0]
+    names: dict[str, list[str]] = {}
+    for title, text in zip(titles, texts, strict=True):
+        names.setdefault(text, []).append(printable(title))
+    return "; ".join(f"{text} ({cut(', '.join(each), 40)})" for text, each in names.items())
+
+
+def attributes(loads: str) -> dict[str, str]:
+    """Return the attributes of a data frame or dataset that say which loads it counts."""
+    return {"loads": loads} if loads else {}
 
 
 def cut(text: str, longest: int = 60) -> str:

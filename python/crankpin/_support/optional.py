@@ -31,9 +31,13 @@ def library(name: str) -> Any:  # noqa: ANN401 - a module
         raise ImportError(f"{name} is not installed: {hint}") from error
 
 
-def data_frame(data: object, **options: object) -> pd.DataFrame:
-    """Return a table of pandas."""
-    return library("pandas").DataFrame(data, **options)  # type: ignore[no-any-return]
+def data_frame(
+    data: object, *, attributes: Mapping[str, object] | None = None, **options: object
+) -> pd.DataFrame:
+    """Return a table of pandas with its attributes."""
+    frame: pd.DataFrame = library("pandas").DataFrame(data, **options)
+    frame.attrs.update(attributes or {})
+    return frame
 
 
 def dataset(

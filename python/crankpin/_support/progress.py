@@ -16,9 +16,9 @@ def shown(
     progress: Progress, description: str
 ) -> AbstractContextManager[Callable[[int, int], object] | None]:
     """Return a context with a function of the steps done and their total, or with None."""
-    if progress is True:
+    if checked(progress) is True:
         return _bar(description)
-    return nullcontext(None if progress is False else progress)
+    return nullcontext(None if isinstance(progress, bool) else progress)
 
 
 @contextmanager

@@ -1,10 +1,21 @@
-"""Base classes of results: frozen records that compare, hash, pickle and copy by their fields."""
+"""Base classes of results and inputs: frozen records that compare, hash, pickle and copy."""
 
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar, dataclass_transform
+from types import MappingProxyType
+from typing import (
+    TYPE_CHECKING,
+    Any,
+    ClassVar,
+    Generic,
+    Self,
+    TypeVar,
+    dataclass_transform,
+    overload,
+)
 
 import numpy as np
 
@@ -19,9 +30,19 @@ if TYPE_CHECKING:
 
 Item = TypeVar("Item")
 
+_MUTABLE = re.compile(r"NDArray|Mapping|dict\[|list\[")
+_OF_DATACLASSES = {"__dataclass_fields__", "__dataclass_params__", "__replace__"}
+"""Attributes by which ``dataclasses.replace`` and ``copy.replace`` take an object."""
+
 
 class AbsentError(InputError, AttributeError):
     """A quantity that this object does not have; ``hasattr`` is False for it."""
+
+
+class AbsentItemError(InputError, KeyError, IndexError):
+    """A key or an index that nothing has; what looks items up takes it as any other."""
+
+    __str__ = InputError.__str__
 
 
 @dataclass_transform(frozen_default=True, eq_default=False, field_specifiers=(dataclasses.field,))
@@ -29,35 +50,41 @@ class Record:
     """Base class whose subclasses are frozen dataclasses with read-only arrays.
 
     A subclass lists its fields; everything else follows from them: the constructor, equality, hash,
-    pickle, copies and ``replace``. Fields declared with ``field(compare=False)`` do not count in
-    equality and hash, fields with ``field(init=False)`` not in pickles either. Values derived from
-    the fields are cached properties. Arrays in the fields are made read-only in place: an array
-    that the caller keeps must be copied before.
+    pickle and copies. Results have no ``replace``, and are no dataclasses to others: a field that
+    changes alone would leave the numbers of another question under its name.
+
+    Fields declared with ``field(compare=False)`` do not count in equality and hash, fields with
+    ``field(init=False)`` not in pickles either. Values derived from the fields are cached
+    properties. Arrays in the fields are made read-only in place (an array that the caller keeps
+    must be copied before), lists become tuples, and mappings read-only.
     """
 
-    __dataclass_fields__: ClassVar[dict[str, dataclasses.Field[Any]]]
-    _arrays: ClassVar[tuple[str, ...]] = ()
-    """Names of the fields that hold arrays."""
+    _fields: ClassVar[tuple[dataclasses.Field[Any], ...]] = ()
+    _mutable: ClassVar[tuple[str, ...]] = ()
+    """Names of the fields whose values could be changed: arrays, lists and mappings."""
 
     def __init_subclass__(cls, **options: Any) -> None:  # noqa: ANN401 - of other base classes
         super().__init_subclass__(**options)
         dataclasses.dataclass(frozen=True, eq=False, repr=False)(cls)
-        fields = dataclasses.fields(cls)
-        cls._arrays = tuple(f.name for f in fields if f.init and "NDArray" in str(f.type))
+        cls._fields = dataclasses.fields(cls)  # type: ignore[arg-type] # made one above
+        cls._mutable = tuple(f.name for f in cls._fields if f.init and _MUTABLE.search(str(f.type)))
+        if not hasattr(cls, "replace"):
+            for name in {*vars(cls)} & _OF_DATACLASSES:
+                delattr(cls, name)
 
     def __post_init__(self) -> None:
-        for name in self._arrays:
-            read_only(getattr(self, name))
+        for name in self._mutable:
+            object.__setattr__(self, name, read_only(getattr(self, name)))
 
-    def replace(self, **changes: Any) -> Self:  # noqa: ANN401 - values of fields
-        """Return a copy with some fields changed."""
-        return dataclasses.replace(self, **changes)
+    __array_ufunc__: Any = None
+    """None, so that NumPy leaves comparison and arithmetic with arrays to the record."""
 
     def _compared(self) -> tuple[Any, ...]:
-        fields = self.__dataclass_fields__.values()
-        return tuple(getattr(self, each.name) for each in fields if each.compare)
+        return tuple(getattr(self, each.name) for each in self._fields if each.compare)
 
     def __eq__(self, other: object) -> bool:
+        if isinstance(other, np.ndarray):
+            return False  # a masked array would take the record for a sequence
         if not isinstance(other, Record) or type(other) is not type(self):
             return NotImplemented
         return equal(self._compared(), other._compared())
@@ -66,8 +93,7 @@ class Record:
         return hash((type(self).__name__, _hashable(self._compared())))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        fields = dataclasses.fields(self)
-        return (_rebuilt, (type(self), {f.name: getattr(self, f.name) for f in fields if f.init}))
+        return (_rebuilt, (type(self), _plain(_values(self))))
 
     def __copy__(self) -> Self:
         return self
@@ -76,10 +102,26 @@ class Record:
         return self
 
     def __repr__(self) -> str:
-        fields = dataclasses.fields(self)
-        shown = ((each.name, getattr(self, each.name)) for each in fields if each.repr)
+        shown = ((each.name, getattr(self, each.name)) for each in self._fields if each.repr)
         values = ", ".join(f"{name}={value!r}" for name, value in shown)
         return f"{type(self).__name__}({values})"
+
+
+class Input(Record):
+    """Base class of records that describe what is computed, not what came out."""
+
+    def replace(self, **changes: Any) -> Self:  # noqa: ANN401 - values of fields
+        """Return a copy with some fields changed.
+
+        Raises
+        ------
+        InputError
+            If there is no such field, or a value is out of range.
+        """
+        names = [each.name for each in self._fields if each.init]
+        for name in changes:
+            inputs.one_of("replace", name, names)
+        return changed(self, **changes)
 
 
 class Tabled(Record):
@@ -128,23 +170,64 @@ class Listed(Generic[Item]):
     def __len__(self) -> int:
         return len(self._listed())
 
-    def __getitem__(self, place: int) -> Item:
-        return self._listed()[place]
+    @overload
+    def __getitem__(self, place: int) -> Item: ...
+
+    @overload
+    def __getitem__(self, place: slice) -> tuple[Item, ...]: ...
+
+    def __getitem__(self, place: int | slice) -> Item | tuple[Item, ...]:
+        listed = self._listed()
+        key: Any = item_key(place, len(listed))
+        return listed[key]  # type: ignore[no-any-return]
 
     def __iter__(self) -> Iterator[Item]:
         return iter(self._listed())
 
 
+def item_key(place: Any, count: int) -> Any:  # noqa: ANN401 - an int or a slice
+    """Return an index or a slice of a sequence, or raise an error that names it."""
+    hint = f"give an index from 0 to {count - 1}, or a slice"
+    try:
+        if isinstance(place, slice):
+            place.indices(count)
+            return place
+        index = inputs.whole("index", place)
+    except (TypeError, ValueError):
+        raise inputs.rejected("index", place, hint, AbsentItemError) from None
+    if not -count <= index < count:
+        raise inputs.rejected("index", index, hint, AbsentItemError)
+    return index
+
+
+Changed = TypeVar("Changed", bound=Record)
+
+
+def changed(record: Changed, **changes: Any) -> Changed:  # noqa: ANN401 - values of fields
+    """Return a copy of a record with some fields changed, whose numbers must be of these fields."""
+    return type(record)(**_values(record) | changes)
+
+
 def read_only(values: Item) -> Item:
-    """Make an array, or the arrays of a tuple or mapping, read-only in place; return it."""
+    """Return values that cannot be changed, to the bottom.
+
+    Arrays are made read-only in place; lists become tuples, mappings read-only views of copies.
+    """
+    found: Any = values
     if isinstance(values, np.ndarray):
         values.setflags(write=False)
-    elif isinstance(values, tuple):
-        for each in values:
-            read_only(each)
+    elif type(values) in (tuple, list):
+        found = tuple(map(read_only, values))  # type: ignore[call-overload]
     elif isinstance(values, Mapping):
-        read_only(tuple(values.values()))
-    return values
+        found = MappingProxyType({key: read_only(each) for key, each in values.items()})
+    return found  # type: ignore[no-any-return]
+
+
+def _plain(value: Any) -> Any:  # noqa: ANN401 - values of fields
+    """Return a value that can be pickled: read-only mappings cannot."""
+    if isinstance(value, Mapping):
+        return {key: _plain(each) for key, each in value.items()}
+    return tuple(map(_plain, value)) if type(value) is tuple else value
 
 
 def equal(a: Any, b: Any) -> bool:  # noqa: ANN401 - values of fields
@@ -166,6 +249,11 @@ def _hashable(value: Any) -> Any:  # noqa: ANN401 - values of fields
     if isinstance(value, Mapping):
         return tuple((key, _hashable(item)) for key, item in value.items())
     return value
+
+
+def _values(record: Record) -> dict[str, Any]:
+    """Return the values of the fields that the constructor takes, by name."""
+    return {each.name: getattr(record, each.name) for each in record._fields if each.init}
 
 
 def _rebuilt(kind: type[Record], fields: dict[str, Any]) -> Record:

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
 import numpy as np
 
-from crankpin._support import inputs, optional
-from crankpin._support.record import Record
+from crankpin._support import inputs, labels, optional
+from crankpin._support.record import AbsentItemError, Record, changed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
     from pathlib import Path
 
     import pandas as pd
@@ -83,6 +83,8 @@ class Table(Record):
     """Line under the table in text and HTML."""
     below: Table | None = None
     """A further table of the same result, shown below this one."""
+    loads: str = ""
+    """Loads that its numbers count, where more could: the last line under the table."""
 
     @classmethod
     def from_rows(
@@ -94,6 +96,7 @@ class Table(Record):
         decimals: int | None = None,
         note: str = "",
         below: Table | None = None,
+        loads: str = "",
     ) -> Table:
         """Return a table of rows: labels before numbers; heads are names or (name, unit)."""
         listed = [[label] if isinstance(label, str) else list(label) for label in labels]
@@ -108,7 +111,7 @@ class Table(Record):
             Column(name, tuple(values), unit, decimals=decimals)
             for (name, unit), values in zip(heads[before:], rows.T.tolist(), strict=True)
         ]
-        return cls(title, tuple(columns), note, below)
+        return cls(title, tuple(columns), note, below, loads)
 
     @property
     def header(self) -> list[str]:
@@ -119,8 +122,20 @@ class Table(Record):
         return len(self.columns[0].values) if self.columns else 0
 
     def __getitem__(self, name: str) -> Column:
-        """Return the column of a name."""
-        return next(column for column in self.columns if column.name == name)
+        """Return the column of a name, or raise an InputError."""
+        for column in self.columns:
+            if isinstance(name, str) and column.name == name:
+                return column
+        names = [column.name for column in self.columns]
+        hint = f"the columns are {', '.join(map(repr, names))}{inputs.nearest(name, names)}"
+        raise inputs.rejected("column", name, hint, AbsentItemError)
+
+    def __iter__(self) -> Iterator[str]:
+        """Return an iterator over the names of the columns."""
+        return (column.name for column in self.columns)
+
+    def __contains__(self, name: object) -> bool:
+        return isinstance(name, str) and any(column.name == name for column in self.columns)
 
     def cells(self) -> list[list[str]]:
         """Return the rows as text, numbers rounded and exact zeros as 0."""
@@ -170,6 +185,8 @@ class Table(Record):
             yield self.note
         if any(each.least and TINY in each.cells()[:rows] for each in self.columns):
             yield f"{TINY}: not zero, but too small to matter."
+        if self.loads:
+            yield f"{self.loads[0].upper()}{self.loads[1:]}."
 
     @overload
     def to_csv(self) -> str: ...
@@ -200,7 +217,7 @@ class Table(Record):
     def to_pandas(self) -> pd.DataFrame:
         """Return a DataFrame, names and units as the heads of its columns (needs pandas)."""
         data = {head: list(each.values) for head, each in self._distinct()}
-        return optional.data_frame(data)
+        return optional.data_frame(data, attributes=labels.attributes(self.loads))
 
     def to_xarray(self) -> xr.Dataset:
         """Return a Dataset over the rows, units as attributes (needs xarray)."""
@@ -208,7 +225,7 @@ class Table(Record):
             head: ("row", np.array(each.values), {"units": each.unit} if each.unit else {})
             for head, each in self._distinct(units=False)
         }
-        return optional.dataset(arrays, {}, {"title": self.title})
+        return optional.dataset(arrays, {}, {"title": self.title} | labels.attributes(self.loads))
 
     def _distinct(self, *, units: bool = True) -> Iterable[tuple[str, Column]]:
         """Yield the columns with heads that are distinct."""
@@ -235,5 +252,5 @@ def stacked(*tables: Table) -> Table:
     """Return the first of some tables with the others below it."""
     *above, whole = tables
     for table in reversed(above):
-        whole = table.replace(below=whole)
+        whole = changed(table, below=whole)
     return whole

@@ -9,7 +9,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import KINDS, QUANTITIES
-from crankpin._support.record import Tabled
+from crankpin._support.record import Tabled, changed
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.drawing import draw
@@ -147,7 +147,7 @@ class Balance(ByOrder, Tabled):
         within = self.within
         if within is not None:
             within = (within[0]._with_request(request), within[1])
-        return self.replace(request=request, within=within)
+        return changed(self, request=request, within=within)
 
     def _proved_zero(self, quantity: str, order: Order) -> bool:
         """Return whether a quantity of one order is proved to vanish."""
@@ -278,4 +278,4 @@ class Balance(ByOrder, Tabled):
             ]
         given = " of the orders given" if self.request.orders is not None else ""
         title = f"{labels.name_of(self.engine)} {labels.at_speed(self.rpm)}: peaks{given}"
-        return Table(title, tuple(columns), labels.not_shown(left_out))
+        return Table(title, tuple(columns), labels.not_shown(left_out), loads=self.loads_counted)

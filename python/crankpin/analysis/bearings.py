@@ -116,6 +116,11 @@ class BearingLoads(Tabled):
     def _core(self) -> _core.Internal:
         return self.__dict__["_internal"]  # type: ignore[no-any-return]
 
+    @property
+    def loads_counted(self) -> str:
+        """Gas pressure that counts, in words: as :attr:`Engine.loads_counted`."""
+        return self.engine.loads_counted
+
     def read(self, load: str) -> NDArray[np.float64]:
         """Return the values of a load by its name, read-only.
 
@@ -329,7 +334,8 @@ class BearingLoads(Tabled):
             **labels.coordinates({"theta_deg": self.theta_deg}),
             "axis": ("axis", ["x", "y"]),
         }
-        return optional.dataset(arrays, coords, {"engine": self.engine.name, "rpm": self.rpm})
+        attributes = {"engine": self.engine.name, "rpm": self.rpm}
+        return optional.dataset(arrays, coords, attributes | labels.attributes(self.loads_counted))
 
     def plot(
         self,
@@ -396,6 +402,7 @@ class BearingLoads(Tabled):
                 *(Column(name, tuple(each.tolist()), "N") for name, each in columns.items()),
                 Column("pulled for", tuple(in_tension), "°"),
             ),
+            loads=self.loads_counted,
             below=Table(
                 "Main bearings, which share the loads between them by the lever rule",
                 (

@@ -58,6 +58,19 @@ class ByOrder(Keyed, Quantities):
         return False
 
     @property
+    def loads_counted(self) -> str:
+        """Loads that count where more could, in words: as :attr:`Engine.loads_counted`.
+
+        Empty without torque: gas pressure makes no force and no moment.
+        """
+        return self.request.loads_counted(labels.loads_of(self._engines, self._titles))
+
+    @property
+    def _titles(self) -> tuple[str, ...]:
+        """Names that distinguish the engines."""
+        return tuple(map(labels.name_of, self._engines))
+
+    @property
     def dims(self) -> tuple[str, ...]:
         """Names of the swept dimensions."""
         return ()

@@ -94,6 +94,7 @@ class Comparison(Tabled):
     roll torque, N·m      2  657.31  657.31         0
     roll torque, N·m      4  30.216  30.216         0
     roll torque, N·m    all  660.06  660.06         0
+    Without gas pressure.
     """
 
     before: Balance
@@ -199,7 +200,14 @@ class Comparison(Tabled):
                 rows.append((*total, 100.0 * _change(*map(np.asarray, total))))
         title = f"{self.title} at {self.rpm:g} rpm: peaks"
         header = ["quantity", "order", "before", "after", "change %"]
-        return Table.from_rows(title, header, texts, np.array(rows).reshape(-1, 3))
+        listed = np.array(rows).reshape(-1, 3)
+        return Table.from_rows(title, header, texts, listed, loads=self.loads_counted)
+
+    @property
+    def loads_counted(self) -> str:
+        """Loads that count where more could, in words: as :attr:`Balance.loads_counted`."""
+        gas = labels.loads_of([self.before.engine, self.after.engine], ["before", "after"])
+        return self.before.request.loads_counted(gas)
 
     @property
     def names(self) -> tuple[str, str]:

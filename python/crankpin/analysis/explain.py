@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import itertools
+import sys
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -84,6 +85,7 @@ class Explanation(Record):
 
     def html(self, count: int | None = None) -> str:
         """Return all sentences, or the first that are about force and moment, as a list in HTML."""
+        count = None if count is None else min(inputs.whole("count", count, 0), sys.maxsize)
         found = self._found() if count is None else filter(_of_planes, self._found())
         items = (html.escape(each) for each in self._said(itertools.islice(found, count)))
         return f"<ul>{''.join(f'<li>{item}</li>' for item in items)}</ul>"

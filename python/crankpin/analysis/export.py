@@ -81,7 +81,8 @@ def to_xarray(
     if inputs.flag("split_complex", split_complex):
         arrays = {name: _split(variable) for name, variable in arrays.items()}
         coords["part"] = ("part", ["re", "im"])
-    return optional.dataset(arrays, coords, {**result._attributes, **bounds})
+    loads = labels.attributes(result.loads_counted)
+    return optional.dataset(arrays, coords, {**result._attributes, **loads, **bounds})
 
 
 def _split(variable: tuple[tuple[str, ...], Any, dict[str, str]]) -> Any:  # noqa: ANN401
@@ -119,7 +120,7 @@ def to_pandas(result: ByOrder, quantities: Sequence[str]) -> pd.DataFrame:
             flat = values.ravel()
             figures = {"real": flat.real, "imag": flat.imag, "peak": np.abs(flat)}
             columns.append((quantity, component, figures))
-    return _tidy({**result.coords, "order": result.orders}, columns)
+    return _tidy({**result.coords, "order": result.orders}, columns, result.loads_counted)
 
 
 def waveforms_to_pandas(result: OverAngle, quantities: Sequence[str]) -> pd.DataFrame:
@@ -131,11 +132,11 @@ def waveforms_to_pandas(result: OverAngle, quantities: Sequence[str]) -> pd.Data
         for k, component in enumerate("xy" if planar else "z"):
             figures = {"value": (values[..., k] if planar else values).ravel()}
             columns.append((name, component, figures))
-    return _tidy(result.coords, columns)
+    return _tidy(result.coords, columns, result.loads_counted)
 
 
 def _tidy(
-    coords: Mapping[str, Any], columns: Sequence[tuple[str, str, Mapping[str, Any]]]
+    coords: Mapping[str, Any], columns: Sequence[tuple[str, str, Mapping[str, Any]]], loads: str
 ) -> pd.DataFrame:
     """Return figures of each quantity and component, below each other."""
     pandas = optional.library("pandas")
@@ -149,6 +150,7 @@ def _tidy(
         for quantity, component, figures in columns
     ]
     table: pd.DataFrame = pandas.concat(parts, ignore_index=True)
+    table.attrs.update(labels.attributes(loads))
     return table
 
 
@@ -159,4 +161,5 @@ def waveforms_to_xarray(result: OverAngle, quantities: Sequence[str]) -> xr.Data
         dims = (*result.dims, "axis") if name in PLANE_VECTORS else result.dims
         arrays[name.replace(".", "_")] = (dims, result.read(name), units(name))
     coords = _labelled(result.coords, quantities)
-    return optional.dataset(arrays, coords, result._attributes)
+    loads = labels.attributes(result.loads_counted)
+    return optional.dataset(arrays, coords, {**result._attributes, **loads})

@@ -255,7 +255,12 @@ class Flywheel(Tabled):
             Column("value", values, digits=6),
             Column("unit", units),
         )
-        return Table(self.title, columns, below=self._approximated())
+        return Table(self.title, columns, below=self._approximated(), loads=self.loads_counted)
+
+    @property
+    def loads_counted(self) -> str:
+        """Gas pressure that drives the crank, in words; empty for a turning-moment diagram."""
+        return "" if self.engine is None else self.engine.loads_counted
 
     def _approximated(self) -> Table:
         # Without pistons there is one.

@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from crankpin import _core
 from crankpin._support import inputs
-from crankpin._support.record import Record
+from crankpin._support.record import Input
 
 if TYPE_CHECKING:
     from crankpin._support.inputs import Angle
 
 
-class _Timing(Record):
+class _Timing(Input):
     """Angles of valves or ports, checked."""
 
     def __post_init__(self) -> None:
-        for name in self.__dataclass_fields__:
+        for name in self._names:
             value = getattr(self, name)
             if not isinstance(value, (str, Fraction)):
                 object.__setattr__(self, name, inputs.number(name, value))
@@ -26,8 +26,11 @@ class _Timing(Record):
     @property
     def _texts(self) -> list[str]:
         """The angles as text that reads back exactly, as the core takes them."""
-        names = self.__dataclass_fields__
-        return [inputs.angle(name, getattr(self, name)) for name in names]
+        return [inputs.angle(name, getattr(self, name)) for name in self._names]
+
+    @property
+    def _names(self) -> list[str]:
+        return [each.name for each in self._fields]
 
 
 class ValveTiming(_Timing):

@@ -11,7 +11,14 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import KINDS, PARTS, Kind
-from crankpin._support.record import AbsentError, Record, Tabled, read_only
+from crankpin._support.record import (
+    AbsentError,
+    AbsentItemError,
+    Record,
+    Tabled,
+    changed,
+    read_only,
+)
 from crankpin._support.tables import Column, Table
 
 if TYPE_CHECKING:
@@ -61,7 +68,10 @@ class Keyed:
             """Multiples of crank speed: ints, and floats for halves."""
 
     def __contains__(self, order: object) -> bool:
-        return order in self.orders
+        try:
+            return inputs.order(order) in self.orders
+        except (TypeError, ValueError, OverflowError):
+            return False
 
     def __iter__(self) -> Iterator[Order]:
         return iter(self.orders)
@@ -71,9 +81,13 @@ class Keyed:
 
     def _place(self, order: object) -> int:
         """Return the index of an order, or raise an InputError."""
-        if order not in self.orders:
-            raise inputs.rejected("order", order, f"choose from {labels.orders_text(self.orders)}")
-        return self.orders.index(order)
+        if order not in self:
+            hint = f"choose from {labels.orders_text(self.orders)}"
+            raise inputs.rejected("order", order, hint, AbsentItemError)
+        return self.orders.index(inputs.order(order))
+
+    def __reversed__(self) -> Iterator[Order]:
+        return reversed(self.orders)
 
 
 # --- quantities ---------------------------------------------------------------------------------
@@ -145,17 +159,17 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
     @property
     def xy(self) -> NDArray[np.complex128]:
         """Peak phasors along (about) x and y, N or N·m: (…, n_orders, 2)."""
-        return self._planar("phasors")  # type: ignore[no-any-return]
+        return self._planar("phasors", "xy")  # type: ignore[no-any-return]
 
     @property
     def x(self) -> NDArray[np.complex128]:
         """Peak phasors along (about) x, N or N·m: (…, n_orders)."""
-        return self.xy[..., 0]
+        return self._planar("phasors", "x")[..., 0]  # type: ignore[no-any-return]
 
     @property
     def y(self) -> NDArray[np.complex128]:
         """Peak phasors along (about) y, N or N·m: (…, n_orders)."""
-        return self.xy[..., 1]
+        return self._planar("phasors", "y")[..., 1]  # type: ignore[no-any-return]
 
     @property
     def forward(self) -> NDArray[np.complex128]:
@@ -178,7 +192,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
 
         Negative where it turns against the crank, 0 on a straight line. ``peak`` is the longest.
         """
-        return self._of_one_order(np.abs(self.forward) - np.abs(self.backward))
+        forward, backward = (self._planar(part, "minor") for part in labels.TURNING)
+        return self._of_one_order(np.abs(forward) - np.abs(backward))
 
     @property
     def tilt_deg(self) -> Any:  # noqa: ANN401 - as above
@@ -186,10 +201,11 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
 
         0 for a circle.
         """
-        f, b = np.abs(self.forward), np.abs(self.backward)
+        forward, backward = (self._planar(part, "tilt_deg") for part in labels.TURNING)
+        f, b = np.abs(forward), np.abs(backward)
         with np.errstate(invalid="ignore", divide="ignore"):
             # Half the sum of the phases; of the two directions of the axis the upper one.
-            tilt = np.angle(np.sqrt(self.forward / f * (self.backward / b)), deg=True)
+            tilt = np.angle(np.sqrt(forward / f * (backward / b)), deg=True)
         directed = (f != 0.0) & (b != 0.0)
         return self._of_one_order(np.where(tilt <= -90.0, 90.0, np.where(directed, tilt, 0.0)))
 
@@ -270,16 +286,20 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
     def _part(self, part: str) -> Self:
         if (name := f"{self.name}.{part}") not in PARTS:
             raise AbsentError(f"{part} is a part of torque and crank_torque, not of {self.name}")
-        return self.replace(name=name)
+        return changed(self, name=name)
 
-    def _planar(self, what: str) -> Any:  # noqa: ANN401 - as above
+    def _planar(self, what: str, name: str = "") -> Any:  # noqa: ANN401 - as above
+        """Return an array of a vector; of a torque raise an error that names what is read."""
         if not self.kind.planar:
-            raise AbsentError(f"{what} is defined for a vector; {self.name} is about z alone")
+            hint = "it has phasor and peak"
+            raise AbsentError(
+                f"{name or what} is that of a vector; {self.name} is about z alone: {hint}"
+            )
         return self._read(what)
 
     def __getitem__(self, order: Order | Literal["all"]) -> Self:
         """Return the quantity at one order, or at ``"all"``, of the orders that it has."""
-        return self.replace(order=order_key(order))
+        return changed(self, order=order_key(order))
 
     # --- an array of phasors --------------------------------------------------------------------
 
@@ -296,7 +316,30 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
         if any(isinstance(out, Quantity) for out in keywords.get("out", ())):
             return NotImplemented
         plain = [np.asarray(a) if isinstance(a, Quantity) else a for a in arguments]
-        return getattr(ufunc, method)(*plain, **keywords)
+        try:
+            return getattr(ufunc, method)(*plain, **keywords)
+        except (ValueError, OverflowError) as error:
+            shown = " and ".join(map(inputs.shorten, arguments))
+            hint = f"give numbers, or an array that broadcasts ({inputs.reason(error)})"
+            raise InputError(f"{ufunc.__name__} of {shown}: {hint}") from None
+
+    def __eq__(self, other: object) -> Any:  # noqa: ANN401 - an array, or a bool
+        """Return where phasors are equal, as of arrays; False for what is no array of their shape.
+
+        All orders together have no phasors: they are equal as other results are.
+        """
+        if self.order == ALL or (isinstance(other, Quantity) and other.order == ALL):
+            return isinstance(other, Quantity) and Record.__eq__(self, other)
+        try:
+            return np.equal(self, other)  # type: ignore[call-overload] # of anything
+        except (TypeError, ValueError, OverflowError):
+            return False
+
+    def __ne__(self, other: object) -> Any:  # noqa: ANN401 - as above
+        equal = self == other
+        return not equal if isinstance(equal, bool) else np.logical_not(equal)
+
+    __hash__ = None  # type: ignore[assignment] # equal item by item, as arrays are
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -313,6 +356,12 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
         return bool(np.any(np.asarray(self)))
 
     # --- text -----------------------------------------------------------------------------------
+
+    @property
+    def loads_counted(self) -> str:
+        """Loads that count where more could, in words; empty for a force or a moment."""
+        gas = self.name in ("torque", "crank_torque")
+        return self.result.loads_counted if gas or self.result.request.pairs is not None else ""
 
     def _columns(self) -> dict[str, str]:
         """Head of each column of the table → array that it shows."""
@@ -342,7 +391,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
                 values, whole = values[:, int(axis)], float(total._read(name)[int(axis)])
             columns.append(Column(head, (*values.tolist(), whole)))
         title = f"{self.kind.words}, {self.unit}"
-        return Table(title, tuple(columns), labels.not_shown(left_out))
+        return Table(title, tuple(columns), labels.not_shown(left_out), loads=self.loads_counted)
 
     def _table_of_parts(self, shown: list[int], note: str) -> Table:
         """Return mean, peaks and phases of a torque and of its parts."""
@@ -363,19 +412,20 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
                 ),
                 Column(f"{part} phase".strip(), (None, *angles, None), "°", digits=4),
             ]
-        return Table(self.kind.words, tuple(columns), note)
+        return Table(self.kind.words, tuple(columns), note, loads=self.loads_counted)
 
     def __repr__(self) -> str:
         name = self.kind.words
         which = f" of {'all orders' if self.order == ALL else f'order {self.order}'}"
+        loads = f", {self.loads_counted}" if self.loads_counted else ""
         if self.result.dims:
             dims, shape = self.result.dims, self.peak.shape
             if self.order is None:
                 dims, shape, which = self.dims, self.shape, ""
             over = ", ".join(f"{d}: {n}" for d, n in zip(dims, shape, strict=True))
-            return f"<Quantity {name}{which}, {self.unit}, over ({over})>"
+            return f"<Quantity {name}{which}, {self.unit}, over ({over}){loads}>"
         if self.order is not None:
-            return f"<Quantity {name}{which}: peak {self.peak:.5g} {self.unit}>"
+            return f"<Quantity {name}{which}: peak {self.peak:.5g} {self.unit}{loads}>"
         return repr(self.table)
 
     def _repr_html_(self) -> str | None:
@@ -434,6 +484,7 @@ class OrderBalance(Quantities, Tabled):
     rocking moment  N·m   0       0        0        0         0  zero, proved
     roll torque     N·m   –       –   657.31        –         –  summed
     crank torque    N·m   –       –   657.31        –         –  summed
+    Without gas pressure.
     """
 
     result: ByOrder
@@ -467,7 +518,13 @@ class OrderBalance(Quantities, Tabled):
         speed = labels.at_speed(self.result._attributes["rpm"])
         where = f"{labels.name_of(self.result._engines[0])} {speed}"
         title = f"{where}: {self._which}"
-        return Table(title, tuple(Column(head, values) for head, values in columns))
+        listed = tuple(Column(head, values) for head, values in columns)
+        return Table(title, listed, loads=self.loads_counted)
+
+    @property
+    def loads_counted(self) -> str:
+        """Loads that count where more could, in words: as of the balance or sweep."""
+        return self.result.loads_counted
 
     def _each(self) -> Iterator[Quantity]:
         """Yield the quantities, and the parts of torques of a fired engine."""

@@ -8,9 +8,9 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from crankpin import _core
-from crankpin._support import inputs
+from crankpin._support import inputs, labels
 from crankpin._support.quantities import KINDS, PARTS, QUANTITIES
-from crankpin._support.record import AbsentError, Record
+from crankpin._support.record import AbsentError, Record, changed
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -62,17 +62,23 @@ class Request(Record):
     def about(self, name: str, point: object) -> Request:
         """Return the same request with moments about the point of a name: z, or (x, y, z), m."""
         if name == "z" or not isinstance(point, Iterable) or getattr(point, "ndim", 1) == 0:
-            return self.replace(reference_z=inputs.finite(name, point), aside=(0.0, 0.0))
+            return changed(self, reference_z=inputs.finite(name, point), aside=(0.0, 0.0))
         hint = "point is a position z along the crank, or (x, y, z), m"
         listed = [inputs.finite(name, each) for each in inputs.items(name, point, hint)]
         if len(listed) != 3:
             raise inputs.rejected(name, point, hint)
         x, y, z = listed
-        return self.replace(reference_z=z, aside=(x, y))
+        return changed(self, reference_z=z, aside=(x, y))
 
     def at_orders(self, orders: tuple[Order, ...]) -> Request:
         """Return the same request of the orders given."""
-        return self.replace(orders=orders)
+        return changed(self, orders=orders)
+
+    def loads_counted(self, gas: str) -> str:
+        """Return the loads that a result counts, where more could: in torque gas pressure does."""
+        if self.pairs is not None:
+            return labels.SPECTRUM_GIVEN
+        return gas if self.torque else ""
 
     @property
     def spectrum(self) -> Spectrum | None:

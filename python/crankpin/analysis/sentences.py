@@ -245,7 +245,8 @@ def _rest(finding: Finding, whole: Explanation) -> str:
 
 def _inertia_torque(finding: Finding, whole: Explanation) -> str:
     peak = f": {figure(finding.values[0], 'N·m')}" if whole.rpm is not None else ""
-    return f"the roll torque of the moving parts is largest at {orders(finding.orders)}{peak}"
+    text = f"the roll torque of the moving parts is largest at {orders(finding.orders)}{peak}"
+    return text if whole.engine.fired else f"{text}, {whole.engine.loads_counted}"
 
 
 def _gas_torque(finding: Finding, whole: Explanation) -> str:
@@ -254,10 +255,11 @@ def _gas_torque(finding: Finding, whole: Explanation) -> str:
         f"{figure(peak, 'N·m')} at order {order:g}"
         for peak, order in zip(peaks, finding.orders, strict=True)
     )
+    gas = f"gas pressure ({whole.engine.loads_counted.removeprefix('gas: ')})"
     if abs(mean) <= NEGLIGIBLE * max(peaks):
-        return f"gas pressure does no work over a cycle; its torque has peaks of {listed(each)}"
+        return f"{gas} does no work over a cycle; its torque has peaks of {listed(each)}"
     verb, size_of = "turns" if mean > 0.0 else "brakes", figure(abs(mean), "N·m")
-    return f"gas pressure {verb} the crank with {size_of} on average, and peaks of {listed(each)}"
+    return f"{gas} {verb} the crank with {size_of} on average, and peaks of {listed(each)}"
 
 
 def _firing(finding: Finding, whole: Explanation) -> str:

@@ -130,8 +130,15 @@ class StarDiagram(Keyed, Tabled):
             Column("", tuple(words)),
         )
         return Table(
-            f"{labels.name_of(self.engine)}: phase vectors, {self.firing.summary}", columns
+            f"{labels.name_of(self.engine)}: phase vectors, {self.firing.summary}",
+            columns,
+            loads=self.loads_counted,
         )
+
+    @property
+    def loads_counted(self) -> str:
+        """Gas pressure of a fired engine, in words; empty where no cycle is known."""
+        return self.engine.loads_counted if self.engine.fired else ""
 
     def plot(
         self,

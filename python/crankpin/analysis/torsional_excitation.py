@@ -71,17 +71,23 @@ class TorsionalExcitation(Tabled):
             for (name, unit), values in zip(heads, zip(*rows, strict=True), strict=True)
         )
         title = f"{labels.name_of(self.engine)}: torque on the crank, {self.rpm:.10g} rpm"
-        return Table(f"TorsionalExcitation of {title}", tuple(columns))
+        return Table(f"TorsionalExcitation of {title}", tuple(columns), loads=self.loads_counted)
+
+    @property
+    def loads_counted(self) -> str:
+        """Gas pressure that counts, in words: as :attr:`Engine.loads_counted`."""
+        return self.engine.loads_counted
 
     def to_dict(self) -> dict[str, Any]:
         """Return the excitation as plain lists.
 
-        ``rpm``, ``orders``, ``angular_frequency`` in rad/s; by cylinder ``mean`` in N·m and, with a
-        list over orders in each, ``amplitude`` in N·m and ``phase`` in rad. openTorsion's
-        ``PeriodicExcitation.add_sines`` takes them with the node of a cylinder.
+        ``rpm``, ``loads`` in words, ``orders``, ``angular_frequency`` in rad/s; by cylinder
+        ``mean`` in N·m and, with a list over orders in each, ``amplitude`` in N·m and ``phase`` in
+        rad. openTorsion's ``PeriodicExcitation.add_sines`` takes them with the node of a cylinder.
         """
         return {
             "rpm": self.rpm,
+            "loads": self.loads_counted,
             "orders": list(self.orders),
             "angular_frequency": self.angular_frequency.tolist(),
             "mean": self.mean.tolist(),

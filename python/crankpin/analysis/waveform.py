@@ -128,6 +128,11 @@ class OverAngle:
         return False
 
     @property
+    def loads_counted(self) -> str:
+        """Loads that count where more could, in words: as :attr:`Balance.loads_counted`."""
+        raise NotImplementedError
+
+    @property
     def dims(self) -> tuple[str, ...]:
         """Names of the dimensions of arrays before the axis: those of a sweep, ``theta_deg``."""
         return tuple(self.coords)
@@ -246,6 +251,11 @@ class Waveform(OverAngle, Tabled):
         """True if gas pressure is counted."""
         return self.engine.fired
 
+    @property
+    def loads_counted(self) -> str:
+        """Loads that count where more could, in words: as :attr:`Balance.loads_counted`."""
+        return self.request.loads_counted(self.engine.loads_counted)
+
     def _values(self, quantity: str) -> NDArray[np.float64]:
         return self.__dict__["_by_name"][quantity]  # type: ignore[no-any-return]
 
@@ -317,4 +327,5 @@ class Waveform(OverAngle, Tabled):
             ["quantity", "component", "unit", "least", ("at", "°"), "largest", ("at", "°")],
             names,
             rows,
+            loads=self.loads_counted,
         )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from crankpin._core import InputError
 from crankpin._support import labels
 from crankpin._support.quantities import LOADS
+from crankpin._support.record import changed
 from crankpin.analysis.bearings import AXES, bearing_loads
 from crankpin.cli.arguments import command, option
 from crankpin.cli.outputs import Shown, left_out
@@ -58,7 +59,7 @@ def _torque(given: Given) -> Shown:
     table = getattr(balance, quantity).table
     title = f"{labels.name_of(engine)} at {rpm:g} rpm: {table.title}"
     note += left_out(balance) if chosen["orders"] == "auto" else ""
-    return Shown(table.replace(title=title), drawn, {"quantity": quantity}, note=note)
+    return Shown(changed(table, title=title), drawn, {"quantity": quantity}, note=note)
 
 
 @command(
@@ -136,9 +137,8 @@ def _fired(given: Given, name: str, otherwise: str | None = None) -> tuple[Engin
     fired = engine.replace(cylinder=cylinders).with_cycle(
         cycle, crankcase=given.number("--crankcase", "Pa")
     )
-    shown = labels.cut(labels.printable(cycle.name) or typed)
-    note = " Bores that are not known are taken to equal the stroke." if unknown else ""
-    return fired, f"Cycle: {shown}.{note}\n"
+    note = "Bores that are not known are taken to equal the stroke.\n" if unknown else ""
+    return fired, note
 
 
 def _loaded(given: Given, path: str, strokes: int) -> Cycle:

@@ -365,7 +365,11 @@ class Builders(EngineData):
             [place % banks * distance for place in range(count)],
             rotating_mass, mains=None, reference_z=None,
         )  # fmt: skip
-        order = _radial_order(count, banks, strokes) if firing_order is None else firing_order
+        order = (
+            _radial_order(count, banks, inputs.strokes(strokes))
+            if firing_order is None
+            else firing_order
+        )
         engine = cls(core, name, source, order, strokes)
         return engine.with_first_tdc(first_tdc_deg)
 

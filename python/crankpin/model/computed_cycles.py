@@ -329,7 +329,7 @@ class ComputedCycles:
         """
         figures = EXAMPLES[inputs.one_of("kind", kind, EXAMPLES)]
         cylinder = Cylinder(0.043, 0.145, 0.5, bore=0.086)
-        name = f"Example, {kind}: a Wiebe burn, computed"
+        name = f"example {kind}, full load"
         return cls.wiebe(cylinder, **figures, strokes=strokes, name=name)
 
     @classmethod

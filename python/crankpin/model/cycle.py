@@ -11,7 +11,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs, labels
-from crankpin._support.record import Tabled, read_only
+from crankpin._support.record import Input, Tabled, read_only
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
 from crankpin.model import checks, cycle_files
@@ -31,7 +31,7 @@ EVEN = 1e-6
 """Difference between steps of a grid, over the largest, up to which they are equal."""
 
 
-class Cycle(Tabled, ComputedCycles):
+class Cycle(Tabled, Input, ComputedCycles):
     """Absolute pressure in a cylinder over one cycle.
 
     Between the points of a table pressure is interpolated by cubics whose slopes are of fourth

@@ -9,7 +9,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs
-from crankpin._support.record import Tabled, read_only
+from crankpin._support.record import Input, Tabled, read_only
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
 from crankpin.model.cycle import Cycle
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from crankpin.model.cylinder import Cylinder
 
 
-class CycleMap(Tabled):
+class CycleMap(Tabled, Input):
     """Cycles at speeds and loads, and linear interpolation of pressure between them.
 
     Parameters
@@ -87,8 +87,8 @@ class CycleMap(Tabled):
         rpm, load
             Within the map: nothing is extrapolated.
         """
-        by_speed = _weights("rpm", self.rpm, inputs.number("rpm", rpm))
-        by_load = _weights("load", self.load, inputs.number("load", load))
+        rpm, load = inputs.number("rpm", rpm), inputs.number("load", load)
+        by_speed, by_load = _weights("rpm", self.rpm, rpm), _weights("load", self.load, load)
         parts = [
             (float(w * v), self.cycles[k][j]._core)
             for k, w in enumerate(by_speed)

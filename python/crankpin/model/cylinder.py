@@ -10,7 +10,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs
-from crankpin._support.record import Record
+from crankpin._support.record import Input
 from crankpin._support.warnings import suppressed
 from crankpin.model import checks
 
@@ -376,7 +376,7 @@ class Cylinder:
         return _core.motion(self._parts, theta.ravel())[:, column].reshape(theta.shape)
 
 
-class Rod(Record):
+class Rod(Input):
     """A rigid connecting rod, and the two masses and the inertia that replace it.
 
     It moves as a mass at either end and, for torques, an inertia that swings with it and has no

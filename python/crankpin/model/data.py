@@ -10,7 +10,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._core import ATMOSPHERE, InputError
-from crankpin._support import inputs
+from crankpin._support import inputs, labels
 from crankpin._support.record import AbsentError, read_only
 from crankpin._support.warnings import suppressed
 from crankpin.model import checks, engine_files
@@ -232,6 +232,27 @@ class EngineData:
     def fired(self) -> bool:
         """True if gas pressure is counted."""
         return self._core.crankcase is not None
+
+    @property
+    def loads_counted(self) -> str:
+        """Gas pressure that results of the engine count, in words.
+
+        ``"without gas pressure"``, or the name of the cycle and which cylinders do not fire.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+        >>> i4 = cp.Engine.preset("i4", cylinder=cylinder)
+        >>> i4.loads_counted
+        'without gas pressure'
+        >>> petrol = cp.Cycle.example()
+        >>> i4.with_cycle([petrol, petrol, None, petrol]).loads_counted
+        'gas: example petrol, full load; cylinder 3 does not fire'
+        """
+        cores = self._core.cycles or ()
+        names = {core: core.points[3] for core in {*cores} if core is not None}
+        return labels.gas_text([names.get(core) for core in cores], len(names))
 
     @property
     def firing_deg(self) -> NDArray[np.float64]:

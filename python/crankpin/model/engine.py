@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from crankpin._support import labels
-from crankpin._support.record import AbsentError
+from crankpin._support.record import AbsentError, changed
 from crankpin._support.tables import SHOWN, Table
 from crankpin.model import shafts as rotating
 from crankpin.model.builders import Builders
@@ -524,16 +524,7 @@ class Engine(Builders):
 
     def _gas_text(self) -> str:
         """Return what is known of the pressure in the cylinders."""
-        if (cycles := self.cycles) is None:
-            return ""
-        fired = [each for each in cycles if each is not None]
-        kinds = len(set(fired))
-        names = {labels.printable(each.name) for each in fired} - {""}
-        text = f"gas pressure in {len(fired)} of {len(self)} cylinders"
-        text = "gas pressure" if len(fired) == len(self) else text
-        text += f", {kinds} cycles" if kinds > 1 else ""
-        text += f": {labels.cut(', '.join(sorted(names)))}" if names else ""
-        return f"{text}, crankcase {self.crankcase:.6g} Pa"
+        return f"{self.loads_counted}; crankcase {self.crankcase:.6g} Pa" if self.fired else ""
 
     def _parts_text(self) -> str:
         """Return stroke, rod and reciprocating mass of the cylinders, as ranges if they differ."""
@@ -561,7 +552,7 @@ class Engine(Builders):
         return "\n".join([*self._summary(), self.table.text(SHOWN)])
 
     def _repr_html_(self) -> str:
-        table = self.table.replace(title="; ".join(self._summary()))._repr_html_()
+        table = changed(self.table, title="; ".join(self._summary()))._repr_html_()
         picture = self._picture()
         return table if picture is None else f"<div>{picture}</div>{table}"
 

@@ -19,6 +19,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, tables
+from crankpin._support.record import AbsentItemError
 from crankpin.model.cylinder import Cylinder
 from crankpin.model.engine import Engine
 
@@ -58,6 +59,11 @@ class Presets(Mapping[str, Engine]):
             {name: entry["description"] for name, entry in _data()["engines"].items()}
         )
 
+    def __hash__(self) -> int:
+        return hash(tuple(self))  # nothing in them changes
+
+    __array_ufunc__ = None  # NumPy leaves comparison with arrays to the mapping
+
     def __repr__(self) -> str:
         return self.table(longest=60).text()
 
@@ -78,12 +84,6 @@ class Presets(Mapping[str, Engine]):
             rows,
             np.empty((len(rows), 0)),
         )
-
-
-class UnknownPresetError(InputError, KeyError):
-    """There is no preset of a name; an InputError and, as mappings raise it, a KeyError."""
-
-    __str__ = InputError.__str__
 
 
 def presets() -> Presets:
@@ -112,7 +112,7 @@ def preset(name: str, *, cylinder: Cylinder | None = None, spacing: float | None
     offset in metres, and the given pin offset is added to it.
     """
     if name not in Presets():
-        raise UnknownPresetError(_unknown(name))
+        raise AbsentItemError(_unknown(name))
     if cylinder is not None and not isinstance(cylinder, Cylinder):
         raise inputs.rejected("cylinder", cylinder, "give a crankpin.Cylinder")
     found = layout(name)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.record import Record
+from crankpin._support.record import Input
 from crankpin._support.warnings import suppressed
 from crankpin.model import checks
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _Weight: TypeAlias = tuple[float, str, float, int | None]
 
 
-class Unbalance(Record):
+class Unbalance(Input):
     """Mass times eccentricity on a shaft (unbalance, ISO 21940): its force is amount·ω².
 
     Parameters
@@ -67,7 +67,7 @@ class Unbalance(Record):
                 raise InputError(f"pin = {self.pin}: give the number of a cylinder, from 1")
 
 
-class Shaft(Record):
+class Shaft(Input):
     """A balance shaft: it turns at a fixed ratio to the crankshaft about an axis parallel to it.
 
     An unbalance U on it makes the force U·(ratio·ω)² at order ``|ratio|``: all of it turns with the

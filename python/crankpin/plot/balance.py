@@ -34,9 +34,11 @@ from crankpin.plot.plane import (
 )
 from crankpin.plot.rows import MATTERS, largest
 from crankpin.plot.style import MARKERS, SERIES, count_series, hollow, series
-from crankpin.plot.ticks import from_zero, numeric
+from crankpin.plot.ticks import from_zero, log_scale, numeric
 from crankpin.plot.words import (
     drawn_quantity,
+    joined,
+    loads_of,
     nonzero_in,
     number,
     series_names,
@@ -88,9 +90,9 @@ def spectrum(
         if seen.size and seen[-1] + 1 < len(orders):
             orders, peaks = orders[: seen[-1] + 1], peaks[: seen[-1] + 1]
             note = f"above order {orders[-1]:g}: below {least:g} of the largest"
-    how = ", orders given" if given else ""
-    how += "" if result.spectrum is None else ", spectrum given"
-    set_title(ax, labels.name_of(result.engine), f"{number(result.rpm)} rpm{how}", note)
+    how = "orders given" if given else ""
+    where = joined(f"{number(result.rpm)} rpm", how, loads_of(result, name))
+    set_title(ax, labels.name_of(result.engine), where, note)
     if label is None and count_series(ax):
         label = labels.name_of(result.engine)
     styles = series(ax, peaks.shape[1], style)
@@ -148,9 +150,8 @@ def _scale(ax: Axes, *, logarithmic: bool, given: bool) -> None:
     if not peaks.size:
         note_zero(ax)
     if logarithmic and peaks.size:
-        ax.set_yscale("log", nonpositive="clip")
         least = 0.0 if given else labels.NEGLIGIBLE * float(peaks.max())
-        ax.set_ylim(0.3 * max(least, float(peaks.min())), 3.0 * float(peaks.max()))
+        log_scale(ax, max(least, float(peaks.min())), float(peaks.max()))
     else:
         numeric(ax.yaxis)
         from_zero(ax, float(peaks.max(initial=0.0)))
@@ -173,7 +174,7 @@ def ellipses(
     name = plane_vector(quantity, result)
     places, note = largest(result, name)
     shown = [result.orders[place] for place in places]
-    where = f"{QUANTITIES[name].words}, {number(result.rpm)} rpm"
+    where = joined(QUANTITIES[name].words, f"{number(result.rpm)} rpm", loads_of(result, name))
     if ax is not None:
         ax = axes_or_new(ax)
         set_title(ax, labels.name_of(result.engine), where, note)

@@ -24,7 +24,7 @@ from crankpin.plot.layout import (
 from crankpin.plot.plane import label_panels, make_plane_panels, share_scale, trace
 from crankpin.plot.style import SERIES, count_series, muted, series
 from crankpin.plot.ticks import degrees, from_zero, numeric, span
-from crankpin.plot.words import number
+from crankpin.plot.words import joined, loads_of, number
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -147,7 +147,9 @@ def bending(
 
 
 def _titles(result: BearingLoads, what: str) -> tuple[str, str]:
-    return labels.name_of(result.engine), f"{what}, {number(result.rpm)} rpm"
+    return labels.name_of(result.engine), joined(
+        what, f"{number(result.rpm)} rpm", loads_of(result)
+    )
 
 
 def _places(numbers: Iterable[int] | None, count: int) -> list[int]:

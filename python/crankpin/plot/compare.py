@@ -24,9 +24,9 @@ from crankpin.plot.layout import (
 )
 from crankpin.plot.rows import MATTERS
 from crankpin.plot.style import SERIES, background, series, write
-from crankpin.plot.ticks import numeric
+from crankpin.plot.ticks import from_zero, numeric
 from crankpin.plot.waveform import dress
-from crankpin.plot.words import drawn_quantity, nonzero_in, number, rounded, with_unit
+from crankpin.plot.words import drawn_quantity, loads_of, nonzero_in, number, rounded, with_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -61,7 +61,8 @@ def _comparison(
     if not made.single:
         set_panel_title(bars, "peaks by order")
         _curves(curves[0], result, name)
-    made.set_title(result.title, f"{number(result.rpm)} rpm, {_total(result, name)}")
+    where = f"{number(result.rpm)} rpm, {_total(result, name)}"
+    made.set_title(result.title, where, loads_of(result, name))
     made.add_legend(bars.get_legend_handles_labels()[0])
     return made.drawn
 
@@ -119,7 +120,7 @@ def _bars(ax: Axes, result: Comparison, name: str, style: dict[str, Any]) -> Non
         look = {"va": "bottom", "fontsize": "x-small", "rotation": 90.0 if upright else 0.0}
         write(ax, text, complex(order, pairs[:, k].max()), 3.0j, **look)
     ax.set_xlim(0.0, last)
-    ax.set_ylim(0.0, (1.4 if upright else 1.25) * top or 1.0)
+    from_zero(ax, top, 1.4 if upright else 1.25)
     numeric(ax.xaxis, whole=True)
     numeric(ax.yaxis)
     label_x(ax, "order (multiples of crank speed)")

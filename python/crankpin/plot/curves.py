@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import matplotlib as mpl
 import numpy as np
@@ -11,6 +11,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.lines import Line2D
 
+from crankpin._support import inputs, labels
 from crankpin._support.quantities import QUANTITIES
 from crankpin.plot.layout import label_x, label_y, make_panels, note_zero
 from crankpin.plot.rows import Rows, Words, along_x, at, dimension, rows_of, values_of, words_of
@@ -28,7 +29,7 @@ from crankpin.plot.style import (
     series,
     write_at_mark,
 )
-from crankpin.plot.ticks import RoundLocator, degrees, from_zero, numeric, span
+from crankpin.plot.ticks import RoundLocator, degrees, from_zero, log_scale, numeric, span
 from crankpin.plot.words import drawn_quantity, in_degrees, nonzero_in, number, plain_text
 
 if TYPE_CHECKING:
@@ -181,9 +182,11 @@ def curves(
     quantity: str | None = None,
     x: str | None = None,
     orders: object = None,
+    log: bool = False,
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     """Draw peaks over a swept dimension, rows for orders and columns for axes."""
+    logarithmic = inputs.flag("log", log)
     name = drawn_quantity(quantity, nonzero_in(sweep.total))
     rows = rows_of(sweep, name, orders, single=ax is not None)
     along, words = along_x(sweep, x), words_of(sweep)
@@ -192,7 +195,7 @@ def curves(
         shared = {"sharex": "row", "sharey": "all"}
     made = make_panels(ax, figure, len(rows.rows), len(rows.columns), **shared)
     made.name_columns(rows.columns)
-    bundle = _draw(made.axes, sweep, name, along, rows, style)
+    bundle = _draw(made.axes, sweep, name, along, rows, style, logarithmic=logarithmic)
     what = rows.columns[0] if made.single else rows.note
     made.set_title(words.title, words.subtitle(name), what)
     made.add_legend(
@@ -209,6 +212,8 @@ def _draw(
     along: str,
     rows: Rows,
     style: Mapping[str, Any],
+    *,
+    logarithmic: bool,
 ) -> Bundle:
     dims, words = list(sweep.coords), words_of(sweep)
     others = [dim for dim in dims if dim != along]
@@ -228,7 +233,7 @@ def _draw(
         least = row == 0 and "rpm" not in sweep.coords
         mark(panel, along, values, heights, bundle.curves, least=least)
     for of_row, heights, row_of_picture in zip(panels, peaks, rows.rows, strict=True):
-        _scale(of_row, float(heights.max(initial=0.0)), quantity, along, row_of_picture.name)
+        _scale(of_row, heights, quantity, along, row_of_picture.name, logarithmic=logarithmic)
     if along != "engine":
         for panel in panels[-1]:
             label_x(panel, dimension(along))
@@ -248,7 +253,9 @@ def lines(
         heights = peaks[:, *curve.place][in_order]
         look: dict[str, Any] = {"marker": "o" if few or len(x) == 1 else "", "markersize": 3.0}
         look |= curve.style
-        ax.plot(x[in_order], heights, gid=SERIES, label=curve.name or "_", clip_on=False, **look)
+        # On a logarithmic scale a curve through zero goes down for ever.
+        look |= {"clip_on": bool((heights == 0.0).any())}
+        ax.plot(x[in_order], heights, gid=SERIES, label=curve.name or "_", **look)
     if not peaks.any():
         note_zero(ax)
 
@@ -267,17 +274,27 @@ def _dots(
     ax.set_ylim(len(names) - 0.5, -0.5)
 
 
-def _scale(panels: Sequence[Axes], largest: float, quantity: str, along: str, name: str) -> None:
-    """Let the axis of the peaks begin at zero; label it with the row's name."""
-    unit = f"peak, {QUANTITIES[quantity].unit}"
+def _scale(
+    panels: Sequence[Axes],
+    peaks: NDArray[np.float64],
+    quantity: str,
+    along: str,
+    name: str,
+    *,
+    logarithmic: bool,
+) -> None:
+    """Let the axis of the peaks begin at zero, or be logarithmic; label it with the row's name."""
+    unit, largest = f"peak, {QUANTITIES[quantity].unit}", float(peaks.max(initial=0.0))
     for panel in panels:
-        if along == "engine":
-            numeric(panel.xaxis)
-            panel.set_xlim(0.0, 1.08 * largest or 1.0)
-            label_x(panel, unit)
+        axis: Literal["x", "y"] = "x" if along == "engine" else "y"
+        if logarithmic and largest:
+            least = float(peaks[peaks > labels.NEGLIGIBLE * largest].min())
+            log_scale(panel, least, largest, name=axis)
         else:
-            numeric(panel.yaxis)
-            from_zero(panel, largest)
+            numeric(panel.xaxis if axis == "x" else panel.yaxis)
+            from_zero(panel, largest, name=axis)
+        if axis == "x":
+            label_x(panel, unit)
     label_y(panels[0], name, *([] if along == "engine" else [unit]))
 
 
@@ -299,7 +316,10 @@ def mark(
         heights = peaks[:, *curve.place]
         zeros = x[heights == 0.0]
         if 0 < zeros.size <= MOST_MARKS and heights.any():
-            ring(ax, zeros, np.zeros_like(zeros), curve.style["color"], "o", ZERO)
+            # On the axis, also of a logarithmic scale, which has no zero.
+            on_axis = ax.get_xaxis_transform()
+            colour = curve.style["color"]
+            ring(ax, zeros, np.zeros_like(zeros), colour, "o", ZERO, transform=on_axis)
             found |= dict.fromkeys(zeros.tolist(), "")
     for place in sorted(found)[:MOST_MARKS]:
         write_at_mark(ax, place, 0.0, at(along, place))

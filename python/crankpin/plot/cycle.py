@@ -22,6 +22,7 @@ from crankpin.plot.layout import (
 )
 from crankpin.plot.style import SERIES, count_series, muted, series
 from crankpin.plot.ticks import degrees, from_zero, numeric, span
+from crankpin.plot.words import joined, loads_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -67,9 +68,10 @@ def _cycle(
 
 def _swept(cylinder: Cylinder, theta_deg: Any) -> Any:  # noqa: ANN401 - arrays
     """Return the volume between the piston and its highest point, cm³."""
+    bore_area = area(cylinder)
     rod, offset = cylinder.rod_length + cylinder.crank_radius, cylinder.pin_offset
     highest = np.sqrt((rod - offset) * (rod + offset))
-    return 1e6 * area(cylinder) * (highest - cylinder.position(theta_deg))
+    return 1e6 * bore_area * (highest - cylinder.position(theta_deg))
 
 
 @picture.register(Flywheel)
@@ -106,5 +108,6 @@ def _flywheel(
     span(panels.axes[-1, 0], theta)
     degrees(panels.axes[-1, 0].xaxis)
     label_x(panels.axes[-1, 0], "crank angle")
-    panels.set_title(result.title, f"irregularity {100.0 * result.irregularity:.3g} %")
+    irregularity = f"irregularity {100.0 * result.irregularity:.3g} %"
+    panels.set_title(result.title, joined(irregularity, loads_of(result)))
     return panels.drawn

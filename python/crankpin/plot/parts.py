@@ -74,7 +74,7 @@ def parts(
     for of_order in panels:
         top = max(panel.get_ylim()[1] for panel in of_order)
         for panel in of_order:
-            panel.set_ylim(0.0, top)
+            from_zero(panel, top, 1.0)
     what = f"order {chosen[0]}" if made.single else note
     made.set_title(words.title, words.subtitle(name), what)
     both = panels[0, 0].get_legend_handles_labels()[0][:2]

@@ -36,7 +36,7 @@ from crankpin.plot.layout import (
 from crankpin.plot.plane import make_plane_panels
 from crankpin.plot.shapes import listed, outside
 from crankpin.plot.style import colours, foreground, muted, write
-from crankpin.plot.words import drawn_quantity, nonzero_in, number, rounded
+from crankpin.plot.words import drawn_quantity, joined, loads_of, nonzero_in, number, rounded
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -107,7 +107,9 @@ def phasors(
     set_figure_title(
         figure,
         labels.name_of(result.engine),
-        f"{QUANTITIES[kind].words}, {number(result.rpm)} rpm, θ = 0",
+        joined(
+            f"{QUANTITIES[kind].words}, {number(result.rpm)} rpm, θ = 0", loads_of(result, kind)
+        ),
         "arrows that cover each other are drawn side by side" if aside else "",
     )
     handles = [Line2D([], [], color=inks[name], linewidth=1.5, label=name) for name in groups]
@@ -272,10 +274,11 @@ def _star(
     if order is not None and figure is not None:
         raise inputs.rejected("figure", figure, "one order has one panel; give ax")
     if ax is not None or order is not None:
-        shown = _shown(result) if order is None else inputs.order(order)
+        shown = _shown(result) if order is None else result.orders[result._place(order)]
         ax = axes_or_new(ax)
         handles = _vectors(ax, result, shown, style)
-        set_title(ax, labels.name_of(result.engine), f"order {shown}, {_finding(result, shown)}")
+        what = joined(f"order {shown}", _finding(result, shown), loads_of(result))
+        set_title(ax, labels.name_of(result.engine), what)
         add_legend(ax, handles=handles)
         return ax
     stars = _distinct(result)
@@ -291,7 +294,8 @@ def _star(
         set_panel_title(panel, labels.orders_text(orders), _finding(result, orders[0]))
     rest = sorted(order for orders in stars[MOST_STARS:] for order in orders)
     note = f"not shown: {labels.orders_text(rest)}" if rest else ""
-    panels.set_title(labels.name_of(result.engine), result.firing.summary, note)
+    what = joined(result.firing.summary, loads_of(result))
+    panels.set_title(labels.name_of(result.engine), what, note)
     panels.add_legend(handles)
     return panels.drawn
 

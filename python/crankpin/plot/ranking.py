@@ -19,6 +19,8 @@ from crankpin.plot.sweep import MOST_ENGINES
 from crankpin.plot.ticks import degrees, from_zero, numeric, span
 from crankpin.plot.words import (
     in_degrees,
+    joined,
+    loads_of,
     numbers,
     objective_words,
     plain_text,
@@ -63,9 +65,10 @@ def _ranking(
         label_x(ax, quantity)
         rest = len(ranking) - len(best)
         note = f"{rest} more engines not shown" if rest else ""
-        set_title(ax, title, ranking._description(1), note)
+        set_title(ax, title, joined(ranking._description(1), loads_of(ranking)), note)
         return ax
-    set_title(ax, title, ranking._description(1), labels.HELD.get(ranking.hold or "", ""))
+    what = joined(ranking._description(1), loads_of(ranking))
+    set_title(ax, title, what, labels.HELD.get(ranking.hold or "", ""))
     heights = np.where(np.isfinite(ranking.values), ranking.values, np.nan)
     _dress(ax, ranking.bank_angles_deg, heights, quantity)
     _curves(ax, ranking, ranking.bank_angles_deg, heights, names, style)
@@ -137,7 +140,8 @@ def _designs(
     best = designs.designs[:number]
     names = [", ".join(filter(None, [label, _crank_text(each)])) for each in best]
     quantity = objective_words(designs.objectives[0])
-    set_title(ax, _title(designs, len(best)), designs._description(1))
+    what = joined(designs._description(1), loads_of(designs))
+    set_title(ax, _title(designs, len(best)), what)
     if designs.question.banks == 2 and designs.objectives[0].quantity:
         _over_bank_angle(ax, designs, best, names, quantity, style)
         add_legend(ax, last=DESIGN)

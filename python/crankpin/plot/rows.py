@@ -10,7 +10,7 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.sweeps.sweep import engine_titles
-from crankpin.plot.words import numbers, short_names
+from crankpin.plot.words import joined, loads_of, numbers, short_names
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -111,10 +111,12 @@ class Words(NamedTuple):
     title: str
     parts: list[str]
     """What was fixed or held."""
+    loads_counted: str
+    """Loads that the sweep counts."""
 
     def subtitle(self, quantity: str) -> str:
-        """Return the quantity and the arguments that are fixed or held."""
-        return ", ".join([QUANTITIES[quantity].words, *self.parts])
+        """Return the quantity, the arguments that are fixed or held, and the loads that count."""
+        return joined(QUANTITIES[quantity].words, *self.parts, loads_of(self, quantity))
 
 
 def words_of(sweep: Sweep) -> Words:
@@ -124,12 +126,13 @@ def words_of(sweep: Sweep) -> Words:
         parts.append(labels.HELD[sweep.hold])
     full = engine_titles(sweep)
     if "engine" not in sweep.coords:
-        return Words([], "", full[0], parts)
+        return Words([], "", full[0], parts, sweep.loads_counted)
     names, shared = short_names(full)
     title, _, common = shared.rpartition(", ")
     if not title:
         title, common = common, ""
-    return Words(names, common, title or f"{len(names)} engines", parts)
+    title = title or f"{len(names)} engines"
+    return Words(names, common, title, parts, sweep.loads_counted)
 
 
 def values_of(sweep: Sweep, dim: str, words: Words) -> list[str]:

@@ -160,10 +160,11 @@ def ring(
     colour: Any,  # noqa: ANN401 - a colour
     marker: str,
     label: str,
+    **style: Any,  # noqa: ANN401 - of lines
 ) -> None:
     """Draw hollow marks; the first with a label on the axes is its entry in the legend."""
     look = {"marker": marker, "markersize": 8.0, "markeredgewidth": 1.2, "zorder": 4, "gid": MARK}
-    hollow(ax, x, y, colour, **look, markerfacecolor="none", label=once(ax, label))
+    hollow(ax, x, y, colour, **look, markerfacecolor="none", label=once(ax, label), **style)
 
 
 def hollow(

@@ -18,7 +18,7 @@ from crankpin.plot.parts import parts
 from crankpin.plot.rows import given_orders, largest, words_of
 from crankpin.plot.style import DISTINCT, background, colours, foreground, hollow, muted, write
 from crankpin.plot.ticks import numeric
-from crankpin.plot.words import drawn_quantity, nonzero_in, plain_text
+from crankpin.plot.words import drawn_quantity, joined, loads_of, nonzero_in, plain_text
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -60,7 +60,7 @@ def bars(
     chosen = _orders(sweep, names, orders)
     peaks = [np.stack([getattr(sweep[n], name).peak for n in chosen], axis=-1) for name in names]
     classes, words = _classes(sweep, chosen), words_of(sweep)
-    where = ", ".join([*words.parts, "longest vector"])
+    where = joined(*words.parts, "longest vector", loads_of(sweep, "".join(names)))
     note = _note(sweep, chosen)
     engines = min(len(words.names), MOST_ENGINES)
     height = max(0.45, engines * (0.04 + 0.03 * len(chosen)))
@@ -152,9 +152,8 @@ def _sweep(
         del options["quantity"]  # each kind has its own default
     if not result.coords:
         raise InputError("nothing was swept: give an array, such as bank_angle_deg=[60, 75, 90]")
-    if x is not None and x not in result.coords:
-        names = ", ".join(result.coords)
-        raise InputError(f"x = {inputs.shorten(x)} is not a swept dimension; choose from: {names}")
+    if x is not None:
+        x = inputs.one_of("x", x, result.coords)
     chosen = _chosen(result, x) if kind is None else inputs.one_of("kind", kind, KINDS)
     if chosen == "bars":
         if x is not None:

@@ -123,11 +123,25 @@ def span(ax: Axes, values: ArrayLike) -> None:
         ax.set_xlim(float(found.min()), float(found.max()))
 
 
-def from_zero(ax: Axes, largest: float) -> None:
-    """Let the vertical axis begin at zero and have room for the largest value."""
-    ax.set_ylim(0.0, 1.08 * largest or 1.0)
+def from_zero(ax: Axes, largest: float, room: float = 1.08, *, name: str = "y") -> None:
+    """Let an axis of magnitudes begin at zero and have room for the largest value.
+
+    The limits remain automatic: on a logarithmic scale, which has no zero, they are those of the
+    data.
+    """
+    axis: Any = getattr(ax, f"{name}axis")
+    for artist in (*ax.lines, *ax.collections, *ax.patches):
+        getattr(artist.sticky_edges, name).append(0.0)
+    ax.update_datalim([(0.0, 0.0)], updatex=name == "x", updatey=name == "y")
+    getattr(ax, f"set_{name}lim")(0.0, room * largest or 1.0, auto=True)
     if not largest:  # a scale of nothing would mislead
-        ax.set_yticks([0.0])
+        axis.set_ticks([0.0])
+
+
+def log_scale(ax: Axes, least: float, largest: float, *, name: str = "y") -> None:
+    """Give an axis of magnitudes, of which the least and the largest are seen, a log scale."""
+    getattr(ax, f"set_{name}scale")("log", nonpositive="clip")
+    getattr(ax, f"set_{name}lim")(0.3 * least, 3.0 * largest)
 
 
 # Functions of the module, so that figures pickle.

@@ -31,6 +31,8 @@ from crankpin.plot.ticks import degrees, numeric, span
 from crankpin.plot.words import (
     by_component,
     drawn_quantity,
+    joined,
+    loads_of,
     nonzero_in,
     number,
     series_names,
@@ -60,6 +62,7 @@ def orbit(
     name = plane_vector(quantity, result)
     ax = axes_or_new(ax)
     where = f"{QUANTITIES[name].words}, {number(result.rpm)} rpm, {summed(result, name)}"
+    where = joined(where, loads_of(result, name))
     set_title(ax, labels.name_of(result.engine), where)
     text = label or labels.name_of(result.engine)
     trace(ax, result.theta_deg, [getattr(result, name)], [text], style)
@@ -202,7 +205,7 @@ def curves(
     drawn = series_of(result, name)
     values = np.concatenate([by_component(result.read(each), name) for each in drawn], axis=-1)
     ax = axes_or_new(ax)
-    where = f"{number(result.rpm)} rpm, {summed(result, name)}"
+    where = joined(f"{number(result.rpm)} rpm", summed(result, name), loads_of(result, name))
     set_title(ax, labels.name_of(result.engine), where)
     if label is None and count_series(ax):
         label = labels.name_of(result.engine)

@@ -114,6 +114,17 @@ def series_of(result: Balance | Waveform, quantity: str) -> list[str]:
     return [quantity, *parts]
 
 
+def loads_of(result: object, quantity: str = "torque") -> str:
+    """Return which loads a picture of a quantity counts; empty where no others could."""
+    loads: str = getattr(result, "loads_counted", "")
+    return loads if "torque" in quantity or loads == labels.SPECTRUM_GIVEN else ""
+
+
+def joined(*parts: str) -> str:
+    """Return the parts of a subtitle that are there, with commas."""
+    return ", ".join(filter(None, parts))
+
+
 def series_names(drawn: Sequence[str], label: str | None) -> list[str]:
     """Return names of the components of what is drawn for a legend, with a label before them."""
     names = [name.partition(".")[-1] or "whole" for name in drawn]

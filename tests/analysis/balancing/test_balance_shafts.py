@@ -6,7 +6,6 @@ Figures are those of ``balancing-and-torque.md``, recomputed from first principl
 from __future__ import annotations
 
 import copy
-import dataclasses
 import itertools
 import pickle
 from typing import TYPE_CHECKING, Any
@@ -16,6 +15,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from crankpin import Shaft, Unbalance
+from crankpin._support.record import changed
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import balance_shafts as rederived
@@ -447,7 +447,7 @@ def test_tables_show_angles_that_are_fractions() -> None:
     )  # fmt: skip
     fit = cp.balance_shafts(engine, -1)
     exact = [Unbalance(w.amount, w.z, "5760/77") for w in fit[0].unbalances]
-    shown = fit.replace(hardware=(dataclasses.replace(fit[0], unbalances=exact),))
+    shown = changed(fit, hardware=(fit[0].replace(unbalances=exact),))
     assert "74.805" in repr(shown)
 
 

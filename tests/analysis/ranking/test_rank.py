@@ -419,7 +419,8 @@ def test_a_search_with_too_many_angles_is_refused() -> None:
 
 def test_what_is_shown() -> None:
     ranking = paper(by=["[1].moment.backward", parts_left])
-    title, head, *rows = repr(ranking).splitlines()
+    title, head, *rows, loads = repr(ranking).splitlines()
+    assert loads == "Spectrum given."
     assert title.startswith(
         "Ranked by backward part of rocking moment, order 1 (what the best counterweight leaves)"
     )

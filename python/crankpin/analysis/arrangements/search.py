@@ -14,7 +14,7 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, optional
 from crankpin._support import progress as progress_bar
-from crankpin._support.record import Record
+from crankpin._support.record import Input, Record, changed, item_key
 from crankpin._support.tables import Table
 from crankpin.analysis.drawing import draw
 from crankpin.model.data import parts
@@ -37,7 +37,7 @@ _LISTED = "second_order"
 _WHOLE = (0.0, 180.0)
 
 
-class Arrangement(Record):
+class Arrangement(Input):
     """A bank angle at which first-order moment is all forward, and the phases of both banks."""
 
     bank_angle_deg: float
@@ -254,7 +254,7 @@ class ArrangementSearch(Record):
         """
         ends = (_bank_angle("low", low), _bank_angle("high", high))
         window = (max(ends[0], self.window_deg[0]), min(ends[1], self.window_deg[1]))
-        return self.replace(window_deg=window)
+        return changed(self, window_deg=window)
 
     def __len__(self) -> int:
         return len(self._angles)
@@ -355,12 +355,10 @@ class ArrangementSearch(Record):
         index = pandas.Index([row.bank_angle_deg for row in rows], name="bank_angle_deg")
         return optional.data_frame(columns, index=index)
 
-    def _index(self, index: int) -> int:
-        position = inputs.whole("index", index)
-        if not -len(self) <= position < len(self):
-            # IndexError is what ends iteration over a sequence.
-            given = inputs.shorten(position)
-            raise IndexError(f"index = {given}: there are {len(self)} bank angles")
+    def _index(self, index: object) -> int:
+        if isinstance(index, slice):
+            raise inputs.rejected("index", index, "give one index; within(…) gives several angles")
+        position: int = item_key(index, len(self))
         return position % len(self)
 
     def __repr__(self) -> str:

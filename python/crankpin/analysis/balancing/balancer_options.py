@@ -13,6 +13,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
+from crankpin._support.record import changed
 from crankpin.analysis.balancing import planes as correction_planes
 from crankpin.analysis.balancing.balance_shafts import balance_shafts
 from crankpin.analysis.balancing.balancers import BalancerOption, BalancerOptions
@@ -158,7 +159,7 @@ def balancer_options(
     )
     found = zip(sets, values.tolist(), front.tolist(), reaches.tolist(), strict=True)
     options = tuple(
-        each.replace(values=tuple(row), on_front=best, reaches=enough)
+        changed(each, values=tuple(row), on_front=best, reaches=enough)
         for each, row, best, enough in found
     )
     bare = tuple(each.bare() for each in objectives)

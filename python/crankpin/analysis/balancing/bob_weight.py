@@ -364,23 +364,27 @@ class Part(NamedTuple):
     @property
     def nearest(self) -> float:
         """Factor at which the part is smallest."""
-        return -(self.start * self.change.conjugate()).real / abs(self.change) ** 2
+        return -(self.start / self.change).real  # no square, which would underflow
 
     def slope(self, factor: float) -> float:
         """Return the change of its size per unit of factor."""
         part = self.start + factor * self.change
-        return (part.conjugate() * self.change).real / abs(part) if part else 0.0
+        return (part.conjugate() / abs(part) * self.change).real if part else 0.0
 
 
 def _of_one_size(forward: Part, backward: Part) -> list[float]:
     """Return the factors at which two parts have one size, unless all have."""
     if forward.change and backward.change:
         # |forward|² − |backward|² is quadratic in the factor.
-        pairs = ((forward, 1.0), (backward, -1.0))
+        unit = max(abs(part.change) for part in (forward, backward))  # squares would underflow
+        pairs = [
+            (part.start / unit, part.change / unit, sign)
+            for part, sign in ((forward, 1.0), (backward, -1.0))
+        ]
         terms = [
-            [sign * abs(part.change) ** 2 for part, sign in pairs],
-            [2.0 * sign * (part.start.conjugate() * part.change).real for part, sign in pairs],
-            [sign * abs(part.start) ** 2 for part, sign in pairs],
+            [sign * abs(change) ** 2 for _, change, sign in pairs],
+            [2.0 * sign * (start.conjugate() * change).real for start, change, sign in pairs],
+            [sign * abs(start) ** 2 for start, _, sign in pairs],
         ]
         largest = max(abs(each) for pair in terms for each in pair)
         sums = [sum(pair) if abs(sum(pair)) > ALIKE * largest else 0.0 for pair in terms]
@@ -394,10 +398,10 @@ def _of_one_size(forward: Part, backward: Part) -> list[float]:
     # |start + κ·change| = |still|, about the factor at which the left side is least.
     middle = moving.nearest
     least = abs(moving.start + middle * moving.change)
-    reach = (abs(still.start) - least) * (abs(still.start) + least)
-    if reach < 0.0:
+    under, over = abs(still.start) - least, abs(still.start) + least
+    if under < 0.0:
         return []
-    apart = math.sqrt(reach) / abs(moving.change)
+    apart = math.sqrt(under / abs(moving.change)) * math.sqrt(over / abs(moving.change))
     # A root of zero comes out beside it.
     roots = [0.0 if abs(each) < ALIKE else each for each in (middle - apart, middle + apart)]
     return list(dict.fromkeys(roots))

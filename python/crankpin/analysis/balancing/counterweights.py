@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin._support.record import Tabled
+from crankpin._support.record import Tabled, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import over_square
 from crankpin.analysis.balancing import planes as correction_planes
@@ -134,7 +134,7 @@ class Counterweights(Tabled):
     >>> i3 = cp.counterweights(cp.Engine.preset("i3"), planes="ends")
     >>> i3.exact, i3.vanishes  # the backward half stays
     (True, False)
-    >>> i3.verdicts["moment"]
+    >>> dict(i3.verdicts["moment"])
     {'forward': 'vanishes', 'backward': 'remains'}
     """
 
@@ -182,7 +182,7 @@ class Counterweights(Tabled):
         return over_square(self.fitted, [1])
 
     @cached_property
-    def verdicts(self) -> dict[str, dict[str, str]]:
+    def verdicts(self) -> Mapping[str, Mapping[str, str]]:
         """Quantity → part → verdict on the residual at order 1.
 
         Verdicts are "vanishes", "remains" or "undecided", on the forward and the backward part of
@@ -210,7 +210,7 @@ class Counterweights(Tabled):
                 stays = abs(complex(getattr(self.residual[1], name).forward))
                 forward = "remains" if stays > size else "undecided"
             found[name] = {"forward": forward, "backward": before.backward[1]}
-        return found
+        return read_only(found)
 
     def _meets(self, name: str) -> bool:
         """Return whether the forward part is exactly the one wanted."""

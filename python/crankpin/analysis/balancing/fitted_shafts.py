@@ -21,6 +21,8 @@ from crankpin.analysis.geometry import direction
 from crankpin.model.shafts import Shaft
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
@@ -115,7 +117,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
         )
 
     @cached_property
-    def heights(self) -> dict[int, dict[str, float]]:
+    def heights(self) -> Mapping[int, Mapping[str, float]]:
         """Order → places of its one pair, ±n with equal forces, that cancel its roll torque.
 
         A pair pushes along one line. With *up* along that line, its roll torque depends on the
@@ -145,7 +147,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
                 difference, right, up = _core.pair_heights(forces[order], forces[-order], torque)
                 up_deg = round(math.degrees(up), 13)
                 found[order] = {"difference": difference, "right_sum": right, "up_deg": up_deg}
-        return found
+        return read_only(found)
 
     def bearing_loads(self, rpm: float) -> NDArray[np.complex128]:
         """Return the loads on the two bearings of each shaft at θ = 0, front first.

@@ -199,7 +199,14 @@ class Designs(ByObjectives, Listed[Design], Tabled):
             title += f"; {len(designs)} of {self.optima}"
         note = f"{NEARBY} other angles nearby are as good"
         starred = any(not each.isolated for each in designs)
-        return Table.from_rows(title, heads, rows, values, note=note if starred else "")
+        return Table.from_rows(
+            title, heads, rows, values, note=note if starred else "", loads=self.loads_counted
+        )
+
+    @property
+    def loads_counted(self) -> str:
+        """``"without gas pressure"``, as designs are; empty for objectives without torque."""
+        return labels.gas_text([]) if self._of_torque else ""
 
 
 def bank_angle_range(designs: Designs) -> tuple[float, float]:

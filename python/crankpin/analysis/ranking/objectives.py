@@ -68,6 +68,11 @@ class Objective(NamedTuple):
         found.setflags(write=False)
         return found
 
+    @property
+    def of_function(self) -> bool:
+        """True if a function given computes it."""
+        return self.words.endswith(FUNCTION_GIVEN)
+
     def bare(self) -> Objective:
         """Return the objective without its functions, so that it can be pickled and compared."""
         return self._replace(of_sweep=None, of_balance=None)
@@ -95,6 +100,11 @@ class ByObjectives:
     def unit(self) -> str:
         """Unit of the first objective; empty where it is a function."""
         return self.objectives[0].unit
+
+    @property
+    def _of_torque(self) -> bool:
+        """True if gas pressure could matter: to a torque, or to what a function reads."""
+        return any("torque" in each.quantity or each.of_function for each in self.objectives)
 
     def _minimised(self, count: int | None, *, given: bool) -> str:
         """Return the objectives, all or the first few, in words; with the orders as given."""
@@ -131,6 +141,9 @@ def balances(swept: Sweep) -> Iterator[Iterator[Balance]]:
 
 # --- by name ------------------------------------------------------------------------------------
 
+FUNCTION_GIVEN = ", a function given"
+"""End of the words of an objective that is a function."""
+
 COMMON = (
     "total.moment.peak",
     "total.force.peak",
@@ -147,7 +160,7 @@ COMMON = (
 _PATH = re.compile(
     r"(?:total|\[([1-9][0-9]{0,8}(?:\.[05])?|0\.5)\])"
     rf"\.(?:({'|'.join(PLANE_VECTORS)})\.(peak|peak_xy|forward|backward)"
-    rf"|({'|'.join(name for name in KINDS if name not in PLANE_VECTORS)})\.(peak))"
+    rf"|({'|'.join(re.escape(name) for name in KINDS if name not in PLANE_VECTORS)})\.(peak))"
 )
 
 _ORDER_LAST = re.compile(rf"({'|'.join(QUANTITIES)})(\[[^]]*\])(\..*)")
@@ -228,7 +241,7 @@ def listed(by: object) -> list[Objective]:
             found.append(named(each))
         elif callable(each):
             label = _free(each, found)
-            words = f"{label}, a function given"
+            words = f"{label}{FUNCTION_GIVEN}"
             found.append(Objective(label, label, words, "", of_balance=each))
         else:
             raise inputs.rejected("by", each, hint)

@@ -12,7 +12,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import labels
-from crankpin._support.record import Listed, Record, Tabled
+from crankpin._support.record import Listed, Record, Tabled, changed
 from crankpin._support.tables import Table
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking.objectives import ByObjectives, of_table
@@ -166,8 +166,18 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
         rows_of = [(each.place, each.name, _several(each.bank_angles_deg)) for each in choices]
         rows = np.array([each.values for each in choices]).reshape(-1, len(heads))
         return Table.from_rows(
-            title, ["place", "engine", ("bank angle", "°"), *heads], rows_of, rows
+            title,
+            ["place", "engine", ("bank angle", "°"), *heads],
+            rows_of,
+            rows,
+            loads=self.loads_counted,
         )
+
+    @property
+    def loads_counted(self) -> str:
+        """Loads that count where more could, in words; empty for objectives without torque."""
+        loads = self.sweep.loads_counted
+        return loads if self._of_torque or loads == labels.SPECTRUM_GIVEN else ""
 
 
 def _several(angles: tuple[float, ...]) -> str:
@@ -220,7 +230,7 @@ def chosen(
     ranked: list[Choice] = []
     for group in groups(rows, np.arange(len(found)), tolerances):
         place = len(ranked) + 1
-        ranked += [found[k].replace(place=place) for k in group]
+        ranked += [changed(found[k], place=place) for k in group]
     return tuple(ranked)
 
 
@@ -252,7 +262,7 @@ def _largest(values: NDArray[np.float64]) -> float:
 def _part(swept: Sweep, engine: Engine, angles: NDArray[np.float64]) -> Sweep:
     """Return the sweep of one engine at other angles."""
     axes = {**swept.axes, "bank_angle_deg": angles}
-    return swept.replace(engines=(engine,), names=("",), axes=axes, request=swept._of_parts)
+    return changed(swept, engines=(engine,), names=("",), axes=axes, request=swept._of_parts)
 
 
 def angles_of(swept: Sweep) -> NDArray[np.float64] | None:

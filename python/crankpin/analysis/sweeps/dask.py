@@ -11,6 +11,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, optional
+from crankpin._support.record import changed
 from crankpin.analysis import export
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Datas
     axes = {name: _axis(whole, name, by_name[name]) for name in lengths}
     # What every chunk has: its axes come in slices.
     first = {name: float(np.ravel(values)[0]) for name, values in whole.axes.items()}
-    common = whole.replace(axes=first, request=whole._of_parts)
+    common = changed(whole, axes=first, request=whole._of_parts)
     variables: dict[str, Any] = {}
     for name, quantity, what, trailing in export.variables(quantities, fired=whole.fired):
         dims = (*lengths, *trailing)
@@ -72,7 +73,7 @@ def _block(
     axes: dict[str, Any] = dict(zip(swept, slices, strict=True))
     engines = tuple(axes.pop("engine", common.engines))
     names = None if common.names is None else tuple(engine.name for engine in engines)
-    part = common.replace(engines=engines, names=names, axes={**common.axes, **axes})
+    part = changed(common, engines=engines, names=names, axes={**common.axes, **axes})
     return part.read(quantity, what)
 
 
@@ -107,7 +108,7 @@ def _normalized(
             tuple(wanted.values()), shape=tuple(sizes.values()), dtype=np.complex128
         )
         if any(
-            length < 1
+            not length >= 1  # NaN too
             for size, lengths_of in zip(sizes.values(), found, strict=True)
             for length in lengths_of
             if size

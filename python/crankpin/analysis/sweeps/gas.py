@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import inputs
+from crankpin._support import inputs, labels
 from crankpin._support.record import Record
 from crankpin.model import checks
 from crankpin.model.cycle_map import CycleMap
@@ -57,6 +57,13 @@ class GasMap(Record):
     def first(self) -> CycleMap:
         """One of the maps: all have its speeds and loads."""
         return next(each for each in self.maps if each is not None)
+
+    @property
+    def loads_counted(self) -> str:
+        """Gas pressure that counts, in words."""
+        distinct = {each for each in self.maps if each is not None}
+        names = ["cycle map" if each is not None else None for each in self.maps]
+        return labels.gas_text(names, len(distinct))
 
     def fired(self, engines: Sequence[Engine]) -> list[_core.Engine]:
         """Return each engine with each cycle, load by load of one speed after the other."""

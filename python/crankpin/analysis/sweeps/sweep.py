@@ -7,7 +7,6 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias
 
 import numpy as np
@@ -17,7 +16,7 @@ from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin._support.record import Tabled, read_only
+from crankpin._support.record import Tabled, changed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder
@@ -242,6 +241,17 @@ class Sweep(ByOrder, Tabled):
         return self.gas_map is not None or any(engine.fired for engine in self.engines)
 
     @property
+    def _titles(self) -> tuple[str, ...]:
+        return self.coords.get("engine", ("",))  # type: ignore[return-value] # one engine is no dimension
+
+    @property
+    def loads_counted(self) -> str:
+        """Loads that count where more could, in words: as :attr:`Balance.loads_counted`."""
+        if self.gas_map is None:
+            return super().loads_counted
+        return self.request.loads_counted(self.gas_map.loads_counted)
+
+    @property
     def _core(self) -> _core.Sweep:
         """Compiled counterpart."""
         return self.__dict__["_core"]  # type: ignore[no-any-return]
@@ -258,7 +268,7 @@ class Sweep(ByOrder, Tabled):
         return (*(["engine"] if self.names is not None else []), *swept)
 
     @cached_property
-    def coords(self) -> Mapping[str, NDArray[np.float64] | list[str]]:
+    def coords(self) -> Mapping[str, NDArray[np.float64] | tuple[str, ...]]:
         """Swept dimension → its values, in the order of the result's dimensions.
 
         Engines with the same name, or none, are numbered.
@@ -268,13 +278,13 @@ class Sweep(ByOrder, Tabled):
             pairs = zip(self.names, self.engines, strict=True)
             coords["engine"] = _distinct([name or _name_of(engine) for name, engine in pairs])
         coords |= {name: self.axes[name] for name in self.dims if name != "engine"}
-        return MappingProxyType(coords)
+        return read_only(coords)
 
     @cached_property
     def fixed(self) -> Mapping[str, float]:
         """Argument that was given as a single value → the value."""
         given = {name: self.axes[name] for name in AXES if name in self.axes}
-        return MappingProxyType(
+        return read_only(
             {name: float(value) for name, value in given.items() if name not in self.dims}
         )
 
@@ -299,7 +309,7 @@ class Sweep(ByOrder, Tabled):
 
     def _with_request(self, request: Request) -> Self:
         """Return the same sweep by another request."""
-        return self.replace(request=check_request(request, "crankpin.sweep"))
+        return changed(self, request=check_request(request, "crankpin.sweep"))
 
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
         with progress_bar.shown(self.progress, f"{quantity}, {what}") as report:
@@ -356,7 +366,7 @@ class Sweep(ByOrder, Tabled):
                     engines, names = (engines[place],), None
                 else:
                     axes[name] = float(self.coords[name][place])
-            return self.replace(engines=engines, names=names, axes=axes)
+            return changed(self, engines=engines, names=names, axes=axes)
         return self._balance_at(tuple(places[name] for name in self.dims))
 
     def least(self, values: ArrayLike) -> Balance:
@@ -561,7 +571,8 @@ class Sweep(ByOrder, Tabled):
         orders
             Orders to draw, a row for each; by default as above.
         **options
-            ``label``, put before the names in the legend; colour, line width and other properties
+            ``log=True`` for curves on a logarithmic scale; ``label``, put before the names in the
+            legend; colour, line width and other properties
             of matplotlib lines, of maps those of ``pcolormesh``.
 
         Returns
@@ -605,7 +616,7 @@ class Sweep(ByOrder, Tabled):
                 kind = QUANTITIES[name]
                 values = tuple(peaks(name).ravel().tolist())
                 columns.append(Column(kind.vector_symbol, values, kind.unit))
-        return Table(title, tuple(columns))
+        return Table(title, tuple(columns), loads=self.loads_counted)
 
     def _title(self, of: str = "") -> str:
         given = " of the orders given" if self.request.orders is not None else ""
@@ -620,7 +631,8 @@ class Sweep(ByOrder, Tabled):
         if math.prod(len(values) for values in self.coords.values()) <= MOST_SHOWN:
             return repr(self.table)
         swept = ", ".join(f"{name}: {len(values)}" for name, values in self.coords.items())
-        return f"<Sweep over ({swept})> {self._title()}"
+        loads = f", {self.loads_counted}" if self.loads_counted else ""
+        return f"<Sweep over ({swept})> {self._title()}{loads}"
 
     def _repr_html_(self) -> str | None:
         points = math.prod(len(values) for values in self.coords.values())
@@ -664,11 +676,11 @@ def _name_of(engine: Engine) -> str:
     return labels.name_of(engine) if engine.name else ""
 
 
-def _distinct(names: Sequence[str]) -> list[str]:
+def _distinct(names: Sequence[str]) -> tuple[str, ...]:
     """Return names, numbered where they do not distinguish the engines."""
     if "" not in names and len(set(names)) == len(names):
-        return list(names)
-    return [f"{name} ({k})" if name else f"{k}" for k, name in enumerate(names, start=1)]
+        return tuple(names)
+    return tuple(f"{name} ({k})" if name else f"{k}" for k, name in enumerate(names, start=1))
 
 
 def engine_titles(sweep: Sweep) -> list[str]:

@@ -164,6 +164,11 @@ class SweepWaveform(OverAngle, Record):
         return self.sweep._attributes
 
     @property
+    def loads_counted(self) -> str:
+        """Loads that count where more could, in words: those of the sweep."""
+        return self.sweep.loads_counted
+
+    @property
     def table(self) -> Table:
         """Table of the points: the largest magnitudes over crank angle."""
         title = self.sweep._title(f" at {len(self.theta_deg)} crank angles, {self._how}")
@@ -225,4 +230,5 @@ class SweepWaveform(OverAngle, Record):
 
     def __repr__(self) -> str:
         swept = ", ".join(f"{name}: {len(values)}" for name, values in self.coords.items())
-        return f"<SweepWaveform over ({swept}), {self._how}>"
+        loads = f", {self.loads_counted}" if self.loads_counted else ""
+        return f"<SweepWaveform over ({swept}), {self._how}{loads}>"

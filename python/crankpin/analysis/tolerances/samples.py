@@ -12,7 +12,7 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin._support.record import Tabled
+from crankpin._support.record import Tabled, changed, read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder
@@ -144,7 +144,7 @@ class Tolerances(ByOrder, Tabled):
     @property
     def coords(self) -> Mapping[str, Any]:
         """Dimension → its values: the number of each sample."""
-        return {"sample": np.arange(self.samples)}
+        return {"sample": read_only(np.arange(self.samples))}
 
     @property
     def _attributes(self) -> Mapping[str, Any]:
@@ -287,7 +287,8 @@ class Tolerances(ByOrder, Tabled):
         parts = inputs.array("q", q)
         if not ((parts >= 0.0) & (parts <= 1.0)).all():
             raise inputs.rejected("q", q, "give numbers from 0 to 1")
-        return np.quantile(self.values(by), parts) if parts.size else parts
+        found: NDArray[np.float64] = np.quantile(self.values(by), parts.ravel())
+        return found.reshape(parts.shape)[()]
 
     @cached_property
     def shares(self) -> Table:
@@ -323,7 +324,7 @@ class Tolerances(ByOrder, Tabled):
         named = names_of(by, self.request)
         figures = self.figures.given
         total = np.array([self.std(name) ** 2 for name in named])
-        parts = [self.replace(figures=self.figures.only(figure), by=named) for figure in figures]
+        parts = [changed(self, figures=self.figures.only(figure), by=named) for figure in figures]
         variances = np.array([[part.std(name) ** 2 for part in parts] for name in named])
         varies = total > 0.0
         rows = 100.0 * variances / np.where(varies, total, 1.0)[:, None]

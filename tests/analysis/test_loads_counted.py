@@ -1,0 +1,149 @@
+"""Does every result say which loads it counts, once, where others could count?"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import crankpin as cp
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+CYLINDER = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+BARE = cp.Engine.preset("i4", cylinder=CYLINDER)
+PETROL = cp.Cycle.example()
+FIRED = BARE.with_cycle(PETROL)
+LAME = BARE.with_cycle([PETROL, PETROL, None, PETROL])
+WORDS = {
+    "bare": (BARE, "without gas pressure"),
+    "fired": (FIRED, "gas: example petrol, full load"),
+    "lame": (LAME, "gas: example petrol, full load; cylinder 3 does not fire"),
+}
+RESULTS: dict[str, Any] = {
+    "balance": lambda e: e.balance(3000, orders=[1, 2]),
+    "order": lambda e: e.balance(3000, orders=[1, 2])[2],
+    "torque": lambda e: e.balance(3000, orders=[1, 2]).torque,
+    "waveform": lambda e: e.waveform(3000, theta_deg=np.arange(0.0, 720.0, 10.0)),
+    "sweep": lambda e: cp.sweep(e, rpm=[1000, 2000], orders=[1, 2]),
+    "waveforms": lambda e: cp.sweep(e, rpm=[1000, 2000], orders=[1, 2]).waveform([0.0, 90.0]),
+    "comparison": lambda e: cp.compare(e, e, 3000, orders=[1, 2]),
+    "ranking": lambda e: cp.rank([e, e], rpm=3000, by="total.torque.peak", orders=[1, 2]),
+    "bearings": lambda e: cp.bearing_loads(e, 3000, np.arange(0.0, 720.0, 10.0)),
+    "excitation": lambda e: cp.torsional_excitation(e, 3000, orders=[1, 2]),
+}
+OF_GAS: dict[str, Any] = {
+    "flywheel": lambda e: cp.flywheel(e, 3000, inertia=0.1),
+    "star": lambda e: cp.star_diagram(e, [0.5, 2]),
+}
+
+
+def in_words(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}."
+
+
+@pytest.mark.parametrize("engine", WORDS)
+@pytest.mark.parametrize("name", [*RESULTS, *OF_GAS])
+def test_results_say_what_they_count(name: str, engine: str) -> None:
+    if name in OF_GAS and engine == "bare":
+        return  # neither is without a cycle, or knows any
+    made, words = WORDS[engine]
+    result = (RESULTS | OF_GAS)[name](made)
+    assert made.loads_counted == result.loads_counted == words
+    assert repr(result).casefold().count(words.casefold()) == 1
+    html = result._repr_html_() if hasattr(result, "_repr_html_") else None
+    assert html is None or html.count(f"<p>{in_words(words)}</p>") == 1
+    if hasattr(result, "to_pandas"):
+        assert result.to_pandas().attrs["loads"] == words
+    if hasattr(result, "to_xarray"):
+        assert result.to_xarray().attrs["loads"] == words
+
+
+@pytest.mark.parametrize("name", RESULTS)
+def test_force_and_moment_alone_say_nothing(name: str) -> None:
+    """Gas makes neither."""
+    few: dict[str, Any] = {"orders": [1, 2], "torque": False}
+    silent = {
+        "balance": lambda: FIRED.balance(3000, **few),
+        "order": lambda: FIRED.balance(3000, **few)[2],
+        "torque": lambda: FIRED.balance(3000, orders=[1, 2]).moment,
+        "waveform": lambda: FIRED.waveform(3000, theta_deg=[0.0], torque=False),
+        "sweep": lambda: cp.sweep(FIRED, rpm=[1000, 2000], **few),
+        "comparison": lambda: cp.compare(FIRED, BARE, 3000, **few),
+        "ranking": lambda: cp.rank([FIRED, BARE], rpm=3000, by="total.moment.peak", orders=[1, 2]),
+    }
+    if name in silent:
+        result = silent[name]()
+        assert result.loads_counted == ""
+        assert "gas" not in repr(result).casefold()
+
+
+def test_a_spectrum_has_words_of_its_own() -> None:
+    balance = FIRED.balance(3000, spectrum={1: 1.0, 2: 0.3})
+    assert balance.loads_counted == "spectrum given"
+    assert repr(balance).endswith("Spectrum given.")
+    assert "spectrum given" in balance.plot().get_title(loc="left")
+    plt.close("all")
+
+
+def test_engines_that_differ_are_named() -> None:
+    both = cp.sweep({"a": BARE, "b": FIRED}, rpm=[1000, 2000], orders=[1, 2])
+    assert both.loads_counted == "without gas pressure (a); gas: example petrol, full load (b)"
+    words = cp.compare(BARE, LAME, 3000, orders=[1]).loads_counted
+    assert words.startswith("without gas pressure (before); gas: example petrol, full load; cyl")
+    assert words.endswith("cylinder 3 does not fire (after)")
+
+
+def test_cycles_without_names_and_maps() -> None:
+    plain = cp.Cycle(PETROL.theta_deg, PETROL.pressure, degree=PETROL.degree)
+    weak = cp.Cycle(plain.theta_deg, 0.9 * plain.pressure, degree=plain.degree)
+    assert BARE.with_cycle(plain).loads_counted == "gas: unnamed cycle"
+    assert BARE.with_cycle([plain, weak, None, None]).loads_counted == (
+        "gas: 2 cycles; cylinders 3, 4 do not fire"
+    )
+    assert BARE.with_cycle([PETROL, weak, PETROL, PETROL]).loads_counted == (
+        "gas: 2 cycles, example petrol, full load"
+    )
+    table = cp.CycleMap([1000, 3000], [0, 1], [[weak, PETROL]] * 2)
+    swept = cp.sweep(BARE, rpm=[1000, 2000], load=0.5, cycle=table, orders=[1, 2])
+    assert swept.loads_counted == "gas: cycle map"
+    assert swept.sel(rpm=1000).loads_counted == "gas: 1000 rpm, load 0.5"
+
+
+@pytest.mark.parametrize("engine", WORDS)
+def test_pictures_of_torque_say_it_and_those_of_force_do_not(engine: str) -> None:
+    made, words = WORDS[engine]
+    pictures: dict[str, Any] = {
+        "balance": lambda q: made.balance(3000, orders=[1, 2]).plot(quantity=q),
+        "waveform": lambda q: made.waveform(3000).plot(quantity=q),
+        "sweep": lambda q: cp.sweep(made, rpm=[1000, 2000], orders=[1, 2]).plot(quantity=q),
+        "comparison": lambda q: cp.compare(made, made, 3000, orders=[1, 2]).plot(quantity=q),
+    }
+    for draw in pictures.values():
+        for quantity, said in (("torque", 1), ("force", 0)):
+            drawn = draw(quantity)
+            assert text_of(drawn).count(words) == said
+            plt.close("all")
+    assert text_of(cp.bearing_loads(made, 3000).plot()).count(words) == 1
+    if made.fired:
+        assert text_of(cp.flywheel(made, 3000, inertia=0.1).plot()).count(words) == 1
+        assert text_of(cp.star_diagram(made).plot()).count(words) == 1
+    plt.close("all")
+
+
+def text_of(drawn: Any) -> str:  # noqa: ANN401 - axes, or arrays of them
+    """All titles of a figure, in one line."""
+    figure: Figure = np.ravel(drawn)[0].get_figure(root=True)
+    figure.draw_without_rendering()
+    titles = [figure.get_suptitle(), *(ax.get_title(loc="left") for ax in figure.axes)]
+    return " ".join(" ".join(titles).split())
+
+
+def test_sentences_on_torque_say_it() -> None:
+    bare = str(BARE.explain(3000))
+    assert bare.count("183 N·m, without gas pressure.") == 1
+    lame = str(LAME.explain(3000))
+    assert lame.count("as pressure (example petrol, full load; cylinder 3 does not fire)") == 1
+    assert "without gas" not in lame
