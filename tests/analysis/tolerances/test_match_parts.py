@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
+from crankpin.analysis.tolerances import match_parts as matching
 from crankpin.analysis.tolerances.match_parts import windows
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -293,3 +294,68 @@ def test_progress_is_reported_and_all_of_twelve_pistons_are_compared(
     assert done[-1] == total[-1] >= 25
     with pytest.raises(cp.InputError, match="progress = 'yes': give True for a tqdm bar"):
         cp.match_parts(cp.Engine.preset(name), pistons, progress="yes")  # type: ignore[arg-type]
+
+
+# --- influences -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_influences_are_what_a_kilogram_more_adds_to_the_whole_engine(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(1, 7))
+    cylinders = [
+        cp.Cylinder(
+            crank_radius=rng.uniform(0.02, 0.08),
+            rod_length=rng.uniform(0.15, 0.3),
+            reciprocating_mass=rng.uniform(0.0, 2.0),
+            pin_offset=rng.choice([0.0, rng.uniform(-0.02, 0.02)]),
+        )
+        for _ in range(count)
+    ]
+    engine = cp.Engine.from_lists(
+        cylinders,
+        bank_deg=rng.uniform(0, 360, count).round(1),
+        tdc_deg=rng.uniform(0, 360, count).round(1),
+        z=rng.uniform(-0.5, 0.5, count),
+        rotating_mass=rng.uniform(0.0, 1.0, count),
+        counterweights=[cp.Unbalance(0.01, 0.1, 20, pin=1)],
+        shafts=[cp.Shaft(-2, unbalances=[cp.Unbalance(0.001, 0.0, 30)])],
+        reference_z=rng.choice([None, 0.3]),
+    )
+    if seed % 2:
+        core = engine._core.with_cranks(
+            [(0.0, 0.0, 1), (0.2, 0.1, -1)], rng.integers(0, 2, count).tolist()
+        )
+        engine = cp.Engine(core)
+    parts = matching.MeasuredParts(engine, np.ones(count), np.ones((count, 2)), (1, 2, 3, 4))
+    _, rods_ = parts.kinds
+    for k in range(count):
+        more = list(cylinders)
+        more[k] = more[k].replace(reciprocating_mass=more[k].reciprocating_mass + 1.0)
+        heavier = [
+            engine.replace(cylinder=more),
+            engine.replace(rotating_mass=engine.rotating_mass + (np.arange(count) == k)),
+        ]
+        for influence, other in zip(rods_.influences[k], heavier, strict=True):
+            # Rounding of the whole engine's sums, of terms up to some 16 kg and levers.
+            assert influence == pytest.approx(parts._vector(other) - parts.start, abs=1e-12)
+
+
+def test_the_work_for_influences_grows_as_the_number_of_cylinders(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    summed = []
+    balance = matching.over_square
+
+    def counted(engine: cp.Engine, orders: Any) -> cp.types.Balance:  # noqa: ANN401
+        summed.append(len(engine))
+        return balance(engine, orders)
+
+    monkeypatch.setattr(matching, "over_square", counted)
+    count = 40
+    cylinder = cp.Engine.preset("single").cylinders[0]
+    engine = cp.Engine.inline(cylinder, throws_deg=[0] * count, spacing=0.1)
+    parts = matching.MeasuredParts(engine, np.ones(count), np.ones((count, 2)), (1, 2))
+    assert len(parts.kinds) == 2
+    # The engine itself, and a cylinder for each influence.
+    assert sum(summed) <= 3 * count
