@@ -815,3 +815,13 @@ def test_arguments_that_do_not_fit_are_named(given_: dict[str, Any], words: str)
         cp.counterweights(I3, **{"planes": "ends"} | given_)
     with pytest.raises(cp.InputError, match=r"give a crankpin\.Engine"):
         cp.counterweights(None, planes="ends")  # type: ignore[arg-type]
+
+
+def test_a_factor_of_none_removes_all_of_its_part() -> None:
+    planes = {"A": -0.3, "B": 0.4}
+    engine = preset("i3")
+    for name in ("force", "moment"):
+        fitted = cp.counterweights(engine, planes=planes, factor={name: None})
+        assert fitted.exact
+        left = getattr(fitted.fitted.balance(UNIT_SPEED, orders=[1])[1], name)
+        assert abs(complex(left.forward)) < ROUNDING

@@ -58,8 +58,9 @@ def balance_shafts(
         Axis of each shaft from the crank axis, seen from the flywheel, m: a number for all, or a
         list with one for each. None is free: such coordinates are placed where the shafts cancel
         the roll torque of their order, or come closest to it, as near the crank axis as that
-        allows. Where that is further away than ten times the engine's length, the torque stays,
-        with a warning.
+        allows. Where that is further away than ten times the distance from the first to the last
+        cylinder, or ten times crank radius and rod length together where these are longer, the
+        torque stays, with a warning.
     planes
         Places of the unbalances along the crank, m: for all shafts, such as ``[0.0, 0.3]``, or a
         list of these, one for each shaft. None is free: a single plane where that is enough, the

@@ -42,7 +42,7 @@ def counterweights(
     *,
     planes: Planes = "webs",
     target: Target = "external",
-    factor: float | Mapping[str, float] | None = None,
+    factor: float | Mapping[str, float | None] | None = None,
     minimise: Minimise = "squares",
     bound: float | Mapping[str, float] | None = None,
     angles_deg: Angles | Mapping[str, Angles] | None = None,
@@ -67,7 +67,7 @@ def counterweights(
         :func:`crankpin.bob_weight`: 0.52 leaves 4 % of the pistons' forward part turned round. By
         default all of the forward part is removed, as 0.5 does without pin offset. A number for
         both, or a mapping with ``"force"``, ``"moment"`` or both; what it leaves out does not
-        matter.
+        matter. In a mapping None is the default: all of the forward part.
     minimise
         Of weights that leave as little: ``"squares"`` for the least sum of squares of the planes'
         mass·radius, ``"largest"`` for the least largest.
