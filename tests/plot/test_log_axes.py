@@ -8,6 +8,7 @@ import crankpin as cp
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from crankpin.plot.style import SERIES
 
 if TYPE_CHECKING:
     from collections.abc import Callable
