@@ -13,6 +13,7 @@ from crankpin.analysis.tolerances import match_parts as matching
 from crankpin.analysis.tolerances.match_parts import windows
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from several_cranks import random_engine
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -301,32 +302,8 @@ def test_progress_is_reported_and_all_of_twelve_pistons_are_compared(
 
 @pytest.mark.parametrize("seed", range(30))
 def test_influences_are_what_a_kilogram_more_adds_to_the_whole_engine(seed: int) -> None:
-    rng = np.random.default_rng(seed)
-    count = int(rng.integers(1, 7))
-    cylinders = [
-        cp.Cylinder(
-            crank_radius=rng.uniform(0.02, 0.08),
-            rod_length=rng.uniform(0.15, 0.3),
-            reciprocating_mass=rng.uniform(0.0, 2.0),
-            pin_offset=rng.choice([0.0, rng.uniform(-0.02, 0.02)]),
-        )
-        for _ in range(count)
-    ]
-    engine = cp.Engine.from_lists(
-        cylinders,
-        bank_deg=rng.uniform(0, 360, count).round(1),
-        tdc_deg=rng.uniform(0, 360, count).round(1),
-        z=rng.uniform(-0.5, 0.5, count),
-        rotating_mass=rng.uniform(0.0, 1.0, count),
-        counterweights=[cp.Unbalance(0.01, 0.1, 20, pin=1)],
-        shafts=[cp.Shaft(-2, unbalances=[cp.Unbalance(0.001, 0.0, 30)])],
-        reference_z=rng.choice([None, 0.3]),
-    )
-    if seed % 2:
-        core = engine._core.with_cranks(
-            [(0.0, 0.0, 1), (0.2, 0.1, -1)], rng.integers(0, 2, count).tolist()
-        )
-        engine = cp.Engine(core)
+    engine = random_engine(seed)
+    count, cylinders = len(engine), engine.cylinders
     parts = matching.MeasuredParts(engine, np.ones(count), np.ones((count, 2)), (1, 2, 3, 4))
     _, rods_ = parts.kinds
     for k in range(count):
@@ -337,7 +314,7 @@ def test_influences_are_what_a_kilogram_more_adds_to_the_whole_engine(seed: int)
             engine.replace(rotating_mass=engine.rotating_mass + (np.arange(count) == k)),
         ]
         for influence, other in zip(rods_.influences[k], heavier, strict=True):
-            # Rounding of the whole engine's sums, of terms up to some 16 kg and levers.
+            # Rounding of the whole engine's sums, of terms up to some kilograms and levers.
             laden = matching.MeasuredParts(other, parts.pistons, parts.rods, parts.orders)
             assert influence == pytest.approx(laden.start - parts.start, abs=1e-12)
 
