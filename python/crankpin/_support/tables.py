@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
 import numpy as np
 
-from crankpin._support import inputs, optional
+from crankpin._support import files, inputs, optional
 from crankpin._support.record import Record
 
 if TYPE_CHECKING:
@@ -193,8 +193,7 @@ class Table(Record):
         writer.writerows(zip(*(each.values for each in self.columns), strict=True))
         if path is None:
             return file.getvalue()
-        named = inputs.file_path(path, (".csv",), "name a .csv file")
-        named.write_text(file.getvalue(), encoding="utf-8", newline="\n")
+        files.write(inputs.file_path(path, (".csv",), "name a .csv file"), file.getvalue())
         return None
 
     def to_pandas(self) -> pd.DataFrame:
