@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -13,6 +14,8 @@ import crankpin as cp
 import long_calls
 import numpy as np
 import pytest
+from fuzzing.sound import FIRED
+from fuzzing.surface import TARGETS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -116,6 +119,9 @@ except MemoryError as error:
 """
 
 
+MANY = "many = cp.Engine.inline(v6.cylinders[0], throws_deg=range(1000), spacing=0.1)"
+
+
 @linux
 @pytest.mark.parametrize(
     ("megabytes", "before", "call"),
@@ -150,11 +156,7 @@ except MemoryError as error:
         (50, "found = cp.search_arrangements(22)", "found.bank_angles_deg"),
         (0, "found = cp.search_arrangements(22)", "for each in found: pass"),
         (0, "several = v6.balance(5000, orders=range(1, 10_001))", "several.total.force.peak"),
-        (
-            3.5,
-            "many = cp.Engine.inline(v6.cylinders[0], throws_deg=range(1000), spacing=0.1)",
-            "many.balance(5000, orders=range(1, 10_001)).total.force.peak",
-        ),
+        (3.5, MANY, "many.balance(5000, orders=range(1, 10_001)).total.force.peak"),
         (
             10,
             "given = {'planes': np.linspace(0, 1, 60), 'angles_deg': range(0, 360, 4)}",
@@ -173,6 +175,12 @@ except MemoryError as error:
             ),
             "cp.sweep(several, rpm=3000, rod_ratio=ratios, orders=[1, 2]).moment.xy",
         ),
+        (60, MANY, "[many.tdc_deg for _ in range(10**6)]"),
+        (60, MANY, "[many.pin_deg for _ in range(10**6)]"),
+        (60, MANY, "[many.to_toml() for _ in range(10**6)]"),
+        (60, MANY, "[many._core.cylinders for _ in range(10**6)]"),
+        (20, "", "[v6.cylinders[0].harmonics(range(1, 1000)) for _ in range(10**6)]"),
+        (20, "import pickle", "[pickle.dumps(v16) for _ in range(10**6)]"),
         (
             8,
             # OpenBLAS ends the process where it has no memory for its first call.
@@ -190,6 +198,32 @@ def test_memory_that_is_not_there_raises_memory_error(
 ) -> None:
     program = LITTLE_MEMORY.format(megabytes=megabytes, before=before, call=call)
     assert python(program) == "MemoryError\n"
+
+
+@linux
+def test_no_public_call_ends_the_process_or_panics_where_there_is_little_memory() -> None:
+    program = Path(long_calls.__file__).with_name("little_memory.py").read_text(encoding="utf-8")
+    printed = python(
+        program, {"OPENBLAS_NUM_THREADS": "1", "PYTHONPATH": os.pathsep.join(sys.path)}
+    ).splitlines()
+    assert printed == [f"{len(TARGETS)} calls"]
+
+
+def test_a_panic_is_an_error_that_asks_to_report_it() -> None:
+    with pytest.raises(cp.InputError, match=r"index out of bounds.*; please report the call"):
+        FIRED._core.fired_as(FIRED._core, [99])
+
+
+RUST = Path(__file__).parents[2] / "rust" / "py" / "src"
+
+
+@pytest.mark.parametrize("file", sorted(RUST.glob("*.rs")), ids=lambda file: file.name)
+def test_everything_that_python_calls_is_guarded_and_makes_arrays_that_can_fail(file: Path) -> None:
+    text = file.read_text(encoding="utf-8")
+    exported = re.findall(r"^ *#\[(?:pymethods|pyfunction)\b", text, re.MULTILINE)
+    guarded = re.findall(r"^( *)#\[guarded\]\n\1#\[(?:pymethods|pyfunction)\b", text, re.MULTILINE)
+    assert len(guarded) == len(exported)
+    assert not re.findall(r"PyArray\w*::\w+|to_pyarray|into_pyarray|\.read(?:only|write)\(\)", text)
 
 
 @pytest.mark.parametrize("length", [10**9, 10**30])

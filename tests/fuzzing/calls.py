@@ -45,6 +45,13 @@ class Call(NamedTuple):
         return f"{self.target.label}({listed})"
 
 
+def sound_call(target: Target, *, but: str = "") -> Call:
+    """A call with good values for what it needs, ``samples`` few, and none for one argument."""
+    needed = [p for p in target.parameters if p.default is p.empty or p.name == "samples"]
+    named = [p.name for p in needed if p.kind not in (p.VAR_KEYWORD, p.VAR_POSITIONAL)]
+    return Call(target, {name: SOUND[name][0] for name in named if name != but})
+
+
 @st.composite
 def calls(draw: st.DrawFn, among: list[Target]) -> Call:
     """A call with up to three arguments bad and the others good or left out."""

@@ -25,6 +25,8 @@ SOUND: dict[str, list[Any]] = {
     "pin_split_deg": [0, (-60, 60)],
     "places": [{-1: (0.1, 0.0)}],
     "ratios": [-1, (-2, 2)],
+    "first_tdc_deg": [30],
+    "sample": [1],
     "samples": [200],
     "sets": [1],
     "shaft_orders": [1],

@@ -26,17 +26,19 @@ from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
 import pytest
-from fuzzing.calls import DAMAGED, SECONDS, Call, call_hostile, calls, finite, problem, read_damaged
-from fuzzing.sound import CURE, JSON, TOML, V6
-from fuzzing.surface import (
-    PICTURES,
-    PLAIN,
-    RESULTS_MADE_ELSEWHERE,
-    SOUND,
-    SUBJECTS,
-    TARGETS,
-    Target,
+from fuzzing.calls import (
+    DAMAGED,
+    SECONDS,
+    Call,
+    call_hostile,
+    calls,
+    finite,
+    problem,
+    read_damaged,
+    sound_call,
 )
+from fuzzing.sound import CURE, JSON, TOML, V6
+from fuzzing.surface import PICTURES, PLAIN, RESULTS_MADE_ELSEWHERE, SUBJECTS, TARGETS, Target
 from fuzzing.values import HOSTILE
 from hypothesis import HealthCheck, example, given, seed, settings
 from hypothesis import strategies as st
@@ -127,13 +129,7 @@ def test_fuzz_one_argument_at_a_time(each: Target) -> None:
     found = []
     for parameter in each.parameters:
         # A call that stops at a missing argument would try nothing; few samples do.
-        needed = [
-            p
-            for p in each.parameters
-            if (p.default is p.empty or p.name == "samples") and p is not parameter
-        ]
-        given_ = [p for p in needed if p.kind not in (p.VAR_KEYWORD, p.VAR_POSITIONAL)]
-        others = {p.name: SOUND[p.name][0] for p in given_}
+        others = sound_call(each, but=parameter.name).arguments
         if parameter.kind is not parameter.VAR_KEYWORD:
             calls_ = (Call(each, others | {parameter.name: value}) for value in HOSTILE)
             found += [text for call in calls_ if (text := problem(call))]

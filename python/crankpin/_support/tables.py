@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
 import numpy as np
 
-from crankpin._support import inputs, labels, optional
+from crankpin._support import files, inputs, labels, optional
 from crankpin._support.record import AbsentItemError, Record, changed
 
 if TYPE_CHECKING:
@@ -210,8 +210,7 @@ class Table(Record):
         writer.writerows(zip(*(each.values for each in self.columns), strict=True))
         if path is None:
             return file.getvalue()
-        named = inputs.file_path(path, (".csv",), "name a .csv file")
-        named.write_text(file.getvalue(), encoding="utf-8", newline="\n")
+        files.write(inputs.file_path(path, (".csv",), "name a .csv file"), file.getvalue())
         return None
 
     def to_pandas(self) -> pd.DataFrame:

@@ -193,6 +193,7 @@ OPTIONS: dict[str, dict[str, Any]] = {
         "metavar": "FILE",
         "help": "write the engine with what was found, an engine file (.toml, .json)",
     },
+    "--force": {"action": "store_true", "help": "replace an engine file that is there"},
 }
 """Options of several commands."""
 
@@ -482,8 +483,17 @@ class Given:
 
     def save_file(self) -> Path | None:
         """Return the file for the engine that is found, checked before anything is computed."""
-        text = self._typed.get("save")
-        return None if text is None else engine_files.checked(text, "--save")
+        return self.engine_file("--save") if "save" in self._typed else None
+
+    def engine_file(self, flag: str) -> Path | None:
+        """Return the engine file to write, if it is given; without ``--force`` no old one."""
+        if (text := self.text(flag)) is None:
+            return None
+        file = engine_files.checked(text, flag)
+        if file.is_file() and not self.text("--force"):
+            hint = "it is there already; give another name, or --force to replace it"
+            raise InputError(f"{flag} = {labels.cut(str(file))}: {hint}")
+        return file
 
 
 def _hint(typed: str, unit: str) -> str:

@@ -56,7 +56,7 @@ OF_OPTIONS = ("--rpm", "--by", "--target")
     ),
     option("--bound", help="largest mass·radius of a plane, kg·m"),
     option("--angles", metavar="RANGE", help="drilling places, degrees: 0,90,180,270 or 0:345:15"),
-    "--reference-z --units --csv --plot --save",
+    "--reference-z --units --csv --plot --save --force",
     example="counterweights v8-crossplane --planes webs --plot weights.png",
     note="Amounts are mass·radius in kg·m, angles those at θ = 0 from +x, as the crank turns.\n"
     "Residuals are in kg·m and kg·m², to be multiplied by ω².",
@@ -106,7 +106,7 @@ def _mass(flag: str, what: str) -> Option:
     _mass("--rotating-mass", "big end, bolts and bearing shells"),
     _mass("--reciprocating-mass", "piston, pin, rings and small end"),
     _mass("--oil", "oil of a crankpin (default: 0)"),
-    "--units --csv --plot --save",
+    "--units --csv --plot --save --force",
     example="bob-weight v8-crossplane --rotating-mass 550g --reciprocating-mass 620g --oil 4g",
     note="Masses are those of one cylinder, by default the engine's.",
 )
@@ -165,6 +165,7 @@ def _axis(flag: str, where: str) -> Option:
         help="write the engine with what was found (.toml, .json); without --ratios the least "
         "hardware that reaches --target",
     ),
+    "--force",
     example="shafts i4 --ratios 2,-2 --x 0.08,-0.08 --save smooth.toml",
     note="Without --ratios, sets of counterweights and shafts are compared; with it, these\n"
     "shafts are fitted. Write values that begin with a minus as --ratios=-2,2.",

@@ -71,6 +71,7 @@ FLAGS = {name: f"--{name.removesuffix('_deg').replace('_', '-')}" for name in FI
     option(
         "--pick", metavar="N", default="1", help="which design --save writes (default: %(default)s)"
     ),
+    "--force",
     example="design v10-72 --bank-angle 60:120 --even-firing --by total.moment.peak",
     note="Moving parts, spacing, bank angle, number of cylinders and banks are those of NAME;\n"
     "its crank is not used. Objectives are those of rank. Ranges are LOW:HIGH.",

@@ -104,6 +104,7 @@ METAVARS = {"angles": "A,B,…", "metres": "Z,…", "whole": "N", "text": "TEXT"
     option(
         "-o", "--out", metavar="FILE", help="the engine file (.toml, .json); without it, print TOML"
     ),
+    "--force",
     example="new v-twin --bank-angle 45 --bore 88.9mm --stroke 96.8mm --rod-length 189mm "
     "--piston-mass 480g --rod-mass 560g -o harley.toml",
     note="KIND is one of\n"
@@ -115,8 +116,7 @@ METAVARS = {"angles": "A,B,…", "metres": "Z,…", "whole": "N", "text": "TEXT"
 )
 def _new(given: Given) -> str:
     """Write the file; return what the command prints."""
-    typed = given.text("--out")
-    file = None if typed is None else engine_files.checked(typed, "--out")
+    file = given.engine_file("--out")
     notes = list[str]()
     cylinder, rotating = _parts(given, notes)
     engine = _engine(given, cylinder, rotating, notes)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 from collections.abc import Mapping
@@ -9,6 +10,8 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple, TextIO
 
 import numpy as np
+
+from crankpin._support import files
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -71,10 +74,12 @@ def _draw(result: Any, path: Path, **options: str) -> None:  # noqa: ANN401 - wh
     figure = np.ravel(result.plot(**options))[0].get_figure(root=True)
     from matplotlib import pyplot as plt  # noqa: PLC0415 - plot() says if it is missing
 
+    picture = io.BytesIO()
     try:
-        figure.savefig(path, dpi=200)
+        figure.savefig(picture, format=path.suffix[1:].lower(), dpi=200)
     finally:
         plt.close(figure)
+    files.write(path, picture.getvalue())
 
 
 # --- streams ------------------------------------------------------------------------------------

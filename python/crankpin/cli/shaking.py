@@ -187,6 +187,7 @@ def _how(result: Sweep, given: Given) -> str:
     option("--refine", action="store_true", help="look between these angles too"),
     "--rpm --orders --rtol --reference-z --spectrum --units --csv --plot",
     option("--save", help="write the best engine at its best bank angle (.toml, .json)"),
+    "--force",
     example="rank ijesc-v6 --rpm 5000 --by [1].moment.backward,[2].moment.peak",
     note="Of several objectives the later ones break ties. They are total.moment.peak and\n"
     "total.force.peak (the longest vector, all orders together), the same with .peak_xy,\n"

@@ -10,7 +10,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support import inputs
+from crankpin._support import files, inputs
 from crankpin._support.warnings import warn
 
 if TYPE_CHECKING:
@@ -152,7 +152,7 @@ def save(cycle: Cycle, path: str | Path) -> None:
     lines.append(f"crank angle deg{separator}absolute pressure Pa")
     pairs = zip(cycle.theta_deg.tolist(), cycle.pressure.tolist(), strict=True)
     lines += [f"{angle!r}{separator}{pressure!r}" for angle, pressure in pairs]
-    file.write_text("\n".join([*lines, ""]), encoding="utf-8")
+    files.write(file, "\n".join([*lines, ""]))
 
 
 def _fact(facts: dict[str, str], name: str) -> int | None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._core import ATMOSPHERE, InputError
-from crankpin._support import inputs, labels
+from crankpin._support import files, inputs, labels
 from crankpin._support.record import AbsentError, read_only
 from crankpin._support.warnings import suppressed
 from crankpin.model import checks, engine_files
@@ -635,7 +635,7 @@ class EngineData:
         file = engine_files.checked(path)
         toml = engine_files.is_toml(file)
         text = engine_files.commented(self.to_toml()) if toml else self.to_json()
-        file.write_text(text, encoding="utf-8")
+        files.write(file, text)
 
 
 def core_of_lists(

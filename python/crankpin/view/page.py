@@ -9,7 +9,7 @@ from pathlib import Path
 from string import Template
 from typing import TYPE_CHECKING, Any
 
-from crankpin._support import inputs
+from crankpin._support import files, inputs
 from crankpin.model import presets
 from crankpin.view.figures import figures
 
@@ -48,7 +48,7 @@ def save_html(
         f"page({view}, {as_json(known)});",
         styles=["compact"] if compact else [],
     )
-    file.write_text(text, encoding="utf-8")
+    files.write(file, text)
 
 
 def save_gallery(folder: str | Path, *, rpm: float = 3000.0) -> list[Path]:
@@ -64,7 +64,7 @@ def save_gallery(folder: str | Path, *, rpm: float = 3000.0) -> list[Path]:
     place = Path(folder)
     place.mkdir(parents=True, exist_ok=True)
     listed: list[dict[str, Any]] = []
-    files = []
+    pages = []
     for name, engine in presets.presets().items():
         speed = speed_of(name, rpm)
         file = place / f"{name}.html"
@@ -76,12 +76,12 @@ def save_gallery(folder: str | Path, *, rpm: float = 3000.0) -> list[Path]:
                 "description": presets.presets().descriptions[name],
             }
         )
-        files.append(file)
+        pages.append(file)
     index = place / "index.html"
     call = f"gallery({as_json(listed)});"
     text = document("Engines", ("gallery.mjs",), call, styles=["gallery"], body=GALLERY_HEAD)
-    index.write_text(text, encoding="utf-8")
-    return [index, *files]
+    files.write(index, text)
+    return [index, *pages]
 
 
 def speed_of(preset: str, rpm: float) -> float:

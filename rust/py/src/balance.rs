@@ -1,14 +1,16 @@
 //! Phasors per order.
 
+use crate::array::frozen;
 use crankpin_core as core;
 use crankpin_core::balance::{Orders, Request, TorquePart, Vector};
 use crankpin_core::engine::Origin;
 use crankpin_core::{Complex64, Error};
+use crankpin_macros::guarded;
 use ndarray::{Array1, Array2};
 use numpy::{PyArray1, PyArrayDyn};
 use pyo3::prelude::*;
 
-use crate::convert::{self, OrRaise, OrderNumber, frozen, numbers};
+use crate::convert::{self, OrRaise, OrderNumber, numbers};
 use crate::engine::{Engine, choice};
 use crate::interrupt;
 
@@ -22,6 +24,7 @@ pub fn orders(orders: Option<Vec<OrderNumber>>, rtol: f64) -> PyResult<Orders> {
 pub struct Balance(pub core::Balance);
 
 /// The balance of an engine.
+#[guarded]
 #[pyfunction]
 #[pyo3(name = "balance")]
 #[expect(clippy::too_many_arguments, reason = "the wrapper in Python has defaults for them")]
@@ -72,6 +75,7 @@ pub fn terms(
 }
 
 /// ω in rad/s.
+#[guarded]
 #[pyfunction]
 pub fn angular_speed(rpm: f64) -> PyResult<f64> {
     core::balance::angular_speed(rpm).or_raise()
@@ -99,6 +103,7 @@ fn vector(quantity: &str) -> PyResult<Vector> {
     choice("quantity", quantity, &[("force", Vector::Force), ("moment", Vector::Moment)])
 }
 
+#[guarded]
 #[pymethods]
 impl Balance {
     #[getter]
@@ -131,14 +136,14 @@ impl Balance {
                 let torque = self.0.torque(part, k);
                 if on_crank { torque.crank } else { torque.roll }
             });
-            return Ok(frozen(py, torques.collect::<Array1<_>>().into_dyn()));
+            return frozen(py, torques.collect::<Array1<_>>().into_dyn());
         }
         let vector = vector(name)?;
         let pairs = orders.map(|k| {
             let planar = self.0.planar(vector, k);
             if turning { [planar.forward, planar.backward()] } else { self.0.xy(vector, k) }
         });
-        Ok(frozen(py, Array2::from(pairs.collect::<Vec<_>>()).into_dyn()))
+        frozen(py, Array2::from(pairs.collect::<Vec<_>>()).into_dyn())
     }
 
     fn zero_bound<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
@@ -149,7 +154,7 @@ impl Balance {
             let vector = vector(name)?;
             orders.map(|k| self.0.zero_bound(vector, k)).collect()
         };
-        Ok(frozen(py, bounds))
+        frozen(py, bounds)
     }
 
     fn total_peak_xy<'py>(
@@ -159,7 +164,7 @@ impl Balance {
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let vector = vector(name)?;
         let peaks = interrupt::run(py, |cancel| self.0.peak_xy(vector, cancel))?;
-        Ok(frozen(py, peaks.to_vec().into()))
+        frozen(py, peaks.to_vec().into())
     }
 
     /// The longest vector, or the largest torque, of all orders together.

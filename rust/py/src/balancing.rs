@@ -4,6 +4,7 @@ use crankpin_core::balancing;
 use crankpin_core::balancing::shafts::{self, Remove};
 use crankpin_core::balancing::weights::{self, Minimise};
 use crankpin_core::{Complex64, Order};
+use crankpin_macros::guarded;
 use pyo3::prelude::*;
 
 use crate::convert::OrRaise;
@@ -22,6 +23,7 @@ type WantedShaft = (i32, FreeAxis, Option<Vec<f64>>, String);
 type FittedShaft = ((f64, f64), Vec<Weight>, Pair);
 
 /// Part of force and moment that turns with a shaft of this ratio, over ω².
+#[guarded]
 #[pyfunction]
 pub fn turning(engine: &Bound<'_, Engine>, ratio: i32) -> PyResult<Pair> {
     let core = &engine.get().0;
@@ -31,6 +33,7 @@ pub fn turning(engine: &Bound<'_, Engine>, ratio: i32) -> PyResult<Pair> {
 }
 
 /// Roll torque of an order over ω², with that of gas pressure at a speed.
+#[guarded]
 #[pyfunction]
 pub fn roll_torque(
     engine: &Bound<'_, Engine>,
@@ -43,6 +46,7 @@ pub fn roll_torque(
 
 /// Plane, place among its angles and weight of each, whether they are proved to exert what was wanted,
 /// and the part of it that is missing.
+#[guarded]
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "the wrapper in Python has defaults for them")]
 pub fn least_weights(
@@ -81,6 +85,7 @@ pub fn least_weights(
 }
 
 /// Shafts that remove their parts of orders, and the distance of places beyond reach, m.
+#[guarded]
 #[pyfunction]
 pub fn fit_shafts(
     engine: &Bound<'_, Engine>,
@@ -104,12 +109,14 @@ pub fn fit_shafts(
 }
 
 /// Difference and sum of the places of a pair that cancels a roll torque, m, and its line, radians.
+#[guarded]
 #[pyfunction]
 pub fn pair_heights(forward: Complex64, backward: Complex64, torque: Complex64) -> [f64; 3] {
     shafts::pair_heights(forward, backward, torque)
 }
 
 /// Forces at places as taken by two planes, by the lever rule.
+#[guarded]
 #[pyfunction]
 pub fn shared(forces: Vec<(Complex64, f64)>, front: f64, rear: f64) -> [Complex64; 2] {
     balancing::shared(&forces, front, rear)

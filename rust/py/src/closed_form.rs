@@ -3,6 +3,7 @@
 use crankpin_core::Order;
 use crankpin_core::exact::closed_form::{self as core, ClosedForm, LoadMotion, LoadPart, Phasor};
 use crankpin_core::rational::Ratio;
+use crankpin_macros::guarded;
 use pyo3::prelude::*;
 
 use crate::convert::OrRaise;
@@ -18,6 +19,7 @@ type Coefficients = (Vec<i128>, Vec<i128>, Vec<i128>);
 type Form = (usize, f64, bool, Vec<Load>, i128, i128, Vec<Coefficients>);
 
 /// Force or moment of one order.
+#[guarded]
 #[pyfunction]
 pub fn closed_form(
     py: Python<'_>,

@@ -2,12 +2,11 @@
 
 use crankpin_core as core;
 use crankpin_core::rational::Ratio;
-use ndarray::Dimension;
-use numpy::{Element, PyArray, PyArrayMethods};
+use crankpin_macros::guarded;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::reserve;
+use crate::{boundary, reserve};
 
 pyo3::create_exception!(
     crankpin,
@@ -19,11 +18,12 @@ pyo3::create_exception!(
 
 /// The core's error as Python's.
 pub fn python_error(error: core::Error) -> PyErr {
-    match error {
+    // Made here, since arguments are read outside of what `#[guarded]` guards.
+    boundary::made(match error {
         core::Error::Cancelled => PyKeyboardInterrupt::new_err(()),
         error @ core::Error::OutOfMemory { .. } => PyMemoryError::new_err(error.to_string()),
         other => InputError::new_err(other.to_string()),
-    }
+    })
 }
 
 /// Result of the core as a Python result.
@@ -52,6 +52,7 @@ impl<'py> FromPyObject<'_, 'py> for Angle {
 }
 
 /// Text that reads back as exactly this angle; `argument` is what errors call it.
+#[guarded]
 #[pyfunction]
 pub fn exact_angle(argument: &str, degrees: Degrees) -> PyResult<String> {
     let angle = match degrees {
@@ -62,6 +63,7 @@ pub fn exact_angle(argument: &str, degrees: Degrees) -> PyResult<String> {
 }
 
 /// Hint for an angle beside a part of a turn that no decimal is: `51.428571 is 4.3e-7° from 360/7`.
+#[guarded]
 #[pyfunction]
 pub fn near_miss(degrees: &str) -> Option<String> {
     /// Fractions of more parts lie so close together that many angles are next to one.
@@ -132,14 +134,4 @@ pub fn numbers(orders: &[core::Order]) -> Vec<OrderNumber> {
         order.as_whole().map_or_else(|| OrderNumber::Half(order.number()), OrderNumber::Whole)
     };
     orders.iter().map(number).collect()
-}
-
-/// A `NumPy` array that owns the values and cannot be written to.
-pub fn frozen<T: Element, D: Dimension>(
-    py: Python<'_>,
-    values: ndarray::Array<T, D>,
-) -> Bound<'_, PyArray<T, D>> {
-    let array = PyArray::from_owned_array(py, values);
-    array.readwrite().make_nonwriteable();
-    array
 }

@@ -1,12 +1,14 @@
 //! Objectives of engines whose angles vary.
 
+use crate::array::frozen;
 use crankpin_core as core;
 use crankpin_core::design::{Objective, ObjectiveQuantity, Reading, Variable};
 use crankpin_core::{Order, memory};
+use crankpin_macros::guarded;
 use numpy::{PyArray2, PyArray3, PyReadonlyArray2};
 use pyo3::prelude::*;
 
-use crate::convert::{OrRaise, frozen};
+use crate::convert::OrRaise;
 use crate::engine::{Engine, choice};
 use crate::interrupt;
 
@@ -17,6 +19,7 @@ pub struct Merit(core::design::Merit);
 /// Objectives (points, objectives), and their derivatives (points, objectives, variables).
 type Evaluated<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray3<f64>>);
 
+#[guarded]
 #[pymethods]
 impl Merit {
     /// Variables are turns of the bores and of the crankpins, by cylinder; objectives a quantity, a
@@ -95,7 +98,7 @@ impl Merit {
         let values = memory::array("points", (count, goals), values).or_raise()?;
         let slopes = memory::array("points", (count, goals, variables), slopes.concat());
         let slopes = slopes.or_raise()?;
-        Ok((frozen(py, values), frozen(py, slopes)))
+        Ok((frozen(py, values)?, frozen(py, slopes)?))
     }
 
     /// The smoothed weighted sum of the first few objectives, and its derivatives.

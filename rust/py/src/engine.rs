@@ -3,17 +3,20 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
+use crate::array::frozen;
 use crankpin_core as core;
 use crankpin_core::engine::crankpins::Crankpin;
 use crankpin_core::engine::{Crank, Details, Gas, Hold, Shaft, Station, Unbalance, file};
 use crankpin_core::layout::{FiringOrder, FiringRule, Inline, Numbering, Side, Strokes, Vee};
 use crankpin_core::{Complex64, Error, limits};
+use crankpin_macros::guarded;
 use ndarray::Array1;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use crate::convert::{Angle, OrRaise, Parts, angles, cylinder, frozen, python_error};
+use crate::boundary;
+use crate::convert::{Angle, OrRaise, Parts, angles, cylinder, python_error};
 use crate::interrupt;
 use crate::pressure::Cycle;
 
@@ -118,7 +121,7 @@ impl Engine {
         &self,
         py: Python<'py>,
         value: impl Fn(&Station) -> f64,
-    ) -> Bound<'py, PyArray1<f64>> {
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         frozen(py, self.0.stations().iter().map(value).collect::<Array1<f64>>())
     }
 }
@@ -171,6 +174,7 @@ impl<'py> FromPyObject<'_, 'py> for InlineLayout {
     }
 }
 
+#[guarded]
 #[pymethods]
 impl Engine {
     #[staticmethod]
@@ -284,12 +288,12 @@ impl Engine {
         file::from_state(text).or_raise().map(Self::from)
     }
 
-    fn to_toml(&self) -> PyResult<String> {
-        file::to_toml(&self.0).or_raise()
+    fn to_toml<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        boundary::text(py, &file::to_toml(&self.0).or_raise()?)
     }
 
-    fn to_json(&self) -> PyResult<String> {
-        file::to_json(&self.0).or_raise()
+    fn to_json<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        boundary::text(py, &file::to_json(&self.0).or_raise()?)
     }
 
     #[getter]
@@ -312,28 +316,28 @@ impl Engine {
     }
 
     #[getter]
-    fn tdc_deg<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+    fn tdc_deg<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.column(py, |p| p.tdc.degrees())
     }
 
     #[getter]
-    fn bank_deg<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+    fn bank_deg<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.column(py, |p| p.bank.degrees())
     }
 
     #[getter]
-    fn pin_deg<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+    fn pin_deg<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let pins = (0..self.0.stations().len()).map(|i| self.0.pin(i).degrees());
         frozen(py, pins.collect())
     }
 
     #[getter]
-    fn z<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+    fn z<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.column(py, |p| p.z)
     }
 
     #[getter]
-    fn rotating_mass<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+    fn rotating_mass<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.column(py, |p| p.rotating_mass)
     }
 
@@ -569,7 +573,7 @@ impl Engine {
     fn __reduce__<'py>(
         slf: &Bound<'py, Self>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let state = file::to_state(&slf.get().0).or_raise()?;
+        let state = boundary::text(slf.py(), &file::to_state(&slf.get().0).or_raise()?)?;
         Ok((slf.get_type().getattr("from_state")?, PyTuple::new(slf.py(), [state])?))
     }
 }

@@ -2,15 +2,17 @@
 
 use std::sync::Arc;
 
+use crate::array::frozen;
 use crankpin_core as core;
 use crankpin_core::firing::{self, Period, Timing};
 use crankpin_core::layout::{FiringOrder, Strokes};
 use crankpin_core::memory;
+use crankpin_macros::guarded;
 use ndarray::{Array1, Array2};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
-use crate::convert::{self, Angle, OrRaise, frozen};
+use crate::convert::{self, Angle, OrRaise};
 use crate::engine::{Engine, VeeLayout, firing_rule, numbers};
 use crate::interrupt;
 
@@ -36,14 +38,15 @@ fn timing(angles: Vec<Angle>) -> PyResult<Timing> {
 fn column(
     py: Python<'_>,
     angles: impl IntoIterator<Item = core::Angle>,
-) -> Bound<'_, PyArray1<f64>> {
+) -> PyResult<Bound<'_, PyArray1<f64>>> {
     frozen(py, angles.into_iter().map(core::Angle::degrees).collect::<Array1<f64>>())
 }
 
-fn periods<'py>(py: Python<'py>, periods: &[Period]) -> Bound<'py, PyArray2<f64>> {
+fn periods<'py>(py: Python<'py>, periods: &[Period]) -> PyResult<Bound<'py, PyArray2<f64>>> {
     frozen(py, Array2::from_shape_fn((periods.len(), 2), |(i, k)| periods[i][k].degrees()))
 }
 
+#[guarded]
 #[pymethods]
 impl Firing {
     /// The most even of [`Self::all_named`].
@@ -98,12 +101,12 @@ impl Firing {
     }
 
     #[getter]
-    fn angles_deg<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+    fn angles_deg<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         column(py, self.0.angles())
     }
 
     #[getter]
-    fn intervals_deg<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+    fn intervals_deg<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         column(py, self.0.intervals().iter().copied())
     }
 
@@ -132,15 +135,15 @@ impl Firing {
     fn stroke_periods<'py>(
         &self,
         py: Python<'py>,
-    ) -> Vec<(&'static str, Bound<'py, PyArray2<f64>>)> {
+    ) -> PyResult<Vec<(&'static str, Bound<'py, PyArray2<f64>>)>> {
         let found = self.0.stroke_periods();
-        found.into_iter().map(|(name, each)| (name, periods(py, &each))).collect()
+        found.into_iter().map(|(name, each)| Ok((name, periods(py, &each)?))).collect()
     }
 
     /// When intake valves or transfer ports, and exhausts are open.
     fn open<'py>(&self, py: Python<'py>, given: Vec<Angle>) -> PyResult<Two<'py, PyArray2<f64>>> {
         let [intake, exhaust] = self.0.open(&timing(given)?).or_raise()?;
-        Ok((periods(py, &intake), periods(py, &exhaust)))
+        Ok((periods(py, &intake)?, periods(py, &exhaust)?))
     }
 
     fn overlaps(&self, groups: Groups, given: Vec<Angle>) -> PyResult<Vec<Vec<Overlap>>> {
@@ -155,12 +158,14 @@ impl Firing {
 }
 
 /// Raise if valves or ports cannot open and close so.
+#[guarded]
 #[pyfunction]
 pub fn check_timing(given: Vec<Angle>) -> PyResult<()> {
     timing(given).map(drop)
 }
 
 /// Crankpins that a firing order needs, and no pin splits.
+#[guarded]
 #[pyfunction]
 pub fn inline_throws<'py>(
     py: Python<'py>,
@@ -170,10 +175,11 @@ pub fn inline_throws<'py>(
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let rule = firing_rule("even", intervals, strokes)?;
     let order = firing_order.parse().or_raise()?;
-    Ok(column(py, firing::inline_throws(&order, &rule).or_raise()?))
+    column(py, firing::inline_throws(&order, &rule).or_raise()?)
 }
 
 /// Right crankpins that a firing order needs, and left minus right.
+#[guarded]
 #[pyfunction]
 pub fn vee_throws<'py>(
     py: Python<'py>,
@@ -185,5 +191,5 @@ pub fn vee_throws<'py>(
     let rule = firing_rule("even", intervals, strokes)?;
     let order = firing_order.parse().or_raise()?;
     let found = firing::vee_throws(&order, &rule, &layout.0).or_raise()?;
-    Ok((column(py, found.throws), column(py, found.pin_splits)))
+    Ok((column(py, found.throws)?, column(py, found.pin_splits)?))
 }

@@ -1,10 +1,11 @@
 //! Speed of a crank over a cycle.
 
+use crate::array::frozen;
 use crankpin_core::flywheel::{self, Drive, Evenness};
+use crankpin_macros::guarded;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
-use crate::convert::frozen;
 use crate::engine::Engine;
 use crate::interrupt;
 
@@ -16,6 +17,7 @@ pub struct CycleGrid(flywheel::CycleGrid);
 /// mean torque, acceleration, and the two approximations of the irregularity.
 type Speed<'py> = ([Bound<'py, PyArray1<f64>>; 3], [f64; 7]);
 
+#[guarded]
 #[pymethods]
 impl CycleGrid {
     /// Edges at these knots besides the grid's own.
@@ -27,13 +29,13 @@ impl CycleGrid {
 
     /// Edges of the cells, degrees.
     #[getter]
-    fn edges_deg<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+    fn edges_deg<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         frozen(py, self.0.edges_deg.clone().into())
     }
 
     /// Points inside the cells, degrees.
     #[getter]
-    fn nodes_deg<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+    fn nodes_deg<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         frozen(py, self.0.nodes_deg.clone().into())
     }
 
@@ -58,8 +60,11 @@ impl CycleGrid {
         })?;
         let [gas_alone, with_inertia_torque] = found.approximations;
         Ok((
-            [found.speed, found.moving_inertia, found.inertia_torque]
-                .map(|values| frozen(py, values.into())),
+            [
+                frozen(py, found.speed.into())?,
+                frozen(py, found.moving_inertia.into())?,
+                frozen(py, found.inertia_torque.into())?,
+            ],
             [
                 found.inertia,
                 found.irregularity,

@@ -1,10 +1,12 @@
 //! Loads of bearings and walls, and sections of crank and crankcase.
 
+use crate::array::frozen;
 use crankpin_core::internal::{self, Bearing, BearingLoads, Part, Sections, TurningAxes};
+use crankpin_macros::guarded;
 use numpy::{PyArray2, PyArray3, PyReadonlyArray1};
 use pyo3::prelude::*;
 
-use crate::convert::{OrRaise, frozen};
+use crate::convert::OrRaise;
 use crate::engine::{Engine, choice};
 use crate::interrupt;
 
@@ -22,6 +24,7 @@ type Loads<'py> = (
     Bound<'py, PyArray2<f64>>,
 );
 
+#[guarded]
 #[pymethods]
 impl Internal {
     #[new]
@@ -35,7 +38,7 @@ impl Internal {
     }
 
     /// Share of each crankpin's load that each main bearing carries.
-    fn shares<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+    fn shares<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         frozen(py, self.0.shares())
     }
 
@@ -47,9 +50,14 @@ impl Internal {
         let thetas = theta_deg.as_slice()?;
         let found = interrupt::run(py, |cancel| self.0.loads(thetas, cancel))?;
         let BearingLoads { crankpin, wrist_pin, main, side_thrust, rod, gas } = found;
-        let [crankpin, wrist_pin, main] = [crankpin, wrist_pin, main].map(|each| frozen(py, each));
-        let [side_thrust, rod, gas] = [side_thrust, rod, gas].map(|each| frozen(py, each));
-        Ok((crankpin, wrist_pin, main, side_thrust, rod, gas))
+        Ok((
+            frozen(py, crankpin)?,
+            frozen(py, wrist_pin)?,
+            frozen(py, main)?,
+            frozen(py, side_thrust)?,
+            frozen(py, rod)?,
+            frozen(py, gas)?,
+        ))
     }
 
     /// Loads of the bearings of a name in axes that turn with the crank or the rod.
@@ -70,11 +78,10 @@ impl Internal {
             choice("axes", axes, &[("crank", TurningAxes::Crank), ("rod", TurningAxes::Rod)])?;
         let thetas = theta_deg.as_slice()?;
         let found = interrupt::run(py, |cancel| self.0.turned(bearing, axes, thetas, cancel))?;
-        Ok(frozen(py, found))
+        frozen(py, found)
     }
 
     /// Shear and bending of crank or crankcase.
-    #[expect(clippy::type_complexity, reason = "a pair of arrays")]
     fn sections<'py>(
         &self,
         py: Python<'py>,
@@ -85,7 +92,7 @@ impl Internal {
         let thetas = theta_deg.as_slice()?;
         let found = interrupt::run(py, |cancel| self.0.sections(part, thetas, cancel))?;
         let Sections { shear, bending } = found;
-        Ok((frozen(py, shear), frozen(py, bending)))
+        Ok((frozen(py, shear)?, frozen(py, bending)?))
     }
 
     /// Ranges of crank angles in which each rod is in tension, degrees of a cycle.

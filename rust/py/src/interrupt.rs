@@ -7,8 +7,8 @@ use ndarray::Dimension;
 use numpy::{Element, PyArray, PyArrayMethods};
 use pyo3::prelude::*;
 
+use crate::array;
 use crate::convert::OrRaise;
-use crate::reserve;
 
 /// Do `work` without the interpreter; stop it when a signal handler raises.
 ///
@@ -24,7 +24,6 @@ pub fn watched<T: Send>(
     progress: Option<&Py<PyAny>>,
     work: impl FnOnce(&Cancel) -> Result<T> + Send,
 ) -> PyResult<T> {
-    reserve::ensure()?;
     let raised = Arc::new(Mutex::new(None));
     let error = Arc::clone(&raised);
     let function = progress.map(|function| function.clone_ref(py));
@@ -48,18 +47,15 @@ pub fn watched<T: Send>(
     Ok(result)
 }
 
-/// [`watched`] work that writes every number of a new array, in `NumPy`'s own memory: it asks for
-/// large pages, which are several times faster to allocate and to free.
+/// [`watched`] work that writes every number of a new array.
 pub fn written<'py, T: Element + Send, D: Dimension>(
     py: Python<'py>,
     shape: impl IntoPyObject<'py>,
     progress: Option<&Py<PyAny>>,
     write: impl FnOnce(&mut [T], &Cancel) -> Result<()> + Send,
 ) -> PyResult<Bound<'py, PyArray<T, D>>> {
-    // Not `PyArray::zeros`, which panics where there is no memory, and writes the small ones twice.
-    let array = py.import("numpy")?.call_method1("empty", (shape, numpy::dtype::<T>(py)))?;
-    let array = array.cast_into::<PyArray<T, D>>()?;
-    let mut writable = array.readwrite();
+    let array = array::empty::<T, D>(py, shape)?;
+    let mut writable = array.try_readwrite()?;
     let out = writable.as_slice_mut()?;
     watched(py, progress, |cancel| write(out, cancel))?;
     drop(writable);

@@ -3,12 +3,12 @@
 //! `crankpin._core` is private; people import `crankpin`, whose classes wrap what is here and carry
 //! the documentation.
 
-#![expect(clippy::needless_pass_by_value, reason = "PyO3 hands arguments over by value")]
-
 use pyo3::prelude::*;
 
+mod array;
 mod balance;
 mod balancing;
+mod boundary;
 mod closed_form;
 mod convert;
 mod design;
@@ -63,6 +63,8 @@ mod _core {
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         crate::reserve::allocate();
+        crate::boundary::quiet();
+        crate::array::load(module.py())?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;
         module.add("ATMOSPHERE", pressure::ATMOSPHERE)?;
         module.add("MOST_CYLINDERS", limits::MOST_CYLINDERS)?;

@@ -1,6 +1,7 @@
 //! Matching of measured parts.
 
 use crankpin_core::matching::{Matching, Measure, PartKind};
+use crankpin_macros::guarded;
 use pyo3::prelude::*;
 
 use crate::convert::OrRaise;
@@ -15,6 +16,7 @@ type Parts = (Vec<Vec<f64>>, Vec<Vec<Vec<f64>>>);
 /// The best matching of kinds of parts, each with its deviations (figures, parts) and influences
 /// (figures, places, dimensions), from the sequences of parts of each start; remainders count by their
 /// spread over the dimensions, or by their length.
+#[guarded]
 #[pyfunction]
 pub fn matched(
     py: Python<'_>,

@@ -3,6 +3,7 @@
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
+use crate::array::{frozen, writeable};
 use crankpin_core as core;
 use crankpin_core::layout::Strokes;
 use crankpin_core::pressure::Given;
@@ -10,10 +11,11 @@ use crankpin_core::pressure::burn::{Heat, WallLoss, Wiebe};
 use crankpin_core::pressure::chamber::{Chamber, Ideal};
 use crankpin_core::pressure::map::between;
 use crankpin_core::{Complex64, order};
+use crankpin_macros::guarded;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
-use crate::convert::{OrRaise, Parts, cylinder, frozen, orders_of_halves};
+use crate::convert::{OrRaise, Parts, cylinder, orders_of_halves};
 use crate::engine::entry;
 use crate::interrupt;
 
@@ -40,6 +42,7 @@ type PlacesOnAxis<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<f64>>);
 
 /// Places of values among the speeds or loads of a map: the lower neighbour of each, and the weight of the
 /// upper one.
+#[guarded]
 #[pyfunction]
 pub fn places_on_axis<'py>(
     py: Python<'py>,
@@ -51,13 +54,14 @@ pub fn places_on_axis<'py>(
     let places = interrupt::run(py, |cancel| between(name, axis, values, cancel))?;
     let lower = places.iter().map(|place| place.lower as i64).collect();
     let shares = places.iter().map(|place| place.share).collect();
-    Ok((frozen(py, lower), frozen(py, shares)))
+    Ok((frozen(py, lower)?, frozen(py, shares)?))
 }
 
 /// Values of each point, as the core keeps them.
 type Points<'py> =
     (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, u32, String, Option<usize>);
 
+#[guarded]
 #[pymethods]
 impl Cycle {
     #[new]
@@ -79,16 +83,16 @@ impl Cycle {
 
     /// Crank angles, pressures, strokes, name and degree.
     #[getter]
-    fn points<'py>(&self, py: Python<'py>) -> Points<'py> {
+    fn points<'py>(&self, py: Python<'py>) -> PyResult<Points<'py>> {
         let given = self.0.given();
         let array = |values: &[f64]| frozen(py, ndarray::Array1::from(values.to_vec()));
-        (
-            array(&given.theta_deg),
-            array(&given.pressure),
+        Ok((
+            array(&given.theta_deg)?,
+            array(&given.pressure)?,
             given.strokes,
             given.name.clone(),
             given.degree,
-        )
+        ))
     }
 
     /// Polytropic curves and ideal combustion.
@@ -214,7 +218,7 @@ impl Cycle {
         let torque = interrupt::run(py, |cancel| {
             self.0.torque_of(&proportions, crankcase, &orders, cancel)
         })?;
-        Ok((torque.mean, PyArray1::from_vec(py, torque.phasors)))
+        Ok((torque.mean, writeable(py, torque.phasors.into())?))
     }
 }
 

@@ -15,24 +15,46 @@ use pyo3::prelude::*;
 
 /// More than what is allocated outside of `memory` between two checks for cancellation; pages of it that
 /// are never written to take no memory.
-const RESERVE: Layout = Layout::new::<[u128; 1 << 20]>();
+const RESERVE: Layout = Layout::new::<[Line; 1 << 17]>();
+
+/// Largest alignment of what is made from it: that of values of one thread beside those of others.
+#[repr(align(128))]
+struct Line(#[expect(dead_code, reason = "its size counts")] [u8; 128]);
 
 /// Largest allocation that is made from it: larger ones go through `memory`.
 const LARGEST: usize = 2 << 20;
 
+/// Smallest part that it is divided into; all are powers of two.
+const SMALLEST: usize = 16;
+
+/// How many sizes of parts there are.
+const SIZES: usize = (LARGEST / SMALLEST).ilog2() as usize + 1;
+
 /// Start of the reserve; null before it is allocated.
 static START: AtomicPtr<u8> = AtomicPtr::new(ptr::null_mut());
-static STATE: Mutex<State> = Mutex::new(State { used: 0, live: 0 });
+static STATE: Mutex<State> = Mutex::new(State::EMPTY);
 
 struct State {
-    /// Bytes from the start that are given away.
+    /// Bytes from the start that were given away.
     used: usize,
     /// Allocations that are not given back. When the last one is, all of the reserve is free again.
     live: usize,
+    /// By size, the last part that was given back, by its place: it holds the place of the one before.
+    free: [Option<usize>; SIZES],
+}
+
+impl State {
+    const EMPTY: Self = Self { used: 0, live: 0, free: [None; SIZES] };
 }
 
 fn state() -> MutexGuard<'static, State> {
     STATE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Place of a size among [`SIZES`], and the size of those parts.
+fn part(layout: Layout) -> (usize, usize) {
+    let size = layout.size().max(layout.align()).max(SMALLEST).next_power_of_two();
+    ((size / SMALLEST).ilog2() as usize, size)
 }
 
 /// The system's allocator with a reserve.
@@ -82,9 +104,7 @@ unsafe impl GlobalAlloc for Allocator {
 
     unsafe fn dealloc(&self, old: *mut u8, layout: Layout) {
         if is_reserved(old) {
-            let mut state = state();
-            state.live -= 1;
-            state.used = if state.live == 0 { 0 } else { state.used };
+            give_back(old, layout);
         } else {
             // SAFETY: as the caller ensures.
             unsafe { System.dealloc(old, layout) }
@@ -95,15 +115,41 @@ unsafe impl GlobalAlloc for Allocator {
 /// A part of the reserve; null if it has no room.
 fn carve(layout: Layout) -> *mut u8 {
     let start = START.load(Ordering::Relaxed);
-    let mut state = state();
-    let from = state.used.next_multiple_of(layout.align());
-    let room = RESERVE.size().saturating_sub(from).min(LARGEST);
-    if start.is_null() || layout.align() > RESERVE.align() || layout.size() > room {
+    if start.is_null() || layout.align() > RESERVE.align() || layout.size() > LARGEST {
         return ptr::null_mut();
     }
-    (state.used, state.live) = (from + layout.size(), state.live + 1);
+    let (kind, size) = part(layout);
+    let mut state = state();
+    let place = if let Some(place) = state.free[kind] {
+        // SAFETY: `give_back` wrote it there, within the reserve.
+        state.free[kind] = unsafe { start.add(place).cast::<Option<usize>>().read_unaligned() };
+        place
+    } else {
+        let place = state.used.next_multiple_of(size.min(RESERVE.align()));
+        if place + size > RESERVE.size() {
+            return ptr::null_mut();
+        }
+        state.used = place + size;
+        place
+    };
+    state.live += 1;
     memory::exhausted(layout.size());
-    start.wrapping_add(from)
+    start.wrapping_add(place)
+}
+
+/// Keep a part of the reserve for the next allocation of its size.
+fn give_back(old: *mut u8, layout: Layout) {
+    let start = START.load(Ordering::Relaxed);
+    let mut state = state();
+    state.live -= 1;
+    if state.live == 0 {
+        *state = State::EMPTY;
+        return;
+    }
+    let (kind, _) = part(layout);
+    // SAFETY: the part is the reserve's again, and has room for that.
+    unsafe { old.cast::<Option<usize>>().write_unaligned(state.free[kind]) };
+    state.free[kind] = Some(old.addr() - start.addr());
 }
 
 fn is_reserved(memory: *mut u8) -> bool {

@@ -1,12 +1,14 @@
 //! The search of arrangements.
 
+use crate::array::frozen;
 use crankpin_core as core;
 use crankpin_core::search::{self, Angles, Criterion};
 use crankpin_core::{Cancel, Error, memory};
+use crankpin_macros::guarded;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use crate::convert::{Angle, OrRaise, Parts, angles, cylinder, frozen};
+use crate::convert::{Angle, OrRaise, Parts, angles, cylinder};
 use crate::engine::{Engine, choice, hold};
 use crate::interrupt;
 
@@ -18,6 +20,7 @@ pub struct Search {
     shared: bool,
 }
 
+#[guarded]
 #[pymethods]
 impl Search {
     #[new]
@@ -76,6 +79,7 @@ enum Listed {
 /// Bank angle, phases of both banks in degrees, counterweight, second-order moments.
 type Solution = (f64, Vec<f64>, Vec<f64>, f64, (f64, f64));
 
+#[guarded]
 #[pymethods]
 impl BankAngles {
     #[new]
@@ -110,7 +114,7 @@ impl BankAngles {
             Listed::Angles(angles) => angles.degrees(cancel),
             Listed::Shared(places) => memory::collected(places.iter().map(|_| 90.0)),
         })?;
-        Ok(frozen(py, degrees.into()))
+        frozen(py, degrees.into())
     }
 
     fn solution(&self, py: Python<'_>, k: usize, by: &str) -> PyResult<Solution> {
@@ -142,6 +146,7 @@ impl BankAngles {
 }
 
 /// The vee of two banks' phases, the right one first.
+#[guarded]
 #[pyfunction]
 pub fn arrangement(
     held: &str,

@@ -1,7 +1,9 @@
 //! One cylinder: motion and harmonics.
 
+use crate::array::writeable;
 use crankpin_core::harmonics::{self, table, torque};
 use crankpin_core::{Complex64, Cylinder, Order, angle, crank_angles, limits, memory, order, rod};
+use crankpin_macros::guarded;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 
@@ -13,6 +15,7 @@ fn check_orders(orders: &[u32]) -> PyResult<()> {
 }
 
 /// Refuse a cylinder that makes no engine.
+#[guarded]
 #[pyfunction]
 pub fn check_cylinder(parts: Parts) -> PyResult<()> {
     cylinder(parts).map(drop)
@@ -20,6 +23,7 @@ pub fn check_cylinder(parts: Parts) -> PyResult<()> {
 
 /// Crank radius of a cylinder given by bore and stroke: bore, stroke, rod length, reciprocating mass,
 /// pin offset.
+#[guarded]
 #[pyfunction]
 pub fn crank_radius_of_stroke(given: Parts) -> PyResult<f64> {
     let (bore, stroke, rod_length, mass, pin_offset) = given;
@@ -29,6 +33,7 @@ pub fn crank_radius_of_stroke(given: Parts) -> PyResult<f64> {
 
 /// Estimated moment of inertia of a rod: mass, length, distance of the centre of mass from the
 /// crankpin.
+#[guarded]
 #[pyfunction]
 pub fn estimated_rod_inertia(mass: f64, length: f64, to_crankpin: f64) -> PyResult<f64> {
     rod::Rod::estimated(mass, length, to_crankpin).or_raise().map(|rod| rod.inertia())
@@ -36,6 +41,7 @@ pub fn estimated_rod_inertia(mass: f64, length: f64, to_crankpin: f64) -> PyResu
 
 /// Reciprocating mass, rotating mass and excess of inertia of a rod: mass, inertia, length, distance
 /// of the centre of mass from the crankpin.
+#[guarded]
 #[pyfunction]
 pub fn rod_parts(rod: (f64, f64, f64, f64)) -> PyResult<(f64, f64, f64)> {
     let (mass, inertia, length, to_crankpin) = rod;
@@ -44,6 +50,7 @@ pub fn rod_parts(rod: (f64, f64, f64, f64)) -> PyResult<(f64, f64, f64)> {
 }
 
 /// Position (m), velocity (m/rad) and acceleration (m/rad²) at crank angles: columns of (n, 3).
+#[guarded]
 #[pyfunction]
 pub fn motion<'py>(
     py: Python<'py>,
@@ -70,10 +77,11 @@ pub fn motion<'py>(
         }
         memory::array("theta_deg", (thetas.len(), 3), rows)
     })?;
-    Ok(PyArray2::from_owned_array(py, rows))
+    writeable(py, rows)
 }
 
 /// Harmonics of a cylinder's inertia force over m·r·ω².
+#[guarded]
 #[pyfunction]
 pub fn cylinder_harmonics(
     py: Python<'_>,
@@ -85,12 +93,12 @@ pub fn cylinder_harmonics(
     let values = interrupt::run(py, |cancel| {
         harmonics::coefficients(&cylinder.proportions(), &orders, cancel)
     })?;
-    Ok(PyArray1::from_vec(py, values))
+    writeable(py, values.into())
 }
 
 /// Harmonics of a cylinder's roll and crank torque over m·r²·ω².
+#[guarded]
 #[pyfunction]
-#[expect(clippy::type_complexity, reason = "a pair of arrays")]
 pub fn cylinder_torque_harmonics(
     py: Python<'_>,
     parts: Parts,
@@ -100,10 +108,11 @@ pub fn cylinder_torque_harmonics(
     let cylinder = cylinder(parts)?;
     let torque =
         interrupt::run(py, |cancel| torque::over_second_moment(&cylinder, &orders, cancel))?;
-    Ok((PyArray1::from_vec(py, torque.roll), PyArray1::from_vec(py, torque.crank)))
+    Ok((writeable(py, torque.roll.into())?, writeable(py, torque.crank.into())?))
 }
 
 /// Harmonics without offset for many rod ratios, within a tolerance or to all digits: (n, `n_orders`).
+#[guarded]
 #[pyfunction]
 #[pyo3(signature = (rod_ratios, orders, rtol=None))]
 pub fn centred_table<'py>(
@@ -121,6 +130,7 @@ pub fn centred_table<'py>(
 }
 
 /// Harmonics for many pairs of rod ratio and offset over r, to all digits: (n, `n_orders`).
+#[guarded]
 #[pyfunction]
 #[pyo3(signature = (rod_ratios, offsets, orders, rtol=None))]
 pub fn offset_table<'py>(

@@ -3,6 +3,7 @@
 use crankpin_core as core;
 use crankpin_core::sweep::{Axes, Figure, MapAxes, Quantity};
 use crankpin_core::{Cancel, Complex64, Error, memory};
+use crankpin_macros::guarded;
 use numpy::{Element, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1};
 use pyo3::prelude::*;
 
@@ -66,11 +67,12 @@ impl Sweep {
         self.sweep.check_size(quantity, figure, size_of::<T>()).or_raise()?;
         let kept = self.dimensions(&self.sweep.result_shape(quantity, figure));
         let values: Bound<'py, PyArrayDyn<T>> = interrupt::written(py, kept, progress, write)?;
-        values.readwrite().make_nonwriteable();
+        values.try_readwrite()?.make_nonwriteable();
         Ok(values)
     }
 }
 
+#[guarded]
 #[pymethods]
 impl Sweep {
     #[new]

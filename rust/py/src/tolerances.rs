@@ -1,14 +1,16 @@
 //! Samples of an engine whose figures deviate.
 
+use crate::array::frozen;
 use crankpin_core as core;
 use crankpin_core::peaks::largest_sums;
 use crankpin_core::tolerances::{Deviations, Distribution, FIGURES};
 use crankpin_core::{Complex64, Order, Request, memory};
+use crankpin_macros::guarded;
 use ndarray::Array3;
 use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
 use pyo3::prelude::*;
 
-use crate::convert::{self, OrRaise, OrderNumber, frozen};
+use crate::convert::{self, OrRaise, OrderNumber};
 use crate::engine::{Engine, choice};
 use crate::interrupt;
 
@@ -29,6 +31,7 @@ type Samples<'py> = (
     Bound<'py, PyArray2<f64>>,
 );
 
+#[guarded]
 #[pymethods]
 impl Tolerances {
     #[new]
@@ -87,18 +90,19 @@ impl Tolerances {
             memory::array("samples", (with_torque, self.orders, 2), found.torque.into_flattened())
                 .or_raise()?;
         Ok((
-            frozen(py, planar(found.force)?),
-            frozen(py, planar(found.moment)?),
-            frozen(py, torque),
+            frozen(py, planar(found.force)?)?,
+            frozen(py, planar(found.moment)?)?,
+            frozen(py, torque)?,
             frozen(
                 py,
                 memory::array("samples", (count, 4), found.peaks.into_flattened()).or_raise()?,
-            ),
+            )?,
         ))
     }
 }
 
 /// Largest magnitude over the turn of each row of peak phasors, one of each order, beside its mean.
+#[guarded]
 #[pyfunction]
 pub fn peaks_of_sums<'py>(
     py: Python<'py>,
@@ -109,5 +113,5 @@ pub fn peaks_of_sums<'py>(
     let orders = convert::orders(&orders)?;
     let phasors = phasors.as_slice()?;
     let peaks = interrupt::run(py, |cancel| largest_sums(&orders, phasors, &means, cancel))?;
-    Ok(frozen(py, peaks.into()))
+    frozen(py, peaks.into())
 }

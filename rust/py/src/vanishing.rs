@@ -1,14 +1,16 @@
 //! Which orders vanish, and phase vectors of a firing order.
 
+use crate::array::frozen;
 use crankpin_core as core;
 use crankpin_core::exact::star::Stars;
 use crankpin_core::exact::vanishing::{QUANTITIES, Vanishing, Verdict};
 use crankpin_core::{Complex64, Order};
+use crankpin_macros::guarded;
 use ndarray::{Array1, Array2};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
-use crate::convert::{frozen, orders_of_halves};
+use crate::convert::orders_of_halves;
 use crate::engine::Engine;
 use crate::firing::Firing;
 use crate::interrupt;
@@ -25,6 +27,7 @@ type Star<'py> = (
 );
 
 /// Proved to vanish, proved to remain, zero within rounding, each (`n_orders`, 10), and obstacles.
+#[guarded]
 #[pyfunction]
 pub fn vanishing<'py>(
     engine: &Bound<'py, Engine>,
@@ -43,14 +46,15 @@ pub fn vanishing<'py>(
         frozen(py, Array2::from_shape_fn(shape, |(k, quantity)| value(k, quantity)))
     };
     Ok((
-        table(&|k, quantity| verdicts[k][quantity] == Verdict::Vanishes),
-        table(&|k, quantity| verdicts[k][quantity] == Verdict::Remains),
-        table(&|k, quantity| within_rounding[k][quantity]),
+        table(&|k, quantity| verdicts[k][quantity] == Verdict::Vanishes)?,
+        table(&|k, quantity| verdicts[k][quantity] == Verdict::Remains)?,
+        table(&|k, quantity| within_rounding[k][quantity])?,
         obstacles,
     ))
 }
 
 /// Phase vectors of cylinders of these weights, order by order.
+#[guarded]
 #[pyfunction]
 pub fn star<'py>(
     py: Python<'py>,
@@ -72,10 +76,10 @@ pub fn star<'py>(
     };
     let vectors = Array2::from_shape_fn((stars.len(), count), |(k, i)| stars[k].vectors[i]);
     Ok((
-        frozen(py, vectors),
-        frozen(py, stars.iter().map(|star| star.sum).collect::<Array1<Complex64>>()),
-        column(&|star| star.verdict == Verdict::Vanishes),
-        column(&|star| star.verdict == Verdict::Remains),
-        column(&|star| star.is_major),
+        frozen(py, vectors)?,
+        frozen(py, stars.iter().map(|star| star.sum).collect::<Array1<Complex64>>())?,
+        column(&|star| star.verdict == Verdict::Vanishes)?,
+        column(&|star| star.verdict == Verdict::Remains)?,
+        column(&|star| star.is_major)?,
     ))
 }

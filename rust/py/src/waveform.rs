@@ -1,12 +1,14 @@
 //! Waveforms at given crank angles.
 
+use crate::array::frozen;
 use crankpin_core as core;
 use crankpin_core::{Complex64, Request};
+use crankpin_macros::guarded;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::balance::{self, Balance};
-use crate::convert::{OrRaise, OrderNumber, frozen};
+use crate::convert::{OrRaise, OrderNumber};
 use crate::engine::Engine;
 use crate::interrupt;
 
@@ -14,6 +16,7 @@ use crate::interrupt;
 #[pyclass(frozen, module = "crankpin._core")]
 pub struct CrankAngles(pub core::CrankAngles);
 
+#[guarded]
 #[pymethods]
 impl CrankAngles {
     #[new]
@@ -34,6 +37,7 @@ type Parts<'py> = (
 );
 
 /// From exact kinematics, or (`summed`) as a sum of orders.
+#[guarded]
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "the wrapper in Python has defaults for them")]
 pub fn waveform<'py>(
@@ -59,11 +63,14 @@ pub fn waveform<'py>(
         core::waveform::from_orders(&engine, &request, thetas, &orders, cancel)
     })?;
     Ok((
-        frozen(py, waveform.force),
-        frozen(py, waveform.moment),
-        waveform.torque.map(|values| frozen(py, values)),
-        waveform.crank_torque.map(|values| frozen(py, values)),
-        waveform.gas.map(|both| both.map(|values| frozen(py, values))),
+        frozen(py, waveform.force)?,
+        frozen(py, waveform.moment)?,
+        waveform.torque.map(|values| frozen(py, values)).transpose()?,
+        waveform.crank_torque.map(|values| frozen(py, values)).transpose()?,
+        waveform
+            .gas
+            .map(|[roll, crank]| PyResult::Ok([frozen(py, roll)?, frozen(py, crank)?]))
+            .transpose()?,
         waveform.balance.map(Balance),
     ))
 }

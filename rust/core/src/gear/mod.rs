@@ -1,7 +1,7 @@
 //! One cylinder: its moving parts, their motion, and the harmonics of the forces and torques of
 //! their inertia.
 //!
-//! Imports run downwards: [`slider_crank`] → [`rod`] → [`harmonics`], [`spectrum`] → [`Gear`].
+//! Imports run downwards: [`slider_crank`] → [`rod`] → [`harmonics`], [`spectrum`] → `Gear`.
 
 pub mod harmonics;
 pub mod rod;

@@ -2,9 +2,9 @@
 //!
 //! 0.3 is typed, 0.299999999999999989 is what a double of it holds, and 3·0.1 is one unit in its last
 //! place off. There is one reading of both, for angles, masses and lengths: a number of up to
-//! [`MOST_DIGITS`] significant digits is exactly that decimal, a double within [`WITHIN_ULP`] units
+//! `MOST_DIGITS` significant digits is exactly that decimal, a double within [`WITHIN_ULP`] units
 //! in the last place of one stands for it, and any other double is itself. Text is exact with more
-//! digits too, up to [`MOST_DECIMALS`] behind the point, unless it is written as doubles are, with an
+//! digits too, up to `MOST_DECIMALS` behind the point, unless it is written as doubles are, with an
 //! exponent.
 
 use crate::numbers::rational::nearest;

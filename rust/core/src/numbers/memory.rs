@@ -2,6 +2,7 @@
 //!
 //! Every allocation whose size follows from the lengths of inputs is made here.
 
+use std::hint::black_box;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
@@ -96,7 +97,22 @@ pub fn copied<T: Copy>(values: &[T], cancel: &Cancel) -> Result<Vec<T>> {
 /// Drop a large value on a background thread, because giving memory back takes 0.17 s to 0.25 s a
 /// gigabyte (pages of 4 KiB); in the calling thread if no other can be started.
 pub fn free_later<T: Send + 'static>(value: T) {
-    drop(thread::Builder::new().spawn(move || drop(value)));
+    if is_enough_for(1) {
+        drop(thread::Builder::new().spawn(move || drop(value)));
+    }
+}
+
+/// Whether there is memory to start this number of threads: the C library ends the process where a
+/// thread that runs finds none for its own variables.
+#[must_use]
+pub fn is_enough_for(threads: usize) -> bool {
+    /// Stack of a thread, and as much again for what it allocates.
+    const EACH: usize = 4 << 20;
+    /// Address space that the GNU C library reserves for a thread: blocks up to this size may be in that
+    /// of another one.
+    const RESERVED: usize = 64 << 20;
+    // The compiler leaves out an allocation that nothing sees.
+    black_box(room::<u8>(threads.saturating_mul(EACH).saturating_add(RESERVED))).is_ok()
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@
 
 use std::cell::Cell;
 use std::mem;
+use std::num::NonZero;
 use std::process;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
@@ -16,6 +17,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::numbers::cancel::{Cancel, PERIOD};
 use crate::numbers::error::Result;
+use crate::numbers::memory;
 
 /// Pools of a process.
 struct Pools {
@@ -151,9 +153,12 @@ impl Lease {
             pools.threads.div_ceil(pools.made)
         };
         // 0 threads are as many as RAYON_NUM_THREADS says, or as there are cores.
-        let built = ThreadPoolBuilder::new().num_threads(threads).build();
+        let cores = || thread::available_parallelism().map_or(1, NonZero::get);
+        let is_enough = memory::is_enough_for(if threads == 0 { cores() } else { threads });
+        let build = || ThreadPoolBuilder::new().num_threads(threads).build().ok();
+        let built = if is_enough { build() } else { None };
         let mut pools = lock()?;
-        if let Ok(pool) = built {
+        if let Some(pool) = built {
             pools.threads = pools.threads.max(pool.current_num_threads());
             return Some(Self { process, pool: Some(pool) });
         }
