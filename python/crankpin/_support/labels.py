@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from typing import TYPE_CHECKING, Any
+from unicodedata import category
 
 import numpy as np
 
@@ -54,6 +55,9 @@ TOLERANCES = {
 }
 """Figure that may spread → its name and unit."""
 
+KEPT = "\n\t"
+"""Control characters that texts of several lines have."""
+
 NEGLIGIBLE = 1e-6
 """Orders whose peaks are all below this part of a quantity's largest peak are not shown."""
 
@@ -83,10 +87,19 @@ def name_of(engine: Engine) -> str:
 
 
 def printable(text: str) -> str:
-    """Return a text in one line, control characters as spaces: a terminal would obey them."""
-    if not text.isprintable():
-        text = "".join(c if c.isprintable() else " " for c in text)
-    return " ".join(text.split())
+    """Return a text in one line, control characters as spaces."""
+    return " ".join(without_controls(text).split())
+
+
+def without_controls(text: str) -> str:
+    """Return a text with spaces for control characters, which a terminal would obey.
+
+    So are other characters that end a line, turn the direction of writing or cannot be seen; lines
+    and tabs stay.
+    """
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() or c in KEPT or category(c) == "Zs" else " " for c in text)
 
 
 def orders_text(orders: Sequence[Order]) -> str:

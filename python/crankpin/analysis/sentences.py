@@ -87,7 +87,7 @@ def abbreviated(sentences: Iterable[str], phrase: str, symbol: str) -> list[str]
     before, _, after = text.partition(phrase)
     if phrase in after:
         text = f"{before}{phrase} {symbol}{after.replace(phrase, symbol)}"
-    return text.splitlines()
+    return text.split("\n")
 
 
 def words(finding: Finding) -> str:
