@@ -29,7 +29,7 @@ SHOWN = 30
 """Rows of a long table in text: a screen."""
 SHOWN_IN_NOTEBOOKS = 60
 """Rows of a long table in a notebook."""
-FORMULA = re.compile(r"\s*[=+\-@＝＋－＠]|[\t\r\n]")
+FORMULA = re.compile(r"\s*[=+\-@＝＋－＠]|[\t\n]")
 """Beginning of a text that a spreadsheet takes for a formula."""
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.ASCII | re.IGNORECASE)
 TINY = "~0"
@@ -250,10 +250,11 @@ def _cell(text: str) -> str:
 
 
 def _inert(value: Any) -> Any:  # noqa: ANN401 - a number or a text
-    """Return a text that no spreadsheet runs; numbers as they are."""
-    if not isinstance(value, str) or not FORMULA.match(value) or NUMBER.fullmatch(value):
+    """Return a text that no terminal obeys and no spreadsheet runs; numbers as they are."""
+    if not isinstance(value, str):
         return value
-    return f"'{value}"
+    text = labels.without_controls(value)
+    return f"'{text}" if FORMULA.match(text) and not NUMBER.fullmatch(text) else text
 
 
 def common_decimals(values: ArrayLike) -> int | None:

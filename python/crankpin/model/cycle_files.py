@@ -149,8 +149,8 @@ def save(cycle: Cycle, path: str | Path) -> None:
     """Write a cycle to a file that reads back as an equal one."""
     file = inputs.file_path(path, ENDINGS, HINT)
     separator = "\t" if file.suffix.lower() == ".tsv" else ","
-    plain = cycle.name == " ".join(cycle.name.split()) and not cycle.name.startswith('"')
-    name = cycle.name if plain else json.dumps(cycle.name)
+    in_line = cycle.name.isprintable() and cycle.name == " ".join(cycle.name.split())
+    name = cycle.name if in_line and not cycle.name.startswith('"') else json.dumps(cycle.name)
     facts = {"name": name, "strokes": cycle.strokes, "degree": cycle.degree}
     lines = [f"# {key}: {value}" for key, value in facts.items() if value is not None]
     lines.append(f"crank angle deg{separator}absolute pressure Pa")
@@ -162,7 +162,7 @@ def save(cycle: Cycle, path: str | Path) -> None:
 def _name(text: str) -> str:
     """Return a name as it was before :func:`save` put it into one line."""
     with contextlib.suppress(ValueError):
-        return json.loads(text) if text.startswith('"') else text  # type: ignore[no-any-return]
+        return json.loads(text) if text.startswith('"') else text
     return text
 
 

@@ -118,16 +118,16 @@ impl Error {
 }
 
 /// Long values (a whole file, a huge list) are cut, so that the message stays readable, and control
-/// characters, which a terminal would obey, are escaped.
+/// and invisible characters, which a terminal would obey, are escaped.
 pub(crate) fn shorten(text: &str) -> String {
     const LONGEST: usize = 160;
     let rest = if text.chars().nth(LONGEST).is_some() { "…" } else { "" };
     let mut short = String::new();
     for character in text.chars().take(LONGEST).chain(rest.chars()) {
-        if character.is_control() || matches!(character, '\u{2028}' | '\u{2029}') {
-            short.extend(character.escape_default());
-        } else {
-            short.push(character);
+        // As strings are shown while debugging, but for quotes.
+        match character {
+            '"' | '\'' | '\\' => short.push(character),
+            _ => short.extend(character.escape_debug()),
         }
     }
     short
