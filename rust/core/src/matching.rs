@@ -313,14 +313,7 @@ impl Matching {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Numbers between -1 and 1 that repeat after 2^31 (a linear congruential generator).
-    pub fn numbers(mut seed: u64) -> impl FnMut() -> f64 {
-        move || {
-            seed = (seed * 1_103_515_245 + 12_345) % (1 << 31);
-            seed as f64 / f64::from(1 << 30) - 1.0
-        }
-    }
+    use crate::numbers::draws;
 
     fn sequences(parts: usize) -> Vec<Vec<usize>> {
         let Some(last) = parts.checked_sub(1) else { return vec![Vec::new()] };
@@ -379,7 +372,7 @@ mod tests {
 
     #[test]
     fn the_best_of_all_matchings_is_found_and_none_is_below_the_bound() {
-        let mut number = numbers(7);
+        let mut number = draws(7);
         for (sizes, parts) in [
             ([1, 3, 2], &[4][..]),
             ([1, 1, 1], &[3]),
@@ -434,13 +427,13 @@ mod tests {
 
     #[test]
     fn many_parts_are_exchanged_and_a_cancelled_search_stops() {
-        let problem = problem([6, 6, 2], &[40], 0.0, numbers(3));
+        let problem = problem([6, 6, 2], &[40], 0.0, draws(3));
         let rising: Vec<usize> = (0..40).collect();
         let starts = [vec![rising.clone()], vec![rising.into_iter().rev().collect()]];
         let found = problem.solve(&starts, &Cancel::new()).unwrap();
         assert!(!found.exact && found.value < 0.1 * problem.value(&starts[0]));
         // A bound that is above zero.
-        let far = self::problem([6, 6, 2], &[40], 100.0, numbers(3));
+        let far = self::problem([6, 6, 2], &[40], 100.0, draws(3));
         let of_far = far.solve(&starts[..1], &Cancel::new()).unwrap();
         assert!(0.0 < of_far.bound && of_far.bound < of_far.value);
         assert_eq!(of_far.bound, far.bound());
@@ -480,7 +473,7 @@ mod tests {
 
     #[test]
     fn spreads_are_exchanged_too() {
-        let mut number = numbers(5);
+        let mut number = draws(5);
         // Each place is a dimension.
         let unit = |k: usize| (0..3).map(|j| f64::from(u8::from(j == k))).collect::<Vec<f64>>();
         let mut kind = |parts: usize| {

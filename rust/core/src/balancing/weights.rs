@@ -318,10 +318,9 @@ impl Problem<'_> {
     /// The weights with room exert whatever all of them can if their equations have the same rank. The
     /// change then exists, however small what is missing looks; otherwise it is the nearest.
     fn made_up(&self, weights: &mut [PlacedWeight]) -> bool {
-        let mut sums = vec![0.0; self.bounds.len()];
+        let sums = sums(weights, self.bounds.len());
         let mut counts = vec![0.0; self.bounds.len()];
         for weight in &*weights {
-            sums[weight.plane] += weight.vector.norm();
             counts[weight.plane] += 1.0;
         }
         for weight in &mut *weights {
@@ -360,7 +359,17 @@ impl Problem<'_> {
         for (k, change) in free.into_iter().zip(change) {
             weights[k].vector += change;
         }
-        is_proved
+        is_proved && self.is_rounding(weights)
+    }
+
+    /// Whether what weights do not exert of the target is rounding of the sums that they make.
+    fn is_rounding(&self, weights: &[PlacedWeight]) -> bool {
+        let missing = self.missing(weights);
+        (0..missing.nrows()).all(|k| {
+            let terms = weights.iter().map(|each| self.rows[(k, each.plane)] * each.vector.norm());
+            let size = terms.map(f64::abs).sum::<f64>() + self.target.row(k).norm();
+            missing.row(k).norm() <= NEGLIGIBLE * size
+        })
     }
 }
 
@@ -368,12 +377,21 @@ fn row(vector: Complex64) -> RowVector2<f64> {
     RowVector2::new(vector.re, vector.im)
 }
 
-fn complex(vectors: &Vectors) -> Vec<Complex64> {
+pub(super) fn complex(vectors: &Vectors) -> Vec<Complex64> {
     vectors.row_iter().map(|row| Complex64::new(row[0], row[1])).collect()
 }
 
 fn vectors(rows: &[Complex64]) -> Vectors {
     Vectors::from_fn(rows.len(), 2, |k, j| if j == 0 { rows[k].re } else { rows[k].im })
+}
+
+/// Mass·radius of each plane.
+pub(super) fn sums(weights: &[PlacedWeight], planes: usize) -> Vec<f64> {
+    let mut sums = vec![0.0; planes];
+    for weight in weights {
+        sums[weight.plane] += weight.vector.norm();
+    }
+    sums
 }
 
 /// A weight in each plane.
