@@ -371,7 +371,9 @@ class EngineData:
     ) -> Self:
         """Return a copy with some lists changed; see :meth:`from_lists`.
 
-        A firing order that the changed crank does not allow is dropped, unless it is given.
+        A firing order that the changed crank does not allow is dropped, unless it is given. A
+        cylinder with another ``rod`` brings its big end as rotating mass, unless the engine's
+        differs from the big end of the rod that it had.
 
         Parameters
         ----------
@@ -397,7 +399,7 @@ class EngineData:
             pin_deg,
             exact_bank if bank_deg is None else bank_deg,
             self.z if z is None else z,
-            self.rotating_mass if rotating_mass is None else rotating_mass,
+            self._rotating(cylinder) if rotating_mass is None else rotating_mass,
             mains=bearings,
             reference_z=plane,
             bank=self._core.bank if bank_deg is None else None,
@@ -424,6 +426,17 @@ class EngineData:
             return type(self)(fired.firing_as(changed.firing_order, count))
         above = self.crankcase if crankcase is None else crankcase
         return changed.with_cycle(cycles, crankcase=ATMOSPHERE if above is None else above)
+
+    def _rotating(self, cylinder: Cylinder | Sequence[Cylinder] | None) -> list[float]:
+        """Return the rotating masses that stay, or come with the rods, as cylinders change."""
+        masses: list[float] = self.rotating_mass.tolist()
+        each: Any = [cylinder] * len(self) if isinstance(cylinder, Cylinder) else cylinder
+        if each is None or len(each) != len(self):
+            return masses
+        return [
+            big_end(new) if getattr(new, "rod", None) and mass == big_end(old) else mass
+            for new, old, mass in zip(each, self.cylinders, masses, strict=True)
+        ]
 
     def with_counterweights(self, counterweights: Iterable[Unbalance]) -> Self:
         """Return the same engine with these counterweights in place of those it has.
@@ -644,7 +657,7 @@ def core_of_lists(
     pin_deg: Angles | None,
     bank_deg: Angles,
     z: ArrayLike,
-    rotating_mass: ArrayLike,
+    rotating_mass: ArrayLike | None,
     *,
     mains: ArrayLike | None,
     reference_z: float | None,
@@ -666,7 +679,11 @@ def core_of_lists(
         banks,
         bank,
         inputs.vector("z", z).tolist(),
-        inputs.per_item("rotating_mass", rotating_mass, len(banks)),
+        (
+            [big_end(one) for one in each]
+            if rotating_mass is None
+            else inputs.per_item("rotating_mass", rotating_mass, len(banks))
+        ),
         cranks,
     )
     bearings = [] if mains is None else inputs.vector("mains", mains).tolist()
@@ -676,6 +693,12 @@ def core_of_lists(
     checks.angles(tdc_deg=tdc_deg, pin_deg=pin_deg, bank_deg=bank_deg)
     checks.place(core, "reference_z", plane)
     return core
+
+
+def big_end(cylinder: object) -> float:
+    """Return the rotating mass of a cylinder whose engine has none by name: its rod's, kg."""
+    rod = cylinder.rod if isinstance(cylinder, Cylinder) else None
+    return 0.0 if rod is None else rod.rotating_mass
 
 
 def parts(cylinder: object) -> tuple[float, float, float, float, float]:
