@@ -113,9 +113,9 @@ class Engine(Builders):
 
     @property
     def firing_intervals_deg(self) -> NDArray[np.float64]:
-        """Crank angles between the firings of ``firing_order``, degrees: (n_cylinders,).
+        """Crank angles between the firings of ``firing_order``, degrees, one for each that fires.
 
-        Undefined if the firing order is not known.
+        Of an engine with cycles only cylinders that have one fire. Undefined if the firing order is not known.
         """
         return self._own_firing("firing_intervals_deg").intervals_deg
 
@@ -521,6 +521,14 @@ class Engine(Builders):
                 if line
             ),
         ]
+
+    def _dead_text(self) -> str:
+        """Return which cylinders of a fired engine do not fire; empty if all do."""
+        dead = [k for k, cycle in enumerate(self.cycles or (), start=1) if cycle is None]
+        numbers = ", ".join(map(str, dead[:8])) + ", …" * (len(dead) > 8)
+        if len(dead) == 1:
+            return f"cylinder {numbers} does not fire"
+        return f"cylinders {numbers} do not fire" if dead else ""
 
     def _gas_text(self) -> str:
         """Return what is known of the pressure in the cylinders."""
