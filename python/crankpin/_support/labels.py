@@ -9,7 +9,7 @@ from unicodedata import category
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from crankpin._support.inputs import Order
     from crankpin.model.engine import Engine
@@ -136,11 +136,17 @@ def gas_text(names: Sequence[str | None], count: int = 1) -> str:
     words = cut(", ".join(named)) or "unnamed cycle"
     if count > max(1, len(named)):
         words = f"{count} cycles, {words}" if named else f"{count} cycles"
-    dead = [str(number) for number, name in enumerate(names, start=1) if name is None]
+    dead = dead_text(names)
+    return f"gas: {words}{'; ' * bool(dead)}{dead}"
+
+
+def dead_text(cycles: Iterable[object]) -> str:
+    """Return ``cylinder 3 does not fire``, or nothing if no cylinder's cycle is None."""
+    dead = [str(number) for number, cycle in enumerate(cycles, start=1) if cycle is None]
     if not dead:
-        return f"gas: {words}"
+        return ""
     verb = "cylinder {} does" if len(dead) == 1 else "cylinders {} do"
-    return f"gas: {words}; {verb.format(cut(', '.join(dead), 30))} not fire"
+    return f"{verb.format(cut(', '.join(dead), 30))} not fire"
 
 
 def loads_of(engines: Sequence[Engine], titles: Sequence[str]) -> str:
