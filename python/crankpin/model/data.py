@@ -228,6 +228,12 @@ class EngineData:
         """Absolute pressure in the crankcase, Pa; None without cycles."""
         return self._core.crankcase
 
+    def below_pistons(self, crankcase: float | None) -> float:
+        """Return a pressure in the crankcase, Pa; of None the engine's own, or the atmosphere's."""
+        if crankcase is not None:
+            return inputs.number("crankcase", crankcase)
+        return ATMOSPHERE if self.crankcase is None else self.crankcase
+
     @property
     def fired(self) -> bool:
         """True if gas pressure is counted."""
@@ -418,14 +424,13 @@ class EngineData:
         )
         cycles: Any = self.cycles if _is_kept(cycle) else cycle
         if cycles is None:
-            return changed
+            return changed if crankcase is None else changed.with_cycle(None, crankcase=crankcase)
         pins_kept = tdc_deg is None and pin_deg is None and count == self.strokes
         if _is_kept(cycle) and crankcase is None and pins_kept and firing_order is None:
             # Each cylinder fires in the turn in which it did, whether or not its order was dropped.
             fired = changed._core.fired_as(self._core, list(range(len(self))))
             return type(self)(fired.firing_as(changed.firing_order, count))
-        above = self.crankcase if crankcase is None else crankcase
-        return changed.with_cycle(cycles, crankcase=ATMOSPHERE if above is None else above)
+        return changed.with_cycle(cycles, crankcase=self.below_pistons(crankcase))
 
     def _rotating(self, cylinder: Cylinder | Sequence[Cylinder] | None) -> list[float]:
         """Return the rotating masses that stay, or come with the rods, as cylinders change."""
@@ -478,7 +483,7 @@ class EngineData:
         return type(self)(rotating.with_shafts(self._core, shafts))
 
     def with_cycle(
-        self, cycle: Cycle | Sequence[Cycle | None] | None, *, crankcase: float = ATMOSPHERE
+        self, cycle: Cycle | Sequence[Cycle | None] | None, *, crankcase: float | None = None
     ) -> Self:
         """Return the same engine with gas pressure in its cylinders, by its firing order.
 
@@ -492,7 +497,8 @@ class EngineData:
             Pressure over a cycle, for all cylinders or one for each; None for a cylinder without
             gas load, as with its valves open. None for an engine without gas pressure.
         crankcase
-            Absolute pressure below the pistons, Pa.
+            Absolute pressure below the pistons, Pa; by default what the engine has, or that of the
+            atmosphere.
 
         Raises
         ------
@@ -512,6 +518,8 @@ class EngineData:
         'zero, proved'
         """
         if cycle is None:
+            if crankcase is not None:
+                raise inputs.rejected("crankcase", crankcase, "needs a cycle; leave it out")
             return type(self)(self._core.without_cycles())
         hint = "give a crankpin.Cycle, or one or None for each cylinder"
         same = isinstance(cycle, Cycle)
@@ -520,7 +528,7 @@ class EngineData:
             if not (one is None or isinstance(one, Cycle)):
                 raise inputs.rejected(f"cycle[{k}]", one, hint)
         cores = [None if one is None else one._core for one in each]
-        below = inputs.number("crankcase", crankcase)
+        below = self.below_pistons(crankcase)
         (fired,) = self._core.with_cycles([cores], below)
         checks.crankcase(below)
         _warn_of_work(each, self.cylinders)
