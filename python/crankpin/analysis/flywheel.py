@@ -27,6 +27,8 @@ Curve: TypeAlias = "Callable[[NDArray[np.float64]], ArrayLike] | tuple[ArrayLike
 """Torque over crank angle: a function of degrees, or angles and torques."""
 TWO_TURNS = 720.0
 """Period, degrees, of functions: whole and half orders come round in it."""
+HALF_TURN = 180.0
+"""Part of all periods of tables, degrees."""
 MOST_KNOTS = 100_000
 """Largest number of angles of a table, and of a load over the period of the drive."""
 EQUAL = 1e-9
@@ -69,8 +71,9 @@ def flywheel(
         Torque of the load over crank angle, as ``drive``; by default constant. At a constant mean
         speed its mean is that of the drive: only its variation about its mean counts.
     period_deg
-        Period of a turning-moment diagram, degrees; by default that of the angles given, the last
-        of which stands for the first, and 720 of a function.
+        Period of a turning-moment diagram, degrees; by default 720 of a function. Of a table it is
+        a number of half turns: up to the last angle, which then stands for the first, or, of equal
+        steps, to a step beyond it, as of 0, 10, …, 350. Other tables need it.
 
     Raises
     ------
@@ -340,6 +343,28 @@ def _of_gas(engine: Engine, rpm: float, period_deg: object) -> _Diagram:
     return _Diagram(at, 180.0 * engine.strokes, np.array(pairs))
 
 
+def _period(name: str, theta: NDArray[np.float64], torque: NDArray[np.float64]) -> float:
+    """Return the period of a table: a number of half turns, to its last angle or a step on."""
+    steps = np.diff(theta)
+    span, step = float(theta[-1] - theta[0]), float(steps[0])
+
+    def whole(angle: float) -> bool:
+        return abs(angle / HALF_TURN - round(angle / HALF_TURN)) <= EQUAL
+
+    is_even = step > 0.0 and bool((np.abs(steps - step) <= EQUAL * span).all())
+    is_closed, is_open = whole(span), is_even and whole(span + step)
+    if is_closed and (not is_open or torque[0] == torque[-1]):
+        return span
+    if is_open and not is_closed:
+        return span + step
+    if name == "load" or not np.isfinite(torque).all():
+        return span  # rejected where it is no part of the drive's, or torques are read
+    raise InputError(
+        f"{name}: angles from {theta[0]:.10g}° to {theta[-1]:.10g}° leave open what their period "
+        "is; give period_deg, such as 720"
+    )
+
+
 def _diagram(name: str, given: object, period_deg: object) -> _Diagram:
     period = inputs.optional_number("period_deg", period_deg)
     if period is not None and not 0.0 < period < np.inf:
@@ -366,7 +391,7 @@ def _diagram(name: str, given: object, period_deg: object) -> _Diagram:
     span = float(theta[-1] - theta[0])
     if not (np.diff(theta) >= 0.0).all() or not 0.0 < span < np.inf:
         raise inputs.rejected(name, given, "give ascending angles")
-    period = span if period is None else period
+    period = _period(name, theta, torque) if period is None else period
     if span > period * (1.0 + EQUAL):
         raise InputError(f"period_deg = {period}: the angles span {span:.10g}°; give no less")
     if span < period * (1.0 - EQUAL):
