@@ -333,8 +333,7 @@ class Engine(Builders):
             Multiples of crank speed. Half orders are those of gas and need the engine's firing
             order.
         reference_z
-            Plane about which moments are taken, m; by default midway between the first and the last
-            cylinder.
+            Plane about which moments are taken, m; by default the engine's own.
 
         Raises
         ------

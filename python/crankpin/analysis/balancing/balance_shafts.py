@@ -58,7 +58,8 @@ def balance_shafts(
         Axis of each shaft from the crank axis, seen from the flywheel, m: a number for all, or a
         list with one for each. None is free: such coordinates are placed where the shafts cancel
         the roll torque of their order, or come closest to it, as near the crank axis as that
-        allows. Where that is further away than ten times the engine's length, the torque stays,
+        allows. Where that is further away than ten times the larger of the engine's length, from
+        the first to the last cylinder, and crank radius and rod length together, the torque stays,
         with a warning.
     planes
         Places of the unbalances along the crank, m: for all shafts, such as ``[0.0, 0.3]``, or a

@@ -66,8 +66,9 @@ def counterweights(
         Share of the reciprocating mass that is balanced, besides all rotating mass, as by
         :func:`crankpin.bob_weight`: 0.52 leaves 4 % of the pistons' forward part turned round. By
         default all of the forward part is removed, as 0.5 does without pin offset. A number for
-        both, or a mapping with ``"force"``, ``"moment"`` or both; what it leaves out does not
-        matter.
+        both, or a mapping with ``"force"``, ``"moment"`` or both, such as
+        ``{"force": 0.5, "moment": None}``: None removes all of the forward part, and what the
+        mapping leaves out does not matter.
     minimise
         Of weights that leave as little: ``"squares"`` for the least sum of squares of the planes'
         mass·radius, ``"largest"`` for the least largest.
