@@ -112,7 +112,9 @@ pub fn least(request: &WeightRequest, cancel: &Cancel) -> Result<FittedWeights> 
     let largest = complex(&free).into_iter().zip(&bounds).map(|(u, bound)| u.norm().min(*bound));
     let size = largest.fold(1.0, f64::max);
     target /= size;
-    bounds.iter_mut().for_each(|bound| *bound /= size);
+    for bound in &mut bounds {
+        *bound /= size;
+    }
     let problem = Problem {
         rows,
         target,
