@@ -73,11 +73,9 @@ pub(super) fn least_squares(
         PlacedWeight { angle: angle.unwrap_or_default(), ..*weight }
     });
     let some = Problem {
-        rows: problem.rows.clone(),
-        target: problem.made(found),
         bounds: bounds.to_vec(),
         directions: Some(own.clone()),
-        cancel: problem.cancel,
+        ..problem.doing_the_same(found)
     };
     let least = squares(&some, &own, &start.collect::<Vec<_>>(), &is_full)?;
     let back =

@@ -325,6 +325,22 @@ mod tests {
     }
 
     #[test]
+    fn cancellation_is_checked_between_orders() {
+        let orders: Vec<u32> = (1..=1000).collect();
+        let calls = |ratios: &[f64]| {
+            let cancel = Cancel::polling(|_| false);
+            let mut rows = vec![0.0; ratios.len() * orders.len()];
+            write_centred(ratios, &orders, None, &mut rows, &cancel).unwrap();
+            cancel.calls().unwrap() as usize
+        };
+        let (count, table) = (orders.len(), orders.len());
+        let lanes = count / ORDERS_PER_CHECK;
+        assert!(calls(&[0.3]) >= table + lanes);
+        assert!(calls(&[0.3; 17]) >= table + 2 * lanes);
+        assert!(calls(&[0.995; 3]) >= table + 3 * count);
+    }
+
+    #[test]
     fn rows_are_the_harmonics_of_each_slider_crank() {
         check(&[7, 1, 2, 3, 4, 5, 6, 8, 9, 12]);
         // Each odd order needs two of the forces, that no other asks for.
