@@ -228,7 +228,7 @@ class EngineData:
         """Absolute pressure in the crankcase, Pa; None without cycles."""
         return self._core.crankcase
 
-    def below_pistons(self, crankcase: float | None) -> float:
+    def _below_pistons(self, crankcase: float | None) -> float:
         """Return a pressure in the crankcase, Pa; of None the engine's own, or the atmosphere's."""
         if crankcase is not None:
             return inputs.number("crankcase", crankcase)
@@ -430,14 +430,14 @@ class EngineData:
             # Each cylinder fires in the turn in which it did, whether or not its order was dropped.
             fired = changed._core.fired_as(self._core, list(range(len(self))))
             return type(self)(fired.firing_as(changed.firing_order, count))
-        return changed.with_cycle(cycles, crankcase=self.below_pistons(crankcase))
+        return changed.with_cycle(cycles, crankcase=self._below_pistons(crankcase))
 
     def _rotating(self, cylinder: Cylinder | Sequence[Cylinder] | None) -> list[float]:
         """Return the rotating masses that stay, or come with the rods, as cylinders change."""
         masses: list[float] = self.rotating_mass.tolist()
         each: Any = [cylinder] * len(self) if isinstance(cylinder, Cylinder) else cylinder
-        if each is None or len(each) != len(self):
-            return masses
+        if not isinstance(each, (list, tuple)) or len(each) != len(self):
+            return masses  # those of the engine, or rejected where cylinders are read
         return [
             big_end(new) if getattr(new, "rod", None) and mass == big_end(old) else mass
             for new, old, mass in zip(each, self.cylinders, masses, strict=True)
@@ -528,7 +528,7 @@ class EngineData:
             if not (one is None or isinstance(one, Cycle)):
                 raise inputs.rejected(f"cycle[{k}]", one, hint)
         cores = [None if one is None else one._core for one in each]
-        below = self.below_pistons(crankcase)
+        below = self._below_pistons(crankcase)
         (fired,) = self._core.with_cycles([cores], below)
         checks.crankcase(below)
         _warn_of_work(each, self.cylinders)

@@ -78,7 +78,7 @@ class GasMap(Record):
             for engine in engines
             for core in engine._core.with_cycles(
                 [self._of_each(cycles, engine) for cycles in of_cylinders],
-                engine.below_pistons(self.crankcase),
+                engine._below_pistons(self.crankcase),
             )
         ]
 
