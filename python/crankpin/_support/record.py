@@ -113,6 +113,16 @@ class Input(Record):
     def replace(self, **changes: Any) -> Self:  # noqa: ANN401 - values of fields
         """Return a copy with some fields changed.
 
+        Parameters
+        ----------
+        **changes : dict, optional
+            New values of fields, by name.
+
+        Returns
+        -------
+        Input
+            A copy of the same class; fields that are not named are unchanged.
+
         Raises
         ------
         InputError
@@ -133,11 +143,33 @@ class Tabled(Record):
         raise NotImplementedError
 
     def to_pandas(self) -> pd.DataFrame:
-        """Return the table as a DataFrame (needs pandas)."""
+        """Return the table as a DataFrame (needs pandas).
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each row of the table.
+
+        Raises
+        ------
+        ImportError
+            If pandas is not installed.
+        """
         return self.table.to_pandas()
 
     def to_xarray(self) -> xr.Dataset:
-        """Return the table as a Dataset with units, over its rows (needs xarray)."""
+        """Return the table as a Dataset with units, over its rows (needs xarray).
+
+        Returns
+        -------
+        xarray.Dataset
+            A variable for each column of the table.
+
+        Raises
+        ------
+        ImportError
+            If xarray is not installed.
+        """
         return self.table.to_xarray()
 
     def __repr__(self) -> str:

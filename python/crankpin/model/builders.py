@@ -54,43 +54,59 @@ class Builders(EngineData):
 
         Parameters
         ----------
-        cylinder
+        cylinder : Cylinder or sequence of Cylinder
             Moving parts of all cylinders, or one for each.
-        bank_deg
-            Directions of the bores from +x; 90 is upright.
-        z
+        bank_deg : sequence of number or str, shape (n_cylinders,)
+            Directions of the bores from +x, degrees; 90 is upright.
+        z : array_like, shape (n_cylinders,)
             Places along the crank, from the front to the flywheel, m.
-        tdc_deg
-            Crank angles at which each crankpin points along its bore.
-        pin_deg
-            Directions of the crankpins from +x at θ = 0, in place of ``tdc_deg``.
-        rotating_mass
+        tdc_deg : sequence of number or str, shape (n_cylinders,), optional
+            Crank angles at which each crankpin points along its bore, degrees; exactly one of
+            ``tdc_deg`` and ``pin_deg`` is given.
+        pin_deg : sequence of number or str, shape (n_cylinders,), optional
+            Directions of the crankpins from +x at θ = 0, degrees, in place of ``tdc_deg``.
+        rotating_mass : array_like, optional
             Rotating mass at the crank radius, each cylinder's share of its crankpin, kg: a number
             for all cylinders, or one for each. Of a pin that two cylinders share it is half. By
             default the big end of each cylinder's ``rod`` (:meth:`Cylinder.from_rod`), zero where
             it has none; a number replaces that, and 0 leaves the big end out.
-        counterweights, shafts
-            What rotates besides: see :class:`crankpin.Unbalance` and :class:`crankpin.Shaft`.
-        mains
+        counterweights : sequence of Unbalance, optional
+            Unbalances on the crankshaft besides ``rotating_mass``; by default none.
+        shafts : sequence of Shaft, optional
+            Balance shafts; by default none.
+        mains : array_like, shape (n_mains,), optional
             Places of the main bearings along the crank, m, ascending; by default one between
             neighbouring throws and one at either end, as in :attr:`mains`.
-        reference_z
+        reference_z : float, optional
             Plane about which moments are taken, m; by default midway between the first and the
             last cylinder. Moments depend on it where a force remains.
-        firing_order
+        firing_order : str or sequence of int, optional
             Firing order of the engine, such as ``"1-3-2"``, if it is known: :meth:`firing` uses it,
             and files keep it.
-        strokes
+        strokes : {4, 2}, default 4
             4 or 2: strokes of a cycle.
-        name, source
-            Name of the engine, and the source of its layout. In a name ``{bank_angle}`` stands for
-            the bank angle and ``{pins}`` for "shared pins" or "split pins".
+        name : str, optional
+            Name of the engine, in which ``{bank_angle}`` stands for the bank angle and ``{pins}``
+            for "shared pins" or "split pins".
+        source : str, optional
+            Source of the layout.
+
+        Returns
+        -------
+        Engine
+            The engine.
 
         Raises
         ------
         InputError
             If lists differ in length, both or neither of ``tdc_deg`` and ``pin_deg`` are given, a
             figure is out of range, or the crank does not allow the firing order.
+
+        Warns
+        -----
+        UserWarning
+            If a figure seems to be in another unit (millimetres, grams, radians), or an angle
+            is next to a part of a turn without being it.
 
         Examples
         --------
@@ -128,19 +144,38 @@ class Builders(EngineData):
 
         Parameters
         ----------
-        cylinder
+        cylinder : Cylinder
             Moving parts of every cylinder.
-        throws_deg
-            Crankpin angles in the direction of rotation, relative to each other, front to flywheel.
-            A throw 120° ahead is at top dead centre 120° *earlier*.
-        spacing
+        throws_deg : sequence of number or str, shape (n_cylinders,)
+            Crankpin angles in the direction of rotation, relative to each other, front to
+            flywheel, degrees. A throw 120° ahead is at top dead centre 120° *earlier*.
+        spacing : float
             Distance between neighbouring cylinders, m.
-        rotating_mass
+        rotating_mass : array_like, optional
             As in :meth:`from_lists`.
-        first_tdc_deg
-            Crank angle at which cylinder 1 is at top dead centre.
-        firing_order, strokes, name, source
+        first_tdc_deg : number or str, default 0.0
+            Crank angle at which cylinder 1 is at top dead centre, degrees.
+        firing_order : str or sequence of int, optional
             As in :meth:`from_lists`.
+        strokes : {4, 2}, default 4
+            As in :meth:`from_lists`.
+        name, source : str, optional
+            As in :meth:`from_lists`.
+
+        Returns
+        -------
+        Engine
+            The engine.
+
+        Raises
+        ------
+        InputError
+            As for :meth:`from_lists`.
+
+        Warns
+        -----
+        UserWarning
+            As for :meth:`from_lists`.
 
         Examples
         --------
@@ -179,32 +214,51 @@ class Builders(EngineData):
 
         Parameters
         ----------
-        cylinder
+        cylinder : Cylinder
             Moving parts of every cylinder.
-        bank_angle_deg
-            Angle between the banks, 0 to 180.
-        throws_deg
+        bank_angle_deg : number or str
+            Angle between the banks, degrees, 0 to 180.
+        throws_deg : sequence of number or str, shape (n_throws,)
             Angles of the right bank's crankpins in the direction of rotation, relative to each
-            other, front to flywheel.
-        spacing
+            other, front to flywheel, degrees.
+        spacing : float
             Distance between neighbouring throws, m.
-        pin_split_deg
-            Left pin minus right pin, in the direction of rotation; 0 for shared pins. Even firing
-            needs bank angle − firing interval: −60 for a 60° V6, −30 for a 90° V6.
-        bank_stagger
+        pin_split_deg : number or str, default 0.0
+            Left pin minus right pin, in the direction of rotation, degrees; 0 for shared pins.
+            Even firing needs bank angle − firing interval: −60 for a 60° V6, −30 for a 90° V6.
+        bank_stagger : float, default 0.0
             How far the left bank stands behind the right, towards the flywheel, m.
-        numbering
+        numbering : {"alternating", "by-bank"}, default "alternating"
             ``"alternating"`` along the crank from bank to bank, or ``"by-bank"``.
-        odd_bank
+        odd_bank : {"right", "left"}, default "right"
             The bank with cylinder 1, seen from the flywheel.
-        rotating_mass
+        rotating_mass : array_like, optional
             Rotating mass at the crank radius, each cylinder's share of its crankpin, kg: a number
             for all cylinders, or one for each. Of a pin that two cylinders share it is half. By
             default the big end of the cylinder's ``rod``, as in :meth:`from_lists`.
-        first_tdc_deg
-            Crank angle at which cylinder 1 is at top dead centre.
-        firing_order, strokes, name, source
+        first_tdc_deg : number or str, default 0.0
+            Crank angle at which cylinder 1 is at top dead centre, degrees.
+        firing_order : str or sequence of int, optional
             As in :meth:`from_lists`.
+        strokes : {4, 2}, default 4
+            As in :meth:`from_lists`.
+        name, source : str, optional
+            As in :meth:`from_lists`.
+
+        Returns
+        -------
+        Engine
+            The engine.
+
+        Raises
+        ------
+        InputError
+            As for :meth:`from_lists`, or if there is not one bank angle from 0 to 180.
+
+        Warns
+        -----
+        UserWarning
+            If the opposite pin split would fire evenly, or as for :meth:`from_lists`.
 
         Examples
         --------
@@ -245,7 +299,40 @@ class Builders(EngineData):
     ) -> Self:
         """Return a flat engine whose opposed cylinders share a crankpin: a 180° vee.
 
-        Parameters are those of :meth:`vee`.
+        Parameters
+        ----------
+        cylinder : Cylinder
+            As in :meth:`vee`.
+        throws_deg : sequence of number or str, shape (n_throws,)
+            As in :meth:`vee`.
+        spacing : float
+            As in :meth:`vee`.
+        bank_stagger : float, default 0.0
+            As in :meth:`vee`.
+        numbering : {"alternating", "by-bank"}, default "alternating"
+            As in :meth:`vee`.
+        odd_bank : {"right", "left"}, default "right"
+            As in :meth:`vee`.
+        rotating_mass : array_like, optional
+            As in :meth:`vee`.
+        first_tdc_deg : number or str, default 0.0
+            As in :meth:`vee`.
+        firing_order : str or sequence of int, optional
+            As in :meth:`vee`.
+        strokes : {4, 2}, default 4
+            As in :meth:`vee`.
+        name, source : str, optional
+            As in :meth:`vee`.
+
+        Returns
+        -------
+        Engine
+            The engine.
+
+        Raises
+        ------
+        InputError
+            As for :meth:`from_lists`.
 
         Examples
         --------
@@ -280,8 +367,40 @@ class Builders(EngineData):
     ) -> Self:
         """Return a boxer: opposed pistons move in mirror image, on pins half a turn apart.
 
-        Parameters are those of :meth:`vee`; ``bank_stagger`` is the distance that a crank web puts
-        between opposed cylinders, m.
+        Parameters
+        ----------
+        cylinder : Cylinder
+            As in :meth:`vee`.
+        throws_deg : sequence of number or str, shape (n_throws,)
+            As in :meth:`vee`.
+        spacing : float
+            As in :meth:`vee`.
+        bank_stagger : float, default 0.0
+            Distance that a crank web puts between opposed cylinders, m.
+        numbering : {"alternating", "by-bank"}, default "alternating"
+            As in :meth:`vee`.
+        odd_bank : {"right", "left"}, default "right"
+            As in :meth:`vee`.
+        rotating_mass : array_like, optional
+            As in :meth:`vee`.
+        first_tdc_deg : number or str, default 0.0
+            As in :meth:`vee`.
+        firing_order : str or sequence of int, optional
+            As in :meth:`vee`.
+        strokes : {4, 2}, default 4
+            As in :meth:`vee`.
+        name, source : str, optional
+            As in :meth:`vee`.
+
+        Returns
+        -------
+        Engine
+            The engine.
+
+        Raises
+        ------
+        InputError
+            As for :meth:`from_lists`.
 
         Examples
         --------
@@ -322,19 +441,36 @@ class Builders(EngineData):
 
         Parameters
         ----------
-        cylinder
+        cylinder : Cylinder
             Moving parts of every cylinder.
-        cylinders
+        cylinders : int, default 7
             Number of cylinders of all rows, three or more in each.
-        rows
+        rows : {1, 2}, default 1
             1 or 2.
-        spacing
+        spacing : float, optional
             Distance between two rows, m; of one row it may be left out.
-        firing_order
+        rotating_mass : array_like, optional
+            As in :meth:`inline`.
+        first_tdc_deg : number or str, default 0.0
+            As in :meth:`inline`.
+        firing_order : str or sequence of int, optional
             As in :meth:`from_lists`; by default every second cylinder of a row, and the rows by
             turns, if that is even: in a four-stroke for odd numbers of cylinders in a row.
-        rotating_mass, first_tdc_deg, strokes, name, source
+        strokes : {4, 2}, default 4
             As in :meth:`inline`.
+        name, source : str, optional
+            As in :meth:`inline`.
+
+        Returns
+        -------
+        Engine
+            The engine.
+
+        Raises
+        ------
+        InputError
+            If a row has fewer than three cylinders, two rows have no spacing, or as for
+            :meth:`from_lists`.
 
         Examples
         --------
@@ -400,35 +536,61 @@ class Builders(EngineData):
 
         Parameters
         ----------
-        cylinder
+        cylinder : Cylinder
             Moving parts of every cylinder.
-        firing_order
+        firing_order : str or sequence of int
             Cylinder numbers, as ``"1-8-4-3-6-5-7-2"`` or a list. Where ``rule="ijesc"`` gives a
             crank that cannot fire in this order, the engine's firing order is left empty.
-        spacing
+        spacing : float
             Distance between neighbouring throws, m.
-        bank_angle_deg
-            Angle between the banks of a vee; None for an inline engine.
-        shared_pins
+        bank_angle_deg : number or str, optional
+            Angle between the banks of a vee, degrees; None for an inline engine.
+        shared_pins : bool, optional
             True for a vee whose opposed cylinders share crankpins: the bank of cylinder 1 fires as
             evenly as with split pins, and the other bank a bank angle later or earlier. False for
             even firing, with pins split where the bank angle requires it; the default is that too,
             with a warning that names the split and the intervals of shared pins.
-        rule
+        rule : {"even", "ijesc"}, default "even"
             ``"even"``: all firing intervals are equal; top dead centres follow from the order, pins
             are split where the bank angle asks for it. ``"ijesc"``: the rule of the IJESC paper of
             2017, by which the cylinders of each bank, in the order in which they fire, lag by equal
             parts of a turn (0°, 120°, 240° in a V6) from the same crank angle in both banks.
-        intervals_deg
+        intervals_deg : sequence of number or str, optional
             With ``rule="even"``: crank angles from each cylinder of the order to the next, and from
             the last to the first, in place of equal ones. Where one is above 360 the crank can fire
             in this order in other ways too; the engine takes the most even, with a warning.
-        strokes
+        strokes : {4, 2}, default 4
             4 or 2: intervals add up to 720 or 360.
-        numbering, odd_bank
+        numbering : {"alternating", "by-bank"}, default "alternating"
             As in :meth:`vee`; the IJESC paper has odd cylinders right, the cross-plane page left.
-        bank_stagger, rotating_mass, first_tdc_deg, name, source
+        odd_bank : {"right", "left"}, default "right"
+            As in :meth:`vee`; the IJESC paper has odd cylinders right, the cross-plane page left.
+        bank_stagger : float, default 0.0
             As in :meth:`vee`.
+        rotating_mass : array_like, optional
+            As in :meth:`vee`.
+        first_tdc_deg : number or str, default 0.0
+            As in :meth:`vee`.
+        name, source : str, optional
+            As in :meth:`vee`.
+
+        Returns
+        -------
+        Engine
+            The engine.
+
+        Raises
+        ------
+        InputError
+            If the order is no order of all cylinders, intervals do not add up to a cycle, or as
+            for :meth:`from_lists`.
+
+        Warns
+        -----
+        UserWarning
+            If pins are split without ``shared_pins=False``, cylinder 1 in the other bank would
+            need smaller splits, or the crank fires in this order more evenly than at
+            ``intervals_deg``.
 
         Examples
         --------

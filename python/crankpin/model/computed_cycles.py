@@ -79,8 +79,22 @@ class ComputedCycles:
 
         Parameters
         ----------
-        cylinder, compression_ratio, pressure_ratio, options
+        cylinder : Cylinder
             As in :meth:`dual`.
+        compression_ratio, pressure_ratio : float
+            As in :meth:`dual`.
+        **options : dict, optional
+            As in :meth:`dual`.
+
+        Returns
+        -------
+        Cycle
+            The cycle.
+
+        Raises
+        ------
+        InputError
+            As for :meth:`dual`.
 
         Examples
         --------
@@ -108,8 +122,22 @@ class ComputedCycles:
 
         Parameters
         ----------
-        cylinder, compression_ratio, cutoff_ratio, options
+        cylinder : Cylinder
             As in :meth:`dual`.
+        compression_ratio, cutoff_ratio : float
+            As in :meth:`dual`.
+        **options : dict, optional
+            As in :meth:`dual`.
+
+        Returns
+        -------
+        Cycle
+            The cycle.
+
+        Raises
+        ------
+        InputError
+            As for :meth:`dual`.
         """
         return cls._ideal("Diesel", cylinder, compression_ratio, 1.0, cutoff_ratio, **options)
 
@@ -131,18 +159,23 @@ class ComputedCycles:
 
         Parameters
         ----------
-        cylinder
+        cylinder : Cylinder
             Cylinder with a bore. The cycle is that of its motion.
-        compression_ratio
+        compression_ratio : float
             Largest over smallest volume.
-        pressure_ratio
+        pressure_ratio : float
             Pressure after over before the combustion at constant volume.
-        cutoff_ratio
+        cutoff_ratio : float
             Volume after over before the combustion at constant pressure.
-        options
+        **options : dict, optional
             ``intake_pressure``, ``exhaust_pressure``: absolute, Pa; by default 101325 and the
             intake's. ``compression_exponent``, ``expansion_exponent``: n, by default 1.3.
             ``strokes``: 4 or 2. ``name``: by default that of the cycle.
+
+        Returns
+        -------
+        Cycle
+            The cycle.
 
         Raises
         ------
@@ -163,8 +196,22 @@ class ComputedCycles:
 
         Parameters
         ----------
-        cylinder, compression_ratio, options
+        cylinder : Cylinder
             As in :meth:`dual`.
+        compression_ratio : float
+            As in :meth:`dual`.
+        **options : dict, optional
+            As in :meth:`dual`.
+
+        Returns
+        -------
+        Cycle
+            The cycle.
+
+        Raises
+        ------
+        InputError
+            As for :meth:`dual`.
         """
         return cls._ideal("Motored", cylinder, compression_ratio, 1.0, 1.0, **options)
 
@@ -232,36 +279,57 @@ class ComputedCycles:
 
         Parameters
         ----------
-        cylinder
+        cylinder : Cylinder
             Cylinder with a bore.
-        compression_ratio
+        compression_ratio : float
             Largest over smallest volume.
-        heat
-            Heat of the fuel of one cycle, J; the burn releases ``1 - exp(-a)`` of it.
-        excess_air
+        heat : float, optional
+            Heat of the fuel of one cycle, J; the burn releases ``1 - exp(-a)`` of it. Exactly
+            one of ``heat`` and ``excess_air`` is given.
+        excess_air : float, optional
             Instead of ``heat``: air over that of a stoichiometric mixture, λ. The air is that of
             the cylinder when the intake closes.
-        start_deg, duration_deg
-            Start of the burn after the firing top dead centre (below 0: before) and its duration.
-        a, m
-            Wiebe's parameters; 6.908 burns 99.9 %.
-        gamma
+        start_deg : float, default -15.0
+            Start of the burn after the firing top dead centre, degrees; below 0: before.
+        duration_deg : float, default 50.0
+            Duration of the burn, degrees.
+        a : float, default 6.908
+            Wiebe's efficiency parameter; 6.908 burns 99.9 %.
+        m : float, default 2.0
+            Wiebe's form exponent.
+        gamma : float, default 1.33
             Ratio of heat capacities.
-        intake_pressure, exhaust_pressure
-            Absolute, Pa; the exhaust's is by default the intake's.
-        charge_temperature
+        intake_pressure : float, default 101325.0
+            Absolute pressure of the intake, Pa.
+        exhaust_pressure : float, optional
+            Absolute pressure of the exhaust, Pa; by default that of the intake.
+        charge_temperature : float, default 330.0
             Temperature when the intake closes, K.
-        wall_temperature, rpm
-            Temperature of the walls, K, and crank speed, for heat loss by Woschni's correlation
-            (Heywood, Internal Combustion Engine Fundamentals, 1988, section 12.4.3, no swirl); by
-            default no heat is lost.
-        intake_closes_deg, exhaust_opens_deg
-            Valve (or port) events after the firing top dead centre; by default -140 and 130, in a
-            two-stroke -115 and 105.
-        stoichiometric_ratio, heating_value
-            Mass of air over that of fuel, and lower heating value, J/kg, for ``excess_air``.
-        strokes, name
+        wall_temperature : float, optional
+            Temperature of the walls, K, for heat loss by Woschni's correlation (Heywood,
+            Internal Combustion Engine Fundamentals, 1988, section 12.4.3, no swirl); by default
+            no heat is lost.
+        rpm : float, optional
+            Crank speed, rpm, for heat loss.
+        intake_closes_deg : float, optional
+            Intake valve (or port) event after the firing top dead centre, degrees; by default
+            -140, in a two-stroke -115.
+        exhaust_opens_deg : float, optional
+            Exhaust valve (or port) event after the firing top dead centre, degrees; by default
+            130, in a two-stroke 105.
+        stoichiometric_ratio : float, default 14.6
+            Mass of air over that of fuel, for ``excess_air``.
+        heating_value : float, default 43000000.0
+            Lower heating value of the fuel, J/kg, for ``excess_air``.
+        strokes : {4, 2}, default 4
             As in :class:`Cycle`.
+        name : str, optional
+            As in :class:`Cycle`; by default that of the cycle.
+
+        Returns
+        -------
+        Cycle
+            The cycle.
 
         Raises
         ------
@@ -313,12 +381,17 @@ class ComputedCycles:
 
         Parameters
         ----------
-        kind
+        kind : {"petrol", "diesel"}, default "petrol"
             ``"petrol"``: a naturally aspirated four-stroke at full load and 3000 rpm.
             ``"diesel"``: a turbocharged one at 2000 rpm. Bore and stroke are 86 mm, the rod is
             145 mm long; the other figures are in ``crankpin.model.computed_cycles.EXAMPLES``.
-        strokes
+        strokes : {4, 2}, default 4
             4, or 2 for a two-stroke of the same figures.
+
+        Returns
+        -------
+        Cycle
+            The cycle.
 
         Examples
         --------

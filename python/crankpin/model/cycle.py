@@ -41,16 +41,16 @@ class Cycle(Tabled, Input, ComputedCycles):
 
     Parameters
     ----------
-    theta_deg
+    theta_deg : array_like, shape (n,)
         Crank angles after the firing top dead centre, ascending over one period from any start,
         degrees: (n,). Steps may differ.
-    pressure
+    pressure : array_like, shape (n,)
         Absolute pressure there, Pa: (n,).
-    strokes
+    strokes : {4, 2}, default 4
         4 for a period of 720°, 2 for one of 360°.
-    name
+    name : str, optional
         Name or origin; may be empty.
-    degree
+    degree : int, optional
         None for a table. Otherwise the points are Chebyshev points of adjoining panels,
         ``degree + 1`` of each, and pressure is the polynomial through them.
 
@@ -59,6 +59,12 @@ class Cycle(Tabled, Input, ComputedCycles):
     InputError
         If angles are not ascending or do not cover one period, or a pressure is below that of a
         vacuum by more than an atmosphere.
+
+    Warns
+    -----
+    UserWarning
+        If pressure seems to be in another unit or gauge pressure, or its peak is far from the
+        firing top dead centre.
 
     Examples
     --------
@@ -136,27 +142,32 @@ class Cycle(Tabled, Input, ComputedCycles):
 
         Parameters
         ----------
-        path
+        path : str or pathlib.Path
             ``.csv``, ``.tsv``, ``.txt``, ``.dat`` or ``.asc``.
-        pressure_unit
+        pressure_unit : str, optional
             ``"Pa"``, ``"hPa"``, ``"kPa"``, ``"MPa"``, ``"mbar"``, ``"bar"`` or ``"psi"``; by
             default what the header names.
-        angle_unit
+        angle_unit : {"deg", "rad"}, optional
             ``"deg"`` or ``"rad"``; by default what the header names, else degrees.
-        gauge
+        gauge : bool, optional
             True for pressure above that of the atmosphere, False for absolute pressure; by default
             what the header says.
-        atmosphere
+        atmosphere : float, default 101325.0
             Pressure added to gauge pressure, Pa.
-        tdc_deg
+        tdc_deg : float, default 0.0
             Angle of the firing top dead centre as the file counts angles, degrees.
-        columns
+        columns : pair of int or str, optional
             Numbers from 0, or names, of the columns of angle and pressure; by default the first
             two, with a warning if there are more.
-        strokes
+        strokes : {4, 2}, optional
             4 or 2; by default 4, or what :meth:`save` has written.
-        name
+        name : str, optional
             By default the name of the file, or what :meth:`save` has written.
+
+        Returns
+        -------
+        Cycle
+            The cycle, its angles counted from the firing top dead centre.
 
         Raises
         ------
@@ -165,6 +176,11 @@ class Cycle(Tabled, Input, ComputedCycles):
             neither; if it has no such columns; or as for :class:`Cycle`.
         OSError
             If the file cannot be read.
+
+        Warns
+        -----
+        UserWarning
+            If there are more columns and ``columns`` is left out, or as for :class:`Cycle`.
         """
         return cls(
             *cycle_files.load(
@@ -184,6 +200,18 @@ class Cycle(Tabled, Input, ComputedCycles):
         """Write the points to a text file, ``.csv`` or the like, that reads back as an equal cycle.
 
         Blanks and line breaks in the name become single blanks.
+
+        Parameters
+        ----------
+        path : str or pathlib.Path
+            ``.csv``, ``.tsv``, ``.txt``, ``.dat`` or ``.asc``.
+
+        Raises
+        ------
+        InputError
+            If the name ends otherwise.
+        OSError
+            If the file cannot be written.
         """
         cycle_files.save(self, path)
 
@@ -212,13 +240,19 @@ class Cycle(Tabled, Input, ComputedCycles):
 
         Parameters
         ----------
-        theta_deg
+        theta_deg : array_like
             Crank angles after the firing top dead centre, degrees; any value and shape. Where
             pressure jumps, the value after the jump counts.
 
         Returns
         -------
-        array of the shape of ``theta_deg``
+        ndarray of float, shape of theta_deg
+            Absolute pressure, Pa.
+
+        Raises
+        ------
+        InputError
+            If an angle is no finite number.
         """
         theta = inputs.array("theta_deg", theta_deg)
         return self._core.pressure(theta.ravel()).reshape(theta.shape)
@@ -228,8 +262,18 @@ class Cycle(Tabled, Input, ComputedCycles):
 
         Parameters
         ----------
-        cylinder
+        cylinder : Cylinder
             Cylinder with a bore.
+
+        Returns
+        -------
+        float
+            Indicated work, J.
+
+        Raises
+        ------
+        InputError
+            If the cylinder has no bore.
         """
         return self.mean_torque(cylinder) * math.radians(self.period_deg)
 
@@ -238,9 +282,19 @@ class Cycle(Tabled, Input, ComputedCycles):
 
         Parameters
         ----------
-        cylinder
+        cylinder : Cylinder
             Cylinder with a bore; its displacement follows from the travel of the piston, which a
             pin offset lengthens.
+
+        Returns
+        -------
+        float
+            Indicated mean effective pressure, Pa.
+
+        Raises
+        ------
+        InputError
+            If the cylinder has no bore.
         """
         mean_pressure = self.work(cylinder) / (area(cylinder) * cylinder.travel)
         checks.imep(mean_pressure)
@@ -251,8 +305,18 @@ class Cycle(Tabled, Input, ComputedCycles):
 
         Parameters
         ----------
-        cylinder
+        cylinder : Cylinder
             Cylinder with a bore.
+
+        Returns
+        -------
+        float
+            Mean torque, N·m.
+
+        Raises
+        ------
+        InputError
+            If the cylinder has no bore.
         """
         scale = area(cylinder) * cylinder.crank_radius
         return self._core.torque(cylinder._parts, ATMOSPHERE, [])[0] * scale
@@ -268,13 +332,23 @@ class Cycle(Tabled, Input, ComputedCycles):
 
         Parameters
         ----------
-        cylinder
+        cylinder : Cylinder
             Cylinder with a bore.
-        orders
+        orders : number or sequence of numbers
             Multiples of crank speed, whole or half; those of a two-stroke are whole, its half
             orders zero.
-        crankcase
+        crankcase : float, default 101325.0
             Absolute pressure below the piston, Pa.
+
+        Returns
+        -------
+        ndarray of complex, shape (n_orders,)
+            Peak phasors, N·m.
+
+        Raises
+        ------
+        InputError
+            If the cylinder has no bore, or an argument is out of range.
 
         Examples
         --------
@@ -309,8 +383,17 @@ class Cycle(Tabled, Input, ComputedCycles):
 
         Parameters
         ----------
-        cylinder, orders, crankcase
+        cylinder : Cylinder
             As in :meth:`torque_harmonics`.
+        orders : number or sequence of numbers
+            As in :meth:`torque_harmonics`.
+        crankcase : float, default 101325.0
+            As in :meth:`torque_harmonics`.
+
+        Returns
+        -------
+        ndarray of float, shape (n_orders,)
+            Estimated errors, N·m; zero for polynomials.
 
         Raises
         ------
@@ -364,14 +447,26 @@ class Cycle(Tabled, Input, ComputedCycles):
 
         Parameters
         ----------
-        ax
+        ax : matplotlib.axes.Axes, optional
             Axes to draw on; by default new ones.
-        cylinder
+        cylinder : Cylinder, optional
             Cylinder with a bore, to draw pressure over the volume swept.
-        label
+        label : str, optional
             Entry of the legend; by default the name.
-        style
+        **style : dict, optional
             Properties of the line, as matplotlib takes them.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes.
+
+        Raises
+        ------
+        InputError
+            If the cylinder has no bore.
+        ImportError
+            If matplotlib is not installed.
         """
         from crankpin.analysis import drawing  # noqa: PLC0415 - matplotlib is imported when used
 

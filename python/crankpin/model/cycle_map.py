@@ -28,10 +28,11 @@ class CycleMap(Tabled, Input):
 
     Parameters
     ----------
-    rpm, load
-        Crank speeds and loads of the cycles, ascending: (n_rpm,), (n_load,). Loads are in any
-        unit, such as 0 to 1 or imep.
-    cycles
+    rpm : array_like, shape (n_rpm,)
+        Crank speeds of the cycles, rpm, ascending.
+    load : array_like, shape (n_load,)
+        Loads of the cycles, ascending, in any unit, such as 0 to 1 or imep.
+    cycles : sequence of sequence of Cycle
         Cycles of one period: a row for each speed, a cycle in it for each load.
 
     Raises
@@ -84,8 +85,20 @@ class CycleMap(Tabled, Input):
 
         Parameters
         ----------
-        rpm, load
-            Within the map: nothing is extrapolated.
+        rpm : float
+            Crank speed, rpm, within the map: nothing is extrapolated.
+        load : float
+            Load, within the map.
+
+        Returns
+        -------
+        Cycle
+            The cycle, interpolated.
+
+        Raises
+        ------
+        InputError
+            If the point is outside the map.
         """
         rpm, load = inputs.number("rpm", rpm), inputs.number("load", load)
         by_speed, by_load = _weights("rpm", self.rpm, rpm), _weights("load", self.load, load)
@@ -116,14 +129,25 @@ class CycleMap(Tabled, Input):
 
         Parameters
         ----------
-        cylinder, orders, crankcase
+        cylinder : Cylinder
             As in :meth:`Cycle.torque_harmonics`.
-        rpm, load
+        orders : number or sequence of numbers
+            As in :meth:`Cycle.torque_harmonics`.
+        rpm, load : array_like
             Speeds and loads within the map, of shapes that broadcast.
+        crankcase : float, default 101325.0
+            As in :meth:`Cycle.torque_harmonics`.
 
         Returns
         -------
-        array of the shape of the points and (n_orders,)
+        ndarray of complex, shape (..., n_orders)
+            Peak phasors, N·m, of the shape of the points.
+
+        Raises
+        ------
+        InputError
+            If a point is outside the map, the cylinder has no bore, or an argument is out of
+            range.
         """
         of_nodes = np.array(
             [

@@ -39,28 +39,36 @@ class Cylinder:
 
     Parameters
     ----------
-    crank_radius
+    crank_radius : float
         Crank radius r, half the stroke, m.
-    rod_length
+    rod_length : float
         Rod length l between its centres, m; r < l − ``|pin_offset|``.
-    reciprocating_mass
+    reciprocating_mass : float
         Mass that moves with the piston, kg.
-    pin_offset
+    pin_offset : float, default 0.0
         Offset e (désaxé) of the piston pin's path from the crank's axis, m; positive on the side to
         which the crankpin swings after top dead centre.
-    rod_inertia_excess
+    rod_inertia_excess : float, default 0.0
         J = I - m·a·b, kg m²: the moment of inertia of the rod about its centre of mass less that
         of its two masses there, a and b their distances from it. Mostly negative, as a rod's mass
         is not all at its ends. Torques depend on it, forces and moments do not.
-    bore
+    bore : float, optional
         Diameter of the bore, m, if it is known. Inertia forces do not depend on it.
-    piston_mass, rod
-        What the reciprocating mass was made of by :meth:`from_rod`; None where it is not known.
+    piston_mass : float, optional
+        Mass of piston, pin and rings, kg, of which :meth:`from_rod` made the reciprocating
+        mass; None where it is not known.
+    rod : Rod, optional
+        The rod of which :meth:`from_rod` made it; None where it is not known.
 
     Raises
     ------
     InputError
         If a figure is not finite or has the wrong sign, or the crank cannot turn.
+
+    Warns
+    -----
+    UserWarning
+        If a length seems to be in millimetres, or bore and stroke in different units.
 
     Examples
     --------
@@ -96,12 +104,24 @@ class Cylinder:
 
         Parameters
         ----------
-        bore
+        bore : float
             Diameter of the cylinder, m.
-        stroke
+        stroke : float
             Twice the crank radius, m.
-        rod_length, reciprocating_mass, pin_offset, rod_inertia_excess
+        rod_length, reciprocating_mass : float
             As in :class:`Cylinder`.
+        pin_offset, rod_inertia_excess : float, default 0.0
+            As in :class:`Cylinder`.
+
+        Returns
+        -------
+        Cylinder
+            The cylinder.
+
+        Raises
+        ------
+        InputError
+            As for :class:`Cylinder`.
 
         Examples
         --------
@@ -141,14 +161,26 @@ class Cylinder:
 
         Parameters
         ----------
-        rod
+        rod : Rod
             The connecting rod.
-        crank_radius
+        crank_radius : float
             Crank radius r, m.
-        piston_mass
+        piston_mass : float
             Mass of piston, pin and rings, without any of the rod, kg.
-        pin_offset, bore
+        pin_offset : float, default 0.0
             As in :class:`Cylinder`.
+        bore : float, optional
+            As in :class:`Cylinder`.
+
+        Returns
+        -------
+        Cylinder
+            The cylinder, with the rod's share of the reciprocating mass.
+
+        Raises
+        ------
+        InputError
+            As for :class:`Cylinder`.
 
         Examples
         --------
@@ -262,6 +294,21 @@ class Cylinder:
 
         Rod length, reciprocating mass and rod inertia follow from a piston and a rod that are
         changed; changed themselves, they take the place of both.
+
+        Parameters
+        ----------
+        **changes : dict, optional
+            New values of the parameters of :class:`Cylinder`, by name.
+
+        Returns
+        -------
+        Cylinder
+            The changed copy.
+
+        Raises
+        ------
+        InputError
+            If there is no such part, or a figure is out of range.
         """
         if {"rod_length", "reciprocating_mass", "rod_inertia_excess"} & changes.keys():
             changes = {"piston_mass": None, "rod": None} | changes
@@ -284,12 +331,18 @@ class Cylinder:
 
         Parameters
         ----------
-        theta_deg
+        theta_deg : array_like
             Crank angles from the crankpin's pointing along the bore, degrees; any shape.
 
         Returns
         -------
-        array of the shape of ``theta_deg``
+        ndarray of float, shape of theta_deg
+            Distances, m.
+
+        Raises
+        ------
+        InputError
+            If an angle is no finite number.
 
         Examples
         --------
@@ -304,10 +357,20 @@ class Cylinder:
 
         Parameters
         ----------
-        theta_deg
+        theta_deg : array_like
             Crank angles from the crankpin's pointing along the bore, degrees; any shape.
-        rpm
+        rpm : float
             Crank speed.
+
+        Returns
+        -------
+        ndarray of float, shape of theta_deg
+            Velocities, m/s.
+
+        Raises
+        ------
+        InputError
+            If an argument is out of range.
 
         Examples
         --------
@@ -324,10 +387,20 @@ class Cylinder:
 
         Parameters
         ----------
-        theta_deg
+        theta_deg : array_like
             Crank angles from the crankpin's pointing along the bore, degrees; any shape.
-        rpm
+        rpm : float
             Crank speed.
+
+        Returns
+        -------
+        ndarray of float, shape of theta_deg
+            Accelerations, m/s².
+
+        Raises
+        ------
+        InputError
+            If an argument is out of range.
 
         Examples
         --------
@@ -341,6 +414,21 @@ class Cylinder:
         """Return the harmonics aₙ of the inertia force, exact, complex, (n_orders,).
 
         The force on the engine along the bore is ``m r ω² Re Σ aₙ exp(in(θ − tdc))``.
+
+        Parameters
+        ----------
+        orders : int or sequence of int
+            Whole multiples of crank speed.
+
+        Returns
+        -------
+        ndarray of complex, shape (n_orders,)
+            aₙ, without unit.
+
+        Raises
+        ------
+        InputError
+            If an order is out of range.
 
         Examples
         --------
@@ -357,6 +445,18 @@ class Cylinder:
         crank. With neither pin offset nor rod inertia one is minus the other. Their sum is what
         all inertia forces do about the crank's axis: an offset adds the moment of the force along
         the bore, a rod the couple that swings it.
+
+        Parameters
+        ----------
+        orders : int or sequence of int
+            Whole multiples of crank speed.
+
+        Returns
+        -------
+        roll : ndarray of complex, shape (n_orders,)
+            Harmonics of roll torque, without unit.
+        crank : ndarray of complex, shape (n_orders,)
+            Harmonics of crank torque, without unit.
 
         Raises
         ------
@@ -386,13 +486,13 @@ class Rod(Input):
 
     Parameters
     ----------
-    mass
+    mass : float
         Mass m, kg.
-    inertia
+    inertia : float
         Moment of inertia I about the centre of mass, about an axis parallel to the crank, kg m².
-    length
+    length : float
         Length l between the centres of its eyes, m.
-    to_crankpin
+    to_crankpin : float
         Distance a from the crankpin's eye to the centre of mass, m; 0 to l.
 
     Raises
@@ -424,8 +524,18 @@ class Rod(Input):
 
         Parameters
         ----------
-        mass, length, to_crankpin
+        mass, length, to_crankpin : float
             As in :class:`Rod`.
+
+        Returns
+        -------
+        Rod
+            The rod.
+
+        Raises
+        ------
+        InputError
+            As for :class:`Rod`.
 
         Examples
         --------
@@ -486,7 +596,7 @@ def slider_crank_harmonics(
     *,
     rtol: float | None = None,
 ) -> NDArray[Any]:
-    r"""Return the harmonics aₙ of a slider-crank's inertia force, exact for any 0 < λ < 1.
+    """Return the harmonics aₙ of a slider-crank's inertia force, exact for any 0 < λ < 1.
 
     The force along the bore is ``m r ω² Re Σ aₙ exp(in(θ − tdc))``; a₁ = 1 and a₂ ≈ λ. Every order
     has full relative accuracy: the coefficients come from the factors of
@@ -494,22 +604,22 @@ def slider_crank_harmonics(
 
     Parameters
     ----------
-    rod_ratio
+    rod_ratio : array_like
         λ = crank radius / rod length; any shape.
-    orders
+    orders : int or sequence of int
         Whole multiples of crank speed.
-    pin_offset_ratio
+    pin_offset_ratio : array_like, optional
         Pin offset / crank radius, ``|e/r| < 1/λ − 1``; broadcast with ``rod_ratio``. Without it the
         pin runs through the crank's axis, odd orders above 1 vanish, and the result is real.
-    rtol
+    rtol : float, optional
         What every order may be off by, relative to itself: 1e-15 to below 1. By default all digits
         come. Fewer save little: at 1e-3 a tenth of the time for many rod ratios about 0.3, a third
         for 0.6 to 0.99, nothing for a single one. With ``pin_offset_ratio`` all digits come anyway.
 
     Returns
     -------
-    array of shape (\*broadcast shape, n_orders)
-        float64 without ``pin_offset_ratio``, complex128 with it.
+    ndarray of float or complex, shape (..., n_orders)
+        Of the broadcast shape; real without ``pin_offset_ratio``, complex with it.
 
     Raises
     ------

@@ -383,10 +383,40 @@ class EngineData:
 
         Parameters
         ----------
-        mains, reference_z
-            None for the defaults of :attr:`mains` and :attr:`reference_z`.
-        cycle, crankcase
+        cylinder : Cylinder or sequence of Cylinder, optional
+            As in :meth:`from_lists`; by default unchanged.
+        tdc_deg, pin_deg, bank_deg : sequence of number or str, optional
+            As in :meth:`from_lists`; by default unchanged.
+        z, rotating_mass : array_like, optional
+            As in :meth:`from_lists`; by default unchanged.
+        counterweights : sequence of Unbalance, optional
+            As in :meth:`from_lists`; by default unchanged.
+        shafts : sequence of Shaft, optional
+            As in :meth:`from_lists`; by default unchanged.
+        mains : array_like or None, optional
+            As in :meth:`from_lists`; None for the default of :attr:`mains`.
+        reference_z : float or None, optional
+            As in :meth:`from_lists`, m; None for the default of :attr:`reference_z`.
+        cycle : Cycle, sequence of Cycle or None, or None, optional
             As in :meth:`with_cycle`.
+        crankcase : float, optional
+            As in :meth:`with_cycle`, Pa.
+        firing_order : str or sequence of int, optional
+            As in :meth:`from_lists`; by default unchanged.
+        strokes : {4, 2}, optional
+            As in :meth:`from_lists`; by default unchanged.
+        name, source : str, optional
+            As in :meth:`from_lists`; by default unchanged.
+
+        Returns
+        -------
+        Engine
+            The changed copy.
+
+        Raises
+        ------
+        InputError
+            As for :meth:`from_lists` and :meth:`with_cycle`.
 
         Examples
         --------
@@ -450,8 +480,23 @@ class EngineData:
 
         Parameters
         ----------
-        counterweights
+        counterweights : sequence of Unbalance
             Unbalances on the crankshaft, each at an angle of its own or at a crankpin.
+
+        Returns
+        -------
+        Engine
+            The engine with them.
+
+        Raises
+        ------
+        InputError
+            If one is no :class:`Unbalance`, or follows the pin of a cylinder that there is not.
+
+        Warns
+        -----
+        UserWarning
+            If an amount or a place seems to be in another unit.
 
         Examples
         --------
@@ -477,8 +522,23 @@ class EngineData:
 
         Parameters
         ----------
-        shafts
+        shafts : sequence of Shaft
             Balance shafts; see :class:`crankpin.Shaft`.
+
+        Returns
+        -------
+        Engine
+            The engine with them.
+
+        Raises
+        ------
+        InputError
+            If one is no :class:`Shaft`.
+
+        Warns
+        -----
+        UserWarning
+            If an amount or a place seems to be in another unit.
         """
         return type(self)(rotating.with_shafts(self._core, shafts))
 
@@ -493,18 +553,29 @@ class EngineData:
 
         Parameters
         ----------
-        cycle
+        cycle : Cycle, sequence of Cycle or None, or None
             Pressure over a cycle, for all cylinders or one for each; None for a cylinder without
             gas load, as with its valves open. None for an engine without gas pressure.
-        crankcase
+        crankcase : float, optional
             Absolute pressure below the pistons, Pa; by default what the engine has, or that of the
             atmosphere.
+
+        Returns
+        -------
+        Engine
+            The engine with gas pressure.
 
         Raises
         ------
         InputError
             If the engine has no firing order (the message has those that the crank allows), a
             cylinder no bore, or a cycle other strokes than the engine.
+
+        Warns
+        -----
+        UserWarning
+            If the pressure takes more work from the crank than an engine does, or ``crankcase``
+            seems to be in another unit.
 
         Examples
         --------
@@ -541,11 +612,21 @@ class EngineData:
 
         Parameters
         ----------
-        bank_angle_deg
-            Angle between the banks, 0 to 180.
-        hold
+        bank_angle_deg : number or str
+            Angle between the banks, degrees, 0 to 180.
+        hold : {"pins", "firing"}
             ``"pins"``: crankpins are held, firing intervals change (the IJESC paper).
             ``"firing"``: all top dead centres are held, pins are split as needed (Ito and Hattori).
+
+        Returns
+        -------
+        Engine
+            The engine at that bank angle.
+
+        Raises
+        ------
+        InputError
+            If the engine does not have two banks, or the angle is out of range.
 
         Examples
         --------
@@ -567,8 +648,18 @@ class EngineData:
 
         Parameters
         ----------
-        first_tdc_deg
+        first_tdc_deg : number or str
             Crank angle, degrees.
+
+        Returns
+        -------
+        Engine
+            The engine, its crank turned.
+
+        Raises
+        ------
+        InputError
+            If the angle is no angle.
         """
         return type(self)(self._core.with_first_tdc(inputs.angle("first_tdc_deg", first_tdc_deg)))
 
@@ -576,17 +667,59 @@ class EngineData:
 
     @classmethod
     def from_toml(cls, text: str) -> Self:
-        """Return the engine that a TOML text describes; see :meth:`to_toml`."""
+        """Return the engine that a TOML text describes; see :meth:`to_toml`.
+
+        Parameters
+        ----------
+        text : str
+            TOML, as in the reference of engine files.
+
+        Returns
+        -------
+        Engine
+            The engine.
+
+        Raises
+        ------
+        InputError
+            If the text does not describe an engine.
+        """
         return cls._read(_core.Engine.from_toml(_file_text(text)))
 
     @classmethod
     def from_json(cls, text: str) -> Self:
-        """Return the engine that a JSON text describes; see :meth:`to_json`."""
+        """Return the engine that a JSON text describes; see :meth:`to_json`.
+
+        Parameters
+        ----------
+        text : str
+            JSON, as in the reference of engine files.
+
+        Returns
+        -------
+        Engine
+            The engine.
+
+        Raises
+        ------
+        InputError
+            If the text does not describe an engine.
+        """
         return cls._read(_core.Engine.from_json(_file_text(text)))
 
     @classmethod
     def load(cls, path: str | Path) -> Self:
         """Return the engine in a ``.toml`` or ``.json`` file.
+
+        Parameters
+        ----------
+        path : str or pathlib.Path
+            Name of the file, which ends in ``.toml`` or ``.json``.
+
+        Returns
+        -------
+        Engine
+            The engine.
 
         Raises
         ------
@@ -625,6 +758,11 @@ class EngineData:
     def to_toml(self) -> str:
         """Return the engine as TOML with a schema version; it reads back as an equal engine.
 
+        Returns
+        -------
+        str
+            The text.
+
         Examples
         --------
         >>> import crankpin as cp
@@ -648,11 +786,30 @@ class EngineData:
         return self._core.to_toml()
 
     def to_json(self) -> str:
-        """Return the engine as JSON with a schema version; it reads back as an equal engine."""
+        """Return the engine as JSON with a schema version; it reads back as an equal engine.
+
+        Returns
+        -------
+        str
+            The text.
+        """
         return self._core.to_json()
 
     def save(self, path: str | Path) -> None:
-        """Write the engine to a ``.toml`` or ``.json`` file; TOML has comments that explain it."""
+        """Write the engine to a ``.toml`` or ``.json`` file; TOML has comments that explain it.
+
+        Parameters
+        ----------
+        path : str or pathlib.Path
+            Name of the file, which ends in ``.toml`` or ``.json``.
+
+        Raises
+        ------
+        InputError
+            If the name ends otherwise.
+        OSError
+            If the file cannot be written.
+        """
         file = engine_files.checked(path)
         toml = engine_files.is_toml(file)
         text = engine_files.commented(self.to_toml()) if toml else self.to_json()

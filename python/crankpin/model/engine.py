@@ -84,14 +84,23 @@ class Engine(Builders):
 
         Parameters
         ----------
-        name
+        name : str
             Such as ``"v8-crossplane"``.
-        cylinder
+        cylinder : Cylinder, optional
             Moving parts of all cylinders, in place of the preset's.
-        spacing
+        spacing : float, optional
             Distance between neighbouring throws, in place of the preset's, m.
-        rotating_mass, counterweights, shafts
+        rotating_mass : array_like, optional
             As in :meth:`from_lists`, in place of the preset's.
+        counterweights : sequence of Unbalance, optional
+            As in :meth:`from_lists`, in place of the preset's.
+        shafts : sequence of Shaft, optional
+            As in :meth:`from_lists`, in place of the preset's.
+
+        Returns
+        -------
+        Engine
+            The engine.
 
         Raises
         ------
@@ -150,28 +159,39 @@ class Engine(Builders):
 
         Parameters
         ----------
-        rpm
-            Crank speed.
-        orders
+        rpm : float
+            Crank speed, rpm.
+        orders : number, sequence of numbers or "auto", default "auto"
             Multiples of crank speed, whole or half (0.5, of which gas pressure alone makes any);
             by default the few that reach ``rtol``.
-        rtol
-            For ``orders="auto"``: what the omitted orders may add up to, relative to the largest
-            m·r·ω² of any cylinder (its reciprocating or its rotating mass), times the longest lever
-            for moments and the crank radius for torque. By default 1e-9. Gas pressure counts apart,
-            relative to the largest gas torque of a cylinder, and to 1e-3 at best, since its orders
-            decline slowly; ``error_bound`` has what is left out of both.
-        spectrum
+        rtol : float, optional
+            For ``orders="auto"``: what the omitted orders may add up to, relative to the
+            largest m·r·ω² of any cylinder (its reciprocating or its rotating mass), times the
+            longest lever for moments and the crank radius for torque; None for 1e-9. Gas
+            pressure counts apart, relative to the largest gas torque of a cylinder, and to 1e-3
+            at best, since its orders decline slowly; ``error_bound`` has what is left out of
+            both.
+        spectrum : mapping of int to complex, optional
             Order → amplitude of one cylinder's force over ω², in kg·m, in place of every cylinder's
             slider-crank: one measurement or simulation, many layouts. ``rotating_mass`` still
             counts; torque is undefined then.
-        torque
+        torque : bool, default True
             False to leave out torque, in the result and in the choice of orders.
+
+        Returns
+        -------
+        Balance
+            Phasors and peaks by order, N and N·m.
 
         Raises
         ------
         InputError
             If an argument is out of range.
+
+        Warns
+        -----
+        UserWarning
+            If pistons are faster than in any engine, as with lengths in millimetres.
 
         Examples
         --------
@@ -205,23 +225,35 @@ class Engine(Builders):
 
         Parameters
         ----------
-        rpm
-            Crank speed.
-        theta_deg
-            Crank angles, degrees: (n_theta,); by default 0, 1, …, 720.
-        orders
+        rpm : float
+            Crank speed, rpm.
+        theta_deg : array_like, shape (n_theta,), optional
+            Crank angles, degrees; by default 0, 1, …, 720.
+        orders : number, sequence of numbers or "auto", optional
             None for exact kinematics; numbers, whole or half, for the sum of those orders;
             ``"auto"`` for the few that reach ``rtol``, the rest being in ``omitted`` and
             ``error_bound``.
-        rtol
+        rtol : float, optional
             For ``orders="auto"``, as in :meth:`balance`; by default 1e-6.
-        spectrum, torque
+        spectrum : mapping of int to complex, optional
             As in :meth:`balance`; a spectrum needs ``orders``.
+        torque : bool, default True
+            As in :meth:`balance`; a spectrum needs ``orders``.
+
+        Returns
+        -------
+        Waveform
+            Force, moment and torque over crank angle, N and N·m.
 
         Raises
         ------
         InputError
             If an argument is out of range.
+
+        Warns
+        -----
+        UserWarning
+            If pistons are faster than in any engine, or angles seem to be in radians.
 
         Examples
         --------
@@ -246,12 +278,17 @@ class Engine(Builders):
 
         Parameters
         ----------
-        firing_order
+        firing_order : str or sequence of int, optional
             Cylinder numbers, as ``"1-8-4-3-6-5-7-2"`` or a list, beginning with any of them. In
             text, ``+`` joins cylinders that fire together: ``"1+4-2+3"``. By default the engine's
             ``firing_order``.
-        strokes
+        strokes : {4, 2}, optional
             4, or 2 for a cycle in each turn; by default the engine's ``strokes``.
+
+        Returns
+        -------
+        Firing
+            The firing: angles and intervals, degrees.
 
         Raises
         ------
@@ -279,8 +316,20 @@ class Engine(Builders):
 
         Parameters
         ----------
-        firing_order, strokes
+        firing_order : str or sequence of int, optional
             As in :meth:`firing`.
+        strokes : {4, 2}, optional
+            As in :meth:`firing`.
+
+        Returns
+        -------
+        tuple of Firing
+            All ways, the most even first.
+
+        Raises
+        ------
+        InputError
+            If the order is none of these cylinders, or none is given nor known.
 
         Examples
         --------
@@ -302,8 +351,13 @@ class Engine(Builders):
 
         Parameters
         ----------
-        strokes
+        strokes : {4, 2}, optional
             4, or 2 for a cycle in each turn; by default the engine's ``strokes``.
+
+        Returns
+        -------
+        tuple of Firing
+            All ways, the most even first.
 
         Raises
         ------
@@ -330,12 +384,17 @@ class Engine(Builders):
 
         Parameters
         ----------
-        orders
-            Multiples of crank speed. Half orders are those of gas and need the engine's firing
-            order.
-        reference_z
+        orders : number or sequence of numbers, optional
+            Multiples of crank speed; by default 1 to 12. Half orders are those of gas and need
+            the engine's firing order.
+        reference_z : float, optional
             Plane about which moments are taken, m; by default the engine's own
             :attr:`reference_z`.
+
+        Returns
+        -------
+        VanishingOrders
+            A verdict for each order and sum.
 
         Raises
         ------
@@ -363,12 +422,17 @@ class Engine(Builders):
 
         Parameters
         ----------
-        order
+        order : int
             Whole multiple of crank speed.
-        quantity
+        quantity : {"force", "moment"}, default "moment"
             ``"force"`` or ``"moment"``.
-        reference_z
+        reference_z : float, optional
             As in :meth:`vanishing_orders`.
+
+        Returns
+        -------
+        ClosedForm
+            SymPy expressions and their values.
 
         Raises
         ------
@@ -393,9 +457,14 @@ class Engine(Builders):
 
         Parameters
         ----------
-        rpm
-            Crank speed, for figures in N and N·m; by default they are relative to the first-order
-            force of one piston.
+        rpm : float, optional
+            Crank speed, rpm, for figures in N and N·m; by default they are relative to the
+            first-order force of one piston.
+
+        Returns
+        -------
+        Explanation
+            The sentences, and what they say as data.
 
         Raises
         ------
@@ -429,18 +498,23 @@ class Engine(Builders):
 
         Parameters
         ----------
-        rpm
-            Crank speed at first.
-        inertia
+        rpm : float, default 3000.0
+            Crank speed at first, rpm.
+        inertia : float, optional
             Of a fired engine, the moment of inertia of all that turns with the crank, kg·m², as in
             :func:`crankpin.flywheel`; by default that with which the speed varies by 1 % at
             ``rpm``.
-        spectrum
+        spectrum : mapping of int to complex, optional
             As in :meth:`balance`: order → amplitude of one cylinder's force over ω², in kg·m. The
             page has no torque then.
-        compact
+        compact : bool, default False
             Whether to show the cross-section and one vector alone, with three controls: for a
             lecture, 640 by 360 pixels.
+
+        Returns
+        -------
+        EngineWidget
+            A widget of anywidget.
 
         Raises
         ------
@@ -466,9 +540,15 @@ class Engine(Builders):
 
         Parameters
         ----------
-        path
+        path : str or pathlib.Path
             Name of the file, which ends in ``.html``.
-        rpm, inertia, spectrum, compact
+        rpm : float, default 3000.0
+            As in :meth:`view`.
+        inertia : float, optional
+            As in :meth:`view`.
+        spectrum : mapping of int to complex, optional
+            As in :meth:`view`.
+        compact : bool, default False
             As in :meth:`view`; a compact page fills its window, such as a frame on a slide.
 
         Raises
@@ -581,21 +661,22 @@ class Engine(Builders):
 
         Parameters
         ----------
-        ax
+        ax : matplotlib.axes.Axes, optional
             Axes for one picture; without ``kind`` the cross-section.
-        figure
+        figure : Figure or SubFigure, optional
             Figure or SubFigure for all three; by default a new one.
-        kind
+        kind : {"section", "star", "side"}, optional
             ``"section"``, ``"star"`` or ``"side"`` for one picture; None for all three.
-        theta_deg
+        theta_deg : float, default 0.0
             Crank angle, degrees.
-        **style
+        **style : dict, optional
             Passed on to the main parts, such as ``facecolor=``: pistons and rods of the section,
             throws of the star, webs of the side view.
 
         Returns
         -------
-        The axes; of all three pictures an array: (3,).
+        matplotlib.axes.Axes or ndarray of Axes, shape (3,)
+            The axes; of all three pictures an array.
 
         Raises
         ------

@@ -153,6 +153,11 @@ def gas_torque_harmonics() -> Table:
     ``crankpin.model.gas_torque.STATED``. The table is licensed as crankpin is, MIT or
     Apache-2.0, and in the package as a CSV of six digits.
 
+    Returns
+    -------
+    Table
+        A row for each cycle and order; the columns ``cosine`` and ``sine`` have no unit.
+
     Examples
     --------
     >>> import crankpin as cp

@@ -93,6 +93,11 @@ def presets() -> Presets:
     ``ijesc-v6-…`` those of the IJESC paper; all others have nominal ones of a half-litre cylinder.
     In a notebook the mapping is shown as a table.
 
+    Returns
+    -------
+    mapping of str to Engine
+        The engines by name, read-only.
+
     Examples
     --------
     >>> import crankpin as cp

@@ -25,16 +25,21 @@ class Unbalance(Input):
 
     Parameters
     ----------
-    amount
+    amount : float
         Mass × distance of its centre from the axis, kg·m.
-    z
+    z : float
         Place along the crank, from the front to the flywheel, m.
-    angle_deg
+    angle_deg : number or str, default 0.0
         Direction at θ = 0, degrees from +x; with ``pin`` from the direction of that crankpin, in
         the direction in which the crank turns: 180 is opposite.
-    pin
+    pin : int, optional
         Number of a cylinder whose crankpin it follows wherever the pin moves, such as 1; None for
         a weight that keeps its direction. On the crankshaft only.
+
+    Raises
+    ------
+    InputError
+        If the amount is below zero, or a figure is not finite.
 
     Examples
     --------
@@ -76,15 +81,20 @@ class Shaft(Input):
 
     Parameters
     ----------
-    ratio
+    ratio : int
         Speed over crank speed, a whole number other than 0: −1 turns against the crank, 2 with it
         at twice its speed.
-    unbalances
+    unbalances : sequence of Unbalance
         What the shaft carries, each without ``pin``.
-    x, y
+    x, y : float, default 0.0
         Place of its axis from the crank axis, seen from the flywheel, m.
-    name
+    name : str, optional
         Name of the shaft; may be empty.
+
+    Raises
+    ------
+    InputError
+        If the ratio is no whole number or 0, or an unbalance has a pin.
 
     Examples
     --------
