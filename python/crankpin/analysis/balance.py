@@ -212,21 +212,21 @@ class Balance(ByOrder, Tabled):
 
         Parameters
         ----------
-        ax
+        ax : matplotlib.axes.Axes, optional
             Axes to draw on; by default new ones. ``"ellipses"`` draws all orders on them.
-        figure
+        figure : Figure or SubFigure, optional
             Figure or SubFigure for the panels of ``"ellipses"`` or ``"phasors"``; by default a new
             one.
-        kind
+        kind : {"spectrum", "ellipses", "phasors"}, default "spectrum"
             ``"spectrum"``: peaks along (about) x and y over order, exact zeros as hollow circles,
             up to the last order that matters, or of all orders given; ``"ellipses"``: the ellipse
             that force or moment traces in each of the four largest orders, with its direction and,
             as a dot, the place at θ = 0; ``"phasors"``: what cylinders, counterweights and shafts
             add to each order, head to tail, and their sum.
-        quantity
+        quantity : str, optional
             ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment, or
             else the first that is not zero.
-        **options
+        **options : dict, optional
             ``log=True`` for a logarithmic spectrum; ``orders=`` of phasors, by default those given
             to the balance, or else 1 and 2; ``label``, for a legend of several results on
             the same axes; colour, line width and other properties of matplotlib lines.

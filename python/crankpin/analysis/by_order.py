@@ -119,10 +119,15 @@ class ByOrder(Keyed, Quantities):
 
         Parameters
         ----------
-        point
+        point : float or sequence of float, shape (3,), optional
             Position z along the crank, or (x, y, z), m.
-        z
-            The position by name.
+        z : float, optional
+            Position along the crank, m, by name.
+
+        Returns
+        -------
+        Balance, Sweep or Tolerances
+            A result of the same class.
 
         Raises
         ------
@@ -156,6 +161,25 @@ class ByOrder(Keyed, Quantities):
         """Return one of the arrays of a quantity, read-only: ``"peak"``, ``"phasors"`` and others.
 
         Computed when it is first read, and kept; threads that read it at once get one array.
+
+        Parameters
+        ----------
+        quantity : str
+            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``, or a part of a torque,
+            such as ``"torque.gas"``.
+        what : str
+            ``"phasors"``, ``"forward"``, ``"backward"``, ``"peak"``, ``"peak_xy"``,
+            ``"zero_bound"``, ``"total_peak"``, ``"total_peak_xy"``, or ``"mean"`` of a torque.
+
+        Returns
+        -------
+        ndarray of float or complex
+            The array, N or N·m, of the swept dimensions, then orders and axes.
+
+        Raises
+        ------
+        InputError
+            If there is no such quantity or array.
         """
         self.request.check(quantity)
         if not isinstance(what, str):
@@ -267,8 +291,20 @@ class ByOrder(Keyed, Quantities):
 
         Parameters
         ----------
-        *quantities
+        *quantities : str, optional
             ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The table.
+
+        Raises
+        ------
+        InputError
+            If there is no such quantity.
+        ImportError
+            If pandas is not installed.
 
         Examples
         --------
@@ -284,12 +320,24 @@ class ByOrder(Keyed, Quantities):
 
         Parameters
         ----------
-        *quantities
+        *quantities : str, optional
             ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
-        split_complex
+        split_complex : bool, default False
             Store complex arrays as real ones with a dimension ``part`` of "re" and "im", for
             ``to_netcdf(path)``: netCDF has no complex numbers. With the package netCDF4,
             ``to_netcdf(path, auto_complex=True)`` writes complex arrays too.
+
+        Returns
+        -------
+        xarray.Dataset
+            The arrays, with units as attributes.
+
+        Raises
+        ------
+        InputError
+            If there is no such quantity.
+        ImportError
+            If xarray is not installed.
 
         Examples
         --------

@@ -191,7 +191,23 @@ class ClosedForm(Record):
     # --- numbers --------------------------------------------------------------------------------
 
     def evaluate(self, rpm: float) -> dict[str, complex]:
-        """Return the phasors "x", "y", "forward" and "backward" at a speed, N or N·m."""
+        """Return the phasors "x", "y", "forward" and "backward" at a speed, N or N·m.
+
+        Parameters
+        ----------
+        rpm : float
+            Crank speed, rpm.
+
+        Returns
+        -------
+        dict of str to complex
+            Name → phasor, N or N·m.
+
+        Raises
+        ------
+        InputError
+            If an argument is out of range.
+        """
         omega = inputs.angular_speed(rpm)
         cylinder = self.engine.cylinders[self.unit_cylinder - 1]
         scale = cylinder.reciprocating_mass * cylinder.crank_radius * omega**2

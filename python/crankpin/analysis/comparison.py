@@ -39,14 +39,23 @@ def compare(
 
     Parameters
     ----------
-    before, after
+    before, after : Engine
         The engines: one before and after a change, or any two.
-    rpm
-        Crank speed.
-    orders
-        Whole multiples of crank speed; by default all that either engine needs to reach ``rtol``.
-    rtol, spectrum, torque
+    rpm : float
+        Crank speed, rpm.
+    orders : number, sequence of numbers or "auto", default "auto"
+        Multiples of crank speed, whole or half; by default all that either engine needs to reach ``rtol``.
+    rtol : float, optional
         As in :meth:`Engine.balance`; moments of each engine are about its own reference plane.
+    spectrum : mapping of int to complex, optional
+        As in :meth:`Engine.balance`; moments of each engine are about its own reference plane.
+    torque : bool, default True
+        As in :meth:`Engine.balance`; moments of each engine are about its own reference plane.
+
+    Returns
+    -------
+    Comparison
+        Both balances, at the same orders.
 
     Raises
     ------
@@ -126,8 +135,18 @@ class Comparison(Tabled):
 
         Parameters
         ----------
-        quantity
+        quantity : str, default "moment"
             ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
+
+        Returns
+        -------
+        ndarray of float, shape (n_orders,)
+            Relative changes, without unit.
+
+        Raises
+        ------
+        InputError
+            If there is no such quantity.
         """
         return read_only(_change(*self._peaks(quantity)))
 
@@ -145,19 +164,27 @@ class Comparison(Tabled):
 
         Parameters
         ----------
-        ax
+        ax : matplotlib.axes.Axes, optional
             Axes to draw on; the peaks alone then.
-        figure
+        figure : Figure or SubFigure, optional
             Figure or SubFigure for both panels; by default a new one.
-        quantity
+        quantity : str, optional
             ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment, or
             else the first that is not zero.
-        **style
+        **style : dict, optional
             Passed on to the bars, such as ``linewidth=``.
 
         Returns
         -------
-        The axes; without ``ax`` an array of them: (1, 2), or (2, 1) in a narrow figure.
+        matplotlib.axes.Axes or ndarray of Axes
+            The axes; without ``ax`` an array: (1, 2), or (2, 1) in a narrow figure.
+
+        Raises
+        ------
+        InputError
+            If ``ax`` and ``figure`` are both given, or there is no such quantity.
+        ImportError
+            If matplotlib is not installed.
         """
         return draw(self, ax, figure=figure, quantity=quantity, **style)
 

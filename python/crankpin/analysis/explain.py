@@ -84,7 +84,18 @@ class Explanation(Record):
         return self.html()
 
     def html(self, count: int | None = None) -> str:
-        """Return all sentences, or the first that are about force and moment, as a list in HTML."""
+        """Return all sentences, or the first that are about force and moment, as a list in HTML.
+
+        Parameters
+        ----------
+        count : int, optional
+            Number of sentences, the first that are about force and moment; by default all.
+
+        Returns
+        -------
+        str
+            HTML.
+        """
         count = None if count is None else min(inputs.whole("count", count, 0), sys.maxsize)
         found = self._found() if count is None else filter(_of_planes, self._found())
         items = (html.escape(each) for each in self._said(itertools.islice(found, count)))

@@ -139,9 +139,19 @@ class Firing(Tabled):
 
         Parameters
         ----------
-        groups
+        groups : sequence of sequence of int, optional
             Cylinder numbers that share an exhaust manifold, group by group; by default the banks.
             Cylinders may be left out; those that do not fire are.
+
+        Returns
+        -------
+        tuple of mapping of (int, int) to float
+            A mapping for each group, degrees.
+
+        Raises
+        ------
+        InputError
+            If a number is that of no cylinder.
 
         Examples
         --------
@@ -164,11 +174,21 @@ class Firing(Tabled):
 
         Parameters
         ----------
-        groups
+        groups : sequence of sequence of int, optional
             As in :meth:`gaps`.
-        timing
+        timing : ValveTiming or PortTiming, optional
             When valves open and close; by default ``ValveTiming()``, of a two-stroke
             ``PortTiming()``.
+
+        Returns
+        -------
+        tuple of mapping of (int, int) to float
+            A mapping for each group, degrees.
+
+        Raises
+        ------
+        InputError
+            If a number is that of no cylinder, or the timing is that of other strokes.
 
         Examples
         --------
@@ -191,6 +211,11 @@ class Firing(Tabled):
         ``"compression"``. Beginnings are in [0, 720), or [0, 360); ends are after them. A stroke
         takes 180° but for a pin offset.
 
+        Returns
+        -------
+        mapping of str to ndarray of float, shape (n_cylinders, 2)
+            Stroke → its beginnings and ends, degrees.
+
         Examples
         --------
         >>> import crankpin as cp
@@ -211,8 +236,18 @@ class Firing(Tabled):
 
         Parameters
         ----------
-        timing
+        timing : ValveTiming, optional
             When valves open and close; by default ``ValveTiming()``.
+
+        Returns
+        -------
+        mapping of str to ndarray of float, shape (n_cylinders, 2)
+            Valve → its openings and closings, degrees.
+
+        Raises
+        ------
+        InputError
+            If the engine is a two-stroke.
 
         Examples
         --------
@@ -232,8 +267,18 @@ class Firing(Tabled):
 
         Parameters
         ----------
-        timing
+        timing : PortTiming, optional
             When ports open and close; by default ``PortTiming()``.
+
+        Returns
+        -------
+        mapping of str to ndarray of float, shape (n_cylinders, 2)
+            Port → its openings and closings, degrees.
+
+        Raises
+        ------
+        InputError
+            If the engine is a four-stroke.
 
         Examples
         --------
@@ -248,7 +293,18 @@ class Firing(Tabled):
     # --- tables and pictures --------------------------------------------------------------------
 
     def to_pandas(self) -> pd.DataFrame:
-        """Return a table, one row a cylinder that fires, in firing order (needs pandas)."""
+        """Return a table, one row a cylinder that fires, in firing order (needs pandas).
+
+        Returns
+        -------
+        pandas.DataFrame
+            The table.
+
+        Raises
+        ------
+        ImportError
+            If pandas is not installed.
+        """
         places = np.array(self.order) - 1
         columns = {
             "angle_deg": self.angles_deg[places],
@@ -273,12 +329,24 @@ class Firing(Tabled):
 
         Parameters
         ----------
-        ax
+        ax : matplotlib.axes.Axes, optional
             Axes to draw on; by default new ones.
-        timing
+        timing : ValveTiming or PortTiming, optional
             When valves or ports open and close; by default they are not drawn.
-        **style
+        **style : dict, optional
             Passed on to the bars, such as ``edgecolor=``.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes.
+
+        Raises
+        ------
+        InputError
+            If the timing is that of other strokes.
+        ImportError
+            If matplotlib is not installed.
         """
         from crankpin.analysis.drawing import draw  # noqa: PLC0415 - drawing is optional
 
@@ -359,26 +427,28 @@ def throws(
 
     Parameters
     ----------
-    firing_order
+    firing_order : str or sequence of int
         Cylinder numbers, as ``"1-8-4-3-6-5-7-2"`` or a list.
-    bank_angle_deg
-        Angle between the banks of a vee; None for an inline engine.
-    odd_bank, numbering
+    bank_angle_deg : number or str, optional
+        Angle between the banks of a vee, degrees; None for an inline engine.
+    intervals_deg : sequence of number or str, shape (n_cylinders,), optional
+        Crank angles from each cylinder of the order to the next, and from the last to the
+        first, degrees; by default equal ones.
+    numbering : {"alternating", "by-bank"}, default "alternating"
         As in :meth:`Engine.vee`.
-    intervals_deg
-        Crank angles from each cylinder of the order to the next, and from the last to the first;
-        by default equal ones.
-    strokes
+    odd_bank : {"right", "left"}, default "right"
+        As in :meth:`Engine.vee`.
+    strokes : {4, 2}, default 4
         4 or 2: intervals add up to 720 or 360.
 
     Returns
     -------
-    throws_deg
-        Crankpins in the direction of rotation from the front one, as builders take them, degrees in
-        [0, 360): (n_throws,); in a vee those of the right bank.
-    pin_split_deg
-        Left pin minus right pin of each throw, degrees in (−180, 180]: (n_throws,); zero for shared
-        pins, empty for an inline engine.
+    throws_deg : ndarray of float, shape (n_throws,)
+        Crankpins in the direction of rotation from the front one, as builders take them,
+        degrees in [0, 360); in a vee those of the right bank.
+    pin_split_deg : ndarray of float, shape (n_throws,)
+        Left pin minus right pin of each throw, degrees in (−180, 180]; zero for shared pins,
+        empty for an inline engine.
 
     Raises
     ------

@@ -36,19 +36,24 @@ class _Timing(Input):
 class ValveTiming(_Timing):
     """Opening and closing of the valves of a four-stroke, in degrees of crank angle.
 
-    Parameters
-    ----------
-    intake_opens_deg
-        Before top dead centre.
-    intake_closes_deg
-        After bottom dead centre.
-    exhaust_opens_deg
-        Before bottom dead centre.
-    exhaust_closes_deg
-        After top dead centre.
-
     Each is above −90 and at most 180; a negative angle is on the other side of the dead centre. The
     defaults are those of an ordinary car engine.
+
+    Parameters
+    ----------
+    intake_opens_deg : number or str, default 10.0
+        Opening of the intake before top dead centre, degrees.
+    intake_closes_deg : number or str, default 50.0
+        Closing of the intake after bottom dead centre, degrees.
+    exhaust_opens_deg : number or str, default 50.0
+        Opening of the exhaust before bottom dead centre, degrees.
+    exhaust_closes_deg : number or str, default 10.0
+        Closing of the exhaust after top dead centre, degrees.
+
+    Raises
+    ------
+    InputError
+        If an angle is out of range.
 
     Examples
     --------
@@ -69,16 +74,21 @@ class PortTiming(_Timing):
 
     The piston opens them on its way down and closes them as far after bottom dead centre.
 
-    Parameters
-    ----------
-    transfer_opens_deg
-        Before bottom dead centre.
-    exhaust_opens_deg
-        Before bottom dead centre.
-
     Each is above 0 and below 180. The defaults are those of an ordinary road engine. With a pin
     offset, bottom dead centre is where the piston is lowest; the small difference between opening
     and closing that a port of some height then has is neglected.
+
+    Parameters
+    ----------
+    transfer_opens_deg : number or str, default 60.0
+        Opening of the transfer ports before bottom dead centre, degrees.
+    exhaust_opens_deg : number or str, default 85.0
+        Opening of the exhaust port before bottom dead centre, degrees.
+
+    Raises
+    ------
+    InputError
+        If an angle is out of range.
 
     Examples
     --------

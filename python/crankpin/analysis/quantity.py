@@ -352,7 +352,13 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
         return len(self.shape)
 
     def any(self) -> bool:
-        """Return True if any phasor is not zero."""
+        """Return True if any phasor is not zero.
+
+        Returns
+        -------
+        bool
+            Whether one is not exactly zero.
+        """
         return bool(np.any(np.asarray(self)))
 
     # --- text -----------------------------------------------------------------------------------

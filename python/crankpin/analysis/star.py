@@ -154,18 +154,26 @@ class StarDiagram(Keyed, Tabled):
 
         Parameters
         ----------
-        ax
+        ax : matplotlib.axes.Axes, optional
             Axes to draw one order on: the first whose sum remains and which is no major order.
-        figure
+        figure : Figure or SubFigure, optional
             Figure or SubFigure for the panels; by default a new one.
-        order
+        order : number, optional
             One of ``orders``, to draw it alone.
-        **style
+        **style : dict, optional
             Passed on to the vectors, such as ``color=``.
 
         Returns
         -------
-        The axes; of several panels an array of them.
+        matplotlib.axes.Axes or ndarray of Axes
+            The axes; of several panels an array.
+
+        Raises
+        ------
+        InputError
+            If ``ax`` and ``figure`` are both given, or the order is none of ``orders``.
+        ImportError
+            If matplotlib is not installed.
         """
         return draw(self, ax, figure=figure, order=order, **style)  # type: ignore[no-any-return]
 
@@ -182,14 +190,21 @@ def star_diagram(
 
     Parameters
     ----------
-    engine
+    engine : Engine
         The engine; its firing order is taken from it or given.
-    orders
+    orders : number or sequence of numbers, optional
         Multiples of crank speed, halves among them in a four-stroke. By default all up to 12.
-    mode_shape
+    mode_shape : array_like, shape (n_cylinders,), optional
         Amplitude of a torsional mode at each cylinder, by number; by default 1 for each.
-    firing_order, strokes
+    firing_order : str or sequence of int, optional
         As in :meth:`Engine.firing`.
+    strokes : {4, 2}, optional
+        As in :meth:`Engine.firing`.
+
+    Returns
+    -------
+    StarDiagram
+        The vectors, without unit, and their sums.
 
     Raises
     ------

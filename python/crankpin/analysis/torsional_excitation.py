@@ -84,6 +84,11 @@ class TorsionalExcitation(Tabled):
         ``rpm``, ``loads`` in words, ``orders``, ``angular_frequency`` in rad/s; by cylinder
         ``mean`` in N·m and, with a list over orders in each, ``amplitude`` in N·m and ``phase`` in
         rad. openTorsion's ``PeriodicExcitation.add_sines`` takes them with the node of a cylinder.
+
+        Returns
+        -------
+        dict
+            Lists by name, as above.
         """
         return {
             "rpm": self.rpm,
@@ -103,11 +108,11 @@ def torsional_excitation(
 
     Parameters
     ----------
-    engine
+    engine : Engine
         The engine, with or without cycles.
-    rpm
-        Crank speed.
-    orders
+    rpm : float
+        Crank speed, rpm.
+    orders : number or sequence of numbers, optional
         Multiples of crank speed; by default up to 12, halves among them for a fired four-stroke.
 
     Returns

@@ -270,6 +270,16 @@ class VanishingOrders(Tabled):
         """Return a tidy table, one row an order, quantity and component (needs pandas).
 
         Columns are order, quantity, component, verdict and within_rounding.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The table.
+
+        Raises
+        ------
+        ImportError
+            If pandas is not installed.
         """
         rows = [
             (order, quantity, component, self._word(k, column), self.within_rounding[k, column])

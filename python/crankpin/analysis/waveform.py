@@ -109,9 +109,19 @@ class OverAngle:
 
         Parameters
         ----------
-        quantity
+        quantity : str
             ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; or the part of a torque
             due to gas pressure or inertia forces: ``"torque.gas"``, ``"torque.inertia"``.
+
+        Returns
+        -------
+        ndarray of float, shape (..., n_theta, 2) or (..., n_theta)
+            The array, N or N·m; of a torque without axes.
+
+        Raises
+        ------
+        InputError
+            If there is no such quantity.
         """
         self.request.check(quantity)
         whole, _, part = quantity.partition(".")
@@ -154,8 +164,20 @@ class OverAngle:
 
         Parameters
         ----------
-        *quantities
+        *quantities : str, optional
             ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The table.
+
+        Raises
+        ------
+        InputError
+            If there is no such quantity.
+        ImportError
+            If pandas is not installed.
         """
         return export.waveforms_to_pandas(self, self.request.named(quantities, fired=self.fired))
 
@@ -164,8 +186,20 @@ class OverAngle:
 
         Parameters
         ----------
-        *quantities
+        *quantities : str, optional
             ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+
+        Returns
+        -------
+        xarray.Dataset
+            The arrays, with units as attributes.
+
+        Raises
+        ------
+        InputError
+            If there is no such quantity.
+        ImportError
+            If xarray is not installed.
 
         Examples
         --------
@@ -278,17 +312,22 @@ class Waveform(OverAngle, Tabled):
 
         Parameters
         ----------
-        ax
+        ax : matplotlib.axes.Axes, optional
             Axes to draw on; by default new ones.
-        kind
+        kind : {"curves", "orbit"}, default "curves"
             ``"curves"``: a curve over crank angle for each axis; ``"orbit"``: the tip of force or
             moment in the cross-section plane, arrows in its direction, a dot every 30°.
-        quantity
+        quantity : str, optional
             ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment, or
             else the first that is not zero.
-        **options
+        **options : dict, optional
             ``label``, for a legend of several results on the same axes; colour, line width and
             other properties of matplotlib lines.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes.
 
         Raises
         ------

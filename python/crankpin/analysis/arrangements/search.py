@@ -73,10 +73,20 @@ class Arrangement(Input):
 
         Parameters
         ----------
-        cylinder
+        cylinder : Cylinder
             Moving parts of every cylinder.
-        spacing
+        spacing : float
             Distance between neighbouring throws, m.
+
+        Returns
+        -------
+        Engine
+            The engine, its bank angle exact.
+
+        Raises
+        ------
+        InputError
+            If an argument is out of range.
 
         Examples
         --------
@@ -116,24 +126,30 @@ def search_arrangements(
 
     Parameters
     ----------
-    cylinders
-        Of the vee: an even number, 4 to 30.
-    alternating
+    cylinders : int
+        Number of cylinders of the vee, even, 4 to 30.
+    alternating : bool, default False
         Only arrangements in which, in firing order, front and rear halves of a bank take turns and
         a central throw stands between a rear and a front one.
-    phases_deg
-        Phases of one bank's throws, rational parts of a turn; by default those of the even-firing
-        four-stroke: an odd number of throws n has n phases, an even one n/2, each twice.
-    hold
+    phases_deg : sequence of number or str, optional
+        Phases of one bank's throws, degrees, rational parts of a turn; by default those of the
+        even-firing four-stroke: an odd number of throws n has n phases, an even one n/2, each
+        twice.
+    hold : {"pins", "firing"}, default "firing"
         What phases are of as the bank angle changes: ``"firing"``, the top dead centres (Ito and
         Hattori), or ``"pins"``, the crankpins, where 2α takes the place of α.
-    shared_pins
+    shared_pins : bool, default False
         Only arrangements whose banks share their crankpins, with ``hold="pins"``: all are balanced
         at 90°. Of those that are mirror images one is listed, so that the same bank angle is listed
         for each; at most 2²⁰, a V-22's 907 200 among them.
-    progress
+    progress : bool or callable, default False
         True for a tqdm bar (needs tqdm), or a function that is called with the steps done and the
         steps in all, some 50 times a second, while a long search runs.
+
+    Returns
+    -------
+    ArrangementSearch
+        Counts, and the balanced bank angles with an arrangement for each.
 
     Raises
     ------
@@ -247,6 +263,23 @@ class ArrangementSearch(Record):
         The search is not repeated, and angles outside are not computed: for searches with too many
         angles to list.
 
+        Parameters
+        ----------
+        low : float
+            Smallest bank angle, degrees.
+        high : float
+            Largest bank angle, degrees.
+
+        Returns
+        -------
+        ArrangementSearch
+            The same search in that window.
+
+        Raises
+        ------
+        InputError
+            If an angle is no number.
+
         Examples
         --------
         >>> import crankpin as cp
@@ -274,7 +307,25 @@ class ArrangementSearch(Record):
         return (self[k] for k in range(len(self)))
 
     def at(self, bank_angle_deg: float, *, tolerance_deg: float = 0.005) -> tuple[Arrangement, ...]:
-        """Return the arrangements listed within a tolerance of a bank angle; empty if none is."""
+        """Return the arrangements listed within a tolerance of a bank angle; empty if none is.
+
+        Parameters
+        ----------
+        bank_angle_deg : float
+            Bank angle, degrees.
+        tolerance_deg : float, default 0.005
+            Largest difference from it, degrees.
+
+        Returns
+        -------
+        tuple of Arrangement
+            Those listed, ascending by bank angle.
+
+        Raises
+        ------
+        InputError
+            If an argument is out of range.
+        """
         angle = inputs.number("bank_angle_deg", bank_angle_deg)
         tolerance = inputs.number("tolerance_deg", tolerance_deg)
         return tuple(self.within(angle - tolerance, angle + tolerance))
@@ -286,13 +337,23 @@ class ArrangementSearch(Record):
 
         Parameters
         ----------
-        by
+        by : {"second_order", "counterweight"} or callable, default "second_order"
             ``"second_order"``: the larger of the two second-order moments;
             ``"counterweight"``: the first-order moment that a counterweight has to take away; of
             either, all pairs are compared. Or any function of an :class:`Arrangement`, for which
             those listed are.
-        count
+        count : int, default 1
             Number of arrangements.
+
+        Returns
+        -------
+        tuple of Arrangement
+            At most ``count``, the best first.
+
+        Raises
+        ------
+        InputError
+            If an argument is out of range.
 
         Examples
         --------
@@ -312,11 +373,21 @@ class ArrangementSearch(Record):
 
         Parameters
         ----------
-        ax
+        ax : matplotlib.axes.Axes, optional
             Axes to draw on; by default new ones.
-        **options
+        **options : dict, optional
             ``label``, for a legend of several searches on the same axes; colour, marker and other
             properties of matplotlib lines.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes.
+
+        Raises
+        ------
+        ImportError
+            If matplotlib is not installed.
         """
         return draw(self, ax, **options)  # type: ignore[no-any-return]
 
@@ -342,7 +413,18 @@ class ArrangementSearch(Record):
         )
 
     def to_pandas(self) -> pd.DataFrame:
-        """Return the arrangements as a table, one row a bank angle (needs pandas)."""
+        """Return the arrangements as a table, one row a bank angle (needs pandas).
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each bank angle.
+
+        Raises
+        ------
+        ImportError
+            If pandas is not installed.
+        """
         pandas = optional.library("pandas")
         rows = list(self)
         columns = {

@@ -74,58 +74,65 @@ def design(
 
     Parameters
     ----------
-    cylinders
+    cylinders : int
         Number of cylinders.
-    layout
+    layout : {"inline", "vee", "flat", "boxer"}
         ``"inline"``, ``"vee"``, ``"flat"`` (a vee of 180° on shared pins) or ``"boxer"`` (pins
         split by 180°).
-    cylinder
+    cylinder : Cylinder
         Moving parts of every cylinder.
-    spacing
+    spacing : float
         Distance between neighbouring throws, m.
-    rpm
-        Crank speed.
-    by
+    rpm : float
+        Crank speed, rpm.
+    by : str, callable or sequence of these, optional
         Quantity to minimise, required, as in :func:`crankpin.rank`: names of objectives, the later
         ones breaking ties. Functions of a :class:`Balance` only where no angle varies.
-    bank_angle_deg
-        Bank angle of a vee, or the lowest and the highest to choose from: ``(60, 120)``.
-    shared_pins
+    bank_angle_deg : number, str or pair of these, optional
+        Bank angle of a vee, degrees, or the lowest and the highest to choose from:
+        ``(60, 120)``.
+    shared_pins : bool, optional
         True, the default, for crankpins that the two cylinders of a throw share; False for pins
         that are split by any angle.
-    pin_split_deg
-        Left pin minus right pin, or the lowest and the highest, −180 to 180, in place of
-        ``shared_pins``.
-    same_split
+    pin_split_deg : number, str or pair of these, optional
+        Left pin minus right pin, degrees, or the lowest and the highest, −180 to 180, in place
+        of ``shared_pins``.
+    same_split : bool, default True
         False for a split of each throw's own.
-    throws_deg
-        Throws to be put in the best order, one for each; by default equally spaced ones, and of an
-        even number also half as many directions, each twice (0-180-180-0). ``"free"`` for throws of
-        any angles.
-    even_firing, intervals_deg
-        Firing that the engine must allow: even, or these intervals one after another, which add up
-        to 720. It determines the throws, and, on shared pins, the bank angles.
-    strokes
+    throws_deg : sequence of number or str, or "free", optional
+        Throws to be put in the best order, degrees, one for each; by default equally spaced
+        ones, and of an even number also half as many directions, each twice (0-180-180-0).
+        ``"free"`` for throws of any angles.
+    even_firing : bool, default False
+        True for an engine that must fire evenly. That determines the throws, and, on shared
+        pins, the bank angles.
+    intervals_deg : sequence of number or str, optional
+        Firing intervals that the engine must allow, one after another, degrees, which add up to
+        720, in place of ``even_firing``.
+    strokes : {4, 2}, default 4
         4 or 2: strokes of a cycle.
-    counterweights
+    counterweights : bool, default False
         True if counterweights are allowed: the forward part of the first order does not count, and
         each crankpin gets the weight that removes its cylinders' share.
-    shafts
+    shafts : sequence of int, optional
         Speed ratios of balance shafts that are allowed, such as ``[-1]`` or ``[2, -2]``: each
         removes the part of its order that turns with it, force and moment. They are put on the
         crank axis, where they add no roll torque.
-    bank_stagger, rotating_mass
-        As in :meth:`Engine.vee`; one rotating mass for all cylinders, by default the rod's big end.
-    orders
+    bank_stagger : float, default 0.0
+        As in :meth:`Engine.vee`, m.
+    rotating_mass : float, optional
+        Rotating mass of every cylinder, kg, as in :meth:`Engine.vee`; by default the rod's big
+        end.
+    orders : int, sequence of int or "auto", default "auto"
         Orders that totals are of, as in :meth:`Engine.balance`.
-    count
+    count : int, default 20
         Number of designs to return.
-    seed
-        Of the random starts, which are only needed where several angles vary.
-    tie_rtol
+    seed : int, default 0
+        Seed of the random starts, which are only needed where several angles vary.
+    tie_rtol : float, default 1e-09
         Values tie when they differ by at most this, relative to the largest that the objective
         could have, all cylinders in phase.
-    progress
+    progress : bool or callable, default False
         True for a tqdm bar (needs tqdm), or a function of (steps done, steps in all).
 
     Returns
@@ -139,6 +146,11 @@ def design(
         If an argument is out of range, arguments contradict each other, or no crank fires so.
     ImportError
         If several angles vary and SciPy is not installed.
+
+    Warns
+    -----
+    UserWarning
+        If pistons are faster than in any engine, or a figure seems to be in another unit.
 
     Examples
     --------

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from matplotlib.axes import Axes
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from crankpin.analysis.design.question import Question
     from crankpin.analysis.ranking.objectives import Objective
@@ -106,9 +106,7 @@ class Designs(ByObjectives, Listed[Design], Tabled):
         """The engines, the best first."""
         return tuple(design.engine for design in self.designs)
 
-    def over_bank_angle(
-        self, bank_angle_deg: NDArray[np.float64], count: int = 1
-    ) -> NDArray[np.float64]:
+    def over_bank_angle(self, bank_angle_deg: ArrayLike, count: int = 1) -> NDArray[np.float64]:
         """Return the first objective of the best designs at other bank angles.
 
         Crankpins are held, or, where a given firing has pins split for it, the top dead centres.
@@ -116,15 +114,21 @@ class Designs(ByObjectives, Listed[Design], Tabled):
 
         Parameters
         ----------
-        bank_angle_deg
-            Bank angles, 0 to 180.
-        count
+        bank_angle_deg : array_like, shape (n_angles,)
+            Bank angles, degrees, 0 to 180.
+        count : int, default 1
             Number of designs.
 
         Returns
         -------
-        numpy.ndarray
-            Of shape (count, n_angles), in the objective's unit.
+        ndarray of float, shape (count, n_angles)
+            Values, in the objective's unit.
+
+        Raises
+        ------
+        InputError
+            If an angle is out of range, designs have one bank, or the first objective is a
+            function.
         """
         if self.question.banks == 1:
             raise InputError("bank_angle_deg is undefined for these designs: they have one bank")
@@ -155,12 +159,22 @@ class Designs(ByObjectives, Listed[Design], Tabled):
 
         Parameters
         ----------
-        ax
+        ax : matplotlib.axes.Axes, optional
             Axes to draw on; by default new ones.
-        count
+        count : int, default 4
             Number of designs.
-        **style
+        **style : dict, optional
             Properties of the curves, or of the dots.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes.
+
+        Raises
+        ------
+        ImportError
+            If matplotlib is not installed.
         """
         return draw(self, ax, count=count, **style)  # type: ignore[no-any-return]
 

@@ -44,29 +44,36 @@ def rank(
 
     Parameters
     ----------
-    engines
+    engines : Engine, mapping of str to Engine, Arrangement, sequence of either or ArrangementSearch
         An engine, several, or a mapping name → engine, such as one for each firing order; or
         arrangements: some of a search, such as its :meth:`~ArrangementSearch.best`, or all of an
         :class:`ArrangementSearch`.
-    rpm
-        Crank speed.
-    by
+    rpm : float
+        Crank speed, rpm.
+    by : str, callable or sequence of these, optional
         Quantity to minimise, required: the name of an objective (see Notes), several names with
         commas, a function that takes the :class:`Balance` of an engine at a bank angle and returns
         a number (NaN or inf for an engine to avoid), or a list of these; later ones break ties.
-    bank_angle_deg
-        Bank angles to choose from, 0 to 180; by default each engine is taken unchanged.
-    hold
+    bank_angle_deg : array_like, shape (n_angles,), optional
+        Bank angles to choose from, degrees, 0 to 180; by default each engine is taken
+        unchanged.
+    hold : {"pins", "firing"}, optional
         Quantity that a change of bank angle does not change, as in :func:`crankpin.sweep`.
-    orders, rtol, spectrum
+    orders : number, sequence of numbers or "auto", default "auto"
         As in :func:`crankpin.sweep`.
-    cylinder, spacing
-        Cylinder and spacing of the engines of arrangements, as in :meth:`Arrangement.engine`.
-    refine
+    rtol : float, optional
+        As in :func:`crankpin.sweep`.
+    spectrum : mapping of int to complex, optional
+        As in :func:`crankpin.sweep`.
+    cylinder : Cylinder, optional
+        Cylinder of the engines of arrangements, as in :meth:`Arrangement.engine`.
+    spacing : float, optional
+        Spacing of the engines of arrangements, m, as there.
+    refine : bool, default False
         Search between the bank angles too: each dip of the first objective is narrowed down to its
         lowest point. Dips that lie wholly between two neighbouring angles, with no given angle on
         their slopes below the next ones, are not found.
-    tie_rtol
+    tie_rtol : float, default 1e-09
         Values tie when they differ by at most this, relative to the largest value of the objective
         in the whole ranking.
 
@@ -79,6 +86,11 @@ def rank(
     ------
     InputError
         If an argument is out of range, or an engine does not have the two banks to be turned.
+
+    Warns
+    -----
+    UserWarning
+        If pistons are faster than in any engine, as with lengths in millimetres.
 
     Notes
     -----

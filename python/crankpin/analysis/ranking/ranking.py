@@ -140,11 +140,21 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
 
         Parameters
         ----------
-        ax
+        ax : matplotlib.axes.Axes, optional
             Axes to draw on; by default new ones.
-        **options
+        **options : dict, optional
             ``label``, put before the names in the legend; colour, line width and other properties
             of matplotlib lines.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes.
+
+        Raises
+        ------
+        ImportError
+            If matplotlib is not installed.
         """
         return draw(self, ax, **options)  # type: ignore[no-any-return]
 

@@ -74,44 +74,56 @@ def sweep(
 
     Parameters
     ----------
-    engines
+    engines : Engine, sequence of Engine or mapping of str to Engine
         An engine, several, or a mapping name → engine.
-    rpm
-        Crank speeds.
-    bank_angle_deg
-        Angles between the two banks, 0 to 180.
-    hold
+    rpm : array_like
+        Crank speeds, rpm.
+    bank_angle_deg : array_like, optional
+        Angles between the two banks, degrees, 0 to 180.
+    hold : {"pins", "firing"}, optional
         Quantity that a change of bank angle does not change; required with ``bank_angle_deg``:
         ``"pins"`` (the crank; firing intervals change) or ``"firing"`` (every top dead centre; pins
         are split as needed).
-    rod_ratio
+    rod_ratio : array_like, optional
         Crank radius / rod length; the radius stays, the rod changes.
-    pin_offset
+    pin_offset : array_like, optional
         Pin offset of every cylinder, m.
-    load
+    load : array_like, optional
         Loads at which ``cycle`` is read, in its unit.
-    cycle
+    cycle : CycleMap or sequence of CycleMap or None, optional
         Cycles over speed and load, for all cylinders, or for each a map of the same speeds and
         loads, None for a cylinder without gas load. They replace those of the engines. Harmonics
         are linear in pressure: those of the map's own cycles are computed once, and interpolated.
-    crankcase
+    crankcase : float, optional
         Absolute pressure below the pistons, Pa, with ``cycle``; by default that of each engine, or
         of the atmosphere. Without ``cycle`` an engine has its own (:meth:`Engine.with_cycle`).
-    orders
+    orders : number, sequence of numbers or "auto", default "auto"
         Multiples of crank speed, or ``"auto"`` for the fewest that reach ``rtol`` at every
         point. Choosing takes no longer for more points: it bounds every order over the axes.
-    rtol, spectrum
+    rtol : float, optional
+        As in :meth:`Engine.balance`.
+    spectrum : mapping of int to complex, optional
         As in :meth:`Engine.balance`. Moments are about each engine's own reference plane.
-    torque
+    torque : bool, default True
         Whether torque is computed. If not, it does not count in the choice of orders.
-    progress
+    progress : bool or callable, default False
         True for a tqdm bar during computations, or a function of (steps done, steps in all) that is
         called now and then; an exception that it raises stops the computation.
+
+    Returns
+    -------
+    Sweep
+        Labelled arrays of force, moment and torque, N and N·m.
 
     Raises
     ------
     InputError
         If an argument is out of range, or an engine does not have the two banks to be swept.
+
+    Warns
+    -----
+    UserWarning
+        If pistons are faster than in any engine, as with lengths in millimetres.
 
     Notes
     -----
@@ -343,9 +355,14 @@ class Sweep(ByOrder, Tabled):
 
         Parameters
         ----------
-        **selection
+        **selection : dict, optional
             A swept value for each swept dimension, or for some: ``engine`` (a name),
             ``bank_angle_deg``, ``rod_ratio``, ``pin_offset``, ``rpm``, ``load``.
+
+        Returns
+        -------
+        Balance or Sweep
+            The balance, if every swept dimension is named; otherwise the sweep over the others.
 
         Raises
         ------
@@ -378,8 +395,13 @@ class Sweep(ByOrder, Tabled):
 
         Parameters
         ----------
-        values
+        values : array_like
             A number for each point, such as the peaks of an order: the shape of the sweep.
+
+        Returns
+        -------
+        Balance
+            The balance at the first such point.
 
         Raises
         ------
@@ -425,10 +447,15 @@ class Sweep(ByOrder, Tabled):
 
         Parameters
         ----------
-        **selection
+        **selection : dict, optional
             A swept value for each swept dimension that changes the engine: ``engine`` (a name),
             ``bank_angle_deg``, ``rod_ratio``, ``pin_offset``, with ``cycle`` also ``rpm`` and
             ``load``. ``rpm`` may be given without it too.
+
+        Returns
+        -------
+        Engine
+            The engine.
 
         Raises
         ------
@@ -482,10 +509,15 @@ class Sweep(ByOrder, Tabled):
 
         Parameters
         ----------
-        theta_deg
-            Crank angles, degrees: (n_theta,); by default 0, 1, …, 720.
-        exact
+        theta_deg : array_like, shape (n_theta,), optional
+            Crank angles, degrees; by default 0, 1, …, 720.
+        exact : bool, default False
             True for exact kinematics, False for the sum of the sweep's orders.
+
+        Returns
+        -------
+        SweepWaveform
+            Arrays over crank angle, N and N·m, computed when they are first read.
 
         Raises
         ------
@@ -516,11 +548,23 @@ class Sweep(ByOrder, Tabled):
 
         Parameters
         ----------
-        chunks
+        chunks : int, "auto" or mapping of str to int
             Points to a chunk of each swept dimension; or a mapping dimension → points, the
             dimensions that it leaves out staying whole; or ``"auto"``.
-        *quantities
+        *quantities : str, optional
             ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+
+        Returns
+        -------
+        xarray.Dataset
+            Arrays of dask, with units as attributes.
+
+        Raises
+        ------
+        InputError
+            If chunks are out of range, or there is no such quantity.
+        ImportError
+            If dask or xarray is not installed.
 
         Examples
         --------
@@ -553,12 +597,12 @@ class Sweep(ByOrder, Tabled):
 
         Parameters
         ----------
-        ax
+        ax : matplotlib.axes.Axes, optional
             Axes to draw on: a single panel with the longest vector of all orders together, or of
             the one in ``orders``; with ``"bars"`` of one quantity.
-        figure
+        figure : Figure or SubFigure, optional
             Figure or SubFigure for the panels; by default a new one.
-        kind
+        kind : {"curves", "parts", "map", "orders", "bars"}, optional
             ``"curves"``: over one dimension, a curve for each combination of the others, with the
             points where an order is exactly zero, and the minimum, marked; ``"parts"``: of
             force or moment what turns with the crank and what turns against it, over one numeric
@@ -567,21 +611,21 @@ class Sweep(ByOrder, Tabled):
             and order, in colours; ``"bars"``: over engines, force beside moment in the orders up to
             4, with the class of each engine. By default bars for engines alone, a map for two long
             numeric dimensions, otherwise curves.
-        quantity
+        quantity : str, optional
             ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment,
             or else the first that is not zero, of bars force and moment.
-        x
+        x : str, optional
             The dimension along the horizontal axis; by default the longest.
-        orders
+        orders : number, sequence of numbers or "auto", optional
             Orders to draw, a row for each; by default as above.
-        **options
+        **options : dict, optional
             ``log=True`` for curves on a logarithmic scale; ``label``, put before the names in the
             legend; colour, line width and other properties
             of matplotlib lines, of maps those of ``pcolormesh``.
 
         Returns
         -------
-        numpy.ndarray of matplotlib axes, or matplotlib.axes.Axes
+        matplotlib.axes.Axes or ndarray of Axes
             The panels, (n_rows, 2), of torque (n_rows, 1), of parts (n_orders, n_others); with
             ``ax`` the axes given.
 

@@ -111,18 +111,18 @@ class SweepWaveform(OverAngle, Record):
 
         Parameters
         ----------
-        quantity
+        quantity : str, default "moment"
             ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``, or a part of a torque,
             such as ``"torque.gas"``.
-        out
+        out : ndarray of float, optional
             Buffer for the result: a C-contiguous array of float64, of the shape of the result.
-        progress
+        progress : bool or callable, default False
             True for a tqdm bar, or a function of (steps done, steps in all).
 
         Returns
         -------
-        numpy.ndarray
-            ``out``, or a new array: (…, n_theta, 2), for torque (…, n_theta).
+        ndarray of float, shape (..., n_theta, 2) or (..., n_theta)
+            ``out``, or a new array, N or N·m; of a torque without axes.
 
         Raises
         ------
@@ -194,24 +194,24 @@ class SweepWaveform(OverAngle, Record):
 
         Parameters
         ----------
-        ax
+        ax : matplotlib.axes.Axes, optional
             Axes to draw on: of a force or moment the length of the vector.
-        figure
+        figure : Figure or SubFigure, optional
             Figure or SubFigure for the panels; by default a new one.
-        kind
+        kind : {"curves", "envelope"}, optional
             ``"curves"``: a curve for each point of the sweep; ``"envelope"``: the range of all
             points, the range of their middle half, and the median. By default curves if colours and
             dashes distinguish them.
-        quantity
+        quantity : str, optional
             ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment, or
             else the first that is not zero.
-        **options
+        **options : dict, optional
             ``label``, put before the names in the legend; colour, line width and other properties
             of matplotlib lines.
 
         Returns
         -------
-        numpy.ndarray of matplotlib axes, or matplotlib.axes.Axes
+        matplotlib.axes.Axes or ndarray of Axes
             The panels, (1, 2), of torque (1, 1); with ``ax`` the axes given.
 
         Raises
