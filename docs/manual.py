@@ -16,6 +16,7 @@ import latex2mathml.converter
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 from crankpin import cli
+from crankpin._support.record import FieldsDocumented
 from crankpin.model import engine_files
 from crankpin.view import page
 from docutils import nodes
@@ -224,6 +225,15 @@ def hide_constructor(
     return ("", "") if what == "class" and made else None
 
 
+def without_fields(
+    app: Sphinx, what: str, name: str, of: object, options: object, lines: list[str]
+) -> None:
+    """Remove the list of a class's fields, which the reference shows one by one."""
+    docstring = vars(of).get("__doc__") if what == "class" else None
+    if isinstance(docstring, FieldsDocumented):
+        lines[:] = [*docstring.text.splitlines(), ""]
+
+
 def whole_docstring(docstring: NumpyDocstring) -> tuple[str, list[str]]:
     """Return the docstring of a property: to napoleon what precedes a colon would be its type."""
     return "", docstring._consume_to_end()
@@ -238,6 +248,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("engine-file", EngineFile)
     app.add_html_math_renderer("mathml", (formula, None), (formula_block, None))
     app.connect("autodoc-process-signature", hide_constructor)
+    app.connect("autodoc-process-docstring", without_fields, priority=400)  # before napoleon
     app.connect("builder-inited", copy_notebooks)
     app.connect("builder-inited", make_gallery)
     app.connect("source-read", link_copies)

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import ast
 import dataclasses
+import inspect
 import re
+import textwrap
 from collections.abc import Iterator, Mapping
+from itertools import pairwise
 from types import MappingProxyType
 from typing import (
     TYPE_CHECKING,
@@ -45,6 +49,63 @@ class AbsentItemError(InputError, KeyError, IndexError):
     __str__ = InputError.__str__
 
 
+class FieldsDocumented:
+    """Docstring of a record with a list of its fields, which Python keeps no docstrings of.
+
+    Read from the source when somebody reads it, as ``help`` does.
+    """
+
+    SECTIONS = re.compile(r"^(?:Parameters|Raises|Warns|Notes|Examples)\n-", re.MULTILINE)
+    TYPES = (
+        (re.compile(r"NDArray\[np\.([a-z]+)[_\d]+\]"), r"ndarray of \1"),
+        (re.compile(r"Literal\[([^\[\]]+)\]"), r"\1"),
+        (re.compile(r"tuple\[(\w+), \.\.\.\]"), r"tuple of \1"),
+        (re.compile(r"tuple\[([\w, ]+)\]"), r"(\1)"),
+        (re.compile(r"Mapping\[(\w+), ([^\[\]]+)\]"), r"mapping of \1 to \2"),
+        (re.compile(r" \| "), " or "),
+    )
+    """What annotations have, and what docstrings write for it."""
+
+    def __init__(self, text: str) -> None:
+        self.text = inspect.cleandoc(text)
+
+    def __get__(self, record: object, kind: type[Record]) -> str:
+        """Return the docstring, with the fields of a class whose parameters it does not have."""
+        section = self.SECTIONS.search(self.text)
+        if section is not None and section.group().startswith("Parameters"):
+            return self.text
+        fields = "".join(
+            f"{name} : {written}\n{textwrap.indent(about, '    ')}\n"
+            for base in reversed(kind.__mro__)
+            for name, written, about in self.of_class(base)
+        )
+        if not fields:
+            return self.text
+        at = len(self.text) if section is None else section.start()
+        before, after = self.text[:at].rstrip(), self.text[at:]
+        return f"{before}\n\nAttributes\n----------\n{fields}\n{after}".rstrip()
+
+    def of_class(self, kind: type) -> Iterator[tuple[str, str, str]]:
+        """Yield name, type and docstring of the fields that a class adds."""
+        if not (issubclass(kind, Record) and vars(kind).get("_fields")):
+            return
+        try:
+            (node,) = ast.parse(textwrap.dedent(inspect.getsource(kind))).body
+        except (OSError, TypeError, SyntaxError):  # where there is no source
+            return
+        names = {field.name for field in kind._fields if not field.name.startswith("_")}
+        for field, text in pairwise(node.body):  # type: ignore[attr-defined] # of a class
+            match field, text:
+                case (
+                    ast.AnnAssign(target=ast.Name(id=name)),
+                    ast.Expr(value=ast.Constant(value=str(about))),
+                ) if name in names:
+                    written = ast.unparse(field.annotation)
+                    for pattern, words in self.TYPES:
+                        written = pattern.sub(words, written)
+                    yield name, written, inspect.cleandoc(about)
+
+
 @dataclass_transform(frozen_default=True, eq_default=False, field_specifiers=(dataclasses.field,))
 class Record:
     """Base class whose subclasses are frozen dataclasses with read-only arrays.
@@ -71,6 +132,8 @@ class Record:
         if not hasattr(cls, "replace"):
             for name in {*vars(cls)} & _OF_DATACLASSES:
                 delattr(cls, name)
+        if cls.__doc__:  # Python drops docstrings with -OO
+            cls.__doc__ = FieldsDocumented(cls.__doc__)  # type: ignore[assignment] # gives text
 
     def __post_init__(self) -> None:
         for name in self._mutable:

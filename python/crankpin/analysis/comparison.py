@@ -44,7 +44,8 @@ def compare(
     rpm : float
         Crank speed, rpm.
     orders : number, sequence of numbers or "auto", default "auto"
-        Multiples of crank speed, whole or half; by default all that either engine needs to reach ``rtol``.
+        Multiples of crank speed, whole or half; by default all that either engine needs to reach
+        ``rtol``.
     rtol : float, optional
         As in :meth:`Engine.balance`; moments of each engine are about its own reference plane.
     spectrum : mapping of int to complex, optional
