@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, Self
+from typing import TYPE_CHECKING, Any, Literal, Self, overload
 
 import numpy as np
 
@@ -199,6 +199,37 @@ class Balance(ByOrder, Tabled):
         engine = self.engine.replace(reference_z=self.reference_z)
         return f"{table}{Explanation(engine, self.rpm).html(count=EXPLAINED)}"
 
+    @overload
+    def plot(
+        self,
+        ax: Axes,
+        *,
+        kind: Literal["spectrum", "ellipses"] = "spectrum",
+        quantity: str | None = None,
+        **options: Any,  # noqa: ANN401
+    ) -> Axes: ...
+
+    @overload
+    def plot(
+        self,
+        ax: None = None,
+        *,
+        kind: Literal["spectrum"] = "spectrum",
+        quantity: str | None = None,
+        **options: Any,  # noqa: ANN401
+    ) -> Axes: ...
+
+    @overload
+    def plot(
+        self,
+        ax: None = None,
+        *,
+        figure: Figure | SubFigure | None = None,
+        kind: Literal["ellipses", "phasors"],
+        quantity: str | None = None,
+        **options: Any,  # noqa: ANN401
+    ) -> NDArray[Any]: ...
+
     def plot(
         self,
         ax: Axes | None = None,
@@ -206,8 +237,8 @@ class Balance(ByOrder, Tabled):
         figure: Figure | SubFigure | None = None,
         kind: Literal["spectrum", "ellipses", "phasors"] = "spectrum",
         quantity: str | None = None,
-        **options: Any,  # noqa: ANN401 - as below
-    ) -> Any:  # noqa: ANN401 - axes, or an array of axes
+        **options: Any,
+    ) -> Axes | NDArray[Any]:
         """Draw the orders; return the axes.
 
         Parameters
@@ -249,7 +280,7 @@ class Balance(ByOrder, Tabled):
         >>> b.plot(kind="ellipses").shape
         (2, 2)
         """
-        return draw(self, ax, figure=figure, kind=kind, quantity=quantity, **options)
+        return draw(self, ax, figure=figure, kind=kind, quantity=quantity, **options)  # type: ignore[no-any-return]
 
     @property
     def table(self) -> Table:

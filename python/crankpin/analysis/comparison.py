@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
@@ -151,14 +151,33 @@ class Comparison(Tabled):
         """
         return read_only(_change(*self._peaks(quantity)))
 
+    @overload
+    def plot(
+        self,
+        ax: Axes,
+        *,
+        quantity: str | None = None,
+        **style: Any,  # noqa: ANN401
+    ) -> Axes: ...
+
+    @overload
+    def plot(
+        self,
+        ax: None = None,
+        *,
+        figure: Figure | SubFigure | None = None,
+        quantity: str | None = None,
+        **style: Any,  # noqa: ANN401
+    ) -> NDArray[Any]: ...
+
     def plot(
         self,
         ax: Axes | None = None,
         *,
         figure: Figure | SubFigure | None = None,
         quantity: str | None = None,
-        **style: Any,  # noqa: ANN401 - of matplotlib's bars
-    ) -> Any:  # noqa: ANN401 - axes, or an array of axes
+        **style: Any,
+    ) -> Axes | NDArray[Any]:
         """Draw peaks of both engines over order, and the curves that force or moment trace.
 
         Above each order stands by how much it fell or rose. A torque is drawn over crank angle.
@@ -187,7 +206,7 @@ class Comparison(Tabled):
         ImportError
             If matplotlib is not installed.
         """
-        return draw(self, ax, figure=figure, quantity=quantity, **style)
+        return draw(self, ax, figure=figure, quantity=quantity, **style)  # type: ignore[no-any-return]
 
     def _shown_orders(self, quantity: str) -> list[int]:
         """Return places of the orders that tables and pictures show: those that are not negligible.

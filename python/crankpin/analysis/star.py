@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
@@ -140,13 +140,41 @@ class StarDiagram(Keyed, Tabled):
         """Gas pressure of a fired engine, in words; empty where no cycle is known."""
         return self.engine.loads_counted if self.engine.fired else ""
 
+    @overload
+    def plot(
+        self,
+        ax: Axes,
+        *,
+        order: Order | None = None,
+        **style: Any,  # noqa: ANN401
+    ) -> Axes: ...
+
+    @overload
+    def plot(
+        self,
+        ax: None = None,
+        *,
+        order: Order,
+        **style: Any,  # noqa: ANN401
+    ) -> Axes: ...
+
+    @overload
+    def plot(
+        self,
+        ax: None = None,
+        *,
+        figure: FigureBase | None = None,
+        order: None = None,
+        **style: Any,  # noqa: ANN401
+    ) -> NDArray[Any]: ...
+
     def plot(
         self,
         ax: Axes | None = None,
         *,
         figure: FigureBase | None = None,
         order: Order | None = None,
-        **style: Any,  # noqa: ANN401 - of matplotlib's lines
+        **style: Any,
     ) -> Axes | NDArray[Any]:
         """Draw the vectors of the orders from the centre, with their sums.
 

@@ -82,27 +82,33 @@ class Cycle(Tabled, Input, ComputedCycles):
     """Crank angles of the points, degrees: (n,)."""
     pressure: NDArray[np.float64]
     """Absolute pressure there, Pa: (n,)."""
-    strokes: int = 4
+    strokes: int
     """4 or 2."""
-    name: str = ""
+    name: str
     """Name or origin; may be empty."""
-    degree: int | None = None
+    degree: int | None
     """Degree of the polynomials through the points; None for a table."""
 
-    def __post_init__(self) -> None:
-        for name in ("theta_deg", "pressure"):
-            array = inputs.vector(name, getattr(self, name))
-            object.__setattr__(self, name, read_only(array.copy()))
-        object.__setattr__(self, "strokes", inputs.strokes(self.strokes))
-        object.__setattr__(self, "name", inputs.text("name", self.name))
-        if self.degree is not None:
-            degree = inputs.whole("degree", self.degree)
+    def __init__(
+        self,
+        theta_deg: ArrayLike,
+        pressure: ArrayLike,
+        strokes: int = 4,
+        name: str = "",
+        degree: int | None = None,
+    ) -> None:
+        for field, values in (("theta_deg", theta_deg), ("pressure", pressure)):
+            object.__setattr__(self, field, read_only(inputs.vector(field, values).copy()))
+        object.__setattr__(self, "strokes", inputs.strokes(strokes))
+        object.__setattr__(self, "name", inputs.text("name", name))
+        if degree is not None:
+            degree = inputs.whole("degree", degree)
             if not 0 <= degree < len(self.theta_deg):
                 raise InputError(
                     f"degree = {inputs.shorten(degree)}: give one below the number of points, "
                     f"{len(self.theta_deg)}, or leave it out"
                 )
-            object.__setattr__(self, "degree", degree)
+        object.__setattr__(self, "degree", degree)
         if len(self._core):
             checks.pressure(self.pressure)
             checks.peak(self.theta_deg, self.pressure, self.period_deg)

@@ -59,16 +59,16 @@ class CycleMap(Tabled, Input):
     cycles: Sequence[Sequence[Cycle]]
     """Cycles, by speed and load."""
 
-    def __post_init__(self) -> None:
-        for name in ("rpm", "load"):
-            axis = inputs.vector(name, getattr(self, name)).copy()
+    def __init__(self, rpm: ArrayLike, load: ArrayLike, cycles: Sequence[Sequence[Cycle]]) -> None:
+        for name, values in (("rpm", rpm), ("load", load)):
+            axis = inputs.vector(name, values).copy()
             if not axis.size or not np.isfinite(axis).all() or (np.diff(axis) <= 0.0).any():
                 raise inputs.rejected(name, axis, "give ascending numbers")
             object.__setattr__(self, name, read_only(axis))
         hint = "give a list for each speed, of a crankpin.Cycle for each load"
         rows = tuple(
             tuple(inputs.items(f"cycles[{k}]", row, hint))
-            for k, row in enumerate(inputs.items("cycles", self.cycles, hint))
+            for k, row in enumerate(inputs.items("cycles", cycles, hint))
         )
         if len(rows) != len(self.rpm) or {*map(len, rows)} != {len(self.load)}:
             shape = f"{len(self.rpm)} speeds and {len(self.load)} loads"

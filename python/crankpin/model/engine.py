@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 from types import FunctionType
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 
@@ -642,6 +642,37 @@ class Engine(Builders):
 
         return inline_svg(self)
 
+    @overload
+    def plot(
+        self,
+        ax: Axes,
+        *,
+        kind: Literal["section", "star", "side"] | None = None,
+        theta_deg: float = 0.0,
+        **style: Any,  # noqa: ANN401
+    ) -> Axes: ...
+
+    @overload
+    def plot(
+        self,
+        ax: None = None,
+        *,
+        kind: Literal["section", "star", "side"],
+        theta_deg: float = 0.0,
+        **style: Any,  # noqa: ANN401
+    ) -> Axes: ...
+
+    @overload
+    def plot(
+        self,
+        ax: None = None,
+        *,
+        figure: FigureBase | None = None,
+        kind: None = None,
+        theta_deg: float = 0.0,
+        **style: Any,  # noqa: ANN401
+    ) -> NDArray[Any]: ...
+
     def plot(
         self,
         ax: Axes | None = None,
@@ -649,7 +680,7 @@ class Engine(Builders):
         figure: FigureBase | None = None,
         kind: Literal["section", "star", "side"] | None = None,
         theta_deg: float = 0.0,
-        **style: Any,  # noqa: ANN401 - of matplotlib's collections
+        **style: Any,
     ) -> Axes | NDArray[Any]:
         """Draw the engine at a crank angle: cross-section, crank star, crank from the side.
 

@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias, overload
 
 import numpy as np
 
@@ -579,6 +579,31 @@ class Sweep(ByOrder, Tabled):
             )
         return dask.dataset(self, chunks, self.request.named(quantities, fired=self.fired))
 
+    @overload
+    def plot(
+        self,
+        ax: Axes,
+        *,
+        kind: Literal["curves", "parts", "map", "orders", "bars"] | None = None,
+        quantity: str | None = None,
+        x: str | None = None,
+        orders: Orders | None = None,
+        **options: Any,  # noqa: ANN401
+    ) -> Axes: ...
+
+    @overload
+    def plot(
+        self,
+        ax: None = None,
+        *,
+        figure: Figure | SubFigure | None = None,
+        kind: Literal["curves", "parts", "map", "orders", "bars"] | None = None,
+        quantity: str | None = None,
+        x: str | None = None,
+        orders: Orders | None = None,
+        **options: Any,  # noqa: ANN401
+    ) -> NDArray[Any]: ...
+
     def plot(
         self,
         ax: Axes | None = None,
@@ -588,8 +613,8 @@ class Sweep(ByOrder, Tabled):
         quantity: str | None = None,
         x: str | None = None,
         orders: Orders | None = None,
-        **options: Any,  # noqa: ANN401 - as below
-    ) -> Any:  # noqa: ANN401 - axes, or an array of axes
+        **options: Any,
+    ) -> Axes | NDArray[Any]:
         """Draw peaks over what was swept; return the axes.
 
         A row of panels for all orders together and for each of the three largest orders, a column
@@ -645,7 +670,7 @@ class Sweep(ByOrder, Tabled):
         """
         given = {"figure": figure, "kind": kind, "quantity": quantity, "x": x}
         chosen = {} if orders is None else {"orders": orders}
-        return draw(self, ax, **given, **chosen, **options)
+        return draw(self, ax, **given, **chosen, **options)  # type: ignore[no-any-return]
 
     @property
     def table(self) -> Table:

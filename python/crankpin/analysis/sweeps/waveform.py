@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 
@@ -181,6 +181,27 @@ class SweepWaveform(OverAngle, Record):
 
     # --- pictures -------------------------------------------------------------------------------
 
+    @overload
+    def plot(
+        self,
+        ax: Axes,
+        *,
+        kind: Literal["curves", "envelope"] | None = None,
+        quantity: str | None = None,
+        **options: Any,  # noqa: ANN401
+    ) -> Axes: ...
+
+    @overload
+    def plot(
+        self,
+        ax: None = None,
+        *,
+        figure: Figure | SubFigure | None = None,
+        kind: Literal["curves", "envelope"] | None = None,
+        quantity: str | None = None,
+        **options: Any,  # noqa: ANN401
+    ) -> NDArray[Any]: ...
+
     def plot(
         self,
         ax: Axes | None = None,
@@ -188,8 +209,8 @@ class SweepWaveform(OverAngle, Record):
         figure: Figure | SubFigure | None = None,
         kind: Literal["curves", "envelope"] | None = None,
         quantity: str | None = None,
-        **options: Any,  # noqa: ANN401 - as below
-    ) -> Any:  # noqa: ANN401 - axes, or an array of axes
+        **options: Any,
+    ) -> Axes | NDArray[Any]:
         """Draw a quantity over crank angle, a panel for each axis; return the axes.
 
         Parameters
@@ -226,7 +247,7 @@ class SweepWaveform(OverAngle, Record):
         >>> s.waveform().plot(quantity="moment").shape
         (1, 2)
         """
-        return draw(self, ax, figure=figure, kind=kind, quantity=quantity, **options)
+        return draw(self, ax, figure=figure, kind=kind, quantity=quantity, **options)  # type: ignore[no-any-return]
 
     def __repr__(self) -> str:
         swept = ", ".join(f"{name}: {len(values)}" for name, values in self.coords.items())
