@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
@@ -112,14 +112,12 @@ class ByOrder(Keyed, Quantities):
     def _quantity(self, name: str) -> Quantity:
         return Quantity(self, name)
 
-    def about(
-        self, point: float | Sequence[float] | None = None, *, z: float | None = None
-    ) -> Self:
+    def about(self, point: ArrayLike | None = None, *, z: float | None = None) -> Self:
         """Return the same result with moments and roll torque about another point.
 
         Parameters
         ----------
-        point : float or sequence of float, shape (3,), optional
+        point : float or array_like, shape (3,), optional
             Position z along the crank, or (x, y, z), m.
         z : float, optional
             Position along the crank, m, by name.

@@ -110,7 +110,7 @@ class Firing(Tabled):
     def intervals_deg(self) -> NDArray[np.float64]:
         """Crank angles from each cylinder of ``order`` to the next, the last to the first, degrees.
 
-        One for each cylinder that fires.
+        One for each cylinder that fires: (n_firing,).
         """
         return self._core.intervals_deg
 

@@ -81,7 +81,7 @@ class StarDiagram(Keyed, Tabled):
 
     @property
     def sums(self) -> NDArray[np.complex128]:
-        """Sums of the vectors, zero where they are proved to vanish or within rounding."""
+        """Sums of the vectors, (n_orders,): zero where proved to vanish, or within rounding."""
         return self._core[1]
 
     @property

@@ -124,8 +124,8 @@ class Engine(Builders):
     def firing_intervals_deg(self) -> NDArray[np.float64]:
         """Crank angles between the firings of ``firing_order``, degrees, one for each that fires.
 
-        Of an engine with cycles only cylinders that have one fire. Undefined if the firing order is
-        not known.
+        Of shape (n_firing,): of an engine with cycles only cylinders that have one fire. Undefined
+        if the firing order is not known.
         """
         return self._own_firing("firing_intervals_deg").intervals_deg
 

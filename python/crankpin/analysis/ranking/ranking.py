@@ -103,7 +103,10 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
 
     @cached_property
     def own_angles_deg(self) -> NDArray[np.float64]:
-        """Bank angles of the engines as given, degrees; NaN where there are not two banks."""
+        """Bank angles of the engines as given, degrees; NaN where there are not two banks.
+
+        Of shape (n_engines,).
+        """
         own = own_angles(self.engines)
         own.setflags(write=False)
         return own
