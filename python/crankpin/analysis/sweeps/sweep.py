@@ -79,17 +79,18 @@ def sweep(
     rpm : array_like
         Crank speeds, rpm.
     bank_angle_deg : array_like, optional
-        Angles between the two banks, degrees, 0 to 180.
+        Angles between the two banks, degrees, 0 to 180; by default each engine's own.
     hold : {"pins", "firing"}, optional
         Quantity that a change of bank angle does not change; required with ``bank_angle_deg``:
         ``"pins"`` (the crank; firing intervals change) or ``"firing"`` (every top dead centre; pins
         are split as needed).
     rod_ratio : array_like, optional
-        Crank radius / rod length; the radius stays, the rod changes.
+        Crank radius / rod length; the radius stays, the rod changes. By default that of every
+        cylinder.
     pin_offset : array_like, optional
-        Pin offset of every cylinder, m.
+        Pin offset of every cylinder, m; by default its own.
     load : array_like, optional
-        Loads at which ``cycle`` is read, in its unit.
+        Loads at which ``cycle`` is read, in its unit; required with ``cycle``.
     cycle : CycleMap or sequence of CycleMap or None, optional
         Cycles over speed and load, for all cylinders, or for each a map of the same speeds and
         loads, None for a cylinder without gas load. They replace those of the engines. Harmonics
