@@ -104,7 +104,32 @@ class Table(Record):
         below: Table | None = None,
         loads: str = "",
     ) -> Table:
-        """Return a table of rows: labels before numbers; heads are names or (name, unit)."""
+        """Return a table of rows: labels before numbers; heads are names or (name, unit).
+
+        Parameters
+        ----------
+        title : str
+            Title of the table.
+        header : sequence of str or pair of str
+            Heads of the columns: names, or pairs (name, unit).
+        labels : sequence of str or sequence of str
+            Label of each row, or several, before its numbers.
+        rows : ndarray of float, shape (n_rows, n_columns)
+            Numbers.
+        decimals : int, optional
+            Digits after the decimal point; by default five significant digits.
+        note : str, optional
+            Text below the table.
+        below : Table, optional
+            Table shown below this one.
+        loads : str, optional
+            Loads that count, in words.
+
+        Returns
+        -------
+        Table
+            The table.
+        """
         listed = [[label] if isinstance(label, str) else list(label) for label in labels]
         heads = [(head, "") if isinstance(head, str) else head for head in header]
         before = len(heads) - rows.shape[1]
@@ -144,11 +169,28 @@ class Table(Record):
         return isinstance(name, str) and any(column.name == name for column in self.columns)
 
     def cells(self) -> list[list[str]]:
-        """Return the rows as text, numbers rounded and exact zeros as 0."""
+        """Return the rows as text, numbers rounded and exact zeros as 0.
+
+        Returns
+        -------
+        list of list of str
+            A list for each row.
+        """
         return [list(row) for row in zip(*(each.cells() for each in self.columns), strict=True)]
 
     def text(self, rows: int | None = None) -> str:
-        """Return the first rows, or all, as aligned text, columns of words to the left."""
+        """Return the first rows, or all, as aligned text, columns of words to the left.
+
+        Parameters
+        ----------
+        rows : int, optional
+            Number of rows; by default all.
+
+        Returns
+        -------
+        str
+            The lines, joined.
+        """
         lines = [[*map(_cell, self.header)], *self.cells()[:rows]]
         widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
         leftwards = [column.is_text and len(self) > 0 for column in self.columns]
@@ -170,7 +212,18 @@ class Table(Record):
         return self.html(SHOWN_IN_NOTEBOOKS)
 
     def html(self, rows: int | None = None) -> str:
-        """Return the first rows, or all, as HTML for notebooks."""
+        """Return the first rows, or all, as HTML for notebooks.
+
+        Parameters
+        ----------
+        rows : int, optional
+            Number of rows; by default all.
+
+        Returns
+        -------
+        str
+            HTML.
+        """
         head = "".join(f"<th>{html.escape(_cell(name))}</th>" for name in self.header)
         body = "".join(
             "<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>"
@@ -196,7 +249,7 @@ class Table(Record):
             yield f"{self.loads[0].upper()}{self.loads[1:]}."
 
     @overload
-    def to_csv(self) -> str: ...
+    def to_csv(self, path: None = None) -> str: ...
 
     @overload
     def to_csv(self, path: str | Path) -> None: ...
@@ -209,8 +262,20 @@ class Table(Record):
 
         Parameters
         ----------
-        path
+        path : str or pathlib.Path, optional
             A ``.csv`` file to write, in UTF-8; by default the text is returned.
+
+        Returns
+        -------
+        str or None
+            The text; None where a file was written.
+
+        Raises
+        ------
+        InputError
+            If the name ends otherwise.
+        OSError
+            If the file cannot be written.
         """
         file = io.StringIO()
         writer = csv.writer(file, lineterminator="\n")
@@ -222,12 +287,34 @@ class Table(Record):
         return None
 
     def to_pandas(self) -> pd.DataFrame:
-        """Return a DataFrame, names and units as the heads of its columns (needs pandas)."""
+        """Return a DataFrame, names and units as the heads of its columns (needs pandas).
+
+        Returns
+        -------
+        pandas.DataFrame
+            A column for each column of the table.
+
+        Raises
+        ------
+        ImportError
+            If pandas is not installed.
+        """
         data = {head: list(each.values) for head, each in self._distinct()}
         return optional.data_frame(data, attributes=labels.attributes(self.loads))
 
     def to_xarray(self) -> xr.Dataset:
-        """Return a Dataset over the rows, units as attributes (needs xarray)."""
+        """Return a Dataset over the rows, units as attributes (needs xarray).
+
+        Returns
+        -------
+        xarray.Dataset
+            A variable for each column of the table.
+
+        Raises
+        ------
+        ImportError
+            If xarray is not installed.
+        """
         arrays = {
             head: ("row", np.array(each.values), {"units": each.unit} if each.unit else {})
             for head, each in self._distinct(units=False)

@@ -49,33 +49,33 @@ def balance_shafts(
 
     Parameters
     ----------
-    engine
+    engine : Engine
         The engine, with its counterweights.
-    ratios
+    ratios : int or sequence of int
         Speed of each shaft over crank speed: −1 for one that turns against the crank, ``[2, -2]``
         for a Lanchester pair.
-    x, y
+    x, y : float or sequence of float or None, optional
         Axis of each shaft from the crank axis, seen from the flywheel, m: a number for all, or a
         list with one for each. None is free: such coordinates are placed where the shafts cancel
         the roll torque of their order, or come closest to it, as near the crank axis as that
         allows. Where that is further away than ten times the distance from the first to the last
         cylinder, or ten times crank radius and rod length together where these are longer, the
         torque stays, with a warning.
-    planes
+    planes : sequence of float, or sequence of these or None, optional
         Places of the unbalances along the crank, m: for all shafts, such as ``[0.0, 0.3]``, or a
         list of these, one for each shaft. None is free: a single plane where that is enough, the
         first and last cylinder elsewhere.
-    bearings
+    bearings : sequence of float, or sequence of these or None, optional
         Places of the two bearings along the crank, m, as ``planes``; by default the first and last
         cylinder.
-    remove
+    remove : {"both", "force", "moment"} or sequence of these, default "both"
         ``"both"``, ``"force"`` (by an unbalance that makes no moment about the
         engine's ``reference_z``) or ``"moment"`` (by a couple, without force): for all shafts, or a
         list with one for each. Shafts of the same ratio have the same.
-    rpm
-        Crank speed, needed for a fired engine: its roll torque of gas pressure does not scale with
-        the square of the speed as that of shafts does, so that places cancel the whole at this
-        speed. The residual is that at this speed; by default it is over ω².
+    rpm : float, optional
+        Crank speed, rpm, needed for a fired engine: its roll torque of gas pressure does not
+        scale with the square of the speed as that of shafts does, so that places cancel the
+        whole at this speed. The residual is that at this speed; by default it is over ω².
 
     Returns
     -------
@@ -86,6 +86,12 @@ def balance_shafts(
     ------
     InputError
         If an argument is out of range, or a single plane is to remove a couple.
+
+    Warns
+    -----
+    UserWarning
+        If free axes that cancel the roll torque would be too far from the crank axis, or a
+        place seems to be in millimetres.
 
     Notes
     -----

@@ -76,30 +76,33 @@ def balancer_options(
 
     Parameters
     ----------
-    engine
+    engine : Engine
         The engine, with the counterweights and shafts that it keeps.
-    rpm
-        Crank speed.
-    by
-        What is left, to be small: objectives as in :func:`crankpin.rank`, one or several.
-    target
+    rpm : float
+        Crank speed, rpm.
+    by : str, callable or sequence of these, optional
+        What is left, to be small: objectives as in :func:`crankpin.rank`, one or several; by
+        default the peaks of total force and total moment.
+    target : float or mapping of str to float, optional
         Value that what is left must not exceed, in N or N·m: objective → value, or one for all
         of ``by``. Objectives that ``by`` does not have are added to it.
-    relative
+    relative : bool, default False
         True if the target is a part of what the engine has as it is.
-    shaft_orders
-        Orders for which shafts are compared.
-    most_shafts
+    shaft_orders : int or sequence of int, optional
+        Orders for which shafts are compared; by default 1 and 2.
+    most_shafts : int, default 4
         Largest number of shafts in a set.
-    counterweights
+    counterweights : bool, default True
         Whether counterweights are compared.
-    planes
+    planes : {"webs", "ends"}, sequence of float or mapping of str to float, default "ends"
         Places of the counterweights along the crank, as in :func:`crankpin.counterweights`; by
         default the first and last cylinder.
-    places
+    places : mapping of int to pair of float or None, optional
         Ratio → x and y of a shaft's axis, m, None where free. Without them places are free: see
         :func:`crankpin.balance_shafts`.
-    orders, rtol
+    orders : number, sequence of numbers or "auto", default "auto"
+        As in :meth:`Engine.balance`.
+    rtol : float, optional
         As in :meth:`Engine.balance`.
 
     Returns

@@ -130,6 +130,16 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
         """Return all sets as a tidy table, one row a set and objective (needs pandas).
 
         Columns are name, n_shafts, unbalance (kg·m), on_front, reaches, objective, value and unit.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The table.
+
+        Raises
+        ------
+        ImportError
+            If pandas is not installed.
         """
         rows = [
             (
@@ -149,10 +159,20 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
 
         Parameters
         ----------
-        ax
+        ax : matplotlib.axes.Axes, optional
             Axes to draw on; by default new ones.
-        **style
+        **style : dict, optional
             Passed on to the markers; ``label`` names the result in a legend.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes.
+
+        Raises
+        ------
+        ImportError
+            If matplotlib is not installed.
         """
         return draw(self, ax, **style)  # type: ignore[no-any-return]
 

@@ -49,18 +49,28 @@ def bob_weight(engine: Engine, factor: float = 0.5, oil: float = 0.0) -> BobWeig
 
     Parameters
     ----------
-    engine
+    engine : Engine
         The engine; ``rotating_mass`` is what turns with the pin and is not part of the crankshaft:
         big ends, bolts, bearing shells. Its counterweights are replaced.
-    factor
+    factor : float, default 0.5
         Share κ of the reciprocating mass, 0 to 10; 0.5 is "50 % balance factor".
-    oil
+    oil : float, default 0.0
         Oil in the bearings and the bore of a crankpin, kg of each pin.
+
+    Returns
+    -------
+    BobWeight
+        The bob weights, the engine balanced with them, and the residual.
 
     Raises
     ------
     InputError
         If an argument is out of range.
+
+    Warns
+    -----
+    UserWarning
+        If ``oil`` seems to be in grams.
 
     Examples
     --------
@@ -193,15 +203,22 @@ class BobWeight(Tabled):
 
         Parameters
         ----------
-        quantity
+        quantity : str
             ``"force"`` (kg·m) or ``"moment"`` (kg·m²).
-        factor
+        factor : array_like
             Shares κ of the reciprocating mass.
 
         Returns
         -------
-        tuple
-            Two numbers, or two arrays of the shape of ``factor``.
+        longest : float or ndarray of float, shape of factor
+            Longest half axis, kg·m or kg·m².
+        shortest : float or ndarray of float, shape of factor
+            Shortest half axis, kg·m or kg·m².
+
+        Raises
+        ------
+        InputError
+            If there is no such quantity, or a factor is not from 0 to 10.
         """
         parts = self._parts(quantity)
         factors = inputs.array("factor", factor)
@@ -219,8 +236,18 @@ class BobWeight(Tabled):
 
         Parameters
         ----------
-        quantity
+        quantity : str
             ``"force"`` or ``"moment"``.
+
+        Returns
+        -------
+        float or None
+            The factor, without unit.
+
+        Raises
+        ------
+        InputError
+            If there is no such quantity.
         """
         weighed = [part for part in self._parts(quantity) if part.change]
         if not weighed:
@@ -244,8 +271,18 @@ class BobWeight(Tabled):
 
         Parameters
         ----------
-        quantity
+        quantity : str
             ``"force"`` or ``"moment"``.
+
+        Returns
+        -------
+        tuple of (float, float)
+            Pairs of a factor and a direction, degrees.
+
+        Raises
+        ------
+        InputError
+            If there is no such quantity.
         """
         forward, backward = self._parts(quantity)
         found = []
@@ -299,9 +336,19 @@ class BobWeight(Tabled):
 
         Parameters
         ----------
-        factors
+        factors : array_like, shape (n_factors,), optional
             Parts of the reciprocating mass; by default some usual ones, with those of a straight
             line.
+
+        Returns
+        -------
+        Table
+            A row for each factor, kg·m and kg·m².
+
+        Raises
+        ------
+        InputError
+            If an argument is out of range.
         """
         given = TABULATED if factors is None else inputs.vector("factors", factors).tolist()
         check_factor("factors", given)
@@ -337,12 +384,24 @@ class BobWeight(Tabled):
 
         Parameters
         ----------
-        ax
+        ax : matplotlib.axes.Axes, optional
             Axes to draw on; by default new ones.
-        quantity
+        quantity : str, optional
             ``"force"`` or ``"moment"``; by default the force, or the moment if there is no force.
-        **style
+        **style : dict, optional
             Keywords of the lines, such as ``color`` or ``linewidth``; ``label`` names the engine.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes.
+
+        Raises
+        ------
+        InputError
+            If there is no such quantity.
+        ImportError
+            If matplotlib is not installed.
         """
         return draw(self, ax, quantity=quantity, **style)  # type: ignore[no-any-return]
 

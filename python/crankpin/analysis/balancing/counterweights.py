@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
@@ -52,41 +52,51 @@ def counterweights(
 
     Parameters
     ----------
-    engine
+    engine : Engine
         The engine; counterweights that it has stay, and count.
-    planes
+    planes : {"webs", "ends"}, sequence of float or mapping of str to float, default "webs"
         Where weights can be: ``"webs"``, both webs of every throw, each midway between the crankpin
         and its main bearing (bearings are midway between neighbouring throws); ``"ends"``, at the
         first and the last cylinder; a list of places z, m; or a mapping name → z.
-    target
+    target : {"external", "internal"}, default "external"
         ``"external"``: force and moment of the whole engine. ``"internal"``: force and moment that
         each throw exerts on its own two main bearings, by weights between these. That relieves
         bearings and crankshaft, and the engine as a whole too.
-    factor
+    factor : float or mapping of str to float or None, optional
         Share of the reciprocating mass that is balanced, besides all rotating mass, as by
         :func:`crankpin.bob_weight`: 0.52 leaves 4 % of the pistons' forward part turned round. By
         default all of the forward part is removed, as 0.5 does without pin offset. A number for
         both, or a mapping with ``"force"``, ``"moment"`` or both; what it leaves out does not
         matter. In a mapping None is the default: all of the forward part.
-    minimise
+    minimise : {"squares", "largest"}, default "squares"
         Of weights that leave as little: ``"squares"`` for the least sum of squares of the planes'
         mass·radius, ``"largest"`` for the least largest.
-    bound
+    bound : float or mapping of str to float, optional
         Largest mass·radius of a plane, kg·m: a number, or a mapping name → number with the planes
         that have one.
-    angles_deg
+    angles_deg : sequence of number or str, or mapping of str to these, optional
         Angles at which a plane can have weights, degrees from +x at θ = 0: a list for all planes,
         or a mapping name → list, at most 10 000 in all; any angle by default. The mass·radius of
         a plane is then the sum of its weights'.
-    length
+    length : float, optional
         Where weights cannot remove both, they leave the least ``|force|² + |moment/length|²``, m.
         By default the longest lever of a plane or cylinder, or, for internal targets, half of the
         distance between main bearings: the sum of squares of their loads is then least.
+
+    Returns
+    -------
+    Counterweights
+        The weights, the engine with them, and the residual.
 
     Raises
     ------
     InputError
         If an argument is out of range.
+
+    Warns
+    -----
+    UserWarning
+        If a bound or a place seems to be in another unit.
 
     Notes
     -----
@@ -293,6 +303,37 @@ class Counterweights(Tabled):
             note,
         )
 
+    @overload
+    def plot(
+        self,
+        ax: Axes,
+        *,
+        kind: Literal["summary", "weights", "ellipses"] = "summary",
+        quantity: str | None = None,
+        **style: Any,  # noqa: ANN401
+    ) -> Axes: ...
+
+    @overload
+    def plot(
+        self,
+        ax: None = None,
+        *,
+        kind: Literal["weights", "ellipses"],
+        quantity: str | None = None,
+        **style: Any,  # noqa: ANN401
+    ) -> Axes: ...
+
+    @overload
+    def plot(
+        self,
+        ax: None = None,
+        *,
+        figure: Figure | SubFigure | None = None,
+        kind: Literal["summary"] = "summary",
+        quantity: str | None = None,
+        **style: Any,  # noqa: ANN401
+    ) -> NDArray[Any]: ...
+
     def plot(
         self,
         ax: Axes | None = None,
@@ -300,25 +341,37 @@ class Counterweights(Tabled):
         figure: Figure | SubFigure | None = None,
         kind: Literal["summary", "weights", "ellipses"] = "summary",
         quantity: str | None = None,
-        **style: Any,  # noqa: ANN401 - of lines
-    ) -> Any:  # noqa: ANN401 - axes, or an array of axes
+        **style: Any,
+    ) -> Axes | NDArray[Any]:
         """Draw the weights, and what order 1 does before and after; return the axes.
 
         Parameters
         ----------
-        ax
+        ax : matplotlib.axes.Axes, optional
             Axes to draw on; by default new ones. ``"summary"`` draws the weights on them.
-        figure
+        figure : Figure or SubFigure, optional
             Figure or SubFigure for the panels of ``"summary"``; by default a new one.
-        kind
+        kind : {"summary", "weights", "ellipses"}, default "summary"
             ``"summary"``: panels of weights and of the ellipses of force and moment, those that
             are not zero; ``"weights"``: mass·radius of each plane over its place, with an arrow in
             its direction at θ = 0 seen from the flywheel, and below it arrows of the crankpins;
             ``"ellipses"``: what order 1 traces before and after.
-        quantity
+        quantity : str, optional
             ``"force"`` or ``"moment"``, for ``"ellipses"``; by default the moment, or else the
             force.
-        **style
+        **style : dict, optional
             ``label`` and properties of matplotlib lines.
+
+        Returns
+        -------
+        matplotlib.axes.Axes or ndarray of Axes
+            The axes; of ``"summary"`` without ``ax`` an array.
+
+        Raises
+        ------
+        InputError
+            If ``ax`` and ``figure`` are both given, or there is no such picture.
+        ImportError
+            If matplotlib is not installed.
         """
-        return draw(self, ax, figure=figure, kind=kind, quantity=quantity, **style)
+        return draw(self, ax, figure=figure, kind=kind, quantity=quantity, **style)  # type: ignore[no-any-return]

@@ -157,13 +157,13 @@ class BalanceShafts(Listed[Shaft], Tabled):
 
         Parameters
         ----------
-        rpm
-            Crank speed.
+        rpm : float
+            Crank speed, rpm.
 
         Returns
         -------
-        numpy.ndarray
-            x + iy, N: (n_shafts, 2).
+        ndarray of complex, shape (n_shafts, 2)
+            x + iy, N.
 
         Raises
         ------
@@ -197,13 +197,25 @@ class BalanceShafts(Listed[Shaft], Tabled):
 
         Parameters
         ----------
-        ax
+        ax : matplotlib.axes.Axes, optional
             Axes to draw on; by default new ones.
-        quantity
+        quantity : str, optional
             ``"force"``, ``"moment"`` or ``"torque"``, all over ω²; by default the moment, or else
             the first that there is.
-        **style
+        **style : dict, optional
             Passed on to the markers; ``label`` names the result in a legend.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes.
+
+        Raises
+        ------
+        InputError
+            If there is no such quantity.
+        ImportError
+            If matplotlib is not installed.
         """
         return draw(self, ax, quantity=quantity, **style)  # type: ignore[no-any-return]
 
@@ -269,7 +281,13 @@ class BalanceShafts(Listed[Shaft], Tabled):
         )
 
     def parts(self) -> tuple[Part, ...]:
-        """Return the parts of force, moment and torque of the shafts' orders, before and after."""
+        """Return the parts of force, moment and torque of the shafts' orders, before and after.
+
+        Returns
+        -------
+        tuple of Part
+            Order, quantity and part, and its size before and after, over ω².
+        """
         states = (self._of(self.engine), self.residual)
         square = inputs.angular_speed(states[0].rpm) ** 2
         found = []

@@ -28,15 +28,20 @@ def two_plane_correction(
 
     Parameters
     ----------
-    amount_g_mm
-        Unbalances measured in two planes, g·mm: (2,).
-    angle_deg
-        Their directions, where the crankshaft is heavy, degrees in the direction of rotation: (2,).
-    measured_z
-        Places of the planes of measurement along the crank, m: (2,).
-    correction_z
-        Places of the planes of correction, m, such as the end webs (internal balance), or damper
-        and flywheel (external balance): (2,).
+    amount_g_mm : array_like, shape (2,)
+        Unbalances measured in two planes, g·mm.
+    angle_deg : array_like, shape (2,)
+        Their directions, where the crankshaft is heavy, degrees in the direction of rotation.
+    measured_z : array_like, shape (2,)
+        Places of the planes of measurement along the crank, m.
+    correction_z : array_like, shape (2,)
+        Places of the planes of correction, m, such as the end webs (internal balance), or
+        damper and flywheel (external balance).
+
+    Returns
+    -------
+    TwoPlaneCorrection
+        The corrections, g·mm and degrees.
 
     Raises
     ------

@@ -173,28 +173,33 @@ def match_parts(
 
     Parameters
     ----------
-    engine
+    engine : Engine
         The engine, with its counterweights and balance shafts: what they would remove hides what
         the parts make (see :func:`crankpin.counterweights`).
-    pistons
-        Measured masses of pistons with pins and rings, kg: (n_pistons,), at least one for each
-        cylinder of each engine.
-    rods
-        Measured masses of the rods' small and big ends, kg: (n_rods, 2).
-    by
+    pistons : array_like, shape (n_pistons,)
+        Measured masses of pistons with pins and rings, kg, at least one for each cylinder of
+        each engine.
+    rods : array_like, shape (n_rods, 2), optional
+        Measured masses of the rods' small and big ends, kg.
+    by : {"balance", "spread"}, default "balance"
         ``"balance"``: what remains of ``orders`` in the engine, forward and backward parts of force
         and moment, in kg·m (over ω²), moments over half the distance from the first to the last
         cylinder (none where that is zero); the root of the sum of squares is minimised.
         ``"spread"``: the difference between the heaviest and the lightest piston with small end.
-    sets
+    sets : int, optional
         Number of engines to be filled; by default as many as the parts suffice for. Of several
         engines the sum of the objective is minimised.
-    orders
-        With ``by="balance"``: whole multiples of crank speed.
-    seed
+    orders : int or sequence of int, optional
+        With ``by="balance"``: whole multiples of crank speed; by default 1 and 2.
+    seed : int, default 0
         Seed of the random starts of the search where there are too many arrangements for all.
-    progress
+    progress : bool or callable, default False
         True for a tqdm bar, or a function that is called with the steps done and the steps in all.
+
+    Returns
+    -------
+    Match
+        The assignment, its objective, and the engines with their parts.
 
     Raises
     ------

@@ -211,7 +211,14 @@ class Tolerances(ByOrder, Tabled):
         return deviations(self.figures, self.samples, self.seed)
 
     def evaluate(self, progress: Progress = False) -> None:
-        """Evaluate the samples now."""
+        """Evaluate the samples now.
+
+        Parameters
+        ----------
+        progress : bool or callable, default False
+            True for a tqdm bar, or a function that is called with the steps done and the steps
+            in all.
+        """
         core = self._core  # which checks the size of the result, before anything is drawn
         drawn = list(self._deviations.values())
         with progress_bar.shown(progress, "tolerances") as report:
@@ -254,23 +261,81 @@ class Tolerances(ByOrder, Tabled):
 
         Parameters
         ----------
-        by
+        by : str, optional
             A name as in :func:`crankpin.rank`; by default the first of ``by``.
+
+        Returns
+        -------
+        ndarray of float, shape (n_samples,)
+            Values, N or N·m.
+
+        Raises
+        ------
+        InputError
+            If there is no such objective.
         """
         return _read(self._objective(by), self)
 
     def nominal_value(self, by: str | None = None) -> float:
-        """Return the same of the nominal engine, N or N·m."""
+        """Return the same of the nominal engine, N or N·m.
+
+        Parameters
+        ----------
+        by : str, optional
+            As in :meth:`values`.
+
+        Returns
+        -------
+        float
+            Value, N or N·m.
+
+        Raises
+        ------
+        InputError
+            If there is no such objective.
+        """
         return float(_read(self._objective(by), self.nominal))
 
     def mean(self, by: str | None = None) -> float:
-        """Return the mean of :meth:`values`."""
+        """Return the mean of :meth:`values`.
+
+        Parameters
+        ----------
+        by : str, optional
+            As in :meth:`values`.
+
+        Returns
+        -------
+        float
+            Mean, N or N·m.
+
+        Raises
+        ------
+        InputError
+            If there is no such objective.
+        """
         values = self.values(by)
         # Equal values are their mean, to the last digit.
         return float(values[0] + (values - values[0]).mean())
 
     def std(self, by: str | None = None) -> float:
-        """Return the standard deviation of :meth:`values`."""
+        """Return the standard deviation of :meth:`values`.
+
+        Parameters
+        ----------
+        by : str, optional
+            As in :meth:`values`.
+
+        Returns
+        -------
+        float
+            Standard deviation, N or N·m.
+
+        Raises
+        ------
+        InputError
+            If there is no such objective.
+        """
         values = self.values(by)
         return float((values - values[0]).std())
 
@@ -279,10 +344,20 @@ class Tolerances(ByOrder, Tabled):
 
         Parameters
         ----------
-        q
-            Parts of the samples below, 0 to 1.
-        by
+        q : array_like, optional
+            Parts of the samples below, 0 to 1; by default 0.05, 0.5 and 0.95.
+        by : str, optional
             As in :meth:`values`.
+
+        Returns
+        -------
+        float or ndarray of float, shape of q
+            Quantiles, N or N·m.
+
+        Raises
+        ------
+        InputError
+            If a part is not from 0 to 1, or there is no such objective.
         """
         parts = inputs.array("q", q)
         if not ((parts >= 0.0) & (parts <= 1.0)).all():
@@ -305,8 +380,18 @@ class Tolerances(ByOrder, Tabled):
 
         Parameters
         ----------
-        by
+        by : str or sequence of str
             Names as in :func:`crankpin.rank`.
+
+        Returns
+        -------
+        Table
+            A row for each value, a column for each figure, per cent.
+
+        Raises
+        ------
+        InputError
+            If there is no such objective.
 
         Examples
         --------
@@ -345,12 +430,18 @@ class Tolerances(ByOrder, Tabled):
 
         Parameters
         ----------
-        name
+        name : str
             A figure, such as ``"reciprocating_mass"`` or ``"pin_deg"``.
 
         Returns
         -------
-        (n_samples, n_cylinders) or (n_samples, n_pins), kg, m or degrees
+        ndarray of float, shape (n_samples, n_cylinders) or (n_samples, n_pins)
+            Deviations, kg, m or degrees.
+
+        Raises
+        ------
+        InputError
+            If there is no such figure.
         """
         drawn = self._deviations[inputs.one_of("name", name, FIGURES)]
         items = len(self.pins) if name in OF_PINS else len(self.engine)
@@ -363,8 +454,18 @@ class Tolerances(ByOrder, Tabled):
 
         Parameters
         ----------
-        sample
+        sample : int
             Number of the sample, from 0.
+
+        Returns
+        -------
+        Engine
+            The engine.
+
+        Raises
+        ------
+        InputError
+            If there is no such sample.
         """
         k = inputs.whole("sample", sample)
         if not 0 <= k < self.samples:
@@ -406,15 +507,27 @@ class Tolerances(ByOrder, Tabled):
 
         Parameters
         ----------
-        ax
+        ax : matplotlib.axes.Axes, optional
             Axes to draw on; by default new ones.
-        kind
+        kind : {"histogram", "ecdf", "shares"}, default "histogram"
             ``"histogram"`` or ``"ecdf"`` (the part of the samples up to a value), with the nominal
             value and the 5, 50 and 95 % quantiles; ``"shares"``: bars of each tolerance's share.
-        by
+        by : str, optional
             A name as in :func:`crankpin.rank`; by default the first of ``by``, of shares all.
-        **style
+        **style : dict, optional
             Keywords of the histogram's, curve's or bars' artists, such as ``label`` and ``color``.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes.
+
+        Raises
+        ------
+        InputError
+            If there is no such picture or objective.
+        ImportError
+            If matplotlib is not installed.
         """
         return draw(self, ax, kind=kind, by=by, **style)  # type: ignore[no-any-return]
 

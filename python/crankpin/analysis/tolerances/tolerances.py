@@ -58,53 +58,65 @@ def tolerances(
 
     Parameters
     ----------
-    engine
+    engine : Engine
         The nominal engine; its counterweights and balance shafts are part of every sample.
-    rpm
-        Crank speed.
-    reciprocating_mass, rotating_mass
+    rpm : float
+        Crank speed, rpm.
+    reciprocating_mass, rotating_mass : array_like, default 0.0
         Spreads of the masses of each cylinder, kg: a number for all, or one for each cylinder.
         A rotating mass may deviate where the nominal one is zero, as of a balanced throw.
-    crank_radius, pin_deg
-        Spreads of the crank radius, m, and of the angle, degrees, of each crankpin. Cylinders on
-        one pin deviate together, with what is fixed to it.
-    z
+    crank_radius : array_like, default 0.0
+        Spread of the crank radius of each crankpin, m: a number for all, or one for each.
+        Cylinders on one pin deviate together, with what is fixed to it.
+    pin_deg : array_like, default 0.0
+        Spread of the angle of each crankpin, degrees: a number for all, or one for each.
+    z : array_like, default 0.0
         Spread of the place of each cylinder along the crank, m.
-    rod_length
+    rod_length : array_like, default 0.0
         Spread of each rod's length between its centres, m.
-    distribution
+    distribution : {"normal", "uniform"}, default "normal"
         ``"normal"``: spreads are standard deviations. ``"uniform"``: spreads are half widths.
-    pins
+    pins : sequence of sequence of int, optional
         Numbers of the cylinders on each crankpin, such as ``[[1, 2], [3, 4]]``. By default
         cylinders of different banks share one if their pins point the same way and have one
         radius, and their places are less than a crank radius apart, as in :func:`bob_weight`.
-    samples
+    samples : int, default 10000
         Number of samples.
-    seed
+    seed : int, SeedSequence or Generator, default 0
         Seed of the random numbers, 0 to 2⁶⁴ − 1; or a NumPy ``SeedSequence`` or ``Generator``, of
         which one number is drawn as seed. Sample k has the same bits whatever the number of
         samples, of threads, and of other figures that spread. Normal deviations are those of
         :class:`numpy.random.Generator`, at most 12.3 spreads.
-    by
+    by : str or sequence of str, optional
         What tables, pictures and shares show: names as in :func:`crankpin.rank`, such as
         ``"total.moment.peak"`` or ``"[1].force.backward"``. By default the total peaks and the
         forward and backward parts of order 1.
-    orders
+    orders : int, sequence of int or "auto", default "auto"
         Whole multiples of crank speed; by default the few that leave out at most ``rtol`` of any
         single cylinder, because tolerances undo what the layout cancels.
-    rtol
+    rtol : float, optional
         For ``orders="auto"``: what omitted orders of one cylinder may add up to, relative to its
         m·r·ω². By default 1e-4.
-    torque
+    torque : bool, default True
         False to leave out torque.
-    progress
+    progress : bool or callable, default False
         True for a tqdm bar, or a function that is called with the steps done and the steps in all.
+
+    Returns
+    -------
+    Tolerances
+        Samples of force, moment and torque, N and N·m.
 
     Raises
     ------
     InputError
         If an argument is out of range, no part deviates, or a spread is so wide that a draw would
         leave no engine: a mass below zero, or a crank that cannot turn.
+
+    Warns
+    -----
+    UserWarning
+        If pistons are faster than in any engine, as with lengths in millimetres.
 
     Examples
     --------
