@@ -46,22 +46,32 @@ def bearing_loads(engine: Engine, rpm: float, theta_deg: ArrayLike | None = None
 
     Parameters
     ----------
-    engine
+    engine : Engine
         The engine. Its ``rotating_mass`` and counterweights load the main bearings. A rod's own
         rotating mass loads its crankpin too, where the cylinder has a ``rod``
         (:meth:`Cylinder.from_rod`); else the crankpin's load is that of the reciprocating mass.
         The wrist pin carries the ``piston_mass``, where it is not known the whole reciprocating
         mass.
-    rpm
-        Crank speed.
-    theta_deg
+    rpm : float
+        Crank speed, rpm.
+    theta_deg : array_like, shape (n_theta,), optional
         Crank angles, degrees: (n_theta,); by default 0° to 720° in steps of one degree. Peaks and
         means are those over these angles.
+
+    Returns
+    -------
+    BearingLoads
+        Loads over crank angle, N.
 
     Raises
     ------
     InputError
         If a figure cannot be used.
+
+    Warns
+    -----
+    UserWarning
+        If pistons are faster than in any engine, or angles seem to be in radians.
 
     Examples
     --------
@@ -126,9 +136,19 @@ class BearingLoads(Tabled):
 
         Parameters
         ----------
-        load
+        load : str
             ``"crankpin"``, ``"wrist_pin"``, ``"main"``, ``"side_thrust"``, ``"rod_force"`` or
             ``"gas_force"``, as for :meth:`magnitude`, :meth:`peak` and :meth:`mean`.
+
+        Returns
+        -------
+        ndarray of float, shape (n, n_theta) or (n, n_theta, 2)
+            Values, N.
+
+        Raises
+        ------
+        InputError
+            If there is no such load.
         """
         name = inputs.one_of("load", load, LOADS)
         return self.__dict__["_values"][name]  # type: ignore[no-any-return]
@@ -183,13 +203,23 @@ class BearingLoads(Tabled):
 
         Parameters
         ----------
-        load
+        load : str, default "crankpin"
             ``"crankpin"``, ``"wrist_pin"`` or ``"main"``.
-        axes
+        axes : {"crank", "rod", "engine"}, default "crank"
             ``"crank"``: along the throw outwards, and a quarter turn ahead in the direction of
             rotation; of main bearings the throw is that of cylinder 1. This shows where a pin or a
             journal is loaded. ``"rod"``: along the rod to the wrist pin, and a quarter turn ahead,
             for the bearings in the rod. ``"engine"``: x and y, as the arrays are.
+
+        Returns
+        -------
+        ndarray of float, shape (n, n_theta, 2)
+            Loads, N.
+
+        Raises
+        ------
+        InputError
+            If a name is unknown, or ``"rod"`` is given for main bearings.
 
         Examples
         --------
@@ -208,7 +238,23 @@ class BearingLoads(Tabled):
         return self._core.turned(name, chosen, self.theta_deg)
 
     def magnitude(self, load: str) -> NDArray[np.float64]:
-        """Return the magnitude of a load, N: (n, n_theta)."""
+        """Return the magnitude of a load, N: (n, n_theta).
+
+        Parameters
+        ----------
+        load : str
+            As in :meth:`read`.
+
+        Returns
+        -------
+        ndarray of float, shape (n, n_theta)
+            Magnitudes, N.
+
+        Raises
+        ------
+        InputError
+            If there is no such load.
+        """
         values = self.read(load)
         sizes = np.hypot(values[..., 0], values[..., 1]) if load in _VECTORS else np.abs(values)
         return np.asarray(sizes)
@@ -219,6 +265,21 @@ class BearingLoads(Tabled):
         A peak between two angles exceeds that by up to an eighth of the square of their distance
         in radians times the second derivative there: at steps of 1°, of an engine fired by
         :meth:`Cycle.example`, by less than 1e-3 of it.
+
+        Parameters
+        ----------
+        load : str
+            As in :meth:`read`.
+
+        Returns
+        -------
+        ndarray of float, shape (n,)
+            Largest magnitudes, N.
+
+        Raises
+        ------
+        InputError
+            If there is no such load.
         """
         return np.asarray(self.magnitude(load).max(axis=-1, initial=0.0))
 
@@ -227,6 +288,21 @@ class BearingLoads(Tabled):
 
         Each angle counts for the distance between its neighbours (trapezoidal rule), in whichever
         order angles are given.
+
+        Parameters
+        ----------
+        load : str
+            As in :meth:`read`.
+
+        Returns
+        -------
+        ndarray of float, shape (n,)
+            Mean magnitudes, N.
+
+        Raises
+        ------
+        InputError
+            If there is no such load.
         """
         order = np.argsort(self.theta_deg, kind="stable")
         values, theta = self.magnitude(load)[:, order], self.theta_deg[order]
@@ -269,11 +345,21 @@ class BearingLoads(Tabled):
 
         Parameters
         ----------
-        part
+        part : {"crank", "crankcase"}, default "crankcase"
             ``"crank"``: loaded by rods and unbalances, supported by the main bearings.
             ``"crankcase"``: loaded by main bearings, walls, heads and balance shafts. What holds it
             (mounts, its own inertia) is not computed: past the last load its shear is the shaking
             force.
+
+        Returns
+        -------
+        ndarray of float, shape (n_places, n_theta, 2)
+            Shear along x and y, N.
+
+        Raises
+        ------
+        InputError
+            If there is no such part.
         """
         return self._sections(part)[0]
 
@@ -286,8 +372,18 @@ class BearingLoads(Tabled):
 
         Parameters
         ----------
-        part
+        part : {"crank", "crankcase"}, default "crankcase"
             ``"crank"`` or ``"crankcase"``, as of :meth:`shear`.
+
+        Returns
+        -------
+        ndarray of float, shape (n_places, n_theta, 2)
+            Moments about x and y, N·m.
+
+        Raises
+        ------
+        InputError
+            If there is no such part.
 
         Examples
         --------
@@ -317,6 +413,16 @@ class BearingLoads(Tabled):
 
     def to_xarray(self) -> xr.Dataset:
         """Return the loads over crank angle with named dimensions and units (needs xarray).
+
+        Returns
+        -------
+        xarray.Dataset
+            The loads, with units as attributes.
+
+        Raises
+        ------
+        ImportError
+            If xarray is not installed.
 
         Examples
         --------
@@ -351,15 +457,15 @@ class BearingLoads(Tabled):
 
         Parameters
         ----------
-        ax
+        ax : matplotlib.axes.Axes, optional
             Axes to draw on; by default new ones.
-        figure
+        figure : Figure or SubFigure, optional
             Figure or SubFigure for the panels of ``"polar"``; by default a new one.
-        kind
+        kind : {"polar", "curves", "bending"}, default "polar"
             ``"polar"``: the tip of a load, with crank angles, a panel for each bearing, or with
             ``ax`` all of them there. ``"curves"``: magnitudes over crank angle. ``"bending"``:
             largest bending moment along z.
-        **options
+        **options : dict, optional
             Of ``"polar"`` and ``"curves"``: ``load``, as in :meth:`read`, by default the main
             bearings, and ``numbers`` of bearings or cylinders, from 1, by default all; of
             ``"polar"``: ``axes``, as in :meth:`turned`; of ``"bending"``: ``part``, as there, by
@@ -368,8 +474,15 @@ class BearingLoads(Tabled):
 
         Returns
         -------
-        matplotlib.axes.Axes, or numpy.ndarray of them
-            The panels of several bearings, (n_rows, n_columns).
+        matplotlib.axes.Axes or ndarray of Axes
+            The axes; of several bearings the panels, (n_rows, n_columns).
+
+        Raises
+        ------
+        InputError
+            If ``ax`` and ``figure`` are both given, or there is no such picture.
+        ImportError
+            If matplotlib is not installed.
 
         Examples
         --------

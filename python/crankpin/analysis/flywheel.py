@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, overload
 
 import numpy as np
 
@@ -55,31 +55,41 @@ def flywheel(
 
     Parameters
     ----------
-    drive
+    drive : Engine, callable or pair of array_like
         A fired engine (:meth:`Engine.with_cycle`); or a turning-moment diagram, the torque on the
         crank, N·m: a function of an array of crank angles in degrees, or a pair of angles, degrees,
         and torques, between which it is linear. An angle given twice is one where torque jumps.
-    rpm
-        Mean crank speed: turns over the time that they take.
-    inertia
+    rpm : float
+        Mean crank speed, rpm: turns over the time that they take.
+    inertia : float, optional
         Moment of inertia of all that turns with the crank, kg·m²: crankshaft, flywheel, big ends of
         the rods and what is driven; without pistons, small ends and the rods' swing.
-    irregularity
+    irregularity : float, optional
         Largest less smallest speed, over the mean speed, to find the moment of inertia for, in
         place of ``inertia``.
-    load
+    load : callable or pair of array_like, optional
         Torque of the load over crank angle, as ``drive``; by default constant. At a constant mean
         speed its mean is that of the drive: only its variation about its mean counts.
-    period_deg
+    period_deg : float, optional
         Period of a turning-moment diagram, degrees; by default 720 of a function. Of a table it is
         a number of half turns: up to the last angle, which then stands for the first, or, of equal
         steps, to a step beyond it, as of 0, 10, …, 350. Other tables need it.
+
+    Returns
+    -------
+    Flywheel
+        Speed over the cycle, rpm, moment of inertia and irregularity.
 
     Raises
     ------
     InputError
         If an argument is out of range, the engine has no cycle, both or neither of ``inertia`` and
         ``irregularity`` are given, or the crank would stop within the cycle.
+
+    Warns
+    -----
+    UserWarning
+        If the moment of inertia seems to be in another unit.
 
     Examples
     --------
@@ -284,25 +294,49 @@ class Flywheel(Tabled):
         name = "turning-moment diagram" if self.engine is None else labels.name_of(self.engine)
         return f"{labels.cut(name)}: speed over a cycle at {self.rpm:g} rpm"
 
+    @overload
     def plot(
         self,
-        ax: Axes | None = None,
+        ax: Axes,
+        **style: Any,  # noqa: ANN401
+    ) -> Axes: ...
+
+    @overload
+    def plot(
+        self,
+        ax: None = None,
         *,
         figure: Figure | SubFigure | None = None,
-        **style: Any,  # noqa: ANN401 - of lines
-    ) -> Any:  # noqa: ANN401 - axes, or an array of axes
+        **style: Any,  # noqa: ANN401
+    ) -> NDArray[Any]: ...
+
+    def plot(
+        self, ax: Axes | None = None, *, figure: Figure | SubFigure | None = None, **style: Any
+    ) -> Axes | NDArray[Any]:
         """Draw torque over the cycle with its mean, and below it the speed; return the axes.
 
         Parameters
         ----------
-        ax
+        ax : matplotlib.axes.Axes, optional
             Axes for the speed alone; by default both panels are drawn in a new figure.
-        figure
+        figure : Figure or SubFigure, optional
             Figure or SubFigure for the panels.
-        **style
+        **style : dict, optional
             ``label`` and properties of matplotlib lines.
+
+        Returns
+        -------
+        matplotlib.axes.Axes or ndarray of Axes
+            The axes; of both panels an array.
+
+        Raises
+        ------
+        InputError
+            If ``ax`` and ``figure`` are both given.
+        ImportError
+            If matplotlib is not installed.
         """
-        return draw(self, ax, figure=figure, **style)
+        return draw(self, ax, figure=figure, **style)  # type: ignore[no-any-return]
 
 
 # --- torque over crank angle ---------------------------------------------------------------------
