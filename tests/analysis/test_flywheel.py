@@ -246,6 +246,42 @@ def test_an_irregularity_is_kept(wanted: float) -> None:
     assert (speeds.max() - speeds.min()) / 600 == pytest.approx(wanted, rel=1e-3)
 
 
+@pytest.mark.filterwarnings("ignore:inertia = ")  # of tons, for a car's engine
+@pytest.mark.parametrize("exponent", range(1, 10))
+def test_an_even_run_has_its_flywheel(exponent: int) -> None:
+    """Inertia found → irregularity agrees, however little the speed varies."""
+    rng = np.random.default_rng(exponent)
+    wanted = 10.0**-exponent * rng.uniform(0.5, 2.0)
+    drives: list[Any] = [
+        TWIN,
+        cp.Engine.preset("i4", cylinder=CYLINDER).with_cycle(cp.Cycle.example()),
+        wave(rng.uniform(-1e4, 1e4), sin1=rng.uniform(1, 500), cos3=rng.uniform(-300, 300)),
+        (np.linspace(0.0, 720.0, 49), np.append(torque := rng.normal(40, 90, 48), torque[0])),
+    ]
+    for drive in drives:
+        for rpm in (60.0, 1500.0, 7000.0):
+            fit = cp.flywheel(drive, rpm, irregularity=wanted)
+            again = cp.flywheel(drive, rpm, inertia=fit.inertia)
+            # Of a flywheel of zero less is kept. What the search stops at, whatever is sought.
+            expected = wanted if fit.inertia > 0.0 else min(wanted, again.irregularity)
+            assert again.irregularity == fit.irregularity == pytest.approx(expected, rel=2e-12)
+            # Speeds themselves are doubles: a unit in the last place of either end.
+            swing = np.ptp(fit.speed_rpm) / rpm
+            assert swing <= fit.irregularity + 4 * np.finfo(float).eps
+
+
+def test_irregularity_falls_as_inertia_grows() -> None:
+    """It is as one over the inertia, to what is of its own size: also where speeds round to one."""
+    drive = wave(5000, sin2=600, cos1=-250)
+    heavy = 10.0 ** np.arange(6, 25)
+    found = [cp.flywheel(drive, rpm=150, inertia=float(inertia)) for inertia in heavy]
+    irregularity = np.array([each.irregularity for each in found])
+    exact = found[0].energy / (150 * np.pi / 30) ** 2 / heavy
+    # What the textbooks' formula neglects is of the square of the irregularity; 1e-13 is rounding.
+    assert (np.abs(irregularity / exact - 1.0) <= irregularity + 1e-13).all()
+    assert all(abs(error) <= 1e-5 for each in found for error in each.errors)
+
+
 def test_inertia_torque_is_not_counted_twice() -> None:
     with pytest.raises(cp.InputError, match="count twice"):
         cp.flywheel(I4.waveform(3000), rpm=3000, inertia=0.1)  # type: ignore[arg-type]

@@ -229,13 +229,34 @@ impl Cell {
         }
     }
 
-    /// Half the square of the speed, ω²/2, for a flywheel and the energy at the start.
-    fn half_square(&self, inertia: f64, energy: f64) -> Cubic {
+    /// Half the square of the speed, ω²/2, with a flywheel, beyond that at which the moment of inertia is
+    /// the mean.
+    fn beyond(&self, level: Level) -> Cubic {
+        let Level { inertia, mean_moving, half } = level;
         let total = self.moving.ends.map(|moving| inertia + moving);
-        let ends = [0, 1].map(|k| (energy + self.work.ends[k]) / total[k]);
-        let slopes =
-            [0, 1].map(|k| (self.work.slopes[k] - ends[k] * self.moving.slopes[k]) / total[k]);
+        let ends = [0, 1]
+            .map(|k| (self.work.ends[k] - half * (self.moving.ends[k] - mean_moving)) / total[k]);
+        let slopes = [0, 1]
+            .map(|k| (self.work.slopes[k] - (half + ends[k]) * self.moving.slopes[k]) / total[k]);
         Cubic { ends, slopes, width: self.work.width }
+    }
+}
+
+/// What half the square of the speed varies about: what is left is known to parts of itself, however
+/// heavy the flywheel.
+#[derive(Debug, Clone, Copy)]
+struct Level {
+    inertia: f64,
+    /// Mean moment of inertia of pistons and rods.
+    mean_moving: f64,
+    /// ω²/2 of the energy at the start with the mean moment of inertia.
+    half: f64,
+}
+
+impl Level {
+    /// Speed where half its square is this beyond.
+    fn speed(&self, beyond: f64) -> f64 {
+        (2.0 * (self.half + beyond)).sqrt()
     }
 }
 
@@ -320,47 +341,55 @@ impl WorkCurve {
             return Err(Error::figure("inertia", inertia, "give the flywheel's, above 0 kg·m²"));
         }
         let wanted = self.period() / self.omega;
-        let mut energy = (inertia + self.mean_moving()) * square - lowest;
+        let highest = self.cells.iter().map(|cell| cell.work.ends[0]).fold(0.0, f64::max);
+        let mean_moving = self.mean_moving();
+        let mut energy = (inertia + mean_moving) * square - lowest;
         for _ in 0..STEPS {
             cancel.check()?;
+            let level = Level { inertia, mean_moving, half: energy / (inertia + mean_moving) };
             // The time of a period, and its slope by the energy.
             let (mut time, mut slope) = (0.0, 0.0);
             for cell in &self.cells {
-                let half = cell.half_square(inertia, energy);
-                let slowness = half.ends.map(|half| (2.0 * half).sqrt().recip());
-                let steep = [0, 1].map(|k| -half.slopes[k] * slowness[k].powi(3));
-                time += Cubic { ends: slowness, slopes: steep, width: half.width }.integral();
-                slope -= half.width * slowness[0].powi(3) / (inertia + cell.moving.ends[0]);
+                let beyond = cell.beyond(level);
+                let slowness = beyond.ends.map(|each| level.speed(each).recip());
+                let steep = [0, 1].map(|k| -beyond.slopes[k] * slowness[k].powi(3));
+                time += Cubic { ends: slowness, slopes: steep, width: beyond.width }.integral();
+                slope -= beyond.width * slowness[0].powi(3) / (inertia + cell.moving.ends[0]);
             }
             let next = energy + (wanted - time) / slope;
             // The time is convex in the energy and grows without limit as the crank stops.
             let next = if next > -lowest { next } else { f64::midpoint(energy, -lowest) };
-            // What is left is the square of this, or this times the error of the slope.
-            let done = (next - energy).abs() <= 1e-11 * next.abs();
+            // What is left is the square of this, or this times the error of the slope. The energy at the
+            // start may be next to nothing beside the cycle's largest, of which it is known to parts.
+            let done = (next - energy).abs() <= 1e-11 * (next + highest);
             energy = next;
             if done {
-                return self.checked(inertia, energy);
+                let half = energy / (inertia + mean_moving);
+                return self.checked(Level { inertia, mean_moving, half });
             }
         }
         Err(stops(inertia))
     }
 
-    fn checked(&self, inertia: f64, energy: f64) -> Result<Run> {
+    fn checked(&self, level: Level) -> Result<Run> {
         let square = 0.5 * self.omega * self.omega;
         let mut speed = memory::room(self.cells.len() + 1)?;
-        let (mut low, mut high, mut acceleration) = (f64::INFINITY, 0.0_f64, 0.0_f64);
+        let (mut low, mut high, mut acceleration) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
         for cell in &self.cells {
-            let half = cell.half_square(inertia, energy);
-            let [least, most] = half.extremes();
+            let beyond = cell.beyond(level);
+            let [least, most] = beyond.extremes();
             (low, high) = (low.min(least), high.max(most));
-            acceleration = half.slopes.iter().fold(acceleration, |most, each| most.max(each.abs()));
-            speed.push((2.0 * half.ends[0]).sqrt());
+            acceleration =
+                beyond.slopes.iter().fold(acceleration, |most, each| most.max(each.abs()));
+            speed.push(level.speed(beyond.ends[0]));
         }
-        if low < SLOWEST * square {
-            return Err(stops(inertia));
+        if level.half + low < SLOWEST * square {
+            return Err(stops(level.inertia));
         }
         speed.push(speed[0]);
-        let irregularity = ((2.0 * high).sqrt() - (2.0 * low).sqrt()) / self.omega;
+        // The difference of speeds by that of their squares, of which no digits are lost.
+        let irregularity =
+            2.0 * (high - low) / ((level.speed(low) + level.speed(high)) * self.omega);
         Ok(Run { speed, acceleration, irregularity })
     }
 
@@ -373,10 +402,14 @@ impl WorkCurve {
         }
         let moving = self.mean_moving();
         let energy = range(self.cells.iter().map(|cell| cell.work_with_inertia(self.omega)));
-        if energy <= ROUNDING * self.size {
+        let of_moving = 0.5 * self.omega * self.omega * moving;
+        if energy <= ROUNDING * (self.size + of_moving) {
             let hint = "the torque does not vary, and no flywheel is needed; give inertia";
             return Err(Error::figure("irregularity", wanted, hint));
         }
+        // Where gas and inertia torque cancel, rounding of the larger is what their sum jitters by.
+        let larger = of_moving.max(range(self.cells.iter().map(|cell| cell.work)));
+        let tolerance = 1e-12_f64.max(4.0 * f64::EPSILON * larger / energy);
         let mut total = energy / (self.omega * self.omega * wanted);
         for _ in 0..STEPS {
             let inertia = (total - moving).max(0.0);
@@ -386,7 +419,7 @@ impl WorkCurve {
                 continue;
             };
             let ratio = run.irregularity / wanted;
-            if (ratio - 1.0).abs() <= 1e-12 || ratio < 1.0 && inertia == 0.0 {
+            if (ratio - 1.0).abs() <= tolerance || ratio < 1.0 && inertia == 0.0 {
                 return Ok((inertia, run));
             }
             total = total.max(moving) * ratio;
