@@ -208,6 +208,81 @@ def test_an_open_table_is_closed_over_its_period() -> None:
     assert opened.energy == pytest.approx(closed.energy, rel=1e-12)
 
 
+def random_grid(
+    rng: np.random.Generator, period: float, *, closed: bool, even: bool
+) -> NDArray[np.float64]:
+    """Crank angles over a period from any start, with or without its end, some given twice."""
+    steps = np.ones(int(rng.integers(12, 120))) if even else rng.uniform(0.2, 1.0, 60)
+    steps[-1] = (
+        steps.min()
+    )  # Of an open grid, what it leaves to the period is no wider than a step.
+    theta = rng.uniform(-400.0, 400.0) + np.append(0.0, np.cumsum(steps)) * (period / steps.sum())
+    if not even:
+        theta = np.sort(np.append(theta, rng.choice(theta[1:-1], 2, replace=False)))
+    return theta if closed else theta[:-1]
+
+
+@pytest.mark.filterwarnings("ignore:theta_deg. pressure peaks")  # random ones, anywhere
+@pytest.mark.parametrize("closed", [False, True])
+@pytest.mark.parametrize("even", [False, True])
+def test_a_table_has_the_period_of_a_cycle(closed: bool, even: bool) -> None:
+    rng = np.random.default_rng([closed, even])
+    for strokes in (2, 4) * 20:
+        theta = random_grid(rng, 180.0 * strokes, closed=closed, even=even)
+        torque = rng.uniform(2e5, 5e6, len(theta))
+        if closed:
+            torque[-1] = torque[0]
+            # Printed with few digits.
+            theta[-1] += rng.choice([0.0, 0.0004, -0.0004])
+        cycle = cp.Cycle(theta, torque, strokes)
+        assert cycle.grid.startswith("closed" if closed else "open")
+        for period in (None, cycle.period_deg):
+            found = cp.flywheel((theta, torque), rpm=600, inertia=1e6, period_deg=period)
+            assert found.theta_deg[-1] == cycle.period_deg
+            # Through the points of either, where neither jumps.
+            places, times = np.unique(theta[: -1 if closed else None], return_counts=True)
+            places = places[times == 1]
+            angles = (places + 1e-12) % cycle.period_deg
+            edges = found.theta_deg[np.abs(found.theta_deg[:, None] - angles).argmin(axis=0)]
+            assert np.abs(edges - angles).max() < 1e-8
+            ends = np.interp(angles, found.theta_deg, found.torque)
+            np.testing.assert_allclose(ends, cycle.pressure_at(places), rtol=1e-6)
+            # A straight line from the last point to the first, a period later.
+            nodes = np.append(theta[: -1 if closed else None], theta[0] + cycle.period_deg)
+            values = np.append(torque[: -1 if closed else None], torque[0])
+            mean = np.trapezoid(values, nodes) / cycle.period_deg
+            assert found.mean_torque == pytest.approx(mean, rel=1e-9)
+
+
+def test_tables_that_are_no_cycle_are_rejected_as_cycles_are() -> None:
+    """A gap wider than any step is no open grid."""
+    rng = np.random.default_rng(4)
+    for strokes in (2, 4) * 20:
+        period = 180.0 * strokes
+        theta = random_grid(rng, period, closed=False, even=bool(rng.integers(2)))
+        short = theta[: -int(rng.integers(1, 4))]
+        torque = rng.uniform(2e5, 5e6, len(short))
+        torque[0] = 1e5
+        if period - np.ptp(short) <= np.diff(short).max():
+            continue
+        with pytest.raises(cp.InputError, match="in all"):
+            cp.Cycle(short, torque, strokes)
+        with pytest.raises(cp.InputError, match="angles span"):
+            cp.flywheel((short, torque), 600, inertia=9.0, period_deg=period)
+        with pytest.raises(cp.InputError, match="nor the first torque again"):
+            cp.flywheel((short, torque), 600, inertia=9.0)
+
+
+def test_a_table_of_every_ten_degrees_is_one_of_a_turn() -> None:
+    theta = np.arange(0.0, 360.0, 10.0)
+    torque = 100 + 50 * np.sin(np.radians(theta)) + 30 * np.cos(np.radians(2 * theta + 5))
+    found = cp.flywheel((theta, torque), rpm=600, inertia=1.0)
+    assert found.mean_torque == pytest.approx(100.0, rel=1e-12)
+    # In steps of few angles the first torque again is the end, not a point on the way to a turn.
+    steps = cp.flywheel(([0, 60, 60, 240, 240], [9, 9, 3, 3, 9]), rpm=600, inertia=1.0)
+    assert (steps.theta_deg[-1], steps.mean_torque) == (240.0, pytest.approx(4.5, rel=1e-12))
+
+
 def test_a_load_may_come_round_more_often() -> None:
     """A load of a period of half a turn is that of a function with it."""
     by_function = cp.flywheel(
@@ -220,7 +295,7 @@ def test_a_load_may_come_round_more_often() -> None:
     np.testing.assert_allclose(by_table.speed_rpm, by_function.speed_rpm, rtol=1e-12)
     # Between edges of the grid it jumps exactly too, in each of its periods.
     jumps = cp.flywheel(
-        wave(0), load=([0.2, 90.3, 90.3, 180.2], [1, 1, -1, -1]), rpm=600, inertia=1.0
+        wave(0), load=([0.2, 90.3, 90.3, 180.2, 180.2], [1, 1, -1, -1, 1]), rpm=600, inertia=1.0
     )
     upper, lower = np.radians([90.1, 89.9])
     assert jumps.energy == pytest.approx(2 * upper * lower / np.pi, rel=1e-10)
@@ -307,6 +382,13 @@ def test_inertia_torque_is_not_counted_twice() -> None:
         ({"drive": ([0, 360], [1, 1, 1])}, "2 angles and 3 torques"),
         ({"drive": ([360, 0], [1, 1])}, "ascending"),
         ({"drive": ([0, 720], [1, 1]), "period_deg": 360}, "span 720"),
+        ({"drive": ([0, 90], [1, 2]), "period_deg": 360}, "span 90"),
+        ({"drive": (np.arange(0, 180, 10), np.arange(18))}, "17 N·m after 170°"),
+        ({"load": ([0, 90, 170], [3, 1, 2])}, "load: 2 N·m after 170°"),
+        (
+            {"drive": ([0, 90, 90, 90, 360], [1, 2, 3, 4, 1])},
+            r"drive\[0\]\[3\] = 90.0: is given three",
+        ),
         ({"drive": "torque"}, "function of degrees"),
         ({"drive": lambda deg: deg[:3]}, "one torque for each angle"),
         ({"drive": wave(10), "inertia": None, "irregularity": 0.1}, "does not vary"),

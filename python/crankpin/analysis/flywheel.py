@@ -57,6 +57,8 @@ def flywheel(
         A fired engine (:meth:`Engine.with_cycle`); or a turning-moment diagram, the torque on the
         crank, N·m: a function of an array of crank angles in degrees, or a pair of angles, degrees,
         and torques, between which it is linear. An angle given twice is one where torque jumps.
+        Angles over one or two turns, open or closed, are read as those of a :class:`Cycle`; those
+        over another period end with the torque of their beginning.
     rpm
         Mean crank speed: turns over the time that they take.
     inertia
@@ -69,8 +71,8 @@ def flywheel(
         Torque of the load over crank angle, as ``drive``; by default constant. At a constant mean
         speed its mean is that of the drive: only its variation about its mean counts.
     period_deg
-        Period of a turning-moment diagram, degrees; by default that of the angles given, the last
-        of which stands for the first, and 720 of a function.
+        Period of a turning-moment diagram, degrees; by default that of the angles, and 720 of a
+        function.
 
     Raises
     ------
@@ -364,16 +366,43 @@ def _diagram(name: str, given: object, period_deg: object) -> _Diagram:
     if len(theta) > MOST_KNOTS:
         raise InputError(f"{name} has {len(theta)} angles: give at most {MOST_KNOTS}")
     span = float(theta[-1] - theta[0])
-    if not (np.diff(theta) >= 0.0).all() or not 0.0 < span < np.inf:
-        raise inputs.rejected(name, given, "give ascending angles")
-    period = span if period is None else period
-    if span > period * (1.0 + EQUAL):
-        raise InputError(f"period_deg = {period}: the angles span {span:.10g}°; give no less")
-    if span < period * (1.0 - EQUAL):
-        theta, torque = np.append(theta, theta[0] + period), np.append(torque, torque[0])
+    period = _period(name, theta, torque) if period is None else period
+    closed = _core.repeats_first(f"{name}[0]", theta, period)
+    if closed is None:
+        raise InputError(
+            f"period_deg = {period:.10g}: the angles span {span:.10g}°, and no step of theirs is "
+            "as wide as what is left; give angles over one period"
+        )
     start = float(theta[0])
+    end = start + period
+    if closed:
+        theta = np.where(theta == theta[-1], end, np.minimum(theta, end))
+    else:
+        theta, torque = np.append(theta, end), np.append(torque, torque[0])
 
     def of_table(where: NDArray[np.float64]) -> NDArray[np.float64]:
         return np.interp((where - start) % period + start, theta, torque)
 
     return _Diagram(of_table, period, theta)
+
+
+def _period(name: str, theta: NDArray[np.float64], torque: NDArray[np.float64]) -> float:
+    """Return the period of a table: one or two turns, as of a cycle, or that of its own.
+
+    A table of its own period repeats its first torque. One of few angles, such as a load in steps,
+    does that on purpose: it does not go on to the end of a turn.
+    """
+    repeated = bool(torque[-1] == torque[0])
+    few = len(theta) < _core.FEWEST_POINTS
+    for turns in (TWO_TURNS / 2.0, TWO_TURNS):
+        closed = _core.repeats_first(f"{name}[0]", theta, turns)
+        if closed or (closed is False and not (few and repeated)):
+            return turns
+    span = float(theta[-1] - theta[0])
+    if repeated and span > 0.0:
+        return span
+    last = f"{torque[-1]:.10g} N·m after {span:.10g}°"
+    raise InputError(
+        f"{name}: {last} is neither a turn, nor two, nor the first torque again; give angles over "
+        "a whole period, the first torque repeated at its end"
+    )
