@@ -23,12 +23,17 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure
     from numpy.typing import ArrayLike, NDArray
 
+    from crankpin.model.cycle import Cycle
+
 Curve: TypeAlias = "Callable[[NDArray[np.float64]], ArrayLike] | tuple[ArrayLike, ArrayLike]"
 """Torque over crank angle: a function of degrees, or angles and torques."""
 TWO_TURNS = 720.0
 """Period, degrees, of functions: whole and half orders come round in it."""
 MOST_KNOTS = 100_000
 """Largest number of angles of a table, and of a load over the period of the drive."""
+MOST_BENDS = 7201
+"""Largest number of angles of a cycle that are edges of cells: every tenth of a degree. Closer ones
+take seconds; half degrees sample them."""
 EQUAL = 1e-9
 """Relative difference up to which a ratio of periods is whole."""
 APPROXIMATIONS = ("gas torque alone", "gas and inertia torque")
@@ -155,7 +160,8 @@ def flywheel(
         inputs.optional_number("inertia", inertia),
         0.0 if irregularity is None else inputs.number("irregularity", irregularity),
     )
-    found, uneven, energy, mean, acceleration, *approximate = figures
+    found, uneven, energy, mean, acceleration, lowest, highest, *approximate = figures
+    of_one_rpm = _core.angular_speed(1.0)
     return Flywheel(
         engine,
         inputs.number("rpm", rpm),
@@ -164,9 +170,11 @@ def flywheel(
         energy,
         mean,
         acceleration,
+        lowest / of_one_rpm,
+        highest / of_one_rpm,
         (approximate[0], approximate[1]),
         edges,
-        speed / _core.angular_speed(1.0),
+        speed / of_one_rpm,
         torque.at(edges),
         np.full(edges.shape, mean) if against is None else against.at(edges),
         of_inertia,
@@ -186,7 +194,7 @@ class Flywheel(Tabled):
     >>> found = cp.flywheel(
     ...     lambda deg: 300 - 400 * np.cos(np.radians(2 * deg)), rpm=1500, inertia=2.0
     ... )
-    >>> round(float(found.speed_rpm.min()), 2), round(float(found.speed_rpm.max()), 2)
+    >>> round(found.lowest_rpm, 2), round(found.highest_rpm, 2)
     (1493.93, 1506.09)
     """
 
@@ -203,7 +211,11 @@ class Flywheel(Tabled):
     mean_torque: float
     """Mean torque of the drive, N·m."""
     acceleration: float
-    """Largest angular acceleration, either way, rad/s²."""
+    """Largest angular acceleration, either way, at any crank angle, rad/s²."""
+    lowest_rpm: float
+    """Lowest speed, at any crank angle, rpm."""
+    highest_rpm: float
+    """Highest speed, at any crank angle, rpm."""
     approximations: tuple[float, float]
     """Irregularity from the mean moment of inertia: of the gas torque alone, and of gas and inertia
     torque together."""
@@ -223,7 +235,8 @@ class Flywheel(Tabled):
     def __post_init__(self) -> None:
         if self.engine is not None:
             engine_core(self.engine)
-        for name in ("rpm", "inertia", "irregularity", "energy", "mean_torque", "acceleration"):
+        figures = ("rpm", "inertia", "irregularity", "energy", "mean_torque", "acceleration")
+        for name in (*figures, "lowest_rpm", "highest_rpm"):
             inputs.number(name, getattr(self, name))
         inputs.vector("approximations", self.approximations)
         curves = ("theta_deg", "speed_rpm", "torque", "load", "inertia_torque", "moving_inertia")
@@ -245,8 +258,8 @@ class Flywheel(Tabled):
         figures = (
             ("moment of inertia", self.inertia, "kg·m²"),
             ("irregularity", 100.0 * self.irregularity, "%"),
-            ("lowest speed", float(self.speed_rpm.min()), "rpm"),
-            ("highest speed", float(self.speed_rpm.max()), "rpm"),
+            ("lowest speed", self.lowest_rpm, "rpm"),
+            ("highest speed", self.highest_rpm, "rpm"),
             ("fluctuation of energy", self.energy, "J"),
             ("mean torque", self.mean_torque, "N·m"),
             ("largest acceleration", self.acceleration, "rad/s²"),
@@ -329,17 +342,25 @@ def _of_gas(engine: Engine, rpm: float, period_deg: object) -> _Diagram:
             f"period_deg = {given}: the period is that of the engine's cycle; leave it out"
         )
     # Where pressure jumps or bends, at the firing of each cylinder.
-    pairs = [
-        start + angle
-        for start, cycle in zip(engine.firing_deg.tolist(), cycles, strict=True)
+    bends = [
+        start + _bends(cycle)
+        for start, cycle in zip(engine.firing_deg, cycles, strict=True)
         if cycle is not None
-        for angle in cycle.theta_deg[1:][np.diff(cycle.theta_deg) == 0.0].tolist()
     ]
 
     def at(theta: NDArray[np.float64]) -> NDArray[np.float64]:
         return waveform(engine, rpm, theta_deg=theta).read("crank_torque.gas")
 
-    return _Diagram(at, 180.0 * engine.strokes, np.array(pairs))
+    return _Diagram(at, 180.0 * engine.strokes, np.concatenate(bends))
+
+
+def _bends(cycle: Cycle) -> NDArray[np.float64]:
+    """Return the angles at which pressure jumps or bends: all of a table that is not a fine one."""
+    theta: NDArray[np.float64] = cycle.theta_deg
+    if cycle.degree is None and len(theta) <= MOST_BENDS:
+        return theta
+    twice: NDArray[np.float64] = theta[1:][np.diff(theta) == 0.0]
+    return twice
 
 
 def _diagram(name: str, given: object, period_deg: object) -> _Diagram:
