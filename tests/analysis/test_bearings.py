@@ -464,3 +464,20 @@ def test_a_main_bearing_whose_loads_cancel_carries_none() -> None:
         for k, each in enumerate(flat.cylinders)
     ]
     assert cp.bearing_loads(flat.replace(cylinder=heavier), 5000).main[1].any()
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_mean_does_not_depend_on_the_order_of_angles(seed: int) -> None:
+    """And lies between zero and the largest value."""
+    random = np.random.default_rng(seed)
+    engine = cp.Engine.preset(str(random.choice(["i4", "v6-60", "v8-crossplane"])))
+    theta = random.uniform(-720, 1440, int(random.integers(1, 30)))
+    theta = np.append(theta, theta[: int(random.integers(0, 2))])
+    loads = [cp.bearing_loads(engine, 3000, each) for each in (theta, random.permutation(theta))]
+    for name in ("main", "crankpin"):
+        mean, other = (each.mean(name) for each in loads)
+        # Sums of some thirty terms; the sequence of equal angles may differ.
+        np.testing.assert_allclose(mean, other, rtol=1e-13)
+        largest = loads[0].magnitude(name).max(axis=1)
+        assert (mean >= 0.0).all()
+        assert (mean <= largest * (1.0 + 1e-13)).all()

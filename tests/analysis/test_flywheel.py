@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
@@ -343,6 +344,38 @@ def test_a_table_of_every_ten_degrees_is_one_of_a_turn() -> None:
     # In steps of few angles the first torque again is the end, not a point on the way to a turn.
     steps = cp.flywheel(([0, 60, 60, 240, 240], [9, 9, 3, 3, 9]), rpm=600, inertia=1.0)
     assert (steps.theta_deg[-1], steps.mean_torque) == (240.0, pytest.approx(4.5, rel=1e-12))
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_table_is_read_as_a_cycle_reads_it(seed: int) -> None:
+    """Closed, or open with equal steps; a piston's pressure is then its mean, too."""
+    random = np.random.default_rng(seed)
+    count, period = int(random.integers(8, 60)) * 3, float(random.choice([360.0, 720.0]))
+    theta = period * np.arange(count) / count + random.uniform(-90, 90)
+    torque = 1e5 * random.uniform(1, 2, count)
+    closed = np.append(theta, theta[0] + period), np.append(torque, torque[0])
+    strokes = 2 if period == 360.0 else 4
+    cycles = [cp.Cycle(*table, strokes=strokes) for table in ((theta, torque), closed)]
+    assert cycles[0].period_deg == cycles[1].period_deg == period
+    expected = torque.mean()
+    for table in ((theta, torque), closed):
+        found = cp.flywheel(table, rpm=600, inertia=1e6)
+        # Up to 100 angles in 720°, on a grid of as many cells as it takes.
+        assert found.mean_torque == pytest.approx(expected, rel=1e-12)
+        assert found.theta_deg[-1] - found.theta_deg[0] == pytest.approx(period, rel=1e-12)
+
+
+@pytest.mark.parametrize("irregularity", [1e-1, 1e-3, 6e-5, 1e-5, 1e-7, 1e-9])
+@pytest.mark.parametrize("name", ["single", "i4", "v8-crossplane"])
+def test_a_flywheel_for_any_irregularity(name: str, irregularity: float) -> None:
+    cylinders = [each.replace(bore=0.08) for each in cp.Engine.preset(name).cylinders]
+    fired = cp.Engine.preset(name).replace(cylinder=cylinders).with_cycle(cp.Cycle.example())
+    found = cp.flywheel(fired, rpm=3000, irregularity=irregularity)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of the inertia, which is a mountain's
+        again = cp.flywheel(fired, rpm=3000, inertia=found.inertia)
+    # Of speeds with a rounding of 1e-15 after a thousand sums at most.
+    assert again.irregularity == pytest.approx(irregularity, rel=max(1e-11, 1e-12 / irregularity))
 
 
 def test_a_load_may_come_round_more_often() -> None:

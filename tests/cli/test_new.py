@@ -100,6 +100,16 @@ def test_a_rod_weighed_end_by_end_or_with_its_centre_of_mass(capsys: CAPTURE) ->
     assert weighed.cylinders[0].pin_offset == 0.001
 
 
+def test_a_rod_means_the_same_typed_and_in_python(capsys: CAPTURE) -> None:
+    typed = "--bore 86mm --stroke 86mm --rod-length 145mm --piston-mass 400g --rod-mass 600g"
+    # The e-book's layouts have a rotating mass, which is that of its own rod.
+    for kind in ("single", "i4-ebook"):
+        file = made(capsys, f"{kind} {typed} --spacing 100mm")
+        built = cp.Engine.preset(kind, cylinder=file.cylinders[0], spacing=0.1)
+        assert built == file.replace(source=built.source)
+        assert built.rotating_mass.tolist() == pytest.approx([0.4] * len(built), rel=1e-15)
+
+
 def test_json_and_names(capsys: CAPTURE) -> None:
     printed(capsys, "new boxer-4 --name Flat -o flat.json")
     assert json.loads(Path("flat.json").read_text("utf-8"))["name"] == "Flat"

@@ -246,3 +246,26 @@ def python(program: str, environment: dict[str, str] | None = None) -> str:
     )
     assert done.returncode == 0, done.stderr
     return done.stdout
+
+
+LEAN = """
+import resource
+import crankpin as cp
+def peak():
+    "Return the most memory that the process had, bytes."
+    return 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+options = {"reciprocating_mass": 1e-3, "rod_length": 1e-4, "pin_deg": 0.1}
+v8 = cp.Engine.preset("v8-crossplane")
+cp.tolerances(v8, 600, samples=2, orders=[1, 2], **options)
+before = peak()
+result = cp.tolerances(v8, 600, samples=73, orders=range(1, 10_001), **options)
+arrays = [result.force.forward, result.moment.forward, result.torque.phasor]
+print((peak() - before) / 10**6)
+"""
+
+
+@linux
+def test_tolerances_take_little_memory_beside_their_results() -> None:
+    megabytes = 73 * 10_000 * 10 * 16 / 10**6
+    # Half as much again: copies of one sample, harmonics of some orders, pages of the allocator.
+    assert float(python(LEAN)) <= 1.5 * megabytes

@@ -45,11 +45,15 @@ class Call(NamedTuple):
         return f"{self.target.label}({listed})"
 
 
+OPERAND = [1.5]
+"""Argument of an operator, which takes anything."""
+
+
 def sound_call(target: Target, *, but: str = "") -> Call:
     """A call with good values for what it needs, ``samples`` few, and none for one argument."""
     needed = [p for p in target.parameters if p.default is p.empty or p.name == "samples"]
     named = [p.name for p in needed if p.kind not in (p.VAR_KEYWORD, p.VAR_POSITIONAL)]
-    return Call(target, {name: SOUND[name][0] for name in named if name != but})
+    return Call(target, {name: SOUND.get(name, OPERAND)[0] for name in named if name != but})
 
 
 @st.composite

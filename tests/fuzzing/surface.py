@@ -53,6 +53,7 @@ SOUND: dict[str, list[Any]] = {
     "backward_force": [1j],
     "before": [V6, I4],
     "cycle": [CYCLE, [CYCLE, None, CYCLE, CYCLE]],
+    "crankcase": [9e4, None],
     "cycles": [[[CYCLE, CYCLE]]],
     "drive": [FIRED, ([0, 180, 360], [1.0, 3.0, 1.0])],
     "load": [[0.0, 1.0]],

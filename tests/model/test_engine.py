@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import copy
+import dataclasses
 import itertools
 import json
 import math
@@ -250,6 +251,71 @@ def test_rotating_mass_means_the_same_to_every_builder_and_to_replace(mass: Any)
         assert engine.rotating_mass.tolist() == np.broadcast_to(mass, 6).tolist()
         assert engine.replace(rotating_mass=mass) == engine
         assert engine.replace(rotating_mass=0).replace(rotating_mass=mass) == engine
+
+
+ROD = cp.Rod(mass=0.6, inertia=0.0025, length=0.15, to_crankpin=0.05)
+WITH_ROD = cp.Cylinder.from_rod(ROD, crank_radius=0.045, piston_mass=0.4, bore=0.09)
+BIG_END = ROD.rotating_mass
+TWO: dict[str, Any] = {"throws_deg": [0, 180], "spacing": 0.1}
+
+
+@pytest.mark.parametrize(
+    "build",
+    [
+        lambda c, **mass: cp.Engine.inline(c, **TWO, **mass),
+        lambda c, **mass: cp.Engine.vee(c, bank_angle_deg=60, **TWO, **mass),
+        lambda c, **mass: cp.Engine.flat(c, **TWO, **mass),
+        lambda c, **mass: cp.Engine.boxer(c, **TWO, **mass),
+        lambda c, **mass: cp.Engine.radial(c, 5, **mass),
+        lambda c, **mass: cp.Engine.from_firing_order(c, "1-3-4-2", spacing=0.1, **mass),
+        lambda c, **mass: cp.Engine.from_lists(
+            [c, c], tdc_deg=[0, 90], bank_deg=[90, 90], z=[0, 1], **mass
+        ),
+        lambda c, **mass: cp.Engine.preset("vr6", cylinder=c, **mass),
+        lambda c, **mass: cp.Engine.preset("i4-ebook", cylinder=c, **mass),
+    ],
+)  # fmt: skip
+def test_the_big_end_of_a_rod_turns_unless_it_is_left_out_by_name(build: Any) -> None:
+    engine = build(WITH_ROD)
+    assert engine.rotating_mass.tolist() == [BIG_END] * len(engine)
+    assert build(WITH_ROD, rotating_mass=BIG_END) == engine
+    assert build(WITH_ROD, rotating_mass=0).rotating_mass.tolist() == [0.0] * len(engine)
+    assert build(WITH_ROD, rotating_mass=0.7).rotating_mass.tolist() == [0.7] * len(engine)
+    for each in (engine, build(WITH_ROD, rotating_mass=0)):
+        assert cp.Engine.from_toml(each.to_toml()) == each
+        assert cp.Engine.from_json(each.to_json()) == each
+    # A file written by hand has no other meaning than a builder.
+    text = "".join(
+        line for line in engine.to_toml().splitlines(True) if "rotating_mass" not in line
+    )
+    assert cp.Engine.from_toml(text) == engine
+
+
+def test_a_changed_rod_brings_its_big_end_where_the_last_one_had() -> None:
+    heavier = WITH_ROD.replace(rod=dataclasses.replace(ROD, mass=0.9))
+    heavy = heavier.rod.rotating_mass  # type: ignore[union-attr]
+    plain = cp.Cylinder(0.045, 0.15, 0.6)
+    engine = cp.Engine.inline(WITH_ROD, **TWO)
+    assert engine.replace(cylinder=heavier).rotating_mass.tolist() == [heavy] * 2
+    assert engine.replace(cylinder=[WITH_ROD, heavier]).rotating_mass.tolist() == [BIG_END, heavy]
+    assert cp.Engine.inline(plain, **TWO).replace(cylinder=heavier) == cp.Engine.inline(
+        heavier, **TWO
+    )
+    # A rod that is not known any more has taken nothing away, and what was given by name stays.
+    assert engine.replace(cylinder=plain).rotating_mass.tolist() == [BIG_END] * 2
+    for mass in (0.0, 0.7):
+        kept = engine.replace(rotating_mass=mass).replace(cylinder=heavier)
+        assert kept.rotating_mass.tolist() == [mass] * 2
+
+
+def test_searches_and_designs_build_engines_with_the_whole_cylinder() -> None:
+    arrangement = cp.search_arrangements(cylinders=6)[0].engine(WITH_ROD, spacing=0.1)
+    assert set(arrangement.cylinders) == {WITH_ROD}
+    assert arrangement.rotating_mass.tolist() == [BIG_END] * 6
+    question: Any = {"layout": "inline", "cylinder": WITH_ROD, "spacing": 0.1, "rpm": 3000}
+    question |= {"by": "total.moment.peak", "count": 1}
+    assert cp.design(3, **question)[0].engine.rotating_mass.tolist() == [BIG_END] * 3
+    assert not cp.design(3, **question, rotating_mass=0)[0].engine.rotating_mass.any()
 
 
 # --- tables -------------------------------------------------------------------------------------

@@ -303,7 +303,7 @@ def one_of(name: str, value: object, choices: Iterable[str]) -> str:
     if not isinstance(value, str) or value not in listed:
         if not listed:
             raise rejected(name, value, "there is none; leave it out")
-        *before, last = (f'"{choice}"' for choice in listed)
+        *before, last = map(_quoted, listed)
         hint = f"{', '.join(before)} or {last}" if before else last
         raise rejected(name, value, f"give {hint}{nearest(value, listed)}")
     return value
@@ -315,7 +315,12 @@ def nearest(value: object, words: Iterable[str]) -> str:
     if not isinstance(value, str) or len(listed) < MANY_WORDS:
         return ""
     found = difflib.get_close_matches(value[:80], listed, 1)
-    return f'; did you mean "{found[0]}"?' if found else ""
+    return f"; did you mean {_quoted(found[0])}?" if found else ""
+
+
+def _quoted(word: str) -> str:
+    """Return a word in quotation marks, control characters as in Python."""
+    return f'"{word}"' if word.isprintable() else repr(word)
 
 
 # --- lists --------------------------------------------------------------------------------------

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from typing import TYPE_CHECKING, Any
+from unicodedata import category
 
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from crankpin._support.inputs import Order
     from crankpin.model.engine import Engine
@@ -54,6 +55,9 @@ TOLERANCES = {
 }
 """Figure that may spread → its name and unit."""
 
+KEPT = "\n\t"
+"""Control characters that texts of several lines have."""
+
 NEGLIGIBLE = 1e-6
 """Orders whose peaks are all below this part of a quantity's largest peak are not shown."""
 
@@ -83,10 +87,19 @@ def name_of(engine: Engine) -> str:
 
 
 def printable(text: str) -> str:
-    """Return a text in one line, control characters as spaces: a terminal would obey them."""
-    if not text.isprintable():
-        text = "".join(c if c.isprintable() else " " for c in text)
-    return " ".join(text.split())
+    """Return a text in one line, control characters as spaces."""
+    return " ".join(without_controls(text).split())
+
+
+def without_controls(text: str) -> str:
+    """Return a text with spaces for control characters, which a terminal would obey.
+
+    So are other characters that end a line, turn the direction of writing or cannot be seen; lines
+    and tabs stay.
+    """
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() or c in KEPT or category(c) == "Zs" else " " for c in text)
 
 
 def orders_text(orders: Sequence[Order]) -> str:
@@ -123,11 +136,17 @@ def gas_text(names: Sequence[str | None], count: int = 1) -> str:
     words = cut(", ".join(named)) or "unnamed cycle"
     if count > max(1, len(named)):
         words = f"{count} cycles, {words}" if named else f"{count} cycles"
-    dead = [str(number) for number, name in enumerate(names, start=1) if name is None]
+    dead = dead_text(names)
+    return f"gas: {words}{'; ' * bool(dead)}{dead}"
+
+
+def dead_text(cycles: Iterable[object]) -> str:
+    """Return ``cylinder 3 does not fire``, or nothing if no cylinder's cycle is None."""
+    dead = [str(number) for number, cycle in enumerate(cycles, start=1) if cycle is None]
     if not dead:
-        return f"gas: {words}"
+        return ""
     verb = "cylinder {} does" if len(dead) == 1 else "cylinders {} do"
-    return f"gas: {words}; {verb.format(cut(', '.join(dead), 30))} not fire"
+    return f"{verb.format(cut(', '.join(dead), 30))} not fire"
 
 
 def loads_of(engines: Sequence[Engine], titles: Sequence[str]) -> str:

@@ -6,6 +6,7 @@ import csv
 import html
 import io
 import math
+import re
 from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
 import numpy as np
@@ -28,6 +29,9 @@ SHOWN = 30
 """Rows of a long table in text: a screen."""
 SHOWN_IN_NOTEBOOKS = 60
 """Rows of a long table in a notebook."""
+FORMULA = re.compile(r"\s*[=+\-@＝＋－＠]|[\t\n]")
+"""Beginning of a text that a spreadsheet takes for a formula."""
+NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.ASCII | re.IGNORECASE)
 TINY = "~0"
 """What stands for a number that is not zero, but too small to matter."""
 
@@ -55,7 +59,9 @@ class Column(Record):
 
     def cells(self) -> list[str]:
         """Return the values as text, numbers rounded and exact zeros as 0."""
-        return [each if isinstance(each, str) else self._rounded(each) for each in self.values]
+        return [
+            _cell(each) if isinstance(each, str) else self._rounded(each) for each in self.values
+        ]
 
     def _rounded(self, value: float | None) -> str:
         if value is None:
@@ -143,7 +149,7 @@ class Table(Record):
 
     def text(self, rows: int | None = None) -> str:
         """Return the first rows, or all, as aligned text, columns of words to the left."""
-        lines = [self.header, *self.cells()[:rows]]
+        lines = [[*map(_cell, self.header)], *self.cells()[:rows]]
         widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
         leftwards = [column.is_text and len(self) > 0 for column in self.columns]
         body = (
@@ -153,7 +159,8 @@ class Table(Record):
             ).rstrip()
             for line in lines
         )
-        text = "\n".join(filter(None, [self.title, *body, *self._notes(rows)]))
+        title, notes = labels.without_controls(self.title), self._notes(rows)
+        text = "\n".join(filter(None, [title, *body, *notes]))
         return f"{text}\n\n{self.below.text(rows)}" if self.below is not None else text
 
     def __repr__(self) -> str:
@@ -164,12 +171,12 @@ class Table(Record):
 
     def html(self, rows: int | None = None) -> str:
         """Return the first rows, or all, as HTML for notebooks."""
-        head = "".join(f"<th>{html.escape(name)}</th>" for name in self.header)
+        head = "".join(f"<th>{html.escape(_cell(name))}</th>" for name in self.header)
         body = "".join(
             "<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>"
             for row in self.cells()[:rows]
         )
-        caption = f"<caption>{html.escape(self.title)}</caption>"
+        caption = f"<caption>{html.escape(labels.without_controls(self.title))}</caption>"
         notes = "".join(f"<p>{html.escape(note)}</p>" for note in self._notes(rows))
         below = self.below.html(rows) if self.below is not None else ""
         return (
@@ -182,7 +189,7 @@ class Table(Record):
         if rows is not None and rows < len(self):
             yield f"{rows} of {len(self)} rows"
         if self.note:
-            yield self.note
+            yield labels.without_controls(self.note)
         if any(each.least and TINY in each.cells()[:rows] for each in self.columns):
             yield f"{TINY}: not zero, but too small to matter."
         if self.loads:
@@ -197,7 +204,8 @@ class Table(Record):
     def to_csv(self, path: str | Path | None = None) -> str | None:
         """Return the table as CSV, numbers in full: they read back unchanged; or write a file.
 
-        Tables below this one are not in it.
+        Tables below this one are not in it. A text that a spreadsheet would take for a formula has
+        an apostrophe before it.
 
         Parameters
         ----------
@@ -206,8 +214,8 @@ class Table(Record):
         """
         file = io.StringIO()
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(self.header)
-        writer.writerows(zip(*(each.values for each in self.columns), strict=True))
+        writer.writerow(map(_inert, self.header))
+        writer.writerows(zip(*(map(_inert, each.values) for each in self.columns), strict=True))
         if path is None:
             return file.getvalue()
         files.write(inputs.file_path(path, (".csv",), "name a .csv file"), file.getvalue())
@@ -234,6 +242,19 @@ class Table(Record):
             head = f"{head} {place}".strip() if head in seen else head
             seen.add(head)
             yield head, each
+
+
+def _cell(text: str) -> str:
+    """Return a text as a cell of one line."""
+    return labels.without_controls(text).translate({10: " ", 9: " "})
+
+
+def _inert(value: Any) -> Any:  # noqa: ANN401 - a number or a text
+    """Return a text that no terminal obeys and no spreadsheet runs; numbers as they are."""
+    if not isinstance(value, str):
+        return value
+    text = labels.without_controls(value)
+    return f"'{text}" if FORMULA.match(text) and not NUMBER.fullmatch(text) else text
 
 
 def common_decimals(values: ArrayLike) -> int | None:

@@ -8,6 +8,8 @@ import warnings
 from contextvars import ContextVar
 from typing import TYPE_CHECKING
 
+from crankpin._support import labels
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -36,7 +38,7 @@ def warn(message: str) -> None:
     # By module, since constructors that dataclasses make have no file.
     while frame.f_back is not None and _ours(frame.f_globals.get("__name__", "")):
         level, frame = level + 1, frame.f_back
-    warnings.warn(message, UserWarning, stacklevel=level)
+    warnings.warn(labels.without_controls(message), UserWarning, stacklevel=level)
 
 
 def _ours(module: str) -> bool:

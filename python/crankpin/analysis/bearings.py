@@ -225,9 +225,11 @@ class BearingLoads(Tabled):
     def mean(self, load: str) -> NDArray[np.float64]:
         """Return the mean magnitude of a load over the crank angles, N: (n,).
 
-        Each angle counts for the distance between its neighbours (trapezoidal rule).
+        Each angle counts for the distance between its neighbours (trapezoidal rule), in whichever
+        order angles are given.
         """
-        values, theta = self.magnitude(load), self.theta_deg
+        order = np.argsort(self.theta_deg, kind="stable")
+        values, theta = self.magnitude(load)[:, order], self.theta_deg[order]
         if len(theta) < 2 or theta[0] == theta[-1]:
             return values.mean(axis=-1) if len(theta) else np.zeros(len(values))
         return np.asarray(np.trapezoid(values, theta, axis=-1) / (theta[-1] - theta[0]))

@@ -197,11 +197,11 @@ class Explanation(Record):
         yield Finding("firing", "", (), tuple(fires.intervals_deg.tolist()), reason, (fires.order,))
         if any(ratio < 0 for _, _, ratio in self.engine._core.cranks[0]):
             return  # what cancels on the block is not what cancels on the crank
-        in_two_turns = 4 * len(self.engine) // self.engine.strokes
+        in_two_turns = 4 * len(fires.order) // self.engine.strokes
         orders = [half / 2 for half in range(1, in_two_turns + 1)]
         gas = self.engine.vanishing_orders(orders).gas_torque
         if not gas.undecided and gas.remaining:
-            yield Finding("gas orders", "", gas.remaining, (), reason, proved=True)
+            yield Finding("gas orders", "", gas.remaining, (), reason, (fires.order,), proved=True)
 
     def _shared_pins(self) -> Iterator[Finding]:
         """Yield the rows of a radial, whose articulated rods are not modelled."""

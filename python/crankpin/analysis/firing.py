@@ -39,7 +39,8 @@ class Firing(Tabled):
     The crank determines when each piston is at the top, in a four-stroke twice a cycle; the
     camshaft determines at which of the two it fires. An engine therefore has many firing orders,
     and can fire in one order in several ways. A cylinder fires when its piston is highest: at
-    ``tdc_deg``, but for a pin offset.
+    ``tdc_deg``, but for a pin offset. Of an engine with cycles (:meth:`Engine.with_cycle`) only
+    cylinders that have one fire; of an engine without any all do.
 
     Intervals of angles that are rational parts of a turn are exact, and so is ``even``.
 
@@ -84,19 +85,24 @@ class Firing(Tabled):
 
     @cached_property
     def order(self) -> tuple[int, ...]:
-        """Cylinders in the order in which they fire, from cylinder 1 on."""
+        """Cylinders that fire, in their order, from cylinder 1 or the next one that fires on."""
         return tuple(self._core.order)
 
     @cached_property
     def firing_order(self) -> str:
-        """The order as text, such as ``"1-3-4-2"``; ``+`` joins cylinders that fire together."""
+        """The order of all cylinders as text, such as ``"1-3-4-2"``.
+
+        ``+`` joins cylinders that fire together. Those that do not fire are named too, where the
+        camshaft has them.
+        """
         return self._core.text
 
     @cached_property
     def angles_deg(self) -> NDArray[np.float64]:
         """Crank angles θ at which cylinders fire, by number, degrees in [0, 720): (n_cylinders,).
 
-        In [0, 360) for a two-stroke. Cylinder 1 fires in the first turn.
+        In [0, 360) for a two-stroke. Cylinder 1 fires in the first turn. Of cylinders that do not
+        fire it is where they would.
         """
         return self._core.angles_deg
 
@@ -104,7 +110,7 @@ class Firing(Tabled):
     def intervals_deg(self) -> NDArray[np.float64]:
         """Crank angles from each cylinder of ``order`` to the next, the last to the first, degrees.
 
-        Of shape (n_cylinders,).
+        One for each cylinder that fires.
         """
         return self._core.intervals_deg
 
@@ -135,7 +141,7 @@ class Firing(Tabled):
         ----------
         groups
             Cylinder numbers that share an exhaust manifold, group by group; by default the banks.
-            Cylinders may be left out.
+            Cylinders may be left out; those that do not fire are.
 
         Examples
         --------
@@ -242,7 +248,7 @@ class Firing(Tabled):
     # --- tables and pictures --------------------------------------------------------------------
 
     def to_pandas(self) -> pd.DataFrame:
-        """Return a table, one row a cylinder in firing order (needs pandas)."""
+        """Return a table, one row a cylinder that fires, in firing order (needs pandas)."""
         places = np.array(self.order) - 1
         columns = {
             "angle_deg": self.angles_deg[places],
@@ -299,9 +305,10 @@ class Firing(Tabled):
 
     @property
     def summary(self) -> str:
-        """Strokes, firing order and intervals in a line of text."""
+        """Strokes, firing order and intervals in a line of text, and who does not fire."""
         how = f"even, {self.intervals_deg[0]:.10g}°" if self.even else f"{self.intervals_text}°"
-        return f"{self.strokes}-stroke {self.firing_order}, {how}"
+        dead = labels.dead_text(self.engine.cycles or ())
+        return f"{self.strokes}-stroke {self.firing_order}, {dead}{', ' * bool(dead)}{how}"
 
     @property
     def intervals_text(self) -> str:

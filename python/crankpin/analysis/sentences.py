@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from crankpin._support.labels import NEGLIGIBLE
+from crankpin._support.labels import NEGLIGIBLE, dead_text
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 
 if TYPE_CHECKING:
@@ -87,7 +87,7 @@ def abbreviated(sentences: Iterable[str], phrase: str, symbol: str) -> list[str]
     before, _, after = text.partition(phrase)
     if phrase in after:
         text = f"{before}{phrase} {symbol}{after.replace(phrase, symbol)}"
-    return text.splitlines()
+    return text.split("\n")
 
 
 def words(finding: Finding) -> str:
@@ -263,8 +263,9 @@ def _gas_torque(finding: Finding, whole: Explanation) -> str:
 
 
 def _firing(finding: Finding, whole: Explanation) -> str:
-    order = whole.engine.firing_order
-    if len(finding.values) == 1:
+    dead = dead_text(whole.engine.cycles or ())
+    order = whole.engine.firing_order + f", of which {dead}" * bool(dead)
+    if len(whole.engine) == 1:
         return f"the cylinder fires every {finding.values[0]:g}°"
     if finding.reason == "evenly":
         return f"it fires evenly, every {finding.values[0]:.6g}°: {order}"
@@ -273,15 +274,18 @@ def _firing(finding: Finding, whole: Explanation) -> str:
 
 
 def _gas_orders(finding: Finding, whole: Explanation) -> str:
-    first = 2 * len(whole.engine) / whole.engine.strokes
+    firing = finding.groups[0]
+    first = 2 * len(firing) / whole.engine.strokes
     if finding.orders == (first,):
-        lower = ": all lower orders cancel exactly" if len(whole.engine) > 1 else ""
+        lower = ": all lower orders cancel exactly" if len(firing) > 1 else ""
         return f"gas torque begins at order {first:g}{lower}"
-    left, firing = orders(finding.orders), f"{finding.reason.removesuffix('ly')} firing"
-    cylinders = whole.engine.cylinders
+    left, how = orders(finding.orders), f"{finding.reason.removesuffix('ly')} firing"
+    cylinders = [whole.engine.cylinders[number - 1] for number in firing]
     if len({(each.stroke, each.rod_length, each.pin_offset, each.bore) for each in cylinders}) > 1:
-        firing += " of unlike cylinders"
-    return f"{firing} leaves gas torque of {left}, and of higher ones"
+        how += " of unlike cylinders"
+    elif len(set(whole.engine.cycles or (None,)) - {None}) > 1:
+        how += " of unlike cycles"
+    return f"{how} leaves gas torque of {left}, and of higher ones"
 
 
 def _articulated(finding: Finding, whole: Explanation) -> str:

@@ -39,8 +39,8 @@ class StarDiagram(Keyed, Tabled):
     At order k the gas torque of a cylinder whose firing top dead centre, its crankpin in line with
     the bore, is at the crank angle φ has the phase exp(−ikφ). Of alike cylinders with one cycle the
     sum of these vectors, times the torque's harmonic of one cylinder, is the engine's; with the
-    amplitudes of a torsional mode shape as their lengths it is what excites the mode. ``d[1.5]`` is
-    a sum.
+    amplitudes of a torsional mode shape as their lengths it is what excites the mode. A cylinder
+    that does not fire, of an engine with cycles in others, has no vector. ``d[1.5]`` is a sum.
 
     Made by :func:`crankpin.star_diagram`.
 
@@ -99,7 +99,7 @@ class StarDiagram(Keyed, Tabled):
 
     @property
     def major(self) -> tuple[Order, ...]:
-        """Major orders: those at which the vectors of all cylinders have one direction."""
+        """Major orders: those at which all cylinders that fire have one phase."""
         return tuple(n for n, major in zip(self.orders, self._core[4], strict=True) if major)
 
     def __getitem__(self, order: Order) -> complex:
@@ -120,7 +120,7 @@ class StarDiagram(Keyed, Tabled):
             "major" if order in major else word
             for order, word in zip(self.orders, self.verdicts.words, strict=True)
         ]
-        longest = float(np.abs(self.mode_shape).sum())
+        longest = float(np.abs(self.vectors[0]).sum())
         share = 100.0 * self.peak / longest if longest else np.zeros(len(sums))
         columns = (
             Column("order", self.orders, digits=10),

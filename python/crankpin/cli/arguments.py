@@ -177,8 +177,8 @@ OPTIONS: dict[str, dict[str, Any]] = {
     "--bore": {"help": "bore of all cylinders, m (default: the engine's, or else the stroke)"},
     "--crankcase": {
         "metavar": "P",
-        "default": "101325",
-        "help": "absolute pressure below the pistons, Pa or 1.01bar (default: %(default)s)",
+        "help": "absolute pressure below the pistons, Pa or 1.01bar (default: that of the engine, "
+        "or 101325)",
     },
     "--seed": {"default": "0", "help": "seed of the random numbers (default: %(default)s)"},
     "--units": {

@@ -118,6 +118,8 @@ def _fired(given: Given, name: str, otherwise: str | None = None) -> tuple[Engin
         raise InputError(f"{of_a_file[0]} needs a file of --cycle")
     if typed is None:
         if engine.fired or otherwise is None:
+            if given.text("--crankcase") is not None:
+                raise InputError("--crankcase needs --cycle")
             return engine, ""
         typed = otherwise
     example = typed in EXAMPLES
@@ -135,7 +137,7 @@ def _fired(given: Given, name: str, otherwise: str | None = None) -> tuple[Engin
         for each in engine.cylinders
     ]
     fired = engine.replace(cylinder=cylinders).with_cycle(
-        cycle, crankcase=given.number("--crankcase", "Pa")
+        cycle, crankcase=given.optional("--crankcase", "Pa")
     )
     note = "Bores that are not known are taken to equal the stroke.\n" if unknown else ""
     return fired, note

@@ -264,7 +264,7 @@ def _parts(given: Given, notes: list[str]) -> tuple[Cylinder | None, float | Non
     if masses["--piston-mass"] is None:
         raise InputError("a cylinder of your own needs --piston-mass, or --reciprocating-mass")
     cylinder = Cylinder.from_rod(rod, stroke / 2.0, masses["--piston-mass"], **common)
-    return cylinder, rod.rotating_mass if rotating is None else rotating
+    return cylinder, rotating
 
 
 def _rod(

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TextIO
 
 import numpy as np
 
-from crankpin._support import files
+from crankpin._support import files, labels
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
 MOST_OMITTED = 8
 """Most omitted orders that are all listed."""
-CONTROLS = {code: "�" for code in (*range(32), *range(127, 160)) if chr(code) not in "\n\t"}
-"""Control characters, which a terminal would obey, and what is printed instead."""
 
 
 class Shown(NamedTuple):
@@ -91,7 +89,7 @@ def write(text: str) -> None:
         raise OSError("standard output is closed")
     try:
         # Line by line: a pipe that breaks within a single long write can go unnoticed.
-        sys.stdout.writelines(text.translate(CONTROLS).splitlines(keepends=True))
+        sys.stdout.writelines(labels.without_controls(text).splitlines(keepends=True))
         sys.stdout.flush()
     except BrokenPipeError:
         raise
@@ -112,7 +110,7 @@ def say(message: str) -> None:
     if sys.stderr is None:
         return
     try:
-        sys.stderr.write(f"crankpin: {message.translate(CONTROLS)}\n")
+        sys.stderr.write(f"crankpin: {labels.without_controls(message)}\n")
         sys.stderr.flush()
     except OSError:
         abandon(sys.stderr)

@@ -11,7 +11,7 @@ from crankpin._core import MOST_CYLINDERS, InputError
 from crankpin._support import inputs
 from crankpin.model import checks
 from crankpin.model import shafts as rotating
-from crankpin.model.data import EngineData, allowed, core_of_lists, parts
+from crankpin.model.data import EngineData, allowed, big_end, core_of_lists, parts
 
 if TYPE_CHECKING:
     import numpy as np
@@ -38,7 +38,7 @@ class Builders(EngineData):
         z: ArrayLike,
         tdc_deg: Angles | None = None,
         pin_deg: Angles | None = None,
-        rotating_mass: ArrayLike = 0.0,
+        rotating_mass: ArrayLike | None = None,
         counterweights: Iterable[Unbalance] = (),
         shafts: Iterable[Shaft] = (),
         mains: ArrayLike | None = None,
@@ -66,7 +66,9 @@ class Builders(EngineData):
             Directions of the crankpins from +x at θ = 0, in place of ``tdc_deg``.
         rotating_mass
             Rotating mass at the crank radius, each cylinder's share of its crankpin, kg: a number
-            for all cylinders, or one for each. Of a pin that two cylinders share it is half.
+            for all cylinders, or one for each. Of a pin that two cylinders share it is half. By
+            default the big end of each cylinder's ``rod`` (:meth:`Cylinder.from_rod`), zero where
+            it has none; a number replaces that, and 0 leaves the big end out.
         counterweights, shafts
             What rotates besides: see :class:`crankpin.Unbalance` and :class:`crankpin.Shaft`.
         mains
@@ -115,7 +117,7 @@ class Builders(EngineData):
         *,
         throws_deg: Angles,
         spacing: float,
-        rotating_mass: ArrayLike = 0.0,
+        rotating_mass: ArrayLike | None = None,
         first_tdc_deg: Angle = 0.0,
         firing_order: str | Iterable[int] = "",
         strokes: int = 4,
@@ -149,7 +151,7 @@ class Builders(EngineData):
         array([[    0.,     0.],
                [    0., 12359.]])
         """
-        layout = _along_crank(throws_deg, spacing, rotating_mass, first_tdc_deg)
+        layout = _along_crank(cylinder, throws_deg, spacing, rotating_mass, first_tdc_deg)
         core = _kept(_core.Engine.inline(parts(cylinder), layout), cylinder)
         checks.angles(throws_deg=throws_deg, first_tdc_deg=first_tdc_deg)
         return cls(core, name, source, firing_order, strokes)
@@ -166,7 +168,7 @@ class Builders(EngineData):
         bank_stagger: float = 0.0,
         numbering: Numbering = "alternating",
         odd_bank: Side = "right",
-        rotating_mass: ArrayLike = 0.0,
+        rotating_mass: ArrayLike | None = None,
         first_tdc_deg: Angle = 0.0,
         firing_order: str | Iterable[int] = "",
         strokes: int = 4,
@@ -197,7 +199,8 @@ class Builders(EngineData):
             The bank with cylinder 1, seen from the flywheel.
         rotating_mass
             Rotating mass at the crank radius, each cylinder's share of its crankpin, kg: a number
-            for all cylinders, or one for each. Of a pin that two cylinders share it is half.
+            for all cylinders, or one for each. Of a pin that two cylinders share it is half. By
+            default the big end of the cylinder's ``rod``, as in :meth:`from_lists`.
         first_tdc_deg
             Crank angle at which cylinder 1 is at top dead centre.
         firing_order, strokes, name, source
@@ -213,7 +216,7 @@ class Builders(EngineData):
         >>> abs(v8.balance(rpm=6000, orders=[1]).moment.backward)  # all of it turns with the crank
         array([0.])
         """
-        layout = _along_crank(throws_deg, spacing, rotating_mass, first_tdc_deg)
+        layout = _along_crank(cylinder, throws_deg, spacing, rotating_mass, first_tdc_deg)
         layout |= vee_layout(bank_angle_deg, pin_split_deg, bank_stagger, numbering, odd_bank)
         core = _kept(_core.Engine.vee(parts(cylinder), layout), cylinder)
         checks.angles(
@@ -233,7 +236,7 @@ class Builders(EngineData):
         bank_stagger: float = 0.0,
         numbering: Numbering = "alternating",
         odd_bank: Side = "right",
-        rotating_mass: ArrayLike = 0.0,
+        rotating_mass: ArrayLike | None = None,
         first_tdc_deg: Angle = 0.0,
         firing_order: str | Iterable[int] = "",
         strokes: int = 4,
@@ -268,7 +271,7 @@ class Builders(EngineData):
         bank_stagger: float = 0.0,
         numbering: Numbering = "alternating",
         odd_bank: Side = "right",
-        rotating_mass: ArrayLike = 0.0,
+        rotating_mass: ArrayLike | None = None,
         first_tdc_deg: Angle = 0.0,
         firing_order: str | Iterable[int] = "",
         strokes: int = 4,
@@ -302,7 +305,7 @@ class Builders(EngineData):
         *,
         rows: int = 1,
         spacing: float | None = None,
-        rotating_mass: ArrayLike = 0.0,
+        rotating_mass: ArrayLike | None = None,
         first_tdc_deg: Angle = 0.0,
         firing_order: str | Iterable[int] | None = None,
         strokes: int = 4,
@@ -388,7 +391,7 @@ class Builders(EngineData):
         numbering: Numbering = "alternating",
         odd_bank: Side = "right",
         bank_stagger: float = 0.0,
-        rotating_mass: ArrayLike = 0.0,
+        rotating_mass: ArrayLike | None = None,
         first_tdc_deg: Angle = 0.0,
         name: str = "",
         source: str = "",
@@ -460,7 +463,7 @@ class Builders(EngineData):
                     else "they have intervals of their own; leave out rule and intervals_deg"
                 )
                 raise inputs.rejected("shared_pins", shared_pins, hint)
-        along = _along_crank((), spacing, rotating_mass, first_tdc_deg)
+        along = _along_crank(cylinder, (), spacing, rotating_mass, first_tdc_deg)
         # What an inline engine ignores is checked all the same.
         angle = 0.0 if bank_angle_deg is None else bank_angle_deg
         across = vee_layout(angle, 0.0, bank_stagger, numbering, odd_bank)
@@ -528,13 +531,21 @@ def vee_layout(
 
 
 def _along_crank(
-    throws_deg: Angles, spacing: float, rotating_mass: ArrayLike, first_tdc_deg: Angle
+    cylinder: Cylinder,
+    throws_deg: Angles,
+    spacing: float,
+    rotating_mass: ArrayLike | None,
+    first_tdc_deg: Angle,
 ) -> dict[str, Any]:
     """Return what stands along a crank, as the core takes it."""
     return {
         "throws": inputs.angles("throws_deg", throws_deg),
         "spacing": inputs.number("spacing", spacing),
-        "rotating_mass": inputs.vector("rotating_mass", rotating_mass).tolist(),
+        "rotating_mass": (
+            [big_end(cylinder)]
+            if rotating_mass is None
+            else inputs.vector("rotating_mass", rotating_mass).tolist()
+        ),
         "first_tdc": inputs.angle("first_tdc_deg", first_tdc_deg),
     }
 

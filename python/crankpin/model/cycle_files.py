@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import json
 import re
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
@@ -102,7 +104,7 @@ def load(
         angles,
         pressures,
         _strokes(split.facts) if strokes is None else strokes,
-        split.facts.get("name", file.stem) if name is None else name,
+        _name(split.facts.get("name", file.stem)) if name is None else name,
         _fact(split.facts, "degree"),
     )
 
@@ -147,12 +149,21 @@ def save(cycle: Cycle, path: str | Path) -> None:
     """Write a cycle to a file that reads back as an equal one."""
     file = inputs.file_path(path, ENDINGS, HINT)
     separator = "\t" if file.suffix.lower() == ".tsv" else ","
-    facts = {"name": " ".join(cycle.name.split()), "strokes": cycle.strokes, "degree": cycle.degree}
+    in_line = cycle.name.isprintable() and cycle.name == " ".join(cycle.name.split())
+    name = cycle.name if in_line and not cycle.name.startswith('"') else json.dumps(cycle.name)
+    facts = {"name": name, "strokes": cycle.strokes, "degree": cycle.degree}
     lines = [f"# {key}: {value}" for key, value in facts.items() if value is not None]
     lines.append(f"crank angle deg{separator}absolute pressure Pa")
     pairs = zip(cycle.theta_deg.tolist(), cycle.pressure.tolist(), strict=True)
     lines += [f"{angle!r}{separator}{pressure!r}" for angle, pressure in pairs]
     files.write(file, "\n".join([*lines, ""]))
+
+
+def _name(text: str) -> str:
+    """Return a name as it was before :func:`save` put it into one line."""
+    with contextlib.suppress(ValueError):
+        return json.loads(text) if text.startswith('"') else text
+    return text
 
 
 def _fact(facts: dict[str, str], name: str) -> int | None:
@@ -167,7 +178,7 @@ def _split(text: str) -> _Text:
     header = above = ""
     rows: list[list[str]] = []
     pattern: tuple[str | None, bool] | None = None
-    for line in text.splitlines():
+    for line in re.split(r"\r\n|\r|\n", text):
         stripped = line.strip()
         if rule := _FACT.fullmatch(stripped):
             facts[rule[1]] = rule[2]

@@ -33,8 +33,9 @@ class Cylinder:
 
     The rod counts as two masses: one that moves with the piston and one that turns with the
     crankpin. For forces and moments that is exact, for any rod. The turning mass belongs to the
-    throw: engines take it as ``rotating_mass``. For torques the rod's moment of inertia counts too:
-    ``rod_inertia_excess`` is what it has beyond its two masses. :meth:`from_rod` takes a whole rod.
+    throw: engines take it as ``rotating_mass``, by default that of the ``rod``. For torques the
+    rod's moment of inertia counts too: ``rod_inertia_excess`` is what it has beyond its two masses.
+    :meth:`from_rod` takes a whole rod.
 
     Parameters
     ----------
@@ -135,8 +136,8 @@ class Cylinder:
     ) -> Cylinder:
         """Return a cylinder with a rod of known mass and inertia.
 
-        The engine's ``rotating_mass`` is then ``rod.rotating_mass``, and what else turns with the
-        pin.
+        An engine of such cylinders has ``rod.rotating_mass`` as ``rotating_mass``, unless it is
+        given one: what else turns with the pin then counts, too.
 
         Parameters
         ----------

@@ -228,6 +228,12 @@ class EngineData:
         """Absolute pressure in the crankcase, Pa; None without cycles."""
         return self._core.crankcase
 
+    def _below_pistons(self, crankcase: float | None) -> float:
+        """Return a pressure in the crankcase, Pa; of None the engine's own, or the atmosphere's."""
+        if crankcase is not None:
+            return inputs.number("crankcase", crankcase)
+        return ATMOSPHERE if self.crankcase is None else self.crankcase
+
     @property
     def fired(self) -> bool:
         """True if gas pressure is counted."""
@@ -371,7 +377,9 @@ class EngineData:
     ) -> Self:
         """Return a copy with some lists changed; see :meth:`from_lists`.
 
-        A firing order that the changed crank does not allow is dropped, unless it is given.
+        A firing order that the changed crank does not allow is dropped, unless it is given. A
+        cylinder with another ``rod`` brings its big end as rotating mass, unless the engine's
+        differs from the big end of the rod that it had.
 
         Parameters
         ----------
@@ -397,7 +405,7 @@ class EngineData:
             pin_deg,
             exact_bank if bank_deg is None else bank_deg,
             self.z if z is None else z,
-            self.rotating_mass if rotating_mass is None else rotating_mass,
+            self._rotating(cylinder) if rotating_mass is None else rotating_mass,
             mains=bearings,
             reference_z=plane,
             bank=self._core.bank if bank_deg is None else None,
@@ -416,14 +424,24 @@ class EngineData:
         )
         cycles: Any = self.cycles if _is_kept(cycle) else cycle
         if cycles is None:
-            return changed
+            return changed if crankcase is None else changed.with_cycle(None, crankcase=crankcase)
         pins_kept = tdc_deg is None and pin_deg is None and count == self.strokes
         if _is_kept(cycle) and crankcase is None and pins_kept and firing_order is None:
             # Each cylinder fires in the turn in which it did, whether or not its order was dropped.
             fired = changed._core.fired_as(self._core, list(range(len(self))))
             return type(self)(fired.firing_as(changed.firing_order, count))
-        above = self.crankcase if crankcase is None else crankcase
-        return changed.with_cycle(cycles, crankcase=ATMOSPHERE if above is None else above)
+        return changed.with_cycle(cycles, crankcase=self._below_pistons(crankcase))
+
+    def _rotating(self, cylinder: Cylinder | Sequence[Cylinder] | None) -> list[float]:
+        """Return the rotating masses that stay, or come with the rods, as cylinders change."""
+        masses: list[float] = self.rotating_mass.tolist()
+        each: Any = [cylinder] * len(self) if isinstance(cylinder, Cylinder) else cylinder
+        if not isinstance(each, (list, tuple)) or len(each) != len(self):
+            return masses  # those of the engine, or rejected where cylinders are read
+        return [
+            big_end(new) if getattr(new, "rod", None) and mass == big_end(old) else mass
+            for new, old, mass in zip(each, self.cylinders, masses, strict=True)
+        ]
 
     def with_counterweights(self, counterweights: Iterable[Unbalance]) -> Self:
         """Return the same engine with these counterweights in place of those it has.
@@ -465,7 +483,7 @@ class EngineData:
         return type(self)(rotating.with_shafts(self._core, shafts))
 
     def with_cycle(
-        self, cycle: Cycle | Sequence[Cycle | None] | None, *, crankcase: float = ATMOSPHERE
+        self, cycle: Cycle | Sequence[Cycle | None] | None, *, crankcase: float | None = None
     ) -> Self:
         """Return the same engine with gas pressure in its cylinders, by its firing order.
 
@@ -479,7 +497,8 @@ class EngineData:
             Pressure over a cycle, for all cylinders or one for each; None for a cylinder without
             gas load, as with its valves open. None for an engine without gas pressure.
         crankcase
-            Absolute pressure below the pistons, Pa.
+            Absolute pressure below the pistons, Pa; by default what the engine has, or that of the
+            atmosphere.
 
         Raises
         ------
@@ -499,6 +518,8 @@ class EngineData:
         'zero, proved'
         """
         if cycle is None:
+            if crankcase is not None:
+                raise inputs.rejected("crankcase", crankcase, "needs a cycle; leave it out")
             return type(self)(self._core.without_cycles())
         hint = "give a crankpin.Cycle, or one or None for each cylinder"
         same = isinstance(cycle, Cycle)
@@ -507,7 +528,7 @@ class EngineData:
             if not (one is None or isinstance(one, Cycle)):
                 raise inputs.rejected(f"cycle[{k}]", one, hint)
         cores = [None if one is None else one._core for one in each]
-        below = inputs.number("crankcase", crankcase)
+        below = self._below_pistons(crankcase)
         (fired,) = self._core.with_cycles([cores], below)
         checks.crankcase(below)
         _warn_of_work(each, self.cylinders)
@@ -644,7 +665,7 @@ def core_of_lists(
     pin_deg: Angles | None,
     bank_deg: Angles,
     z: ArrayLike,
-    rotating_mass: ArrayLike,
+    rotating_mass: ArrayLike | None,
     *,
     mains: ArrayLike | None,
     reference_z: float | None,
@@ -666,7 +687,11 @@ def core_of_lists(
         banks,
         bank,
         inputs.vector("z", z).tolist(),
-        inputs.per_item("rotating_mass", rotating_mass, len(banks)),
+        (
+            [big_end(one) for one in each]
+            if rotating_mass is None
+            else inputs.per_item("rotating_mass", rotating_mass, len(banks))
+        ),
         cranks,
     )
     bearings = [] if mains is None else inputs.vector("mains", mains).tolist()
@@ -676,6 +701,12 @@ def core_of_lists(
     checks.angles(tdc_deg=tdc_deg, pin_deg=pin_deg, bank_deg=bank_deg)
     checks.place(core, "reference_z", plane)
     return core
+
+
+def big_end(cylinder: object) -> float:
+    """Return the rotating mass of a cylinder whose engine has none by name: its rod's, kg."""
+    rod = cylinder.rod if isinstance(cylinder, Cylinder) else None
+    return 0.0 if rod is None else rod.rotating_mass
 
 
 def parts(cylinder: object) -> tuple[float, float, float, float, float]:

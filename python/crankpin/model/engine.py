@@ -113,9 +113,10 @@ class Engine(Builders):
 
     @property
     def firing_intervals_deg(self) -> NDArray[np.float64]:
-        """Crank angles between the firings of ``firing_order``, degrees: (n_cylinders,).
+        """Crank angles between the firings of ``firing_order``, degrees, one for each that fires.
 
-        Undefined if the firing order is not known.
+        Of an engine with cycles only cylinders that have one fire. Undefined if the firing order is
+        not known.
         """
         return self._own_firing("firing_intervals_deg").intervals_deg
 

@@ -70,7 +70,7 @@ def commented(text: str) -> str:
     if any(quotes in text for quotes in MULTILINE):
         return text
     lines, about, table = list[str](), dict(descriptions()), ""
-    for line in text.splitlines():
+    for line in text.split("\n")[:-1]:
         if line.startswith("["):
             table = place = line.strip("[]")
         else:

@@ -107,9 +107,10 @@ def presets() -> Presets:
 def preset(name: str, *, cylinder: Cylinder | None = None, spacing: float | None = None) -> Engine:
     """Return the engine of this name; see :meth:`Engine.preset`.
 
-    Another cylinder replaces what :class:`Cylinder` describes and no more: the crank and the
-    rotating mass are kept. Where the layout offsets its bores (VR and W engines) each keeps its
-    offset in metres, and the given pin offset is added to it.
+    Another cylinder replaces what :class:`Cylinder` describes and no more: the crank is kept, and
+    the rotating mass unless the cylinder has a rod, whose big end replaces it. Where the layout
+    offsets its bores (VR and W engines) each keeps its offset in metres, and the given pin offset
+    is added to it.
     """
     if name not in Presets():
         raise AbsentItemError(_unknown(name))
@@ -135,6 +136,8 @@ class Layout(NamedTuple):
     def build(self, cylinder: Cylinder, spacing: float, **changes: Any) -> Engine:  # noqa: ANN401
         """Return the engine with this cylinder and spacing, and other arguments of the builder."""
         arguments = self.arguments | changes
+        if cylinder.rod is not None and "rotating_mass" not in changes:
+            arguments.pop("rotating_mass", None)  # a rod brings its own
         if "places" in arguments:  # in spacings, and a pin offset for each cylinder
             places = arguments.pop("places")
             offsets = arguments.pop("pin_offset", [0.0] * len(places))

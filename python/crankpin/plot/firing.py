@@ -91,7 +91,10 @@ def _firing(
     if timing is not None:
         overlaps = result.exhaust_overlaps(timing=timing)
         handles += _mark_overlaps(ax, overlaps, exhausts, rows, cycle)
-    handles += _mark_firings(ax, result.angles_deg[np.array(rows) - 1], _middle(0.0, place))
+    handles += _mark_firings(
+        ax, [(rows.index(each), result.angles_deg[each - 1]) for each in result.order],
+        _middle(0.0, place),
+    )  # fmt: skip
     _dress(ax, result, rows, row_height)
     set_title(ax, labels.name_of(result.engine), labels.cut(result.summary))
     add_legend(ax, handles=handles, **({} if lettered else SMALL_LEGEND))
@@ -165,10 +168,11 @@ def _mark_overlaps(
     return [Patch(label="exhausts overlap", **looks)] if found else []
 
 
-def _mark_firings(ax: Axes, angles: NDArray[np.float64], middle: float) -> list[Line2D]:
+def _mark_firings(ax: Axes, places: Sequence[tuple[int, float]], middle: float) -> list[Line2D]:
+    rows, angles = zip(*sorted(places), strict=True)
     return ax.plot(
         angles,
-        np.arange(len(angles)) + middle,
+        np.array(rows) + middle,
         linestyle="",
         marker="D",
         markersize=5.0,

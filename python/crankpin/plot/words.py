@@ -21,8 +21,11 @@ if TYPE_CHECKING:
 
 
 def plain_text(text: str) -> str:
-    """Return text that matplotlib shows unchanged: dollar signs would start a formula."""
-    return text.replace("$", r"\$")
+    """Return text that matplotlib shows: dollar signs would start a formula.
+
+    Control characters are in no font, and not allowed in SVG.
+    """
+    return labels.without_controls(text).replace("$", r"\$")
 
 
 def number(value: float) -> str:

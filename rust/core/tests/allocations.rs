@@ -21,7 +21,7 @@ const BOUNDED: &[(&str, &str)] = &[
     ("gear/", "10 000 orders, and terms of a series that must converge"),
     ("readings/choice.rs", "10 000 orders"),
     ("readings/exact/", "loads of one engine, 10 000 orders"),
-    ("readings/tolerances/", "128 samples of 10 000 orders"),
+    ("readings/tolerances/", "128 samples of 4096 harmonics, one of 10 000 orders"),
     ("readings/sweep/block.rs", "32 rows of 10 000 orders"),
     ("readings/sweep/choice.rs", "10 000 orders"),
     ("readings/sweep/harmonics.rs", "10 000 orders"),

@@ -46,6 +46,7 @@ pub fn balance(
 }
 
 /// What each part of an engine adds to a balance of these orders: its kind, index and balance.
+#[guarded]
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "the wrapper in Python has defaults for them")]
 pub fn terms(

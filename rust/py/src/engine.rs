@@ -453,7 +453,9 @@ impl Engine {
         lists: Vec<Vec<Option<PyRef<'_, Cycle>>>>,
         crankcase: f64,
     ) -> PyResult<Vec<Self>> {
-        let firing = interrupt::run(py, |cancel| core::Firing::own(&self.0, cancel))?;
+        // The camshaft is that of the whole engine, also where some cylinders do not fire.
+        let whole = Arc::new(self.0.without_gas());
+        let firing = interrupt::run(py, |cancel| core::Firing::own(&whole, cancel))?;
         let fired = |cycles: Vec<Option<PyRef<'_, Cycle>>>| {
             let mut known: Vec<Arc<core::Cycle>> = Vec::new();
             let mut index = |cycle: PyRef<'_, Cycle>| {

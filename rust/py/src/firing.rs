@@ -85,9 +85,10 @@ impl Firing {
         self.0.strokes().number()
     }
 
+    /// Numbers of the cylinders that fire.
     #[getter]
     fn order(&self) -> Vec<usize> {
-        numbers(self.0.order())
+        numbers(self.0.fired())
     }
 
     #[getter]

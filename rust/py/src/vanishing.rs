@@ -64,7 +64,7 @@ pub fn star<'py>(
 ) -> PyResult<Star<'py>> {
     let (firing, orders, count) = (&firing.0, orders_of_halves(halves)?, weights.len());
     let stars = interrupt::run(py, |cancel| {
-        let stars = Stars::new(firing.phases(), weights, vec![(0, false); count], cancel)?;
+        let stars = Stars::of_firing(firing, weights, cancel)?;
         let at = |&order: &Order| {
             cancel.check()?;
             stars.at(order)

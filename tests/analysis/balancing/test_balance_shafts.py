@@ -8,6 +8,7 @@ from __future__ import annotations
 import copy
 import itertools
 import pickle
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import conftest
@@ -692,3 +693,80 @@ def test_errors_name_the_argument(given: dict[str, Any], words: str) -> None:
         call(**arguments)
     with pytest.raises(cp.InputError, match=r"use crankpin\.balance_shafts"):
         cp.types.BalanceShafts(I4, (1,), (), (), None)  # type: ignore[arg-type]
+
+
+# --- nearly dependent equations -------------------------------------------------------------------
+
+
+def roll_left(fit: cp.types.BalanceShafts) -> float:
+    """Return the roll torque that stays, over ω²."""
+    return next(part.after for part in fit.parts() if part.quantity == "torque")
+
+
+@pytest.mark.parametrize(
+    ("engine", "ratios", "options"),
+    [
+        (
+            cp.Engine.preset("v8-crossplane"), [1, 1],
+            {"x": [-0.07, -0.12], "planes": [[0.15, 0.22], [-0.03, 0.25]]},
+        ),
+        (
+            cp.Engine.inline(cp.Cylinder(0.05, 0.15, 1.0), throws_deg=[0, 210], spacing=0.1),
+            [2, 2],
+            {"x": [0.16, -0.02], "planes": [[0, 0.19], [0, 0.18]], "remove": "moment"},
+        ),
+    ],
+)  # fmt: skip
+def test_couples_whose_forces_are_rounding_stay_at_height_0(
+    engine: cp.Engine, ratios: list[int], options: dict[str, Any]
+) -> None:
+    free, fixed = (cp.balance_shafts(engine, ratios, y=y, **options) for y in (None, 0.0))
+    assert [shaft.y for shaft in free] == [0.0, 0.0]
+    assert roll_left(free) == roll_left(fixed)
+
+
+@pytest.mark.parametrize("seed", range(250))
+def test_free_places_leave_no_more_roll_torque_than_numpys_least_squares(seed: int) -> None:
+    """Heights of shafts whose forces are parallel, nearly so, or neither."""
+    rng = np.random.default_rng(seed)
+    throws = rng.integers(0, 24, int(rng.integers(1, 5))) * 15
+    engine = cp.Engine.inline(cp.Cylinder(0.05, 0.15, 1.0), throws_deg=throws, spacing=0.1)
+    order = int(rng.integers(1, 3))
+    ratios = (rng.choice([-1, 1], int(rng.integers(1, 4))) * order).tolist()
+    x = rng.uniform(-0.2, 0.2, len(ratios)).round(2).tolist()
+    planes = [sorted(rng.uniform(0, 0.4, 2).tolist()) for _ in ratios]
+    if seed % 3 == 0:
+        planes = [[a, a + 1e-6] for a, _ in planes]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        fit = cp.balance_shafts(engine, ratios, x=x, planes=planes)
+        fixed = cp.balance_shafts(engine, ratios, x=x, y=0.0, planes=planes)
+        left = fixed.residual[order].torque.phasor
+        ours = roll_left(fit)
+    # Torque for each metre of height: −F_x, which is F or its conjugate.
+    rows = np.array([
+        [-force.real, -force.imag if ratio > 0 else force.imag]
+        for force, ratio in zip(fixed.force, ratios, strict=True)
+    ]).T  # fmt: skip
+    target = -np.array([left.real, left.imag])
+    heights = np.linalg.lstsq(rows, target, rcond=1e-9)[0]
+    rest = np.linalg.norm(rows @ heights - target)
+    if abs(heights).max() < 1.0:  # others are beyond the reach of the engine
+        # Some hundred units in the last place of the torques of the heights.
+        rounding = 1e-13 * (np.linalg.norm(target) + abs(rows * heights).sum())
+        # Angles of unbalances are known to 1e-13°, 2e-15 rad, and axes are within a metre.
+        rounding += 2e-15 * order**2 * fit.unbalance
+        assert ours <= rest + rounding
+
+
+def test_cylinders_the_smallest_number_apart_are_at_one_place() -> None:
+    both, one = (
+        cp.Engine.from_lists(
+            cp.Cylinder(0.05, 0.15, 1.0), bank_deg=[90, 90], tdc_deg=[0, 90], z=[0.0, z]
+        )
+        for z in (5e-324, 0.0)
+    )
+    for ratios in ([1], [1, -1], [2, -2]):
+        near, same = (cp.balance_shafts(engine, ratios) for engine in (both, one))
+        assert near.unbalance == pytest.approx(same.unbalance, rel=1e-12)
+        assert near.residual.force.peak == pytest.approx(same.residual.force.peak, abs=1e-14)

@@ -679,6 +679,121 @@ def test_weights_at_drilling_places_are_the_least_of_a_conic_solver(seed: int | 
         assert squares <= least.fun + 1e-7 * max(squares, 1.0)
 
 
+LONE = cp.Engine.inline(cp.Cylinder(0.05, 0.15, 1.0), throws_deg=[0], spacing=0.1)
+
+
+def test_a_full_plane_chooses_between_angles_that_see_as_much() -> None:
+    """Both angles of A beside the residual do what one of them does with B."""
+    fitted = cp.counterweights(
+        LONE, planes={"A": 0.0, "B": 0.1}, factor={"force": 0.5}, bound=0.00625,
+        angles_deg={"A": [120, 240, 300], "B": [180]},
+    )  # fmt: skip
+    assert [name for name, _ in fitted.by_plane] == ["A", "A"]
+    assert [degrees(weight.angle_deg) for weight in fitted.hardware] == [240, 300]
+    assert [weight.amount for weight in fitted.hardware] == pytest.approx([0.003125] * 2, rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(200))
+def test_full_planes_have_the_least_squares_of_all_that_leave_the_same(seed: int) -> None:
+    """SciPy on the whole problem; a force at sixths of a turn, which residuals often bisect."""
+    optimize = pytest.importorskip("scipy.optimize")
+    rng = np.random.default_rng(seed)
+    names = "ABC"[: int(rng.integers(2, 4))]
+    angles = {
+        name: sorted(rng.choice(np.arange(0, 360, 60), int(rng.integers(1, 5)), False).tolist())
+        for name in names
+    }
+    bound = 0.025 / int(rng.integers(2, 9))
+    fitted = cp.counterweights(
+        LONE, planes={name: 0.1 * k for k, name in enumerate(names)}, factor={"force": 0.5},
+        bound=bound, angles_deg=angles,
+    )  # fmt: skip
+    places = [(name, angle) for name in names for angle in angles[name]]
+    units = np.exp(1j * np.deg2rad([angle for _, angle in places]))
+    rows = np.array([units.real, units.imag])
+    sums = np.array([[float(name == own) for own, _ in places] for name in names])
+    ours = np.zeros(len(places))
+    for name, weight in fitted.by_plane:
+        ours[places.index((name, degrees(weight.angle_deg)))] = weight.amount / 0.025
+    made, limit = rows @ ours, bound / 0.025
+    least = optimize.minimize(
+        lambda x: 0.5 * ((sums @ x) ** 2).sum(),
+        np.full(len(places), limit / 4.0),
+        jac=lambda x: sums.T @ (sums @ x),
+        method="SLSQP",
+        bounds=[(0.0, None)] * len(places),
+        constraints=[
+            {"type": "ineq", "fun": lambda x: limit - sums @ x, "jac": lambda _: -sums},
+            {"type": "eq", "fun": lambda x: rows @ x - made, "jac": lambda _: rows},
+        ],
+        options={"maxiter": 1000, "ftol": 1e-16},
+    )
+    assert (sums @ ours <= limit * (1.0 + 1e-12)).all()
+    if abs(rows @ least.x - made).max() < 1e-9:
+        # What this fit promises, and what the other may miss of its equations.
+        assert 0.5 * ((sums @ ours) ** 2).sum() <= least.fun + 2e-9
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_the_least_largest_of_planes_near_each_other_is_that_of_a_linear_program(seed: int) -> None:
+    optimize = pytest.importorskip("scipy.optimize")
+    rng = np.random.default_rng(seed)
+    apart = 10.0 ** rng.uniform(-4.0, -2.0)
+    first = float(rng.uniform(0.0, 0.3))
+    planes = {"A": first, "B": first + (0.58e-3 if seed == 0 else apart)}
+    angles = {
+        name: sorted(rng.choice(np.arange(0, 360, 15), int(rng.integers(4, 24)), False).tolist())
+        for name in planes
+    }
+    engine = cp.Engine.preset("i3")
+    squares, largest = (
+        cp.counterweights(engine, planes=planes, angles_deg=angles, minimise=minimise)
+        for minimise in ("squares", "largest")
+    )
+    places = [(name, angle) for name in planes for angle in angles[name]]
+    units = np.exp(1j * np.deg2rad([angle for _, angle in places]))
+    # Of each plane by itself: the sums of two planes that differ are known if both are.
+    rows = np.array([part * [name == own for own, _ in places]
+                     for name in planes for part in (units.real, units.imag)])  # fmt: skip
+    ours = np.zeros(len(places))
+    for name, weight in squares.by_plane:
+        ours[places.index((name, degrees(weight.angle_deg)))] = weight.amount
+    sums = np.array([[float(name == own) for own, _ in places] for name in planes])
+    program = optimize.linprog(
+        np.append(np.zeros(len(places)), 1.0),
+        A_ub=np.column_stack([sums, -np.ones(len(sums))]), b_ub=np.zeros(len(sums)),
+        A_eq=np.column_stack([rows, np.zeros(len(rows))]), b_eq=rows @ ours,
+    )  # fmt: skip
+    assert program.success
+    # HiGHS stops at 1e-7 of its equations, of weights that may differ by what the planes are near.
+    assert largest.largest == pytest.approx(program.fun, rel=1e-5)
+
+
+@pytest.mark.parametrize("seed", range(200))
+def test_weights_in_planes_micrometres_apart_are_those_of_numpy(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    engine = (CROSSPLANE, I3, V6_90)[seed % 3]
+    first = float(rng.uniform(0.0, 2.0))
+    apart = 10.0 ** rng.uniform(-6.0, -1.0)
+    planes = [first, first + apart, *([first + 2.0 * apart] if seed % 2 else [])]
+    fitted = cp.counterweights(engine, planes=planes)
+    order = engine.balance(UNIT_SPEED, orders=[1])[1]
+    levers = np.array(planes) - engine.reference_z
+    length = max(abs(levers).max(), abs(engine.z - engine.reference_z).max())
+    rows = np.array([np.ones(len(planes)), levers / length])
+    moment = complex(order.moment.forward) / (1j * length)
+    wanted = -np.array([complex(order.force.forward), moment])
+    known = np.linalg.lstsq(rows, wanted, rcond=1e-9)[0]
+    vectors = np.array(
+        [w.amount * np.exp(1j * np.deg2rad(degrees(w.angle_deg))) for w in fitted.hardware]
+    )
+    places = np.array([weight.z for weight in fitted.hardware])
+    ours = np.array([vectors.sum(), (vectors * (places - engine.reference_z)).sum() / length])
+    rounding = ROUNDING * (abs(vectors).sum() + abs(wanted).sum())
+    assert np.linalg.norm(ours - wanted) <= np.linalg.norm(rows @ known - wanted) + rounding
+    assert fitted.exact
+
+
 def test_fits_need_nothing_but_the_core(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "scipy.optimize", None)
     options: list[dict[str, Any]] = [

@@ -141,3 +141,35 @@ def test_the_speed_of_least_torque_of_an_order_is_that_of_its_phasors() -> None:
     assert found[2].crank_torque.peak == swept[2].crank_torque.peak.min()
     with pytest.raises(cp.InputError, match=r"values have shape \(2,\)"):
         swept.least([1.0, 2.0])
+
+
+FLAT = cp.CycleMap([1000, 3000], [0.0, 1.0], [[CYCLE, CYCLE], [CYCLE, CYCLE]])
+
+
+@pytest.mark.parametrize("own", [5e4, 101_325.0, 1.2e5])
+def test_a_map_leaves_the_engine_s_crankcase(own: float) -> None:
+    """Of several engines each has its own; one that is given counts for all."""
+    bare = cp.Engine.preset("i2-270", cylinder=CYLINDER)
+    engines = [bare.with_cycle(CYCLE, crankcase=own), bare]
+    swept: dict[str, Any] = {"rpm": 2000.0, "cycle": FLAT, "load": 0.5, "orders": [0.5, 1]}
+    for given, expected in ((None, [own, 101_325.0]), (9e4, [9e4, 9e4])):
+        s = cp.sweep(engines, crankcase=given, **swept)
+        for k, below in enumerate(expected):
+            alone = bare.with_cycle(CYCLE, crankcase=below).balance(2000.0, orders=[0.5, 1])
+            close(s.torque.gas.peak[k], alone.torque.gas.peak, alone.torque.gas.peak.max())
+            assert s.engine_at(engine=s.coords["engine"][k]).crankcase == below
+
+
+def test_a_crankcase_that_nothing_reads_is_refused() -> None:
+    fired, bare = engine("i2-270"), cp.Engine.preset("i2-270", cylinder=CYLINDER)
+    with pytest.raises(cp.InputError, match=r"crankcase = 90000.*applies to a cycle map"):
+        cp.sweep(fired, rpm=2000, crankcase=9e4)
+    for call in (
+        lambda: fired.with_cycle(None, crankcase=9e4),
+        lambda: bare.replace(crankcase=9e4),
+        lambda: fired.replace(cycle=None, crankcase=9e4),
+    ):
+        with pytest.raises(cp.InputError, match=r"crankcase = 90000.*needs a cycle"):
+            call()
+    assert fired.with_cycle(CYCLE).crankcase == CRANKCASE
+    assert fired.replace(crankcase=9e4).crankcase == 9e4

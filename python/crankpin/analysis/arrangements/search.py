@@ -93,7 +93,8 @@ class Arrangement(Input):
         )
         distance = inputs.number("spacing", spacing)
         held = inputs.text("hold", self.hold)
-        return Engine(_core.arrangement(held, angle, *banks, parts(cylinder), distance))
+        core = _core.arrangement(held, angle, *banks, parts(cylinder), distance)
+        return Engine(core).replace(cylinder=cylinder)
 
 
 def search_arrangements(

@@ -58,7 +58,7 @@ def design(
     counterweights: bool = False,
     shafts: Iterable[int] = (),
     bank_stagger: float = 0.0,
-    rotating_mass: float = 0.0,
+    rotating_mass: float | None = None,
     orders: Orders = "auto",
     count: int = 20,
     seed: int = 0,
@@ -115,7 +115,7 @@ def design(
         removes the part of its order that turns with it, force and moment. They are put on the
         crank axis, where they add no roll torque.
     bank_stagger, rotating_mass
-        As in :meth:`Engine.vee`; one rotating mass for all cylinders.
+        As in :meth:`Engine.vee`; one rotating mass for all cylinders, by default the rod's big end.
     orders
         Orders that totals are of, as in :meth:`Engine.balance`.
     count

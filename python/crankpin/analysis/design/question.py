@@ -21,6 +21,7 @@ from crankpin.analysis.arrangements.cranks import (
     simple,
 )
 from crankpin.model import checks
+from crankpin.model.data import big_end
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -157,7 +158,11 @@ def checked(
         strokes=cycle,
         intervals=intervals,
         bank_stagger=inputs.number("bank_stagger", bank_stagger) if banks == 2 else 0.0,
-        rotating_mass=inputs.number("rotating_mass", rotating_mass),
+        rotating_mass=(
+            big_end(cylinder)
+            if rotating_mass is None
+            else inputs.number("rotating_mass", rotating_mass)
+        ),
         counterweights=inputs.flag("counterweights", counterweights),
         shafts=_shafts(shafts),
     )

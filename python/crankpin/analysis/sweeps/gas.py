@@ -28,8 +28,8 @@ class GasMap(Record):
 
     maps: tuple[CycleMap | None, ...]
     """A map for each cylinder, or one for all."""
-    crankcase: float
-    """Absolute pressure in the crankcase, Pa."""
+    crankcase: float | None
+    """Absolute pressure in the crankcase, Pa; None for that of each engine."""
 
     @classmethod
     def checked(cls, cycle: object, engines: Sequence[Engine], crankcase: object) -> GasMap:
@@ -49,8 +49,9 @@ class GasMap(Record):
         for engine in engines:
             if not alone and len(maps) != len(engine):
                 raise InputError(f"cycle has {len(maps)} entries, the engine has {len(engine)}")
-        below = inputs.number("crankcase", crankcase)
-        checks.crankcase(below)
+        below = inputs.optional_number("crankcase", crankcase)
+        if below is not None:
+            checks.crankcase(below)
         return cls(tuple(maps), below)
 
     @property
@@ -76,7 +77,8 @@ class GasMap(Record):
             core
             for engine in engines
             for core in engine._core.with_cycles(
-                [self._of_each(cycles, engine) for cycles in of_cylinders], self.crankcase
+                [self._of_each(cycles, engine) for cycles in of_cylinders],
+                engine._below_pistons(self.crankcase),
             )
         ]
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import ATMOSPHERE, InputError
+from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
@@ -58,7 +58,7 @@ def sweep(
     pin_offset: ArrayLike | None = None,
     load: ArrayLike | None = None,
     cycle: CycleMap | Sequence[CycleMap | None] | None = None,
-    crankcase: float = ATMOSPHERE,
+    crankcase: float | None = None,
     orders: Orders = "auto",
     rtol: float | None = None,
     spectrum: Spectrum | None = None,
@@ -95,7 +95,8 @@ def sweep(
         loads, None for a cylinder without gas load. They replace those of the engines. Harmonics
         are linear in pressure: those of the map's own cycles are computed once, and interpolated.
     crankcase
-        Absolute pressure below the pistons, Pa, with ``cycle``.
+        Absolute pressure below the pistons, Pa, with ``cycle``; by default that of each engine, or
+        of the atmosphere. Without ``cycle`` an engine has its own (:meth:`Engine.with_cycle`).
     orders
         Multiples of crank speed, or ``"auto"`` for the fewest that reach ``rtol`` at every
         point. Choosing takes no longer for more points: it bounds every order over the axes.
@@ -153,6 +154,9 @@ def sweep(
     request = Request.checked(orders=orders, rtol=rtol, spectrum=spectrum, torque=torque)
     if cycle is None and load is not None:
         raise inputs.rejected("load", load, "applies to a cycle map; give cycle=CycleMap(…)")
+    if cycle is None and crankcase is not None:
+        hint = "applies to a cycle map; engine.with_cycle(…, crankcase=…) has that of an engine"
+        raise inputs.rejected("crankcase", crankcase, hint)
     maps = None if cycle is None else GasMap.checked(cycle, listed, crankcase)
     whole = Sweep(tuple(listed), names, axes, held, request, maps, shown)
     inputs.warn_of_units(whole.mean_piston_speed)

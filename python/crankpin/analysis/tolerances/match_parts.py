@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from functools import cached_property
+import math
+from functools import cached_property, reduce
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 import numpy as np
@@ -215,7 +216,7 @@ def match_parts(
     >>> i4 = cp.Engine.preset("i4")
     >>> match = cp.match_parts(i4, [0.402, 0.398, 0.405, 0.401], orders=[1])
     >>> match.exact, match.assignment[0].pistons
-    (True, (4, 2, 3, 1))
+    (True, (1, 3, 2, 4))
     >>> bool(match.value <= match.as_given)
     True
     >>> float(match.engines[0].balance(rpm=6000)[1].force.peak)  # 402 + 401 - 405 - 398 g
@@ -355,23 +356,58 @@ def _reduced(
     The first dimension is that of the start where this is longer than what parts add: it sorts the
     sums best.
     """
-    dimensions = len(start)
-    stacked = np.concatenate([kind.influences.reshape(-1, dimensions) for kind in kinds])
-    _, sizes, axes = np.linalg.svd(stacked, full_matrices=False)
-    axes = axes[: max(1, np.count_nonzero(sizes > 1e-13 * sizes[0]))]
-    rest = start
-    for _ in range(2):
-        # Twice: what rounding left of the first projection is not orthogonal.
-        rest = rest - axes.T @ (axes @ rest)
-    length = np.linalg.norm(rest)
-    if length > 1e-13 * np.linalg.norm(start):
-        axes = np.vstack([axes, rest / length])
-    along = axes @ start
+    stacked = np.concatenate([kind.influences.reshape(-1, len(start)) for kind in kinds])
+    axes = _axes(stacked)
+    along = _along(start[np.newaxis], axes)
     largest = max(float(np.abs(kind.parts).max()) for kind in kinds)
-    if np.linalg.norm(along) > largest * sizes[0]:
-        turned, _ = np.linalg.qr(np.column_stack([along, np.eye(len(along))]))
-        axes, along = turned.T @ axes, turned.T @ along
-    return along, tuple(kind._replace(influences=kind.influences @ axes.T) for kind in kinds)
+    if math.hypot(*along[0]) > largest * math.sqrt(float((stacked * stacked).sum())):
+        axes = _axes(axes, _axes(_combined(along, axes)))
+    axes = _axes(start[np.newaxis], axes)
+    if not len(axes):
+        axes = np.eye(1, len(start))
+    turned = [
+        kind._replace(influences=np.stack([_along(each, axes) for each in kind.influences]))
+        for kind in kinds
+    ]
+    return _along(start[np.newaxis], axes)[0], tuple(turned)
+
+
+# Sums are taken term by term: a library of linear algebra rounds otherwise on another processor,
+# and another of several equally good assignments would come first.
+
+
+def _along(vectors: NDArray[np.float64], axes: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return components of row vectors along orthonormal rows: (n_vectors, n_axes)."""
+    products = vectors[:, np.newaxis] * axes
+    return reduce(np.add, products.transpose(2, 0, 1))
+
+
+def _combined(parts: NDArray[np.float64], axes: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the row vectors of components: (n_vectors, n_dimensions)."""
+    nothing = np.zeros((len(parts), axes.shape[1]))
+    return reduce(np.add, parts.T[:, :, np.newaxis] * axes[:, np.newaxis], nothing)
+
+
+def _axes(
+    vectors: NDArray[np.float64], before: NDArray[np.float64] | None = None
+) -> NDArray[np.float64]:
+    """Return orthonormal rows, and more until they span some vectors: the longest rest next.
+
+    By Gram and Schmidt; twice, since what rounding leaves of one projection is not orthogonal.
+    """
+    axes = np.empty((0, vectors.shape[1])) if before is None else before
+    longest = 0.0
+    while len(axes) < vectors.shape[1]:
+        rest = vectors
+        for _ in range(2):
+            rest = rest - _combined(_along(rest, axes), axes)
+        squares = reduce(np.add, (rest * rest).T)
+        k = int(squares.argmax())
+        longest = longest or max(math.hypot(*each) for each in vectors)
+        if math.sqrt(squares[k]) <= 1e-13 * longest:
+            break
+        axes = np.vstack([axes, rest[k] / math.sqrt(squares[k])])
+    return axes
 
 
 def windows(masses: NDArray[np.float64], size: int, sets: int) -> list[NDArray[np.intp]]:

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::least_squares::{Minimum, PENALTIES, minimum, stack};
-use super::weights::{PlacedWeight, Problem, REACHED, ROUNDING, Vectors};
+use super::weights::{PlacedWeight, Problem, REACHED, ROUNDING, Vectors, complex, sums};
 use crate::Complex64;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
@@ -18,9 +18,9 @@ pub(super) fn nearest(
     target: &Vectors,
     bounds: &[f64],
 ) -> Result<Option<Vec<PlacedWeight>>> {
-    let columns = AngleColumns::new(problem, directions, bounds)?;
-    let room = DVector::from_vec(finite(bounds).map(|p| bounds[p]).collect());
-    let start = columns.variables(&[], bounds);
+    let columns = AngleColumns::new(problem, directions, bounds, &vec![false; bounds.len()])?;
+    let room = DVector::from_vec(columns.bounded.iter().map(|&p| bounds[p]).collect());
+    let start = columns.variables(&[]);
     let goal = DVector::from_column_slice(target.as_slice());
     let rows = [&columns.made, &columns.filled];
     let mut found = Minimum::start(start, room.len());
@@ -36,7 +36,8 @@ pub(super) fn nearest(
 /// Of weights that come as near as those given, within bounds, those with the least sum of squares;
 /// none if they are not found to nine digits.
 ///
-/// A residual has planes that see it at their bounds: only the others have a choice.
+/// A residual has planes that see it at their bounds, at the angles that see the most of it: only among
+/// these, where several see as much, and of other planes is there a choice.
 pub(super) fn least_squares(
     problem: &Problem,
     directions: &Directions,
@@ -44,58 +45,82 @@ pub(super) fn least_squares(
     found: &[PlacedWeight],
 ) -> Result<Option<Vec<PlacedWeight>>> {
     let residual = problem.missing(found);
-    let mut blind: Vec<usize> = (0..bounds.len()).collect();
-    if residual.norm() > REACHED {
-        let support = problem.support(&residual);
-        blind.retain(|&plane| support[plane] <= 10.0 * REACHED);
-    }
-    let (mut moved, mut kept): (Vec<PlacedWeight>, Vec<PlacedWeight>) =
-        found.iter().partition(|weight| blind.contains(&weight.plane));
-    if moved.is_empty() {
-        return Ok(Some(kept));
-    }
-    let target = problem.made(&moved);
-    for weight in &mut moved {
-        weight.plane = blind.iter().position(|&p| p == weight.plane).unwrap_or_default();
-    }
-    let own: Vec<Vec<Complex64>> = blind.iter().map(|&p| directions[p].clone()).collect();
-    let some = Problem {
-        rows: problem.rows.select_columns(&blind),
-        target,
-        bounds: blind.iter().map(|&p| bounds[p]).collect(),
-        directions: Some(own.clone()),
-        cancel: problem.cancel,
+    let support = problem.support(&residual);
+    let seen = complex(&problem.rows.tr_mul(&residual));
+    let sums = sums(found, bounds.len());
+    let is_full: Vec<bool> = (0..bounds.len())
+        .map(|p| support[p] > BLIND && sums[p] >= bounds[p] * (1.0 - REACHED))
+        .collect();
+    let is_full = if residual.norm() > REACHED { is_full } else { vec![false; bounds.len()] };
+    let may_change = |p: usize, k: usize| {
+        let along = (directions[p][k].conj() * seen[p]).re;
+        let is_used = || found.iter().any(|weight| (weight.plane, weight.angle) == (p, k));
+        !is_full[p] || along >= support[p] - BLIND || is_used()
     };
-    let Some(least) = squares(&some, &own, &moved)? else { return Ok(None) };
-    kept.extend(least.into_iter().map(|each| PlacedWeight { plane: blind[each.plane], ..each }));
-    kept.sort_by_key(|weight| (weight.plane, weight.angle));
-    Ok(Some(kept))
+    let kept: Vec<Vec<usize>> = (0..bounds.len())
+        .map(|p| (0..directions[p].len()).filter(|&k| may_change(p, k)).collect())
+        .collect();
+    if kept.iter().zip(&is_full).all(|(angles, full)| *full && angles.len() == 1) {
+        return Ok(Some(found.to_vec()));
+    }
+    let own: Vec<Vec<Complex64>> = kept
+        .iter()
+        .zip(directions)
+        .map(|(angles, units)| angles.iter().map(|&k| units[k]).collect())
+        .collect();
+    let start = found.iter().map(|weight| {
+        let angle = kept[weight.plane].iter().position(|&k| k == weight.angle);
+        PlacedWeight { angle: angle.unwrap_or_default(), ..*weight }
+    });
+    let some = Problem {
+        bounds: bounds.to_vec(),
+        directions: Some(own.clone()),
+        ..problem.doing_the_same(found)
+    };
+    let least = squares(&some, &own, &start.collect::<Vec<_>>(), &is_full)?;
+    let back =
+        |weight: PlacedWeight| PlacedWeight { angle: kept[weight.plane][weight.angle], ..weight };
+    Ok(least.map(|weights| weights.into_iter().map(back).collect()))
 }
 
-/// Of weights that do the same as those given, within bounds, those with the least sum of squares;
-/// none if they are not found to nine digits.
+/// What a unit weight that sees nothing of a residual may see of it, by rounding.
+const BLIND: f64 = 10.0 * REACHED;
+
+/// Of weights that do the same as those given, within bounds, those with the least sum of squares; none
+/// if they are not found to nine digits. Planes that are full keep the sums of their weights.
 fn squares(
     problem: &Problem,
     directions: &Directions,
     found: &[PlacedWeight],
+    is_full: &[bool],
 ) -> Result<Option<Vec<PlacedWeight>>> {
     let (bounds, equations) = (&problem.bounds, problem.target.len());
-    let columns = AngleColumns::new(problem, directions, bounds)?;
+    let columns = AngleColumns::new(problem, directions, bounds, is_full)?;
     let mut sums = DMatrix::zeros(bounds.len(), columns.made.ncols());
     for (j, &(plane, _)) in columns.places.iter().enumerate() {
-        sums[(plane, j)] = 1.0;
+        sums[(plane, j)] = f64::from(u8::from(!is_full[plane]));
     }
-    let start = columns.variables(found, bounds);
+    let start = columns.variables(found);
     let held = stack(&columns.made, &columns.filled);
     let value = &held * &start;
+    let full = self::sums(found, bounds.len());
     let none = DVector::zeros(bounds.len());
     let mut best = Minimum::start(start, value.len());
     for penalty in PENALTIES {
         best = minimum([&sums, &held], [&none, &value], best, penalty, problem.cancel)?;
-        // No weights that do the same have less than what the multipliers promise.
+        // No weights that do the same have less than what the multipliers promise. Those along the
+        // residual may be as great as one likes: they cost full planes nothing at these angles.
         let multipliers = &best.multipliers.as_slice()[..equations];
         let lambda = Vectors::from_column_slice(equations / 2, 2, multipliers);
-        let spent = problem.support(&lambda).into_iter().zip(bounds).map(|(h, b)| energy(h, *b));
+        let seen = complex(&problem.rows.tr_mul(&lambda));
+        let spent = problem.support(&lambda).into_iter().enumerate().map(|(p, support)| {
+            if is_full[p] {
+                let along = directions[p].iter().map(|unit| (unit.conj() * seen[p]).re);
+                full[p] * along.fold(f64::NEG_INFINITY, f64::max)
+            } else {
+                energy(support, bounds[p])
+            }
+        });
         let promised = lambda.dot(&problem.target) - spent.sum::<f64>();
         let squares = (&sums * &best.x).norm_squared() / 2.0;
         let is_least = squares - promised <= REACHED * squares.max(1.0);
@@ -115,8 +140,12 @@ pub(super) fn made_by(rows: &DMatrix<f64>, units: &[(usize, Complex64)]) -> DMat
     })
 }
 
-/// Variables of planes with lists of angles: amounts, then the room that each bound leaves.
-struct AngleColumns {
+/// Variables of planes with lists of angles: amounts, then the room that bounds leave.
+struct AngleColumns<'a> {
+    bounds: &'a [f64],
+    /// Planes with a bound; of those that are not full the room is a variable.
+    bounded: Vec<usize>,
+    roomy: Vec<usize>,
     /// Plane and angle of each amount.
     places: Vec<(usize, usize)>,
     /// Plane and direction of each amount.
@@ -127,25 +156,31 @@ struct AngleColumns {
     filled: DMatrix<f64>,
 }
 
-impl AngleColumns {
-    fn new(problem: &Problem, directions: &Directions, bounds: &[f64]) -> Result<Self> {
+impl<'a> AngleColumns<'a> {
+    fn new(
+        problem: &Problem,
+        directions: &Directions,
+        bounds: &'a [f64],
+        is_full: &[bool],
+    ) -> Result<Self> {
         let places: Vec<(usize, usize)> = directions
             .iter()
             .enumerate()
             .flat_map(|(p, of)| (0..of.len()).map(move |k| (p, k)))
             .collect();
         let units: Vec<_> = places.iter().map(|&(p, k)| (p, directions[p][k])).collect();
-        let bounded: Vec<usize> = finite(bounds).collect();
-        let (amounts, room) = (places.len(), bounded.len());
+        let bounded: Vec<usize> = (0..bounds.len()).filter(|&p| bounds[p].is_finite()).collect();
+        let roomy: Vec<usize> = bounded.iter().copied().filter(|&p| !is_full[p]).collect();
+        let (amounts, all) = (places.len(), places.len() + roomy.len());
         // As much as these matrices, sums by plane and stacks of them take: nalgebra would abort.
-        let rows = 2 * problem.rows.nrows() + room + bounds.len();
-        memory::room::<f64>(4 * rows * (amounts + room))?;
-        let made = made_by(&problem.rows, &units).resize_horizontally(amounts + room, 0.0);
-        let filled = DMatrix::from_fn(room, amounts + room, |row, j| {
-            let is_own = if j < amounts { places[j].0 == bounded[row] } else { j - amounts == row };
-            f64::from(is_own)
+        let rows = 2 * problem.rows.nrows() + bounded.len() + bounds.len();
+        memory::room::<f64>(4 * rows * all)?;
+        let made = made_by(&problem.rows, &units).resize_horizontally(all, 0.0);
+        let filled = DMatrix::from_fn(bounded.len(), all, |row, j| {
+            let plane = if j < amounts { places[j].0 } else { roomy[j - amounts] };
+            f64::from(u8::from(plane == bounded[row]))
         });
-        Ok(Self { places, units, made, filled })
+        Ok(Self { bounds, bounded, roomy, places, units, made, filled })
     }
 
     fn weights(&self, x: &DVector<f64>) -> Vec<PlacedWeight> {
@@ -159,7 +194,7 @@ impl AngleColumns {
             .collect()
     }
 
-    fn variables(&self, weights: &[PlacedWeight], bounds: &[f64]) -> DVector<f64> {
+    fn variables(&self, weights: &[PlacedWeight]) -> DVector<f64> {
         let mut x = DVector::zeros(self.made.ncols());
         for weight in weights {
             let here = |place: &(usize, usize)| *place == (weight.plane, weight.angle);
@@ -167,9 +202,9 @@ impl AngleColumns {
                 x[j] += weight.vector.norm();
             }
         }
-        let used = &self.filled * &x;
-        for (row, p) in finite(bounds).enumerate() {
-            x[self.places.len() + row] = (bounds[p] - used[row]).max(0.0);
+        let used = sums(weights, self.bounds.len());
+        for (k, &p) in self.roomy.iter().enumerate() {
+            x[self.places.len() + k] = (self.bounds[p] - used[p]).max(0.0);
         }
         x
     }
@@ -179,8 +214,4 @@ impl AngleColumns {
 fn energy(support: f64, bound: f64) -> f64 {
     let s = support.min(bound);
     s * (support - 0.5 * s)
-}
-
-fn finite(bounds: &[f64]) -> impl Iterator<Item = usize> {
-    (0..bounds.len()).filter(|&p| bounds[p].is_finite())
 }

@@ -6,6 +6,7 @@ use super::least_squares::RANK_TOLERANCE;
 use super::weights::{REACHED, ROUNDING, Vectors};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
+use crate::numbers::singular_values::SingularValues;
 
 /// Weights |u| ≤ bound nearest to the target and, of those, with the least sum of squares.
 ///
@@ -19,10 +20,8 @@ pub(super) fn nearest(
     cancel: &Cancel,
 ) -> Result<Option<Vectors>> {
     // Equations that depend on each other become one: multipliers are then bounded.
-    let svd = rows.clone().svd(true, false);
-    let (Some(u), values) = (svd.u, svd.singular_values) else { return Ok(None) };
-    let significant = |k: &usize| values[*k] > RANK_TOLERANCE * values.max();
-    let basis = u.select_columns(&(0..values.len()).filter(significant).collect::<Vec<_>>());
+    let values = SingularValues::of(rows);
+    let basis = values.left.columns(0, values.rank(RANK_TOLERANCE));
     let discs = Discs { rows: basis.tr_mul(rows), target: basis.tr_mul(target), bounds };
     if let Some(found) = discs.but_one_place() {
         return Ok(Some(found));

@@ -1,9 +1,10 @@
 //! Least squares: by singular values, and of variables that are zero or more under linear equations.
 
-use nalgebra::{DMatrix, DVector, SVD};
+use nalgebra::{DMatrix, DVector};
 
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
+use crate::numbers::singular_values::SingularValues;
 
 /// Singular values below this part of the largest count as zero: the columns that they distinguish
 /// differ by no more than the rounding of ill-conditioned fits before (planes a millionth of the
@@ -23,20 +24,9 @@ pub(super) fn least_squares(
     targets: &DMatrix<f64>,
     most: usize,
 ) -> LeastSquares {
-    let mut solution = DMatrix::zeros(rows.ncols(), targets.ncols());
-    if rows.is_empty() {
-        return LeastSquares { solution, rank: 0 };
-    }
-    let SVD { u, v_t, singular_values } = rows.clone().svd(true, true);
-    let (Some(u), Some(v_t)) = (u, v_t) else { return LeastSquares { solution, rank: 0 } };
-    let largest = singular_values.max();
-    let significant = |k: &usize| singular_values[*k] > RANK_TOLERANCE * largest;
-    let kept: Vec<usize> = (0..singular_values.len()).filter(significant).take(most).collect();
-    for &k in &kept {
-        let along = u.column(k).transpose() * targets / singular_values[k];
-        solution += v_t.row(k).transpose() * along;
-    }
-    LeastSquares { solution, rank: kept.len() }
+    let values = SingularValues::of(rows);
+    let rank = values.rank(RANK_TOLERANCE).min(most);
+    LeastSquares { solution: values.solve(targets, rank), rank }
 }
 
 /// Weights of the equations beside the squares, one after another until the minimum is good enough.

@@ -14,6 +14,7 @@ use crate::Complex64;
 use crate::engine::Engine;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::limits::SMALLEST;
 use crate::numbers::order::Order;
 use crate::readings::balance::{Orders, Request, angular_speed, balance};
 use crate::wrench::Wrench;
@@ -94,10 +95,12 @@ pub fn shared(forces: &[(Complex64, f64)], front: f64, rear: f64) -> [Complex64;
 }
 
 /// Length over which a moment counts as much as a force, m: half the distance between the first and
-/// the last cylinder, or the crank radius where they are at one place.
+/// the last cylinder, or the crank radius where they are at one place, or so near that levers over the
+/// distance between them would be no numbers.
 fn half_length(engine: &Engine) -> f64 {
     let [first, last] = engine.ends();
-    if last > first { (last - first) / 2.0 } else { engine.largest_crank_radius() }
+    let half = (last - first) / 2.0;
+    if half >= SMALLEST { half } else { engine.largest_crank_radius() }
 }
 
 /// Part of the largest of several values below which another is rounding: some hundred units in the last

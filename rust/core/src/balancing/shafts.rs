@@ -129,8 +129,9 @@ fn place(
             beyond = beyond.or(Some(furthest));
             continue;
         }
+        let rounding = NEGLIGIBLE * furthest.max(size(engine));
         for (&(k, j, _), &place) in free.iter().zip(&places) {
-            axes[k][j] = if place.abs() <= NEGLIGIBLE * furthest { 0.0 } else { place };
+            axes[k][j] = if place.abs() <= rounding { 0.0 } else { place };
         }
         break;
     }

@@ -10,11 +10,12 @@
 
 use nalgebra::{DMatrix, RowVector2};
 
-use super::least_squares::least_squares;
+use super::least_squares::{RANK_TOLERANCE, least_squares};
 use super::{NEGLIGIBLE, TurningPart, angle_lists, discs, without_rounding};
 use crate::Complex64;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::singular_values::SingularValues;
 
 /// What is minimised of weights that do the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -103,10 +104,21 @@ pub fn least(request: &WeightRequest, cancel: &Cancel) -> Result<FittedWeights> 
         if is_force { 1.0 } else { (request.z[kept[k]] - request.reference) / request.length }
     });
     let bound = |&plane: &usize| Some(request.bounds[plane] / scale).filter(|&b| b < UNBOUNDED);
+    let mut target = vectors(&target) / scale;
+    let mut bounds: Vec<f64> =
+        kept.iter().map(|plane| bound(plane).unwrap_or(f64::INFINITY)).collect();
+    // Planes near each other take weights far above the target: those are to be figures of order 1.
+    let free = least_squares(&rows, &target, target.nrows()).solution;
+    let largest = complex(&free).into_iter().zip(&bounds).map(|(u, bound)| u.norm().min(*bound));
+    let size = largest.fold(1.0, f64::max);
+    target /= size;
+    for bound in &mut bounds {
+        *bound /= size;
+    }
     let problem = Problem {
         rows,
-        target: vectors(&target) / scale,
-        bounds: kept.iter().map(|plane| bound(plane).unwrap_or(f64::INFINITY)).collect(),
+        target,
+        bounds,
         directions: request.angles.map(|angles| {
             let unit = |&angle: &f64| Complex64::from_polar(1.0, angle);
             kept.iter().map(|&plane| angles[plane].iter().map(unit).collect()).collect()
@@ -114,15 +126,19 @@ pub fn least(request: &WeightRequest, cancel: &Cancel) -> Result<FittedWeights> 
         cancel,
     };
     let mut amounts = problem.least(request.minimise)?;
-    let reached = problem.made_up(&mut amounts);
-    let missing = problem.missing(&amounts).row_iter().map(|part| part.norm()).fold(0.0, f64::max);
+    let is_proved = problem.made_up(&mut amounts);
     let largest = amounts.iter().map(|weight| weight.vector.norm()).fold(0.0, f64::max);
+    amounts.retain(|weight| weight.vector.norm() > 10.0 * NEGLIGIBLE * largest);
+    // Of planes near each other the others make up for what was left out.
+    problem.made_up(&mut amounts);
+    let reached = is_proved && problem.is_rounding(&amounts);
+    let missing = problem.missing(&amounts).row_iter().map(|part| part.norm()).fold(0.0, f64::max);
+    let missing = missing * size;
     let list = amounts
         .into_iter()
-        .filter(|weight| weight.vector.norm() > 10.0 * NEGLIGIBLE * largest)
         .map(|weight| PlacedWeight {
             plane: kept[weight.plane],
-            vector: weight.vector * scale,
+            vector: weight.vector * size * scale,
             ..weight
         })
         .collect();
@@ -173,8 +189,15 @@ impl Problem<'_> {
         let mut found = self.nearest(&self.target, &self.bounds)?;
         let mut bounds = self.bounds.clone();
         if minimise == Minimise::Largest {
-            bounds = self.least_bounds(&self.made(&found))?;
-            found = self.nearest(&self.target, &bounds)?;
+            // At any angle a plane that hardly sees what is missing is known to more digits as it is.
+            let same = self.directions.is_some().then(|| self.doing_the_same(&found));
+            let (problem, target) = match &same {
+                Some(same) => (same, &same.target),
+                None => (self, &self.target),
+            };
+            let made = problem.made(&found);
+            bounds = problem.least_bounds(&made)?;
+            found = problem.nearest(target, &bounds)?;
         }
         match &self.directions {
             Some(directions) => {
@@ -187,6 +210,17 @@ impl Problem<'_> {
             }
             None => Ok(found),
         }
+    }
+
+    /// The problem of weights that exert what these do, which may be written in any equations that say
+    /// so: in orthonormal ones, however near to each other the planes are.
+    pub fn doing_the_same(&self, weights: &[PlacedWeight]) -> Self {
+        let values = SingularValues::of(&self.rows);
+        let rows = values.right.rows(0, values.rank(RANK_TOLERANCE)).into_owned();
+        let (bounds, directions) = (self.bounds.clone(), self.directions.clone());
+        let mut same = Problem { target: self.target.clone(), rows, bounds, directions, ..*self };
+        same.target = same.made(weights);
+        same
     }
 
     /// Force and moment that weights exert.
@@ -318,10 +352,9 @@ impl Problem<'_> {
     /// The weights with room exert whatever all of them can if their equations have the same rank. The
     /// change then exists, however small what is missing looks; otherwise it is the nearest.
     fn made_up(&self, weights: &mut [PlacedWeight]) -> bool {
-        let mut sums = vec![0.0; self.bounds.len()];
+        let sums = sums(weights, self.bounds.len());
         let mut counts = vec![0.0; self.bounds.len()];
         for weight in &*weights {
-            sums[weight.plane] += weight.vector.norm();
             counts[weight.plane] += 1.0;
         }
         for weight in &mut *weights {
@@ -362,18 +395,37 @@ impl Problem<'_> {
         }
         is_proved
     }
+
+    /// Whether what weights do not exert of the target is rounding of the sums that they make.
+    fn is_rounding(&self, weights: &[PlacedWeight]) -> bool {
+        let missing = self.missing(weights);
+        (0..missing.nrows()).all(|k| {
+            let terms = weights.iter().map(|each| self.rows[(k, each.plane)] * each.vector.norm());
+            let size = terms.map(f64::abs).sum::<f64>() + self.target.row(k).norm();
+            missing.row(k).norm() <= NEGLIGIBLE * size
+        })
+    }
 }
 
 fn row(vector: Complex64) -> RowVector2<f64> {
     RowVector2::new(vector.re, vector.im)
 }
 
-fn complex(vectors: &Vectors) -> Vec<Complex64> {
+pub(super) fn complex(vectors: &Vectors) -> Vec<Complex64> {
     vectors.row_iter().map(|row| Complex64::new(row[0], row[1])).collect()
 }
 
 fn vectors(rows: &[Complex64]) -> Vectors {
     Vectors::from_fn(rows.len(), 2, |k, j| if j == 0 { rows[k].re } else { rows[k].im })
+}
+
+/// Mass·radius of each plane.
+pub(super) fn sums(weights: &[PlacedWeight], planes: usize) -> Vec<f64> {
+    let mut sums = vec![0.0; planes];
+    for weight in weights {
+        sums[weight.plane] += weight.vector.norm();
+    }
+    sums
 }
 
 /// A weight in each plane.

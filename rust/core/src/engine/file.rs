@@ -109,8 +109,9 @@ struct Place {
     tdc_deg: Degrees,
     bank_deg: Degrees,
     z: f64,
+    /// Absent: the big end of the cylinder's rod, as in engines that are built.
     #[serde(default)]
-    rotating_mass: f64,
+    rotating_mass: Option<f64>,
     /// Number of the bank, where directions alone leave open which is which.
     #[serde(default, skip_serializing_if = "is_default")]
     bank: Option<usize>,
@@ -265,7 +266,7 @@ impl EngineFile {
             tdc_deg: Degrees::of(p.tdc),
             bank_deg: Degrees::of(p.bank),
             z: p.z,
-            rotating_mass: p.rotating_mass,
+            rotating_mass: Some(p.rotating_mass),
             bank: numbered.then(|| number(engine.bank_of(i))),
             crank: engine.crank_of(i),
             cycle: engine.gas().and_then(|gas| gas.cycle_of[i]).map(|cycle| cycle + 1),
@@ -331,6 +332,10 @@ impl EngineFile {
         }
         let shared = self.cylinder.map(|parts| parts.cylinder()).transpose();
         let shared = shared.map_err(|error| error.within("cylinder."))?;
+        let details = self.placements.iter().map(|place| {
+            place.cylinder.or(self.cylinder).map_or_else(Details::default, |parts| parts.details())
+        });
+        let details: Vec<Details> = details.collect();
         let stations = self.placements.iter().enumerate().map(|(i, place)| {
             let at = format!("placements[{i}].");
             let own = place.cylinder.map(|parts| parts.cylinder()).transpose();
@@ -339,20 +344,22 @@ impl EngineFile {
                 let hint = "give the engine a [cylinder], or each placement one of its own";
                 Error::value(format!("{at}cylinder"), "none", hint)
             })?;
+            let rotating_mass = match place.rotating_mass {
+                Some(mass) => mass,
+                None => details[i]
+                    .big_end(cylinder.rod_length())
+                    .map_err(|error| error.within(&format!("{at}cylinder.rod.")))?,
+            };
             Ok(Station {
                 cylinder,
                 tdc: place.tdc_deg.angle(&format!("{at}tdc_deg"))?,
                 bank: place.bank_deg.angle(&format!("{at}bank_deg"))?,
                 z: place.z,
-                rotating_mass: place.rotating_mass,
+                rotating_mass,
             })
         });
         let stations: Vec<Station> = stations.collect::<Result<_>>()?;
         let (strokes, gas) = (Strokes::from_number(self.strokes)?, self.gas()?);
-        let details = self.placements.iter().map(|place| {
-            place.cylinder.or(self.cylinder).map_or_else(Details::default, |parts| parts.details())
-        });
-        let details = details.collect();
         let numbered = self.placements.iter().any(|p| p.bank.is_some());
         let numbers = self.placements.iter().enumerate().map(|(i, place)| {
             let hint = "give each placement the number of its bank, or none";

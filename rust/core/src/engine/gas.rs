@@ -41,6 +41,12 @@ impl Engine {
         Self { gas: firing.then_some(gas), ..self.clone() }.with_known_torque()
     }
 
+    /// Whether a cylinder fires: of an engine with cycles those that have one, without any all.
+    #[must_use]
+    pub fn fires(&self, cylinder: usize) -> bool {
+        self.gas.as_ref().is_none_or(|gas| gas.cycle_of[cylinder].is_some())
+    }
+
     /// Crank angle at which a cylinder is at its firing top dead centre, within a cycle.
     #[must_use]
     pub fn firing_phase(&self, cylinder: usize) -> Angle {

@@ -16,6 +16,7 @@ pub use self::banks::{Banks, Hold, bank_angle_in_range};
 pub use self::gas::Gas;
 use self::layout::Strokes;
 pub use self::shaft::{Crank, Origin, Shaft, Unbalance};
+use crate::gear::rod::Rod;
 use crate::gear::slider_crank::Cylinder;
 use crate::gear::spectrum::Spectrum;
 use crate::numbers::angle::Angle;
@@ -47,6 +48,15 @@ pub struct Details {
     /// The rod's mass in kg, moment of inertia about its centre of mass in kg·m², and distance of
     /// that from the crankpin in m.
     pub rod: Option<[f64; 3]>,
+}
+
+impl Details {
+    /// Mass of the rod that turns with the crankpin, kg, by the rod's length; zero without a rod.
+    pub fn big_end(&self, rod_length: f64) -> Result<f64> {
+        self.rod.map_or(Ok(0.0), |[mass, inertia, to_crankpin]| {
+            Ok(Rod::new(mass, inertia, rod_length, to_crankpin)?.rotating_mass())
+        })
+    }
 }
 
 /// Cylinders, in the order of their numbers, on one crankshaft, and the shafts that it drives.

@@ -55,7 +55,8 @@ impl Firing {
     #[must_use]
     pub fn gaps(&self, groups: &[Vec<usize>]) -> Vec<Vec<Gap>> {
         let of_group = |group: &Vec<usize>| {
-            let members = self.in_order(group);
+            let mut members = self.in_order(group);
+            members.retain(|member| self.fired().contains(member));
             (0..members.len())
                 .map(|k| {
                     let (before, after) = (members[k], members[(k + 1) % members.len()]);

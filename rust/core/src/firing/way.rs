@@ -16,7 +16,10 @@ pub struct Firing {
     strokes: Strokes,
     /// Crank angles after the first cylinder's firing, within a cycle.
     pub(super) times: Vec<Angle>,
+    /// All cylinders, as the crank and the camshaft have them.
     order: Vec<usize>,
+    /// Those of them that fire.
+    fired: Vec<usize>,
     intervals: Vec<Angle>,
     unevenness: f64,
 }
@@ -43,16 +46,17 @@ impl Firing {
             tops.iter().zip(later).map(|(&top, &later)| top + turn_if(later)).collect();
         let mut order: Vec<usize> = (0..times.len()).collect();
         order.sort_by(|&a, &b| times[a].partial_cmp(&times[b]).unwrap_or(Ordering::Equal));
+        let fired: Vec<usize> = order.iter().copied().filter(|&i| engine.fires(i)).collect();
         let cycle = strokes.cycle();
-        let intervals: Vec<Angle> = order
+        let intervals: Vec<Angle> = fired
             .iter()
             .enumerate()
-            .map(|(k, &now)| match order.get(k + 1) {
+            .map(|(k, &now)| match fired.get(k + 1) {
                 Some(&next) => times[next] - times[now],
-                None => cycle - times[now],
+                None => cycle + times[fired[0]] - times[now],
             })
             .collect();
-        let mean = Angle::from_degree_fraction(360 * strokes.turns(), times.len() as i64)
+        let mean = Angle::from_degree_fraction(360 * strokes.turns(), fired.len() as i64)
             .unwrap_or(Angle::ZERO);
         let unevenness = if intervals.iter().all(|&interval| same(interval, mean)) {
             0.0
@@ -63,7 +67,7 @@ impl Firing {
             squares.sort_unstable_by(f64::total_cmp);
             (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
         };
-        Self { engine: Arc::clone(engine), strokes, times, order, intervals, unevenness }
+        Self { engine: Arc::clone(engine), strokes, times, order, fired, intervals, unevenness }
     }
 
     /// The engine.
@@ -78,13 +82,20 @@ impl Firing {
         self.strokes
     }
 
-    /// Cylinders by index, from the first on; those that fire together by number.
+    /// Cylinders by index, from the first on, whether or not they fire; those at top dead centre
+    /// together by number.
     #[must_use]
     pub fn order(&self) -> &[usize] {
         &self.order
     }
 
-    /// Crank angles from each firing of the order to the next, and from the last to the first.
+    /// The cylinders of the order that fire.
+    #[must_use]
+    pub fn fired(&self) -> &[usize] {
+        &self.fired
+    }
+
+    /// Crank angles from each firing to the next, and from the last to the first.
     #[must_use]
     pub fn intervals(&self) -> &[Angle] {
         &self.intervals
@@ -164,7 +175,7 @@ impl std::fmt::Display for Firing {
         for (k, cylinder) in self.order.iter().enumerate() {
             let joint = match k {
                 0 => "",
-                _ if self.intervals[k - 1] == Angle::ZERO => "+",
+                _ if self.times[self.order[k - 1]] == self.times[*cylinder] => "+",
                 _ => "-",
             };
             write!(f, "{joint}{}", cylinder + 1)?;

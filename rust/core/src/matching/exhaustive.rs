@@ -358,14 +358,15 @@ fn combinations(parts: &[usize], count: usize) -> Vec<Vec<usize>> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::{numbers, problem};
+    use super::super::tests::problem;
     use super::super::{Measure, PartKind};
     use super::*;
+    use crate::numbers::draws;
 
     #[test]
     fn too_many_matchings_are_not_compared() {
         let none = (f64::INFINITY, Partition::new());
-        let of = |sizes, parts| problem(sizes, parts, 1.0, numbers(5));
+        let of = |sizes, parts| problem(sizes, parts, 1.0, draws(5));
         // Choices of three pistons of six, and the orders of either half.
         assert_eq!(of([1, 6, 1], &[6]).half_arrangements(&[6]), 20.0 * (6.0 + 6.0));
         // Two and three of six and five: (6·5/2)(4) pistons, (5·4/2)(1) rods.

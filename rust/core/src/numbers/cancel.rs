@@ -117,6 +117,12 @@ impl Cancel {
         self.done.fetch_add(steps, Ordering::Relaxed);
     }
 
+    /// Number of calls of [`Cancel::check`] where a function is called.
+    #[cfg(test)]
+    pub(crate) fn calls(&self) -> Option<u32> {
+        self.poll.as_ref().map(|poll| poll.calls.load(Ordering::Relaxed))
+    }
+
     /// Steps done, and steps known of.
     #[must_use]
     pub fn progress(&self) -> (usize, usize) {

@@ -117,11 +117,31 @@ impl Error {
     }
 }
 
-/// Long values (a whole file, a huge list) are cut, so that the message stays readable.
+/// Long values (a whole file, a huge list) are cut, so that the message stays readable, and control
+/// and invisible characters, which a terminal would obey, are escaped.
 pub(crate) fn shorten(text: &str) -> String {
     const LONGEST: usize = 160;
-    if text.chars().count() <= LONGEST {
-        return text.to_owned();
+    let rest = if text.chars().nth(LONGEST).is_some() { "…" } else { "" };
+    let mut short = String::new();
+    for character in text.chars().take(LONGEST).chain(rest.chars()) {
+        // As strings are shown while debugging, but for quotes.
+        match character {
+            '"' | '\'' | '\\' => short.push(character),
+            _ => short.extend(character.escape_debug()),
+        }
     }
-    text.chars().take(LONGEST).chain("…".chars()).collect()
+    short
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shown_values_are_short_and_have_no_control_characters() {
+        assert_eq!(shorten("1–2 é"), "1–2 é");
+        assert_eq!(shorten("\u{1b}[2J\u{9b}\u{2028}"), "\\u{1b}[2J\\u{9b}\\u{2028}");
+        assert_eq!(shorten(&"é".repeat(160)), "é".repeat(160));
+        assert_eq!(shorten(&"é".repeat(161)), "é".repeat(160) + "…");
+    }
 }

@@ -14,3 +14,13 @@ pub mod quadrature;
 pub mod rational;
 pub mod ring;
 pub(crate) mod simd;
+pub(crate) mod singular_values;
+
+/// Numbers between -1 and 1 that repeat after 2^31 (a linear congruential generator).
+#[cfg(test)]
+pub(crate) fn draws(mut seed: u64) -> impl FnMut() -> f64 {
+    move || {
+        seed = (seed * 1_103_515_245 + 12_345) % (1 << 31);
+        seed as f64 / f64::from(1 << 30) - 1.0
+    }
+}

@@ -39,7 +39,7 @@ pub fn write_centred(
     cancel: &Cancel,
 ) -> Result<()> {
     let rtol = rtol.map_or(Ok(ALL_DIGITS), limits::tolerance)?;
-    let longest = Horner::tables(orders, rtol, rod_ratios);
+    let longest = Horner::tables(orders, rtol, rod_ratios, cancel)?;
     fill(rod_ratios.len(), orders.len(), out, cancel, |range, rows| {
         centred_rows(&rod_ratios[range], orders, rtol, &longest, rows, cancel)
     })
@@ -99,6 +99,9 @@ fn fill<T: Send>(
 /// How many rod ratios go through a polynomial side by side.
 const LANES: usize = 16;
 
+/// Orders between two checks for cancellation.
+const ORDERS_PER_CHECK: usize = 16;
+
 /// The rows of a block of rod ratios, in lanes; one near λ = 1 goes by itself.
 fn centred_rows(
     rod_ratios: &[f64],
@@ -119,14 +122,15 @@ fn centred_rows(
                 for (lane, &λ) in lanes.iter_mut().zip(ratios) {
                     *lane = if near_one::is_near(λ) { 0.5 } else { λ };
                 }
-                lanes_of_rows(&lanes, orders, tables, rows);
+                lanes_of_rows(&lanes, orders, tables, rows, cancel)?;
                 for (&λ, row) in ratios.iter().zip(rows.chunks_exact_mut(width)) {
                     if !near_one::is_near(λ) {
                         continue;
                     }
-                    cancel.check()?;
                     let centred = Centred::new(&Proportions::new(λ, 0.0)?);
                     for (&n, value) in orders.iter().zip(row) {
+                        // Near λ = 1 an order takes up to a tenth of a millisecond.
+                        cancel.check()?;
                         *value = centred.coefficient(n, rtol);
                     }
                 }
@@ -143,7 +147,13 @@ fn root(λ: f64) -> f64 {
 }
 
 #[inline(always)]
-fn lanes_of_rows(rod_ratios: &[f64; LANES], orders: &[u32], tables: &[Horner], rows: &mut [f64]) {
+fn lanes_of_rows(
+    rod_ratios: &[f64; LANES],
+    orders: &[u32],
+    tables: &[Horner],
+    rows: &mut [f64],
+    cancel: &Cancel,
+) -> Result<()> {
     let width = orders.len();
     let mut p = [0.0; LANES];
     for (p, &λ) in p.iter_mut().zip(rod_ratios) {
@@ -163,6 +173,10 @@ fn lanes_of_rows(rod_ratios: &[f64; LANES], orders: &[u32], tables: &[Horner], r
     }
     let largest = fourth.iter().fold(0.0, |a: f64, &b| a.max(b));
     for (column, (&n, table)) in orders.iter().zip(tables).enumerate() {
+        // Orders of sixteen lanes take microseconds, and eight checks are one look at the clock.
+        if column % ORDERS_PER_CHECK == 0 {
+            cancel.check()?;
+        }
         if n == 1 || n % 2 == 1 {
             let value = if n == 1 { 1.0 } else { 0.0 };
             rows.iter_mut().skip(column).step_by(width).for_each(|v| *v = value);
@@ -202,6 +216,7 @@ fn lanes_of_rows(rod_ratios: &[f64; LANES], orders: &[u32], tables: &[Horner], r
         }
         rows.iter_mut().skip(column).step_by(width).zip(power).for_each(|(v, p)| *v = p);
     }
+    Ok(())
 }
 
 /// The polynomial in p⁴ that belongs to one even order.
@@ -214,14 +229,19 @@ struct Horner {
 
 impl Horner {
     /// A table for each order, as long as the largest of the rod ratios needs.
-    fn tables(orders: &[u32], rtol: f64, rod_ratios: &[f64]) -> Vec<Self> {
+    fn tables(orders: &[u32], rtol: f64, rod_ratios: &[f64], cancel: &Cancel) -> Result<Vec<Self>> {
         let within = rod_ratios.iter().filter(|&&λ| !near_one::is_near(λ));
         // Others' lanes are filled with 1/2.
         let largest = within.fold(0.5_f64, |a, &b| a.max(b));
         let fourth = root(largest).powi(4);
         let count = (NEGLIGIBLE_LOG / -fourth.ln()).ceil() as usize;
         let negligible: Vec<f64> = (0..count).map(|j| (-NEGLIGIBLE_LOG / j as f64).exp()).collect();
-        orders.iter().map(|&n| Self::new(n, &negligible, fourth, rtol)).collect()
+        let table = |&n: &u32| {
+            // The factor in front of an order takes as many steps as half of it.
+            cancel.check()?;
+            Ok(Self::new(n, &negligible, fourth, rtol))
+        };
+        orders.iter().map(table).collect()
     }
 
     /// `negligible` has for each term the p⁴ up to which it is below rounding.
@@ -302,6 +322,22 @@ mod tests {
                 assert_eq!(known.re, 0.0);
             }
         }
+    }
+
+    #[test]
+    fn cancellation_is_checked_between_orders() {
+        let orders: Vec<u32> = (1..=1000).collect();
+        let calls = |ratios: &[f64]| {
+            let cancel = Cancel::polling(|_| false);
+            let mut rows = vec![0.0; ratios.len() * orders.len()];
+            write_centred(ratios, &orders, None, &mut rows, &cancel).unwrap();
+            cancel.calls().unwrap() as usize
+        };
+        let (count, table) = (orders.len(), orders.len());
+        let lanes = count / ORDERS_PER_CHECK;
+        assert!(calls(&[0.3]) >= table + lanes);
+        assert!(calls(&[0.3; 17]) >= table + 2 * lanes);
+        assert!(calls(&[0.995; 3]) >= table + 3 * count);
     }
 
     #[test]

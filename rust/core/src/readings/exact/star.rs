@@ -41,6 +41,8 @@ pub struct Stars {
     /// Halves of the angles, as parts of a turn.
     halves: Vec<PartOfTurn>,
     weights: Vec<f64>,
+    /// Whether each cylinder fires: those that do not have no vector, and make no order a major one.
+    fires: Vec<bool>,
     multiples: Multiples,
     /// Groups of which only the vectors of one have a known ratio, and whether the vector is that of the
     /// mirrored gear.
@@ -53,14 +55,24 @@ impl Stars {
     /// same and the rest has the opposite sign.
     pub fn new(
         fire: Vec<Angle>,
-        weights: Vec<f64>,
+        mut weights: Vec<f64>,
         groups: Vec<(usize, bool)>,
+        fires: Vec<bool>,
         cancel: &Cancel,
     ) -> Result<Self> {
         limits::same_length("mode_shape", weights.len(), "the engine", fire.len(), "cylinder")?;
+        for (weight, &fires) in weights.iter_mut().zip(&fires) {
+            *weight = if fires { *weight } else { 0.0 };
+        }
         let halves = parts_of_turn(fire.iter().map(|angle| angle.half()), true, cancel)?;
         let multiples = Multiples::new(&weights, cancel)?;
-        Ok(Self { fire, halves, weights, multiples, groups })
+        Ok(Self { fire, halves, weights, fires, multiples, groups })
+    }
+
+    /// Of a way to fire, with a weight for each cylinder.
+    pub fn of_firing(firing: &Firing, weights: Vec<f64>, cancel: &Cancel) -> Result<Self> {
+        let groups = vec![(0, false); weights.len()];
+        Self::new(firing.phases(), weights, groups, fires(firing.engine()), cancel)
     }
 
     /// Of the roll torque of the gas of an engine, as it fires if it has no cycles: alike are cylinders of
@@ -70,7 +82,7 @@ impl Stars {
         let gas = engine.gas();
         let phases = || (0..engine.stations().len()).map(|i| engine.firing_phase(i)).collect();
         let fire = firing.filter(|_| gas.is_none()).map_or_else(phases, Firing::phases);
-        let cycle_of = |i: usize| gas.map_or(Some(0), |gas| gas.cycle_of[i]);
+        let cycle_of = |i: usize| gas.and_then(|gas| gas.cycle_of[i]);
         let ratio = |i: usize| engine.cranks()[engine.crank_of(i)].ratio;
         let sizes = |(i, place): (usize, &Station)| {
             let gear = &place.cylinder;
@@ -80,15 +92,15 @@ impl Stars {
         let groups = first_equal(engine.stations().iter().enumerate().map(sizes)).into_iter();
         let mirrored = engine.stations().iter().map(|place| place.cylinder.pin_offset() < 0.0);
         let groups: Vec<_> = groups.zip(mirrored).collect();
-        let fired =
-            |i: usize| if cycle_of(i).is_some() { f64::from(ratio(i).signum()) } else { 0.0 };
-        let weights = (0..groups.len()).map(fired);
-        Self::new(fire, weights.collect(), groups, cancel)
+        let sense = (0..groups.len()).map(|i| f64::from(ratio(i).signum()));
+        Self::new(fire, sense.collect(), groups, fires(engine), cancel)
     }
 
     /// Whether some cylinders are of different groups.
     pub(super) fn are_unlike(&self) -> bool {
-        self.groups.iter().any(|group| *group != self.groups[0])
+        let pairs = self.groups.iter().zip(&self.fires);
+        let firing: Vec<_> = pairs.filter(|(_, fires)| **fires).map(|(group, _)| group).collect();
+        firing.windows(2).any(|pair| pair[0] != pair[1])
     }
 
     /// The vectors of an order.
@@ -99,9 +111,13 @@ impl Stars {
         let vectors: Vec<Complex64> =
             weighted.map(|(angle, weight)| phase(angle) * weight).collect();
         let turns = |k: usize| self.halves[k].turns * i128::from(halves);
-        let first = (turns(0), self.halves[0].symbol);
-        let is_major = (0..self.fire.len())
-            .all(|k| self.halves[k].symbol == first.1 && (turns(k) - first.0).is_integer());
+        let mut firing = (0..self.fire.len()).filter(|&k| self.fires[k]);
+        let is_major = firing.next().is_some_and(|first| {
+            firing.all(|k| {
+                self.halves[k].symbol == self.halves[first].symbol
+                    && (turns(k) - turns(first)).is_integer()
+            })
+        });
         // Each term with its sign in the sum of a gear's vectors and of those of the mirrored one.
         let mut sums: BTreeMap<_, Vec<(Ratio, Ratio, bool)>> = BTreeMap::new();
         for (k, &(unit, weight)) in self.multiples.of.iter().enumerate() {
@@ -142,13 +158,18 @@ impl Stars {
     }
 }
 
+fn fires(engine: &Engine) -> Vec<bool> {
+    (0..engine.stations().len()).map(|i| engine.fires(i)).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn stars(fire: &[f64], weights: &[f64]) -> Stars {
         let fire = fire.iter().map(|&degrees| Angle::from_degrees(degrees).unwrap()).collect();
-        Stars::new(fire, weights.to_vec(), vec![(0, false); weights.len()], &Cancel::new()).unwrap()
+        let (groups, fires) = (vec![(0, false); weights.len()], vec![true; weights.len()]);
+        Stars::new(fire, weights.to_vec(), groups, fires, &Cancel::new()).unwrap()
     }
 
     fn at(stars: &Stars, halves: u32) -> Star {
@@ -209,10 +230,19 @@ mod tests {
         assert_eq!(at(&decimals, 2).verdict, Verdict::Vanishes);
         assert!(at(&decimals, 2).sum == Complex64::default());
         let other = [0.0, 360.0].map(|degrees| Angle::from_degrees(degrees).unwrap()).to_vec();
-        let unlike =
-            Stars::new(other, vec![1.0; 2], vec![(0, false), (1, false)], &Cancel::new()).unwrap();
+        let unlike = Stars::new(
+            other,
+            vec![1.0; 2],
+            vec![(0, false), (1, false)],
+            vec![true; 2],
+            &Cancel::new(),
+        )
+        .unwrap();
         assert_eq!(at(&unlike, 1).verdict, Verdict::Undecided);
-        assert!(Stars::new(Vec::new(), vec![1.0], vec![(0, false)], &Cancel::new()).is_err());
+        assert!(
+            Stars::new(Vec::new(), vec![1.0], vec![(0, false)], vec![true], &Cancel::new())
+                .is_err()
+        );
     }
 
     #[test]
@@ -221,7 +251,7 @@ mod tests {
         let fire: Vec<Angle> =
             (0..6).map(|k| Angle::from_degrees(120.0 * f64::from(k)).unwrap()).collect();
         let of = |groups: Vec<(usize, bool)>| {
-            Stars::new(fire.clone(), vec![1.0; 6], groups, &Cancel::new()).unwrap()
+            Stars::new(fire.clone(), vec![1.0; 6], groups, vec![true; 6], &Cancel::new()).unwrap()
         };
         let mirrored = of((0..6).map(|k| (0, k % 2 == 1)).collect());
         let unlike = of((0..6).map(|k| (k % 2, false)).collect());

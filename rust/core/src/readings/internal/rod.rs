@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::gear::rod::{Rod, Swing};
+use crate::gear::rod::Swing;
 use crate::gear::slider_crank::{CrankPosition, Proportions};
 use crate::load::{Load, Source};
 use crate::numbers::angle::cis_degrees;
@@ -110,12 +110,7 @@ impl DrivenRod {
         let (i, details) = (cylinder, &engine.details()[cylinder]);
         let cylinder = &engine.stations()[i].cylinder;
         let (radius, length) = (cylinder.crank_radius(), cylinder.rod_length());
-        let rotating = match details.rod {
-            Some([mass, inertia, to_crankpin]) => {
-                Rod::new(mass, inertia, length, to_crankpin)?.rotating_mass() * radius
-            }
-            None => 0.0,
-        };
+        let rotating = details.big_end(length)? * radius;
         let piston = details.piston_mass.map_or(load.weight, |mass| mass * radius);
         let inertia = match load.source {
             Source::Piston { rod_inertia, .. } => rod_inertia,

@@ -145,7 +145,7 @@ impl Tolerances {
         check_reach(engine, pin_of, spreads, distribution.largest())?;
         let nominal = balance(engine, request, &Orders::Given(orders.to_vec()), cancel)?;
         let reference = engine.reference(request.reference_z)?;
-        let terms = Terms::new(engine, pin_of, orders, reference, request.torque, cancel)?;
+        let terms = Terms::new(engine, pin_of, orders, reference, request.torque)?;
         let omega = angular_speed(request.rpm)?;
         Ok(Self { terms, nominal, square: omega * omega })
     }
@@ -207,19 +207,15 @@ impl Tolerances {
         cancel: &Cancel,
     ) -> Result<()> {
         let orders = self.nominal.orders.len();
-        let sums = self.terms.sums(deviations, first, cancel)?;
         let Chunk { planar: [force, moment], torque, peaks: longest } = out;
-        let mut by_component = vec![Complex64::default(); 6 * orders];
-        for (i, longest) in longest.iter_mut().enumerate() {
-            let row = i * orders..(i + 1) * orders;
-            // Of force and moment along (about) x and y, of torque on block and crank.
-            let [force_xy, moment_xy, torques] = thirds(&mut by_component);
-            for (k, sums) in sums.iter().enumerate() {
+        self.terms.write_sums(deviations, first, cancel, |k, sums| {
+            for i in 0..longest.len() {
+                let at_order = i * orders + k;
                 let vectors = [
-                    (Vector::Force, &sums.force, &mut force[row.clone()], &mut *force_xy),
-                    (Vector::Moment, &sums.moment, &mut moment[row.clone()], &mut *moment_xy),
+                    (Vector::Force, &sums.force, &mut force[at_order]),
+                    (Vector::Moment, &sums.moment, &mut moment[at_order]),
                 ];
-                for (vector, change, out, xy) in vectors {
+                for (vector, change, out) in vectors {
                     let nominal = self.nominal.planar(vector, k);
                     let planar = Planar {
                         forward: nominal.forward + at(&change[0], i) * self.square,
@@ -227,16 +223,25 @@ impl Tolerances {
                         size: nominal.size,
                     };
                     let [x, y] = planar.xy(self.nominal.zero_bound(vector, k));
-                    [xy[k], xy[orders + k]] = [x, y];
-                    out[k] = [x, y, planar.forward, planar.backward()];
+                    *out = [x, y, planar.forward, planar.backward()];
                 }
                 if self.nominal.has_torque {
                     let nominal = self.nominal.wrenches[k].torque();
                     let nominal = [nominal.roll, nominal.crank];
                     let sum =
                         |which: usize| nominal[which] + at(&sums.torque[which], i) * self.square;
-                    torque[i * orders + k] = [sum(0), sum(1)];
-                    [torques[k], torques[orders + k]] = torque[i * orders + k];
+                    torque[at_order] = [sum(0), sum(1)];
+                }
+            }
+        })?;
+        let mut by_component = vec![Complex64::default(); 6 * orders];
+        for (i, longest) in longest.iter_mut().enumerate() {
+            // Of force and moment along (about) x and y, of torque on block and crank.
+            for (k, at_order) in (i * orders..(i + 1) * orders).enumerate() {
+                let ([fx, fy, ..], [mx, my, ..]) = (force[at_order], moment[at_order]);
+                let [roll, crank] = torque.get(at_order).copied().unwrap_or_default();
+                for (component, value) in [fx, fy, mx, my, roll, crank].into_iter().enumerate() {
+                    by_component[component * orders + k] = value;
                 }
             }
             *longest = peaks(finder, &by_component, cancel)?;
@@ -264,12 +269,6 @@ struct Chunk<'a> {
     planar: [&'a mut [[Complex64; 4]]; 2],
     torque: &'a mut [[Complex64; 2]],
     peaks: &'a mut [[f64; 4]],
-}
-
-fn thirds<T>(values: &mut [T]) -> [&mut [T]; 3] {
-    let (first, rest) = values.split_at_mut(values.len() / 3);
-    let (second, third) = rest.split_at_mut(rest.len() / 2);
-    [first, second, third]
 }
 
 /// The complex number of one sample.

@@ -5,12 +5,14 @@
 //! sums that the nominal engine cancels stay free of its rounding. The weight of a load in the one sum
 //! is that difference, harmonics included, with one complex number for each sample.
 
+use std::ops::Range;
 use std::rc::Rc;
 
 use super::amplitudes::{Amplitudes, amplitudes};
 use super::{CHUNK, Deviations, Parameter, pins};
 use crate::Complex64;
 use crate::engine::{Engine, Station};
+use crate::gear::slider_crank::Cylinder;
 use crate::load::{Arithmetic, Load, Loads, Phasors, Times, Wanted, Weight, superpose};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -25,7 +27,6 @@ pub(super) type Complexes = [Reals; 2];
 const ZEROS: Complexes = [[0.0; CHUNK]; 2];
 
 /// Sums of one order over ω².
-#[derive(Clone)]
 pub(super) struct SampleSums {
     /// Forward part, and conjugate of the backward part.
     pub force: [Complexes; 2],
@@ -52,10 +53,9 @@ pub(super) struct Terms {
     loads: Loads,
     deviating: Vec<Deviating>,
     pin_of: Vec<usize>,
-    /// Harmonics of each cylinder.
-    nominal: Vec<Amplitudes>,
-    /// Those of unbalances.
-    one: Amplitudes,
+    /// Different cylinders, and which of them is in each place.
+    cylinders: Vec<Cylinder>,
+    cylinder_of: Vec<usize>,
 }
 
 impl Terms {
@@ -65,7 +65,6 @@ impl Terms {
         orders: &[Order],
         reference: f64,
         torque: bool,
-        cancel: &Cancel,
     ) -> Result<Self> {
         let whole = |order: &Order| {
             let hint = "give whole orders: those of inertia, which tolerances are of";
@@ -87,13 +86,6 @@ impl Terms {
         let all: Vec<_> = of_cylinders(true).chain(of_cylinders(false)).chain(weights).collect();
         let mut kept = all.iter().map(Option::is_some);
         loads.list.retain(|_| kept.next().unwrap_or_default());
-        let nominal = |Station { cylinder, .. }: &Station| {
-            let lengths = (&[cylinder.crank_radius()][..], &[cylinder.rod_length()][..]);
-            amplitudes(cylinder, torque, lengths, &harmonics, cancel)
-        };
-        let nominal = engine.stations().iter().map(nominal).collect::<Result<_>>()?;
-        let mut one = Amplitudes::default();
-        one[0] = vec![[vec![1.0], vec![0.0]]; orders.len()];
         Ok(Self {
             orders: orders.to_vec(),
             harmonics,
@@ -102,8 +94,8 @@ impl Terms {
             loads,
             deviating: all.into_iter().flatten().collect(),
             pin_of: pin_of.to_vec(),
-            nominal,
-            one,
+            cylinders: engine.gears().to_vec(),
+            cylinder_of: (0..engine.stations().len()).map(|i| engine.gear_of(i)).collect(),
         })
     }
 
@@ -112,21 +104,51 @@ impl Terms {
         if figure.of_pin() { pins(&self.pin_of) } else { self.places.len() }
     }
 
-    /// Sums of every order, over ω², that the deviations of some samples add.
-    pub fn sums(
+    /// Writes the sums of every order, over ω², that the deviations of some samples add: some orders at
+    /// once, as many as take little memory beside their results.
+    pub fn write_sums(
         &self,
         deviations: &Deviations,
         first: usize,
         cancel: &Cancel,
-    ) -> Result<Vec<SampleSums>> {
+        mut write: impl FnMut(usize, &SampleSums),
+    ) -> Result<()> {
+        /// Harmonics of cylinders in all places that are kept at once: six lists of 128 samples each.
+        const AT_ONCE: usize = 4096;
+        let most = (AT_ONCE / self.places.len().max(1)).max(1);
+        for start in (0..self.orders.len()).step_by(most) {
+            let range = start..self.orders.len().min(start + most);
+            let sums = |k: usize, sums: &SampleSums| write(start + k, sums);
+            self.write_block(deviations, first, range, cancel, sums)?;
+        }
+        Ok(())
+    }
+
+    /// [`Terms::write_sums`] of a range of the orders, counted from its start.
+    fn write_block(
+        &self,
+        deviations: &Deviations,
+        first: usize,
+        range: Range<usize>,
+        cancel: &Cancel,
+        mut write: impl FnMut(usize, &SampleSums),
+    ) -> Result<()> {
+        let (orders, numbers) = (&self.orders[range.clone()], &self.harmonics[range]);
         let [masses, rotating, radii, angles, places, rods] = Parameter::ALL
             .map(|figure| columns(deviations[figure as usize], self.count(figure), first));
+        let nominal = |cylinder: &Cylinder| {
+            let lengths = (&[cylinder.crank_radius()][..], &[cylinder.rod_length()][..]);
+            amplitudes(cylinder, self.torque, lengths, numbers, cancel)
+        };
+        let nominal: Vec<Amplitudes> = self.cylinders.iter().map(nominal).collect::<Result<_>>()?;
+        let mut one = Amplitudes::default();
+        one[0] = vec![[vec![1.0], vec![0.0]]; orders.len()];
         let deviates = |figure: Parameter| !deviations[figure as usize].is_empty();
         let harmonics = |(i, Station { cylinder, .. }): (usize, &Station)| {
             cancel.check()?;
             let radius = around(cylinder.crank_radius(), &radii[self.pin_of[i]]);
             let rod = around(cylinder.rod_length(), &rods[i]);
-            amplitudes(cylinder, self.torque, (&radius, &rod), &self.harmonics, cancel)
+            amplitudes(cylinder, self.torque, (&radius, &rod), numbers, cancel)
         };
         let changed: Vec<Amplitudes> =
             if deviates(Parameter::CrankRadius) || deviates(Parameter::RodLength) {
@@ -134,12 +156,12 @@ impl Terms {
             } else {
                 Vec::new()
             };
-        let turns = if deviates(Parameter::Pin) { self.turns(&angles) } else { Vec::new() };
+        let turns = if deviates(Parameter::Pin) { turns(&angles, numbers) } else { Vec::new() };
         let reference = self.loads.reference;
         let drawn = |(&Deviating { pin, cylinder, is_piston }, load): (&Deviating, &Load)| {
             let turns = turns.get(pin).map(|turns| &turns[..]);
             let fixed = |value: f64| ([value; CHUNK], value);
-            let one = [&self.one; 2];
+            let one = [&one; 2];
             let Some(i) = cylinder else {
                 let lever = fixed(load.z - reference);
                 return Drawn { weights: vec![fixed(load.weight)], lever, amplitudes: one, turns };
@@ -159,13 +181,13 @@ impl Terms {
                 (product(first_order, &radius), cylinder.second_moment()),
                 fixed(cylinder.rod_inertia_excess()),
             ];
-            let nominal = &self.nominal[i];
+            let nominal = &nominal[self.cylinder_of[i]];
             let amplitudes = [changed.get(i).unwrap_or(nominal), nominal];
             Drawn { weights, lever, amplitudes, turns }
         };
         let loads: Vec<Drawn> = self.deviating.iter().zip(&self.loads.list).map(drawn).collect();
         let wanted = Wanted { planar: true, roll: self.torque, by_bank: false };
-        let of_order = |(k, &order): (usize, &Order)| {
+        for (k, &order) in orders.iter().enumerate() {
             cancel.check()?;
             let arithmetic = Samples { loads: &loads, k, phasors: Phasors { reference } };
             let mut sums = SampleSums { force: [ZEROS; 2], moment: [ZEROS; 2], torque: [ZEROS; 2] };
@@ -181,29 +203,26 @@ impl Terms {
                     add(sum, Complex64::ONE, part);
                 }
             }
-            Ok(sums)
-        };
-        self.orders.iter().enumerate().map(of_order).collect()
+            write(k, &sums);
+        }
+        Ok(())
     }
+}
 
-    /// Unit phasors by pin and order: of n times the deviation.
-    fn turns(&self, angles: &[Reals]) -> Vec<Vec<Complexes>> {
-        let turn = |angles: &Reals, n: u32| {
-            vectorised(
-                #[inline(always)]
-                || {
-                    let [mut cos, mut sin] = ZEROS;
-                    let degrees = product([f64::from(n); CHUNK], angles);
-                    sin_cos_degrees(&degrees, &mut sin, &mut cos);
-                    [cos, sin]
-                },
-            )
-        };
-        angles
-            .iter()
-            .map(|angles| self.harmonics.iter().map(|&n| turn(angles, n)).collect())
-            .collect()
-    }
+/// Unit phasors by pin and order: of n times the deviation.
+fn turns(angles: &[Reals], numbers: &[u32]) -> Vec<Vec<Complexes>> {
+    let turn = |angles: &Reals, n: u32| {
+        vectorised(
+            #[inline(always)]
+            || {
+                let [mut cos, mut sin] = ZEROS;
+                let degrees = product([f64::from(n); CHUNK], angles);
+                sin_cos_degrees(&degrees, &mut sin, &mut cos);
+                [cos, sin]
+            },
+        )
+    };
+    angles.iter().map(|angles| numbers.iter().map(|&n| turn(angles, n)).collect()).collect()
 }
 
 /// A load as it was drawn, and as it is nominally.
