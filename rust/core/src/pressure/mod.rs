@@ -133,6 +133,21 @@ impl Cycle {
         self.panels.value(theta_deg)
     }
 
+    /// Absolute pressure, Pa, at a crank angle in degrees of the polynomial that counts at another one.
+    pub(crate) fn pressure_beside(&self, theta_deg: f64, at: f64) -> f64 {
+        self.panels.beside(theta_deg, at)
+    }
+
+    /// Crank angles at which pressure may jump or bend, degrees: the edges of the polynomials.
+    pub(crate) fn edges_deg(&self) -> &[f64] {
+        &self.panels.edges
+    }
+
+    /// Largest pressure at its points, either way, Pa.
+    pub(crate) fn largest(&self) -> f64 {
+        self.given.pressure.iter().fold(0.0, |largest, value| f64::max(largest, value.abs()))
+    }
+
     /// The weighted sum of cycles of one period: polynomials between all of their edges.
     pub fn blend(parts: &[(f64, &Self)], name: String) -> Result<Self> {
         let Some(&(_, first)) = parts.first() else {
