@@ -550,8 +550,8 @@ def test_peaks_of_a_cycle_are_those_of_a_fine_grid(seed: int) -> None:
     grid = with_sides(np.arange(0.0, 720.0, 0.05), knots)
     coarse = cp.bearing_loads(engine, rpm, grid)
     for name in ("crankpin", "wrist_pin", "main", "side_thrust", "rod_force", "gas_force"):
-        for row, values in enumerate(coarse.magnitude(name)):
-            theta, step = grid, 0.05
+        for row, of_grid in enumerate(coarse.magnitude(name)):
+            theta, values, step = grid, of_grid, 0.05
             for _ in range(4):
                 near = theta[np.argsort(-values)[:20]]
                 closer = (near[:, None] + np.linspace(-step, step, 41)).ravel()
