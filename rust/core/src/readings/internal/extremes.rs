@@ -81,36 +81,29 @@ impl<const N: usize, F: Fn(f64, f64) -> [f64; N]> Curves<'_, F> {
         Panel { low, high, values }
     }
 
-    /// Least and largest values at the points of the widest panels.
+    /// Least and largest values at the ends and the middle of the widest panels.
     fn sampled(&self) -> Result<[[f64; 2]; N]> {
         let mut ranges = [[f64::INFINITY, f64::NEG_INFINITY]; N];
         for pair in self.edges.windows(2) {
             self.cancel.check()?;
-            let panel = self.sample(pair[0], pair[1]);
-            for (range, values) in ranges.iter_mut().zip(&panel.values) {
-                *range = widened(*range, values);
+            let middle = f64::midpoint(pair[0], pair[1]);
+            for theta in [pair[0], middle, pair[1]] {
+                for (range, value) in ranges.iter_mut().zip((self.of)(theta, middle)) {
+                    *range = widened(*range, &[value]);
+                }
             }
         }
         Ok(ranges)
     }
 
-    /// Visit panels on which all are polynomials, ascending, to within what is given.
-    fn visit(
-        &self,
-        tolerances: &[f64; N],
-        mut visitor: impl FnMut(&Panel<N>) -> Result<()>,
-    ) -> Result<()> {
+    /// Visit panels, ascending, which are halved until they are narrow or need not be.
+    fn visit(&self, mut is_settled: impl FnMut(&Panel<N>, bool) -> Result<bool>) -> Result<()> {
         let mut rest = Vec::new();
         for pair in self.edges.windows(2) {
             rest.push((pair[0], pair[1]));
             while let Some((low, high)) = rest.pop() {
                 self.cancel.check()?;
-                let panel = self.sample(low, high);
-                let mut all = panel.values.iter().zip(tolerances);
-                let narrow = high - low < NARROWEST;
-                if narrow || all.all(|(values, tolerance)| largest_of_last(values) <= *tolerance) {
-                    visitor(&panel)?;
-                } else {
+                if !is_settled(&self.sample(low, high), high - low < NARROWEST)? {
                     let middle = f64::midpoint(low, high);
                     rest.extend([(middle, high), (low, middle)]);
                 }
@@ -121,17 +114,24 @@ impl<const N: usize, F: Fn(f64, f64) -> [f64; N]> Curves<'_, F> {
 
     /// Least and largest values, to within what is given.
     fn extremes(&self, mut ranges: [[f64; 2]; N], tolerances: &[f64; N]) -> Result<[[f64; 2]; N]> {
-        self.visit(tolerances, |panel| {
-            for (range, values) in ranges.iter_mut().zip(&panel.values) {
+        self.visit(|panel, is_narrow| {
+            let mut is_settled = true;
+            for ((range, values), tolerance) in ranges.iter_mut().zip(&panel.values).zip(tolerances)
+            {
                 *range = widened(*range, values);
-                let [low, high] = widened([f64::INFINITY, f64::NEG_INFINITY], values);
-                let (middle, beyond) = (f64::midpoint(low, high), OVERSHOOT * 0.5 * (high - low));
-                if middle + beyond > range[1] || middle - beyond < range[0] {
-                    let values = turning_points(values).map(|[_, value]| value);
-                    *range = widened(*range, &values.collect::<Vec<_>>());
+                let [low, high] = reach(values);
+                if range[0] <= low && high <= range[1] {
+                    continue;
+                }
+                if is_narrow || largest_of_last(values) <= *tolerance {
+                    for [_, value] in turning_points(values) {
+                        *range = widened(*range, &[value]);
+                    }
+                } else {
+                    is_settled = false;
                 }
             }
-            Ok(())
+            Ok(is_settled)
         })?;
         Ok(ranges)
     }
@@ -139,6 +139,13 @@ impl<const N: usize, F: Fn(f64, f64) -> [f64; N]> Curves<'_, F> {
 
 fn widened([low, high]: [f64; 2], values: &[f64]) -> [f64; 2] {
     values.iter().fold([low, high], |[low, high], &value| [low.min(value), high.max(value)])
+}
+
+/// Least and largest value that a polynomial with these may have.
+fn reach(values: &Values) -> [f64; 2] {
+    let [low, high] = widened([f64::INFINITY, f64::NEG_INFINITY], values);
+    let (middle, beyond) = (f64::midpoint(low, high), OVERSHOOT * 0.5 * (high - low));
+    [middle - beyond, middle + beyond]
 }
 
 /// Larger magnitude of least and largest values.
@@ -255,10 +262,15 @@ impl Internal {
             let tolerance = (RESOLVED * largest(sampled[3])).max(rounding);
             let starts = (curves.of)(0.0, f64::midpoint(edges[0], edges[1]))[0] < -rounding;
             let (mut last, mut changes) = (starts, Vec::new());
-            curves.visit(&[tolerance], |panel| {
+            curves.visit(|panel, is_narrow| {
                 let [low, high, middle] = panel.places();
                 let [values] = &panel.values;
-                let turning = turning_points(values);
+                let [least, most] = reach(values);
+                let changes_sign = least < -rounding && most >= -rounding;
+                if changes_sign && !is_narrow && largest_of_last(values) > tolerance {
+                    return Ok(false);
+                }
+                let turning = changes_sign.then(|| turning_points(values)).into_iter().flatten();
                 let turning = turning.map(|[x, value]| (middle + 0.5 * x * (high - low), value));
                 let mut all: Vec<_> =
                     points(low, high, DEGREE).zip(*values).chain(turning).collect();
@@ -278,7 +290,7 @@ impl Internal {
                     }
                     (from, last) = (theta, here);
                 }
-                Ok(())
+                Ok(true)
             })?;
             if last != starts {
                 changes.push(cycle);

@@ -143,11 +143,14 @@ impl DrivenRod {
         self.bore * Complex64::new(u, w)
     }
 
-    /// Crank angles at which its pressure may jump or bend, degrees.
+    /// Crank angles at which its pressure may jump or bend, and those at which the rod leans most, where
+    /// loads of one hardly longer than the crank have narrow peaks, degrees.
     pub fn edges_deg(&self) -> impl Iterator<Item = f64> {
-        self.gas
-            .iter()
-            .flat_map(|gas| gas.cycle.edges_deg().iter().map(move |edge| edge + gas.phase))
+        let tdc = -self.phase.arg().to_degrees();
+        let leaning = [90.0, 270.0, 450.0, 630.0].map(|angle| tdc + angle);
+        let gas = self.gas.iter();
+        gas.flat_map(|gas| gas.cycle.edges_deg().iter().map(move |edge| edge + gas.phase))
+            .chain(leaning)
     }
 
     /// Size of what forces are sums and differences of, by the largest force on the crankpin, N.
