@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 __all__ = [
     "ATMOSPHERE",
+    "FEWEST_POINTS",
     "LONGEST_AXIS",
     "LONGEST_FILE",
     "MOST_CYLINDERS",
@@ -47,6 +48,7 @@ __all__ = [
     "pair_heights",
     "peaks_of_sums",
     "places_on_axis",
+    "repeats_first",
     "rod_parts",
     "roll_torque",
     "shared",
@@ -60,6 +62,7 @@ __all__ = [
 
 __version__: str
 ATMOSPHERE: float
+FEWEST_POINTS: int
 MOST_CYLINDERS: int
 LONGEST_AXIS: int
 LONGEST_FILE: int
@@ -462,6 +465,7 @@ class Internal:
     def loads(self, theta_deg: _Real) -> tuple[_Real, _Real, _Real, _Real, _Real, _Real]: ...
     def turned(self, bearing: str, axes: str, theta_deg: _Real) -> _Real: ...
     def sections(self, part: str, theta_deg: _Real) -> tuple[_Real, _Real]: ...
+    def extremes(self, cycle_deg: int) -> list[_Real]: ...
     def tension(self, cycle_deg: int) -> list[list[tuple[float, float]]]: ...
 
 def exact_angle(argument: str, degrees: float | str) -> str: ...
@@ -502,6 +506,7 @@ def star(
     firing: Firing, halves: Sequence[int], weights: Sequence[float]
 ) -> tuple[_Complex, _Complex, NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]: ...
 def places_on_axis(name: str, axis: _Real, values: _Real) -> tuple[NDArray[np.int64], _Real]: ...
+def repeats_first(argument: str, theta_deg: _Real, period_deg: float) -> bool | None: ...
 def vanishing(
     engine: Engine, halves: Sequence[int], reference_z: float | None, firing: Firing | None
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_], list[str]]: ...

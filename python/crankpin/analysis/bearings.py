@@ -55,8 +55,9 @@ def bearing_loads(engine: Engine, rpm: float, theta_deg: ArrayLike | None = None
     rpm : float
         Crank speed, rpm.
     theta_deg : array_like, shape (n_theta,), optional
-        Crank angles, degrees: (n_theta,); by default 0° to 720° in steps of one degree. Peaks and
-        means are those over these angles.
+        Crank angles, degrees; by default 0° to 720° in steps of one degree. Peaks are
+        those at these angles, by default those of the whole cycle, at any angle. Means are over
+        these angles.
 
     Returns
     -------
@@ -85,7 +86,7 @@ def bearing_loads(engine: Engine, rpm: float, theta_deg: ArrayLike | None = None
     >>> (loads.peak("main") / 1e3).round(1)
     array([5. , 2.4, 9.9, 2.4, 5. ])
     """
-    found = BearingLoads(engine, rpm, inputs.crank_angles(theta_deg))
+    found = BearingLoads(engine, rpm, inputs.crank_angles(theta_deg), theta_deg is None)
     inputs.warn_of_units(mean_piston_speed(engine, found.rpm))
     return found
 
@@ -113,13 +114,17 @@ class BearingLoads(Tabled):
     """Crank speed, rpm."""
     theta_deg: NDArray[np.float64]
     """Crank angles, degrees: (n_theta,)."""
+    at_any_angle: bool = False
+    """Whether peaks are those of the whole cycle, at any angle; else those at the crank angles."""
 
     def __post_init__(self) -> None:
         engine, rpm = engine_core(self.engine), inputs.number("rpm", self.rpm)
         theta = inputs.copied(inputs.vector("theta_deg", self.theta_deg))
         core = _core.Internal(engine, rpm)
         values = dict(zip(LOADS, core.loads(theta), strict=True))
-        self.__dict__.update(rpm=rpm, theta_deg=theta, _internal=core, _values=values)
+        at_any_angle = inputs.flag("at_any_angle", self.at_any_angle)
+        self.__dict__.update(rpm=rpm, theta_deg=theta, at_any_angle=at_any_angle)
+        self.__dict__.update(_internal=core, _values=values)
         super().__post_init__()
 
     @property
@@ -260,11 +265,12 @@ class BearingLoads(Tabled):
         return np.asarray(sizes)
 
     def peak(self, load: str) -> NDArray[np.float64]:
-        """Return the largest magnitude of a load at the crank angles, N: (n,).
+        """Return the largest magnitude of a load, N: (n,).
 
-        A peak between two angles exceeds that by up to an eighth of the square of their distance
-        in radians times the second derivative there: at steps of 1°, of an engine fired by
-        :meth:`Cycle.example`, by less than 1e-3 of it.
+        Of the whole cycle, at any angle; where crank angles were given, at these. Between two of
+        them it may be larger, by up to an eighth of the square of their distance in radians times
+        the second derivative there: at steps of 1°, of an engine fired by :meth:`Cycle.example`, by
+        less than 1e-3 of it.
 
         Parameters
         ----------
@@ -281,7 +287,23 @@ class BearingLoads(Tabled):
         InputError
             If there is no such load.
         """
-        return np.asarray(self.magnitude(load).max(axis=-1, initial=0.0))
+        low, high = self._range(load)
+        return np.maximum(np.abs(low), np.abs(high))
+
+    def _range(self, load: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the least and largest value of a load, of vectors the magnitude."""
+        name = inputs.one_of("load", load, LOADS)
+        if self.at_any_angle:
+            low, high = self._extremes[name].T
+            return low, high
+        values = self.magnitude(name) if name in _VECTORS else self.read(name)
+        if not len(self.theta_deg):
+            return np.zeros(len(values)), np.zeros(len(values))
+        return values.min(axis=-1), values.max(axis=-1)
+
+    @cached_property
+    def _extremes(self) -> dict[str, NDArray[np.float64]]:
+        return dict(zip(LOADS, self._core.extremes(180 * self.engine.strokes), strict=True))
 
     def mean(self, load: str) -> NDArray[np.float64]:
         """Return the mean magnitude of a load over the crank angles, N: (n,).
@@ -499,21 +521,22 @@ class BearingLoads(Tabled):
     def table(self) -> Table:
         """Table that is shown: largest and mean loads of each cylinder, then of each bearing."""
         where = f"{labels.name_of(self.engine)} at {self.rpm:g} rpm"
-        force = self.rod_force
+        over = "of a cycle" if self.at_any_angle else f"at {len(self.theta_deg)} crank angles"
+        least, most = self._range("rod_force")
         in_tension = [sum(to - begin for begin, to in each) for each in self.tension_deg]
         columns = {
             "crankpin": self.peak("crankpin"),
             "mean": self.mean("crankpin"),
             "wrist pin": self.peak("wrist_pin"),
             "side thrust": self.peak("side_thrust"),
-            "rod compressed": force.max(axis=-1, initial=0.0),
-            "pulled": (-force).max(axis=-1, initial=0.0),
+            "rod compressed": np.maximum(most, 0.0),
+            "pulled": np.maximum(-least, 0.0),
         }
         of_mains = {"largest": self.peak("main"), "mean": self.mean("main")}
         return Table(
-            f"{where}, largest loads at {len(self.theta_deg)} crank angles",
+            f"{where}, largest loads {over}",
             (
-                _counted("cylinder", len(force)),
+                _counted("cylinder", len(most)),
                 *(Column(name, tuple(each.tolist()), "N") for name, each in columns.items()),
                 Column("pulled for", tuple(in_tension), "°"),
             ),

@@ -23,14 +23,17 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure
     from numpy.typing import ArrayLike, NDArray
 
+    from crankpin.model.cycle import Cycle
+
 Curve: TypeAlias = "Callable[[NDArray[np.float64]], ArrayLike] | tuple[ArrayLike, ArrayLike]"
 """Torque over crank angle: a function of degrees, or angles and torques."""
 TWO_TURNS = 720.0
 """Period, degrees, of functions: whole and half orders come round in it."""
-HALF_TURN = 180.0
-"""Part of all periods of tables, degrees."""
 MOST_KNOTS = 100_000
 """Largest number of angles of a table, and of a load over the period of the drive."""
+MOST_BENDS = 7201
+"""Largest number of angles of a cycle that are edges of cells: every tenth of a degree. Closer ones
+take seconds; half degrees sample them."""
 EQUAL = 1e-9
 """Relative difference up to which a ratio of periods is whole."""
 APPROXIMATIONS = ("gas torque alone", "gas and inertia torque")
@@ -59,6 +62,8 @@ def flywheel(
         A fired engine (:meth:`Engine.with_cycle`); or a turning-moment diagram, the torque on the
         crank, N·m: a function of an array of crank angles in degrees, or a pair of angles, degrees,
         and torques, between which it is linear. An angle given twice is one where torque jumps.
+        Angles over one or two turns, open or closed, are read as those of a :class:`Cycle`; those
+        over another period end with the torque of their beginning.
     rpm : float
         Mean crank speed, rpm: turns over the time that they take.
     inertia : float, optional
@@ -71,9 +76,8 @@ def flywheel(
         Torque of the load over crank angle, as ``drive``; by default constant. At a constant mean
         speed its mean is that of the drive: only its variation about its mean counts.
     period_deg : float, optional
-        Period of a turning-moment diagram, degrees; by default 720 of a function. Of a table it is
-        a number of half turns: up to the last angle, which then stands for the first, or, of equal
-        steps, to a step beyond it, as of 0, 10, …, 350. Other tables need it.
+        Period of a turning-moment diagram, degrees; by default that of the angles, and 720 of a
+        function.
 
     Returns
     -------
@@ -166,7 +170,8 @@ def flywheel(
         inputs.optional_number("inertia", inertia),
         0.0 if irregularity is None else inputs.number("irregularity", irregularity),
     )
-    found, uneven, energy, mean, acceleration, *approximate = figures
+    found, uneven, energy, mean, acceleration, lowest, highest, *approximate = figures
+    of_one_rpm = _core.angular_speed(1.0)
     return Flywheel(
         engine,
         inputs.number("rpm", rpm),
@@ -175,9 +180,11 @@ def flywheel(
         energy,
         mean,
         acceleration,
+        lowest / of_one_rpm,
+        highest / of_one_rpm,
         (approximate[0], approximate[1]),
         edges,
-        speed / _core.angular_speed(1.0),
+        speed / of_one_rpm,
         torque.at(edges),
         np.full(edges.shape, mean) if against is None else against.at(edges),
         of_inertia,
@@ -197,7 +204,7 @@ class Flywheel(Tabled):
     >>> found = cp.flywheel(
     ...     lambda deg: 300 - 400 * np.cos(np.radians(2 * deg)), rpm=1500, inertia=2.0
     ... )
-    >>> round(float(found.speed_rpm.min()), 2), round(float(found.speed_rpm.max()), 2)
+    >>> round(found.lowest_rpm, 2), round(found.highest_rpm, 2)
     (1493.93, 1506.09)
     """
 
@@ -214,7 +221,11 @@ class Flywheel(Tabled):
     mean_torque: float
     """Mean torque of the drive, N·m."""
     acceleration: float
-    """Largest angular acceleration, either way, rad/s²."""
+    """Largest angular acceleration, either way, at any crank angle, rad/s²."""
+    lowest_rpm: float
+    """Lowest speed, at any crank angle, rpm."""
+    highest_rpm: float
+    """Highest speed, at any crank angle, rpm."""
     approximations: tuple[float, float]
     """Irregularity from the mean moment of inertia: of the gas torque alone, and of gas and inertia
     torque together."""
@@ -234,7 +245,8 @@ class Flywheel(Tabled):
     def __post_init__(self) -> None:
         if self.engine is not None:
             engine_core(self.engine)
-        for name in ("rpm", "inertia", "irregularity", "energy", "mean_torque", "acceleration"):
+        figures = ("rpm", "inertia", "irregularity", "energy", "mean_torque", "acceleration")
+        for name in (*figures, "lowest_rpm", "highest_rpm"):
             inputs.number(name, getattr(self, name))
         inputs.vector("approximations", self.approximations)
         curves = ("theta_deg", "speed_rpm", "torque", "load", "inertia_torque", "moving_inertia")
@@ -256,8 +268,8 @@ class Flywheel(Tabled):
         figures = (
             ("moment of inertia", self.inertia, "kg·m²"),
             ("irregularity", 100.0 * self.irregularity, "%"),
-            ("lowest speed", float(self.speed_rpm.min()), "rpm"),
-            ("highest speed", float(self.speed_rpm.max()), "rpm"),
+            ("lowest speed", self.lowest_rpm, "rpm"),
+            ("highest speed", self.highest_rpm, "rpm"),
             ("fluctuation of energy", self.energy, "J"),
             ("mean torque", self.mean_torque, "N·m"),
             ("largest acceleration", self.acceleration, "rad/s²"),
@@ -364,39 +376,25 @@ def _of_gas(engine: Engine, rpm: float, period_deg: object) -> _Diagram:
             f"period_deg = {given}: the period is that of the engine's cycle; leave it out"
         )
     # Where pressure jumps or bends, at the firing of each cylinder.
-    pairs = [
-        start + angle
-        for start, cycle in zip(engine.firing_deg.tolist(), cycles, strict=True)
+    bends = [
+        start + _bends(cycle)
+        for start, cycle in zip(engine.firing_deg, cycles, strict=True)
         if cycle is not None
-        for angle in cycle.theta_deg[1:][np.diff(cycle.theta_deg) == 0.0].tolist()
     ]
 
     def at(theta: NDArray[np.float64]) -> NDArray[np.float64]:
         return waveform(engine, rpm, theta_deg=theta).read("crank_torque.gas")
 
-    return _Diagram(at, 180.0 * engine.strokes, np.array(pairs))
+    return _Diagram(at, 180.0 * engine.strokes, np.concatenate(bends))
 
 
-def _period(name: str, theta: NDArray[np.float64], torque: NDArray[np.float64]) -> float:
-    """Return the period of a table: a number of half turns, to its last angle or a step on."""
-    steps = np.diff(theta)
-    span, step = float(theta[-1] - theta[0]), float(steps[0])
-
-    def whole(angle: float) -> bool:
-        return abs(angle / HALF_TURN - round(angle / HALF_TURN)) <= EQUAL
-
-    is_even = step > 0.0 and bool((np.abs(steps - step) <= EQUAL * span).all())
-    is_closed, is_open = whole(span), is_even and whole(span + step)
-    if is_closed and (not is_open or torque[0] == torque[-1]):
-        return span
-    if is_open and not is_closed:
-        return span + step
-    if name == "load" or not np.isfinite(torque).all():
-        return span  # rejected where it is no part of the drive's, or torques are read
-    raise InputError(
-        f"{name}: angles from {theta[0]:.10g}° to {theta[-1]:.10g}° leave open what their period "
-        "is; give period_deg, such as 720"
-    )
+def _bends(cycle: Cycle) -> NDArray[np.float64]:
+    """Return the angles at which pressure jumps or bends: all of a table that is not a fine one."""
+    theta: NDArray[np.float64] = cycle.theta_deg
+    if cycle.degree is None and len(theta) <= MOST_BENDS:
+        return theta
+    twice: NDArray[np.float64] = theta[1:][np.diff(theta) == 0.0]
+    return twice
 
 
 def _diagram(name: str, given: object, period_deg: object) -> _Diagram:
@@ -423,16 +421,43 @@ def _diagram(name: str, given: object, period_deg: object) -> _Diagram:
     if len(theta) > MOST_KNOTS:
         raise InputError(f"{name} has {len(theta)} angles: give at most {MOST_KNOTS}")
     span = float(theta[-1] - theta[0])
-    if not (np.diff(theta) >= 0.0).all() or not 0.0 < span < np.inf:
-        raise inputs.rejected(name, given, "give ascending angles")
     period = _period(name, theta, torque) if period is None else period
-    if span > period * (1.0 + EQUAL):
-        raise InputError(f"period_deg = {period}: the angles span {span:.10g}°; give no less")
-    if span < period * (1.0 - EQUAL):
-        theta, torque = np.append(theta, theta[0] + period), np.append(torque, torque[0])
+    closed = _core.repeats_first(f"{name}[0]", theta, period)
+    if closed is None:
+        raise InputError(
+            f"period_deg = {period:.10g}: the angles span {span:.10g}°, and no step of theirs is "
+            "as wide as what is left; give angles over one period"
+        )
     start = float(theta[0])
+    end = start + period
+    if closed:
+        theta = np.where(theta == theta[-1], end, np.minimum(theta, end))
+    else:
+        theta, torque = np.append(theta, end), np.append(torque, torque[0])
 
     def of_table(where: NDArray[np.float64]) -> NDArray[np.float64]:
         return np.interp((where - start) % period + start, theta, torque)
 
     return _Diagram(of_table, period, theta)
+
+
+def _period(name: str, theta: NDArray[np.float64], torque: NDArray[np.float64]) -> float:
+    """Return the period of a table: one or two turns, as of a cycle, or that of its own.
+
+    A table of its own period repeats its first torque. One of few angles, such as a load in steps,
+    does that on purpose: it does not go on to the end of a turn.
+    """
+    repeated = bool(torque[-1] == torque[0])
+    few = len(theta) < _core.FEWEST_POINTS
+    for turns in (TWO_TURNS / 2.0, TWO_TURNS):
+        closed = _core.repeats_first(f"{name}[0]", theta, turns)
+        if closed or (closed is False and not (few and repeated)):
+            return turns
+    span = float(theta[-1] - theta[0])
+    if repeated and span > 0.0:
+        return span
+    last = f"{torque[-1]:.10g} N·m after {span:.10g}°"
+    raise InputError(
+        f"{name}: {last} is neither a turn, nor two, nor the first torque again; give angles over "
+        "a whole period, the first torque repeated at its end"
+    )

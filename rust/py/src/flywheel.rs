@@ -14,8 +14,8 @@ use crate::interrupt;
 pub struct CycleGrid(flywheel::CycleGrid);
 
 /// Arrays over the edges: speed, moving inertia, inertia torque; figures: inertia, irregularity, energy,
-/// mean torque, acceleration, and the two approximations of the irregularity.
-type Speed<'py> = ([Bound<'py, PyArray1<f64>>; 3], [f64; 7]);
+/// mean torque, acceleration, lowest and highest speed, and the two approximations of the irregularity.
+type Speed<'py> = ([Bound<'py, PyArray1<f64>>; 3], [f64; 9]);
 
 #[guarded]
 #[pymethods]
@@ -58,6 +58,7 @@ impl CycleGrid {
             let drive = Drive { grid: &self.0, torque, load, engine, rpm };
             drive.speed(evenness, cancel)
         })?;
+        let [lowest, highest] = found.extremes;
         let [gas_alone, with_inertia_torque] = found.approximations;
         Ok((
             [
@@ -71,6 +72,8 @@ impl CycleGrid {
                 found.energy,
                 found.mean_torque,
                 found.acceleration,
+                lowest,
+                highest,
                 gas_alone,
                 with_inertia_torque,
             ],

@@ -1,7 +1,7 @@
 //! Loads of bearings and walls, and sections of crank and crankcase.
 
 use crate::array::frozen;
-use crankpin_core::internal::{self, Bearing, BearingLoads, Part, Sections, TurningAxes};
+use crankpin_core::internal::{self, Bearing, BearingLoads, Extremes, Part, Sections, TurningAxes};
 use crankpin_macros::guarded;
 use numpy::{PyArray2, PyArray3, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -23,6 +23,9 @@ type Loads<'py> = (
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray2<f64>>,
 );
+
+/// Least and largest of each row of the same.
+type LoadExtremes<'py> = [Bound<'py, PyArray2<f64>>; 6];
 
 #[guarded]
 #[pymethods]
@@ -93,6 +96,15 @@ impl Internal {
         let found = interrupt::run(py, |cancel| self.0.sections(part, thetas, cancel))?;
         let Sections { shear, bending } = found;
         Ok((frozen(py, shear)?, frozen(py, bending)?))
+    }
+
+    /// Least and largest loads over a cycle, degrees, as `loads` has them; magnitudes of vectors.
+    fn extremes<'py>(&self, py: Python<'py>, cycle_deg: u32) -> PyResult<LoadExtremes<'py>> {
+        let found = interrupt::run(py, |cancel| self.0.extremes(cycle_deg, cancel))?;
+        let Extremes { crankpin, wrist_pin, main, side_thrust, rod, gas } = found;
+        let [crankpin, wrist_pin, main] = [crankpin, wrist_pin, main].map(|rows| frozen(py, rows));
+        let [side_thrust, rod, gas] = [side_thrust, rod, gas].map(|rows| frozen(py, rows));
+        Ok([crankpin?, wrist_pin?, main?, side_thrust?, rod?, gas?])
     }
 
     /// Ranges of crank angles in which each rod is in tension, degrees of a cycle.

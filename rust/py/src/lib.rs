@@ -33,7 +33,7 @@ static ALLOCATOR: reserve::Allocator = reserve::Allocator;
 // Classes are frozen, and what threads share is behind a lock: packaging/README.md has how that was tested.
 #[pymodule(gil_used = false)]
 mod _core {
-    use crankpin_core::{engine::file, limits, pressure};
+    use crankpin_core::{crank_angles, engine::file, limits, pressure};
     use pyo3::prelude::*;
 
     #[pymodule_export]
@@ -48,7 +48,7 @@ mod _core {
         flywheel::CycleGrid,
         internal::Internal,
         matching::matched,
-        pressure::{Cycle, places_on_axis},
+        pressure::{Cycle, places_on_axis, repeats_first},
         search::{BankAngles, Search, arrangement},
         slider_crank::{
             centred_table, check_cylinder, crank_radius_of_stroke, cylinder_harmonics,
@@ -67,6 +67,7 @@ mod _core {
         crate::array::load(module.py())?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;
         module.add("ATMOSPHERE", pressure::ATMOSPHERE)?;
+        module.add("FEWEST_POINTS", crank_angles::FEWEST_POINTS)?;
         module.add("MOST_CYLINDERS", limits::MOST_CYLINDERS)?;
         module.add("LONGEST_AXIS", limits::LONGEST_AXIS)?;
         module.add("LONGEST_FILE", file::LONGEST_TEXT)?;

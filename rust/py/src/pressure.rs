@@ -57,6 +57,20 @@ pub fn places_on_axis<'py>(
     Ok((frozen(py, lower)?, frozen(py, shares)?))
 }
 
+/// Whether the last of ascending crank angles repeats the first, a period later; None if they do not
+/// cover the period.
+#[guarded]
+#[pyfunction]
+pub fn repeats_first(
+    argument: &str,
+    theta_deg: PyReadonlyArray1<'_, f64>,
+    period_deg: f64,
+) -> PyResult<Option<bool>> {
+    let theta_deg = theta_deg.as_slice()?;
+    core::crank_angles::check_grid(argument, theta_deg).or_raise()?;
+    Ok(core::crank_angles::repeats_first(theta_deg, period_deg))
+}
+
 /// Values of each point, as the core keeps them.
 type Points<'py> =
     (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, u32, String, Option<usize>);

@@ -5,8 +5,15 @@ use std::ops::Range;
 use crate::numbers::angle::LARGEST_ANGLE;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::limits;
 use crate::numbers::order::Order;
 use crate::numbers::simd::{ROUND, sin_cos_degrees, vectorised};
+
+/// Fewest points of a table over crank angle that is known to be one of a whole cycle.
+pub const FEWEST_POINTS: usize = 8;
+/// Difference from a whole period, as a part of it, up to which a grid is closed: angles may have been
+/// printed with few digits.
+const CLOSED: f64 = 2e-6;
 
 /// Crank angles modulo two turns, in which half orders come round.
 #[derive(Debug, Clone, PartialEq)]
@@ -93,6 +100,40 @@ pub fn check(theta_deg: &[f64], cancel: &Cancel) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// Rejects a grid whose crank angles do not ascend. An angle that is there twice is one at which the
+/// function jumps.
+pub fn check_grid(argument: &str, theta_deg: &[f64]) -> Result<()> {
+    for (k, &angle) in theta_deg.iter().enumerate() {
+        limits::finite(&format!("{argument}[{k}]"), angle)?;
+        if k > 0 && angle < theta_deg[k - 1] {
+            let mut hint = format!("give ascending angles: it follows {:?}", theta_deg[k - 1]);
+            if k >= FEWEST_POINTS && angle <= theta_deg[0] + (theta_deg[1] - theta_deg[0]) {
+                hint += "; of several cycles below each other, give one or their mean";
+            }
+            return Err(Error::figure(format!("{argument}[{k}]"), angle, hint));
+        }
+        if k > 1 && angle == theta_deg[k - 2] {
+            let hint = "is given three times; give an angle once, or twice where the curve jumps";
+            return Err(Error::figure(format!("{argument}[{k}]"), angle, hint));
+        }
+    }
+    Ok(())
+}
+
+/// Whether the last of ascending angles over a period repeats the first, a period later; none if they
+/// do not cover the period.
+#[must_use]
+pub fn repeats_first(theta_deg: &[f64], period_deg: f64) -> Option<bool> {
+    let span = theta_deg.last()? - theta_deg.first()?;
+    let tolerance = CLOSED * period_deg;
+    if (span - period_deg).abs() <= tolerance {
+        return Some(true);
+    }
+    // The gap between the last point and the first of the next period is one of the grid's.
+    let widest = theta_deg.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+    (span < period_deg && period_deg - span <= widest + tolerance).then_some(false)
 }
 
 /// A range in parts of a largest length.

@@ -2,6 +2,7 @@
 
 pub mod angle;
 pub mod cancel;
+pub(crate) mod chebyshev;
 pub mod crank_angles;
 pub mod decimal;
 pub mod double;

@@ -4,13 +4,12 @@ use std::sync::LazyLock;
 
 use super::Cycle;
 use super::chamber::{
-    Chamber, Curves, DEGREE, NARROWEST, RESOLVED, absolute, exponent, is_resolved, largest_of_last,
-    within,
+    Chamber, Curves, DEGREE, NARROWEST, RESOLVED, absolute, exponent, is_resolved, within,
 };
-use super::interpolant::{coefficient, node, points};
 use super::period_deg;
 use crate::engine::layout::Strokes;
 use crate::numbers::cancel::Cancel;
+use crate::numbers::chebyshev::{coefficient, largest_of_last, node, points};
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 

@@ -1,10 +1,10 @@
 //! The volume over a piston, and cycles that are put together of smooth curves.
 
-use super::interpolant::{coefficient, points};
 use super::{Cycle, Given, MOST_POINTS, period_deg};
 use crate::engine::layout::Strokes;
 use crate::gear::slider_crank::{Cylinder, Proportions};
 use crate::numbers::angle::cis_degrees;
+use crate::numbers::chebyshev::{largest_of_last, points};
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 
@@ -13,7 +13,7 @@ pub(super) const DEGREE: usize = 15;
 /// Part of the largest value that the last coefficients of a polynomial may have: rounding.
 pub(super) const RESOLVED: f64 = 2e-14;
 /// Narrowest panel, degrees: a curve that still bends there is followed no closer.
-pub(super) const NARROWEST: f64 = 1e-4;
+pub(crate) const NARROWEST: f64 = 1e-4;
 
 /// Combustion chamber over a piston.
 #[derive(Debug, Clone)]
@@ -151,12 +151,6 @@ impl Curves {
 pub(super) fn is_resolved(values: &[f64]) -> bool {
     let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
     largest_of_last(values) <= RESOLVED * largest
-}
-
-/// The larger of the last two coefficients of the polynomial through values at Chebyshev points.
-pub(super) fn largest_of_last(values: &[f64]) -> f64 {
-    let last = [DEGREE - 1, DEGREE].map(|n| coefficient(values, n).abs());
-    last[0].max(last[1])
 }
 
 /// Polytropic compression and expansion with ideal combustion at constant volume and pressure.

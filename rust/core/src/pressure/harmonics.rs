@@ -2,13 +2,13 @@
 
 use std::sync::LazyLock;
 
-use super::interpolant::{jet, jets};
 use super::{Cycle, period_deg};
 use crate::Complex64;
 use crate::engine::layout::Strokes;
 use crate::gear::slider_crank::{Motion, Proportions};
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::cancel::Cancel;
+use crate::numbers::chebyshev::{jet, jets};
 use crate::numbers::error::Result;
 use crate::numbers::memory;
 use crate::numbers::order::Order;

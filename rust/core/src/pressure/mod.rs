@@ -15,16 +15,12 @@ use serde::{Deserialize, Serialize};
 pub use self::harmonics::GasTorque;
 use self::interpolant::Panels;
 use crate::engine::layout::Strokes;
+use crate::numbers::crank_angles::{FEWEST_POINTS, check_grid, repeats_first};
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 
 /// Most points of a cycle: 720° in steps of 0.01° are 72 000.
 pub const MOST_POINTS: usize = 100_000;
-/// Fewest points of a table.
-const FEWEST_POINTS: usize = 8;
-/// Difference from a whole period, as a part of it, up to which a grid is closed: angles may have been
-/// printed with few digits.
-const CLOSED: f64 = 2e-6;
 /// Atmospheric pressure, Pa: the crankcase's unless another is given.
 pub const ATMOSPHERE: f64 = 101_325.0;
 
@@ -85,21 +81,7 @@ impl Cycle {
             return Err(Error::value("theta_deg", format!("{} points", angles.len()), hint));
         }
         limits::name("name", &given.name)?;
-        for (k, &angle) in angles.iter().enumerate() {
-            limits::finite(&format!("theta_deg[{k}]"), angle)?;
-            if k > 0 && angle < angles[k - 1] {
-                let mut hint = format!("give ascending angles: it follows {:?}", angles[k - 1]);
-                if k >= FEWEST_POINTS && angle <= angles[0] + (angles[1] - angles[0]) {
-                    hint += "; of several cycles below each other, give one or their mean";
-                }
-                return Err(Error::figure(format!("theta_deg[{k}]"), angle, hint));
-            }
-            if k > 1 && angle == angles[k - 2] {
-                let hint =
-                    "is given three times; give an angle once, or twice where pressure jumps";
-                return Err(Error::figure(format!("theta_deg[{k}]"), angle, hint));
-            }
-        }
+        check_grid("theta_deg", angles)?;
         for (k, &value) in values.iter().enumerate() {
             let argument = format!("pressure[{k}]");
             limits::finite(&argument, value)?;
@@ -111,7 +93,10 @@ impl Cycle {
         }
         let period = period_deg(strokes);
         let panels = match given.degree {
-            None => Panels::of_table(angles, values, period, is_closed(angles, period)?)?,
+            None => {
+                let closed = repeats_first(angles, period).ok_or_else(|| no_period(angles, period));
+                Panels::of_table(angles, values, period, closed?)?
+            }
             Some(degree) => Panels::of_chebyshev(angles, values, period, degree)?,
         };
         Ok(Self { given, strokes, panels })
@@ -133,7 +118,7 @@ impl Cycle {
     #[must_use]
     pub fn is_closed(&self) -> bool {
         self.given.degree.is_none()
-            && is_closed(&self.given.theta_deg, period_deg(self.strokes)) == Ok(true)
+            && repeats_first(&self.given.theta_deg, period_deg(self.strokes)) == Some(true)
     }
 
     /// Absolute pressure, Pa, at a crank angle in radians after the firing top dead centre.
@@ -146,6 +131,21 @@ impl Cycle {
     #[must_use]
     pub fn pressure_deg(&self, theta_deg: f64) -> f64 {
         self.panels.value(theta_deg)
+    }
+
+    /// Absolute pressure, Pa, at a crank angle in degrees of the polynomial that counts at another one.
+    pub(crate) fn pressure_beside(&self, theta_deg: f64, at: f64) -> f64 {
+        self.panels.beside(theta_deg, at)
+    }
+
+    /// Crank angles at which pressure may jump or bend, degrees: the edges of the polynomials.
+    pub(crate) fn edges_deg(&self) -> &[f64] {
+        &self.panels.edges
+    }
+
+    /// Largest pressure at its points, either way, Pa.
+    pub(crate) fn largest(&self) -> f64 {
+        self.given.pressure.iter().fold(0.0, |largest, value| f64::max(largest, value.abs()))
     }
 
     /// The weighted sum of cycles of one period: polynomials between all of their edges.
@@ -192,29 +192,20 @@ fn period_deg(strokes: Strokes) -> f64 {
     180.0 * f64::from(strokes.number())
 }
 
-/// Whether a grid over a period repeats its first point; an error if it does not cover the period.
-fn is_closed(angles: &[f64], period: f64) -> Result<bool> {
+/// The error of a grid that does not cover a period.
+fn no_period(angles: &[f64], period: f64) -> Error {
     let span = angles[angles.len() - 1] - angles[0];
-    let tolerance = CLOSED * period;
-    if (span - period).abs() <= tolerance {
-        return Ok(true);
-    }
-    let widest = angles.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
-    // The gap between the last point and the first of the next period is one of the grid's.
-    if span < period && period - span <= widest + tolerance {
-        return Ok(false);
-    }
     let strokes = period / 180.0;
     let radians = period.to_radians();
     let mut hint = format!("give one period, {period}° (strokes = {strokes})");
     if (span - radians).abs() <= 0.05 * radians {
         hint += "; was it given in radians?";
-    } else if period == 720.0 && span <= 360.0 + tolerance && 360.0 - span <= widest + tolerance {
+    } else if period == 720.0 && repeats_first(angles, 360.0).is_some() {
         hint += "; give strokes = 2 if this is a whole cycle";
     } else if span > period {
         hint += "; of several cycles, give one or their mean";
     }
-    Err(Error::value("theta_deg", format!("{span}° in all"), hint))
+    Error::value("theta_deg", format!("{span}° in all"), hint)
 }
 
 #[cfg(test)]

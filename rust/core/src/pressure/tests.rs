@@ -1,6 +1,7 @@
 use super::*;
 use crate::Complex64;
 use crate::numbers::cancel::Cancel;
+use crate::numbers::chebyshev::node;
 use crate::numbers::order::Order;
 use crate::slider_crank::Proportions;
 use approx::assert_relative_eq;
@@ -33,10 +34,7 @@ fn panels(of: impl Fn(f64) -> f64, edges: &[f64], degree: usize) -> Cycle {
             let theta = match k {
                 0 => pair[0],
                 k if k == degree => pair[1],
-                k => {
-                    0.5 * (pair[0] + pair[1])
-                        - 0.5 * (pair[1] - pair[0]) * interpolant::node(k, degree)
-                }
+                k => 0.5 * (pair[0] + pair[1]) - 0.5 * (pair[1] - pair[0]) * node(k, degree),
             };
             theta_deg.push(theta);
             pressure.push(of(theta));

@@ -4,6 +4,8 @@
 //! J = J₀ + Σ m·s′² + Σ (I − m·a·b)·φ′² of pistons and rods. T is the torque of the gas alone: inertia
 //! torque is what the change of J makes of the speed, and counted with T it would count twice.
 
+use std::sync::LazyLock;
+
 use crate::engine::Engine;
 use crate::load::Loads;
 use crate::numbers::cancel::Cancel;
@@ -11,14 +13,22 @@ use crate::numbers::crank_angles::{CrankAngles, parts};
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::memory;
+use crate::numbers::quadrature::gauss_legendre;
 use crate::readings::balance::angular_speed;
 use crate::readings::kinematics::{BLOCK, Kinematics};
 
 /// Widest cell, degrees. Extremes between edges are those of a cubic, which misses a wave of order 12
 /// by 3e-7 of its height.
 const STEP: f64 = 0.5;
-/// Gauss-Legendre points of a cell, in halves of its width from its middle, beside the middle itself.
-const GAUSS: f64 = 0.774_596_669_241_483_4;
+/// Points inside a cell: through four goes a cubic, as pressure is between the angles of a table.
+const INSIDE: usize = 4;
+/// Gauss-Legendre points of a cell, ascending in halves of its width from its middle, and weights.
+static RULE: LazyLock<[(f64, f64); INSIDE]> = LazyLock::new(|| {
+    let rule = gauss_legendre(INSIDE as u32);
+    let mut ascending = std::array::from_fn(|k| rule[k]);
+    ascending.sort_unstable_by(|(one, _), (other, _)| f64::total_cmp(one, other));
+    ascending
+});
 /// Most cells of a period, and most knots: sorting them takes a tenth of a second.
 const MOST_CELLS: usize = 1_000_000;
 /// Cells evaluated between two checks for cancellation.
@@ -37,7 +47,7 @@ const STEPS: usize = 200;
 pub struct CycleGrid {
     /// Edges of the cells, degrees, from 0 to the period: torque may jump there.
     pub edges_deg: Vec<f64>,
-    /// Three points inside each cell, degrees.
+    /// Points inside each cell, degrees.
     pub nodes_deg: Vec<f64>,
 }
 
@@ -65,10 +75,10 @@ impl CycleGrid {
         // Knots beside an edge by no more than rounding.
         edges_deg.dedup_by(|next, edge| *next - *edge <= 1e-9 * STEP);
         edges_deg.push(period_deg);
-        let mut nodes_deg = memory::room(3 * (edges_deg.len() - 1))?;
+        let mut nodes_deg = memory::room(INSIDE * (edges_deg.len() - 1))?;
         for pair in edges_deg.windows(2) {
             let (middle, half) = (f64::midpoint(pair[0], pair[1]), 0.5 * (pair[1] - pair[0]));
-            nodes_deg.extend([middle - GAUSS * half, middle, middle + GAUSS * half]);
+            nodes_deg.extend(RULE.map(|(node, _)| middle + node * half));
         }
         Ok(Self { edges_deg, nodes_deg })
     }
@@ -109,7 +119,9 @@ pub struct SpeedFluctuation {
     pub inertia_torque: Vec<f64>,
     /// Speed at the edges, rad/s.
     pub speed: Vec<f64>,
-    /// Largest angular acceleration, either way, rad/s².
+    /// Lowest and highest speed, at any angle, rad/s.
+    pub extremes: [f64; 2],
+    /// Largest angular acceleration, either way, at any angle, rad/s².
     pub acceleration: f64,
     /// Largest less smallest speed, over the mean speed.
     pub irregularity: f64,
@@ -158,6 +170,7 @@ impl Drive<'_> {
             moving_inertia,
             inertia_torque,
             speed: run.speed,
+            extremes: run.extremes,
             acceleration: run.acceleration,
             irregularity: run.irregularity,
             mean_torque: motion.mean_torque,
@@ -178,6 +191,24 @@ struct Cubic {
 }
 
 impl Cubic {
+    /// The cubic with these values at the points inside a cell.
+    fn through(values: [f64; INSIDE], width: f64) -> Self {
+        let [_, _, (inner, _), (outer, _)] = *RULE;
+        let square = outer * outer - inner * inner;
+        // e₀ + e₂t² and t(o₁ + o₃t²) by the values at either pair of points.
+        let even = [values[3] + values[0], values[2] + values[1]].map(|sum| 0.5 * sum);
+        let odd = [(values[3] - values[0]) / outer, (values[2] - values[1]) / inner]
+            .map(|quotient| 0.5 * quotient);
+        let [second, third] =
+            [even, odd].map(|[of_outer, of_inner]| (of_outer - of_inner) / square);
+        let (middle, first) = (even[1] - second * inner * inner, odd[1] - third * inner * inner);
+        Self {
+            ends: [-1.0, 1.0].map(|t| middle + second + t * (first + third)),
+            slopes: [-1.0, 1.0].map(|t| (first + 2.0 * second * t + 3.0 * third) * 2.0 / width),
+            width,
+        }
+    }
+
     fn integral(&self) -> f64 {
         let Self { ends, slopes, width } = *self;
         width * (0.5 * (ends[0] + ends[1]) + width * (slopes[0] - slopes[1]) / 12.0)
@@ -193,9 +224,17 @@ impl Cubic {
         let root = (b * b - a * c).sqrt();
         // The larger of the roots' numerators loses no digits; where there is none it is not a number.
         let q = -(b + root.copysign(b));
-        let value = |x: f64| from + x * (a + x * (b + x * c / 3.0));
-        let inside = [q / c, a / q].into_iter().filter(|x| (0.0..=1.0).contains(x)).map(value);
-        inside.fold([from.min(to), from.max(to)], |[low, high], x| [low.min(x), high.max(x)])
+        let inside = [q / c, a / q].into_iter().filter(|x| (0.0..=1.0).contains(x));
+        let values = inside.map(|x| self.at(x));
+        values.fold([from.min(to), from.max(to)], |[low, high], x| [low.min(x), high.max(x)])
+    }
+
+    /// Value at a part of the width.
+    fn at(&self, x: f64) -> f64 {
+        let [from, to] = self.ends;
+        let [rise, fall] = self.slopes.map(|slope| slope * self.width);
+        let (b, c) = (3.0 * (to - from) - 2.0 * rise - fall, rise + fall - 2.0 * (to - from));
+        from + x * (rise + x * (b + x * c))
     }
 }
 
@@ -214,6 +253,10 @@ struct Cell {
     work: Cubic,
     /// Moment of inertia of pistons and rods.
     moving: Cubic,
+    /// The same, and its slope per radian, at the points inside.
+    moving_inside: [[f64; 2]; INSIDE],
+    /// Torque of gas and load there.
+    torque: [f64; INSIDE],
 }
 
 impl Cell {
@@ -229,13 +272,47 @@ impl Cell {
         }
     }
 
-    /// Half the square of the speed, ω²/2, for a flywheel and the energy at the start.
-    fn half_square(&self, inertia: f64, energy: f64) -> Cubic {
+    /// Half the square of the speed, ω²/2, with a flywheel, beyond that at which the moment of inertia is
+    /// the mean.
+    fn beyond(&self, level: Level) -> Cubic {
+        let Level { inertia, mean_moving, half } = level;
         let total = self.moving.ends.map(|moving| inertia + moving);
-        let ends = [0, 1].map(|k| (energy + self.work.ends[k]) / total[k]);
-        let slopes =
-            [0, 1].map(|k| (self.work.slopes[k] - ends[k] * self.moving.slopes[k]) / total[k]);
+        let ends = [0, 1]
+            .map(|k| (self.work.ends[k] - half * (self.moving.ends[k] - mean_moving)) / total[k]);
+        let slopes = [0, 1]
+            .map(|k| (self.work.slopes[k] - (half + ends[k]) * self.moving.slopes[k]) / total[k]);
         Cubic { ends, slopes, width: self.work.width }
+    }
+
+    /// Angular acceleration.
+    fn acceleration(&self, level: Level) -> Cubic {
+        let Level { inertia, mean_moving, half } = level;
+        let inside = std::array::from_fn(|j| {
+            let [moving, slope] = self.moving_inside[j];
+            let total = inertia + moving;
+            let work = self.work.at(0.5 + 0.5 * RULE[j].0);
+            let beyond = (work - half * (moving - mean_moving)) / total;
+            (self.torque[j] - (half + beyond) * slope) / total
+        });
+        Cubic::through(inside, self.work.width)
+    }
+}
+
+/// What half the square of the speed varies about: what is left is known to parts of itself, however
+/// heavy the flywheel.
+#[derive(Debug, Clone, Copy)]
+struct Level {
+    inertia: f64,
+    /// Mean moment of inertia of pistons and rods.
+    mean_moving: f64,
+    /// ω²/2 of the energy at the start with the mean moment of inertia.
+    half: f64,
+}
+
+impl Level {
+    /// Speed where half its square is this beyond.
+    fn speed(&self, beyond: f64) -> f64 {
+        (2.0 * (self.half + beyond)).sqrt()
     }
 }
 
@@ -252,6 +329,7 @@ struct WorkCurve {
 /// Speeds for one moment of inertia.
 struct Run {
     speed: Vec<f64>,
+    extremes: [f64; 2],
     acceleration: f64,
     irregularity: f64,
 }
@@ -272,11 +350,12 @@ impl WorkCurve {
             }
         }
         let [values, slopes] = moving(drive.engine, edges, cancel)?;
+        let inside = moving(drive.engine, &drive.grid.nodes_deg, cancel)?;
         let period = edges[edges.len() - 1].to_radians();
         let width = |k: usize| (edges[k + 1] - edges[k]).to_radians();
         let mean = |values: &[f64]| {
-            let of_cell = |(k, three): (usize, &[f64])| width(k) * mean_of(three);
-            let sum: f64 = values.chunks_exact(3).enumerate().map(of_cell).sum();
+            let of_cell = |(k, inside): (usize, &[f64])| width(k) * mean_of(inside);
+            let sum: f64 = values.chunks_exact(INSIDE).enumerate().map(of_cell).sum();
             sum / period
         };
         let means = [mean(drive.torque), mean(drive.load)];
@@ -285,16 +364,16 @@ impl WorkCurve {
             if k % PIECE == 0 {
                 cancel.check()?;
             }
-            let [low, middle, high] = [0, 1, 2]
-                .map(|j| (drive.torque[3 * k + j] - means[0]) - (drive.load[3 * k + j] - means[1]));
-            // The parabola through the three, at the edges.
-            let (odd, even) =
-                ((high - low) / (2.0 * GAUSS), (high + low - 2.0 * middle) / (2.0 * GAUSS * GAUSS));
-            let next = work + width(k) * mean_of(&[low, middle, high]);
+            let places: [usize; INSIDE] = std::array::from_fn(|j| INSIDE * k + j);
+            let torque = places.map(|j| (drive.torque[j] - means[0]) - (drive.load[j] - means[1]));
+            let slopes_of_work = Cubic::through(torque, width(k)).ends;
+            let next = work + width(k) * mean_of(&torque);
             let cubic = |ends, slopes| Cubic { ends, slopes, width: width(k) };
             cells.push(Cell {
-                work: cubic([work, next], [middle - odd + even, middle + odd + even]),
+                work: cubic([work, next], slopes_of_work),
                 moving: cubic([values[k], values[k + 1]], [slopes[k], slopes[k + 1]]),
+                moving_inside: places.map(|j| [inside[0][j], inside[1][j]]),
+                torque,
             });
             work = next;
         }
@@ -320,48 +399,56 @@ impl WorkCurve {
             return Err(Error::figure("inertia", inertia, "give the flywheel's, above 0 kg·m²"));
         }
         let wanted = self.period() / self.omega;
-        let mut energy = (inertia + self.mean_moving()) * square - lowest;
+        let highest = self.cells.iter().map(|cell| cell.work.ends[0]).fold(0.0, f64::max);
+        let mean_moving = self.mean_moving();
+        let mut energy = (inertia + mean_moving) * square - lowest;
         for _ in 0..STEPS {
             cancel.check()?;
+            let level = Level { inertia, mean_moving, half: energy / (inertia + mean_moving) };
             // The time of a period, and its slope by the energy.
             let (mut time, mut slope) = (0.0, 0.0);
             for cell in &self.cells {
-                let half = cell.half_square(inertia, energy);
-                let slowness = half.ends.map(|half| (2.0 * half).sqrt().recip());
-                let steep = [0, 1].map(|k| -half.slopes[k] * slowness[k].powi(3));
-                time += Cubic { ends: slowness, slopes: steep, width: half.width }.integral();
-                slope -= half.width * slowness[0].powi(3) / (inertia + cell.moving.ends[0]);
+                let beyond = cell.beyond(level);
+                let slowness = beyond.ends.map(|each| level.speed(each).recip());
+                let steep = [0, 1].map(|k| -beyond.slopes[k] * slowness[k].powi(3));
+                time += Cubic { ends: slowness, slopes: steep, width: beyond.width }.integral();
+                slope -= beyond.width * slowness[0].powi(3) / (inertia + cell.moving.ends[0]);
             }
             let next = energy + (wanted - time) / slope;
             // The time is convex in the energy and grows without limit as the crank stops.
             let next = if next > -lowest { next } else { f64::midpoint(energy, -lowest) };
-            // What is left is the square of this, or this times the error of the slope.
-            let done = (next - energy).abs() <= 1e-11 * next.abs();
+            // What is left is the square of this, or this times the error of the slope. The energy at the
+            // start may be next to nothing beside the cycle's largest, of which it is known to parts.
+            let done = (next - energy).abs() <= 1e-11 * (next + highest);
             energy = next;
             if done {
-                return self.checked(inertia, energy);
+                let half = energy / (inertia + mean_moving);
+                return self.checked(Level { inertia, mean_moving, half });
             }
         }
         Err(stops(inertia))
     }
 
-    fn checked(&self, inertia: f64, energy: f64) -> Result<Run> {
+    fn checked(&self, level: Level) -> Result<Run> {
         let square = 0.5 * self.omega * self.omega;
         let mut speed = memory::room(self.cells.len() + 1)?;
-        let (mut low, mut high, mut acceleration) = (f64::INFINITY, 0.0_f64, 0.0_f64);
+        let (mut low, mut high, mut acceleration) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
         for cell in &self.cells {
-            let half = cell.half_square(inertia, energy);
-            let [least, most] = half.extremes();
+            let beyond = cell.beyond(level);
+            let [least, most] = beyond.extremes();
             (low, high) = (low.min(least), high.max(most));
-            acceleration = half.slopes.iter().fold(acceleration, |most, each| most.max(each.abs()));
-            speed.push((2.0 * half.ends[0]).sqrt());
+            let either = cell.acceleration(level).extremes();
+            acceleration = either.iter().fold(acceleration, |most, each| most.max(each.abs()));
+            speed.push(level.speed(beyond.ends[0]));
         }
-        if low < SLOWEST * square {
-            return Err(stops(inertia));
+        if level.half + low < SLOWEST * square {
+            return Err(stops(level.inertia));
         }
         speed.push(speed[0]);
-        let irregularity = ((2.0 * high).sqrt() - (2.0 * low).sqrt()) / self.omega;
-        Ok(Run { speed, acceleration, irregularity })
+        let extremes = [low, high].map(|beyond| level.speed(beyond));
+        // The difference of speeds by that of their squares, of which no digits are lost.
+        let irregularity = 2.0 * (high - low) / ((extremes[0] + extremes[1]) * self.omega);
+        Ok(Run { speed, extremes, acceleration, irregularity })
     }
 
     /// The least flywheel that keeps an irregularity: it is nearly as one over the inertia.
@@ -373,10 +460,14 @@ impl WorkCurve {
         }
         let moving = self.mean_moving();
         let energy = range(self.cells.iter().map(|cell| cell.work_with_inertia(self.omega)));
-        if energy <= ROUNDING * self.size {
+        let of_moving = 0.5 * self.omega * self.omega * moving;
+        if energy <= ROUNDING * (self.size + of_moving) {
             let hint = "the torque does not vary, and no flywheel is needed; give inertia";
             return Err(Error::figure("irregularity", wanted, hint));
         }
+        // Where gas and inertia torque cancel, rounding of the larger is what their sum jitters by.
+        let larger = of_moving.max(range(self.cells.iter().map(|cell| cell.work)));
+        let tolerance = 1e-12_f64.max(4.0 * f64::EPSILON * larger / energy);
         let mut total = energy / (self.omega * self.omega * wanted);
         for _ in 0..STEPS {
             let inertia = (total - moving).max(0.0);
@@ -386,9 +477,7 @@ impl WorkCurve {
                 continue;
             };
             let ratio = run.irregularity / wanted;
-            // Speeds are known to their rounding, their difference to so much more.
-            let known = 1e-12_f64.max(ROUNDING / wanted);
-            if (ratio - 1.0).abs() <= known || ratio < 1.0 && inertia == 0.0 {
+            if (ratio - 1.0).abs() <= tolerance || ratio < 1.0 && inertia == 0.0 {
                 return Ok((inertia, run));
             }
             total = total.max(moving) * ratio;
@@ -402,9 +491,9 @@ fn stops(inertia: f64) -> Error {
     Error::figure("inertia", inertia, "the crank nearly stops within a cycle; give more")
 }
 
-/// Mean of a function over a cell from its values at the three points.
-fn mean_of(three: &[f64]) -> f64 {
-    (5.0 * (three[0] + three[2]) + 8.0 * three[1]) / 18.0
+/// Mean of a function over a cell from its values at the points inside.
+fn mean_of(values: &[f64]) -> f64 {
+    0.5 * RULE.iter().zip(values).map(|((_, weight), value)| weight * value).sum::<f64>()
 }
 
 /// Moment of inertia of an engine's pistons and rods as seen from the crank, and its slope per radian.
@@ -475,7 +564,7 @@ mod tests {
         let time: f64 = found.speed[1..].iter().map(|speed| (PI / 360.0) / speed).sum();
         assert!((time - 0.2).abs() < 1e-12);
         assert_eq!(found.approximations[0], found.approximations[1]);
-        assert!((found.acceleration - 20.0).abs() < 20.0 * 1e-4);
+        assert!((found.acceleration - 20.0).abs() < 20.0 * 1e-10, "{}", found.acceleration);
     }
 
     #[test]

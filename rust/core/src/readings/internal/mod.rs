@@ -5,13 +5,15 @@
 //! the bearing in front of it and the one behind by the lever rule, and one outside the end bearings
 //! is carried by the two nearest, one of which is pulled.
 
+mod extremes;
 mod rod;
 mod sections;
 
 use std::ops::Range;
 
-use ndarray::{Array2, Array3, ArrayViewMut, Dimension};
+use ndarray::{Array2, Array3, ArrayViewMut, Axis, Dimension};
 
+pub use self::extremes::Extremes;
 pub use self::rod::TurningAxes;
 use self::rod::{DrivenRod, RodColumns};
 pub use self::sections::{Part, Sections};
@@ -86,6 +88,16 @@ impl Turning {
         let at_start = load.unit * load.phase.cis(-i64::from(load.ratio)) * force;
         Self { z: load.z, ratio: load.ratio, at_start }
     }
+}
+
+/// What a main bearing carries.
+struct Carried {
+    /// Shares of the loads of crankpins, and numbers of their rods.
+    rods: Vec<(f64, usize)>,
+    /// What turns with the crank, at θ = 0.
+    turning: Complex64,
+    /// Forces up to this are rounding.
+    bound: f64,
 }
 
 impl Internal {
@@ -195,17 +207,9 @@ impl Internal {
         })?;
         let rows = found.main.outer_iter_mut().map(slice).enumerate().collect();
         pool::each(cancel, rows, mains * count, |(main, row)| {
-            let share = |z: f64| self.levers(z).iter().find(|(j, _)| *j == main).map(|at| at.1);
-            let turning = self.on_crank.iter().filter_map(|u| Some(u.at_start * share(u.z)?));
-            let turning: Vec<Complex64> = turning.collect();
-            let of_rod = |rod: &DrivenRod| Some(share(rod.z)?.abs() * rod.size());
-            let sizes = self.rods.iter().filter_map(of_rod).chain(turning.iter().map(|u| u.norm()));
-            // What cancels leaves its rounding.
-            let bound = rounding(self.rods.len() + turning.len(), 1.0) * sizes.sum::<f64>();
-            let turning: Complex64 = turning.iter().sum();
-            let carried = self.rods.iter().zip(found.crankpin.outer_iter());
-            let carried =
-                carried.filter_map(|(rod, force)| Some((share(rod.z)?, force.to_slice()?)));
+            let Carried { rods, turning, bound } = self.carried(main);
+            let row_of = |i: usize| found.crankpin.index_axis(Axis(0), i).to_slice();
+            let carried = rods.iter().filter_map(|&(share, i)| Some((share, row_of(i)?)));
             let carried: Vec<_> = carried.collect();
             for (range, units) in &blocks {
                 cancel.check()?;
@@ -265,40 +269,18 @@ impl Internal {
         Ok(vectors)
     }
 
-    /// Ranges of crank angles in which each rod is in tension at its wrist pin, [from, to] in degrees
-    /// of a cycle; [0, cycle] where it always is.
-    pub fn tension(&self, cycle_deg: u32, cancel: &Cancel) -> Result<Vec<Vec<[f64; 2]>>> {
-        /// Steps in a degree, between which a rod changes sign once at most.
-        const STEPS: u32 = 4;
-        let cycle = f64::from(cycle_deg);
-        let of_rod = |rod: &DrivenRod| {
-            cancel.check()?;
-            let in_tension = |theta: f64| rod.compression(theta) < 0.0;
-            let starts = in_tension(0.0);
-            let (mut last, mut changes) = ((0.0, starts), Vec::new());
-            for k in 1..=cycle_deg * STEPS {
-                let theta = f64::from(k) / f64::from(STEPS);
-                let here = (theta, if theta < cycle { in_tension(theta) } else { starts });
-                if here.1 != last.1 {
-                    let (mut low, mut high) = (last.0, here.0);
-                    // Halving a step so often reaches the last place of 720.
-                    for _ in 0..42 {
-                        let middle = f64::midpoint(low, high);
-                        *(if in_tension(middle) == here.1 { &mut high } else { &mut low }) = middle;
-                    }
-                    changes.push(high);
-                }
-                last = here;
-            }
-            if starts {
-                // The range that is cut by the start of the cycle is counted from where it begins.
-                let first = if changes.is_empty() { cycle } else { changes.remove(0) };
-                let from = changes.pop().map_or(0.0, |from| from - cycle);
-                changes.splice(0..0, [from, first]);
-            }
-            Ok(changes.chunks_exact(2).map(|ends| [ends[0], ends[1]]).collect())
-        };
-        self.rods.iter().map(of_rod).collect()
+    /// What a main bearing carries.
+    fn carried(&self, main: usize) -> Carried {
+        let share = |z: f64| self.levers(z).iter().find(|(j, _)| *j == main).map(|at| at.1);
+        let rods = self.rods.iter().enumerate();
+        let rods: Vec<_> = rods.filter_map(|(i, rod)| Some((share(rod.z)?, i))).collect();
+        let turning = self.on_crank.iter().filter_map(|u| Some(u.at_start * share(u.z)?));
+        let turning: Vec<Complex64> = turning.collect();
+        let sizes = rods.iter().map(|&(share, i)| share.abs() * self.rods[i].size());
+        let sizes = sizes.chain(turning.iter().map(|u| u.norm()));
+        // What cancels leaves its rounding.
+        let bound = rounding(self.rods.len() + turning.len(), 1.0) * sizes.sum::<f64>();
+        Carried { rods, turning: turning.iter().sum(), bound }
     }
 
     /// Main bearings that carry a load at some place, and their shares of it.

@@ -64,11 +64,12 @@ struct PistonGas {
 }
 
 /// Forces of one cylinder; vectors along u and w.
-struct RodForces {
-    crankpin: [f64; 2],
-    wrist_pin: [f64; 2],
-    across: f64,
-    compression: f64,
+pub(super) struct RodForces {
+    pub crankpin: [f64; 2],
+    pub wrist_pin: [f64; 2],
+    pub across: f64,
+    pub compression: f64,
+    pub gas: f64,
 }
 
 /// The same over a block of crank angles; vectors along x and y. Whole lines of the cache.
@@ -92,9 +93,9 @@ impl PistonGas {
         Some(Self { cycle, phase, crankcase: gas.crankcase, area })
     }
 
-    /// Force on the piston towards the crank, N.
-    fn force(&self, theta_deg: f64) -> f64 {
-        let pressure = self.cycle.pressure((theta_deg - self.phase).to_radians());
+    /// Force on the piston towards the crank, N, by the polynomial that counts at another angle.
+    fn force(&self, theta_deg: f64, at: f64) -> f64 {
+        let pressure = self.cycle.pressure_beside(theta_deg - self.phase, at - self.phase);
         self.area * (pressure - self.crankcase)
     }
 }
@@ -129,11 +130,33 @@ impl DrivenRod {
         })
     }
 
-    /// Force along the rod at the wrist pin, compression above zero.
-    pub fn compression(&self, theta_deg: f64) -> f64 {
+    /// Forces at a crank angle, degrees, where pressure has the polynomial that counts at another angle.
+    pub fn forces_beside(&self, theta_deg: f64, at: f64) -> RodForces {
         let unit = cis_degrees(theta_deg) * self.phase;
-        let gas = self.gas.as_ref().map_or(0.0, |gas| gas.force(theta_deg));
-        self.forces(&CrankPosition::new(unit.im, unit.re), gas).compression
+        let gas = self.gas.as_ref().map_or(0.0, |gas| gas.force(theta_deg, at));
+        self.forces(&CrankPosition::new(unit.im, unit.re), gas)
+    }
+
+    /// Force on the crankpin, x + iy.
+    pub fn on_crankpin(&self, forces: &RodForces) -> Complex64 {
+        let [u, w] = forces.crankpin;
+        self.bore * Complex64::new(u, w)
+    }
+
+    /// Crank angles at which its pressure may jump or bend, and those at which the rod leans most, where
+    /// loads of one hardly longer than the crank have narrow peaks, degrees.
+    pub fn edges_deg(&self) -> impl Iterator<Item = f64> {
+        let tdc = -self.phase.arg().to_degrees();
+        let leaning = [90.0, 270.0, 450.0, 630.0].map(|angle| tdc + angle);
+        let gas = self.gas.iter();
+        gas.flat_map(|gas| gas.cycle.edges_deg().iter().map(move |edge| edge + gas.phase))
+            .chain(leaning)
+    }
+
+    /// Size of what forces are sums and differences of, by the largest force on the crankpin, N.
+    pub fn terms(&self, on_crankpin: f64) -> f64 {
+        let pressure = |gas: &PistonGas| gas.area * (gas.crankcase + gas.cycle.largest());
+        self.size() + on_crankpin + self.gas.as_ref().map_or(0.0, pressure)
     }
 
     #[inline(always)]
@@ -154,6 +177,7 @@ impl DrivenRod {
             wrist_pin: [on_wrist_pin, -across],
             across,
             compression: (on_wrist_pin + motion.slope * across) / motion.secant,
+            gas,
         }
     }
 
@@ -184,7 +208,7 @@ impl RodColumns {
     pub fn set_gas(&mut self, rod: &DrivenRod, theta_deg: &[f64]) {
         if let Some(gas) = &rod.gas {
             for (value, &theta) in self.gas.iter_mut().zip(theta_deg) {
-                *value = gas.force(theta);
+                *value = gas.force(theta, theta);
             }
         }
     }
