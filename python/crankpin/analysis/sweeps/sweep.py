@@ -575,9 +575,9 @@ class Sweep(ByOrder, Tabled):
         orders
             Orders to draw, a row for each; by default as above.
         **options
-            ``log=True`` for curves on a logarithmic scale; ``label``, put before the names in the
-            legend; colour, line width and other properties
-            of matplotlib lines, of maps those of ``pcolormesh``.
+            ``log=True`` for a logarithmic scale of curves, parts and maps, ``log=False`` for a
+            linear one of ``"orders"``; ``label``, put before the names in the legend; colour, line
+            width and other properties of matplotlib lines, of maps those of ``pcolormesh``.
 
         Returns
         -------
