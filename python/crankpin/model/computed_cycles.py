@@ -217,8 +217,8 @@ class ComputedCycles:
         rpm: float | None = None,
         intake_closes_deg: float | None = None,
         exhaust_opens_deg: float | None = None,
-        stoichiometric_ratio: float = 14.6,
-        heating_value: float = 43e6,
+        stoichiometric_ratio: float | None = None,
+        heating_value: float | None = None,
         strokes: int = 4,
         name: str = "",
     ) -> Self:
@@ -259,7 +259,8 @@ class ComputedCycles:
             Valve (or port) events after the firing top dead centre; by default -140 and 130, in a
             two-stroke -115 and 105.
         stoichiometric_ratio, heating_value
-            Mass of air over that of fuel, and lower heating value, J/kg, for ``excess_air``.
+            Mass of air over that of fuel, by default 14.6, and lower heating value, by default
+            43 MJ/kg, in J/kg, for ``excess_air``.
         strokes, name
             As in :class:`Cycle`.
 
@@ -280,6 +281,10 @@ class ComputedCycles:
         if (heat is None) == (excess_air is None):
             given = f"heat = {inputs.shorten(heat)}, excess_air = {inputs.shorten(excess_air)}"
             raise InputError(f"{given}: give one of them")
+        if excess_air is None:
+            inputs.only_with(
+                "excess_air", stoichiometric_ratio=stoichiometric_ratio, heating_value=heating_value
+            )
         if (rpm is None) != (wall_temperature is None):
             given = f"wall_temperature = {inputs.shorten(wall_temperature)}"
             raise inputs.rejected(f"{given}, rpm", rpm, "heat loss needs both")
@@ -288,8 +293,8 @@ class ComputedCycles:
         figures = {
             "heat": heat,
             "excess_air": excess_air,
-            "stoichiometric_ratio": stoichiometric_ratio,
-            "heating_value": heating_value,
+            "stoichiometric_ratio": 14.6 if stoichiometric_ratio is None else stoichiometric_ratio,
+            "heating_value": 43e6 if heating_value is None else heating_value,
             "start_deg": start_deg,
             "duration_deg": duration_deg,
             "a": a,

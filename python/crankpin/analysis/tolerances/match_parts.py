@@ -161,7 +161,7 @@ def match_parts(
     *,
     by: Objective = "balance",
     sets: int | None = None,
-    orders: Orders = (1, 2),
+    orders: Orders | None = None,
     seed: int = 0,
     progress: Progress = False,
 ) -> Match:
@@ -190,7 +190,7 @@ def match_parts(
         Number of engines to be filled; by default as many as the parts suffice for. Of several
         engines the sum of the objective is minimised.
     orders
-        With ``by="balance"``: whole multiples of crank speed.
+        With ``by="balance"``: whole multiples of crank speed, by default 1 and 2.
     seed
         Seed of the random starts of the search where there are too many arrangements for all.
     progress
@@ -241,7 +241,9 @@ def match_parts(
             f"sets = {wanted}: {given} suffice for {several} of {count} cylinders; give 1 to "
             f"{several}"
         )
-    listed = inputs.explicit_orders(orders)
+    if by == "spread" and orders is not None:
+        raise inputs.rejected("orders", orders, 'acts only beside by="balance"; leave it out')
+    listed = inputs.explicit_orders((1, 2) if orders is None else orders)
     start = inputs.whole("seed", seed, 0)
     asked = progress_bar.checked(progress)
     checks.masses(engine, pistons=masses.max(), rods=0.0 if ends is None else ends.max())
