@@ -110,7 +110,8 @@ def _bearings(given: Given) -> Shown:
 
 def _fired(given: Given, name: str, otherwise: str | None = None) -> tuple[Engine, str]:
     """Return the engine, with gas pressure if there is any, and a note of what was assumed."""
-    engine, typed = given.engine(name), given.text("--cycle")
+    engine: Engine = given.engine(name)
+    typed: Any = given.text("--cycle")
     if (order := given.text("--firing-order")) is not None:
         engine = engine.replace(firing_order=order)
     of_a_file = [each.names[0] for each in OF_A_FILE if given.text(each.names[0])]

@@ -40,6 +40,9 @@ class EngineData:
 
     _core: _CoreEngine
 
+    __array_ufunc__: Any = None
+    """None, so that NumPy leaves comparison and arithmetic with arrays to the engine."""
+
     def __init__(
         self,
         core: _CoreEngine,
