@@ -188,7 +188,7 @@ OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
     "r+": lambda subject, value: value + subject,
     "r*": lambda subject, value: value * subject,
     "r<": lambda subject, value: value < subject,
-    "rin": lambda subject, value: subject in value,
+    "inside": lambda subject, value: subject in value,
 }
 """What ``subject OPERATOR value`` calls; a TypeError of an operand is Python's or NumPy's."""
 ALONE: dict[str, Callable[[Any], Any]] = {

@@ -159,8 +159,8 @@ def _tables_of(result: Sweep, given: Given) -> tuple[list[Table], str]:
     points = [(name, *point) for name in result.coords["engine"] for point in swept]
     title = f"{how[0].upper()}{how[1:]}"
     table = rows.reshape(len(points), rows.shape[-1])
-    header = ["engine", *heads]
-    return [Table.from_rows(title, header, points, table, decimals, loads=loads)], note
+    whole = Table.from_rows(title, ["engine", *heads], points, table, decimals, loads=loads)
+    return [whole], note
 
 
 def _how(result: Sweep, given: Given) -> str:

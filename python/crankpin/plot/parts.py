@@ -104,7 +104,8 @@ def _panels(
 
 def _sizes(vector: Quantity) -> NDArray[np.float64]:
     """Return the magnitudes of both parts of an order: (…, 2)."""
-    return np.abs(np.stack([getattr(vector, part) for part in labels.TURNING], axis=-1))
+    phasors = np.stack([getattr(vector, part) for part in labels.TURNING], axis=-1)
+    return np.asarray(np.abs(phasors), dtype=np.float64)
 
 
 def _draw(
