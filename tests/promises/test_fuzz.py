@@ -41,6 +41,7 @@ from fuzzing.sound import CURE, JSON, TOML, V6
 from fuzzing.surface import (
     ALONE,
     OPERANDS,
+    OPERATORS,
     PICTURES,
     PLAIN,
     RESULTS_MADE_ELSEWHERE,
@@ -195,7 +196,10 @@ FUZZED: dict[str, tuple[st.SearchStrategy[Any], Callable[[Any], None]]] = {
     "engine files": (DAMAGED, read_damaged),
     "builders": (named(*BUILDERS), call_hostile),
     "harmonics": (named(*HARMONICS), call_hostile),
-    "operators": (calls([each for each in TARGETS if " " in each.label]), call_hostile),
+    "operators": (
+        calls([each for each in TARGETS if each.label.split()[-1] in OPERATORS]),
+        call_hostile,
+    ),
     "everything": (calls(TARGETS), call_hostile),
 }
 
