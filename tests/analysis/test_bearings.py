@@ -446,6 +446,30 @@ def test_results_are_records_over_named_dimensions() -> None:
     assert below["mean"].values == tuple(loads.mean("main"))
 
 
+@pytest.mark.parametrize("engine", [WEIGHTED, FIRED], ids=["inertia", "gas"])
+@pytest.mark.parametrize("seed", range(10))
+def test_means_do_not_depend_on_the_order_of_angles(seed: int, engine: cp.Engine) -> None:
+    rng = np.random.default_rng(seed)
+    angles = rng.uniform(-720.0, 1440.0, rng.integers(1, 12))
+    angles = rng.permutation(np.append(angles, rng.choice(angles)))  # one of them twice
+    rpm = rng.uniform(500.0, 8000.0)
+    loads = cp.bearing_loads(engine, rpm, angles)
+    ascending = cp.bearing_loads(engine, rpm, np.sort(angles))
+    for load in ("crankpin", "wrist_pin", "main", "side_thrust", "rod_force", "gas_force"):
+        mean, peak = loads.mean(load), loads.peak(load)
+        # A dozen additions of rounding.
+        assert np.all((mean >= 0.0) & (mean <= peak * (1.0 + 1e-14)))
+        np.testing.assert_allclose(mean, ascending.mean(load), rtol=1e-14)
+
+
+def test_a_mean_over_angles_out_of_order_is_that_of_the_ascending() -> None:
+    mixed, ascending = (
+        cp.bearing_loads(FIRED, 3000, angles).mean("main")
+        for angles in ([0, 720, 360, 90], [0, 90, 360, 720])
+    )
+    np.testing.assert_array_equal(mixed, ascending)
+
+
 def test_the_independent_rod_has_the_core_s_motion() -> None:
     """The re-derivation's bodies are the engine's."""
     throw = throws(MIXED)[1]

@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+import functools
+import inspect
+import sys
 import warnings
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
 import numpy as np
 import pytest
 from crankpin.cli import main
+from crankpin.types import OrderBalance, Quantity, Table
+from fuzzing.calls import finite, invoke, sound_call
+from fuzzing.surface import target
 from matplotlib import pyplot as plt
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
     from pathlib import Path
 
 I4 = cp.Engine.preset("i4")
@@ -141,3 +148,86 @@ def test_a_result_without_orders_is_a_result(
         for options in ([], ["--csv"]):
             assert main(["sweep", str(file), "--rpm", "1000:2000:500", *options]) == 0
             assert "1500" in capsys.readouterr().out
+
+
+NOTHING = {
+    "balance": MASSLESS.balance(1000),
+    "waveform": MASSLESS.waveform(1000, [0.0, 1.0], orders="auto"),
+    "waveform of no angles": I4.waveform(1000, []),
+    "waveform of a sweep": cp.sweep(MASSLESS, rpm=[1e3, 2e3]).waveform([0.0, 1.0]),
+    "bearing loads": cp.bearing_loads(MASSLESS, 1000, [0.0, 1.0]),
+    "bearing loads of no angles": cp.bearing_loads(I4, 1000, []),
+    "sweep": cp.sweep(MASSLESS, rpm=[1e3, 2e3]),
+    "sweep of nothing": cp.sweep(MASSLESS, rpm=1e3),
+    "sweep of engines": cp.sweep([MASSLESS, MASSLESS], rpm=[1e3, 2e3]),
+    "counterweights": cp.counterweights(MASSLESS, planes="ends"),
+    "balance shafts": cp.balance_shafts(MASSLESS, (-2, 2)),
+    "balancer options": cp.balancer_options(MASSLESS, rpm=1000, most_shafts=1),
+    "bob weight": cp.bob_weight(MASSLESS),
+    "comparison": cp.compare(MASSLESS, MASSLESS, 1000),
+    "ranking": cp.rank([MASSLESS, MASSLESS], rpm=1000, by="total.moment.peak"),
+    "search": cp.search_arrangements(4).within(1, 2),
+    "vanishing orders": MASSLESS.vanishing_orders(),
+    "explanation": MASSLESS.explain(1000),
+}
+"""Results without rows, or whose rows are all zero."""
+
+
+def members(label: str, result: Any, depth: int = 0) -> Iterator[tuple[str, Callable[[], Any]]]:  # noqa: ANN401
+    """Yield everything public of a result that can be read or called, and of its parts."""
+    for name in dir(result):
+        if name.startswith("_") and name not in ("__repr__", "_repr_html_", "__len__", "__hash__"):
+            continue
+        try:
+            member = getattr(result, name)
+        except cp.InputError:
+            continue
+        of_class = inspect.getattr_static(type(result), name, None)
+        if isinstance(of_class, classmethod | staticmethod):
+            continue
+        if callable(of_class):
+            yield f"{label}.{name}", functools.partial(invoke, sound_call(target(name, member)))
+        elif depth < 2 and isinstance(member, Quantity | OrderBalance | Table):
+            yield from members(f"{label}.{name}", member, depth + 1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("what", NOTHING)
+def test_results_of_nothing_do_what_others_do(
+    what: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    results = [NOTHING[what]]
+    if hasattr(results[0], "about"):
+        results.append(results[0].about((0, 0.1, 0.2)))
+    for result in results:
+        for label, call in members(what, result):
+            try:
+                found = call()
+            except (cp.InputError, ImportError):
+                continue  # says why, or which package is not there
+            assert finite(found), label
+            repr(found)
+    if "matplotlib.pyplot" in sys.modules:
+        sys.modules["matplotlib.pyplot"].close("all")
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_nothing_shakes_about_any_point_at_any_speed(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(1, 9))
+    engine = cp.Engine.from_lists(
+        cp.Cylinder(0.05, rng.uniform(0.1, 0.3), 0.0, pin_offset=rng.uniform(0, 0.01)),
+        bank_deg=rng.uniform(0, 360, count).round(3),
+        pin_deg=rng.uniform(0, 360, count).round(3),
+        z=np.sort(rng.uniform(0, 1, count)),
+    )
+    point = tuple(rng.uniform(-1, 1, 3))
+    swept = cp.sweep(engine, rpm=rng.uniform(100, 9000, 4)).about(point)
+    balance = engine.balance(3000).about(point)
+    for result in (balance, swept):
+        for name in ("force", "moment", "torque", "crank_torque"):
+            total, peaks = getattr(result.total, name).peak, getattr(result, name).peak
+            assert np.shape(total) == peaks.shape[:-1]
+            assert peaks.shape[-1] == len(result.orders)
+            assert not np.any(total)

@@ -175,6 +175,14 @@ MANY = "many = cp.Engine.inline(v6.cylinders[0], throws_deg=range(1000), spacing
             ),
             "cp.sweep(several, rpm=3000, rod_ratio=ratios, orders=[1, 2]).moment.xy",
         ),
+        (
+            30,
+            (
+                "swept = cp.sweep(v6, rpm=3000, rod_ratio=np.linspace(0.1, 0.5, 200_000), "
+                "orders=[1, 2, 4]).about((0.1, 0.1, 0)); swept.torque.phasor"
+            ),
+            "swept.total.torque.peak; [np.ones(2**20) for _ in range(99)]",
+        ),
         (60, MANY, "[many.tdc_deg for _ in range(10**6)]"),
         (60, MANY, "[many.pin_deg for _ in range(10**6)]"),
         (60, MANY, "[many.to_toml() for _ in range(10**6)]"),

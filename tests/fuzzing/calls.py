@@ -7,8 +7,10 @@ from __future__ import annotations
 import os
 import reprlib
 import time
+import traceback
 import warnings
 from operator import attrgetter
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import crankpin as cp
@@ -20,6 +22,7 @@ from fuzzing.surface import OPERATORS, SOUND, Target
 from fuzzing.values import VALUES
 
 SECONDS = float(os.environ.get("CRANKPIN_FUZZ_SECONDS", "0"))
+PACKAGE = Path(cp.__file__).parent
 PATIENCE = 5.0  # seconds to a call: the longest honest one takes a twentieth of one
 ALLOWED = (cp.InputError, OSError, ImportError)
 
@@ -159,11 +162,24 @@ def by_python(error: TypeError, call: Call) -> bool:
     return last is not None and last.tb_frame.f_code.co_filename == __file__
 
 
+def by_operand(error: BaseException, call: Call) -> bool:
+    """Whether the value beside an operator raised it, before any code of the package ran.
+
+    Masked arrays and fractions take an operand of any type, and fail in their own ways.
+    """
+    walked = traceback.walk_tb(error.__traceback__)
+    files = (Path(frame.f_code.co_filename) for frame, _ in walked)
+    ours = any(PACKAGE in file.parents for file in files)
+    return of_operator(call) and isinstance(error, Exception) and not ours
+
+
 def problem(call: Call) -> str:
     """What comes of a call but a sound result or an allowed error; nothing if all is well."""
     start = time.monotonic()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)  # of units and pin splits
+        if of_operator(call):
+            warnings.simplefilter("ignore", RuntimeWarning)  # NumPy's, of an array of phasors
         try:
             answer = invoke(call)
             found = "" if of_operator(call) else unsound(answer)
@@ -174,7 +190,9 @@ def problem(call: Call) -> str:
         except (KeyboardInterrupt, SystemExit):
             raise
         except BaseException as error:
-            found = f"raised {type(error).__name__}: {shown(error)}"
+            found = (
+                "" if by_operand(error, call) else f"raised {type(error).__name__}: {shown(error)}"
+            )
     took = time.monotonic() - start
     if took > PATIENCE:
         found += f" after {took:.1f} s"

@@ -4,12 +4,16 @@
 
 from __future__ import annotations
 
+import copy
 import inspect
+import itertools
 import operator
+import pickle
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import crankpin as cp
+import numpy as np
 
 from fuzzing.sound import CYCLE, CYLINDER, FIRED, I4, JSON, TOML, V6, ranked, swept, two_stroke, vee
 
@@ -168,8 +172,51 @@ OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
     "in": operator.contains,
     "[]": operator.getitem,
     "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+    "//": operator.floordiv,
+    "%": operator.mod,
+    "**": operator.pow,
+    "@": operator.matmul,
+    "&": operator.and_,
+    "|": operator.or_,
+    "<": operator.lt,
+    "<=": operator.le,
+    ">": operator.gt,
+    ">=": operator.ge,
+    "r+": lambda subject, value: value + subject,
+    "r*": lambda subject, value: value * subject,
+    "r<": lambda subject, value: value < subject,
+    "inside": lambda subject, value: subject in value,
 }
 """What ``subject OPERATOR value`` calls; a TypeError of an operand is Python's or NumPy's."""
+ALONE: dict[str, Callable[[Any], Any]] = {
+    "len": len,
+    "iter": lambda subject: list(itertools.islice(iter(subject), 1000)),
+    "reversed": lambda subject: list(itertools.islice(reversed(subject), 1000)),
+    "bool": bool,
+    "hash": hash,
+    "repr": repr,
+    "str": str,
+    "format": lambda subject: f"{subject:>10}",
+    "dir": dir,
+    "abs": abs,
+    "-": operator.neg,
+    "+": operator.pos,
+    "~": operator.invert,
+    "int": int,
+    "float": float,
+    "complex": complex,
+    "index": operator.index,
+    "round": round,
+    "bytes": bytes,
+    "copy": copy.copy,
+    "deepcopy": copy.deepcopy,
+    "pickle": lambda subject: pickle.loads(pickle.dumps(subject)),  # noqa: S301 - its own
+    "array": np.asarray,
+}
+"""What ``OPERATOR subject`` calls."""
 PLAIN = {"Choice", "InputError", "OrderBalance"}  # take anything, and hold it
 RESULTS_MADE_ELSEWHERE = {
     "Balance",
@@ -218,18 +265,27 @@ def targets() -> Iterator[Target]:
                 yield target(f"{label}.{name}", getattr(subject, name))
 
 
+OPERANDS = {
+    label: subject
+    for label, subject in (
+        SUBJECTS
+        | {
+            "quantity": SUBJECTS["balance"].moment,
+            "order": SUBJECTS["balance"][2],
+            "table": SUBJECTS["balance"].table,
+            "cylinder": CYLINDER,
+            "cycle": CYCLE,
+        }
+    ).items()
+    if not isinstance(subject, type)
+}
+"""What has operators: objects of every kind, and parts of some."""
+
+
 def operators() -> Iterator[Target]:
-    """Every operator that a subject has."""
-    for label, subject in (SUBJECTS | {"quantity": SUBJECTS["balance"].moment}).items():
-        if isinstance(subject, type):
-            continue
+    """Every operator of every operand, whether it has that or not."""
+    for label, subject in OPERANDS.items():
         for name, of in OPERATORS.items():
-            if name == "[]" and not hasattr(type(subject), "__getitem__"):
-                continue
-            if name == "in" and not hasattr(type(subject), "__iter__"):
-                continue
-            if name == "+" and not isinstance(subject, cp.types.Quantity):
-                continue
 
             def operated(value: Any, subject: Any = subject, of: Any = of) -> Any:
                 return of(subject, value)

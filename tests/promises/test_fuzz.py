@@ -38,7 +38,17 @@ from fuzzing.calls import (
     sound_call,
 )
 from fuzzing.sound import CURE, JSON, TOML, V6
-from fuzzing.surface import PICTURES, PLAIN, RESULTS_MADE_ELSEWHERE, SUBJECTS, TARGETS, Target
+from fuzzing.surface import (
+    ALONE,
+    OPERANDS,
+    OPERATORS,
+    PICTURES,
+    PLAIN,
+    RESULTS_MADE_ELSEWHERE,
+    SUBJECTS,
+    TARGETS,
+    Target,
+)
 from fuzzing.values import HOSTILE
 from hypothesis import HealthCheck, example, given, seed, settings
 from hypothesis import strategies as st
@@ -81,7 +91,7 @@ def test_fuzz_reaches_the_whole_public_surface() -> None:
         assert label in labels
     for label in ("Engine.from_lists", "v6.balance", "sweep.to_pandas", "balance.plot", "i4.save"):
         assert label in labels
-    for label in ("balance []", "quantity ==", "sweep in", "ranking []"):
+    for label in ("balance []", "quantity ==", "sweep in", "ranking []", "i4 <", "v6 r+"):
         assert label in labels
     for label in ("rank", "ranking.to_pandas", "ranking.plot"):
         assert label in labels
@@ -149,6 +159,19 @@ def test_properties_give_figures_or_say_why_not(label: str) -> None:
                 assert len(str(error)) > CURE  # noqa: PT017 - either is right
 
 
+@pytest.mark.parametrize("label", OPERANDS)
+def test_operators_of_one_operand_answer_or_raise_what_python_does(label: str) -> None:
+    subject, problems = OPERANDS[label], []
+    for name, of in ALONE.items():
+        try:
+            of(subject)
+        except (cp.InputError, TypeError):
+            continue
+        except Exception as error:
+            problems.append(f"{name}: {type(error).__name__}: {error}")
+    assert not problems
+
+
 @pytest.mark.slow
 @hostile(400)
 @given(DAMAGED)
@@ -173,6 +196,10 @@ FUZZED: dict[str, tuple[st.SearchStrategy[Any], Callable[[Any], None]]] = {
     "engine files": (DAMAGED, read_damaged),
     "builders": (named(*BUILDERS), call_hostile),
     "harmonics": (named(*HARMONICS), call_hostile),
+    "operators": (
+        calls([each for each in TARGETS if each.label.split()[-1] in OPERATORS]),
+        call_hostile,
+    ),
     "everything": (calls(TARGETS), call_hostile),
 }
 

@@ -92,6 +92,21 @@ def test_is_at_most_100_kb_beside_its_figures(name: str, tmp_path: Path) -> None
     assert file.stat().st_size - own <= 100_000
 
 
+@pytest.mark.parametrize("compact", [False, True])
+def test_says_which_loads_it_counts(open_engine: Open, compact: bool) -> None:
+    petrol = cp.Cycle.example()
+    cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+    bare = cp.Engine.preset("i4", cylinder=cylinder)
+    lame = bare.with_cycle([petrol, petrol, None, petrol])
+    saves = [(bare, {}), (lame, {}), (lame, {"spectrum": {1: 0.067}})]
+    for engine, save in saves:
+        page = open_engine(engine, save=save | {"compact": compact})
+        words = "spectrum given" if save else engine.loads_counted
+        shown = page.locator("header .loads")
+        assert shown.text_content() == f"{words[0].upper()}{words[1:]}."
+        assert shown.is_visible()
+
+
 def test_names_stay_text(open_engine: Open) -> None:
     name = "</script><script>alert(1)</script><img src=x onerror=alert(2)>&amp;"
     page = open_engine(V8.replace(name=name))

@@ -214,9 +214,18 @@ def optional_number(name: str, value: Any) -> float | None:  # noqa: ANN401 - as
     return None if value is None else number(name, value)
 
 
+def listed_numbers(name: str, values: ArrayLike) -> list[float]:
+    """Return numbers that are taken one by one as a list, up to a limit."""
+    array = vector(name, values)
+    if array.size > MOST_ITEMS:
+        raise InputError(f"{name} has {array.size} numbers: give {MOST_ITEMS} at most")
+    listed: list[float] = array.tolist()
+    return listed
+
+
 def per_item(name: str, values: ArrayLike, count: int) -> list[float]:
     """Return one float for each item; a scalar is that of all."""
-    listed: list[float] = vector(name, values).tolist()
+    listed = listed_numbers(name, values)
     return listed if np.ndim(values) else listed * count
 
 
@@ -497,6 +506,14 @@ def rejected(
 ) -> InputError:
     """Return the error of an argument: its name, its value and a hint."""
     return kind(f"{name} = {shorten(value)}: {hint}")
+
+
+def only_with(partner: str, **values: object) -> None:
+    """Reject arguments other than None without the one beside which they act."""
+    for name, value in values.items():
+        if value is not None:
+            hint = f"acts only beside {partner}; give {partner}=…, or leave it out"
+            raise rejected(name, value, hint)
 
 
 def reason(error: Exception) -> str:

@@ -160,6 +160,11 @@ def loads_of(engines: Sequence[Engine], titles: Sequence[str]) -> str:
     return "; ".join(f"{text} ({cut(', '.join(each), 40)})" for text, each in names.items())
 
 
+def in_words(loads: str) -> str:
+    """Return the loads counted as a sentence."""
+    return f"{loads[0].upper()}{loads[1:]}."
+
+
 def attributes(loads: str) -> dict[str, str]:
     """Return the attributes of a data frame or dataset that say which loads it counts."""
     return {"loads": loads} if loads else {}

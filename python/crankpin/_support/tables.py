@@ -246,7 +246,7 @@ class Table(Record):
         if any(each.least and TINY in each.cells()[:rows] for each in self.columns):
             yield f"{TINY}: not zero, but too small to matter."
         if self.loads:
-            yield f"{self.loads[0].upper()}{self.loads[1:]}."
+            yield labels.in_words(self.loads)
 
     @overload
     def to_csv(self, path: None = None) -> str: ...

@@ -356,5 +356,5 @@ def total_peaks(
     if not orders:
         return np.array(np.broadcast_to(np.abs(mean), phasors.shape[:-1]))
     rows = np.ascontiguousarray(phasors.reshape(-1, len(orders)))
-    means = np.broadcast_to(mean, phasors.shape[:-1]).ravel().tolist()
+    means = np.broadcast_to(mean, phasors.shape[:-1]).ravel()
     return _core.peaks_of_sums(list(orders), rows, means).reshape(phasors.shape[:-1])

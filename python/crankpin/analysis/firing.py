@@ -15,7 +15,7 @@ from crankpin._support import inputs, labels, optional, tables
 from crankpin._support.record import Tabled, read_only
 from crankpin.analysis.gas_exchange import PortTiming, Timing, ValveTiming, angles
 from crankpin.model import checks
-from crankpin.model.builders import vee_layout
+from crankpin.model.builders import vee_layout_of
 from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
@@ -470,9 +470,7 @@ def throws(
     text = inputs.firing_order("firing_order", firing_order)
     listed = None if intervals_deg is None else inputs.angles("intervals_deg", intervals_deg)
     number = inputs.strokes(strokes)
-    # What an inline engine ignores is checked all the same.
-    angle = 0.0 if bank_angle_deg is None else bank_angle_deg
-    across = vee_layout(angle, 0.0, 0.0, numbering, odd_bank)
+    across = vee_layout_of(bank_angle_deg, 0.0, numbering, odd_bank)
     if bank_angle_deg is None:
         return _core.inline_throws(text, listed, number), read_only(np.empty(0))
     layout = {"throws": [], "spacing": 0.0, "rotating_mass": [], "first_tdc": "0"}

@@ -318,7 +318,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
         plain = [np.asarray(a) if isinstance(a, Quantity) else a for a in arguments]
         try:
             return getattr(ufunc, method)(*plain, **keywords)
-        except (ValueError, OverflowError) as error:
+        except (ValueError, OverflowError, ZeroDivisionError) as error:
             shown = " and ".join(map(inputs.shorten, arguments))
             hint = f"give numbers, or an array that broadcasts ({inputs.reason(error)})"
             raise InputError(f"{ufunc.__name__} of {shown}: {hint}") from None

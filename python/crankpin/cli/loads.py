@@ -104,31 +104,36 @@ def _bearings(given: Given) -> Shown:
     options = {name: given.text(f"--{name}") for name in known}
     table = loads.table
     if given.text("--csv") and load == "main" and table.below is not None:
-        table = table.below
+        table = changed(table.below, loads=table.loads)
     return Shown(table, loads, {"kind": kind, **options}, note=note)
 
 
 def _fired(given: Given, name: str, otherwise: str | None = None) -> tuple[Engine, str]:
     """Return the engine, with gas pressure if there is any, and a note of what was assumed."""
-    engine, typed = given.engine(name), given.text("--cycle")
+    engine: Engine = given.engine(name)
+    typed: Any = given.text("--cycle")
     if (order := given.text("--firing-order")) is not None:
         engine = engine.replace(firing_order=order)
     of_a_file = [each.names[0] for each in OF_A_FILE if given.text(each.names[0])]
     if of_a_file and (typed is None or typed in EXAMPLES):
         raise InputError(f"{of_a_file[0]} needs a file of --cycle")
-    if typed is None:
-        if engine.fired or otherwise is None:
-            if given.text("--crankcase") is not None:
-                raise InputError("--crankcase needs --cycle")
-            return engine, ""
-        typed = otherwise
+    bore, crankcase = given.optional("--bore", "m"), given.optional("--crankcase", "Pa")
+    if typed is None and engine.fired:
+        cylinders = [each if bore is None else each.replace(bore=bore) for each in engine.cylinders]
+        return engine.replace(cylinder=cylinders, crankcase=crankcase), ""
+    if typed is None and otherwise is None:
+        for flag, figure in (("--bore", bore), ("--crankcase", crankcase)):
+            if figure is not None:
+                hint = "acts only beside gas pressure; give --cycle"
+                raise InputError(f"{flag} = {labels.cut(given.text(flag))}: {hint}")
+        return engine, ""
+    typed = otherwise if typed is None else typed
     example = typed in EXAMPLES
     if not example and not Path(typed).suffix:
         hint = f"give {' or '.join(EXAMPLES)} for an example, or a text file"
         raise InputError(f"--cycle = {labels.cut(typed)}: {hint}")
     strokes = engine.strokes
     cycle = Cycle.example(typed, strokes=strokes) if example else _loaded(given, typed, strokes)
-    bore = given.optional("--bore", "m")
     unknown = bore is None and any(each.bore is None for each in engine.cylinders)
     cylinders = [
         each.replace(bore=(each.bore or each.stroke) if bore is None else bore)
@@ -136,9 +141,7 @@ def _fired(given: Given, name: str, otherwise: str | None = None) -> tuple[Engin
         else each
         for each in engine.cylinders
     ]
-    fired = engine.replace(cylinder=cylinders).with_cycle(
-        cycle, crankcase=given.optional("--crankcase", "Pa")
-    )
+    fired = engine.replace(cylinder=cylinders).with_cycle(cycle, crankcase=crankcase)
     note = "Bores that are not known are taken to equal the stroke.\n" if unknown else ""
     return fired, note
 

@@ -50,8 +50,12 @@ def shown(given: Given, run: Run) -> str:
         found.engine.save(file)
     if picture is not None:
         _draw(found.drawn, picture, **found.options)
+    if not given.text("--csv"):
+        return f"{found.table.text()}\n{found.note}"
+    if found.table.loads:  # a line in CSV would be a row to those who read it
+        say(found.table.loads)
     # CSV is of one table, without those below it.
-    return found.table.to_csv() if given.text("--csv") else f"{found.table.text()}\n{found.note}"
+    return found.table.to_csv()
 
 
 def left_out(result: Balance | Sweep) -> str:

@@ -11,6 +11,7 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import labels, tables
 from crankpin._support.quantities import QUANTITIES
+from crankpin._support.record import changed
 from crankpin._support.tables import Table
 from crankpin.analysis.ranking.rank import rank
 from crankpin.analysis.sweeps.sweep import Sweep, engine_titles, sweep
@@ -147,15 +148,19 @@ def _tables_of(result: Sweep, given: Given) -> tuple[list[Table], str]:
     ]
     how = _how(result, given)
     decimals = tables.common_decimals(rows)
+    # The title has a spectrum.
+    loads = getattr(result, quantity).loads_counted if result.spectrum is None else ""
     if "engine" not in result.coords or (dims and not given.text("--csv")):
-        return [
+        of_engines = [
             Table.from_rows(f"{name}: {how}", heads, swept, each, decimals)
             for name, each in zip(engine_titles(result), rows, strict=True)
-        ], note
+        ]
+        return [*of_engines[:-1], changed(of_engines[-1], loads=loads)], note
     points = [(name, *point) for name in result.coords["engine"] for point in swept]
     title = f"{how[0].upper()}{how[1:]}"
     table = rows.reshape(len(points), rows.shape[-1])
-    return [Table.from_rows(title, ["engine", *heads], points, table, decimals)], note
+    whole = Table.from_rows(title, ["engine", *heads], points, table, decimals, loads=loads)
+    return [whole], note
 
 
 def _how(result: Sweep, given: Given) -> str:

@@ -626,9 +626,7 @@ class Builders(EngineData):
                 )
                 raise inputs.rejected("shared_pins", shared_pins, hint)
         along = _along_crank(cylinder, (), spacing, rotating_mass, first_tdc_deg)
-        # What an inline engine ignores is checked all the same.
-        angle = 0.0 if bank_angle_deg is None else bank_angle_deg
-        across = vee_layout(angle, 0.0, bank_stagger, numbering, odd_bank)
+        across = vee_layout_of(bank_angle_deg, bank_stagger, numbering, odd_bank)
         moving = parts(cylinder)
         if bank_angle_deg is None:
             core = _core.Engine.inline_from_firing_order(moving, order, *fired, along)
@@ -692,6 +690,19 @@ def vee_layout(
     }
 
 
+def vee_layout_of(
+    bank_angle_deg: Angle | None, bank_stagger: float, numbering: Numbering, odd_bank: Side
+) -> dict[str, Any]:
+    """Return where the cylinders of a vee are; rejects what an inline engine has no use for."""
+    across = vee_layout(bank_angle_deg or 0.0, 0.0, bank_stagger, numbering, odd_bank)
+    if bank_angle_deg is None:
+        plain = vee_layout(0.0, 0.0, 0.0, "alternating", "right")
+        for name in ("bank_stagger", "numbering", "odd_bank"):
+            if across[name] != plain[name]:
+                inputs.only_with("bank_angle_deg", **{name: across[name]})
+    return across
+
+
 def _along_crank(
     cylinder: Cylinder,
     throws_deg: Angles,
@@ -706,7 +717,7 @@ def _along_crank(
         "rotating_mass": (
             [big_end(cylinder)]
             if rotating_mass is None
-            else inputs.vector("rotating_mass", rotating_mass).tolist()
+            else inputs.listed_numbers("rotating_mass", rotating_mass)
         ),
         "first_tdc": inputs.angle("first_tdc_deg", first_tdc_deg),
     }

@@ -264,8 +264,8 @@ class ComputedCycles:
         rpm: float | None = None,
         intake_closes_deg: float | None = None,
         exhaust_opens_deg: float | None = None,
-        stoichiometric_ratio: float = 14.6,
-        heating_value: float = 43e6,
+        stoichiometric_ratio: float | None = None,
+        heating_value: float | None = None,
         strokes: int = 4,
         name: str = "",
     ) -> Self:
@@ -317,10 +317,10 @@ class ComputedCycles:
         exhaust_opens_deg : float, optional
             Exhaust valve (or port) event after the firing top dead centre, degrees; by default
             130, in a two-stroke 105.
-        stoichiometric_ratio : float, default 14.6
-            Mass of air over that of fuel, for ``excess_air``.
-        heating_value : float, default 43000000.0
-            Lower heating value of the fuel, J/kg, for ``excess_air``.
+        stoichiometric_ratio : float, optional
+            Mass of air over that of fuel, for ``excess_air``; by default 14.6.
+        heating_value : float, optional
+            Lower heating value of the fuel, J/kg, for ``excess_air``; by default 43e6.
         strokes : {4, 2}, default 4
             As in :class:`Cycle`.
         name : str, optional
@@ -348,6 +348,10 @@ class ComputedCycles:
         if (heat is None) == (excess_air is None):
             given = f"heat = {inputs.shorten(heat)}, excess_air = {inputs.shorten(excess_air)}"
             raise InputError(f"{given}: give one of them")
+        if excess_air is None:
+            inputs.only_with(
+                "excess_air", stoichiometric_ratio=stoichiometric_ratio, heating_value=heating_value
+            )
         if (rpm is None) != (wall_temperature is None):
             given = f"wall_temperature = {inputs.shorten(wall_temperature)}"
             raise inputs.rejected(f"{given}, rpm", rpm, "heat loss needs both")
@@ -356,8 +360,8 @@ class ComputedCycles:
         figures = {
             "heat": heat,
             "excess_air": excess_air,
-            "stoichiometric_ratio": stoichiometric_ratio,
-            "heating_value": heating_value,
+            "stoichiometric_ratio": 14.6 if stoichiometric_ratio is None else stoichiometric_ratio,
+            "heating_value": 43e6 if heating_value is None else heating_value,
             "start_deg": start_deg,
             "duration_deg": duration_deg,
             "a": a,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import TYPE_CHECKING, Any, TypeAlias, overload
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias, overload
 
 import numpy as np
 
@@ -88,6 +88,9 @@ class Cylinder:
     bore: float | None = None
     piston_mass: float | None = None
     rod: Rod | None = None
+
+    __array_ufunc__: ClassVar[None] = None
+    """None, so that NumPy leaves comparison and arithmetic with arrays to the cylinder."""
 
     @classmethod
     def from_bore_stroke(

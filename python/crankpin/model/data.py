@@ -40,6 +40,9 @@ class EngineData:
 
     _core: _CoreEngine
 
+    __array_ufunc__: Any = None
+    """None, so that NumPy leaves comparison and arithmetic with arrays to the engine."""
+
     def __init__(
         self,
         core: _CoreEngine,
@@ -454,13 +457,16 @@ class EngineData:
         )
         cycles: Any = self.cycles if _is_kept(cycle) else cycle
         if cycles is None:
-            return changed if crankcase is None else changed.with_cycle(None, crankcase=crankcase)
+            inputs.only_with("cycle", crankcase=crankcase)
+            return changed
         pins_kept = tdc_deg is None and pin_deg is None and count == self.strokes
-        if _is_kept(cycle) and crankcase is None and pins_kept and firing_order is None:
+        if _is_kept(cycle) and pins_kept and firing_order is None:
             # Each cylinder fires in the turn in which it did, whether or not its order was dropped.
-            fired = changed._core.fired_as(self._core, list(range(len(self))))
+            below = self._below_pistons(crankcase)
+            fired = changed._core.fired_as(self._core, list(range(len(self))), below)
+            checks.crankcase(below)
             return type(self)(fired.firing_as(changed.firing_order, count))
-        return changed.with_cycle(cycles, crankcase=self._below_pistons(crankcase))
+        return changed._fired_by(cycles, crankcase, self)
 
     def _rotating(self, cylinder: Cylinder | Sequence[Cylinder] | None) -> list[float]:
         """Return the rotating masses that stay, or come with the rods, as cylinders change."""
@@ -569,7 +575,8 @@ class EngineData:
         ------
         InputError
             If the engine has no firing order (the message has those that the crank allows), a
-            cylinder no bore, or a cycle other strokes than the engine.
+            cylinder no bore, or a cycle other strokes than the engine, or ``crankcase`` is given
+            without a cycle.
 
         Warns
         -----
@@ -588,9 +595,12 @@ class EngineData:
         >>> torque[0.5].status  # fires evenly
         'zero, proved'
         """
+        return self._fired_by(cycle, crankcase, self)
+
+    def _fired_by(self, cycle: object, crankcase: float | None, other: EngineData) -> Self:
+        """Return the same engine with cycles, its crankcase by default that of another."""
         if cycle is None:
-            if crankcase is not None:
-                raise inputs.rejected("crankcase", crankcase, "needs a cycle; leave it out")
+            inputs.only_with("cycle", crankcase=crankcase)
             return type(self)(self._core.without_cycles())
         hint = "give a crankpin.Cycle, or one or None for each cylinder"
         same = isinstance(cycle, Cycle)
@@ -599,7 +609,9 @@ class EngineData:
             if not (one is None or isinstance(one, Cycle)):
                 raise inputs.rejected(f"cycle[{k}]", one, hint)
         cores = [None if one is None else one._core for one in each]
-        below = self._below_pistons(crankcase)
+        if all(core is None for core in cores):
+            inputs.only_with("cycle", crankcase=crankcase)
+        below = other._below_pistons(crankcase)
         (fired,) = self._core.with_cycles([cores], below)
         checks.crankcase(below)
         _warn_of_work(each, self.cylinders)
@@ -843,7 +855,7 @@ def core_of_lists(
         None if pin_deg is None else inputs.angles("pin_deg", pin_deg),
         banks,
         bank,
-        inputs.vector("z", z).tolist(),
+        inputs.listed_numbers("z", z),
         (
             [big_end(one) for one in each]
             if rotating_mass is None
@@ -851,7 +863,7 @@ def core_of_lists(
         ),
         cranks,
     )
-    bearings = [] if mains is None else inputs.vector("mains", mains).tolist()
+    bearings = [] if mains is None else inputs.listed_numbers("mains", mains)
     plane = inputs.optional_number("reference_z", reference_z)
     core = core.keeping([one._details for one in each], bearings, plane)
     checks.units(core)

@@ -11,7 +11,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.lines import Line2D
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs
 from crankpin._support.quantities import QUANTITIES
 from crankpin.plot.layout import label_x, label_y, make_panels, note_zero
 from crankpin.plot.rows import Rows, Words, along_x, at, dimension, rows_of, values_of, words_of
@@ -29,7 +29,7 @@ from crankpin.plot.style import (
     series,
     write_at_mark,
 )
-from crankpin.plot.ticks import RoundLocator, degrees, from_zero, log_scale, numeric, span
+from crankpin.plot.ticks import RoundLocator, degrees, magnitude_scale, numeric, span
 from crankpin.plot.words import drawn_quantity, in_degrees, nonzero_in, number, plain_text
 
 if TYPE_CHECKING:
@@ -284,15 +284,10 @@ def _scale(
     logarithmic: bool,
 ) -> None:
     """Let the axis of the peaks begin at zero, or be logarithmic; label it with the row's name."""
-    unit, largest = f"peak, {QUANTITIES[quantity].unit}", float(peaks.max(initial=0.0))
+    unit = f"peak, {QUANTITIES[quantity].unit}"
     for panel in panels:
         axis: Literal["x", "y"] = "x" if along == "engine" else "y"
-        if logarithmic and largest:
-            least = float(peaks[peaks > labels.NEGLIGIBLE * largest].min())
-            log_scale(panel, least, largest, name=axis)
-        else:
-            numeric(panel.xaxis if axis == "x" else panel.yaxis)
-            from_zero(panel, largest, name=axis)
+        magnitude_scale(panel, peaks, logarithmic=logarithmic, name=axis)
         if axis == "x":
             label_x(panel, unit)
     label_y(panels[0], name, *([] if along == "engine" else [unit]))

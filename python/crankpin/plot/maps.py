@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.colors import LogNorm, Normalize
 
 from crankpin._core import InputError
+from crankpin._support import inputs
 from crankpin._support.quantities import QUANTITIES
 from crankpin.plot.layout import Panels, label_x, label_y, make_panels, note_zero
 from crankpin.plot.rows import Row, Rows, along_x, dimension, rows_of, words_of
@@ -42,6 +43,7 @@ def heat_map(
     quantity: str | None = None,
     x: str | None = None,
     orders: object = None,
+    log: bool = False,
     **style: Any,  # noqa: ANN401 - of pcolormesh
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     """Draw peaks over two numeric dimensions, rows for orders or engines and columns for axes.
@@ -49,6 +51,7 @@ def heat_map(
     Orders have a scale of colours each, engines one that they share.
     """
     name = drawn_quantity(quantity, nonzero_in(sweep.total))
+    scale = _logarithmic if inputs.flag("log", log) else _from_zero
     along, up = _axes_of(sweep, x)
     rows, note = _rows(sweep, name, orders, single=ax is not None)
     words = words_of(sweep)
@@ -56,12 +59,12 @@ def heat_map(
     grids = [np.moveaxis(row.peaks, dims.index(up), 0) for row in rows.rows]
     coords = [np.asarray(sweep.coords[dim], dtype=np.float64) for dim in (along, up)]
     made = make_panels(ax, figure, len(grids), len(rows.columns), sharex=True, sharey=True)
-    largest = [float(grid.max(initial=0.0)) for grid in grids]
+    scales = [scale(grid) for grid in grids]
     if "engine" in sweep.coords:
-        largest = [max(largest)] * len(grids)
+        scales = [scale(np.stack(grids))] * len(grids)
     vanishes = [
-        _heat(panels, coords, grid, name, most, style)
-        for grid, panels, most in zip(grids, made.axes, largest, strict=True)
+        _heat(panels, coords, grid, name, norm, style)
+        for grid, panels, norm in zip(grids, made.axes, scales, strict=True)
     ]
     _label_all(made, along, up, rows)
     notes = [note, "white dots: exactly zero" if any(vanishes) else ""]
@@ -77,9 +80,11 @@ def order_map(
     *,
     quantity: str | None = None,
     x: str | None = None,
+    log: bool = True,
     **style: Any,  # noqa: ANN401 - of pcolormesh
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
-    """Draw peaks over speed, or another swept number, and order, in one logarithmic scale."""
+    """Draw peaks over speed, or another swept number, and order, in one scale, logarithmic."""
+    logarithmic = inputs.flag("log", log)
     name = drawn_quantity(quantity, nonzero_in(sweep.total))
     dims = [dim for dim in sweep.coords if dim != "engine"]
     if len(dims) != 1 or x not in (None, *dims):
@@ -94,13 +99,11 @@ def order_map(
     shared: dict[str, Any] = {"sharex": True, "sharey": True, "row_height": height}
     made = make_panels(ax, figure, len(rows.rows), len(rows.columns), **shared)
     peaks = np.stack([row.peaks for row in rows.rows])
-    norm = _logarithmic(peaks)
+    norm = _logarithmic(peaks) if logarithmic else _from_zero(peaks)
     for row, panels in zip(rows.rows, made.axes, strict=True):
         mesh = _cells(panels, values, orders, row.peaks, {"norm": norm} | style)
     if peaks.any():
-        below = ((peaks > 0.0) & (peaks < (norm.vmin or 0.0))).any()
-        extend = "min" if below else "neither"
-        _colour_bar(made.axes.ravel(), mesh, name, plain=False, extend=extend)
+        _colour_bar(made.axes.ravel(), mesh, name, peaks)
     _label_all(made, along, "order", rows)
     made.set_title(words.title, words.subtitle(name), rows.columns[0] if made.single else note)
     return made.drawn
@@ -151,20 +154,21 @@ def _heat(
     coords: Sequence[NDArray[np.float64]],
     peaks: NDArray[np.float64],
     quantity: str,
-    largest: float,
+    norm: Normalize,
     style: dict[str, Any],
 ) -> bool:
-    """Draw a row of panels in colours up to the largest value, white dots at zeros.
+    """Draw a row of panels in colours of a scale, white dots at zeros.
 
     Return True if there are such dots.
     """
     dotted = False
     x, y = coords
     columns, lines = np.argsort(x, kind="stable"), np.argsort(y, kind="stable")
-    options = {"shading": "nearest", "norm": Normalize(0.0, largest or 1.0), "rasterized": True}
+    options = {"shading": "nearest", "norm": norm, "rasterized": True}
     for k, panel in enumerate(panels):
         of_panel = peaks[..., k]
-        cells = of_panel[np.ix_(lines, columns)]
+        # A logarithmic scale has no zero.
+        cells = np.maximum(of_panel[np.ix_(lines, columns)], norm.vmin or 0.0)
         mesh = panel.pcolormesh(x[columns], y[lines], cells, **(options | style))
         up, across = np.nonzero(of_panel == 0.0)
         if 0 < up.size <= MOST_ZEROS:
@@ -173,9 +177,14 @@ def _heat(
             panel.plot(x[across], y[up], "o", markersize=1.5, color="white", gid="crankpin zeros")
         if not peaks.any():
             note_zero(panel, color="white")
-    if largest:  # a scale of nothing would mislead
-        _colour_bar(panels, mesh, quantity)
+    if peaks.any():  # a scale of nothing would mislead
+        _colour_bar(panels, mesh, quantity, peaks)
     return dotted
+
+
+def _from_zero(peaks: NDArray[np.float64]) -> Normalize:
+    """Return a scale of colours from zero to the largest peak."""
+    return Normalize(0.0, float(peaks.max(initial=0.0)) or 1.0)
 
 
 def _logarithmic(peaks: NDArray[np.float64]) -> LogNorm:
@@ -220,15 +229,16 @@ def _colour_bar(
     panels: Sequence[Axes] | NDArray[Any],
     mesh: Any,  # noqa: ANN401 - what pcolormesh returns
     quantity: str,
-    *,
-    plain: bool = True,
-    extend: str = "neither",
+    peaks: NDArray[np.float64],
 ) -> None:
+    """Draw the scale of colours of peaks, pointed where some are below it."""
+    below = ((peaks > 0.0) & (peaks < (mesh.norm.vmin or 0.0))).any()
+    extend = "min" if below else "neither"
     figure = panels[0].get_figure(root=False)
     bar = figure.colorbar(mesh, ax=list(panels), aspect=25, pad=0.02, extend=extend)  # type: ignore[union-attr]
     bar.set_label(f"peak, {QUANTITIES[quantity].unit}")
     bar.outline.set_visible(False)
-    if plain:
+    if not isinstance(mesh.norm, LogNorm):
         numeric(bar.ax.yaxis)
 
 

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import labels
+from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.plot.curves import ZERO, Curve, lines, mark
 from crankpin.plot.layout import Panels, label_x, label_y, make_panels, set_panel_title, width_for
 from crankpin.plot.rows import MOST, along_x, dimension, given_orders, largest, values_of, words_of
 from crankpin.plot.style import DISTINCT, entries_of, series
-from crankpin.plot.ticks import degrees, from_zero, numeric, span
+from crankpin.plot.ticks import degrees, magnitude_scale, numeric, span
 from crankpin.plot.words import drawn_quantity, nonzero_in
 
 if TYPE_CHECKING:
@@ -39,10 +39,12 @@ def parts(
     quantity: str | None = None,
     x: str | None = None,
     orders: object = None,
+    log: bool = False,
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     """Draw both parts over a swept number, a panel for each order and what else was swept."""
     name = drawn_quantity(quantity, nonzero_in(sweep.total), PLANE_VECTORS)
+    logarithmic = inputs.flag("log", log)
     along, words = along_x(sweep, x), words_of(sweep)
     if along == "engine":
         raise InputError('kind="parts" draws over a number, such as bank_angle_deg; sweep one')
@@ -71,10 +73,9 @@ def parts(
             label_y(panel, QUANTITIES[name].words, QUANTITIES[name].unit)
         if made.single or panel.get_subplotspec().is_last_row():
             label_x(panel, dimension(along))
-    for of_order in panels:
-        top = max(panel.get_ylim()[1] for panel in of_order)
+    for of_order, vector in zip(panels, vectors, strict=True):
         for panel in of_order:
-            from_zero(panel, top, 1.0)
+            magnitude_scale(panel, _sizes(vector), logarithmic=logarithmic)
     what = f"order {chosen[0]}" if made.single else note
     made.set_title(words.title, words.subtitle(name), what)
     both = panels[0, 0].get_legend_handles_labels()[0][:2]
@@ -101,13 +102,18 @@ def _panels(
     return made, made.axes.reshape(rest, orders).T
 
 
+def _sizes(vector: Quantity) -> NDArray[np.float64]:
+    """Return the magnitudes of both parts of an order: (…, 2)."""
+    phasors = np.stack([getattr(vector, part) for part in labels.TURNING], axis=-1)
+    return np.asarray(np.abs(phasors), dtype=np.float64)
+
+
 def _draw(
     ax: Axes, sweep: Sweep, vector: Quantity, along: str, style: dict[str, Any], column: int = 0
 ) -> None:
     """Draw both parts of an order; the column is a place among what is not drawn along x."""
-    sizes = np.abs(np.stack([getattr(vector, part) for part in labels.TURNING], axis=-1))
     values = np.asarray(sweep.coords[along], dtype=np.float64)
-    heights = np.moveaxis(sizes, list(sweep.coords).index(along), 0)
+    heights = np.moveaxis(_sizes(vector), list(sweep.coords).index(along), 0)
     heights = heights.reshape(len(values), -1, len(labels.TURNING))
     looks = series(ax, len(labels.TURNING), style)
     drawn = [
@@ -116,7 +122,5 @@ def _draw(
     ]
     span(ax, values)
     lines(ax, values, heights, drawn)
-    numeric(ax.yaxis)
-    from_zero(ax, float(heights.max(initial=0.0)))
     mark(ax, along, values, heights, drawn, least=False)
     (degrees if along.endswith("_deg") else numeric)(ax.xaxis)

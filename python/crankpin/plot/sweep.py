@@ -156,8 +156,10 @@ def _sweep(
         x = inputs.one_of("x", x, result.coords)
     chosen = _chosen(result, x) if kind is None else inputs.one_of("kind", kind, KINDS)
     if chosen == "bars":
-        if x is not None:
-            raise InputError(f'x = {x!r} has no meaning for kind="bars"; leave it out')
+        for name, value in (("x", x), ("log", options.get("log"))):
+            if value is not None:
+                hint = 'has no meaning for kind="bars"; leave it out'
+                raise inputs.rejected(name, value, hint)
         return bars(result, ax, figure, **options)
     return KINDS[chosen](result, ax, figure, x=x, **options)
 

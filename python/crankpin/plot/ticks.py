@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axis import XAxis
 from matplotlib.ticker import FuncFormatter, Locator, MaxNLocator
 
+from crankpin._support.labels import NEGLIGIBLE
 from crankpin.plot.layout import points_of
 from crankpin.plot.words import in_degrees, number
 
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
 STEPS = [1, 2, 2.5, 5, 10]
 """Distances of ticks, times a power of ten."""
@@ -142,6 +143,18 @@ def log_scale(ax: Axes, least: float, largest: float, *, name: str = "y") -> Non
     """Give an axis of magnitudes, of which the least and the largest are seen, a log scale."""
     getattr(ax, f"set_{name}scale")("log", nonpositive="clip")
     getattr(ax, f"set_{name}lim")(0.3 * least, 3.0 * largest)
+
+
+def magnitude_scale(
+    ax: Axes, values: NDArray[np.float64], *, logarithmic: bool, name: str = "y"
+) -> None:
+    """Let an axis of magnitudes begin at zero, or be logarithmic where any is above zero."""
+    largest = float(values.max(initial=0.0))
+    if logarithmic and largest:
+        log_scale(ax, float(values[values > NEGLIGIBLE * largest].min()), largest, name=name)
+        return
+    numeric(getattr(ax, f"{name}axis"))
+    from_zero(ax, largest, name=name)
 
 
 # Functions of the module, so that figures pickle.

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import inputs
+from crankpin._support import inputs, labels
 from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.explain import Explanation
 from crankpin.analysis.flywheel import flywheel
@@ -131,6 +131,7 @@ def figures(
         ],
         "firing_deg": engine.firing().angles_deg.tolist() if engine.firing_order else None,
         "gas": _gas(engine),
+        "loads": labels.in_words(labels.SPECTRUM_GIVEN if pairs else engine.loads_counted),
         "flywheel": None if pairs is not None else _inertia(engine, float(rpm), inertia),
         "compact": inputs.flag("compact", compact),
         "sentences": [] if compact or pairs else Explanation(engine, float(rpm) or None).sentences,

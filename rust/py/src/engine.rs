@@ -472,14 +472,22 @@ impl Engine {
         lists.into_iter().map(fired).collect()
     }
 
-    /// The engine with what another has of pressure in some of its cylinders, by index.
-    fn fired_as(&self, other: &Self, cylinders: Vec<usize>) -> PyResult<Self> {
+    /// The engine with what another has of pressure in some of its cylinders, by index, above that
+    /// of its crankcase or another.
+    #[pyo3(signature = (other, cylinders, crankcase=None))]
+    fn fired_as(
+        &self,
+        other: &Self,
+        cylinders: Vec<usize>,
+        crankcase: Option<f64>,
+    ) -> PyResult<Self> {
         let (Some(gas), strokes) = (other.0.gas(), other.0.strokes()) else {
             return Ok(self.clone());
         };
         let gas = Gas {
             cycle_of: cylinders.iter().map(|&i| gas.cycle_of[i]).collect(),
             later: cylinders.iter().map(|&i| gas.later[i]).collect(),
+            crankcase: crankcase.unwrap_or(gas.crankcase),
             ..gas.clone()
         };
         let engine = self.0.firing_as("", strokes).and_then(|engine| engine.with_gas(gas));

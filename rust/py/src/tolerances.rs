@@ -7,7 +7,7 @@ use crankpin_core::tolerances::{Deviations, Distribution, FIGURES};
 use crankpin_core::{Complex64, Order, Request, memory};
 use crankpin_macros::guarded;
 use ndarray::Array3;
-use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 use crate::convert::{self, OrRaise, OrderNumber};
@@ -108,10 +108,10 @@ pub fn peaks_of_sums<'py>(
     py: Python<'py>,
     orders: Vec<OrderNumber>,
     phasors: PyReadonlyArray2<'_, Complex64>,
-    means: Vec<f64>,
+    means: PyReadonlyArray1<'_, f64>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let orders = convert::orders(&orders)?;
-    let phasors = phasors.as_slice()?;
-    let peaks = interrupt::run(py, |cancel| largest_sums(&orders, phasors, &means, cancel))?;
+    let (phasors, means) = (phasors.as_slice()?, means.as_slice()?);
+    let peaks = interrupt::run(py, |cancel| largest_sums(&orders, phasors, means, cancel))?;
     frozen(py, peaks.into())
 }

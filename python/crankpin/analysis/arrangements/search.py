@@ -59,7 +59,7 @@ class Arrangement(Input):
         for name in ("first_deg", "second_deg", "second_order"):
             values = getattr(self, name)
             if type(values) is not tuple or any(type(value) is not float for value in values):
-                object.__setattr__(self, name, tuple(inputs.vector(name, values).tolist()))
+                object.__setattr__(self, name, tuple(inputs.listed_numbers(name, values)))
         inputs.one_of("hold", self.hold, ("firing", "pins"))
 
     @property

@@ -152,7 +152,8 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
         columns = [
             "name", "n_shafts", "unbalance", "on_front", "reaches", "objective", "value", "unit",
         ]  # fmt: skip
-        return optional.data_frame(rows, columns=columns)
+        attributes = labels.attributes(self.loads_counted)
+        return optional.data_frame(rows, columns=columns, attributes=attributes)
 
     def plot(self, ax: Axes | None = None, **style: object) -> Axes:
         """Draw the residuals of the front in per cent of the engine's own; return the axes.
@@ -195,7 +196,13 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
             list(zip(*columns.values(), strict=True)),
             np.array([(each.unbalance, *each.values) for each in front]),
             note=self._note(),
+            loads=self.loads_counted,
         )
+
+    @property
+    def loads_counted(self) -> str:
+        """Loads that count where more could, in words; empty for objectives without torque."""
+        return self.engine.loads_counted if self._of_torque else ""
 
     def _note(self) -> str:
         if not self.targets:

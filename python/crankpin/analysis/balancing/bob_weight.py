@@ -350,7 +350,7 @@ class BobWeight(Tabled):
         InputError
             If an argument is out of range.
         """
-        given = TABULATED if factors is None else inputs.vector("factors", factors).tolist()
+        given = TABULATED if factors is None else inputs.listed_numbers("factors", factors)
         check_factor("factors", given)
         words: dict[float, list[str]] = {float(factor): [] for factor in given}
         for factor, text in self._remarkable() if factors is None else ():

@@ -291,6 +291,7 @@ def _bare(question: Question, crank: Crank) -> Engine:
         "spacing": question.spacing,
         "rotating_mass": question.rotating_mass,
         "throws_deg": crank.throws,
+        "strokes": question.strokes,
     }
     if crank.bank_angle is None:
         name = f"I{question.cylinders} {crank.text}"

@@ -139,6 +139,14 @@ def checked(
     intervals = _intervals(number, even_firing, intervals_deg, HALF * cycle)
     angles = _bank_angles(kind, bank_angle_deg)
     split = _splits(kind, shared_pins, pin_split_deg)
+    stagger, same = (
+        inputs.number("bank_stagger", bank_stagger),
+        inputs.flag("same_split", same_split),
+    )
+    if banks == 1 and stagger:
+        raise inputs.rejected("bank_stagger", bank_stagger, 'layout="inline" has no banks')
+    if not same and split[0] == split[1]:
+        raise inputs.rejected("same_split", same_split, "acts only where pin splits may vary")
     free = isinstance(throws_deg, str) and throws_deg == "free"
     if intervals is not None and throws_deg is not None:
         hint = "leave out throws_deg, or even_firing and intervals_deg"
@@ -152,12 +160,12 @@ def checked(
         spacing=inputs.number("spacing", spacing),
         bank_angle=angles,
         pin_split=split,
-        same_split=inputs.flag("same_split", same_split) or split[0] == split[1],
+        same_split=same or split[0] == split[1],
         throws=() if intervals is not None or free else _throws(count, throws_deg),
         free_throws=free,
         strokes=cycle,
         intervals=intervals,
-        bank_stagger=inputs.number("bank_stagger", bank_stagger) if banks == 2 else 0.0,
+        bank_stagger=stagger,
         rotating_mass=(
             big_end(cylinder)
             if rotating_mass is None
@@ -209,6 +217,10 @@ def _bank_angles(kind: str, given: Range | None) -> tuple[Exact, Exact]:
 
 def _splits(kind: str, shared_pins: bool | None, given: Range | None) -> tuple[Exact, Exact]:
     shared = given is None if shared_pins is None else inputs.flag("shared_pins", shared_pins)
+    if kind == "inline" and (given is not None or shared_pins is not None):
+        raise InputError(
+            'layout="inline" has one cylinder on each pin: leave out shared_pins and pin_split_deg'
+        )
     if kind == "boxer" and (given is not None or shared_pins is not None):
         raise InputError(
             'layout="boxer" has pins split by 180: leave out shared_pins and pin_split_deg'
@@ -217,7 +229,7 @@ def _splits(kind: str, shared_pins: bool | None, given: Range | None) -> tuple[E
         return (HALF, HALF)
     if shared and given is not None:
         raise inputs.rejected("pin_split_deg", given, "shared pins have none; leave one out")
-    if shared or kind == "inline":
+    if shared:
         return (0, 0)
     if given is None:
         return -HALF, HALF

@@ -645,9 +645,9 @@ class Sweep(ByOrder, Tabled):
         orders : number, sequence of numbers or "auto", optional
             Orders to draw, a row for each; by default as above.
         **options : dict, optional
-            ``log=True`` for curves on a logarithmic scale; ``label``, put before the names in the
-            legend; colour, line width and other properties
-            of matplotlib lines, of maps those of ``pcolormesh``.
+            ``log=True`` for a logarithmic scale of curves, parts and maps, ``log=False`` for a
+            linear one of ``"orders"``; ``label``, put before the names in the legend; colour, line
+            width and other properties of matplotlib lines, of maps those of ``pcolormesh``.
 
         Returns
         -------

@@ -161,7 +161,7 @@ def match_parts(
     *,
     by: Objective = "balance",
     sets: int | None = None,
-    orders: Orders = (1, 2),
+    orders: Orders | None = None,
     seed: int = 0,
     progress: Progress = False,
 ) -> Match:
@@ -246,7 +246,9 @@ def match_parts(
             f"sets = {wanted}: {given} suffice for {several} of {count} cylinders; give 1 to "
             f"{several}"
         )
-    listed = inputs.explicit_orders(orders)
+    if by == "spread" and orders is not None:
+        raise inputs.rejected("orders", orders, 'acts only beside by="balance"; leave it out')
+    listed = inputs.explicit_orders((1, 2) if orders is None else orders)
     start = inputs.whole("seed", seed, 0)
     asked = progress_bar.checked(progress)
     checks.masses(engine, pistons=masses.max(), rods=0.0 if ends is None else ends.max())

@@ -15,7 +15,7 @@ from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import Tabled, changed, read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import Balance
-from crankpin.analysis.by_order import ByOrder
+from crankpin.analysis.by_order import ByOrder, total_peaks
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking import objectives
 from crankpin.analysis.request import check_request, engine_core
@@ -247,9 +247,8 @@ class Tolerances(ByOrder, Tabled):
             vectors[quantity][..., :2] if planar else torques[..., int(quantity == "crank_torque")]
         )
         if what == "total_peak_xy":
-            orders = list(self.orders)
-            along = [np.ascontiguousarray(phasors[..., axis]) for axis in (0, 1)]
-            return np.stack([_core.peaks_of_sums(orders, each, []) for each in along], axis=-1)
+            along = [total_peaks(self.orders, phasors[..., axis]) for axis in (0, 1)]
+            return np.stack(along, axis=-1)
         if what == "peak" and planar:
             return np.asarray(np.abs(vectors[quantity][..., 2:]).sum(axis=-1))
         return phasors if what == "phasors" else np.asarray(np.abs(phasors))
@@ -543,7 +542,14 @@ class Tolerances(ByOrder, Tabled):
         ]
         engine = labels.name_of(self.engine)
         title = f"{engine} at {self.rpm:g} rpm: {self.samples} samples, {self.figures.text}"
-        return Table.from_rows(title, header, names, np.array(rows).reshape(-1, len(header) - 2))
+        of_torque = any("torque" in self._objective(by).quantity for by in self.by)
+        return Table.from_rows(
+            title,
+            header,
+            names,
+            np.array(rows).reshape(-1, len(header) - 2),
+            loads=self.loads_counted if of_torque else "",
+        )
 
     def _objective(self, by: str | None) -> Objective:
         name = self.by[0] if by is None else inputs.text("by", by)

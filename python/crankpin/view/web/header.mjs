@@ -1,4 +1,4 @@
-// What the engine is called, and how it fires.
+// What the engine is called, how it fires, and which loads its figures count.
 
 import { reduced } from "./complex.mjs";
 import { fixed, html, numbered, show } from "./dom.mjs";
@@ -6,13 +6,14 @@ import { short } from "./format.mjs";
 import { STRINGS } from "./strings.mjs";
 
 export class Header {
-  constructor(title, fires) {
+  constructor(title, { firing_deg: fires, loads }) {
     this.order = numbered(html, "span", "firing-order");
     this.intervals = numbered(html, "span", "firing-intervals");
     this.changes = html("span", {});
     this.element = html("header", {},
       html("h1", {}, fixed(html, "span", "engine-name", title, title), this.changes),
-      fires ? html("p", {}, `${STRINGS.firingOrder} `, this.order, " ", this.intervals) : "");
+      fires ? html("p", {}, `${STRINGS.firingOrder} `, this.order, " ", this.intervals) : "",
+      html("p", { class: "loads" }, loads));
   }
 
   /** The settings that are not the engine's own, and order and intervals of firing from cylinder 1 on. */

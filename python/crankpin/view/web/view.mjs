@@ -38,7 +38,7 @@ export class View {
     this.readouts = new Readouts();
     this.transport = new Transport(this);
     this.settings = new Settings(this);
-    this.header = new Header(title, figures.firing_deg !== null);
+    this.header = new Header(title, figures);
     this.build(title);
     this.handle = new Handle(this.scenes[0], () => this.state.angle_deg,
       (angle) => this.set({ angle_deg: angle, playing: false }));

@@ -191,15 +191,18 @@ pub fn largest_sums(
 ) -> Result<Vec<f64>> {
     order::check_list(orders)?;
     let finder = PeakFinder::about_mean(orders)?;
-    let means = means.iter().copied().chain(std::iter::repeat(0.0));
-    let rows: Vec<_> = phasors.chunks_exact(orders.len()).zip(means).collect();
-    let chunks = pool::map(cancel, rows.chunks(TOGETHER).collect(), |rows| {
+    let mut peaks = memory::zeros(phasors.len() / orders.len())?;
+    let rows = phasors.chunks(TOGETHER * orders.len());
+    let parts = memory::collected(peaks.chunks_mut(TOGETHER).zip(rows).enumerate())?;
+    pool::map(cancel, parts, |(part, (peaks, rows))| {
         cancel.check()?;
-        rows.iter()
-            .map(|(row, mean)| finder.beside_mean(*mean, row, cancel))
-            .collect::<Result<Vec<_>>>()
+        for (k, (peak, row)) in peaks.iter_mut().zip(rows.chunks_exact(orders.len())).enumerate() {
+            let mean = means.get(part * TOGETHER + k).copied().unwrap_or(0.0);
+            *peak = finder.beside_mean(mean, row, cancel)?;
+        }
+        Ok(())
     })?;
-    Ok(chunks.concat())
+    Ok(peaks)
 }
 
 /// Value and two derivatives by crank angle.
