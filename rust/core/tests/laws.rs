@@ -243,8 +243,9 @@ proptest! {
             let torque = balance.wrenches[k].torque();
             same(torque.roll, roll, size);
             same(torque.crank, crank, size);
-            // The documented bound of rounding errors: a load for each piston and rotating mass.
-            let loads = engine.stations().len() + engine.crank_unbalances().count();
+            // The documented bound of rounding errors: a load for each piston, rotating mass and rod.
+            let rods = engine.stations().iter().filter(|p| p.cylinder.has_rod_inertia()).count();
+            let loads = engine.stations().len() + engine.crank_unbalances().count() + rods;
             let factor = (loads as f64 + 16.0 + 8.0 * f64::from(n)) * f64::EPSILON;
             let [force, moment] = VECTORS.map(|vector| balance.zero_bound(vector, k));
             let bounds = [force, moment, balance.torque_zero_bound(TorquePart::Whole, k)];

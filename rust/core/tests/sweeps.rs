@@ -754,7 +754,8 @@ impl Worst {
 fn loads(engine: &Engine) -> usize {
     let rotating = engine.stations().iter().filter(|p| p.rotating_mass > 0.0).count();
     let on_shafts: usize = engine.shafts().iter().map(|shaft| shaft.unbalances.len()).sum();
-    engine.stations().len() + rotating + engine.counterweights().len() + on_shafts
+    let rods = engine.stations().iter().filter(|p| p.cylinder.has_rod_inertia()).count();
+    engine.stations().len() + rotating + engine.counterweights().len() + on_shafts + rods
 }
 
 /// The last order evaluated: orders above it add a hundredth of the tolerance at most, even if every
@@ -765,11 +766,21 @@ fn last(engines: &[Arc<Engine>], axes: &Axes, rtol: f64, torque: bool) -> u32 {
     for place in places(sweep(engines, axes, &[1], None).shape()) {
         let engine = &engines[place[0]];
         for p in there(engine, &alone(axes, place)).stations() {
-            let share = p.cylinder.rod_inertia_excess().abs() / scales(engine, REFERENCE)[2];
+            let c = &p.cylinder;
+            // Parts of what the tolerance is relative to.
+            let [of_force, _, of_torque] = scales(engine, REFERENCE);
+            let force = c.first_order() / of_force;
+            let [masses, rod] =
+                [c.second_moment(), c.rod_inertia_excess().abs()].map(|weight| weight / of_torque);
             let part = 0.01 * rtol / loads(engine) as f64;
-            let proportions = p.cylinder.proportions();
-            let here = harmonics::highest_order(&proportions, part, torque.then_some(share));
-            last = last.max(here.unwrap());
+            let proportions = c.proportions();
+            let enough = |n: &u32| {
+                let within = |bound: Option<f64>, share: f64| bound.unwrap() * share <= part;
+                within(harmonics::tail_bound(&proportions, *n), force)
+                    && (!torque || within(harmonics::torque::tail_bound(&proportions, *n), masses))
+                    && (!torque || within(harmonics::rod::tail_bound(&proportions, *n), rod))
+            };
+            last = last.max((1..=crankpin_core::limits::HIGHEST_ORDER).find(enough).unwrap());
         }
     }
     last

@@ -198,7 +198,7 @@ pub fn balance(
     let chosen = match orders {
         Orders::Given(orders) => {
             order::check_list(orders)?;
-            let (wrenches, mean) = wrenches(&loads, torque, orders, &[], cancel)?;
+            let (wrenches, mean) = wrenches(&loads, &loads.sources, torque, orders, cancel)?;
             let (orders, omitted) = (orders.clone(), Vec::new());
             Chosen { orders, wrenches, mean, omitted, error_bound: [0.0; 4] }
         }

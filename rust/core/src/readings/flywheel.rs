@@ -6,13 +6,13 @@
 
 use crate::engine::Engine;
 use crate::load::Loads;
+use crate::load::kinematics::{BLOCK, Kinematics};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, parts};
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::readings::balance::angular_speed;
-use crate::readings::kinematics::{BLOCK, Kinematics};
 
 /// Widest cell, degrees. Extremes between edges are those of a cubic, which misses a wave of order 12
 /// by 3e-7 of its height.

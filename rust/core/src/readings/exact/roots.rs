@@ -101,8 +101,8 @@ pub(super) struct FormalSum {
 
 impl FormalSum {
     pub fn new(loads: &Loads, cancel: &Cancel) -> Result<Self> {
-        let directions = loads.list.iter().map(|load| load.direction);
-        let phases = loads.list.iter().map(|load| load.phase);
+        let directions = loads.list.iter().map(|load| load.place.direction);
+        let phases = loads.list.iter().map(|load| load.place.phase);
         Ok(Self {
             directions: parts_of_turn(directions, true, cancel)?,
             phases: parts_of_turn(phases, true, cancel)?,

@@ -42,6 +42,7 @@ use super::whole;
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::firing::Firing;
+use crate::gear::Mechanism;
 use crate::gear::harmonics;
 use crate::gear::slider_crank::Cylinder;
 use crate::layout::Strokes;
@@ -219,8 +220,8 @@ impl Proof {
             (index == 0 || angle.turns().is_none()).then_some(angle)
         };
         let (index, entry) = symbol.direction;
-        let direction = first(&self.roots.directions, index, |load| load.direction)?;
-        let phase = first(&self.roots.phases, symbol.phase, |load| load.phase)?;
+        let direction = first(&self.roots.directions, index, |load| load.place.direction)?;
+        let phase = first(&self.roots.phases, symbol.phase, |load| load.place.phase)?;
         let sign = match entry {
             SymbolEntry::UnityRoot => 1,
             SymbolEntry::Conjugate => -1,
@@ -238,7 +239,8 @@ impl Proof {
         cancel: &Cancel,
     ) -> Result<bool> {
         use Channel::{Force, Gear, Masses, OddOfGear, OddOfMasses, OddOfRod, One, Rod};
-        let of_motion = |motion: usize| (self.motions[motion], self.own_order(motion, order));
+        let of_motion =
+            |motion: usize| (*self.motions[motion].cylinder(), self.own_order(motion, order));
         let ((cylinder, own), [masses, inertia]) = match channel {
             One => return Ok(true),
             Force(motion) | Masses(motion) | OddOfMasses(motion) => (of_motion(motion), [1.0, 0.0]),
@@ -298,10 +300,12 @@ impl Proof {
                 found.push(format!("{name} is no simple part of a turn in cylinders {numbers}"));
             }
         }
-        if self.roots.directions[cylinders..].iter().any(|direction| direction.symbol > 0) {
+        let turning = || self.loads.list.iter().filter(|load| load.is_turning());
+        let directions = self.loads.list.iter().zip(&self.roots.directions);
+        if directions.into_iter().any(|(load, of)| load.is_turning() && of.symbol > 0) {
             found.push("angles of unbalances that are no simple part of a turn".to_owned());
         }
-        let speed = |motion: usize| self.loads.gears[motion].ratio.unsigned_abs();
+        let speed = |motion: usize| self.motions[motion].ratio.unsigned_abs();
         if (0..self.motions.len()).any(|motion| speed(motion) != speed(0)) {
             found.push("cranks of different speeds".to_owned());
         } else if self.motions.len() > 1 {
@@ -314,15 +318,11 @@ impl Proof {
         if self.planar.units.len() > 1 {
             found.push("masses times radius that are no rational multiples of each other".into());
         }
-        if self.loads.list.len() > cylinders {
-            let above = self.loads.unbalance_orders().iter().any(|&order| order > Order::FIRST);
-            if above {
-                found
-                    .push("unbalances of orders above 1, no rational multiples of pistons'".into());
-            }
+        if turning().any(|load| load.place.ratio.abs() > 1) {
+            found.push("unbalances of orders above 1, no rational multiples of pistons'".into());
         }
-        let beside = |load: &Load| load.axis != Complex64::default();
-        if self.loads.list[cylinders..].iter().any(beside) {
+        let beside = |load: &Load| load.place.axis != Complex64::default();
+        if turning().any(beside) {
             found.push("roll torques of shafts, no rational multiples of pistons'".to_owned());
         }
         if self.loads.list[..cylinders].iter().any(beside) {
@@ -335,7 +335,7 @@ impl Proof {
         if units.len() > 1 {
             found.push("places that are no rational multiples of each other".to_owned());
         }
-        let has_offset = |motion: &Cylinder| motion.pin_offset() != 0.0;
+        let has_offset = |motion: &Mechanism| !motion.is_centred();
         if found.is_empty() && self.motions.iter().any(has_offset) {
             found.push(
                 "pin offsets: harmonics with no rational relation to what rotates".to_owned(),
@@ -438,9 +438,8 @@ fn evaluated(
     let orders = Orders::Given(orders.to_vec());
     let found = balance::balance(engine, &request, &orders, cancel)?;
     let loads = Loads::new(engine, engine.reference(reference_z)?);
-    let volumes = loads.volumes().into_iter().zip(&loads.gears);
-    let largest: f64 =
-        volumes.filter_map(|(volume, gear)| Some(volume.size * gear.largest_gas()?)).sum();
+    let volumes = loads.volumes().into_iter().zip(&loads.sources);
+    let largest: f64 = volumes.map(|(volume, source)| volume.size * source.largest_torque()).sum();
     let zero = |k: usize| {
         let of = |vector: Vector| {
             let [x, y] = found.xy(vector, k);

@@ -100,8 +100,8 @@ impl Coefficients {
         cancel: &Cancel,
     ) -> Result<Self> {
         let count = points.len();
-        let gears = &loads.gears;
-        let harmonics = PointHarmonics::new(sweep, (gears, layout), quantity, &points, cancel)?;
+        let sources = &loads.sources[..];
+        let harmonics = PointHarmonics::new(sweep, (sources, layout), quantity, &points, cancel)?;
         let mut by_order = memory::room(layout.len())?;
         for (k, sums) in layout.iter().enumerate() {
             cancel.check()?;

@@ -3,7 +3,8 @@
 use super::{Quantity, Sweep};
 use crate::Complex64;
 use crate::engine::{Engine, Hold};
-use crate::load::{Harmonic, Loads, PhasorSum, Term, Turn, Wanted, found_or};
+use crate::load::source::{Column, Scaling};
+use crate::load::{Harmonic, Loads, PhasorSum, Term, Turn, Wanted, find_or_push};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
@@ -67,7 +68,7 @@ impl Sweep {
                 let mut sums = Vec::new();
                 for (term, parts) in terms.iter().filter_map(|t| Some((t, quantity.parts(t)?))) {
                     let harmonic = term.harmonic;
-                    let sum = found_or(
+                    let sum = find_or_push(
                         &mut sums,
                         |sum: &LayoutSum| sum.harmonic == harmonic,
                         || LayoutSum { harmonic, ..LayoutSum::default() },
@@ -109,8 +110,8 @@ impl Quantity {
 
     /// The sums of a term that make it: forward part and conjugate of the backward part, or torque.
     fn parts(self, term: &Term<PhasorSum>) -> Option<[PhasorSum; 2]> {
-        let is_gas = matches!(term.harmonic, Harmonic::Gas(_));
-        let own = is_gas || matches!(term.harmonic, Harmonic::Torque(_) | Harmonic::Rod(_));
+        let is_gas = term.scaling == Scaling::Given;
+        let own = term.harmonic.column == Column::Roll;
         let left_out = match self.part() {
             Some(TorquePart::Whole) => false,
             Some(TorquePart::Inertia) => is_gas,

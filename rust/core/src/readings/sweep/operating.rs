@@ -8,6 +8,7 @@ use super::axes::Axes;
 use super::kernel::{Number, PIECE};
 use super::{Quantity, Sweep};
 use crate::Complex64;
+use crate::load::source::Scaling;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
@@ -158,9 +159,11 @@ impl Sweep {
             let mut means = memory::room(points)?;
             for point in 0..points {
                 let mut mean = 0.0;
-                for (gear, volume) in loads.gears.iter().zip(&volumes) {
-                    let (_, of_gear) = self.at_point(gear, point)?.gas(&[], None, cancel)?;
-                    mean += volume.value * of_gear[usize::from(on_crank)];
+                for (source, volume) in loads.at_point(&self.at(point))?.iter().zip(&volumes) {
+                    if source.parts().scaling == Scaling::Given {
+                        let means = source.torque(&[], cancel)?.mean;
+                        mean += volume.value * means[usize::from(on_crank)];
+                    }
                 }
                 means.push(mean);
             }

@@ -11,7 +11,7 @@ use std::rc::Rc;
 use super::amplitudes::{Amplitudes, amplitudes};
 use super::{CHUNK, Deviations, Parameter, pins};
 use crate::Complex64;
-use crate::engine::{Engine, Station};
+use crate::engine::{Engine, Origin, Station};
 use crate::gear::slider_crank::Cylinder;
 use crate::load::{Arithmetic, Load, Loads, Phasors, Times, Wanted, Weight, superpose};
 use crate::numbers::cancel::Cancel;
@@ -35,12 +35,20 @@ pub(super) struct SampleSums {
     pub torque: [Complexes; 2],
 }
 
-/// Load of a pin that deviates: of a cylinder, or a counterweight.
+/// Load of a pin that deviates.
 #[derive(Clone, Copy)]
 struct Deviating {
     pin: usize,
-    cylinder: Option<usize>,
-    is_piston: bool,
+    kind: DeviatingKind,
+}
+
+/// What deviates, by the index of its cylinder.
+#[derive(Clone, Copy)]
+enum DeviatingKind {
+    Piston(usize),
+    Rod(usize),
+    RotatingMass(usize),
+    Counterweight,
 }
 
 /// Loads of an engine whose figures deviate.
@@ -76,23 +84,26 @@ impl Terms {
         let laden = Engine::new("", "", laden.collect())?
             .with_counterweights(engine.counterweights().to_vec())?;
         let mut loads = Loads::new(&laden, reference);
-        let of_cylinders = |is_piston| {
-            let deviating = move |(i, &pin)| Deviating { pin, cylinder: Some(i), is_piston };
-            pin_of.iter().enumerate().map(deviating).map(Some)
+        let deviating = |load: &Load| {
+            let (pin, kind) = match load.place.origin {
+                Origin::Cylinder(i) if load.is_turning() => (i, DeviatingKind::RotatingMass(i)),
+                Origin::Cylinder(i) if load.parts.force.is_none() => (i, DeviatingKind::Rod(i)),
+                Origin::Cylinder(i) => (i, DeviatingKind::Piston(i)),
+                Origin::Counterweight(k) => {
+                    (engine.counterweights()[k].pin?, DeviatingKind::Counterweight)
+                }
+                Origin::Shaft(_) => return None,
+            };
+            Some(Deviating { pin: pin_of[pin], kind })
         };
-        let weights = engine.counterweights().iter().map(|weight| {
-            Some(Deviating { pin: pin_of[weight.pin?], cylinder: None, is_piston: false })
-        });
-        let all: Vec<_> = of_cylinders(true).chain(of_cylinders(false)).chain(weights).collect();
-        let mut kept = all.iter().map(Option::is_some);
-        loads.list.retain(|_| kept.next().unwrap_or_default());
+        loads.list.retain(|load| deviating(load).is_some());
         Ok(Self {
             orders: orders.to_vec(),
             harmonics,
             torque,
             places: engine.stations().to_vec(),
+            deviating: loads.list.iter().filter_map(deviating).collect(),
             loads,
-            deviating: all.into_iter().flatten().collect(),
             pin_of: pin_of.to_vec(),
             cylinders: engine.gears().to_vec(),
             cylinder_of: (0..engine.stations().len()).map(|i| engine.gear_of(i)).collect(),
@@ -158,32 +169,44 @@ impl Terms {
             };
         let turns = if deviates(Parameter::Pin) { turns(&angles, numbers) } else { Vec::new() };
         let reference = self.loads.reference;
-        let drawn = |(&Deviating { pin, cylinder, is_piston }, load): (&Deviating, &Load)| {
+        let drawn = |(&Deviating { pin, kind }, load): (&Deviating, &Load)| {
             let turns = turns.get(pin).map(|turns| &turns[..]);
             let fixed = |value: f64| ([value; CHUNK], value);
             let one = [&one; 2];
-            let Some(i) = cylinder else {
-                let lever = fixed(load.z - reference);
-                return Drawn { weights: vec![fixed(load.weight)], lever, amplitudes: one, turns };
+            let i = match kind {
+                DeviatingKind::Piston(i)
+                | DeviatingKind::Rod(i)
+                | DeviatingKind::RotatingMass(i) => i,
+                DeviatingKind::Counterweight => {
+                    let lever = fixed(load.place.lever(reference));
+                    let parts = vec![(0, fixed(load.weight))];
+                    return Drawn { parts, lever, amplitudes: one, turns };
+                }
             };
             let place = &self.places[i];
             let Station { cylinder, rotating_mass, z, .. } = *place;
             let radius = around(cylinder.crank_radius(), &radii[pin]);
             let lever = (around(-reference, &around(z, &places[i])), z - reference);
-            if !is_piston {
-                let unbalance = product(around(rotating_mass, &rotating[i]), &radius);
-                let weights = vec![(unbalance, rotating_mass * cylinder.crank_radius())];
-                return Drawn { weights, lever, amplitudes: one, turns };
-            }
-            let first_order = product(around(cylinder.reciprocating_mass(), &masses[i]), &radius);
-            let weights = vec![
-                (first_order, cylinder.first_order()),
-                (product(first_order, &radius), cylinder.second_moment()),
-                fixed(cylinder.rod_inertia_excess()),
-            ];
-            let nominal = &nominal[self.cylinder_of[i]];
-            let amplitudes = [changed.get(i).unwrap_or(nominal), nominal];
-            Drawn { weights, lever, amplitudes, turns }
+            let of_cylinder = &nominal[self.cylinder_of[i]];
+            let of_cylinder = [changed.get(i).unwrap_or(of_cylinder), of_cylinder];
+            let (parts, amplitudes) = match kind {
+                DeviatingKind::Piston(_) => {
+                    let mass = around(cylinder.reciprocating_mass(), &masses[i]);
+                    let first_order = product(mass, &radius);
+                    let force = (first_order, cylinder.first_order());
+                    let torque = (product(first_order, &radius), cylinder.second_moment());
+                    (vec![(0, force), (1, torque), (2, torque)], of_cylinder)
+                }
+                DeviatingKind::Rod(_) => {
+                    let torque = fixed(cylinder.rod_inertia_excess());
+                    (vec![(3, torque), (4, torque)], of_cylinder)
+                }
+                _ => {
+                    let unbalance = product(around(rotating_mass, &rotating[i]), &radius);
+                    (vec![(0, (unbalance, rotating_mass * cylinder.crank_radius()))], one)
+                }
+            };
+            Drawn { parts, lever, amplitudes, turns }
         };
         let loads: Vec<Drawn> = self.deviating.iter().zip(&self.loads.list).map(drawn).collect();
         let wanted = Wanted { planar: true, roll: self.torque, by_bank: false };
@@ -227,8 +250,8 @@ fn turns(angles: &[Reals], numbers: &[u32]) -> Vec<Vec<Complexes>> {
 
 /// A load as it was drawn, and as it is nominally.
 struct Drawn<'a> {
-    /// Of the force, and of a piston of the torques of masses and rod.
-    weights: Vec<(Reals, f64)>,
+    /// Lists of amplitudes, and weights: of the force, or of the torques on the block and on the crank.
+    parts: Vec<(usize, (Reals, f64))>,
     lever: (Reals, f64),
     amplitudes: [&'a Amplitudes; 2],
     /// Turn of its pin, by order.
@@ -237,16 +260,12 @@ struct Drawn<'a> {
 
 impl Drawn<'_> {
     /// Complex weights at the order of this index, less the nominal ones: of the force, of the moment,
-    /// of the torques of masses and of rod on the block and on the crank.
+    /// of the torques on the block and on the crank; without those of which there are no amplitudes.
     fn changes(&self, k: usize) -> Vec<Complexes> {
-        let mut changes = Vec::with_capacity(6);
-        for list in 0..5 {
+        let mut changes = Vec::with_capacity(4);
+        for &(list, (ref weight, before)) in &self.parts {
             let [drawn, nominal] = self.amplitudes.map(|lists| lists[list].get(k));
-            let weight = self.weights.get(list.div_ceil(2));
-            let (Some(drawn), Some(nominal), Some((weight, before))) = (drawn, nominal, weight)
-            else {
-                break;
-            };
+            let (Some(drawn), Some(nominal)) = (drawn, nominal) else { break };
             let mut change = [*weight; 2];
             let mut levered = ZEROS;
             vectorised(
@@ -314,15 +333,13 @@ impl Arithmetic for Samples<'_> {
         (unit, changes): &Self::Unit,
         times: Times,
     ) {
-        let range = match weight {
-            Weight::Force => 0..1,
-            Weight::Moment => 1..2,
-            Weight::Torque => 2..4,
-            Weight::Rod => 4..6,
-            // What deviates sits on the axis of the crank, and gas does not deviate.
-            Weight::ArmX | Weight::ArmY | Weight::Volume => return,
+        let values = match weight {
+            Weight::Force => &changes[..1],
+            Weight::Moment => &changes[1..2],
+            Weight::Roll => &changes[changes.len() - 2..],
+            // What deviates sits on the axis of the crank.
+            Weight::ArmX | Weight::ArmY => return,
         };
-        let values = &changes[range];
         sum.resize(values.len(), ZEROS);
         let unit = times.of(*unit);
         sum.iter_mut().zip(values).for_each(|(sum, values)| add(sum, unit, values));
