@@ -10,8 +10,8 @@ mod goal;
 use self::goal::{Goal, Rotor, TurningPhasor, dot};
 use crate::Complex64;
 use crate::engine::{Engine, Origin};
-use crate::load::source::Period;
-use crate::load::{Arithmetic, Load, Loads, PhasorSum, Phasors, Times, Wanted, Weight};
+use crate::load::source::Repeats;
+use crate::load::{Arithmetic, Factor, Load, Loads, PhasorSum, Phasors, Wanted, Weight};
 use crate::load::{Term, superpose};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -24,7 +24,7 @@ use crate::readings::amplitude::{Amplitude, Amplitudes};
 /// weights this small: its slope there is 1.
 const LATER: f64 = 1e-3;
 /// Points evaluated in one task.
-const CHUNK: usize = 16;
+const POINTS_PER_TASK: usize = 16;
 
 /// Quantity of an objective.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -89,7 +89,7 @@ impl Arithmetic for Rotors<'_> {
     fn phase(&self, load @ (k, _): (usize, &Load), times: i64) -> Rotor {
         // At top dead centre the crankpin points along the bore.
         let [bores, pins] = &self.turns[k];
-        let share = if load.1.parts.period == Period::TwoTurns { 0.5 } else { 1.0 };
+        let share = if load.1.parts.repeats == Repeats::EveryTwoTurns { 0.5 } else { 1.0 };
         let rates = bores.iter().zip(pins).map(|(bore, pin)| share * times as f64 * (bore - pin));
         Rotor { phasor: self.phasors.phase(load, times), rates: rates.collect() }
     }
@@ -109,7 +109,7 @@ impl Arithmetic for Rotors<'_> {
         load: (usize, &Load),
         weight: Weight,
         unit: &Rotor,
-        times: Times,
+        times: Factor,
     ) {
         let mut one = PhasorSum::default();
         self.phasors.add(&mut one, load, weight, &unit.phasor, times);
@@ -215,7 +215,7 @@ impl Merit {
     /// The objectives at points (points, variables) in radians, and their derivatives: (points,
     /// objectives) and (points, objectives, variables).
     pub fn evaluated(&self, points: &[Vec<f64>], cancel: &Cancel) -> Result<Vec<Vec<Derived>>> {
-        let chunks = pool::map(cancel, points.chunks(CHUNK).collect(), |chunk| {
+        let chunks = pool::map(cancel, points.chunks(POINTS_PER_TASK).collect(), |chunk| {
             let of_point = |x: &Vec<f64>| {
                 cancel.check()?;
                 Ok(self.goals.iter().map(|goal| goal.value(x)).collect::<Vec<_>>())

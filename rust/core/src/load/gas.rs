@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use super::kinematics::{AngleBlock, Columns, LoadSum, Quantities};
 use super::source::{
-    ExactFactor, Parts, Period, Point, Scale, Scaling, Source, Tail, TorqueAmplitudes, is_equal,
+    ExactFactor, Parts, Point, Repeats, Scale, Scaling, Source, Tail, TorqueAmplitudes, is_equal,
 };
 use crate::engine::layout::Strokes;
-use crate::gear::Mechanism;
-use crate::gear::harmonics::rod::TorqueHarmonics;
+use crate::mechanism::Mechanism;
+use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::limits;
@@ -30,11 +30,11 @@ pub(super) struct GasPressure {
 
 impl Source for GasPressure {
     fn parts(&self) -> Parts {
-        let period = match self.cycle.strokes() {
-            Strokes::Two => Period::Turn,
-            Strokes::Four => Period::TwoTurns,
+        let repeats = match self.cycle.strokes() {
+            Strokes::Two => Repeats::EveryTurn,
+            Strokes::Four => Repeats::EveryTwoTurns,
         };
-        Parts { force: None, roll: true, scaling: Scaling::Given, period }
+        Parts { force: None, roll: true, scaling: Scaling::Given, repeats }
     }
 
     fn equals(&self, other: &dyn Source) -> bool {

@@ -4,11 +4,11 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::source::{ForcePart, Period, Source};
+use super::source::{ForcePart, Repeats, Source};
 use super::{Loads, find_or_push};
 use crate::Complex64;
-use crate::gear::Mechanism;
-use crate::gear::slider_crank::CrankPosition;
+use crate::mechanism::Mechanism;
+use crate::mechanism::slider_crank::CrankPosition;
 use crate::numbers::angle::Angle;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::order::Order;
@@ -87,9 +87,9 @@ impl Kinematics {
                 force *= phase.cis(-i64::from(place.ratio));
                 phase = Angle::ZERO;
             }
-            let of_phase = match load.parts.period {
-                Period::Turn => 1,
-                Period::TwoTurns => 2,
+            let of_phase = match load.parts.repeats {
+                Repeats::EveryTurn => 1,
+                Repeats::EveryTwoTurns => 2,
             };
             let same = |sum: &LoadSum| (sum.index, sum.phase) == (load.source, phase);
             let sum = find_or_push(&mut sums, same, || LoadSum {

@@ -5,12 +5,12 @@ use std::sync::Arc;
 use super::gas::GasPressure;
 use super::piston::PistonInertia;
 use super::rod::RodInertia;
-use super::source::{ExactFactor, Period, Point, Scaling, Source};
+use super::source::{ExactFactor, Point, Repeats, Scaling, Source};
 use super::spectrum::GivenForce;
 use super::unbalance::TurningUnbalance;
 use super::{Load, PhasorSum, Phasors, Place, Term, Wanted, superpose};
 use crate::engine::{Crank, Engine, Origin, Unbalance};
-use crate::gear::Mechanism;
+use crate::mechanism::Mechanism;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 
@@ -71,7 +71,7 @@ impl Loads {
                 let mechanism = mechanism(i);
                 let gas = GasPressure { mechanism, cycle, crankcase, known: None };
                 let mut place = along_bore(i);
-                if gas.parts().period == Period::TwoTurns {
+                if gas.parts().repeats == Repeats::EveryTwoTurns {
                     place.phase = engine.firing_phase(i).half();
                 }
                 loads.push(place, gas, 0.0, roll);
@@ -86,7 +86,7 @@ impl Loads {
         loads
     }
 
-    fn push(&mut self, place: Place, source: impl Source, weight: f64, roll: f64) {
+    pub(super) fn push(&mut self, place: Place, source: impl Source, weight: f64, roll: f64) {
         let parts = source.parts();
         let index = self.sources.iter().position(|known| known.equals(&source));
         let index = index.unwrap_or_else(|| {

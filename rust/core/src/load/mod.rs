@@ -21,7 +21,7 @@
 //! | tolerances | a complex number | a complex number for each sample, whose weights and levers come from its draws |
 //! | proofs, closed forms | a root of unity, times symbols for angles that are no parts of a turn | a list of such roots with rational weights |
 //!
-//! When a bank turns by δ, whatever belongs to it is multiplied as [`Turn`] says.
+//! When a bank turns by δ, whatever belongs to it is multiplied as [`BankPhase`] says.
 
 mod gas;
 pub(crate) mod kinematics;
@@ -35,7 +35,7 @@ mod unbalance;
 
 pub(crate) use self::list::Loads;
 pub(crate) use self::place::Place;
-use self::source::{Column, ForcePart, Parts, Period, Scaling};
+use self::source::{Column, ForcePart, Parts, Repeats, Scaling};
 use crate::Complex64;
 use crate::engine::Hold;
 use crate::numbers::order::Order;
@@ -81,7 +81,7 @@ pub(crate) enum Weight {
 
 /// Factor of a load's part: `halves`/2 · i^`quarters`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Times {
+pub(crate) struct Factor {
     pub halves: i32,
     pub quarters: i32,
 }
@@ -106,7 +106,7 @@ pub(crate) trait Arithmetic {
         load: (usize, &Load),
         weight: Weight,
         unit: &Self::Unit,
-        times: Times,
+        times: Factor,
     );
 }
 
@@ -158,7 +158,7 @@ pub(crate) fn superpose<A: Arithmetic>(
                 }
                 let unit = arithmetic.toward(at, &phase, side == 1);
                 let add = |sum: &mut A::Sum, weight, quarters| {
-                    arithmetic.add(sum, at, weight, &unit, Times { halves, quarters });
+                    arithmetic.add(sum, at, weight, &unit, Factor { halves, quarters });
                 };
                 if wanted.planar {
                     add(&mut term.force[side], Weight::Force, 0);
@@ -172,7 +172,7 @@ pub(crate) fn superpose<A: Arithmetic>(
             }
         }
         if parts.roll && wanted.roll {
-            let times = Times { halves: 2 * square, quarters: 0 };
+            let times = Factor { halves: 2 * square, quarters: 0 };
             let term = term_of(&mut terms, harmonic(Column::Roll), parts.scaling, bank);
             arithmetic.add(&mut term.roll, at, Weight::Roll, &phase, times);
         }
@@ -239,7 +239,7 @@ impl Arithmetic for Phasors {
         (_, load): (usize, &Load),
         weight: Weight,
         unit: &Complex64,
-        times: Times,
+        times: Factor,
     ) {
         let weight_and_size = |weight: f64| (weight, weight.abs());
         let place = &load.place;
@@ -259,7 +259,7 @@ impl Arithmetic for Phasors {
     }
 }
 
-impl Times {
+impl Factor {
     /// A complex number times this factor.
     pub fn of(self, unit: Complex64) -> Complex64 {
         let half = 0.5 * f64::from(self.halves);
@@ -287,17 +287,17 @@ impl Load {
     /// Whether it has a part at this order.
     pub fn acts_at(&self, order: Order) -> bool {
         let own = 2 * self.place.ratio.unsigned_abs();
-        match (self.parts.force, self.parts.period) {
+        match (self.parts.force, self.parts.repeats) {
             (Some(ForcePart::Turning), _) => order.halves() == own,
-            (_, Period::Turn) => order.halves().is_multiple_of(own),
-            (_, Period::TwoTurns) => true,
+            (_, Repeats::EveryTurn) => order.halves().is_multiple_of(own),
+            (_, Repeats::EveryTwoTurns) => true,
         }
     }
 
     /// Multiple of its phase by which it lags at an order.
     fn phase_multiple(&self, order: Order) -> i64 {
         let halves = i64::from(order.halves());
-        if self.parts.period == Period::TwoTurns { halves } else { halves / 2 }
+        if self.parts.repeats == Repeats::EveryTwoTurns { halves } else { halves / 2 }
     }
 
     /// Whether its force has a forward part, or a backward part.
@@ -313,13 +313,13 @@ impl Load {
 
 /// Multiples of δ/2 in the phase by which the parts of a bank's loads change at one order as it turns by δ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Turn {
+pub(crate) struct BankPhase {
     pub forward: i64,
     pub backward_conj: i64,
     pub roll: i64,
 }
 
-impl Turn {
+impl BankPhase {
     /// With pins held, a bore takes its top dead centres along; with the firing held it does not.
     pub fn new(order: Order, hold: Hold) -> Self {
         let halves = i64::from(order.halves());

@@ -7,9 +7,9 @@ use super::source::{
     Column, ExactFactor, ForcePart, Parts, Point, Scale, Source, Tail, TorqueAmplitudes, is_equal,
 };
 use crate::Complex64;
-use crate::gear::harmonics::rod::TorqueHarmonics;
-use crate::gear::slider_crank::Proportions;
-use crate::gear::{Mechanism, at_own_orders, harmonics};
+use crate::mechanism::harmonics::rod::TorqueHarmonics;
+use crate::mechanism::slider_crank::Proportions;
+use crate::mechanism::{Mechanism, at_own_orders, harmonics};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::error::Result;

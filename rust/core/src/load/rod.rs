@@ -7,8 +7,8 @@ use super::piston::{multiples, torque_beyond, torque_by};
 use super::source::{
     Column, ExactFactor, Parts, Point, Scale, Source, Tail, TorqueAmplitudes, is_equal,
 };
-use crate::gear::rod::Swing;
-use crate::gear::{Mechanism, harmonics};
+use crate::mechanism::rod::Swing;
+use crate::mechanism::{Mechanism, harmonics};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::error::Result;

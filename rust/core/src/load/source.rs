@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use super::kinematics::{AngleBlock, Columns, LoadSum, Quantities};
 use crate::Complex64;
-use crate::gear::Mechanism;
-use crate::gear::harmonics::rod::TorqueHarmonics;
+use crate::mechanism::Mechanism;
+use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::error::Result;
@@ -21,7 +21,7 @@ pub(crate) struct Parts {
     /// Whether it makes a torque besides that of its force about another axis.
     pub roll: bool,
     pub scaling: Scaling,
-    pub period: Period,
+    pub repeats: Repeats,
 }
 
 /// How a force moves.
@@ -43,19 +43,19 @@ pub(crate) enum Scaling {
     Given,
 }
 
-/// After what a source repeats.
+/// After which turns a source repeats.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Period {
-    /// A turn of its crank.
-    Turn,
-    /// Two turns, a cycle of four strokes: it has half orders.
-    TwoTurns,
+pub(crate) enum Repeats {
+    /// Of its crank.
+    EveryTurn,
+    /// Those of a cycle of four strokes: it has half orders.
+    EveryTwoTurns,
 }
 
 impl Parts {
     /// Of inertia that repeats in a turn.
     pub const fn inertia(force: Option<ForcePart>, roll: bool) -> Self {
-        Self { force, roll, scaling: Scaling::SpeedSquared, period: Period::Turn }
+        Self { force, roll, scaling: Scaling::SpeedSquared, repeats: Repeats::EveryTurn }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::interpolant::{coefficient, points};
 use super::{Cycle, Given, MOST_POINTS, period_deg};
 use crate::engine::layout::Strokes;
-use crate::gear::slider_crank::{Cylinder, Proportions};
+use crate::mechanism::slider_crank::{Cylinder, Proportions};
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;

@@ -79,7 +79,8 @@ impl Amplitudes {
             cancel.check()?;
             let mut wrench = Wrench::default();
             // Odd orders above 1 of pistons without offset are exactly zero.
-            let planar = self.force.iter().any(|force| force.get(k).is_some_and(|&a| a != ZERO));
+            let planar =
+                self.force.iter().any(|force| force.get(k).is_some_and(|&a| a != Complex64::ZERO));
             let wanted = Wanted { planar, roll: torque, by_bank: false };
             for term in superpose(&Phasors { reference }, loads, order, wanted) {
                 let amplitude = self.of(term.harmonic, k);
@@ -126,16 +127,18 @@ impl Amplitudes {
             // A shaft that turns evenly takes no torque of the crank, nor does a force on an arm.
             Column::Force => {
                 let force = self.force[source].get(k).copied().unwrap_or_default();
-                Amplitude { force, roll: force, crank: ZERO }
+                Amplitude { force, roll: force, crank: Complex64::ZERO }
             }
             Column::Roll => {
                 self.torque[source].as_ref().map_or_else(Amplitude::default, |torque| {
                     let harmonics = &torque.harmonics;
-                    Amplitude { force: ZERO, roll: harmonics.roll[k], crank: harmonics.crank[k] }
+                    Amplitude {
+                        force: Complex64::ZERO,
+                        roll: harmonics.roll[k],
+                        crank: harmonics.crank[k],
+                    }
                 })
             }
         }
     }
 }
-
-const ZERO: Complex64 = Complex64::ZERO;

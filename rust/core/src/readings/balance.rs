@@ -8,7 +8,7 @@ use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::order::{self, Order};
 use crate::readings::amplitude::wrenches;
-use crate::readings::choice::{self, Chosen};
+use crate::readings::choice::{self, Chosen, OrderSums};
 use crate::readings::peaks::PeakFinder;
 use crate::wrench::{Planar, Torque, Wrench, rounding};
 
@@ -56,13 +56,31 @@ pub struct Balance {
     pub wrenches: Vec<Wrench>,
     /// Mean torques on the block and on the crank, of pressure alone.
     pub mean: [f64; 2],
-    /// Bounds of what the orders left out add to force, moment and either torque at any crank
-    /// angle; 0 for orders that were given.
-    pub error_bound: [f64; 3],
+    /// Bounds of what the orders left out add at any crank angle; 0 for orders that were given.
+    pub error_bound: Bounds,
     /// Whether torque is known: it was wanted, and the engine has no given spectrum of forces.
     pub has_torque: bool,
     /// Number of loads, on which rounding depends.
     loads: usize,
+}
+
+/// Bounds of what is left out.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Bounds {
+    /// To the shaking force, N.
+    pub force: f64,
+    /// To the rocking moment, N·m.
+    pub moment: f64,
+    /// To either torque, N·m.
+    pub torque: f64,
+}
+
+impl Bounds {
+    /// Of force, moment and torque side by side.
+    #[must_use]
+    pub fn values(self) -> [f64; 3] {
+        [self.force, self.moment, self.torque]
+    }
 }
 
 /// Part of a torque.
@@ -94,7 +112,7 @@ impl Balance {
         has_torque: bool,
         loads: usize,
     ) -> Self {
-        let (omitted, error_bound) = (Vec::new(), [0.0; 3]);
+        let (omitted, error_bound) = (Vec::new(), Bounds::default());
         Self { orders, omitted, wrenches, mean, error_bound, has_torque, loads }
     }
 
@@ -200,17 +218,16 @@ pub fn balance(
             order::check_list(orders)?;
             let (wrenches, mean) = wrenches(&loads, &loads.sources, torque, orders, cancel)?;
             let (orders, omitted) = (orders.clone(), Vec::new());
-            Chosen { orders, wrenches, mean, omitted, error_bound: [0.0; 4] }
+            Chosen { orders, wrenches, mean, omitted, left_out: OrderSums::default() }
         }
         Orders::Auto { rtol } => choice::within(*rtol, engine, &loads, torque, cancel)?,
     };
-    let [force, moment, inertia, gas] = chosen.error_bound;
     Ok(Balance {
         orders: chosen.orders,
         omitted: chosen.omitted,
         wrenches: chosen.wrenches.into_iter().map(|wrench| wrench.at_speed(square)).collect(),
         mean: chosen.mean,
-        error_bound: [force * square, moment * square, inertia * square + gas],
+        error_bound: chosen.left_out.bounds(square),
         has_torque: torque,
         loads: loads.list.len(),
     })

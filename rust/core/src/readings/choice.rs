@@ -9,17 +9,18 @@ use std::sync::Arc;
 
 use crate::engine::Engine;
 use crate::load::Loads;
-use crate::load::source::{Period, Scale, Scaling, Source, Tail};
+use crate::load::source::{Repeats, Scale, Scaling, Source, Tail};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::readings::amplitude::wrenches;
+use crate::readings::balance::Bounds;
 use crate::wrench::Wrench;
 
 /// Orders above the last one evaluated add less than this part of the tolerance.
-const NEGLIGIBLE: f64 = 0.01;
+const NEGLIGIBLE_REST: f64 = 0.01;
 
 /// Part of the largest torque of pressure on a cylinder that orders may leave out, at least: those of
 /// pressure decline slowly.
@@ -42,9 +43,54 @@ pub(crate) struct Chosen {
     pub mean: [f64; 2],
     /// Orders left out that are not zero.
     pub omitted: Vec<Order>,
-    /// Bounds of what all orders left out add: over ω² to force, moment and torque of inertia, and to
-    /// the torque of pressure.
-    pub error_bound: [f64; 4],
+    /// Bounds of what all orders left out add.
+    pub left_out: OrderSums,
+}
+
+/// What orders add, or may leave out: those of inertia over ω².
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct OrderSums {
+    pub force: f64,
+    pub moment: f64,
+    /// Torque of inertia, on the block or on the crank.
+    pub inertia: f64,
+    /// Torque of pressure.
+    pub gas: f64,
+}
+
+impl OrderSums {
+    fn of(wrench: &Wrench) -> Self {
+        let Wrench { force, moment, inertia, gas } = wrench;
+        Self {
+            force: force.peak(),
+            moment: moment.peak(),
+            inertia: inertia.peak(),
+            gas: gas.peak(),
+        }
+    }
+
+    /// Side by side.
+    pub fn values(self) -> [f64; 4] {
+        [self.force, self.moment, self.inertia, self.gas]
+    }
+
+    fn from_values([force, moment, inertia, gas]: [f64; 4]) -> Self {
+        Self { force, moment, inertia, gas }
+    }
+
+    /// All times a tolerance.
+    pub fn scaled(self, rtol: f64) -> Self {
+        Self::from_values(self.values().map(|value| rtol * value))
+    }
+
+    /// Bounds at a square of speed.
+    pub fn bounds(self, square: f64) -> Bounds {
+        Bounds {
+            force: self.force * square,
+            moment: self.moment * square,
+            torque: self.inertia * square + self.gas,
+        }
+    }
 }
 
 /// The orders of an engine that leave out at most `rtol`.
@@ -58,7 +104,7 @@ pub(crate) fn within(
     let rtol = limits::tolerance(rtol)?;
     let scales = scales(engine, loads);
     let mut orders = candidates(rtol, &scales, loads, &loads.sources, torque)?;
-    let [force, moment, inertia] = tail(loads, orders.last(), torque, &loads.sources);
+    let tail = tail(loads, orders.last(), torque, &loads.sources);
     let mut gas = GasOrders { sources: loads.sources.clone(), ..GasOrders::default() };
     if torque {
         // As far as the others at once, which have a part of gas too.
@@ -70,12 +116,12 @@ pub(crate) fn within(
         orders.dedup();
     }
     let (all, mean) = wrenches(loads, &gas.sources, torque, &orders, cancel)?;
-    let sizes: Vec<[f64; 4]> = all.iter().map(sizes).collect();
-    let mut error_bound = [force, moment, inertia, gas.tail];
-    let [force, moment, torque] = scales.map(|scale| rtol * scale);
-    let kept = few(&sizes, &[force, moment, torque, gas.allowed], &mut error_bound);
-    let mut chosen =
-        Chosen { orders: vec![], wrenches: vec![], mean, omitted: vec![], error_bound };
+    let sizes: Vec<[f64; 4]> = all.iter().map(|wrench| OrderSums::of(wrench).values()).collect();
+    let mut lost = OrderSums { gas: gas.tail, ..tail }.values();
+    let allowed = OrderSums { gas: gas.allowed, ..scales.scaled(rtol) }.values();
+    let kept = few(&sizes, &allowed, &mut lost);
+    let left_out = OrderSums::from_values(lost);
+    let mut chosen = Chosen { orders: vec![], wrenches: vec![], mean, omitted: vec![], left_out };
     for (((order, wrench), size), kept) in orders.into_iter().zip(all).zip(sizes).zip(kept) {
         if kept {
             chosen.orders.push(order);
@@ -112,18 +158,18 @@ pub(crate) fn few<S: AsRef<[f64]>>(sizes: &[S], allowed: &[f64], lost: &mut [f64
 
 /// Orders to evaluate, ascending.
 ///
-/// What higher orders add is at most [`NEGLIGIBLE`] times the tolerance, or, if no order achieves
+/// What higher orders add is at most [`NEGLIGIBLE_REST`] times the tolerance, or, if no order achieves
 /// that, at most a quarter of it. `sources` are those of the loads, at the point of a sweep where their
 /// harmonics decrease most slowly.
 pub(crate) fn candidates(
     rtol: f64,
-    scales: &[f64; 3],
+    scales: &OrderSums,
     loads: &Loads,
     sources: &[Arc<dyn Source>],
     torque: bool,
 ) -> Result<Vec<Order>> {
     let count = loads.list.len() as f64;
-    let (needed, enough) = (0.25 * rtol / count, NEGLIGIBLE * rtol / count);
+    let (needed, enough) = (0.25 * rtol / count, NEGLIGIBLE_REST * rtol / count);
     let mut orders = Vec::new();
     for (k, source) in sources.iter().enumerate() {
         if source.parts().scaling == Scaling::Given {
@@ -131,7 +177,7 @@ pub(crate) fn candidates(
         }
         // What a weight is over that which the tolerance is relative to.
         let weights = loads.largest_weights(k);
-        let shares = [(weights[0], scales[0]), (weights[1], scales[2])];
+        let shares = [(weights[0], scales.force), (weights[1], scales.inertia)];
         let shares = shares.map(|(weight, scale)| if weight == 0.0 { 0.0 } else { weight / scale });
         let within = |highest: u32, tolerance: f64| {
             let beyond = source.beyond(highest, torque && shares[1] > 0.0);
@@ -184,22 +230,22 @@ pub(crate) fn tail(
     last: Option<&Order>,
     torque: bool,
     sources: &[Arc<dyn Source>],
-) -> [f64; 3] {
+) -> OrderSums {
     let last = last.map_or(0, |order| order.halves() / 2);
     let inertia = |source: &Arc<dyn Source>| match source.parts().scaling {
         Scaling::SpeedSquared => source.beyond(last, torque),
         Scaling::Given => Tail::default(),
     };
     let beyond: Vec<Tail> = sources.iter().map(inertia).collect();
-    let mut sum = [0.0; 3];
+    let mut sum = OrderSums::default();
     for load in &loads.list {
         let (place, beyond) = (&load.place, beyond[load.source]);
         let square = f64::from(place.speed_squared());
         let force = times(load.weight.abs(), beyond.force) * square;
-        sum[0] += force;
-        sum[1] += times(place.lever(loads.reference).abs(), force);
+        sum.force += force;
+        sum.moment += times(place.lever(loads.reference).abs(), force);
         if torque {
-            sum[2] +=
+            sum.inertia +=
                 times(load.roll.abs(), beyond.torque) * square + times(place.axis.norm(), force);
         }
     }
@@ -215,7 +261,7 @@ pub(crate) fn times(weight: f64, bound: f64) -> f64 {
 /// its spectrum or unbalance; for moment that times the longest lever of a load that has weight; for
 /// torque the largest m·r² or unbalance times crank radius or its shaft's distance from the crank.
 /// Where rod inertia makes more of order 1, what it makes: about J·r/l.
-pub(crate) fn scales(engine: &Engine, loads: &Loads) -> [f64; 3] {
+pub(crate) fn scales(engine: &Engine, loads: &Loads) -> OrderSums {
     let [mut force, mut lever, mut torque] = [0.0_f64; 3];
     for load in &loads.list {
         let place = &load.place;
@@ -230,13 +276,7 @@ pub(crate) fn scales(engine: &Engine, loads: &Loads) -> [f64; 3] {
             lever = lever.max(place.lever(loads.reference).abs());
         }
     }
-    [force, force * lever, torque]
-}
-
-/// Sizes of force, moment and the larger torques of inertia and of pressure.
-fn sizes(wrench: &Wrench) -> [f64; 4] {
-    let Wrench { force, moment, inertia, gas } = wrench;
-    [force.peak(), moment.peak(), inertia.peak(), gas.peak()]
+    OrderSums { force, moment: force * lever, inertia: torque, gas: 0.0 }
 }
 
 /// Orders of the torque of pressure to evaluate.
@@ -268,7 +308,7 @@ impl GasOrders {
         let largest_of: Vec<f64> = sources.iter().map(|source| source.largest_torque()).collect();
         for load in loads.list.iter().filter(|load| load.parts.scaling == Scaling::Given) {
             largest = largest.max(load.roll.abs() * largest_of[load.source]);
-            if load.parts.period == Period::TwoTurns {
+            if load.parts.repeats == Repeats::EveryTwoTurns {
                 step = 1;
             }
         }
@@ -310,7 +350,7 @@ mod tests {
 
     use super::*;
     use crate::engine::Station;
-    use crate::gear::slider_crank::Cylinder;
+    use crate::mechanism::slider_crank::Cylinder;
     use crate::numbers::angle::Angle;
 
     #[test]
@@ -335,13 +375,13 @@ mod tests {
             let engine = Engine::new("", "", vec![place]).unwrap();
             let loads = Loads::new(&engine, 0.0);
             // Against a scale of its own a heavier rod takes more orders.
-            let scales = [1e9, 1e9, 4.0];
+            let scales = OrderSums { force: 1e9, moment: 1e9, inertia: 4.0, gas: 0.0 };
             let orders = candidates(1e-6, &scales, &loads, &loads.sources, true).unwrap();
             let highest = *orders.last().unwrap();
             for (order, enough) in [(highest.halves() / 2, true), (highest.halves() / 2 - 1, false)]
             {
                 let beyond = loads.sources[1].beyond(order, true).torque * inertia.abs() / 4.0;
-                assert_eq!(beyond <= NEGLIGIBLE * 1e-6 / 2.0, enough, "{inertia} {order}");
+                assert_eq!(beyond <= NEGLIGIBLE_REST * 1e-6 / 2.0, enough, "{inertia} {order}");
             }
             highest
         };
@@ -366,7 +406,11 @@ mod tests {
         };
         let found = bounds(&opposite);
         assert_eq!(bounds(&ahead), found);
-        assert!(found.0.iter().all(|&bound| bound > 0.0) && found.2 > 0.0 && found.3 > 0.0);
+        assert!(
+            [found.0.force, found.0.moment, found.0.inertia].iter().all(|&bound| bound > 0.0)
+                && found.2 > 0.0
+                && found.3 > 0.0
+        );
     }
 
     #[test]

@@ -428,7 +428,7 @@ mod tests {
 
     use super::*;
     use crate::engine::Station;
-    use crate::gear::slider_crank::Cylinder;
+    use crate::mechanism::slider_crank::Cylinder;
     use crate::numbers::angle::Angle;
 
     fn grid(knots: &[f64]) -> CycleGrid {

@@ -265,7 +265,7 @@ fn phasor(sum: &RootSum, cancel: &Cancel) -> Result<Phasor> {
 mod tests {
     use super::*;
     use crate::engine::{Shaft, Station, Unbalance};
-    use crate::gear::slider_crank::Cylinder;
+    use crate::mechanism::slider_crank::Cylinder;
     use crate::readings::balance::{Request, Vector, balance};
 
     /// Of a whole order.
@@ -353,7 +353,7 @@ mod tests {
                     let planar = found.planar(vector, 0);
                     let [x, y] = found.xy(vector, 0);
                     let cylinder = engine.stations()[form.unit].cylinder;
-                    let harmonic = crate::gear::harmonics::coefficients(
+                    let harmonic = crate::mechanism::harmonics::coefficients(
                         &cylinder.proportions(),
                         &[order],
                         &Cancel::new(),

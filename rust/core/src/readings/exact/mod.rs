@@ -11,9 +11,9 @@ pub mod vanishing;
 use num_traits::{CheckedAdd, CheckedDiv, CheckedMul, Signed};
 
 use crate::engine::{Engine, first_equal};
-use crate::gear::Mechanism;
-use crate::gear::slider_crank::Cylinder;
 use crate::load::Loads;
+use crate::mechanism::Mechanism;
+use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::rational::{Multiples, Ratio, common_measure, decimal};

@@ -29,7 +29,7 @@
 //!   and −½, both negative;
 //! - others where their value is beyond any error of its evaluation: 10⁻⁹ of the harmonics of masses
 //!   and rod that it is the sum of, and 10⁻¹² of n² p₂^{n−2}, which bounds the terms that these are
-//!   made of (p₂ as in [`crate::gear::harmonics`]).
+//!   made of (p₂ as in [`crate::mechanism::harmonics`]).
 
 mod terms;
 
@@ -42,11 +42,11 @@ use super::whole;
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::firing::Firing;
-use crate::gear::Mechanism;
-use crate::gear::harmonics;
-use crate::gear::slider_crank::Cylinder;
 use crate::layout::Strokes;
 use crate::load::{Load, Loads};
+use crate::mechanism::Mechanism;
+use crate::mechanism::harmonics;
+use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -55,7 +55,7 @@ use crate::numbers::ring::RootSum;
 use crate::readings::balance::{self, Orders, Request, Vector};
 
 /// Sums of weights in doubles of angles within this part of Σ|weights| may be of one exact angle.
-const ROUNDED: f64 = 16.0 * f64::EPSILON;
+const ROUNDED_ANGLES: f64 = 16.0 * f64::EPSILON;
 
 /// Part of the largest torque of gas beyond which that of an order is no error: it is evaluated to 1e-13.
 const EVALUATED: f64 = 1e-9;
@@ -204,7 +204,7 @@ impl Proof {
         let [Some(x), Some(y)] = values else { return Ok(false) };
         // Doubles of a few units in the last place of a turn, and the sums of as many terms.
         let size: f64 = all.iter().map(|&(_, _, weight)| weight.abs() as f64).sum();
-        if (x + y).norm() > ROUNDED * size {
+        if (x + y).norm() > ROUNDED_ANGLES * size {
             return Ok(false);
         }
         let period = RootSum::new(&all, 1)?.period();

@@ -15,10 +15,10 @@ use std::sync::Arc;
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::gear::rod::Swing;
-use crate::gear::slider_crank::{CrankPosition, Proportions};
 use crate::load::Load;
 use crate::load::kinematics::{AngleColumn, BLOCK, Units};
+use crate::mechanism::rod::Swing;
+use crate::mechanism::slider_crank::{CrankPosition, Proportions};
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::error::Result;
 use crate::pressure::Cycle;

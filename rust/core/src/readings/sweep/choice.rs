@@ -29,15 +29,17 @@ use super::layout::{Layout, LayoutSum, Swung};
 use super::{Axes, Quantity, Sweep};
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::gear::harmonics::rod::TorqueHarmonics;
 use crate::load::source::{Column, Point, Scaling, Source};
 use crate::load::{Harmonic, Loads};
+use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::limits;
 use crate::numbers::order::Order;
 use crate::readings::balance::TorquePart;
-use crate::readings::choice::{FIRST_OF_GAS, GasOrders, candidates, few, scales, tail, times};
+use crate::readings::choice::{
+    FIRST_OF_GAS, GasOrders, OrderSums, candidates, few, scales, tail, times,
+};
 
 impl Sweep {
     /// With few orders that leave out at most `rtol` at any point, as [`crate::Orders::Auto`] does
@@ -87,37 +89,36 @@ impl Sweep {
             }
             slowest.push(sources);
             gas_tails.push(sweep.gas_tail(loads, &gas, cancel)?);
-            let [force, moment, torque] = scales.map(|scale| rtol * scale);
-            let of_engine = [force, moment, torque, gas.allowed];
-            allowed.extend(quantities_of(k).iter().map(|quantity| of_engine[quantity.bound()]));
+            let mut of_engine = OrderSums { gas: gas.allowed, ..scales.scaled(rtol) };
+            allowed.extend(quantities_of(k).iter().map(|quantity| *quantity.of(&mut of_engine)));
         }
         sweep.orders.sort_unstable();
         sweep.orders.dedup();
         // A sum for each engine and quantity, in the order of the engines.
         let mut sizes = vec![Vec::new(); sweep.orders.len()];
-        let (mut lost, mut bounds) = (Vec::new(), Vec::new());
+        let (mut lost, mut sums) = (Vec::new(), Vec::new());
         let mut known = Known::new();
         for (index, (loads, sources)) in loads.iter().zip(&slowest).enumerate() {
             cancel.check()?;
-            let [force, moment, inertia] = tail(loads, sweep.orders.last(), torque, sources);
-            let rest = [force, moment, inertia, gas_tails[index]];
+            let rest = tail(loads, sweep.orders.last(), torque, sources);
+            let mut rest = OrderSums { gas: gas_tails[index], ..rest };
             let quantities = quantities_of(index);
             let layouts = sweep.layouts(&sweep.engines[index], loads, quantities)?;
             for (&quantity, layout) in quantities.iter().zip(&layouts) {
                 let largest = sweep.largest(layout, sources, quantity, &mut known, cancel)?;
                 sizes.iter_mut().zip(largest).for_each(|(sizes, size)| sizes.push(size));
-                lost.push(rest[quantity.bound()]);
-                bounds.push(quantity.bound());
+                lost.push(*quantity.of(&mut rest));
+                sums.push(quantity);
             }
         }
         let kept = few(&sizes, &allowed, &mut lost);
         let fastest = sweep.squares.iter().copied().fold(0.0, f64::max);
-        let mut worst = [0.0_f64; 4];
-        for (lost, bound) in lost.into_iter().zip(bounds) {
-            worst[bound] = worst[bound].max(lost);
+        let mut worst = OrderSums::default();
+        for (lost, quantity) in lost.into_iter().zip(sums) {
+            let worst = quantity.of(&mut worst);
+            *worst = worst.max(lost);
         }
-        let [force, moment, inertia, gas] = worst;
-        sweep.error_bound = [force * fastest, moment * fastest, inertia * fastest + gas];
+        sweep.error_bound = worst.bounds(fastest);
         for ((order, kept), sizes) in
             std::mem::take(&mut sweep.orders).into_iter().zip(kept).zip(sizes)
         {
@@ -169,13 +170,13 @@ impl Sweep {
         let factor = |harmonic: Harmonic, order: usize| {
             let found = factors.iter().find(|(known, _)| *known == harmonic);
             let on_crank = usize::from(matches!(quantity, CrankTorque(_)));
-            found.map_or(Factor::AtMost(0.0), |&(_, place)| known[place].2[on_crank][order])
+            found.map_or(SizeFactor::AtMost(0.0), |&(_, place)| known[place].2[on_crank][order])
         };
         let size = |(k, sums): (usize, &Vec<LayoutSum>)| {
             let (mut size, mut fixed, mut rounding) = (0.0, [Swung::default(); 2], 0.0);
             for sum in sums {
                 match factor(sum.harmonic, k) {
-                    Factor::Fixed(amplitude) => {
+                    SizeFactor::Fixed(amplitude) => {
                         rounding += sum.bound * amplitude.norm();
                         for (total, part) in fixed.iter_mut().zip(&sum.parts) {
                             total.cos += part.cos * amplitude;
@@ -183,7 +184,7 @@ impl Sweep {
                             total.rest += part.rest * amplitude;
                         }
                     }
-                    Factor::AtMost(largest) => {
+                    SizeFactor::AtMost(largest) => {
                         size += times(span(&sum.parts, sum.bound), largest);
                     }
                 }
@@ -217,14 +218,14 @@ impl Sweep {
         source: &dyn Source,
         column: Column,
         cancel: &Cancel,
-    ) -> Result<[Vec<Factor>; 2]> {
+    ) -> Result<[Vec<SizeFactor>; 2]> {
         let orders = &self.orders;
-        let values = |factor: fn(Complex64) -> Factor| {
+        let values = |factor: fn(Complex64) -> SizeFactor| {
             let TorqueHarmonics { roll, crank } = of(source, column, orders, cancel)?;
             Ok([roll, crank].map(|values| values.into_iter().map(factor).collect()))
         };
         let Some(mechanism) = source.mechanism().filter(|_| self.points() > 1) else {
-            return values(Factor::Fixed);
+            return values(SizeFactor::Fixed);
         };
         if source.parts().scaling == Scaling::Given {
             let mut sizes = [vec![0.0_f64; orders.len()], vec![0.0; orders.len()]];
@@ -235,33 +236,33 @@ impl Sweep {
                     sizes.iter_mut().zip(values).for_each(|(s, v)| *s = s.max(v.norm()));
                 }
             }
-            return Ok(sizes.map(|sizes| sizes.into_iter().map(Factor::AtMost).collect()));
+            return Ok(sizes.map(|sizes| sizes.into_iter().map(SizeFactor::AtMost).collect()));
         }
         let rod_ratio = 1.0 / mechanism.proportions.rod;
         if mechanism.is_centred() && rod_ratio <= source.grows_up_to(column) {
-            return values(|value| Factor::AtMost(value.norm()));
+            return values(|value| SizeFactor::AtMost(value.norm()));
         }
         let bound = |&order: &Order| {
-            let Some(whole) = order.as_whole() else { return Factor::AtMost(0.0) };
+            let Some(whole) = order.as_whole() else { return SizeFactor::AtMost(0.0) };
             let own = mechanism.own_highest(whole);
             let beyond = source.beyond(whole - 1, true);
-            Factor::AtMost(match column {
+            SizeFactor::AtMost(match column {
                 Column::Force => beyond.force + f64::from(u8::from(own == 1)),
                 Column::Roll if own < 3 => f64::INFINITY,
                 Column::Roll => beyond.torque,
             })
         };
-        let bounds: Vec<Factor> = orders.iter().map(bound).collect();
+        let bounds: Vec<SizeFactor> = orders.iter().map(bound).collect();
         Ok([bounds.clone(), bounds])
     }
 }
 
 /// Factors by order, for the torque on the block and on the crank, of a source's amplitudes.
-type Known = Vec<(Arc<dyn Source>, Column, [Vec<Factor>; 2])>;
+type Known = Vec<(Arc<dyn Source>, Column, [Vec<SizeFactor>; 2])>;
 
 /// Harmonic of an order.
 #[derive(Debug, Clone, Copy)]
-enum Factor {
+enum SizeFactor {
     /// The same at every point.
     Fixed(Complex64),
     /// Of at most this size at any point.
@@ -279,13 +280,13 @@ fn span(parts: &[Swung; 2], rounding: f64) -> f64 {
 }
 
 impl Quantity {
-    /// Which of the bounds of force, moment and torque of inertia and of pressure it counts for.
-    fn bound(self) -> usize {
+    /// The sum that it counts for.
+    fn of(self, sums: &mut OrderSums) -> &mut f64 {
         match self {
-            Self::Force => 0,
-            Self::Moment => 1,
-            Torque(TorquePart::Gas) | CrankTorque(TorquePart::Gas) => 3,
-            Torque(_) | CrankTorque(_) => 2,
+            Self::Force => &mut sums.force,
+            Self::Moment => &mut sums.moment,
+            Torque(TorquePart::Gas) | CrankTorque(TorquePart::Gas) => &mut sums.gas,
+            Torque(_) | CrankTorque(_) => &mut sums.inertia,
         }
     }
 }
@@ -320,8 +321,8 @@ mod tests {
         let bounds = sweep.evaluated(&*slowest, column, &cancel).unwrap();
         let mut found = bounds.map(|bounds| {
             let bound = |factor| match factor {
-                Factor::AtMost(bound) => [bound, 0.0],
-                Factor::Fixed(_) => unreachable!("there are many points"),
+                SizeFactor::AtMost(bound) => [bound, 0.0],
+                SizeFactor::Fixed(_) => unreachable!("there are many points"),
             };
             bounds.into_iter().map(bound).collect::<Vec<_>>()
         });

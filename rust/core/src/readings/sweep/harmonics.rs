@@ -6,20 +6,20 @@ use std::sync::Arc;
 use super::layout::Layout;
 use super::{Quantity, Sweep};
 use crate::Complex64;
-use crate::gear::harmonics::rod::TorqueHarmonics;
-use crate::gear::harmonics::table;
 use crate::load::Harmonic;
 use crate::load::source::{Column, Point, Source};
+use crate::mechanism::harmonics::rod::TorqueHarmonics;
+use crate::mechanism::harmonics::table;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 
 /// Real and imaginary parts at some points, order by order.
-type Columns = Vec<[Vec<f64>; 2]>;
+type PointColumns = Vec<[Vec<f64>; 2]>;
 
 /// Harmonics at some points of rod ratio and pin offset.
-pub(super) struct PointHarmonics(Vec<(Harmonic, Columns)>);
+pub(super) struct PointHarmonics(Vec<(Harmonic, PointColumns)>);
 
 impl PointHarmonics {
     /// Those of a layout.
@@ -30,7 +30,7 @@ impl PointHarmonics {
         points: &Range<usize>,
         cancel: &Cancel,
     ) -> Result<Self> {
-        let mut found: Vec<(Harmonic, Columns)> = Vec::new();
+        let mut found: Vec<(Harmonic, PointColumns)> = Vec::new();
         for harmonic in layout.iter().flatten().map(|sum| sum.harmonic) {
             if found.iter().all(|(known, _)| *known != harmonic) {
                 let columns = sweep.columns(sources, harmonic, quantity, points.clone(), cancel)?;
@@ -65,7 +65,7 @@ impl Sweep {
         quantity: Quantity,
         points: Range<usize>,
         cancel: &Cancel,
-    ) -> Result<Columns> {
+    ) -> Result<PointColumns> {
         let mut columns = memory::room(self.orders.len())?;
         for _ in &self.orders {
             columns.push([memory::zeros(points.len())?, memory::zeros(points.len())?]);

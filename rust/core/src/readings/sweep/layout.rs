@@ -4,7 +4,7 @@ use super::{Quantity, Sweep};
 use crate::Complex64;
 use crate::engine::{Engine, Hold};
 use crate::load::source::{Column, Scaling};
-use crate::load::{Harmonic, Loads, PhasorSum, Term, Turn, Wanted, find_or_push};
+use crate::load::{BankPhase, Harmonic, Loads, PhasorSum, Term, Wanted, find_or_push};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
@@ -131,7 +131,7 @@ impl Quantity {
     /// Multiples of a quarter of the bank angle for the forward part (or torque) and for the conjugate of
     /// the backward part.
     pub(super) fn turn(self, order: Order, hold: Hold) -> [i64; 2] {
-        let turn = Turn::new(order, hold);
+        let turn = BankPhase::new(order, hold);
         if self.is_planar() { [turn.forward, turn.backward_conj] } else { [turn.roll, 0] }
     }
 }

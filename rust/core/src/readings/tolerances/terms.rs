@@ -8,23 +8,23 @@
 use std::ops::Range;
 use std::rc::Rc;
 
-use super::amplitudes::{Amplitudes, amplitudes};
-use super::{CHUNK, Deviations, Parameter, pins};
+use super::amplitudes::{SampleAmplitudes, amplitudes};
+use super::{Deviations, Parameter, SAMPLES_AT_ONCE, pins};
 use crate::Complex64;
 use crate::engine::{Engine, Origin, Station};
-use crate::gear::slider_crank::Cylinder;
-use crate::load::{Arithmetic, Load, Loads, Phasors, Times, Wanted, Weight, superpose};
+use crate::load::{Arithmetic, Factor, Load, Loads, Phasors, Wanted, Weight, superpose};
+use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::order::Order;
 use crate::numbers::simd::{sin_cos_degrees, vectorised};
 
 /// A number of each sample.
-type Reals = [f64; CHUNK];
+type Reals = [f64; SAMPLES_AT_ONCE];
 /// A complex number of each sample: real and imaginary parts.
 pub(super) type Complexes = [Reals; 2];
 
-const ZEROS: Complexes = [[0.0; CHUNK]; 2];
+const ZEROS: Complexes = [[0.0; SAMPLES_AT_ONCE]; 2];
 
 /// Sums of one order over ω².
 pub(super) struct SampleSums {
@@ -151,8 +151,9 @@ impl Terms {
             let lengths = (&[cylinder.crank_radius()][..], &[cylinder.rod_length()][..]);
             amplitudes(cylinder, self.torque, lengths, numbers, cancel)
         };
-        let nominal: Vec<Amplitudes> = self.cylinders.iter().map(nominal).collect::<Result<_>>()?;
-        let mut one = Amplitudes::default();
+        let nominal: Vec<SampleAmplitudes> =
+            self.cylinders.iter().map(nominal).collect::<Result<_>>()?;
+        let mut one = SampleAmplitudes::default();
         one[0] = vec![[vec![1.0], vec![0.0]]; orders.len()];
         let deviates = |figure: Parameter| !deviations[figure as usize].is_empty();
         let harmonics = |(i, Station { cylinder, .. }): (usize, &Station)| {
@@ -161,7 +162,7 @@ impl Terms {
             let rod = around(cylinder.rod_length(), &rods[i]);
             amplitudes(cylinder, self.torque, (&radius, &rod), numbers, cancel)
         };
-        let changed: Vec<Amplitudes> =
+        let changed: Vec<SampleAmplitudes> =
             if deviates(Parameter::CrankRadius) || deviates(Parameter::RodLength) {
                 self.places.iter().enumerate().map(harmonics).collect::<Result<_>>()?
             } else {
@@ -171,7 +172,7 @@ impl Terms {
         let reference = self.loads.reference;
         let drawn = |(&Deviating { pin, kind }, load): (&Deviating, &Load)| {
             let turns = turns.get(pin).map(|turns| &turns[..]);
-            let fixed = |value: f64| ([value; CHUNK], value);
+            let fixed = |value: f64| ([value; SAMPLES_AT_ONCE], value);
             let one = [&one; 2];
             let i = match kind {
                 DeviatingKind::Piston(i)
@@ -239,7 +240,7 @@ fn turns(angles: &[Reals], numbers: &[u32]) -> Vec<Vec<Complexes>> {
             #[inline(always)]
             || {
                 let [mut cos, mut sin] = ZEROS;
-                let degrees = product([f64::from(n); CHUNK], angles);
+                let degrees = product([f64::from(n); SAMPLES_AT_ONCE], angles);
                 sin_cos_degrees(&degrees, &mut sin, &mut cos);
                 [cos, sin]
             },
@@ -253,7 +254,7 @@ struct Drawn<'a> {
     /// Lists of amplitudes, and weights: of the force, or of the torques on the block and on the crank.
     parts: Vec<(usize, (Reals, f64))>,
     lever: (Reals, f64),
-    amplitudes: [&'a Amplitudes; 2],
+    amplitudes: [&'a SampleAmplitudes; 2],
     /// Turn of its pin, by order.
     turns: Option<&'a [Complexes]>,
 }
@@ -273,13 +274,13 @@ impl Drawn<'_> {
                 || {
                     for (change, values) in change.iter_mut().zip(drawn) {
                         match values[..] {
-                            [value] => multiply(change, &[value; CHUNK]),
+                            [value] => multiply(change, &[value; SAMPLES_AT_ONCE]),
                             _ => multiply(change, values),
                         }
                     }
                     if let Some(turns) = self.turns {
                         let ([re, im], [cos, sin]) = (&mut change, &turns[k]);
-                        for i in 0..CHUNK {
+                        for i in 0..SAMPLES_AT_ONCE {
                             let (x, y) = (re[i], im[i]);
                             re[i] = x * cos[i] - y * sin[i];
                             im[i] = x * sin[i] + y * cos[i];
@@ -288,7 +289,7 @@ impl Drawn<'_> {
                     for part in 0..2 {
                         let base = before * nominal[part][0];
                         let (lever, at_rest) = &self.lever;
-                        for i in 0..CHUNK {
+                        for i in 0..SAMPLES_AT_ONCE {
                             levered[part][i] = change[part][i] * lever[i] - base * at_rest;
                             change[part][i] -= base;
                         }
@@ -331,7 +332,7 @@ impl Arithmetic for Samples<'_> {
         _: (usize, &Load),
         weight: Weight,
         (unit, changes): &Self::Unit,
-        times: Times,
+        times: Factor,
     ) {
         let values = match weight {
             Weight::Force => &changes[..1],
@@ -348,9 +349,9 @@ impl Arithmetic for Samples<'_> {
 
 /// Columns of the samples from `first` on, of rows of `width` values; zero where nothing deviates.
 fn columns(values: &[f64], width: usize, first: usize) -> Vec<Reals> {
-    let mut columns = vec![[0.0; CHUNK]; width];
+    let mut columns = vec![[0.0; SAMPLES_AT_ONCE]; width];
     let rows = values.get(first * width..).unwrap_or_default();
-    for (sample, row) in rows.chunks_exact(width).take(CHUNK).enumerate() {
+    for (sample, row) in rows.chunks_exact(width).take(SAMPLES_AT_ONCE).enumerate() {
         for (column, &value) in columns.iter_mut().zip(row) {
             column[sample] = value;
         }
@@ -360,7 +361,7 @@ fn columns(values: &[f64], width: usize, first: usize) -> Vec<Reals> {
 
 /// A nominal value and its deviations.
 fn around(value: f64, deviations: &Reals) -> Reals {
-    let mut values = [value; CHUNK];
+    let mut values = [value; SAMPLES_AT_ONCE];
     values.iter_mut().zip(deviations).for_each(|(value, deviation)| *value += deviation);
     values
 }
@@ -381,7 +382,7 @@ fn add(sum: &mut Complexes, unit: Complex64, values: &Complexes) {
         #[inline(always)]
         || {
             let ([sum_re, sum_im], [re, im]) = (sum, values);
-            for i in 0..CHUNK {
+            for i in 0..SAMPLES_AT_ONCE {
                 sum_re[i] += unit.re * re[i] - unit.im * im[i];
                 sum_im[i] += unit.re * im[i] + unit.im * re[i];
             }

@@ -7,10 +7,10 @@ use super::super::roots::{FormalSum, PartOfTurn, Share, SymbolEntry, parts_of_tu
 use super::super::{ExactLoads, Levers, TypedProportions, too_long};
 use super::ProofQuantity;
 use crate::engine::{Engine, distinct, first_equal};
-use crate::gear::Mechanism;
-use crate::gear::slider_crank::Cylinder;
 use crate::load::source::{Column, ExactFactor};
 use crate::load::{self, Harmonic, Load, Loads, Wanted, superpose};
+use crate::mechanism::Mechanism;
+use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
