@@ -2,9 +2,9 @@
 //!
 //! The tables are those of `tests/rederivation/harmonics_mp.py`, which integrates the motion itself.
 
+use crankpin_core::Cancel;
 use crankpin_core::harmonics::{self, coefficients, rod, table, torque};
 use crankpin_core::slider_crank::{Cylinder, Proportions};
-use crankpin_core::Cancel;
 
 const USUAL: &str = include_str!("../../../tests/data/harmonics_50_digits.csv");
 const HARD: &str = include_str!("../../../tests/data/harmonics_where_methods_fail.csv");

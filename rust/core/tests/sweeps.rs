@@ -751,11 +751,12 @@ impl Worst {
 }
 
 /// Number of loads: pistons, rotating masses and unbalances.
-fn loads(engine: &Engine) -> usize {
+fn loads(engine: &Engine, torque: bool) -> usize {
     let rotating = engine.stations().iter().filter(|p| p.rotating_mass > 0.0).count();
     let on_shafts: usize = engine.shafts().iter().map(|shaft| shaft.unbalances.len()).sum();
     let rods = engine.stations().iter().filter(|p| p.cylinder.has_rod_inertia()).count();
-    engine.stations().len() + rotating + engine.counterweights().len() + on_shafts + rods
+    let of_torque = if torque { rods } else { 0 };
+    engine.stations().len() + rotating + engine.counterweights().len() + on_shafts + of_torque
 }
 
 /// The last order evaluated: orders above it add a hundredth of the tolerance at most, even if every
@@ -772,7 +773,7 @@ fn last(engines: &[Arc<Engine>], axes: &Axes, rtol: f64, torque: bool) -> u32 {
             let force = c.first_order() / of_force;
             let [masses, rod] =
                 [c.second_moment(), c.rod_inertia_excess().abs()].map(|weight| weight / of_torque);
-            let part = 0.01 * rtol / loads(engine) as f64;
+            let part = 0.01 * rtol / loads(engine, torque) as f64;
             let proportions = c.proportions();
             let enough = |n: &u32| {
                 let within = |bound: Option<f64>, share: f64| bound.unwrap() * share <= part;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::source::{ForcePart, Repeats, Source};
-use super::{Loads, find_or_push};
+use super::{Loads, count, find_or_push};
 use crate::Complex64;
 use crate::mechanism::Mechanism;
 use crate::mechanism::slider_crank::CrankPosition;
@@ -73,12 +73,13 @@ pub(crate) struct Kinematics {
 impl Kinematics {
     pub fn new(loads: &Loads) -> Self {
         let (mut sums, mut zero_bounds) = (Vec::<LoadSum>::new(), [0.0; 2]);
+        let count = count(&loads.list, false);
         for load in &loads.list {
             let place = &load.place;
             let square = f64::from(place.speed_squared());
             let mut force = place.unit * (load.weight * square);
             // At a top dead centre a piston exerts its mass·radius and more.
-            let size = rounding(loads.list.len(), f64::from(place.ratio.abs())) * force.norm();
+            let size = rounding(count, f64::from(place.ratio.abs())) * force.norm();
             zero_bounds[0] += size;
             zero_bounds[1] += size * place.lever_size(loads.reference);
             let mut phase = place.phase;

@@ -194,6 +194,12 @@ fn term_of<S: Default>(
     })
 }
 
+/// Number of loads that have a part in forces and moments, or of all, which have one in torques: on it the
+/// rounding of their sums depends.
+pub(crate) fn count(loads: &[Load], torque: bool) -> usize {
+    loads.iter().filter(|load| torque || load.parts.force.is_some()).count()
+}
+
 /// The first of a list that is such, or a new one at its end.
 pub(crate) fn find_or_push<T>(
     list: &mut Vec<T>,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::Complex64;
 use crate::load::source::{Column, Scaling, Source, TorqueAmplitudes};
-use crate::load::{Harmonic, Load, Loads, Phasors, Wanted, superpose};
+use crate::load::{Harmonic, Load, Loads, Phasors, Wanted, count, superpose};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
@@ -75,6 +75,7 @@ impl Amplitudes {
         orders: &[Order],
         cancel: &Cancel,
     ) -> Result<Vec<Wrench>> {
+        let counts = [false, true].map(|torque| count(loads, torque));
         let wrench = |(k, &order): (usize, &Order)| {
             cancel.check()?;
             let mut wrench = Wrench::default();
@@ -95,11 +96,11 @@ impl Amplitudes {
                 torque.crank += term.roll.value * amplitude.crank;
                 torque.size += term.roll.size * amplitude.roll.norm().max(amplitude.crank.norm());
             }
-            let factor = rounding(loads.len(), order.number());
-            let snap = |vector: &Planar| vector.snapped(vector.size * factor);
+            let [of_force, of_torque] = counts.map(|count| rounding(count, order.number()));
+            let snap = |vector: &Planar| vector.snapped(vector.size * of_force);
             (wrench.force, wrench.moment) = (snap(&wrench.force), snap(&wrench.moment));
             for torque in [&mut wrench.inertia, &mut wrench.gas] {
-                let bound = torque.size * factor;
+                let bound = torque.size * of_torque;
                 for phasor in [&mut torque.roll, &mut torque.crank] {
                     *phasor = snapped(*phasor, bound);
                 }

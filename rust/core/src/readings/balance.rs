@@ -2,7 +2,7 @@
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::Loads;
+use crate::load::{Load, Loads, count};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -60,8 +60,8 @@ pub struct Balance {
     pub error_bound: Bounds,
     /// Whether torque is known: it was wanted, and the engine has no given spectrum of forces.
     pub has_torque: bool,
-    /// Number of loads, on which rounding depends.
-    loads: usize,
+    /// Numbers of loads that have a force, and of all, on which rounding depends.
+    counts: [usize; 2],
 }
 
 /// Bounds of what is left out.
@@ -104,16 +104,17 @@ pub enum Vector {
 }
 
 impl Balance {
-    /// Of wrenches of orders that were given, and mean torques; of this many loads.
+    /// Of wrenches of orders that were given, and mean torques; of these loads.
     pub(super) fn of_orders(
         orders: Vec<Order>,
         wrenches: Vec<Wrench>,
         mean: [f64; 2],
         has_torque: bool,
-        loads: usize,
+        loads: &[Load],
     ) -> Self {
         let (omitted, error_bound) = (Vec::new(), Bounds::default());
-        Self { orders, omitted, wrenches, mean, error_bound, has_torque, loads }
+        let counts = [false, true].map(|torque| count(loads, torque));
+        Self { orders, omitted, wrenches, mean, error_bound, has_torque, counts }
     }
 
     /// Force or moment of the k-th order.
@@ -128,7 +129,7 @@ impl Balance {
     /// Bound of the rounding error of the k-th order of force or moment.
     #[must_use]
     pub fn zero_bound(&self, vector: Vector, k: usize) -> f64 {
-        self.planar(vector, k).size * rounding(self.loads, self.orders[k].number())
+        self.planar(vector, k).size * rounding(self.counts[0], self.orders[k].number())
     }
 
     /// A part of the torques of the k-th order.
@@ -151,7 +152,7 @@ impl Balance {
     /// Bound of the rounding error of the k-th order of a part of the torques.
     #[must_use]
     pub fn torque_zero_bound(&self, part: TorquePart, k: usize) -> f64 {
-        self.torque(part, k).size * rounding(self.loads, self.orders[k].number())
+        self.torque(part, k).size * rounding(self.counts[1], self.orders[k].number())
     }
 
     /// Peak phasors along (about) x and y of the k-th order.
@@ -229,6 +230,6 @@ pub fn balance(
         mean: chosen.mean,
         error_bound: chosen.left_out.bounds(square),
         has_torque: torque,
-        loads: loads.list.len(),
+        counts: [false, true].map(|torque| count(&loads.list, torque)),
     })
 }

@@ -8,8 +8,8 @@
 use std::sync::Arc;
 
 use crate::engine::Engine;
-use crate::load::Loads;
 use crate::load::source::{Repeats, Scale, Scaling, Source, Tail};
+use crate::load::{Loads, count};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -168,7 +168,7 @@ pub(crate) fn candidates(
     sources: &[Arc<dyn Source>],
     torque: bool,
 ) -> Result<Vec<Order>> {
-    let count = loads.list.len() as f64;
+    let count = count(&loads.list, torque) as f64;
     let (needed, enough) = (0.25 * rtol / count, NEGLIGIBLE_REST * rtol / count);
     let mut orders = Vec::new();
     for (k, source) in sources.iter().enumerate() {

@@ -45,7 +45,7 @@ pub fn terms(
         let there = |wrench: &Wrench| wrench.at_speed(omega * omega).moved([x, y, 0.0]);
         let wrenches = wrenches.iter().map(there).collect();
         let mean = amplitudes.mean(&own);
-        Ok((origin, Balance::of_orders(orders.to_vec(), wrenches, mean, torque, own.len())))
+        Ok((origin, Balance::of_orders(orders.to_vec(), wrenches, mean, torque, &own)))
     };
     parts.map(of_part).collect()
 }

@@ -4,7 +4,7 @@ use super::{Quantity, Sweep};
 use crate::Complex64;
 use crate::engine::{Engine, Hold};
 use crate::load::source::{Column, Scaling};
-use crate::load::{BankPhase, Harmonic, Loads, PhasorSum, Term, Wanted, find_or_push};
+use crate::load::{BankPhase, Harmonic, Loads, PhasorSum, Term, Wanted, count, find_or_push};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
@@ -62,9 +62,10 @@ impl Sweep {
         };
         let mut layouts = vec![Layout::new(); quantities.len()];
         for &order in &self.orders {
-            let rounding = rounding(loads.list.len(), order.number());
             let terms = loads.sums(order, wanted);
             for (quantity, layout) in quantities.iter().zip(&mut layouts) {
+                let count = count(&loads.list, !quantity.is_planar());
+                let rounding = rounding(count, order.number());
                 let mut sums = Vec::new();
                 for (term, parts) in terms.iter().filter_map(|t| Some((t, quantity.parts(t)?))) {
                     let harmonic = term.harmonic;
