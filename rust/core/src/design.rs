@@ -9,21 +9,22 @@ mod goal;
 
 use self::goal::{Goal, Rotor, TurningPhasor, dot};
 use crate::Complex64;
-use crate::engine::Engine;
-use crate::load::{Arithmetic, Load, Loads, PhasorSum, Phasors, Times, Wanted, Weight};
+use crate::engine::{Engine, Origin};
+use crate::load::source::Repeats;
+use crate::load::{Arithmetic, Factor, Load, Loads, PhasorSum, Phasors, Wanted, Weight};
 use crate::load::{Term, superpose};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::limits;
 use crate::numbers::order::{self, Order};
 use crate::numbers::pool;
-use crate::readings::amplitude::GearHarmonics;
+use crate::readings::amplitude::{Amplitude, Amplitudes};
 
 /// Weight of each objective relative to the one before it. A length that can vanish stays at zero under
 /// weights this small: its slope there is 1.
 const LATER: f64 = 1e-3;
 /// Points evaluated in one task.
-const CHUNK: usize = 16;
+const POINTS_PER_TASK: usize = 16;
 
 /// Quantity of an objective.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,7 +89,8 @@ impl Arithmetic for Rotors<'_> {
     fn phase(&self, load @ (k, _): (usize, &Load), times: i64) -> Rotor {
         // At top dead centre the crankpin points along the bore.
         let [bores, pins] = &self.turns[k];
-        let rates = bores.iter().zip(pins).map(|(bore, pin)| times as f64 * (bore - pin));
+        let share = if load.1.parts.repeats == Repeats::EveryTwoTurns { 0.5 } else { 1.0 };
+        let rates = bores.iter().zip(pins).map(|(bore, pin)| share * times as f64 * (bore - pin));
         Rotor { phasor: self.phasors.phase(load, times), rates: rates.collect() }
     }
 
@@ -107,7 +109,7 @@ impl Arithmetic for Rotors<'_> {
         load: (usize, &Load),
         weight: Weight,
         unit: &Rotor,
-        times: Times,
+        times: Factor,
     ) {
         let mut one = PhasorSum::default();
         self.phasors.add(&mut one, load, weight, &unit.phasor, times);
@@ -142,11 +144,14 @@ impl Merit {
         let turns = |of: &dyn Fn(&Variable) -> f64| variables.iter().map(of).collect::<Vec<f64>>();
         let of_cylinder = |i: usize| [turns(&|each| each.bores[i]), turns(&|each| each.pins[i])];
         let fixed = || [vec![0.0; variables.len()], vec![0.0; variables.len()]];
-        let pistons = (0..engine.stations().len()).map(of_cylinder);
-        let weights =
-            engine.crank_unbalances().map(|(_, each)| each.pin.map_or_else(fixed, of_cylinder));
-        let mut all_turns: Vec<_> = pistons.chain(weights).collect();
-        all_turns.resize_with(loads.list.len(), fixed);
+        let of_load = |load: &Load| match load.place.origin {
+            Origin::Cylinder(i) => of_cylinder(i),
+            Origin::Counterweight(k) => {
+                engine.counterweights()[k].pin.map_or_else(fixed, of_cylinder)
+            }
+            Origin::Shaft(_) => fixed(),
+        };
+        let all_turns: Vec<_> = loads.list.iter().map(of_load).collect();
         let arithmetic =
             Rotors { phasors: Phasors { reference: loads.reference }, turns: &all_turns };
 
@@ -157,7 +162,7 @@ impl Merit {
         if !all.is_empty() {
             order::check_list(&all)?;
         }
-        let gears = GearHarmonics::new(&loads, true, &all, &[], cancel)?;
+        let amplitudes = Amplitudes::new(&loads.sources, true, &all, cancel)?;
         let wanted = Wanted { planar: true, roll: true, by_bank: false };
         let by_order: Vec<[Vec<TurningPhasor>; 4]> = all
             .iter()
@@ -165,7 +170,7 @@ impl Merit {
             .map(|(k, &order)| {
                 let terms = superpose(&arithmetic, &loads.list, order, wanted);
                 quantities(&terms, i64::from(order.as_whole().unwrap_or(0)), removed, |term| {
-                    gears.of(term.harmonic, k)
+                    amplitudes.of(term.harmonic, k)
                 })
             })
             .collect();
@@ -210,7 +215,7 @@ impl Merit {
     /// The objectives at points (points, variables) in radians, and their derivatives: (points,
     /// objectives) and (points, objectives, variables).
     pub fn evaluated(&self, points: &[Vec<f64>], cancel: &Cancel) -> Result<Vec<Vec<Derived>>> {
-        let chunks = pool::map(cancel, points.chunks(CHUNK).collect(), |chunk| {
+        let chunks = pool::map(cancel, points.chunks(POINTS_PER_TASK).collect(), |chunk| {
             let of_point = |x: &Vec<f64>| {
                 cancel.check()?;
                 Ok(self.goals.iter().map(|goal| goal.value(x)).collect::<Vec<_>>())
@@ -240,25 +245,30 @@ fn quantities(
     terms: &[Term<Vec<Rotor>>],
     order: i64,
     removed: &[i32],
-    factors: impl Fn(&Term<Vec<Rotor>>) -> [Complex64; 3],
+    amplitudes: impl Fn(&Term<Vec<Rotor>>) -> Amplitude,
 ) -> [Vec<TurningPhasor>; 4] {
     let kept = |speed: i64| !removed.iter().any(|&ratio| i64::from(ratio) == speed);
     let planar = |of: fn(&Term<Vec<Rotor>>) -> &[Vec<Rotor>; 2]| {
         let part = |side: usize, speed: i64| {
             let mut part = TurningPhasor::new(speed);
             for term in terms.iter().filter(|_| kept(speed)) {
-                part.extend(&of(term)[side], factors(term)[0]);
+                part.extend(&of(term)[side], amplitudes(term).force);
             }
             part
         };
         vec![part(0, order), part(1, -order).conjugate()]
     };
-    let torque = |which: usize| {
+    let torque = |of: fn(&Amplitude) -> Complex64| {
         let mut part = TurningPhasor::new(order);
         for term in terms {
-            part.extend(&term.roll, factors(term)[which]);
+            part.extend(&term.roll, of(&amplitudes(term)));
         }
         vec![part]
     };
-    [planar(|term| &term.force), planar(|term| &term.moment), torque(1), torque(2)]
+    [
+        planar(|term| &term.force),
+        planar(|term| &term.moment),
+        torque(|of| of.roll),
+        torque(|of| of.crank),
+    ]
 }

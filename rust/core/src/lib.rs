@@ -3,7 +3,7 @@
 //! A file is one idea, and imports run one way:
 //! - [`numbers`]: errors, limits, cancellation, threads, memory; angles, orders, fractions, sums of
 //!   roots of unity;
-//! - [`gear`]: one cylinder's running gear and its harmonics;
+//! - [`mechanism`]: one cylinder's running gear and its harmonics;
 //! - [`pressure`]: cylinder pressure over a cycle, and the torque of it;
 //! - [`engine`]: running gears, banks and shafts in their places, layouts, files;
 //! - [`wrench`] and `load`: every load of an engine in one list, superposed order by order;
@@ -23,9 +23,9 @@ pub mod balancing;
 pub mod design;
 pub mod engine;
 pub mod firing;
-pub mod gear;
 mod load;
 pub mod matching;
+pub mod mechanism;
 pub mod numbers;
 pub mod pressure;
 pub mod readings;
@@ -34,9 +34,9 @@ pub mod wrench;
 
 pub use engine::{Crank, Engine, Hold, Shaft, Station, Unbalance, layout};
 pub use firing::Firing;
-pub use gear::slider_crank::Cylinder;
-pub use gear::spectrum::Spectrum;
-pub use gear::{harmonics, rod, slider_crank, spectrum};
+pub use mechanism::slider_crank::Cylinder;
+pub use mechanism::spectrum::Spectrum;
+pub use mechanism::{harmonics, rod, slider_crank, spectrum};
 pub use numbers::angle::Angle;
 pub use numbers::cancel::Cancel;
 pub use numbers::crank_angles::CrankAngles;

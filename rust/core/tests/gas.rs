@@ -108,7 +108,7 @@ fn contra_rotating_cranks_drive_together_and_leave_the_block_no_mean() {
                 sums[1] += (gas.crank * at(*order)).re;
             }
             // Roundings of sums of some 100 N·m.
-            let within = balance.error_bound[2] + 1e-11;
+            let within = balance.error_bound.torque + 1e-11;
             assert!((sums[0] - block[k]).abs() < within, "{ratios:?} {θ}");
             assert!((sums[1] - crank[k]).abs() < within, "{ratios:?} {θ}");
         }
@@ -367,11 +367,11 @@ fn few_orders_of_fired_sweeps_leave_out_no_more_than_their_bound() {
     // A point that is there twice loses as much as alone.
     let [alone, both] = [&one, &twice].map(|axes| chosen(fired_vee(VEE), axes, true));
     assert_eq!(alone.orders(), both.orders());
-    let [alone, both] = [alone, both].map(|sweep| sweep.error_bound()[2]);
+    let [alone, both] = [alone, both].map(|sweep| sweep.error_bound().torque);
     assert!((alone - both).abs() < 1e-3 * alone, "{alone} {both}");
     for axes in [&one, &twice, &ratios] {
         let sweep = chosen(fired_vee(VEE), axes, true);
-        let bound = sweep.error_bound()[2];
+        let bound = sweep.error_bound().torque;
         assert!(bound > 0.0 && bound < 1.05 * most, "{bound} of {most}");
         let left_out: Vec<Order> =
             halves(1..384).into_iter().filter(|order| !sweep.orders().contains(order)).collect();

@@ -2,9 +2,9 @@
 //!
 //! The tables are those of `tests/rederivation/harmonics_mp.py`, which integrates the motion itself.
 
-use crankpin_core::harmonics::{self, coefficients, highest_order, rod, table, torque};
+use crankpin_core::Cancel;
+use crankpin_core::harmonics::{self, coefficients, rod, table, torque};
 use crankpin_core::slider_crank::{Cylinder, Proportions};
-use crankpin_core::{Cancel, limits};
 
 const USUAL: &str = include_str!("../../../tests/data/harmonics_50_digits.csv");
 const HARD: &str = include_str!("../../../tests/data/harmonics_where_methods_fail.csv");
@@ -118,41 +118,6 @@ fn bounds_of_tails_are_their_sums() {
                 );
             }
         }
-    }
-}
-
-#[test]
-fn the_highest_order_is_the_lowest_that_keeps_the_tolerance() {
-    for (ratio, offset) in SHAPES {
-        let proportions = Proportions::new(ratio, offset).unwrap();
-        let force = |n: u32| harmonics::tail_bound(&proportions, n).unwrap();
-        let of_torque = |n: u32, inertia: f64| {
-            let of_masses = torque::tail_bound(&proportions, n).unwrap();
-            if inertia == 0.0 {
-                return of_masses;
-            }
-            of_masses + inertia * rod::tail_bound(&proportions, n).unwrap()
-        };
-        for tolerance in [10.0, 0.1, 1e-3, 1e-9] {
-            for inertia in [None, Some(0.0), Some(0.3), Some(30.0)] {
-                let enough = |n: &u32| {
-                    force(*n) <= tolerance && inertia.is_none_or(|j| of_torque(*n, j) <= tolerance)
-                };
-                let first = (1..=limits::HIGHEST_ORDER).find(enough);
-                assert_eq!(highest_order(&proportions, tolerance, inertia), first);
-            }
-        }
-        // A bound that is met exactly is kept.
-        let highest = 7;
-        assert_eq!(highest_order(&proportions, force(highest), None), Some(highest));
-        let met = of_torque(highest, 0.3).max(force(highest));
-        assert_eq!(highest_order(&proportions, met, Some(0.3)), Some(highest));
-    }
-    // Out of reach, or so near the crank that cannot turn that the bound is no number.
-    for gap in [1e-8, 1e-15] {
-        let proportions = Proportions::new(1.0 - gap, 0.0).unwrap();
-        assert_eq!(highest_order(&proportions, 1e-6, None), None);
-        assert_eq!(highest_order(&proportions, 1e-6, Some(0.3)), None);
     }
 }
 

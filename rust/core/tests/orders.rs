@@ -167,20 +167,3 @@ fn tails_are_the_sums_they_say_and_bound_what_is_above() {
         }
     }
 }
-
-#[test]
-fn the_highest_order_is_the_lowest_that_is_enough() {
-    for (ratio, offset) in [(0.1, 0.0), (0.3, 0.4), (0.9, -0.05), (0.999, 0.0)] {
-        let proportions = Proportions::new(ratio, offset).unwrap();
-        for tolerance in [1e-2, 1e-9, 1e-17] {
-            let force = |n| harmonics::tail_bound(&proportions, n).unwrap() <= tolerance;
-            let both = |n| force(n) && torque::tail_bound(&proportions, n).unwrap() <= tolerance;
-            let highest = harmonics::highest_order(&proportions, tolerance, None).unwrap();
-            assert!(force(highest) && (highest == 1 || !force(highest - 1)));
-            let highest = harmonics::highest_order(&proportions, tolerance, Some(0.0)).unwrap();
-            assert!(both(highest) && (highest == 1 || !both(highest - 1)));
-        }
-    }
-    let stiff = Proportions::new(1.0 - 1e-13, 0.0).unwrap();
-    assert_eq!(harmonics::highest_order(&stiff, 1e-9, None), None);
-}

@@ -612,7 +612,7 @@ fn a_sweep_tells_what_it_is() {
     let all = new(&axes, &[4, 2, 1], None).unwrap();
     assert_eq!(all.shape(), [2, 3, 2, 5, 4, 1]);
     assert_eq!((all.orders(), all.omitted()), (&whole(&[4, 2, 1])[..], &[][..]));
-    assert_eq!(all.error_bound(), [0.0; 3]);
+    assert_eq!(all.error_bound().values(), [0.0; 3]);
     // Twice the stroke of the longest, 0.1 m, a turn; 100 turns a second.
     assert!((all.mean_piston_speed() - 20.0).abs() < 1e-14);
     let tails: [(Quantity, Figure, &[usize]); 11] = [
@@ -751,10 +751,12 @@ impl Worst {
 }
 
 /// Number of loads: pistons, rotating masses and unbalances.
-fn loads(engine: &Engine) -> usize {
+fn loads(engine: &Engine, torque: bool) -> usize {
     let rotating = engine.stations().iter().filter(|p| p.rotating_mass > 0.0).count();
     let on_shafts: usize = engine.shafts().iter().map(|shaft| shaft.unbalances.len()).sum();
-    engine.stations().len() + rotating + engine.counterweights().len() + on_shafts
+    let rods = engine.stations().iter().filter(|p| p.cylinder.has_rod_inertia()).count();
+    let of_torque = if torque { rods } else { 0 };
+    engine.stations().len() + rotating + engine.counterweights().len() + on_shafts + of_torque
 }
 
 /// The last order evaluated: orders above it add a hundredth of the tolerance at most, even if every
@@ -765,11 +767,21 @@ fn last(engines: &[Arc<Engine>], axes: &Axes, rtol: f64, torque: bool) -> u32 {
     for place in places(sweep(engines, axes, &[1], None).shape()) {
         let engine = &engines[place[0]];
         for p in there(engine, &alone(axes, place)).stations() {
-            let share = p.cylinder.rod_inertia_excess().abs() / scales(engine, REFERENCE)[2];
-            let part = 0.01 * rtol / loads(engine) as f64;
-            let proportions = p.cylinder.proportions();
-            let here = harmonics::highest_order(&proportions, part, torque.then_some(share));
-            last = last.max(here.unwrap());
+            let c = &p.cylinder;
+            // Parts of what the tolerance is relative to.
+            let [of_force, _, of_torque] = scales(engine, REFERENCE);
+            let force = c.first_order() / of_force;
+            let [masses, rod] =
+                [c.second_moment(), c.rod_inertia_excess().abs()].map(|weight| weight / of_torque);
+            let part = 0.01 * rtol / loads(engine, torque) as f64;
+            let proportions = c.proportions();
+            let enough = |n: &u32| {
+                let within = |bound: Option<f64>, share: f64| bound.unwrap() * share <= part;
+                within(harmonics::tail_bound(&proportions, *n), force)
+                    && (!torque || within(harmonics::torque::tail_bound(&proportions, *n), masses))
+                    && (!torque || within(harmonics::rod::tail_bound(&proportions, *n), rod))
+            };
+            last = last.max((1..=crankpin_core::limits::HIGHEST_ORDER).find(enough).unwrap());
         }
     }
     last
@@ -793,7 +805,7 @@ fn few_orders_are_chosen(engines: &[Arc<Engine>], axes: &Axes, rtol: f64, torque
     let fastest = square(axes.rpm.iter().copied().fold(0.0, f64::max));
     let allowed = engines.iter().map(|engine| scales(engine, REFERENCE).map(|scale| rtol * scale));
     let allowed = allowed.reduce(|a, b| [0, 1, 2].map(|k| f64::max(a[k], b[k]))).unwrap();
-    for (sum, bound) in chosen.error_bound().into_iter().enumerate() {
+    for (sum, bound) in chosen.error_bound().values().into_iter().enumerate() {
         assert!(bound <= allowed[sum] * fastest * (1.0 + 1e-14), "{sum}: {bound}");
     }
     let left_out: Vec<u32> =
@@ -805,7 +817,7 @@ fn few_orders_are_chosen(engines: &[Arc<Engine>], axes: &Axes, rtol: f64, torque
         {
             let lengths = OfBalance::new(&balance, quantity).lengths;
             let lost = lengths.iter().sum::<f64>() / square(3000.0) * fastest;
-            let bound = chosen.error_bound()[which.min(2)];
+            let bound = chosen.error_bound().values()[which.min(2)];
             // Roundings of sums of ten loads in twenty orders.
             assert!(lost <= bound * (1.0 + 1e-12), "{quantity:?} {place:?}: {lost} > {bound}");
         }
@@ -858,7 +870,7 @@ fn fewest_orders_are_chosen(engines: &[Arc<Engine>], axes: &Axes, rtol: f64, tor
         let these = these.filter(|&sum| sum < sums);
         let expected = these.flat_map(|sum| all.iter().map(move |worst| (worst, sum))).map(of_sum);
         let expected = expected.fold(0.0, f64::max);
-        let found = chosen.error_bound()[bound];
+        let found = chosen.error_bound().values()[bound];
         // Tails amplify what λ and e/r are rounded by, up to the order-th power.
         assert!((found - expected).abs() <= 1e-11 * expected, "{bound}: {found} {expected}");
     }
@@ -1013,7 +1025,7 @@ fn sweeps_with_no_order_needed_are_zero_everywhere() {
     assert!(boxer.omitted().is_empty());
     let twin = chosen(&[(0.0, 90.0), (180.0, 90.0)], 0.9);
     assert_eq!(twin.omitted()[..2], whole(&[2, 4]));
-    assert!(twin.error_bound()[0] > 0.6 * 0.025 * square(3000.0));
+    assert!(twin.error_bound().force > 0.6 * 0.025 * square(3000.0));
     for sweep in [boxer, twin] {
         assert!(sweep.orders().is_empty());
         for quantity in [Quantity::Force, Quantity::Moment] {
@@ -1053,7 +1065,7 @@ fn a_sweep_of_rod_ratios_leaves_out_what_the_largest_does() {
     let (many, one) = (chosen(&[0.2, 0.25, 0.3]), chosen(&[0.3]));
     assert_eq!((many.orders(), many.omitted()), (one.orders(), one.omitted()));
     // Each order of a centred piston is largest there: the same sums.
-    for (many, one) in many.error_bound().into_iter().zip(one.error_bound()) {
+    for (many, one) in many.error_bound().values().into_iter().zip(one.error_bound().values()) {
         assert!((many - one).abs() <= 1e-14 * one, "{many} {one}");
     }
 }
@@ -1093,8 +1105,8 @@ fn few_orders_of_a_spectrum_are_chosen() {
     assert_eq!((one.orders(), one.omitted()), (&whole(&[1, 6])[..], &whole(&[3, 4])[..]));
     // Nothing is above it.
     let bound = 3e-5 * square(3000.0);
-    assert!((one.error_bound()[0] - bound).abs() <= 1e-14 * bound);
-    assert_eq!(one.error_bound()[1..], [0.0, 0.0]);
+    assert!((one.error_bound().force - bound).abs() <= 1e-14 * bound);
+    assert_eq!(one.error_bound().values()[1..], [0.0, 0.0]);
     // What turns has orders of its own.
     let only = Spectrum::new([(4, Complex64::i())]).unwrap();
     let orders = |engine: &Arc<Engine>| chosen(engine, 1e-3, &only).unwrap().orders().to_vec();

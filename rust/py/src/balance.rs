@@ -120,7 +120,7 @@ impl Balance {
     /// Of force, moment and torque.
     #[getter]
     fn error_bound(&self) -> [f64; 3] {
-        self.0.error_bound
+        self.0.error_bound.values()
     }
 
     /// As those of a sweep: along (about) x and y or, of force and moment, forward and backward parts.

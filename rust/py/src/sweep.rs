@@ -156,7 +156,7 @@ impl Sweep {
     /// Of force, moment and torque.
     #[getter]
     fn error_bound(&self) -> [f64; 3] {
-        self.sweep.error_bound()
+        self.sweep.error_bound().values()
     }
 
     #[getter]

@@ -250,7 +250,7 @@ fn size(engine: &Engine) -> f64 {
 mod tests {
     use super::*;
     use crate::engine::Station;
-    use crate::gear::slider_crank::Cylinder;
+    use crate::mechanism::slider_crank::Cylinder;
 
     fn single() -> Engine {
         let cylinder = Cylinder::new(0.04, 0.14, 0.5, 0.0).unwrap();

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::layout::Strokes;
 use super::{Crank, Details, Engine, Gas, Shaft, Station, Unbalance};
-use crate::gear::slider_crank::Cylinder;
+use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result, shorten};
 use crate::pressure::{ATMOSPHERE, Cycle};
@@ -37,7 +37,7 @@ struct EngineFile {
     /// Running gear of every station that has none of its own.
     #[serde(default, skip_serializing_if = "is_default")]
     cylinder: Option<PartsEntry>,
-    placements: Vec<Place>,
+    placements: Vec<StationEntry>,
     /// On the crankshaft, besides the rotating masses.
     #[serde(default, skip_serializing_if = "is_default")]
     counterweights: Vec<WeightEntry>,
@@ -105,7 +105,7 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Place {
+struct StationEntry {
     tdc_deg: Degrees,
     bank_deg: Degrees,
     z: f64,
@@ -262,7 +262,7 @@ impl EngineFile {
         let numbered = (&guessed.bank_of, guessed.right) != (&engine.bank_of, engine.right);
         let number =
             |bank: usize| engine.right.map_or(bank, |right| usize::from(bank != right)) + 1;
-        let place = |(i, p): (usize, &Station)| Place {
+        let place = |(i, p): (usize, &Station)| StationEntry {
             tdc_deg: Degrees::of(p.tdc),
             bank_deg: Degrees::of(p.bank),
             z: p.z,
@@ -312,7 +312,7 @@ impl EngineFile {
                 (None, None) => Ok(None),
             };
         }
-        let cycle = |(i, place): (usize, &Place)| {
+        let cycle = |(i, place): (usize, &StationEntry)| {
             let hint = "give the number of a cycle, from 1";
             let index = place.cycle.map(|number| number.checked_sub(1).ok_or(number)).transpose();
             index.map_err(|number| Error::value(format!("placements[{i}].cycle"), number, hint))

@@ -47,6 +47,13 @@ impl Engine {
         self.gas.as_ref().is_none_or(|gas| gas.cycle_of[cylinder].is_some())
     }
 
+    /// Cycle of a cylinder and absolute pressure in the crankcase, Pa, where pressure counts.
+    #[must_use]
+    pub fn pressure_of(&self, cylinder: usize) -> Option<(Arc<Cycle>, f64)> {
+        let gas = self.gas.as_ref()?;
+        Some((Arc::clone(&gas.cycles[gas.cycle_of[cylinder]?]), gas.crankcase))
+    }
+
     /// Crank angle at which a cylinder is at its firing top dead centre, within a cycle.
     #[must_use]
     pub fn firing_phase(&self, cylinder: usize) -> Angle {

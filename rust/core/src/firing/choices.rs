@@ -233,7 +233,7 @@ mod tests {
             let later = way.later();
             assert!(!later[0]);
             assert_eq!(&Firing::with_later(&engine, Strokes::Four, &later).unwrap(), way);
-            // Times after the first firing, and the angles 40° on.
+            // Factor after the first firing, and the angles 40° on.
             let after = |i: usize| {
                 let top: f64 = (tdcs[i] - tdcs[0] + 360.0) % 360.0;
                 top + if later[i] { 360.0 } else { 0.0 }

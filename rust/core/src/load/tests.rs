@@ -1,14 +1,32 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use super::gas::GasPressure;
+use super::kinematics::{AngleBlock, Columns, Kinematics, Quantities};
 use super::*;
 use crate::Spectrum;
 use crate::engine::{Details, Engine, Gas, Shaft, Station, Unbalance};
-use crate::gear::slider_crank::Cylinder;
-use crate::gear::{Gear, GearKind};
+use crate::mechanism::slider_crank::Cylinder;
+use crate::numbers::angle::Angle;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::crank_angles::CrankAngles;
 use crate::pressure::{Cycle, Given};
+use crate::readings::amplitude::wrenches;
+use crate::wrench::Wrench;
 
 const REFERENCE: f64 = 0.03;
+
+/// Sources of unbalances of the engine below, at 1, −1 and 2 times its speed, and of its rods.
+const ONE: [usize; 3] = [2, 3, 4];
+const RODS: [usize; 2] = [5, 6];
+
+fn force(source: usize) -> Harmonic {
+    Harmonic { source, column: Column::Force }
+}
+
+fn roll(source: usize) -> Harmonic {
+    Harmonic { source, column: Column::Roll }
+}
 
 fn angle(degrees: f64) -> Angle {
     Angle::from_degrees(degrees).unwrap()
@@ -76,8 +94,11 @@ fn close(found: Complex64, expected: Complex64) {
 #[test]
 fn loads_are_pistons_then_crank_unbalances_then_shafts() {
     let loads = loads(&engine());
-    let list: Vec<_> =
-        loads.list.iter().map(|l| (l.weight, l.direction.degrees(), l.z, l.bank)).collect();
+    let list: Vec<_> = loads
+        .list
+        .iter()
+        .map(|l| (l.weight, l.place.direction.degrees(), l.place.z, l.place.bank))
+        .collect();
     assert_eq!(
         list,
         [
@@ -91,20 +112,32 @@ fn loads_are_pistons_then_crank_unbalances_then_shafts() {
             (0.02, 300.0, 0.15, Some(1)),
             (0.004, 30.0, 0.3, None),
             (0.003, 77.0, 0.1, None),
+            // Rods, which make a torque alone.
+            (0.0, 60.0, 0.0, Some(0)),
+            (0.0, 130.0, 0.1, Some(1)),
+            (0.0, 60.0, 0.2, Some(0)),
         ]
     );
-    assert_eq!(loads.unbalance_orders(), [whole(1), whole(2)]);
-    assert_eq!(loads.largest_rod_inertia(0), 1e-4);
+    let rolls: Vec<f64> = loads.list.iter().map(|load| load.roll).collect();
+    let second = |mass: f64, radius: f64| mass * radius * radius;
+    assert_eq!(rolls[..3], [second(0.5, 0.05), second(0.75, 0.04), second(0.5, 0.05)]);
+    assert_eq!(rolls[3..], [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1e-4, -1e-4, -1e-4]);
+    assert_eq!(loads.largest_weights(RODS[0]), [0.0, 1e-4]);
+    assert_eq!(loads.largest_weights(ONE[2]), [4.0 * 0.003, 0.0]);
     let plain = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
     let station = Station { cylinder: plain, ..engine().stations()[0] };
     let plain = self::loads(&Engine::new("", "", vec![station]).unwrap());
-    assert_eq!(plain.largest_rod_inertia(0), 0.0);
+    // Without rod inertia there is no load of it.
+    assert_eq!(plain.list.len(), 2);
 }
+
+/// Sources of the pressures of an engine that fires.
+const GAS: std::ops::Range<usize> = 5..7;
 
 /// The [`engine`] with bores and one cycle, and area times crank radius of each cylinder.
 pub(crate) fn fired(cycle_of: [Option<usize>; 3]) -> (Engine, [f64; 3]) {
     let theta_deg: Vec<f64> = (0..72).map(|k| 10.0 * f64::from(k)).collect();
-    let pressure = theta_deg.iter().map(|theta| 1e5 * (2.0 + theta.to_radians().cos())).collect();
+    let pressure = theta_deg.iter().map(|&theta| loads_cycle(theta)).collect();
     let given = Given { name: String::new(), strokes: 4, theta_deg, pressure, degree: None };
     let gas = Gas {
         cycles: vec![Arc::new(Cycle::new(given).unwrap())],
@@ -124,11 +157,11 @@ fn volumes_are_of_the_pistons_under_pressure_by_gear() {
     let (all, swept) = fired([Some(0); 3]);
     // Cylinders 1 and 3 share a gear.
     let expected = [swept[0] + swept[2], swept[1]];
-    for (found, expected) in loads(&all).volumes().into_iter().zip(expected) {
+    for (found, expected) in loads(&all).volumes()[GAS].iter().zip(expected) {
         // Some roundings of half a unit in the last place.
         assert!((found.value - expected).abs() < 1e-15 * expected, "{found:?} {expected}");
     }
-    assert_eq!(loads(&fired([None, Some(0), None]).0).volumes()[0], PhasorSum::default());
+    assert_eq!(loads(&fired([None, Some(0), None]).0).volumes()[..5], [PhasorSum::default(); 5]);
 }
 
 /// As of the under side of a piston.
@@ -137,7 +170,10 @@ fn what_acts_the_other_way_has_the_same_sizes() {
     let (engine, _) = fired([Some(0); 3]);
     let ahead = loads(&engine);
     let mut opposite = loads(&engine);
-    opposite.list.iter_mut().for_each(|load| load.weight *= -1.0);
+    opposite.list.iter_mut().for_each(|load| {
+        load.weight *= -1.0;
+        load.roll *= -1.0;
+    });
     for (a, b) in ahead.volumes().into_iter().zip(opposite.volumes()) {
         assert_eq!((a.value, a.size), (-b.value, b.size));
     }
@@ -151,6 +187,63 @@ fn what_acts_the_other_way_has_the_same_sizes() {
     }
 }
 
+/// Pressure on the other face of a piston, a rod's area less, is one more load of a source there is.
+#[test]
+fn pressure_under_a_piston_is_a_load_of_the_other_sign() {
+    let (engine, swept) = fired([Some(0); 3]);
+    let mut loads = loads(&engine);
+    let theta_deg: Vec<f64> = (0..=72).map(|k| 10.0 * f64::from(k)).collect();
+    let under = |degrees: f64| 1e5 * (1.5 - 0.4 * (0.5 * degrees).to_radians().sin());
+    let pressure = theta_deg.iter().map(|&theta| under(theta)).collect();
+    let given = Given { name: String::new(), strokes: 4, theta_deg, pressure, degree: None };
+    let cycle = Arc::new(Cycle::new(given).unwrap());
+    let above = loads.list.clone();
+    for load in above.iter().filter(|load| load.parts.scaling == Scaling::Given) {
+        let mechanism = *loads.source(load).mechanism().unwrap();
+        let gas = GasPressure { mechanism, cycle: Arc::clone(&cycle), crankcase: 0.0, known: None };
+        loads.push(load.place, gas, 0.0, -0.8 * load.roll);
+    }
+    let degrees: Vec<f64> = (0..200).map(|k| 3.7 * f64::from(k)).collect();
+    let angles = CrankAngles::new(&degrees).unwrap();
+    let block = AngleBlock::new(&angles, 0..degrees.len());
+    let (mut columns, wanted) = (Columns::ZERO, Quantities { planar: false, torque: true });
+    for sum in &Kinematics::new(&loads).sums {
+        sum.source.over_angle(sum, &block, wanted, 0.0, &mut columns);
+    }
+    let orders: Vec<Order> = (1..400).map(|halves| Order::from_halves(halves).unwrap()).collect();
+    let by_orders = wrenches(&loads, &loads.sources, true, &orders, &Cancel::new()).unwrap();
+    let firing = [10.0, 130.0 + 360.0, 255.0];
+    let lengths = [(0.05, 0.15), (0.04, 0.12), (0.05, 0.15)];
+    for (k, &theta) in degrees.iter().enumerate() {
+        // Each piston as a free body: what drives it down, times how fast it moves down.
+        let expected: f64 = (0..3)
+            .map(|i| {
+                let own = theta - firing[i];
+                let ((r, l), (sin, cos)) = (lengths[i], own.to_radians().sin_cos());
+                let slope = -sin - r * sin * cos / (l * l - r * r * sin * sin).sqrt();
+                let cycle = loads_cycle(own) - 1e5;
+                -swept[i] * (cycle - 0.8 * under(own.rem_euclid(720.0))) * slope
+            })
+            .sum();
+        let found = columns.torque[1][k];
+        // Cubics through points 10° apart miss a sine by 1e-6 of it.
+        assert!((found - expected).abs() < 1e-5 * 50.0, "{theta}: {found} {expected}");
+        assert_eq!((columns.gas[1][k], columns.torque[0][k]), (found, -found));
+        let (wrenches, mean) = &by_orders;
+        let wave = |(wrench, order): (&Wrench, &Order)| {
+            (wrench.gas.crank * cis(order.number() * theta)).re
+        };
+        let sum = mean[1] + wrenches.iter().zip(&orders).map(wave).sum::<f64>();
+        // Bends of the tables at their points, 1/n⁴ above order 200.
+        assert!((found - sum).abs() < 1e-6 * 50.0, "{theta}: {found} {sum}");
+    }
+}
+
+/// Pressure of the cycle of [`fired`], Pa.
+fn loads_cycle(degrees: f64) -> f64 {
+    1e5 * (2.0 + degrees.to_radians().cos())
+}
+
 /// Σ area · radius · e^{−inφ} over the cylinders of a gear, φ the firing top dead centre.
 #[test]
 fn pressure_turns_with_the_crank_angle_of_firing() {
@@ -161,24 +254,32 @@ fn pressure_turns_with_the_crank_angle_of_firing() {
         let terms = loads(&engine).sums(Order::from_halves(halves).unwrap(), wanted);
         let of = |i: usize| cis(-0.5 * f64::from(halves) * firing[i]) * swept[i];
         for (gear, expected) in [of(0) + of(2), of(1)].into_iter().enumerate() {
-            let gas = terms.iter().find(|term| term.harmonic == Harmonic::Gas(gear)).unwrap();
+            let gas = roll(GAS.start + gear);
+            let gas = terms.iter().find(|term| term.harmonic == gas).unwrap();
             close(gas.roll.value, expected);
         }
     }
 }
 
 #[test]
-fn pistons_alike_share_a_gear() {
-    assert_eq!(loads(&engine()).gears.len(), 2);
+fn equal_pistons_share_a_source() {
+    // Two pistons, three speeds of unbalances, two rods.
+    assert_eq!(loads(&engine()).sources.len(), 7);
     // One of half the size has the same proportions, but not where a sweep replaces its pin offset.
     let halved = engine().stations()[0];
     let cylinder = Cylinder::new(0.025, 0.075, 0.5, 0.0).unwrap();
     let halved = Engine::new("", "", vec![halved, Station { cylinder, ..halved }]).unwrap();
-    assert_eq!(loads(&halved).gears.len(), 2);
+    // Its rod is another too; both have a rotating mass.
+    assert_eq!(loads(&halved).sources.len(), 4);
     // A spectrum has the masses in it.
     let spectrum = Spectrum::new([(1, Complex64::new(2.0, 0.0))]).unwrap();
     let given = Loads::new(&engine().with_spectrum(spectrum.clone()), REFERENCE);
-    assert_eq!(given.gears, [Gear { kind: GearKind::Given(spectrum), ratio: 1, pressure: None }]);
+    assert!(given.sources.iter().all(|source| source.mechanism().is_none()));
+    let orders = Order::all_whole(&[1, 2, 3]).unwrap();
+    let force = given.sources[0].force(&orders, &Cancel::new()).unwrap();
+    assert_eq!(force, [spectrum.amplitude(1), spectrum.amplitude(2), spectrum.amplitude(3)]);
+    // Then shafts of three speeds.
+    assert_eq!(given.sources.len(), 4);
     let weights = given.list.into_iter().map(|load| load.weight);
     assert_eq!(weights.take(4).collect::<Vec<_>>(), [1.0, 1.0, 1.0, 0.3 * 0.05]);
 }
@@ -243,18 +344,22 @@ fn sums_are_those_of_loads_written_out() {
         };
         let [first, second, unbalances] = written_out(order);
         for (gear, expected) in [first, second].into_iter().enumerate() {
-            let mut found = of(Harmonic::Force(gear));
-            found[4] = of(Harmonic::Torque(gear))[4];
+            let mut found = of(force(gear));
+            found[4] = of(roll(gear))[4];
             found.into_iter().zip(expected).for_each(|(found, expected)| close(found, expected));
         }
-        of(Harmonic::One).into_iter().zip(unbalances).for_each(|(a, b)| close(a, b));
+        let mut one = [Complex64::default(); 5];
+        for values in ONE.map(|source| of(force(source))) {
+            one.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
+        }
+        one.into_iter().zip(unbalances).for_each(|(a, b)| close(a, b));
         // Both rods of the first gear and one of the other, at −1e-4 kg·m².
         let rods = [
             cis(-10.0 * f64::from(order)) + cis(-255.0 * f64::from(order)),
             cis(-130.0 * f64::from(order)),
         ];
         for (gear, expected) in rods.into_iter().enumerate() {
-            close(of(Harmonic::Rod(gear))[4], expected * -1e-4);
+            close(of(roll(RODS[gear]))[4], expected * -1e-4);
         }
     }
     assert!(
@@ -281,15 +386,15 @@ fn sizes_are_sums_of_terms() {
     };
     // Levers count by what they are the difference of.
     let levered = 0.025 * (REFERENCE + 0.2 + REFERENCE);
-    let found = of(3, Harmonic::Force(0), Harmonic::Torque(0));
+    let found = of(3, self::force(0), self::roll(0));
     assert!(near(found, [0.05, levered, 2.0 * 0.5 * 0.0025]));
     // The arms of a force are those of its components.
     let (force, arms) = (4.0 * 0.003, 0.08 + 0.2);
-    let found = of(2, Harmonic::One, Harmonic::One);
+    let found = of(2, self::force(ONE[2]), self::force(ONE[2]));
     assert!(near(found, [force, force * (0.1 + REFERENCE), force * arms]));
 }
 
-/// The sums of each bank, turned as [`Turn`] says, are those of the engine with its banks turned.
+/// The sums of each bank, turned as [`BankPhase`] says, are those of the engine with its banks turned.
 #[test]
 fn banks_turn_their_loads() {
     let engine = engine();
@@ -305,7 +410,7 @@ fn banks_turn_their_loads() {
             Some(_) => 0.5 * (to - 70.0),
         };
         for order in 1..4 {
-            let turn = Turn::new(whole(order), hold);
+            let turn = BankPhase::new(whole(order), hold);
             let multiples =
                 [turn.forward, turn.backward_conj, turn.forward, turn.backward_conj, turn.roll];
             let banks = sums(&before, order, true);

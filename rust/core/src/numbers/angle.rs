@@ -22,7 +22,7 @@ use crate::numbers::rational::{self, nearest};
 
 /// A double that is no decimal stands for k/N of a turn up to this N, where it is within
 /// [`WITHIN_ULP`] of it.
-const MOST_PARTS: f64 = 1000.0;
+const MOST_PARTS_RECOGNISED: f64 = 1000.0;
 /// Fractions with a larger denominator become doubles. Halves of halves of angles of 14 places need
 /// 1.44e17; nine times this limit, which [`cis_turns`] adds up to, is below 2^63.
 const LARGEST_DENOMINATOR: i64 = 1_000_000_000_000_000_000;
@@ -160,7 +160,7 @@ impl Angle {
     /// being it, and the distance in degrees: 51.428571° is 4.3e-7° from 360/7°.
     #[must_use]
     pub fn near_miss(self) -> Option<(Self, f64)> {
-        if self.turns().is_some_and(|(_, parts)| parts as f64 <= MOST_PARTS) {
+        if self.turns().is_some_and(|(_, parts)| parts as f64 <= MOST_PARTS_RECOGNISED) {
             return None;
         }
         let simple = recognise(self.degrees(), NEAR_MISS)?;
@@ -281,9 +281,9 @@ fn turns_of_degrees((numerator, denominator): (i128, i128)) -> Option<Angle> {
     turns(numerator.checked_mul(sign)?, denominator.checked_mul(360 * sign)?)
 }
 
-/// Continued fraction of the angle in turns, up to [`MOST_PARTS`], within a tolerance in degrees.
+/// Continued fraction of the angle in turns, up to [`MOST_PARTS_RECOGNISED`], within a tolerance in degrees.
 fn recognise(degrees: f64, within: f64) -> Option<Angle> {
-    for (p, q) in rational::convergents(degrees / 360.0, MOST_PARTS) {
+    for (p, q) in rational::convergents(degrees / 360.0, MOST_PARTS_RECOGNISED) {
         let candidate = turns(p as i128, q as i128)?;
         if (candidate.degrees() - degrees).abs() <= within {
             return Some(candidate);
@@ -361,7 +361,7 @@ impl FromStr for Angle {
         }
         let text = text.trim();
         let double = Self::from_degrees(text.parse().map_err(|_| wrong())?)?;
-        let simple = double.turns().is_some_and(|(_, parts)| parts as f64 <= MOST_PARTS);
+        let simple = double.turns().is_some_and(|(_, parts)| parts as f64 <= MOST_PARTS_RECOGNISED);
         if simple && !double.is_decimal() {
             return Ok(double);
         }

@@ -90,9 +90,9 @@ impl CrankAngles {
 /// Rejects crank angles that are not finite, or so large that doubles no longer resolve a turn.
 pub fn check(theta_deg: &[f64], cancel: &Cancel) -> Result<()> {
     /// Angles between two checks for cancellation.
-    const PIECE: usize = 1 << 16;
+    const ANGLES_PER_CHECK: usize = 1 << 16;
     let taken = |θ: f64| θ.is_finite() && θ.abs() <= LARGEST_ANGLE;
-    for piece in theta_deg.chunks(PIECE) {
+    for piece in theta_deg.chunks(ANGLES_PER_CHECK) {
         cancel.check()?;
         if let Some(&θ) = piece.iter().find(|&&θ| !taken(θ)) {
             let hint = format!("give finite degrees of magnitude {LARGEST_ANGLE:e} at most");

@@ -35,7 +35,7 @@ impl Double {
         Self::sum(sum.high, sum.low + self.low)
     }
 
-    /// Times another, to twice a double's digits.
+    /// Factor another, to twice a double's digits.
     #[must_use]
     #[inline]
     pub fn times(self, other: Self) -> Self {

@@ -13,7 +13,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 
 /// Numbers copied between two checks for cancellation.
-const PIECE: usize = 1 << 16;
+const NUMBERS_PER_CHECK: usize = 1 << 16;
 
 /// Bytes of a small allocation that took the reserve of the caller's allocator; 0 if none has.
 static EXHAUSTED: AtomicUsize = AtomicUsize::new(0);
@@ -87,7 +87,7 @@ pub fn array<T, S: IntoDimension>(
 /// A copy of values of any number, gigabytes of which take seconds.
 pub fn copied<T: Copy>(values: &[T], cancel: &Cancel) -> Result<Vec<T>> {
     let mut copy = room(values.len())?;
-    for piece in values.chunks(PIECE) {
+    for piece in values.chunks(NUMBERS_PER_CHECK) {
         cancel.check()?;
         copy.extend_from_slice(piece);
     }
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn a_copy_can_be_cancelled() {
-        let values: Vec<f64> = (0..PIECE + 3).map(|k| k as f64).collect();
+        let values: Vec<f64> = (0..NUMBERS_PER_CHECK + 3).map(|k| k as f64).collect();
         let cancel = Cancel::new();
         assert_eq!(copied(&values, &cancel).as_ref(), Ok(&values));
         cancel.raise();

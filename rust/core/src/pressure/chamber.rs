@@ -2,7 +2,7 @@
 
 use super::{Cycle, Given, MOST_POINTS, period_deg};
 use crate::engine::layout::Strokes;
-use crate::gear::slider_crank::{Cylinder, Proportions};
+use crate::mechanism::slider_crank::{Cylinder, Proportions};
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::chebyshev::{largest_of_last, points};
 use crate::numbers::error::{Error, Result};

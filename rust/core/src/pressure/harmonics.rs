@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use super::{Cycle, period_deg};
 use crate::Complex64;
 use crate::engine::layout::Strokes;
-use crate::gear::slider_crank::{Motion, Proportions};
+use crate::mechanism::slider_crank::{Motion, Proportions};
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::chebyshev::{jet, jets};
@@ -34,15 +34,15 @@ impl GasTorque {
 }
 
 /// Nodes that are summed at once: they stay in the cache.
-const CHUNK: usize = 512;
+const NODES_AT_ONCE: usize = 512;
 /// Numbers that are summed side by side.
-const LANES: usize = 8;
+const SUMMED_SIDE_BY_SIDE: usize = 8;
 /// Orders after which powers are computed afresh: rounding grows with each multiplication.
 const FRESH: usize = 32;
 /// Part of the total within which the quadrature of a squared slope or bend is exact.
 const QUADRATURE: f64 = 1e-12;
 /// Part of the largest pressure, or slope of it, below which a jump is rounding.
-const ROUNDING: f64 = 1e-12;
+const JUMP_OF_ROUNDING: f64 = 1e-12;
 
 /// A quadrature rule, and up to where it reaches rounding.
 struct Rule {
@@ -207,13 +207,13 @@ impl Cycle {
             vectorised(
                 #[inline(always)]
                 || {
-                    for rule in NODES[(rule.points + extra) as usize].chunks(LANES) {
-                        let mut places = [0.0; LANES];
+                    for rule in NODES[(rule.points + extra) as usize].chunks(SUMMED_SIDE_BY_SIDE) {
+                        let mut places = [0.0; SUMMED_SIDE_BY_SIDE];
                         for (place, (x, _)) in places.iter_mut().zip(rule) {
                             *place = centre + width * x;
                         }
                         let degrees = places.map(|place| middle + half.to_degrees() * place);
-                        let [mut sin, mut cos] = [[0.0; LANES]; 2];
+                        let [mut sin, mut cos] = [[0.0; SUMMED_SIDE_BY_SIDE]; 2];
                         sin_cos_degrees(&degrees, &mut sin, &mut cos);
                         let [pressure, slope, bend] = jets(coefficients, &places);
                         for (k, (_, weight)) in rule.iter().enumerate() {
@@ -240,7 +240,7 @@ impl Cycle {
                     }
                 },
             );
-            if points.weighted.len() >= CHUNK {
+            if points.weighted.len() >= NODES_AT_ONCE {
                 finish(points)?;
             }
         }
@@ -270,9 +270,9 @@ impl Cycle {
             let unit = cis_degrees(panels.edges[k + 1]);
             let motion = proportions.motion(unit.im, unit.re);
             let [gauge, slope] = [0, 1].map(|j| after[j] - before[j]);
-            jumps[0] |= (gauge * motion.velocity).abs() > ROUNDING * largest[0];
+            jumps[0] |= (gauge * motion.velocity).abs() > JUMP_OF_ROUNDING * largest[0];
             let of_slope = slope * motion.velocity + gauge * motion.acceleration;
-            jumps[1] |= of_slope.abs() > ROUNDING * (largest[0] + largest[1]);
+            jumps[1] |= of_slope.abs() > JUMP_OF_ROUNDING * (largest[0] + largest[1]);
         }
         jumps
     }
@@ -315,7 +315,9 @@ impl Wave {
     }
 
     #[inline(always)]
-    fn lanes(&self) -> impl Iterator<Item = (&[f64; LANES], &[f64; LANES])> {
+    fn lanes(
+        &self,
+    ) -> impl Iterator<Item = (&[f64; SUMMED_SIDE_BY_SIDE], &[f64; SUMMED_SIDE_BY_SIDE])> {
         self.cos.as_chunks().0.iter().zip(self.sin.as_chunks().0)
     }
 }
@@ -330,7 +332,7 @@ impl Powers {
         cancel: &Cancel,
     ) -> Result<()> {
         // Points of no weight, up to whole lanes.
-        let whole = points.weighted.len().next_multiple_of(LANES);
+        let whole = points.weighted.len().next_multiple_of(SUMMED_SIDE_BY_SIDE);
         points.weighted.resize(whole, 0.0);
         points.theta_deg.resize(whole, 0.0);
         let Abscissae { theta_deg, weighted, .. } = &*points;
@@ -366,10 +368,11 @@ impl Powers {
     /// Sum of torque times the conjugate wave, by lanes.
     #[inline(always)]
     fn sum(&self, weighted: &[f64]) -> Complex64 {
-        let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
-        for (weighted, (cos, sin)) in weighted.as_chunks::<LANES>().0.iter().zip(self.wave.lanes())
+        let (mut re, mut im) = ([0.0; SUMMED_SIDE_BY_SIDE], [0.0; SUMMED_SIDE_BY_SIDE]);
+        for (weighted, (cos, sin)) in
+            weighted.as_chunks::<SUMMED_SIDE_BY_SIDE>().0.iter().zip(self.wave.lanes())
         {
-            for k in 0..LANES {
+            for k in 0..SUMMED_SIDE_BY_SIDE {
                 re[k] += weighted[k] * cos[k];
                 im[k] -= weighted[k] * sin[k];
             }

@@ -165,8 +165,8 @@ pub(super) fn blend(parts: &[(f64, &Panels)]) -> (Vec<f64>, Vec<f64>, usize) {
         .collect();
     edges.sort_unstable_by(f64::total_cmp);
     // Edges that only rounding parts are one.
-    edges.dedup_by(|later, before| *later - *before <= ROUNDED * period);
-    edges.retain(|edge| end - edge > ROUNDED * period);
+    edges.dedup_by(|later, before| *later - *before <= EQUAL_EDGES * period);
+    edges.retain(|edge| end - edge > EQUAL_EDGES * period);
     edges.push(end);
     let degree = parts.iter().map(|(_, panels)| panels.degree).max().unwrap_or(CUBIC);
     let (mut angles, mut values) = (Vec::new(), Vec::new());
@@ -183,7 +183,7 @@ pub(super) fn blend(parts: &[(f64, &Panels)]) -> (Vec<f64>, Vec<f64>, usize) {
 }
 
 /// Part of a period within which edges are one.
-const ROUNDED: f64 = 1e-12;
+const EQUAL_EDGES: f64 = 1e-12;
 
 /// Knot of any number, those of the neighbouring periods included.
 fn at(knots: &[Knot], k: isize, period: f64) -> Knot {

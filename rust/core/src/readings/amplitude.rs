@@ -1,66 +1,72 @@
-//! Wrenches of an engine's loads: their sums times the harmonics of every gear.
+//! Wrenches of an engine's loads: their sums times the amplitudes of every source.
+
+use std::sync::Arc;
 
 use crate::Complex64;
-use crate::gear::harmonics::rod::TorqueHarmonics;
-use crate::load::{Harmonic, Load, Loads, Phasors, Source, Wanted, superpose};
+use crate::load::source::{Column, Scaling, Source, TorqueAmplitudes};
+use crate::load::{Harmonic, Load, Loads, Phasors, Wanted, count, superpose};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
-use crate::pressure::GasTorque;
 use crate::wrench::{Planar, Wrench, rounding, snapped};
 
 /// Wrenches of the given orders, in their order, those of inertia over ω²; what vanishes to within
 /// rounding is zero.
 ///
 /// Torque is zero where it is not wanted; a spectrum of forces does not determine it. The means are
-/// those of the torques of pressure on the block and on the crank; `gas` are the harmonics of these, by
-/// gear, where they are known.
+/// those of the torques of pressure on the block and on the crank. `sources` are those of the loads.
 pub(crate) fn wrenches(
     loads: &Loads,
+    sources: &[Arc<dyn Source>],
     torque: bool,
     orders: &[Order],
-    gas: &[Option<GasTorque>],
     cancel: &Cancel,
 ) -> Result<(Vec<Wrench>, [f64; 2])> {
-    let gears = GearHarmonics::new(loads, torque, orders, gas, cancel)?;
-    let wrenches = gears.wrenches(&loads.list, loads.reference, torque, orders, cancel)?;
-    Ok((wrenches, gears.mean(&loads.list)))
+    let amplitudes = Amplitudes::new(sources, torque, orders, cancel)?;
+    let wrenches = amplitudes.wrenches(&loads.list, loads.reference, torque, orders, cancel)?;
+    Ok((wrenches, amplitudes.mean(&loads.list)))
 }
 
-/// Harmonics of every gear at some orders.
-pub(crate) struct GearHarmonics {
+/// Amplitudes of some sources at some orders.
+pub(crate) struct Amplitudes {
+    /// By source; empty of those without a force.
     force: Vec<Vec<Complex64>>,
-    /// Torques of the masses, and of rods that have inertia.
-    torque: Vec<(TorqueHarmonics, Option<TorqueHarmonics>)>,
-    /// Torques of pressure, and their means, of gears that have any.
-    gas: Vec<Option<(TorqueHarmonics, [f64; 2])>>,
+    /// By source; none without a torque, or where none is wanted.
+    torque: Vec<Option<TorqueAmplitudes>>,
 }
 
-impl GearHarmonics {
+/// Factors of a sum.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Amplitude {
+    /// Of force and moment.
+    pub force: Complex64,
+    /// Of the torque on the block.
+    pub roll: Complex64,
+    /// Of the torque on the main crank.
+    pub crank: Complex64,
+}
+
+impl Amplitudes {
     pub fn new(
-        loads: &Loads,
+        sources: &[Arc<dyn Source>],
         torque: bool,
         orders: &[Order],
-        known: &[Option<GasTorque>],
         cancel: &Cancel,
     ) -> Result<Self> {
-        let (mut force, mut torques, mut gas) = (Vec::new(), Vec::new(), Vec::new());
-        for (k, gear) in loads.gears.iter().enumerate() {
-            force.push(gear.force(orders, cancel)?);
-            if torque {
-                let has_rod = loads.largest_rod_inertia(k) > 0.0;
-                let rod = has_rod.then(|| gear.rod_torque(orders, cancel));
-                torques.push((gear.torque(orders, cancel)?, rod.transpose()?));
-                let known = known.get(k).and_then(Option::as_ref);
-                let fired = gear.pressure.is_some().then(|| gear.gas(orders, known, cancel));
-                gas.push(fired.transpose()?);
-            }
-        }
-        Ok(Self { force, torque: torques, gas })
+        let force = |source: &Arc<dyn Source>| {
+            if source.parts().force.is_some() { source.force(orders, cancel) } else { Ok(vec![]) }
+        };
+        let torques = |source: &Arc<dyn Source>| {
+            (torque && source.parts().roll).then(|| source.torque(orders, cancel)).transpose()
+        };
+        Ok(Self {
+            force: sources.iter().map(force).collect::<Result<_>>()?,
+            torque: sources.iter().map(torques).collect::<Result<_>>()?,
+        })
     }
 
-    /// Wrenches of some of the loads at the orders of these harmonics, about a plane; as [`wrenches`].
+    /// Wrenches of some of the loads at the orders of these amplitudes, about a plane; as [`wrenches`].
     pub fn wrenches(
         &self,
         loads: &[Load],
@@ -69,31 +75,32 @@ impl GearHarmonics {
         orders: &[Order],
         cancel: &Cancel,
     ) -> Result<Vec<Wrench>> {
+        let counts = [false, true].map(|torque| count(loads, torque));
         let wrench = |(k, &order): (usize, &Order)| {
             cancel.check()?;
             let mut wrench = Wrench::default();
             // Odd orders above 1 of pistons without offset are exactly zero.
-            let is_unbalanced = |load: &Load| load.unbalance_order() == Some(order);
-            let planar = self.have_force(k) || loads.iter().any(is_unbalanced);
+            let planar =
+                self.force.iter().any(|force| force.get(k).is_some_and(|&a| a != Complex64::ZERO));
             let wanted = Wanted { planar, roll: torque, by_bank: false };
             for term in superpose(&Phasors { reference }, loads, order, wanted) {
-                let [on_force, roll, crank] = self.of(term.harmonic, k);
+                let amplitude = self.of(term.harmonic, k);
                 let [force, moment] = term.planar();
-                wrench.force.add_scaled(&force, on_force);
-                wrench.moment.add_scaled(&moment, on_force);
-                let torque = match term.harmonic {
-                    Harmonic::Gas(_) => &mut wrench.gas,
-                    _ => &mut wrench.inertia,
+                wrench.force.add_scaled(&force, amplitude.force);
+                wrench.moment.add_scaled(&moment, amplitude.force);
+                let torque = match term.scaling {
+                    Scaling::Given => &mut wrench.gas,
+                    Scaling::SpeedSquared => &mut wrench.inertia,
                 };
-                torque.roll += term.roll.value * roll;
-                torque.crank += term.roll.value * crank;
-                torque.size += term.roll.size * roll.norm().max(crank.norm());
+                torque.roll += term.roll.value * amplitude.roll;
+                torque.crank += term.roll.value * amplitude.crank;
+                torque.size += term.roll.size * amplitude.roll.norm().max(amplitude.crank.norm());
             }
-            let factor = rounding(loads.len(), order.number());
-            let snap = |vector: &Planar| vector.snapped(vector.size * factor);
+            let [of_force, of_torque] = counts.map(|count| rounding(count, order.number()));
+            let snap = |vector: &Planar| vector.snapped(vector.size * of_force);
             (wrench.force, wrench.moment) = (snap(&wrench.force), snap(&wrench.moment));
             for torque in [&mut wrench.inertia, &mut wrench.gas] {
-                let bound = torque.size * factor;
+                let bound = torque.size * of_torque;
                 for phasor in [&mut torque.roll, &mut torque.crank] {
                     *phasor = snapped(*phasor, bound);
                 }
@@ -107,34 +114,32 @@ impl GearHarmonics {
         Ok(wrenches)
     }
 
-    /// Mean torques of pressure on the block and on the crank, of some of the loads.
+    /// Mean torques on the block and on the crank, of some of the loads.
     pub fn mean(&self, loads: &[Load]) -> [f64; 2] {
-        let mut mean = [0.0; 2];
-        for load in loads {
-            let Source::Pressure { gear } = load.source else { continue };
-            let Some(Some((_, of_gear))) = self.gas.get(gear) else { continue };
-            mean = [0, 1].map(|k| mean[k] + load.weight * of_gear[k]);
-        }
-        mean
+        loads.iter().fold([0.0; 2], |[roll, crank], load| match &self.torque[load.source] {
+            Some(torque) => [roll + load.roll * torque.mean[0], crank + load.roll * torque.mean[1]],
+            None => [roll, crank],
+        })
     }
 
-    fn have_force(&self, k: usize) -> bool {
-        self.force.iter().any(|of_gear| of_gear[k] != Complex64::default())
-    }
-
-    /// Factors of the sums of force and moment, of roll torque and of torque on the crank.
-    pub fn of(&self, harmonic: Harmonic, k: usize) -> [Complex64; 3] {
-        let zero = Complex64::default();
-        let of_torque = |torque: &TorqueHarmonics| [zero, torque.roll[k], torque.crank[k]];
-        match harmonic {
+    /// Factors of the sums of a harmonic at the order of an index.
+    pub fn of(&self, Harmonic { source, column }: Harmonic, k: usize) -> Amplitude {
+        match column {
             // A shaft that turns evenly takes no torque of the crank, nor does a force on an arm.
-            Harmonic::One => [Complex64::new(1.0, 0.0), Complex64::new(1.0, 0.0), zero],
-            Harmonic::Force(gear) => [self.force[gear][k], self.force[gear][k], zero],
-            Harmonic::Torque(gear) => of_torque(&self.torque[gear].0),
-            Harmonic::Gas(gear) => {
-                self.gas[gear].as_ref().map_or([zero; 3], |(torque, _)| of_torque(torque))
+            Column::Force => {
+                let force = self.force[source].get(k).copied().unwrap_or_default();
+                Amplitude { force, roll: force, crank: Complex64::ZERO }
             }
-            Harmonic::Rod(gear) => self.torque[gear].1.as_ref().map_or([zero; 3], of_torque),
+            Column::Roll => {
+                self.torque[source].as_ref().map_or_else(Amplitude::default, |torque| {
+                    let harmonics = &torque.harmonics;
+                    Amplitude {
+                        force: Complex64::ZERO,
+                        roll: harmonics.roll[k],
+                        crank: harmonics.crank[k],
+                    }
+                })
+            }
         }
     }
 }

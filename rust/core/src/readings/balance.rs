@@ -2,13 +2,13 @@
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::Loads;
+use crate::load::{Load, Loads, count};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::order::{self, Order};
 use crate::readings::amplitude::wrenches;
-use crate::readings::choice::{self, Chosen};
+use crate::readings::choice::{self, Chosen, OrderSums};
 use crate::readings::peaks::PeakFinder;
 use crate::wrench::{Planar, Torque, Wrench, rounding};
 
@@ -56,13 +56,31 @@ pub struct Balance {
     pub wrenches: Vec<Wrench>,
     /// Mean torques on the block and on the crank, of pressure alone.
     pub mean: [f64; 2],
-    /// Bounds of what the orders left out add to force, moment and either torque at any crank
-    /// angle; 0 for orders that were given.
-    pub error_bound: [f64; 3],
+    /// Bounds of what the orders left out add at any crank angle; 0 for orders that were given.
+    pub error_bound: Bounds,
     /// Whether torque is known: it was wanted, and the engine has no given spectrum of forces.
     pub has_torque: bool,
-    /// Number of loads, on which rounding depends.
-    loads: usize,
+    /// Numbers of loads that have a force, and of all, on which rounding depends.
+    counts: [usize; 2],
+}
+
+/// Bounds of what is left out.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Bounds {
+    /// To the shaking force, N.
+    pub force: f64,
+    /// To the rocking moment, N·m.
+    pub moment: f64,
+    /// To either torque, N·m.
+    pub torque: f64,
+}
+
+impl Bounds {
+    /// Of force, moment and torque side by side.
+    #[must_use]
+    pub fn values(self) -> [f64; 3] {
+        [self.force, self.moment, self.torque]
+    }
 }
 
 /// Part of a torque.
@@ -86,16 +104,17 @@ pub enum Vector {
 }
 
 impl Balance {
-    /// Of wrenches of orders that were given, and mean torques; of this many loads.
+    /// Of wrenches of orders that were given, and mean torques; of these loads.
     pub(super) fn of_orders(
         orders: Vec<Order>,
         wrenches: Vec<Wrench>,
         mean: [f64; 2],
         has_torque: bool,
-        loads: usize,
+        loads: &[Load],
     ) -> Self {
-        let (omitted, error_bound) = (Vec::new(), [0.0; 3]);
-        Self { orders, omitted, wrenches, mean, error_bound, has_torque, loads }
+        let (omitted, error_bound) = (Vec::new(), Bounds::default());
+        let counts = [false, true].map(|torque| count(loads, torque));
+        Self { orders, omitted, wrenches, mean, error_bound, has_torque, counts }
     }
 
     /// Force or moment of the k-th order.
@@ -110,7 +129,7 @@ impl Balance {
     /// Bound of the rounding error of the k-th order of force or moment.
     #[must_use]
     pub fn zero_bound(&self, vector: Vector, k: usize) -> f64 {
-        self.planar(vector, k).size * rounding(self.loads, self.orders[k].number())
+        self.planar(vector, k).size * rounding(self.counts[0], self.orders[k].number())
     }
 
     /// A part of the torques of the k-th order.
@@ -133,7 +152,7 @@ impl Balance {
     /// Bound of the rounding error of the k-th order of a part of the torques.
     #[must_use]
     pub fn torque_zero_bound(&self, part: TorquePart, k: usize) -> f64 {
-        self.torque(part, k).size * rounding(self.loads, self.orders[k].number())
+        self.torque(part, k).size * rounding(self.counts[1], self.orders[k].number())
     }
 
     /// Peak phasors along (about) x and y of the k-th order.
@@ -198,20 +217,19 @@ pub fn balance(
     let chosen = match orders {
         Orders::Given(orders) => {
             order::check_list(orders)?;
-            let (wrenches, mean) = wrenches(&loads, torque, orders, &[], cancel)?;
+            let (wrenches, mean) = wrenches(&loads, &loads.sources, torque, orders, cancel)?;
             let (orders, omitted) = (orders.clone(), Vec::new());
-            Chosen { orders, wrenches, mean, omitted, error_bound: [0.0; 4] }
+            Chosen { orders, wrenches, mean, omitted, left_out: OrderSums::default() }
         }
         Orders::Auto { rtol } => choice::within(*rtol, engine, &loads, torque, cancel)?,
     };
-    let [force, moment, inertia, gas] = chosen.error_bound;
     Ok(Balance {
         orders: chosen.orders,
         omitted: chosen.omitted,
         wrenches: chosen.wrenches.into_iter().map(|wrench| wrench.at_speed(square)).collect(),
         mean: chosen.mean,
-        error_bound: [force * square, moment * square, inertia * square + gas],
+        error_bound: chosen.left_out.bounds(square),
         has_torque: torque,
-        loads: loads.list.len(),
+        counts: [false, true].map(|torque| count(&loads.list, torque)),
     })
 }

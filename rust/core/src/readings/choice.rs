@@ -5,21 +5,22 @@
 //! rest is bounded in closed form; so the bound is loose only where the orders left out do not peak
 //! together.
 
+use std::sync::Arc;
+
 use crate::engine::Engine;
-use crate::engine::layout::Strokes;
-use crate::gear::{Gear, GearKind, harmonics};
-use crate::load::{Loads, Source};
+use crate::load::source::{Repeats, Scale, Scaling, Source, Tail};
+use crate::load::{Loads, count};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
-use crate::pressure::GasTorque;
 use crate::readings::amplitude::wrenches;
+use crate::readings::balance::Bounds;
 use crate::wrench::Wrench;
 
 /// Orders above the last one evaluated add less than this part of the tolerance.
-const NEGLIGIBLE: f64 = 0.01;
+const NEGLIGIBLE_REST: f64 = 0.01;
 
 /// Part of the largest torque of pressure on a cylinder that orders may leave out, at least: those of
 /// pressure decline slowly.
@@ -42,9 +43,54 @@ pub(crate) struct Chosen {
     pub mean: [f64; 2],
     /// Orders left out that are not zero.
     pub omitted: Vec<Order>,
-    /// Bounds of what all orders left out add: over ω² to force, moment and torque of inertia, and to
-    /// the torque of pressure.
-    pub error_bound: [f64; 4],
+    /// Bounds of what all orders left out add.
+    pub left_out: OrderSums,
+}
+
+/// What orders add, or may leave out: those of inertia over ω².
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct OrderSums {
+    pub force: f64,
+    pub moment: f64,
+    /// Torque of inertia, on the block or on the crank.
+    pub inertia: f64,
+    /// Torque of pressure.
+    pub gas: f64,
+}
+
+impl OrderSums {
+    fn of(wrench: &Wrench) -> Self {
+        let Wrench { force, moment, inertia, gas } = wrench;
+        Self {
+            force: force.peak(),
+            moment: moment.peak(),
+            inertia: inertia.peak(),
+            gas: gas.peak(),
+        }
+    }
+
+    /// Side by side.
+    pub fn values(self) -> [f64; 4] {
+        [self.force, self.moment, self.inertia, self.gas]
+    }
+
+    fn from_values([force, moment, inertia, gas]: [f64; 4]) -> Self {
+        Self { force, moment, inertia, gas }
+    }
+
+    /// All times a tolerance.
+    pub fn scaled(self, rtol: f64) -> Self {
+        Self::from_values(self.values().map(|value| rtol * value))
+    }
+
+    /// Bounds at a square of speed.
+    pub fn bounds(self, square: f64) -> Bounds {
+        Bounds {
+            force: self.force * square,
+            moment: self.moment * square,
+            torque: self.inertia * square + self.gas,
+        }
+    }
 }
 
 /// The orders of an engine that leave out at most `rtol`.
@@ -57,25 +103,25 @@ pub(crate) fn within(
 ) -> Result<Chosen> {
     let rtol = limits::tolerance(rtol)?;
     let scales = scales(engine, loads);
-    let mut orders = candidates(rtol, &scales, loads, &loads.gears, torque)?;
-    let [force, moment, inertia] = tail(loads, orders.last(), torque, &loads.gears);
-    let mut gas = GasOrders::default();
+    let mut orders = candidates(rtol, &scales, loads, &loads.sources, torque)?;
+    let tail = tail(loads, orders.last(), torque, &loads.sources);
+    let mut gas = GasOrders { sources: loads.sources.clone(), ..GasOrders::default() };
     if torque {
         // As far as the others at once, which have a part of gas too.
         let last = orders.last().map_or(0, |order| order.halves().div_ceil(2));
         let highest = last.clamp(FIRST_OF_GAS, HIGHEST_OF_GAS);
-        gas = GasOrders::new(rtol, loads, &loads.gears, highest, cancel)?;
+        gas = GasOrders::new(rtol, loads, &loads.sources, highest, cancel)?;
         orders.extend(&gas.orders);
         orders.sort_unstable();
         orders.dedup();
     }
-    let (all, mean) = wrenches(loads, torque, &orders, &gas.torques, cancel)?;
-    let sizes: Vec<[f64; 4]> = all.iter().map(sizes).collect();
-    let mut error_bound = [force, moment, inertia, gas.tail];
-    let [force, moment, torque] = scales.map(|scale| rtol * scale);
-    let kept = few(&sizes, &[force, moment, torque, gas.allowed], &mut error_bound);
-    let mut chosen =
-        Chosen { orders: vec![], wrenches: vec![], mean, omitted: vec![], error_bound };
+    let (all, mean) = wrenches(loads, &gas.sources, torque, &orders, cancel)?;
+    let sizes: Vec<[f64; 4]> = all.iter().map(|wrench| OrderSums::of(wrench).values()).collect();
+    let mut lost = OrderSums { gas: gas.tail, ..tail }.values();
+    let allowed = OrderSums { gas: gas.allowed, ..scales.scaled(rtol) }.values();
+    let kept = few(&sizes, &allowed, &mut lost);
+    let left_out = OrderSums::from_values(lost);
+    let mut chosen = Chosen { orders: vec![], wrenches: vec![], mean, omitted: vec![], left_out };
     for (((order, wrench), size), kept) in orders.into_iter().zip(all).zip(sizes).zip(kept) {
         if kept {
             chosen.orders.push(order);
@@ -110,76 +156,97 @@ pub(crate) fn few<S: AsRef<[f64]>>(sizes: &[S], allowed: &[f64], lost: &mut [f64
     kept
 }
 
-/// Largest rod inertia of a gear over what a tolerance of torque is relative to.
-fn rod_share(loads: &Loads, gear: usize, scales: &[f64; 3]) -> f64 {
-    let largest = loads.largest_rod_inertia(gear);
-    if largest == 0.0 { 0.0 } else { largest / scales[2] }
-}
-
 /// Orders to evaluate, ascending.
 ///
-/// What higher orders add is at most [`NEGLIGIBLE`] times the tolerance, or, if no order achieves
-/// that, at most a quarter of it. `gears` are those of the loads, at the point of a sweep where their
+/// What higher orders add is at most [`NEGLIGIBLE_REST`] times the tolerance, or, if no order achieves
+/// that, at most a quarter of it. `sources` are those of the loads, at the point of a sweep where their
 /// harmonics decrease most slowly.
 pub(crate) fn candidates(
     rtol: f64,
-    scales: &[f64; 3],
+    scales: &OrderSums,
     loads: &Loads,
-    gears: &[Gear],
+    sources: &[Arc<dyn Source>],
     torque: bool,
 ) -> Result<Vec<Order>> {
-    let count = loads.list.len() as f64;
-    let (needed, enough) = (0.25 * rtol / count, NEGLIGIBLE * rtol / count);
-    let mut orders = loads.unbalance_orders();
-    for (k, gear) in gears.iter().enumerate() {
-        let ratio = gear.ratio.unsigned_abs();
-        let own = match &gear.kind {
-            GearKind::Given(spectrum) => spectrum.orders(),
-            GearKind::SliderCrank { proportions, .. } => {
-                let torque = torque.then(|| rod_share(loads, k, scales));
-                let last = match harmonics::highest_order(proportions, enough, torque) {
-                    Some(order) => order,
-                    // A rest that is not negligible still is within the tolerance.
-                    None if harmonics::highest_order(proportions, needed, torque).is_some() => {
-                        limits::HIGHEST_ORDER
-                    }
-                    None => {
-                        let hint = format!(
-                            "too many orders would be needed at a rod ratio of {:?}; ask for exact \
-                             kinematics or a larger rtol",
-                            1.0 / proportions.rod
-                        );
-                        return Err(Error::figure("rtol", rtol, hint));
-                    }
-                };
-                (1..=last).collect()
+    let count = count(&loads.list, torque) as f64;
+    let (needed, enough) = (0.25 * rtol / count, NEGLIGIBLE_REST * rtol / count);
+    let mut orders = Vec::new();
+    for (k, source) in sources.iter().enumerate() {
+        if source.parts().scaling == Scaling::Given {
+            continue;
+        }
+        // What a weight is over that which the tolerance is relative to.
+        let weights = loads.largest_weights(k);
+        let shares = [(weights[0], scales.force), (weights[1], scales.inertia)];
+        let shares = shares.map(|(weight, scale)| if weight == 0.0 { 0.0 } else { weight / scale });
+        let within = |highest: u32, tolerance: f64| {
+            let beyond = source.beyond(highest, torque && shares[1] > 0.0);
+            times(shares[0], beyond.force) <= tolerance
+                && times(shares[1], beyond.torque) <= tolerance
+        };
+        let highest = match lowest(|highest| within(highest, enough)) {
+            Some(order) => order,
+            // A rest that is not negligible still is within the tolerance.
+            None if within(limits::HIGHEST_ORDER, needed) => limits::HIGHEST_ORDER,
+            None => {
+                let ratio = source.mechanism().map_or(0.0, |of| 1.0 / of.proportions.rod);
+                let hint = format!(
+                    "too many orders would be needed at a rod ratio of {ratio:?}; ask for exact \
+                     kinematics or a larger rtol"
+                );
+                return Err(Error::figure("rtol", rtol, hint));
             }
         };
-        let whole: Vec<u32> =
-            own.into_iter().map(|n| n * ratio).filter(|&n| n <= limits::HIGHEST_ORDER).collect();
-        orders.extend(Order::all_whole(&whole)?);
+        let mut own = source.orders(highest);
+        own.retain(|&order| order <= limits::HIGHEST_ORDER);
+        orders.extend(Order::all_whole(&own)?);
     }
     orders.sort_unstable();
     orders.dedup();
     Ok(orders)
 }
 
+/// Lowest order from 1 on that is enough, as all above it are; none if the highest is not.
+fn lowest(is_enough: impl Fn(u32) -> bool) -> Option<u32> {
+    let (mut low, mut high) = (1, limits::HIGHEST_ORDER);
+    if !is_enough(high) {
+        return None;
+    }
+    while low < high {
+        let middle = u32::midpoint(low, high);
+        if is_enough(middle) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    Some(high)
+}
+
 /// Bounds over ω² of what orders above the last one evaluated add to force, moment and torque, as if
-/// nothing cancelled, with these gears in place of those of the loads.
-pub(crate) fn tail(loads: &Loads, last: Option<&Order>, torque: bool, gears: &[Gear]) -> [f64; 3] {
+/// nothing cancelled, with these sources in place of those of the loads.
+pub(crate) fn tail(
+    loads: &Loads,
+    last: Option<&Order>,
+    torque: bool,
+    sources: &[Arc<dyn Source>],
+) -> OrderSums {
     let last = last.map_or(0, |order| order.halves() / 2);
-    let bounds: Vec<[f64; 3]> = gears.iter().map(|gear| gear.tail(last, torque)).collect();
-    let mut sum = [0.0; 3];
+    let inertia = |source: &Arc<dyn Source>| match source.parts().scaling {
+        Scaling::SpeedSquared => source.beyond(last, torque),
+        Scaling::Given => Tail::default(),
+    };
+    let beyond: Vec<Tail> = sources.iter().map(inertia).collect();
+    let mut sum = OrderSums::default();
     for load in &loads.list {
-        let Source::Piston { gear, second_moment, rod_inertia } = load.source else { continue };
-        let [force, masses, rod] = bounds[gear];
-        let square = f64::from(load.ratio * load.ratio);
-        let force = times(load.weight.abs(), force) * square;
-        sum[0] += force;
-        sum[1] += times((load.z - loads.reference).abs(), force);
+        let (place, beyond) = (&load.place, beyond[load.source]);
+        let square = f64::from(place.speed_squared());
+        let force = times(load.weight.abs(), beyond.force) * square;
+        sum.force += force;
+        sum.moment += times(place.lever(loads.reference).abs(), force);
         if torque {
-            let own = times(second_moment, masses) + times(rod_inertia.abs(), rod);
-            sum[2] += own * square * f64::from(load.ratio.abs()) + times(load.axis.norm(), force);
+            sum.inertia +=
+                times(load.roll.abs(), beyond.torque) * square + times(place.axis.norm(), force);
         }
     }
     sum
@@ -194,36 +261,22 @@ pub(crate) fn times(weight: f64, bound: f64) -> f64 {
 /// its spectrum or unbalance; for moment that times the longest lever of a load that has weight; for
 /// torque the largest m·r² or unbalance times crank radius or its shaft's distance from the crank.
 /// Where rod inertia makes more of order 1, what it makes: about J·r/l.
-pub(crate) fn scales(engine: &Engine, loads: &Loads) -> [f64; 3] {
+pub(crate) fn scales(engine: &Engine, loads: &Loads) -> OrderSums {
     let [mut force, mut lever, mut torque] = [0.0_f64; 3];
     for load in &loads.list {
-        let square = f64::from(load.ratio * load.ratio);
-        let (of_load, of_torque) = match load.source {
-            Source::Piston { gear, second_moment, rod_inertia } => match &loads.gears[gear].kind {
-                GearKind::SliderCrank { proportions, .. } => {
-                    (load.weight.abs(), second_moment.max(rod_inertia.abs() / proportions.rod))
-                }
-                GearKind::Given(spectrum) => (spectrum.largest(), 0.0),
-            },
-            Source::Pressure { .. } => continue,
-            Source::Unbalance => {
-                let arm = engine.largest_crank_radius().max(load.axis.norm());
-                (load.weight.abs(), load.weight.abs() * arm)
-            }
-        };
-        force = force.max(square * of_load);
+        let place = &load.place;
+        let Scale { force: of_force, torque: of_torque } = loads.source(load).scale();
+        let own = load.weight.abs() * of_force;
+        let arm = || engine.largest_crank_radius().max(place.axis.norm());
+        let of_torque = of_torque.map_or_else(|| own * arm(), |scale| load.roll.abs() * scale);
+        let square = f64::from(place.speed_squared());
+        force = force.max(square * own);
         torque = torque.max(square * of_torque);
-        if of_load > 0.0 {
-            lever = lever.max((load.z - loads.reference).abs());
+        if own > 0.0 {
+            lever = lever.max(place.lever(loads.reference).abs());
         }
     }
-    [force, force * lever, torque]
-}
-
-/// Sizes of force, moment and the larger torques of inertia and of pressure.
-fn sizes(wrench: &Wrench) -> [f64; 4] {
-    let Wrench { force, moment, inertia, gas } = wrench;
-    [force.peak(), moment.peak(), inertia.peak(), gas.peak()]
+    OrderSums { force, moment: force * lever, inertia: torque, gas: 0.0 }
 }
 
 /// Orders of the torque of pressure to evaluate.
@@ -235,45 +288,47 @@ pub(crate) struct GasOrders {
     pub tail: f64,
     /// What may be left out, N·m.
     pub allowed: f64,
-    /// Harmonics ½, 1, 1½ … of each gear that has pressure.
-    pub torques: Vec<Option<GasTorque>>,
+    /// The sources, which keep their harmonics that were evaluated.
+    pub sources: Vec<Arc<dyn Source>>,
 }
 
 impl GasOrders {
     /// Of an engine; what may be left out is this part of the largest torque of a cylinder, or
     /// [`LEAST_OF_GAS`]. Orders up to `highest` are looked at before any above.
-    /// `gears` are those of the loads, at the point of a sweep where their harmonics decrease most
+    /// `sources` are those of the loads, at the point of a sweep where their harmonics decrease most
     /// slowly.
     pub fn new(
         rtol: f64,
         loads: &Loads,
-        gears: &[Gear],
+        sources: &[Arc<dyn Source>],
         mut highest: u32,
         cancel: &Cancel,
     ) -> Result<Self> {
         let (volumes, mut largest, mut step) = (loads.volumes(), 0.0_f64, 2);
-        for load in &loads.list {
-            let Source::Pressure { gear: k } = load.source else { continue };
-            let Some(of_cylinder) = gears[k].largest_gas() else { continue };
-            largest = largest.max(load.weight.abs() * of_cylinder);
-            if gears[k].pressure.as_ref().is_some_and(|p| p.cycle.strokes() == Strokes::Four) {
+        let largest_of: Vec<f64> = sources.iter().map(|source| source.largest_torque()).collect();
+        for load in loads.list.iter().filter(|load| load.parts.scaling == Scaling::Given) {
+            largest = largest.max(load.roll.abs() * largest_of[load.source]);
+            if load.parts.repeats == Repeats::EveryTwoTurns {
                 step = 1;
             }
         }
         let allowed = rtol.max(LEAST_OF_GAS) * largest;
         if allowed == 0.0 {
-            return Ok(Self::default());
+            return Ok(Self { sources: sources.to_vec(), ..Self::default() });
         }
         loop {
             let mut tails = vec![0.0; 2 * highest as usize];
-            let mut torques = Vec::new();
-            for (gear, weight) in gears.iter().zip(&volumes) {
-                let found = gear.gas_up_to(Order::whole(highest)?, cancel)?;
-                torques.push(found.map(|(torque, of_gear)| {
-                    let own = of_gear.into_iter().map(|tail| times(weight.size, tail));
-                    tails.iter_mut().zip(own).for_each(|(sum, tail)| *sum += tail);
-                    torque
-                }));
+            let mut known = Vec::new();
+            for (source, weight) in sources.iter().zip(&volumes) {
+                let up_to = source.up_to(Order::whole(highest)?, cancel)?;
+                known.push(up_to.map_or_else(
+                    || Arc::clone(source),
+                    |(known, of_source)| {
+                        let own = of_source.into_iter().map(|tail| times(weight.size, tail));
+                        tails.iter_mut().zip(own).for_each(|(sum, tail)| *sum += tail);
+                        known
+                    },
+                ));
             }
             let enough = tails.iter().position(|&tail| tail <= 0.25 * allowed);
             let Some(last) = enough.or((highest == HIGHEST_OF_GAS).then_some(tails.len() - 1))
@@ -283,7 +338,7 @@ impl GasOrders {
             };
             let halves = (1..=last as u32 + 1).filter(|halves| halves % step == 0);
             let orders = halves.map(Order::from_halves).collect::<Result<_>>()?;
-            return Ok(Self { orders, tail: tails[last], allowed, torques });
+            return Ok(Self { orders, tail: tails[last], allowed, sources: known });
         }
     }
 }
@@ -295,27 +350,42 @@ mod tests {
 
     use super::*;
     use crate::engine::Station;
-    use crate::gear::slider_crank::Cylinder;
+    use crate::mechanism::slider_crank::Cylinder;
     use crate::numbers::angle::Angle;
+
+    #[test]
+    fn the_lowest_order_that_is_enough_is_found() {
+        for expected in [1, 2, 7, 100, limits::HIGHEST_ORDER] {
+            assert_eq!(lowest(|order| order >= expected), Some(expected));
+        }
+        assert_eq!(lowest(|_| false), None);
+    }
 
     #[test]
     fn a_rod_counts_by_its_inertia_over_what_a_tolerance_is_relative_to() {
         let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
-        let place = |inertia: f64| Station {
-            cylinder: cylinder.with_rod_inertia_excess(inertia).unwrap(),
-            tdc: Angle::ZERO,
-            bank: Angle::ZERO,
-            z: 0.0,
-            rotating_mass: 0.0,
-        };
-        let share = |inertias: [f64; 2], motion: usize| {
-            let engine = Engine::new("", "", inertias.map(place).to_vec()).unwrap();
+        let highest = |inertia: f64| {
+            let place = Station {
+                cylinder: cylinder.with_rod_inertia_excess(inertia).unwrap(),
+                tdc: Angle::ZERO,
+                bank: Angle::ZERO,
+                z: 0.0,
+                rotating_mass: 0.0,
+            };
+            let engine = Engine::new("", "", vec![place]).unwrap();
             let loads = Loads::new(&engine, 0.0);
-            rod_share(&loads, motion, &[1.0, 1.0, 4.0])
+            // Against a scale of its own a heavier rod takes more orders.
+            let scales = OrderSums { force: 1e9, moment: 1e9, inertia: 4.0, gas: 0.0 };
+            let orders = candidates(1e-6, &scales, &loads, &loads.sources, true).unwrap();
+            let highest = *orders.last().unwrap();
+            for (order, enough) in [(highest.halves() / 2, true), (highest.halves() / 2 - 1, false)]
+            {
+                let beyond = loads.sources[1].beyond(order, true).torque * inertia.abs() / 4.0;
+                assert_eq!(beyond <= NEGLIGIBLE_REST * 1e-6 / 2.0, enough, "{inertia} {order}");
+            }
+            highest
         };
-        assert_eq!(share([0.0, 0.0], 0), 0.0);
-        assert_eq!(share([0.002, -0.008], 0), 0.002);
-        assert_eq!(share([0.002, -0.008], 1), 0.0);
+        assert!(highest(0.5) < highest(-40.0));
     }
 
     #[test]
@@ -323,17 +393,24 @@ mod tests {
         let engine = crate::load::tests::fired([Some(0); 3]).0;
         let ahead = Loads::new(&engine, 0.0);
         let mut opposite = Loads::new(&engine, 0.0);
-        opposite.list.iter_mut().for_each(|load| load.weight *= -1.0);
+        opposite.list.iter_mut().for_each(|load| {
+            load.weight *= -1.0;
+            load.roll *= -1.0;
+        });
         let last = Order::whole(4).unwrap();
         let bounds = |loads: &Loads| {
-            let gas = GasOrders::new(0.1, loads, &loads.gears, FIRST_OF_GAS, &Cancel::new());
+            let gas = GasOrders::new(0.1, loads, &loads.sources, FIRST_OF_GAS, &Cancel::new());
             let gas = gas.unwrap();
-            let inertia = tail(loads, Some(&last), true, &loads.gears);
+            let inertia = tail(loads, Some(&last), true, &loads.sources);
             (inertia, scales(&engine, loads), gas.tail, gas.allowed)
         };
         let found = bounds(&opposite);
         assert_eq!(bounds(&ahead), found);
-        assert!(found.0.iter().all(|&bound| bound > 0.0) && found.2 > 0.0 && found.3 > 0.0);
+        assert!(
+            [found.0.force, found.0.moment, found.0.inertia].iter().all(|&bound| bound > 0.0)
+                && found.2 > 0.0
+                && found.3 > 0.0
+        );
     }
 
     #[test]

@@ -8,6 +8,7 @@ use std::sync::LazyLock;
 
 use crate::engine::Engine;
 use crate::load::Loads;
+use crate::load::kinematics::{BLOCK, Kinematics};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, parts};
 use crate::numbers::error::{Error, Result};
@@ -15,7 +16,6 @@ use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::quadrature::gauss_legendre;
 use crate::readings::balance::angular_speed;
-use crate::readings::kinematics::{BLOCK, Kinematics};
 
 /// Widest cell, degrees. Extremes between edges are those of a cubic, which misses a wave of order 12
 /// by 3e-7 of its height.
@@ -517,7 +517,7 @@ mod tests {
 
     use super::*;
     use crate::engine::Station;
-    use crate::gear::slider_crank::Cylinder;
+    use crate::mechanism::slider_crank::Cylinder;
     use crate::numbers::angle::Angle;
 
     fn grid(knots: &[f64]) -> CycleGrid {

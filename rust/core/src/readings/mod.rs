@@ -7,7 +7,6 @@ mod choice;
 pub mod exact;
 pub mod flywheel;
 pub mod internal;
-mod kinematics;
 pub mod peaks;
 pub mod sweep;
 pub mod terms;

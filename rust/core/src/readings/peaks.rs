@@ -21,12 +21,12 @@ use crate::numbers::simd::vectorised;
 /// Grid points to the shortest wave of the squared magnitude.
 const POINTS_PER_WAVE: usize = 16;
 /// Parts of a step of the grid in which what could be hidden is below 1e-13 of the peak.
-const MOST_PARTS: f64 = 4096.0;
+const FINEST_STEP: f64 = 4096.0;
 /// A polynomial falls from an extreme by 1 − cos nθ of its excursion at most (M. Riesz), and the nearest
 /// of the grid is half a step off: 1/(2 cos(π/16)), rounded up.
 const EXCURSION_OVER_SAMPLED: f64 = 0.51;
 /// Sums of a task.
-const TOGETHER: usize = 128;
+const SUMS_PER_TASK: usize = 128;
 /// Most cosines that a grid keeps, a quarter of a mebibyte; beyond, a Fourier transform takes less time.
 const MOST_COSINES: usize = 1 << 15;
 
@@ -166,7 +166,7 @@ impl PeakFinder {
             if !may_hold_more(&interval, best) {
                 continue;
             }
-            let last = interval.width <= step / MOST_PARTS;
+            let last = interval.width <= step / FINEST_STEP;
             if interval.rises_then_falls() && (last || bounds.bends_down(&interval)) {
                 best = best.max(interval.polish(&|θ| vector.squared(Complex64::cis(θ))));
             } else if !last {
@@ -192,12 +192,12 @@ pub fn largest_sums(
     order::check_list(orders)?;
     let finder = PeakFinder::about_mean(orders)?;
     let mut peaks = memory::zeros(phasors.len() / orders.len())?;
-    let rows = phasors.chunks(TOGETHER * orders.len());
-    let parts = memory::collected(peaks.chunks_mut(TOGETHER).zip(rows).enumerate())?;
+    let rows = phasors.chunks(SUMS_PER_TASK * orders.len());
+    let parts = memory::collected(peaks.chunks_mut(SUMS_PER_TASK).zip(rows).enumerate())?;
     pool::map(cancel, parts, |(part, (peaks, rows))| {
         cancel.check()?;
         for (k, (peak, row)) in peaks.iter_mut().zip(rows.chunks_exact(orders.len())).enumerate() {
-            let mean = means.get(part * TOGETHER + k).copied().unwrap_or(0.0);
+            let mean = means.get(part * SUMS_PER_TASK + k).copied().unwrap_or(0.0);
             *peak = finder.beside_mean(mean, row, cancel)?;
         }
         Ok(())

@@ -3,7 +3,7 @@
 //! A balance is the sum of these: both superpose the one list of loads, this reading the loads of each
 //! part apart.
 
-use super::amplitude::GearHarmonics;
+use super::amplitude::Amplitudes;
 use super::balance::{Balance, Request, angular_speed};
 use crate::engine::{Engine, Origin};
 use crate::load::{Load, Loads};
@@ -33,18 +33,19 @@ pub fn terms(
     let omega = angular_speed(request.rpm)?;
     let torque = request.torque && engine.spectrum().is_none();
     let loads = Loads::new(engine, engine.reference(request.reference_z)?);
-    let gears = GearHarmonics::new(&loads, torque, orders, &[], cancel)?;
+    let amplitudes = Amplitudes::new(&loads.sources, torque, orders, cancel)?;
     let count = |origin: fn(usize) -> Origin, count: usize| (0..count).map(origin);
     let parts = count(Origin::Cylinder, engine.stations().len())
         .chain(count(Origin::Counterweight, engine.counterweights().len()))
         .chain(count(Origin::Shaft, engine.shafts().len()));
     let of_part = |origin: Origin| {
-        let own: Vec<Load> = loads.list.iter().filter(|l| l.origin == origin).copied().collect();
-        let wrenches = gears.wrenches(&own, loads.reference, torque, orders, cancel)?;
+        let own: Vec<Load> =
+            loads.list.iter().filter(|l| l.place.origin == origin).copied().collect();
+        let wrenches = amplitudes.wrenches(&own, loads.reference, torque, orders, cancel)?;
         let there = |wrench: &Wrench| wrench.at_speed(omega * omega).moved([x, y, 0.0]);
         let wrenches = wrenches.iter().map(there).collect();
-        let mean = gears.mean(&own);
-        Ok((origin, Balance::of_orders(orders.to_vec(), wrenches, mean, torque, own.len())))
+        let mean = amplitudes.mean(&own);
+        Ok((origin, Balance::of_orders(orders.to_vec(), wrenches, mean, torque, &own)))
     };
     parts.map(of_part).collect()
 }

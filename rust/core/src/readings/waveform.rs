@@ -4,9 +4,8 @@ use ndarray::{Array1, Array2};
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::gear::rod::Swing;
-use crate::gear::slider_crank::Proportions;
 use crate::load::Loads;
+use crate::load::kinematics::{AngleBlock, BLOCK, Columns, Kinematics, Quantities, Units};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, check};
 use crate::numbers::error::{Error, Result};
@@ -15,9 +14,6 @@ use crate::numbers::memory;
 use crate::numbers::pool;
 use crate::numbers::simd::vectorised;
 use crate::readings::balance::{self, Balance, Orders, Request, Vector, angular_speed};
-use crate::readings::kinematics::{
-    AngleBlock, AngleColumn, BLOCK, Kinematics, Pistons, Pressures, Units,
-};
 
 /// An engine's shaking over crank angle.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,11 +52,12 @@ pub fn exact(
         torques: torques(engine, request.torque),
         zero_bounds: kinematics.zero_bounds.map(|bound| bound * square),
     };
-    in_blocks(theta_deg, &shape, cancel, |angles, rows| {
-        vectorised(
-            #[inline(always)]
-            || rows.add_kinematics(&kinematics, angles, request.torque, square),
-        );
+    let wanted = Quantities { planar: true, torque: request.torque };
+    in_blocks(theta_deg, &shape, cancel, |angles, columns| {
+        let block = AngleBlock::new(angles, 0..angles.len());
+        for sum in &kinematics.sums {
+            sum.source.over_angle(sum, &block, wanted, square, columns);
+        }
         Ok(())
     })
 }
@@ -76,10 +73,10 @@ pub fn from_orders(
     let balance = balance::balance(engine, request, orders, cancel)?;
     // Phasors that cancel are zero already.
     let shape = Shape { torques: torques(engine, balance.has_torque), zero_bounds: [0.0; 2] };
-    let waveform = in_blocks(theta_deg, &shape, cancel, |angles, rows| {
+    let waveform = in_blocks(theta_deg, &shape, cancel, |angles, columns| {
         vectorised(
             #[inline(always)]
-            || rows.add_orders(&balance, angles),
+            || columns.add_orders(&balance, angles),
         );
         Ok(())
     })?;
@@ -103,132 +100,26 @@ fn torques(engine: &Engine, wanted: bool) -> usize {
     }
 }
 
-/// Force x, y, moment x, y, roll and crank torque, and what pressure adds to these, at a block of crank
-/// angles; whole lines of the cache.
-#[repr(align(64))]
-pub(super) struct WaveformRows {
-    pub columns: [AngleColumn; 8],
-}
-
-impl WaveformRows {
-    pub const ZERO: Self = Self { columns: [[0.0; BLOCK]; 8] };
-
-    #[inline(always)]
-    fn add_kinematics(
-        &mut self,
-        kinematics: &Kinematics,
-        angles: &CrankAngles,
-        torque: bool,
-        square: f64,
-    ) {
-        let block = AngleBlock::new(angles, 0..angles.len());
-        for pistons in &kinematics.pistons {
-            let proportions = pistons.cylinder.proportions();
-            self.add_pistons(pistons, &proportions, &block, [true, torque], square);
-        }
-        self.add_unbalances(kinematics, &block, torque, square);
-        if torque {
-            for pressures in &kinematics.pressures {
-                self.add_pressure(pressures, &pressures.proportions, &block);
-            }
-        }
-    }
-
-    #[inline(always)]
-    pub fn add_unbalances(
-        &mut self,
-        kinematics: &Kinematics,
-        block: &AngleBlock,
-        torque: bool,
-        square: f64,
-    ) {
-        let [force_x, force_y, moment_x, moment_y, roll, ..] = &mut self.columns;
-        for unbalances in &kinematics.unbalances {
-            let units = block.units(unbalances.ratio);
-            let [force, moment] = unbalances.planar.map(|sum| sum * square);
-            units.add_turning(force, unbalances.ratio, [&mut force_x[..], &mut force_y[..]]);
-            units.add_turning(moment, unbalances.ratio, [&mut moment_x[..], &mut moment_y[..]]);
-            if torque && unbalances.roll != Complex64::default() {
-                let mut real = [0.0; BLOCK];
-                let at_start = unbalances.roll * square;
-                units.add_turning(at_start, unbalances.ratio, [&mut real[..], &mut roll[..]]);
-            }
-        }
-    }
-
-    /// Adds force and moment, torques or all of them of pistons of slider-cranks of these proportions.
-    #[inline(always)]
-    pub fn add_pistons(
-        &mut self,
-        pistons: &Pistons,
-        proportions: &Proportions,
-        block: &AngleBlock,
-        [planar, torque]: [bool; 2],
-        square: f64,
-    ) {
-        let units = &*block.units(pistons.ratio);
-        let [force_x, force_y, moment_x, moment_y, roll, crank, ..] = &mut self.columns;
-        let [force, moment] = pistons.planar.map(|sum| sum * square);
-        let arm = pistons.arm * square;
-        let senses = pistons.senses.map(|sense| sense * square);
-        let [on_block, on_crank] = senses.map(|sense| sense * pistons.second_moment);
-        for i in 0..BLOCK {
-            let motion = proportions.motion_at(&units.crank(pistons.phase, i));
-            if planar {
-                force_x[i] += force.re * motion.acceleration;
-                force_y[i] += force.im * motion.acceleration;
-                moment_x[i] += moment.re * motion.acceleration;
-                moment_y[i] += moment.im * motion.acceleration;
-            }
-            if torque {
-                let along = motion.velocity + proportions.offset;
-                roll[i] += (on_block * along + arm) * motion.acceleration;
-                crank[i] -= on_crank * motion.velocity * motion.acceleration;
-            }
-        }
-        if torque && pistons.rod_inertia != 0.0 {
-            let [on_block, on_crank] = senses.map(|sense| sense * pistons.rod_inertia);
-            for i in 0..BLOCK {
-                let swing = Swing::new(proportions, &units.crank(pistons.phase, i));
-                roll[i] += on_block * swing.roll();
-                crank[i] += on_crank * swing.crank();
-            }
-        }
-    }
-
-    pub fn add_pressure(
-        &mut self,
-        pressures: &Pressures,
-        proportions: &Proportions,
-        block: &AngleBlock,
-    ) {
-        let mut torques = [0.0; BLOCK];
-        pressures.add(proportions, block, &mut torques[..]);
-        let [on_block, on_crank] = pressures.gear.senses();
-        for (column, sense) in [(4, -on_block), (5, on_crank)] {
-            for (i, torque) in torques.iter().enumerate() {
-                self.columns[column][i] += sense * torque;
-                self.columns[column + 2][i] += sense * torque;
-            }
-        }
-    }
-
+impl Columns {
     #[inline(always)]
     fn add_orders(&mut self, balance: &Balance, angles: &CrankAngles) {
         for (k, mean) in balance.mean.into_iter().enumerate() {
-            for column in [4 + k, 6 + k] {
-                self.columns[column].iter_mut().for_each(|torque| *torque += mean);
+            for column in [&mut self.torque[k], &mut self.gas[k]] {
+                column.iter_mut().for_each(|torque| *torque += mean);
             }
         }
         for (k, &order) in balance.orders.iter().enumerate() {
             let Units { cos, sin } = Units::new(angles, 0..angles.len(), order);
-            let ([force_x, force_y], [moment_x, moment_y]) =
-                (balance.xy(Vector::Force, k), balance.xy(Vector::Moment, k));
             let (torque, gas) = (balance.wrenches[k].torque(), balance.wrenches[k].gas);
-            let torques = [torque.roll, torque.crank, gas.roll, gas.crank];
-            let [a, b, c, d] = torques;
-            let phasors = [force_x, force_y, moment_x, moment_y, a, b, c, d];
-            for (column, phasor) in self.columns.iter_mut().zip(phasors) {
+            let pairs = [
+                (&mut self.force, balance.xy(Vector::Force, k)),
+                (&mut self.moment, balance.xy(Vector::Moment, k)),
+                (&mut self.torque, [torque.roll, torque.crank]),
+                (&mut self.gas, [gas.roll, gas.crank]),
+            ];
+            let each =
+                pairs.into_iter().flat_map(|(columns, phasors)| columns.iter_mut().zip(phasors));
+            for (column, phasor) in each {
                 if phasor == Complex64::default() {
                     continue;
                 }
@@ -248,7 +139,7 @@ fn in_blocks(
     theta_deg: &[f64],
     shape: &Shape,
     cancel: &Cancel,
-    add: impl Fn(&CrankAngles, &mut WaveformRows) -> Result<()> + Send + Sync,
+    add: impl Fn(&CrankAngles, &mut Columns) -> Result<()> + Send + Sync,
 ) -> Result<Waveform> {
     let hint = "split theta_deg into parts";
     limits::result_size("theta_deg", &[theta_deg.len(), 16], size_of::<f64>(), hint)?;
@@ -265,7 +156,7 @@ fn fill_blocks(
     theta_deg: &[f64],
     shape: &Shape,
     cancel: &Cancel,
-    add: impl Fn(&CrankAngles, &mut WaveformRows) -> Result<()> + Sync,
+    add: impl Fn(&CrankAngles, &mut Columns) -> Result<()> + Sync,
 ) -> Result<Waveform> {
     let angles = theta_deg.len();
     let mut planar: [Vec<f64>; 2] = [memory::zeros(2 * angles)?, memory::zeros(2 * angles)?];
@@ -284,17 +175,17 @@ fn fill_blocks(
     let tasks = memory::collected(tasks)?;
     let block = |(thetas, pairs, torques): (&[f64], [&mut [f64]; 2], [&mut [f64]; 4])| {
         cancel.check()?;
-        let mut rows = WaveformRows::ZERO;
-        add(&CrankAngles::of_checked(thetas), &mut rows)?;
-        let [force_x, force_y, moment_x, moment_y, torque_columns @ ..] = &rows.columns;
-        let columns = [[force_x, force_y], [moment_x, moment_y]];
-        for ((out, [x, y]), bound) in pairs.into_iter().zip(columns).zip(shape.zero_bounds) {
+        let mut columns = Columns::ZERO;
+        add(&CrankAngles::of_checked(thetas), &mut columns)?;
+        let Columns { force, moment, torque, gas } = &columns;
+        let planar = pairs.into_iter().zip([force, moment]).zip(shape.zero_bounds);
+        for ((out, [x, y]), bound) in planar {
             let snapped = |value: f64| if value.abs() <= bound { 0.0 } else { value };
             for (pair, (x, y)) in out.as_chunks_mut().0.iter_mut().zip(x.iter().zip(&y[..])) {
                 *pair = [snapped(*x), snapped(*y)];
             }
         }
-        for (out, column) in torques.into_iter().zip(torque_columns) {
+        for (out, column) in torques.into_iter().zip(torque.iter().chain(gas)) {
             out.copy_from_slice(&column[..out.len()]);
         }
         Ok(())
@@ -353,7 +244,7 @@ mod tests {
         let thetas = [0.0; 4 * BLOCK];
         let run = |last: usize| {
             let (cancel, blocks) = (Cancel::new(), AtomicUsize::new(0));
-            let add = |_: &CrankAngles, _: &mut WaveformRows| {
+            let add = |_: &CrankAngles, _: &mut Columns| {
                 if blocks.fetch_add(1, Ordering::Relaxed) + 1 == last {
                     cancel.raise();
                 }

@@ -11,7 +11,7 @@ use crate::numbers::error::Result;
 use crate::{limits, memory, pool};
 
 /// Rounding moves no folded angle by more, radians.
-const SLACK: f64 = 1e-6;
+const FOLDING_ERROR: f64 = 1e-6;
 
 /// Bank angles in ascending order, each with a pair of arrangements that has it.
 ///
@@ -39,7 +39,7 @@ pub struct Angles {
 
 /// Where an angle comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Origin {
+pub(super) struct AngleSource {
     pub family: Family,
     /// Index of the family.
     index: usize,
@@ -93,8 +93,10 @@ impl Angles {
         let half = 2 * i64::from(self.parts / self.turns);
         for steps in 0..=half {
             let at = TAU * steps as f64 / f64::from(4 * self.parts);
-            let start = self.families.partition_point(|family| family.folded() < at - SLACK);
-            let close = self.families[start..].iter().take_while(|f| f.folded() <= at + SLACK);
+            let start =
+                self.families.partition_point(|family| family.folded() < at - FOLDING_ERROR);
+            let close =
+                self.families[start..].iter().take_while(|f| f.folded() <= at + FOLDING_ERROR);
             let found = close.clone().position(|&family| context.steps(family) == Some(steps));
             let Some(mut index) = found.map(|k| start + k) else { continue };
             if steps == 0 {
@@ -116,13 +118,13 @@ impl Angles {
 
     /// Degrees, ascending.
     pub fn degrees(&self, cancel: &Cancel) -> Result<Vec<f64>> {
-        const CHUNK: usize = 1 << 14;
+        const ANGLES_PER_TASK: usize = 1 << 14;
         let mut degrees = memory::zeros(self.count())?;
-        let chunks = degrees.chunks_mut(CHUNK).enumerate().collect();
+        let chunks = degrees.chunks_mut(ANGLES_PER_TASK).enumerate().collect();
         pool::map(cancel, chunks, |(chunk, out): (usize, &mut [f64])| {
             cancel.check()?;
             for (k, value) in out.iter_mut().enumerate() {
-                *value = self.at(self.within.start + chunk * CHUNK + k);
+                *value = self.at(self.within.start + chunk * ANGLES_PER_TASK + k);
             }
             Ok(())
         })?;
@@ -135,12 +137,12 @@ impl Angles {
     }
 
     /// Where the k-th angle comes from.
-    pub(super) fn get(&self, k: usize) -> Option<Origin> {
+    pub(super) fn get(&self, k: usize) -> Option<AngleSource> {
         (k < self.count()).then(|| self.origin(self.within.start + k))
     }
 
     /// The families that have an angle.
-    pub(super) fn alike(&self, origin: Origin, context: Families<'_>) -> Result<Vec<Family>> {
+    pub(super) fn alike(&self, origin: AngleSource, context: Families<'_>) -> Result<Vec<Family>> {
         context.alike(origin.family, &self.others)
     }
 
@@ -172,7 +174,7 @@ impl Angles {
 
     /// The k-th of all angles, degrees; correctly rounded if it is a rational part of a turn.
     fn at(&self, k: usize) -> f64 {
-        let Origin { family, index, middle, sign, beyond } = self.origin(k);
+        let AngleSource { family, index, middle, sign, beyond } = self.origin(k);
         if let Ok(found) = self.rational.binary_search_by_key(&index, |&(index, _)| index) {
             let whole = 4 * i64::from(self.parts);
             let steps = middle * (whole / i64::from(self.turns)) + sign * self.rational[found].1;
@@ -193,17 +195,17 @@ impl Angles {
         }
     }
 
-    fn origin(&self, k: usize) -> Origin {
+    fn origin(&self, k: usize) -> AngleSource {
         let beyond = k >= self.conditions();
         let k = if beyond { self.all() - 1 - k } else { k };
         let couple = self.families.len() + self.between();
         let (couples, rest) = ((k / couple) as i64, k % couple);
         if let Some(&family) = self.families.get(rest) {
-            return Origin { family, index: rest, middle: couples, sign: 1, beyond };
+            return AngleSource { family, index: rest, middle: couples, sign: 1, beyond };
         }
         let from_end = rest - self.families.len() + self.at_half + 1;
         let index = self.families.len() - from_end;
         let family = self.families[index];
-        Origin { family, index, middle: couples + 1, sign: -1, beyond }
+        AngleSource { family, index, middle: couples + 1, sign: -1, beyond }
     }
 }

@@ -8,7 +8,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::Search;
-use super::angles::{Angles, Origin};
+use super::angles::{AngleSource, Angles};
 use super::enumerate::{classes, packed, refuse_too_large};
 use super::families::Member;
 use super::family::{Families, Family};
@@ -21,7 +21,7 @@ use crate::numbers::error::Result;
 use crate::numbers::{memory, pool};
 
 /// Second-order moments, doubled, that are closer count as one.
-const ROUNDED: f64 = 1e-9;
+const EQUAL_MOMENTS: f64 = 1e-9;
 /// Makes them positive, in these units.
 const SHIFT: f64 = 1e12;
 
@@ -201,7 +201,7 @@ impl Equals {
             if let Some(turned) = moments.turned_to(known(of), known(member), image, near) {
                 let bank = TurnedBank::new(families, member.place).seen(moments, image, turned);
                 let rounded = [bank.second.re, bank.second.im]
-                    .map(|part| (part / ROUNDED + SHIFT + 0.5) as u64);
+                    .map(|part| (part / EQUAL_MOMENTS + SHIFT + 0.5) as u64);
                 memory::push(to, ((of.place, rounded), TurnedBank { of: of.place, ..bank }))?;
             }
         }
@@ -226,7 +226,7 @@ impl Search {
     pub(super) fn best_pair(
         &self,
         angles: &Angles,
-        origin: Origin,
+        origin: AngleSource,
         bank_angle: f64,
         by: Criterion,
         cancel: &Cancel,
@@ -320,7 +320,7 @@ impl Search {
     /// even in number, and moments of second order are turned by an odd number of double turns against
     /// the first: a whole circle for two turns, half of one for four, which reversing makes up for; with
     /// six or more, and up to 15 throws, there is no such pair.
-    fn ahead(&self, origin: Origin, family: Family) -> (u32, bool) {
+    fn ahead(&self, origin: AngleSource, family: Family) -> (u32, bool) {
         let Moments { bank, turn, .. } = &self.moments;
         // The family's own angle is σ·f + j·turn; α = ε|α| with ε = σ·sign has the same f.
         let angle = self.families().angle(family);

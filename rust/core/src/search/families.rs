@@ -17,16 +17,16 @@ use crate::numbers::error::Result;
 use crate::numbers::memory;
 use crate::numbers::pool;
 
-/// |2Z| below which rounding asks for more than [`CLOSE`].
+/// |2Z| below which rounding asks for more than [`NEAREST_FOLDED`].
 const SMALL: f64 = 0.1;
 /// How near folded angles may be by rounding alone, unless |Z| is small.
-const CLOSE: f64 = NEAR / SMALL;
+const NEAREST_FOLDED: f64 = NEAR / SMALL;
 /// Families in one range of folded angles, about, and most ranges.
 const RANGE: usize = 4096;
 const MOST_RANGES: usize = 512;
 
 /// Families ascending by their folded angles, each angle once; and those whose angle is one of these,
-/// [`CLOSE`] to it.
+/// [`NEAREST_FOLDED`] to it.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Distinct {
     pub families: Vec<Family>,
@@ -115,7 +115,7 @@ impl Families<'_> {
             // Only what is close to the joint can be there already.
             let close = |family: &Family| {
                 let last = all.families.last();
-                last.is_some_and(|last| family.folded() - last.folded() <= CLOSE)
+                last.is_some_and(|last| family.folded() - last.folded() <= NEAREST_FOLDED)
             };
             let (joint, rest) = part.families.split_at(part.families.partition_point(close));
             all.join(joint, &mut same)?;
@@ -219,8 +219,9 @@ impl Families<'_> {
     /// Those with the angle of a family among others, and itself.
     pub(super) fn alike(self, family: Family, others: &[Family]) -> Result<Vec<Family>> {
         let folded = family.folded();
-        let start = others.partition_point(|other| other.folded() < folded - CLOSE);
-        let close = others[start..].iter().take_while(|other| other.folded() <= folded + CLOSE);
+        let start = others.partition_point(|other| other.folded() < folded - NEAREST_FOLDED);
+        let close =
+            others[start..].iter().take_while(|other| other.folded() <= folded + NEAREST_FOLDED);
         let mut same = Same::new(self);
         let mut alike = memory::collected([family].into_iter())?;
         for &other in close {
@@ -255,7 +256,8 @@ impl Distinct {
     fn join(&mut self, families: &[Family], same: &mut Same<'_>) -> Result<()> {
         for &family in families {
             let last = self.families.iter().rev();
-            let mut close = last.take_while(|other| family.folded() - other.folded() <= CLOSE);
+            let mut close =
+                last.take_while(|other| family.folded() - other.folded() <= NEAREST_FOLDED);
             if close.any(|&other| same.angle(family, other)) {
                 memory::push(&mut self.others, family)?;
             } else {
@@ -438,7 +440,7 @@ mod tests {
 
     #[test]
     fn what_is_not_small_is_close_wherever_rounding_put_it() {
-        assert_eq!(near(SMALL), CLOSE);
+        assert_eq!(near(SMALL), NEAREST_FOLDED);
     }
 
     /// |Z| nearly vanishes in some classes.

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::engine::Hold;
 
 /// More than rounding moves an angle of at most half a circle, radians.
-const SLACK: f64 = 1e-9;
+const WINDOW_ERROR: f64 = 1e-9;
 
 /// Folded angles, in [0, turn/2], that are wanted.
 pub(super) struct WindowTarget {
@@ -39,7 +39,7 @@ impl WindowTarget {
                     if run % 2 == 0 { [from, to] } else { [half - to, half - from] }
                 })
             })
-            .map(|[from, to]| [from - SLACK, to + SLACK])
+            .map(|[from, to]| [from - WINDOW_ERROR, to + WINDOW_ERROR])
             .collect();
         intervals.sort_by(|a, b| a[0].total_cmp(&b[0]));
         // Those that overlap are one.
@@ -73,16 +73,16 @@ mod tests {
 
     #[test]
     fn a_folded_angle_is_wanted_if_one_it_unfolds_to_is() {
-        const STEPS: u32 = 1000;
+        const ANGLES: u32 = 1000;
         for turn in [TAU, PI, TAU / 3.0, TAU / 7.0] {
             for hold in [Hold::Firing, Hold::Pins] {
                 for window in [[0.0, 180.0], [20.0, 31.0], [0.0, 5.0], [88.0, 92.5], [170.0, 180.0]]
                 {
                     let wanted = WindowTarget::new(window, hold, turn);
                     let mut count = 0;
-                    for step in 0..STEPS {
+                    for step in 0..ANGLES {
                         // Halves, so that none is at the edge of a window.
-                        let folded = 0.5 * turn * (f64::from(step) + 0.5) / f64::from(STEPS);
+                        let folded = 0.5 * turn * (f64::from(step) + 0.5) / f64::from(ANGLES);
                         let unfolded = (0..8).flat_map(|k| {
                             let middle = f64::from(k) * turn;
                             [middle - folded, middle + folded]
@@ -101,8 +101,8 @@ mod tests {
                         count += u32::from(expected);
                     }
                     // To the four ends of two intervals.
-                    let part = f64::from(count) / f64::from(STEPS);
-                    assert!((wanted.share() - part).abs() <= 4.0 / f64::from(STEPS));
+                    let part = f64::from(count) / f64::from(ANGLES);
+                    assert!((wanted.share() - part).abs() <= 4.0 / f64::from(ANGLES));
                     assert!(wanted.share() <= 1.0);
                 }
             }

@@ -8,9 +8,9 @@
 use num_traits::{CheckedDiv, CheckedMul};
 
 use super::roots::{FormalSum, Share};
-use super::{Levers, too_long, whole};
+use super::{ExactLoads, Levers, too_long, whole};
 use crate::engine::Engine;
-use crate::load::{Load, Loads, Source, Wanted, superpose};
+use crate::load::{Load, Loads, Wanted, superpose};
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -103,7 +103,7 @@ fn levers(
         (!others).then(|| own.map_or(Ratio::ZERO, |&(_, ratio)| ratio))
     };
     let Some(levers) = of.iter().map(single).collect::<Option<Vec<Ratio>>>() else {
-        let value = format!("{:?}", loads.list.iter().map(|load| load.z).collect::<Vec<_>>());
+        let value = format!("{:?}", loads.list.iter().map(|load| load.place.z).collect::<Vec<_>>());
         return Err(refused("z", value, "distances that are rational multiples of each other"));
     };
     let measure = |levers: &[Ratio], from: Ratio| {
@@ -126,8 +126,7 @@ fn levers(
 /// Weights of the loads of an order, in units of the first cylinder that has mass.
 fn weights(loads: &[Load], cancel: &Cancel) -> Result<(usize, Vec<Ratio>)> {
     let figures: Vec<f64> = loads.iter().map(|load| load.weight).collect();
-    let is_piston = |load: &Load| matches!(load.source, Source::Piston { .. });
-    let Some(unit) = loads.iter().position(|load| is_piston(load) && load.weight > 0.0) else {
+    let Some(unit) = loads.iter().position(|load| !load.is_turning() && load.weight > 0.0) else {
         return Err(refused("reciprocating_mass", 0, "a cylinder that has some"));
     };
     let multiples = Multiples::new(&figures, cancel)?;
@@ -152,16 +151,16 @@ pub fn closed_form(
     if order.as_whole().is_none() {
         return Err(refused("order", order, "a whole order: inertia has no others"));
     }
-    let (mut loads, cylinders) = super::loads(engine, reference_z)?;
-    if loads.gears.iter().any(|gear| gear.ratio.abs() != 1) {
+    let ExactLoads { mut loads, motions, .. } = ExactLoads::new(engine, reference_z)?;
+    if motions.iter().any(|motion| motion.ratio.abs() != 1) {
         let hint = "cylinders on cranks as fast as the main one";
         return Err(refused("cranks", "of different speeds", hint));
     }
-    if cylinders.len() > 1 {
+    if motions.len() > 1 {
         return Err(refused("cylinders", "of different proportions", "rods and offsets alike"));
     }
-    loads.list.retain(|load| load.unbalance_order().is_none_or(|of| of == order));
-    let offset = cylinders[0].pin_offset();
+    loads.list.retain(|load| load.parts.force.is_some() && load.acts_at(order));
+    let offset = motions[0].cylinder().pin_offset();
     let (unit, weights) = weights(&loads.list, cancel)?;
     if loads.list.len() > engine.stations().len() {
         if order > Order::FIRST {
@@ -184,20 +183,22 @@ pub fn closed_form(
     let products = weights.iter().zip(&levers).map(product).collect::<Result<Vec<_>>>()?;
     let mut parts = Vec::with_capacity(loads.list.len());
     for ((load, weight), lever) in loads.list.iter().zip(weights).zip(levers) {
-        let (motion, square) = match load.source {
-            Source::Piston { .. } => (LoadMotion::Along, 1),
-            Source::Unbalance if load.ratio > 0 => (LoadMotion::Forward, load.ratio * load.ratio),
-            _ => (LoadMotion::Backward, load.ratio * load.ratio),
+        let place = &load.place;
+        let motion = match (load.has_part(true), load.has_part(false)) {
+            (true, true) => LoadMotion::Along,
+            (true, false) => LoadMotion::Forward,
+            _ => LoadMotion::Backward,
         };
+        let square = place.speed_squared();
         let weight = weight.checked_mul(&Ratio::from(i128::from(square))).ok_or_else(too_long)?;
         let argument = if motion == LoadMotion::Along { "bank_deg" } else { "angle_deg" };
-        let direction = part_of_turn(argument, load.direction)?;
+        let direction = part_of_turn(argument, place.direction)?;
         parts.push(LoadPart {
             weight,
             lever,
             motion,
             direction,
-            phase: part_of_turn("tdc_deg", load.phase)?,
+            phase: part_of_turn("tdc_deg", place.phase)?,
         });
     }
     let no_harmonic = offset == 0.0 && order > Order::FIRST && order.is_odd();
@@ -264,7 +265,7 @@ fn phasor(sum: &RootSum, cancel: &Cancel) -> Result<Phasor> {
 mod tests {
     use super::*;
     use crate::engine::{Shaft, Station, Unbalance};
-    use crate::gear::slider_crank::Cylinder;
+    use crate::mechanism::slider_crank::Cylinder;
     use crate::readings::balance::{Request, Vector, balance};
 
     /// Of a whole order.
@@ -352,7 +353,7 @@ mod tests {
                     let planar = found.planar(vector, 0);
                     let [x, y] = found.xy(vector, 0);
                     let cylinder = engine.stations()[form.unit].cylinder;
-                    let harmonic = crate::gear::harmonics::coefficients(
+                    let harmonic = crate::mechanism::harmonics::coefficients(
                         &cylinder.proportions(),
                         &[order],
                         &Cancel::new(),

@@ -11,8 +11,9 @@ pub mod vanishing;
 use num_traits::{CheckedAdd, CheckedDiv, CheckedMul, Signed};
 
 use crate::engine::{Engine, first_equal};
-use crate::gear::slider_crank::Cylinder;
-use crate::load::{Loads, Source};
+use crate::load::Loads;
+use crate::mechanism::Mechanism;
+use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::rational::{Multiples, Ratio, common_measure, decimal};
@@ -58,30 +59,44 @@ impl TypedProportions {
     }
 }
 
-/// All loads, and the slider-cranks of their gears; pistons share a gear where their proportions are equal
-/// as typed, though quotients of doubles may differ, and their cranks turn as fast, in either sense: offsets
-/// are on the side to which the crankpin swings.
-fn loads(engine: &Engine, reference: Option<f64>) -> Result<(Loads, Vec<Cylinder>)> {
-    let mut loads = Loads::new(engine, engine.reference(reference)?);
-    // Pressure is no rational multiple of anything.
-    loads.list.retain(|load| !matches!(load.source, Source::Pressure { .. }));
-    let Some(mut cylinders) = loads.cylinders() else {
-        let reason = "its forces are a spectrum that was given".to_owned();
-        return Err(Error::Undefined { argument: "an exact sum", reason });
-    };
-    let speeds = loads.gears.iter().map(|gear| gear.ratio.abs());
-    let same = first_equal(cylinders.iter().map(TypedProportions::of).zip(speeds));
-    for load in &mut loads.list {
-        if let Source::Piston { gear, .. } = &mut load.source {
-            *gear = same[*gear];
+/// Loads of which exact sums are made, and their motions.
+struct ExactLoads {
+    loads: Loads,
+    /// Motions that differ as typed, or in the speed of their cranks, whichever the sense: offsets are on
+    /// the side to which the crankpin swings.
+    motions: Vec<Mechanism>,
+    /// Index of the motion of each source that has one.
+    motion_of: Vec<Option<usize>>,
+}
+
+impl ExactLoads {
+    fn new(engine: &Engine, reference: Option<f64>) -> Result<Self> {
+        if engine.spectrum().is_some() {
+            let reason = "its forces are a spectrum that was given".to_owned();
+            return Err(Error::Undefined { argument: "an exact sum", reason });
         }
+        let mut loads = Loads::new(engine, engine.reference(reference)?);
+        loads.retain_exact();
+        let mechanisms: Vec<(usize, &Mechanism)> = (0..)
+            .zip(&loads.sources)
+            .filter_map(|(k, source)| Some((k, source.mechanism()?)))
+            .filter(|(k, _)| loads.list.iter().any(|load| load.source == *k))
+            .collect();
+        // Quotients of doubles may differ where proportions are equal as typed.
+        let typed = |(_, of): &(usize, &Mechanism)| {
+            (TypedProportions::of(of.cylinder()), of.ratio.unsigned_abs())
+        };
+        let (mut motions, mut motion_of) = (Vec::new(), vec![None; loads.sources.len()]);
+        let first = first_equal(mechanisms.iter().map(typed));
+        for (i, ((source, mechanism), first)) in mechanisms.iter().zip(first).enumerate() {
+            if first == i {
+                motions.push(**mechanism);
+            }
+            let known = motion_of[mechanisms[first].0];
+            motion_of[*source] = known.or_else(|| motions.len().checked_sub(1));
+        }
+        Ok(Self { loads, motions, motion_of })
     }
-    let is_first = |i: usize| !same[..i].contains(&same[i]);
-    let mut index = 0..;
-    loads.gears.retain(|_| index.next().is_some_and(is_first));
-    let mut index = 0..;
-    cylinders.retain(|_| index.next().is_some_and(is_first));
-    Ok((loads, cylinders))
 }
 
 /// Levers of all loads, each a sum of rational multiples of few units of length.
@@ -100,7 +115,7 @@ impl Levers {
         reference: Option<f64>,
         cancel: &Cancel,
     ) -> Result<Self> {
-        let mut lengths: Vec<f64> = loads.list.iter().map(|load| load.z).collect();
+        let mut lengths: Vec<f64> = loads.list.iter().map(|load| load.place.z).collect();
         // A plane that is a decimal is exact; any other is known from the middle of the engine.
         let reference = reference.or(engine.reference_z());
         let exact = reference.filter(|&plane| decimal(plane).is_some());

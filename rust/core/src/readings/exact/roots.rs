@@ -1,6 +1,6 @@
 //! Loads in exact numbers: roots of unity, times symbols for angles that are no simple parts of a turn.
 
-use crate::load::{Arithmetic, Load, Loads, Times, Weight};
+use crate::load::{Arithmetic, Factor, Load, Loads, Weight};
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::decimal::WITHIN_ULP;
@@ -8,7 +8,7 @@ use crate::numbers::error::Result;
 use crate::numbers::rational::{Ratio, recognise};
 
 /// Angles of more parts of a turn are symbols: those of six decimals have 3.6e8 at most.
-const MOST_PARTS: i64 = 1_000_000_000;
+const MOST_PARTS_OF_ROOT: i64 = 1_000_000_000;
 
 /// Angle as a rational part of a turn and, if it is no simple one, an index from 1 of what is beside.
 #[derive(Debug, Clone, Copy)]
@@ -44,7 +44,8 @@ pub(super) fn parts_of_turn(
 }
 
 fn simple(angle: Angle) -> Option<Ratio> {
-    let (numerator, denominator) = angle.turns().filter(|&(_, parts)| parts <= MOST_PARTS)?;
+    let (numerator, denominator) =
+        angle.turns().filter(|&(_, parts)| parts <= MOST_PARTS_OF_ROOT)?;
     Some(Ratio::new(numerator.into(), denominator.into()))
 }
 
@@ -101,8 +102,8 @@ pub(super) struct FormalSum {
 
 impl FormalSum {
     pub fn new(loads: &Loads, cancel: &Cancel) -> Result<Self> {
-        let directions = loads.list.iter().map(|load| load.direction);
-        let phases = loads.list.iter().map(|load| load.phase);
+        let directions = loads.list.iter().map(|load| load.place.direction);
+        let phases = loads.list.iter().map(|load| load.place.phase);
         Ok(Self {
             directions: parts_of_turn(directions, true, cancel)?,
             phases: parts_of_turn(phases, true, cancel)?,
@@ -135,7 +136,7 @@ impl Arithmetic for FormalSum {
         (load, _): (usize, &Load),
         weight: Weight,
         unit: &UnityRoot,
-        Times { halves, quarters }: Times,
+        Factor { halves, quarters }: Factor,
     ) {
         let root = unit.turned(Ratio::new(quarters.into(), 4));
         sum.push(Share { load, weight, root, halves });

@@ -29,7 +29,7 @@
 //!   and −½, both negative;
 //! - others where their value is beyond any error of its evaluation: 10⁻⁹ of the harmonics of masses
 //!   and rod that it is the sum of, and 10⁻¹² of n² p₂^{n−2}, which bounds the terms that these are
-//!   made of (p₂ as in [`crate::gear::harmonics`]).
+//!   made of (p₂ as in [`crate::mechanism::harmonics`]).
 
 mod terms;
 
@@ -42,10 +42,11 @@ use super::whole;
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::firing::Firing;
-use crate::gear::harmonics;
-use crate::gear::slider_crank::Cylinder;
 use crate::layout::Strokes;
 use crate::load::{Load, Loads};
+use crate::mechanism::Mechanism;
+use crate::mechanism::harmonics;
+use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -54,7 +55,7 @@ use crate::numbers::ring::RootSum;
 use crate::readings::balance::{self, Orders, Request, Vector};
 
 /// Sums of weights in doubles of angles within this part of Σ|weights| may be of one exact angle.
-const ROUNDED: f64 = 16.0 * f64::EPSILON;
+const ROUNDED_ANGLES: f64 = 16.0 * f64::EPSILON;
 
 /// Part of the largest torque of gas beyond which that of an order is no error: it is evaluated to 1e-13.
 const EVALUATED: f64 = 1e-9;
@@ -203,7 +204,7 @@ impl Proof {
         let [Some(x), Some(y)] = values else { return Ok(false) };
         // Doubles of a few units in the last place of a turn, and the sums of as many terms.
         let size: f64 = all.iter().map(|&(_, _, weight)| weight.abs() as f64).sum();
-        if (x + y).norm() > ROUNDED * size {
+        if (x + y).norm() > ROUNDED_ANGLES * size {
             return Ok(false);
         }
         let period = RootSum::new(&all, 1)?.period();
@@ -219,8 +220,8 @@ impl Proof {
             (index == 0 || angle.turns().is_none()).then_some(angle)
         };
         let (index, entry) = symbol.direction;
-        let direction = first(&self.roots.directions, index, |load| load.direction)?;
-        let phase = first(&self.roots.phases, symbol.phase, |load| load.phase)?;
+        let direction = first(&self.roots.directions, index, |load| load.place.direction)?;
+        let phase = first(&self.roots.phases, symbol.phase, |load| load.place.phase)?;
         let sign = match entry {
             SymbolEntry::UnityRoot => 1,
             SymbolEntry::Conjugate => -1,
@@ -238,7 +239,8 @@ impl Proof {
         cancel: &Cancel,
     ) -> Result<bool> {
         use Channel::{Force, Gear, Masses, OddOfGear, OddOfMasses, OddOfRod, One, Rod};
-        let of_motion = |motion: usize| (self.motions[motion], self.own_order(motion, order));
+        let of_motion =
+            |motion: usize| (*self.motions[motion].cylinder(), self.own_order(motion, order));
         let ((cylinder, own), [masses, inertia]) = match channel {
             One => return Ok(true),
             Force(motion) | Masses(motion) | OddOfMasses(motion) => (of_motion(motion), [1.0, 0.0]),
@@ -298,10 +300,12 @@ impl Proof {
                 found.push(format!("{name} is no simple part of a turn in cylinders {numbers}"));
             }
         }
-        if self.roots.directions[cylinders..].iter().any(|direction| direction.symbol > 0) {
+        let turning = || self.loads.list.iter().filter(|load| load.is_turning());
+        let directions = self.loads.list.iter().zip(&self.roots.directions);
+        if directions.into_iter().any(|(load, of)| load.is_turning() && of.symbol > 0) {
             found.push("angles of unbalances that are no simple part of a turn".to_owned());
         }
-        let speed = |motion: usize| self.loads.gears[motion].ratio.unsigned_abs();
+        let speed = |motion: usize| self.motions[motion].ratio.unsigned_abs();
         if (0..self.motions.len()).any(|motion| speed(motion) != speed(0)) {
             found.push("cranks of different speeds".to_owned());
         } else if self.motions.len() > 1 {
@@ -314,15 +318,11 @@ impl Proof {
         if self.planar.units.len() > 1 {
             found.push("masses times radius that are no rational multiples of each other".into());
         }
-        if self.loads.list.len() > cylinders {
-            let above = self.loads.unbalance_orders().iter().any(|&order| order > Order::FIRST);
-            if above {
-                found
-                    .push("unbalances of orders above 1, no rational multiples of pistons'".into());
-            }
+        if turning().any(|load| load.place.ratio.abs() > 1) {
+            found.push("unbalances of orders above 1, no rational multiples of pistons'".into());
         }
-        let beside = |load: &Load| load.axis != Complex64::default();
-        if self.loads.list[cylinders..].iter().any(beside) {
+        let beside = |load: &Load| load.place.axis != Complex64::default();
+        if turning().any(beside) {
             found.push("roll torques of shafts, no rational multiples of pistons'".to_owned());
         }
         if self.loads.list[..cylinders].iter().any(beside) {
@@ -335,7 +335,7 @@ impl Proof {
         if units.len() > 1 {
             found.push("places that are no rational multiples of each other".to_owned());
         }
-        let has_offset = |motion: &Cylinder| motion.pin_offset() != 0.0;
+        let has_offset = |motion: &Mechanism| !motion.is_centred();
         if found.is_empty() && self.motions.iter().any(has_offset) {
             found.push(
                 "pin offsets: harmonics with no rational relation to what rotates".to_owned(),
@@ -438,9 +438,8 @@ fn evaluated(
     let orders = Orders::Given(orders.to_vec());
     let found = balance::balance(engine, &request, &orders, cancel)?;
     let loads = Loads::new(engine, engine.reference(reference_z)?);
-    let volumes = loads.volumes().into_iter().zip(&loads.gears);
-    let largest: f64 =
-        volumes.filter_map(|(volume, gear)| Some(volume.size * gear.largest_gas()?)).sum();
+    let volumes = loads.volumes().into_iter().zip(&loads.sources);
+    let largest: f64 = volumes.map(|(volume, source)| volume.size * source.largest_torque()).sum();
     let zero = |k: usize| {
         let of = |vector: Vector| {
             let [x, y] = found.xy(vector, k);

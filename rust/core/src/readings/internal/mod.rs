@@ -19,7 +19,8 @@ use self::rod::{DrivenRod, RodColumns};
 pub use self::sections::{Part, Sections};
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::{Load, Loads, Source};
+use crate::load::kinematics::{BLOCK, Units};
+use crate::load::{Load, Loads};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, check, parts};
 use crate::numbers::error::{Error, Result};
@@ -27,7 +28,6 @@ use crate::numbers::order::Order;
 use crate::numbers::simd::vectorised;
 use crate::numbers::{limits, memory, pool};
 use crate::readings::balance::angular_speed;
-use crate::readings::kinematics::{BLOCK, Units};
 use crate::wrench::rounding;
 
 /// Largest share of a load outside the end bearings that one carries: rounding is that times larger.
@@ -84,9 +84,10 @@ struct Turning {
 impl Turning {
     /// An unbalance at a square of angular speed.
     fn new(load: &Load, square: f64) -> Self {
-        let force = load.weight * square * f64::from(load.ratio * load.ratio);
-        let at_start = load.unit * load.phase.cis(-i64::from(load.ratio)) * force;
-        Self { z: load.z, ratio: load.ratio, at_start }
+        let place = &load.place;
+        let force = load.weight * square * f64::from(place.speed_squared());
+        let at_start = place.unit * place.phase.cis(-i64::from(place.ratio)) * force;
+        Self { z: place.z, ratio: place.ratio, at_start }
     }
 }
 
@@ -114,7 +115,7 @@ impl Internal {
         let (pistons, turn) = loads.list.split_at(engine.stations().len());
         let (of_crank, of_shafts) = turn.split_at(engine.crank_unbalances().count());
         let all = |loads: &[Load]| {
-            let unbalances = loads.iter().filter(|load| load.source == Source::Unbalance);
+            let unbalances = loads.iter().filter(|load| load.is_turning());
             unbalances.map(|load| Turning::new(load, square)).collect()
         };
         let mut found = Self {
@@ -126,8 +127,8 @@ impl Internal {
         for (i, load) in pistons.iter().enumerate() {
             let rod = DrivenRod::new(engine, i, load, square)?;
             // What the crankpin gets from the rod is part of the rotating mass.
-            let at_start = load.unit * load.phase.cis(-1) * -rod.rotating;
-            found.on_crank.push(Turning { z: load.z, ratio: 1, at_start });
+            let at_start = load.place.unit * load.place.phase.cis(-1) * -rod.rotating;
+            found.on_crank.push(Turning { z: load.place.z, ratio: 1, at_start });
             found.rods.push(rod);
         }
         let far = |z: &f64| found.levers(*z).iter().any(|(_, share)| share.abs() > MOST_SHARE);

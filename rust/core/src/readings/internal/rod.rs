@@ -15,13 +15,13 @@ use std::sync::Arc;
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::gear::rod::Swing;
-use crate::gear::slider_crank::{CrankPosition, Proportions};
-use crate::load::{Load, Source};
+use crate::load::Load;
+use crate::load::kinematics::{AngleColumn, BLOCK, Units};
+use crate::mechanism::rod::Swing;
+use crate::mechanism::slider_crank::{CrankPosition, Proportions};
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::error::Result;
 use crate::pressure::Cycle;
-use crate::readings::kinematics::{AngleColumn, BLOCK, Units};
 
 /// Axes that turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -85,12 +85,11 @@ pub(super) struct RodColumns {
 impl PistonGas {
     /// Of a cylinder of an engine.
     fn of(engine: &Engine, cylinder: usize) -> Option<Self> {
-        let gas = engine.gas()?;
-        let cycle = Arc::clone(&gas.cycles[gas.cycle_of[cylinder]?]);
+        let (cycle, crankcase) = engine.pressure_of(cylinder)?;
         let radius = engine.stations()[cylinder].cylinder.crank_radius();
         let area = engine.swept_by_radius(cylinder)? / radius;
         let phase = engine.firing_phase(cylinder).degrees();
-        Some(Self { cycle, phase, crankcase: gas.crankcase, area })
+        Some(Self { cycle, phase, crankcase, area })
     }
 
     /// Force on the piston towards the crank, N, by the polynomial that counts at another angle.
@@ -113,19 +112,15 @@ impl DrivenRod {
         let (radius, length) = (cylinder.crank_radius(), cylinder.rod_length());
         let rotating = details.big_end(length)? * radius;
         let piston = details.piston_mass.map_or(load.weight, |mass| mass * radius);
-        let inertia = match load.source {
-            Source::Piston { rod_inertia, .. } => rod_inertia,
-            _ => 0.0,
-        };
         Ok(Self {
             proportions: cylinder.proportions(),
-            phase: load.phase.cis(-1),
-            bore: load.unit,
-            z: load.z,
+            phase: load.place.phase.cis(-1),
+            bore: load.place.unit,
+            z: load.place.z,
             reciprocating: load.weight * square,
             piston: piston * square,
             rotating: rotating * square,
-            couple: inertia * square / length,
+            couple: cylinder.rod_inertia_excess() * square / length,
             gas: PistonGas::of(engine, i),
         })
     }

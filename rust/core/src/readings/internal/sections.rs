@@ -4,10 +4,10 @@ use ndarray::{Array3, Axis};
 
 use super::{Internal, check_angles, vectors};
 use crate::Complex64;
+use crate::load::kinematics::{BLOCK, Units};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, parts};
 use crate::numbers::error::Result;
-use crate::readings::kinematics::{BLOCK, Units};
 
 /// What is cut at some z.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,7 +64,7 @@ impl Internal {
                 let angles = CrankAngles::of_checked(&theta_deg[range.clone()]);
                 let units = Units::at_speed(&angles, 0..angles.len(), load.ratio);
                 let [mut x, mut y] = [[0.0; BLOCK]; 2];
-                units.add_turning(load.at_start, load.ratio, [&mut x[..], &mut y[..]]);
+                units.add_turning(load.at_start, load.ratio, [&mut x, &mut y]);
                 for (at, (x, y)) in range.zip(x.iter().zip(&y[..])) {
                     sum[[at, 0]] += x;
                     sum[[at, 1]] += y;

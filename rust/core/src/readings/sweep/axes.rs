@@ -110,8 +110,8 @@ fn ends(values: Option<&[f64]>, cancel: &Cancel) -> Result<[Option<f64>; 2]> {
 /// Applies a check to each value, looking at `cancel` between pieces.
 fn each(values: &[f64], cancel: &Cancel, mut check: impl FnMut(f64) -> Result<()>) -> Result<()> {
     /// Values between two checks for cancellation.
-    const PIECE: usize = 1 << 14;
-    for piece in values.chunks(PIECE) {
+    const VALUES_PER_CHECK: usize = 1 << 14;
+    for piece in values.chunks(VALUES_PER_CHECK) {
         cancel.check()?;
         piece.iter().try_for_each(|&value| check(value))?;
     }

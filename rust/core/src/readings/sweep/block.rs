@@ -7,12 +7,12 @@ use crate::Complex64;
 use crate::wrench::snapped;
 
 /// Rows evaluated side by side.
-pub(super) const LANES: usize = 16;
+pub(super) const ROWS_SIDE_BY_SIDE: usize = 16;
 
 /// One value for each row of a block.
-type Lanes = [f64; LANES];
+type Lanes = [f64; ROWS_SIDE_BY_SIDE];
 
-/// Sums of every order at up to [`LANES`] rows.
+/// Sums of every order at up to [`ROWS_SIDE_BY_SIDE`] rows.
 pub(super) struct Block {
     orders: Vec<Sums>,
 }
@@ -39,20 +39,20 @@ struct OnePlace(usize);
 struct PlacesFrom(usize);
 
 /// A place for each row.
-struct EachPlace([usize; LANES]);
+struct EachPlace([usize; ROWS_SIDE_BY_SIDE]);
 
 impl Places for OnePlace {
     #[inline(always)]
     fn of<const N: usize>(&self, columns: &Padded<N>, column: usize) -> Lanes {
-        [columns.values[column * columns.length + self.0]; LANES]
+        [columns.values[column * columns.length + self.0]; ROWS_SIDE_BY_SIDE]
     }
 }
 
 impl Places for PlacesFrom {
     #[inline(always)]
     fn of<const N: usize>(&self, columns: &Padded<N>, column: usize) -> Lanes {
-        let values = &columns.values[column * columns.length + self.0..][..LANES];
-        let mut lanes = [0.0; LANES];
+        let values = &columns.values[column * columns.length + self.0..][..ROWS_SIDE_BY_SIDE];
+        let mut lanes = [0.0; ROWS_SIDE_BY_SIDE];
         lanes.copy_from_slice(values);
         lanes
     }
@@ -61,7 +61,7 @@ impl Places for PlacesFrom {
 impl Places for EachPlace {
     #[inline(always)]
     fn of<const N: usize>(&self, columns: &Padded<N>, column: usize) -> Lanes {
-        let mut lanes = [0.0; LANES];
+        let mut lanes = [0.0; ROWS_SIDE_BY_SIDE];
         for (lane, place) in lanes.iter_mut().zip(&self.0) {
             *lane = columns.values[column * columns.length + place];
         }
@@ -82,7 +82,7 @@ impl Block {
             return self.combine(waves, coefficients, &PlacesFrom(row), &OnePlace(0));
         }
         let (angle, point) = (row / points, row % points);
-        if point + LANES <= points {
+        if point + ROWS_SIDE_BY_SIDE <= points {
             return self.combine(waves, coefficients, &OnePlace(angle), &PlacesFrom(point));
         }
         let angles = from_fn(|i| (row + i) / points);
@@ -109,7 +109,7 @@ impl Block {
                     let of_cos = point.of(coefficients, first);
                     let of_sin = point.of(coefficients, first + 2);
                     let rest = point.of(coefficients, first + 4);
-                    for i in 0..LANES {
+                    for i in 0..ROWS_SIDE_BY_SIDE {
                         out[i] = cos[i].mul_add(of_cos[i], sin[i].mul_add(of_sin[i], rest[i]));
                     }
                 }
@@ -154,7 +154,7 @@ impl Block {
         let (out, _) = out.as_chunks_mut::<COMPONENTS>();
         for (order, sums) in self.orders.iter().enumerate() {
             let Sums { forward: [f, g], backward_conj: [u, v], bound } = sums;
-            let mut values = [[0.0; COMPONENTS]; LANES];
+            let mut values = [[0.0; COMPONENTS]; ROWS_SIDE_BY_SIDE];
             for (i, values) in values.iter_mut().enumerate() {
                 for (value, sign) in values.iter_mut().zip([1.0, -1.0]) {
                     let (re, im) = (f[i] + sign * u[i], g[i] + sign * v[i]);
@@ -172,7 +172,7 @@ impl Block {
     pub fn lengths(&self, factor: f64, out: &mut [f64]) {
         for (order, sums) in self.orders.iter().enumerate() {
             let Sums { forward: [f, g], backward_conj: [u, v], bound } = sums;
-            let mut values = [0.0; LANES];
+            let mut values = [0.0; ROWS_SIDE_BY_SIDE];
             for (i, value) in values.iter_mut().enumerate() {
                 let backward = magnitude(u[i], v[i], bound[i]);
                 *value = factor * (magnitude(f[i], g[i], bound[i]) + backward);

@@ -1,7 +1,7 @@
 //! A few orders that serve every point of a sweep within a tolerance, chosen by bounds.
 //!
 //! With the two banks at `bisector ∓ γ` a part of one order is `Σ h·(R·e^{−imγ} + L·e^{imγ} + K)`:
-//! a harmonic h of a gear (1 for unbalances) times sums of the right bank, of the left bank and of what
+//! an amplitude h of a source (1 for unbalances) times sums of the right bank, of the left bank and of what
 //! belongs to none. At every bank angle it is at most `Σ |h|·(|R| + |L| + |K|)`, whatever the loads
 //! are; harmonics that no axis varies are multiplied first, so that what they cancel stays cancelled.
 //! Those that rod ratio or pin offset vary count with a bound of |h| over the axis:
@@ -21,7 +21,6 @@
 //!   Orders 1 and 2 of torques are kept where the layout has them.
 //! - Torque of pressure: the largest of the points, each evaluated.
 
-use std::mem::{Discriminant, discriminant};
 use std::sync::Arc;
 
 use super::Quantity::{CrankTorque, Torque};
@@ -30,20 +29,17 @@ use super::layout::{Layout, LayoutSum, Swung};
 use super::{Axes, Quantity, Sweep};
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::gear::harmonics::rod::TorqueHarmonics;
-use crate::gear::{Gear, GearKind};
+use crate::load::source::{Column, Point, Scaling, Source};
 use crate::load::{Harmonic, Loads};
+use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::limits;
 use crate::numbers::order::Order;
 use crate::readings::balance::TorquePart;
-use crate::readings::choice::{FIRST_OF_GAS, GasOrders, candidates, few, scales, tail, times};
-
-/// Rod ratio up to which every order of the torque of masses without offset grows with it.
-const TORQUE_GROWS: f64 = 0.95;
-/// The same of the torque of rods.
-const ROD_TORQUE_GROWS: f64 = 0.9;
+use crate::readings::choice::{
+    FIRST_OF_GAS, GasOrders, OrderSums, candidates, few, scales, tail, times,
+};
 
 impl Sweep {
     /// With few orders that leave out at most `rtol` at any point, as [`crate::Orders::Auto`] does
@@ -75,55 +71,54 @@ impl Sweep {
         let quantities_of =
             |k: usize| &quantities[if k.is_multiple_of(nodes) { 0 } else { of_gas }..];
         let loads: Vec<Loads> = (0..sweep.engines.len()).map(|k| sweep.loads(k)).collect();
-        let [ratio, offset] = sweep.extremes;
+        let [rod_ratio, pin_offset] = sweep.extremes;
+        let extreme = Point { rod_ratio, pin_offset };
         let (mut slowest, mut allowed, mut gas_tails) = (Vec::new(), Vec::new(), Vec::new());
         sweep.orders = Vec::new();
         for (k, (engine, loads)) in sweep.engines.iter().zip(&loads).enumerate() {
             cancel.check()?;
-            let gears = loads.gears.iter().map(|gear| gear.replaced(ratio, offset));
-            let gears: Vec<Gear> = gears.collect::<Result<_>>()?;
+            let sources = loads.at_point(&extreme)?;
             let scales = scales(engine, loads);
             if k.is_multiple_of(nodes) {
-                sweep.orders.extend(candidates(rtol, &scales, loads, &gears, torque)?);
+                sweep.orders.extend(candidates(rtol, &scales, loads, &sources, torque)?);
             }
             let mut gas = GasOrders::default();
             if sweep.fired {
-                gas = GasOrders::new(rtol, loads, &gears, FIRST_OF_GAS, cancel)?;
+                gas = GasOrders::new(rtol, loads, &sources, FIRST_OF_GAS, cancel)?;
                 sweep.orders.extend(&gas.orders);
             }
-            slowest.push(gears);
+            slowest.push(sources);
             gas_tails.push(sweep.gas_tail(loads, &gas, cancel)?);
-            let [force, moment, torque] = scales.map(|scale| rtol * scale);
-            let of_engine = [force, moment, torque, gas.allowed];
-            allowed.extend(quantities_of(k).iter().map(|quantity| of_engine[quantity.bound()]));
+            let mut of_engine = OrderSums { gas: gas.allowed, ..scales.scaled(rtol) };
+            allowed.extend(quantities_of(k).iter().map(|quantity| *quantity.of(&mut of_engine)));
         }
         sweep.orders.sort_unstable();
         sweep.orders.dedup();
         // A sum for each engine and quantity, in the order of the engines.
         let mut sizes = vec![Vec::new(); sweep.orders.len()];
-        let (mut lost, mut bounds) = (Vec::new(), Vec::new());
+        let (mut lost, mut sums) = (Vec::new(), Vec::new());
         let mut known = Known::new();
-        for (index, (loads, gears)) in loads.iter().zip(&slowest).enumerate() {
+        for (index, (loads, sources)) in loads.iter().zip(&slowest).enumerate() {
             cancel.check()?;
-            let [force, moment, inertia] = tail(loads, sweep.orders.last(), torque, gears);
-            let rest = [force, moment, inertia, gas_tails[index]];
+            let rest = tail(loads, sweep.orders.last(), torque, sources);
+            let mut rest = OrderSums { gas: gas_tails[index], ..rest };
             let quantities = quantities_of(index);
             let layouts = sweep.layouts(&sweep.engines[index], loads, quantities)?;
             for (&quantity, layout) in quantities.iter().zip(&layouts) {
-                let largest = sweep.largest(layout, gears, quantity, &mut known, cancel)?;
+                let largest = sweep.largest(layout, sources, quantity, &mut known, cancel)?;
                 sizes.iter_mut().zip(largest).for_each(|(sizes, size)| sizes.push(size));
-                lost.push(rest[quantity.bound()]);
-                bounds.push(quantity.bound());
+                lost.push(*quantity.of(&mut rest));
+                sums.push(quantity);
             }
         }
         let kept = few(&sizes, &allowed, &mut lost);
         let fastest = sweep.squares.iter().copied().fold(0.0, f64::max);
-        let mut worst = [0.0_f64; 4];
-        for (lost, bound) in lost.into_iter().zip(bounds) {
-            worst[bound] = worst[bound].max(lost);
+        let mut worst = OrderSums::default();
+        for (lost, quantity) in lost.into_iter().zip(sums) {
+            let worst = quantity.of(&mut worst);
+            *worst = worst.max(lost);
         }
-        let [force, moment, inertia, gas] = worst;
-        sweep.error_bound = [force * fastest, moment * fastest, inertia * fastest + gas];
+        sweep.error_bound = worst.bounds(fastest);
         for ((order, kept), sizes) in
             std::mem::take(&mut sweep.orders).into_iter().zip(kept).zip(sizes)
         {
@@ -145,10 +140,10 @@ impl Sweep {
         for point in 0..self.points() {
             cancel.check()?;
             let mut tail = 0.0;
-            for (gear, volume) in loads.gears.iter().zip(&volumes) {
-                let found = self.at_point(gear, point)?.gas_up_to(last, cancel)?;
-                tail +=
-                    volume.size * found.and_then(|(_, tails)| tails.last().copied()).unwrap_or(0.0);
+            for (source, volume) in loads.at_point(&self.at(point))?.iter().zip(&volumes) {
+                let tails = source.up_to(last, cancel)?.map(|(_, tails)| tails);
+                let above = tails.and_then(|tails| tails.last().copied()).unwrap_or(0.0);
+                tail += volume.size * above;
             }
             worst = worst.max(tail);
         }
@@ -156,11 +151,11 @@ impl Sweep {
     }
 
     /// Bounds, of inertia over ω², of the size of each order, |forward| + |backward| or |torque|, at any point;
-    /// `slowest` are the gears of the point where harmonics decrease most slowly.
+    /// `slowest` are the sources at the point where harmonics decrease most slowly.
     fn largest(
         &self,
         layout: &Layout,
-        slowest: &[Gear],
+        slowest: &[Arc<dyn Source>],
         quantity: Quantity,
         known: &mut Known,
         cancel: &Cancel,
@@ -175,13 +170,13 @@ impl Sweep {
         let factor = |harmonic: Harmonic, order: usize| {
             let found = factors.iter().find(|(known, _)| *known == harmonic);
             let on_crank = usize::from(matches!(quantity, CrankTorque(_)));
-            found.map_or(Factor::AtMost(0.0), |&(_, place)| known[place].2[on_crank][order])
+            found.map_or(SizeFactor::AtMost(0.0), |&(_, place)| known[place].2[on_crank][order])
         };
         let size = |(k, sums): (usize, &Vec<LayoutSum>)| {
             let (mut size, mut fixed, mut rounding) = (0.0, [Swung::default(); 2], 0.0);
             for sum in sums {
                 match factor(sum.harmonic, k) {
-                    Factor::Fixed(amplitude) => {
+                    SizeFactor::Fixed(amplitude) => {
                         rounding += sum.bound * amplitude.norm();
                         for (total, part) in fixed.iter_mut().zip(&sum.parts) {
                             total.cos += part.cos * amplitude;
@@ -189,7 +184,7 @@ impl Sweep {
                             total.rest += part.rest * amplitude;
                         }
                     }
-                    Factor::AtMost(largest) => {
+                    SizeFactor::AtMost(largest) => {
                         size += times(span(&sum.parts, sum.bound), largest);
                     }
                 }
@@ -199,89 +194,75 @@ impl Sweep {
         Ok(layout.iter().enumerate().map(size).collect())
     }
 
-    /// Place among those known, evaluated if there are none yet, of the harmonics of a gear, or of
+    /// Place among those known, evaluated if there are none yet, of the amplitudes of a source, or of
     /// their bounds over the axes.
     fn factors(
         &self,
-        slowest: &[Gear],
-        harmonic: Harmonic,
+        slowest: &[Arc<dyn Source>],
+        Harmonic { source, column }: Harmonic,
         known: &mut Known,
         cancel: &Cancel,
     ) -> Result<usize> {
-        let gear = harmonic.gear().map(|k| &slowest[k]);
-        let kind = discriminant(&harmonic);
-        let same = |(of, at, _): &(Option<Gear>, _, _)| of.as_ref() == gear && *at == kind;
+        let source = &slowest[source];
+        let same = |(of, at, _): &(Arc<dyn Source>, Column, _)| *at == column && **of == **source;
         if let Some(place) = known.iter().position(same) {
             return Ok(place);
         }
-        let found = self.evaluated(gear, harmonic, cancel)?;
-        known.push((gear.cloned(), kind, found));
+        let found = self.evaluated(&**source, column, cancel)?;
+        known.push((Arc::clone(source), column, found));
         Ok(known.len() - 1)
     }
 
     fn evaluated(
         &self,
-        gear: Option<&Gear>,
-        harmonic: Harmonic,
+        source: &dyn Source,
+        column: Column,
         cancel: &Cancel,
-    ) -> Result<[Vec<Factor>; 2]> {
+    ) -> Result<[Vec<SizeFactor>; 2]> {
         let orders = &self.orders;
-        let values = |gear, factor: fn(Complex64) -> Factor| {
-            let TorqueHarmonics { roll, crank } = of(gear, harmonic, orders, cancel)?;
+        let values = |factor: fn(Complex64) -> SizeFactor| {
+            let TorqueHarmonics { roll, crank } = of(source, column, orders, cancel)?;
             Ok([roll, crank].map(|values| values.into_iter().map(factor).collect()))
         };
-        let Some(gear) = gear else {
-            let ones = vec![Factor::Fixed(Complex64::new(1.0, 0.0)); orders.len()];
-            return Ok([ones.clone(), ones]);
+        let Some(mechanism) = source.mechanism().filter(|_| self.points() > 1) else {
+            return values(SizeFactor::Fixed);
         };
-        if self.points() == 1 {
-            return values(gear, Factor::Fixed);
-        }
-        if matches!(harmonic, Harmonic::Gas(_)) {
+        if source.parts().scaling == Scaling::Given {
             let mut sizes = [vec![0.0_f64; orders.len()], vec![0.0; orders.len()]];
             for point in 0..self.points() {
-                let (TorqueHarmonics { roll, crank }, _) =
-                    self.at_point(gear, point)?.gas(orders, None, cancel)?;
+                let there = source.at_point(&self.at(point))?;
+                let TorqueHarmonics { roll, crank } = of(&*there, column, orders, cancel)?;
                 for (sizes, values) in sizes.iter_mut().zip([roll, crank]) {
                     sizes.iter_mut().zip(values).for_each(|(s, v)| *s = s.max(v.norm()));
                 }
             }
-            return Ok(sizes.map(|sizes| sizes.into_iter().map(Factor::AtMost).collect()));
+            return Ok(sizes.map(|sizes| sizes.into_iter().map(SizeFactor::AtMost).collect()));
         }
-        let rod_ratio = match &gear.kind {
-            GearKind::SliderCrank { proportions, .. } => 1.0 / proportions.rod,
-            GearKind::Given(_) => 0.0,
-        };
-        let grows = match harmonic {
-            Harmonic::Torque(_) => rod_ratio <= TORQUE_GROWS,
-            Harmonic::Rod(_) => rod_ratio <= ROD_TORQUE_GROWS,
-            Harmonic::Force(_) | Harmonic::One | Harmonic::Gas(_) => true,
-        };
-        if gear.is_centred() && grows {
-            return values(gear, |value| Factor::AtMost(value.norm()));
+        let rod_ratio = 1.0 / mechanism.proportions.rod;
+        if mechanism.is_centred() && rod_ratio <= source.grows_up_to(column) {
+            return values(|value| SizeFactor::AtMost(value.norm()));
         }
         let bound = |&order: &Order| {
-            let Some(whole) = order.as_whole() else { return Factor::AtMost(0.0) };
-            let own = whole / gear.ratio.unsigned_abs();
-            let [force, masses, rod] = gear.tail(whole - 1, true);
-            Factor::AtMost(match harmonic {
-                Harmonic::Force(_) => force + f64::from(u8::from(own == 1)),
-                _ if own < 3 => f64::INFINITY,
-                Harmonic::Torque(_) => masses * f64::from(gear.ratio.abs()),
-                _ => rod * f64::from(gear.ratio.abs()),
+            let Some(whole) = order.as_whole() else { return SizeFactor::AtMost(0.0) };
+            let own = mechanism.own_highest(whole);
+            let beyond = source.beyond(whole - 1, true);
+            SizeFactor::AtMost(match column {
+                Column::Force => beyond.force + f64::from(u8::from(own == 1)),
+                Column::Roll if own < 3 => f64::INFINITY,
+                Column::Roll => beyond.torque,
             })
         };
-        let bounds: Vec<Factor> = orders.iter().map(bound).collect();
+        let bounds: Vec<SizeFactor> = orders.iter().map(bound).collect();
         Ok([bounds.clone(), bounds])
     }
 }
 
-/// Factors by order, for the torque on the block and on the crank, of a gear's harmonics of a kind.
-type Known = Vec<(Option<Gear>, Discriminant<Harmonic>, [Vec<Factor>; 2])>;
+/// Factors by order, for the torque on the block and on the crank, of a source's amplitudes.
+type Known = Vec<(Arc<dyn Source>, Column, [Vec<SizeFactor>; 2])>;
 
 /// Harmonic of an order.
 #[derive(Debug, Clone, Copy)]
-enum Factor {
+enum SizeFactor {
     /// The same at every point.
     Fixed(Complex64),
     /// Of at most this size at any point.
@@ -299,13 +280,13 @@ fn span(parts: &[Swung; 2], rounding: f64) -> f64 {
 }
 
 impl Quantity {
-    /// Which of the bounds of force, moment and torque of inertia and of pressure it counts for.
-    fn bound(self) -> usize {
+    /// The sum that it counts for.
+    fn of(self, sums: &mut OrderSums) -> &mut f64 {
         match self {
-            Self::Force => 0,
-            Self::Moment => 1,
-            Torque(TorquePart::Gas) | CrankTorque(TorquePart::Gas) => 3,
-            Torque(_) | CrankTorque(_) => 2,
+            Self::Force => &mut sums.force,
+            Self::Moment => &mut sums.moment,
+            Torque(TorquePart::Gas) | CrankTorque(TorquePart::Gas) => &mut sums.gas,
+            Torque(_) | CrankTorque(_) => &mut sums.inertia,
         }
     }
 }
@@ -321,10 +302,11 @@ mod tests {
     fn bounds_and_largest(
         ratio: i32,
         [rod_ratio, pin_offset]: [Option<Vec<f64>>; 2],
-        harmonic: Harmonic,
+        kind: usize,
     ) -> [Vec<[f64; 2]>; 2] {
         let (tdc, bank, cancel) = (Angle::ZERO, Angle::ZERO, Cancel::new());
         let cylinder = Cylinder::new(0.05, 0.2, 0.5, 0.0).unwrap();
+        let cylinder = cylinder.with_rod_inertia_excess(1e-3).unwrap();
         let place = Station { cylinder, tdc, bank, z: 0.0, rotating_mass: 0.0 };
         let cranks = vec![Crank::MAIN, Crank { axis: [0.1, 0.0], ratio }];
         let engine = Engine::new("", "", vec![place]).unwrap().with_cranks(cranks, vec![1]);
@@ -332,20 +314,21 @@ mod tests {
         let orders = Order::all_whole(&(1..=24).collect::<Vec<u32>>()).unwrap();
         let engines = vec![Arc::new(engine.unwrap())];
         let sweep = Sweep::new(engines, axes, orders.clone(), None, &cancel).unwrap();
-        let gear = &sweep.loads(0).gears[0];
-        let [most, farthest] = sweep.extremes;
-        let slowest = gear.replaced(most, farthest).unwrap();
-        let bounds = sweep.evaluated(Some(&slowest), harmonic, &cancel).unwrap();
+        let (source, column) = [(0, Column::Force), (0, Column::Roll), (1, Column::Roll)][kind];
+        let source = &sweep.loads(0).sources[source];
+        let [rod_ratio, pin_offset] = sweep.extremes;
+        let slowest = source.at_point(&Point { rod_ratio, pin_offset }).unwrap();
+        let bounds = sweep.evaluated(&*slowest, column, &cancel).unwrap();
         let mut found = bounds.map(|bounds| {
             let bound = |factor| match factor {
-                Factor::AtMost(bound) => [bound, 0.0],
-                Factor::Fixed(_) => unreachable!("there are many points"),
+                SizeFactor::AtMost(bound) => [bound, 0.0],
+                SizeFactor::Fixed(_) => unreachable!("there are many points"),
             };
             bounds.into_iter().map(bound).collect::<Vec<_>>()
         });
         for point in 0..sweep.points() {
-            let there = sweep.at_point(gear, point).unwrap();
-            let TorqueHarmonics { roll, crank } = of(&there, harmonic, &orders, &cancel).unwrap();
+            let there = source.at_point(&sweep.at(point)).unwrap();
+            let TorqueHarmonics { roll, crank } = of(&*there, column, &orders, &cancel).unwrap();
             for (found, values) in found.iter_mut().zip([roll, crank]) {
                 found.iter_mut().zip(values).for_each(|([_, l], value)| *l = l.max(value.norm()));
             }
@@ -390,17 +373,15 @@ mod tests {
             (1, usual.clone(), evenly(0.0, 0.02), [false; 3]),
             (5, usual, both_sides, [false; 3]),
         ] {
-            let kinds = [Harmonic::Force(0), Harmonic::Torque(0), Harmonic::Rod(0)];
-            for (harmonic, grows) in kinds.into_iter().zip(grows) {
-                for found in bounds_and_largest(ratio, [ratios.clone(), offsets.clone()], harmonic)
-                {
+            for (kind, grows) in grows.into_iter().enumerate() {
+                for found in bounds_and_largest(ratio, [ratios.clone(), offsets.clone()], kind) {
                     let own = ratio.unsigned_abs() as usize;
                     for (n, &[bound, largest]) in (1..).zip(&found) {
-                        let context = format!("{ratio} {harmonic:?} {n}: {bound} {largest}");
+                        let context = format!("{ratio} {kind} {n}: {bound} {largest}");
                         assert!(largest <= bound * (1.0 + 1e-12), "{context}");
                         if grows {
                             assert!(bound <= largest * (1.0 + 1e-12), "{context}");
-                        } else if n < 3 * own && harmonic != Harmonic::Force(0) {
+                        } else if n < 3 * own && kind != 0 {
                             // Of these no growth is known.
                             assert_eq!(bound, f64::INFINITY, "{context}");
                         } else if let Some([later, _]) = found.get(n + 2 * own - 1) {

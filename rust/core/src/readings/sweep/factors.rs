@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::block::LANES;
+use super::block::ROWS_SIDE_BY_SIDE;
 use super::harmonics::PointHarmonics;
 use super::layout::Layout;
 use super::{Quantity, Sweep};
@@ -24,7 +24,7 @@ pub(super) struct Padded<const N: usize> {
 
 impl<const N: usize> Padded<N> {
     pub fn zeros(count: usize) -> Result<Self> {
-        let length = count + LANES;
+        let length = count + ROWS_SIDE_BY_SIDE;
         Ok(Self { values: memory::zeros(N * length)?, length })
     }
 
@@ -100,8 +100,8 @@ impl Coefficients {
         cancel: &Cancel,
     ) -> Result<Self> {
         let count = points.len();
-        let gears = &loads.gears;
-        let harmonics = PointHarmonics::new(sweep, (gears, layout), quantity, &points, cancel)?;
+        let sources = &loads.sources[..];
+        let harmonics = PointHarmonics::new(sweep, (sources, layout), quantity, &points, cancel)?;
         let mut by_order = memory::room(layout.len())?;
         for (k, sums) in layout.iter().enumerate() {
             cancel.check()?;

@@ -10,7 +10,7 @@ use std::ops::{Add, Mul, Range};
 
 use bytemuck::Zeroable;
 
-use super::block::{Block, LANES};
+use super::block::{Block, ROWS_SIDE_BY_SIDE};
 use super::factors::{Coefficients, Waves};
 use super::layout::Layout;
 use super::{Quantity, Sweep};
@@ -28,9 +28,9 @@ const SLAB: usize = 1 << 19;
 /// Most points of rod ratio and pin offset whose coefficients one thread computes.
 const PART: usize = 1 << 11;
 /// Most rows of a task.
-pub(super) const PIECE: usize = 1024;
+pub(super) const ROWS_PER_TASK: usize = 1024;
 /// Rows between two checks for cancellation.
-const STRETCH: usize = 128;
+const ROWS_PER_CHECK: usize = 128;
 
 /// What a result holds.
 pub(super) trait Number:
@@ -62,8 +62,8 @@ impl Job<'_> {
         let (sweep, width) = (self.sweep, self.width);
         let angles = sweep.bank_angles().len();
         let points = sweep.points();
-        let piece = if self.slow { 8 } else { PIECE };
-        let slab = (SLAB / sweep.orders.len().max(1)).clamp(STRETCH, 1 << 14);
+        let piece = if self.slow { 8 } else { ROWS_PER_TASK };
+        let slab = (SLAB / sweep.orders.len().max(1)).clamp(ROWS_PER_CHECK, 1 << 14);
         let slabs = |length: usize| (0..length).step_by(slab).map(move |k| k..length.min(k + slab));
         let numbers = out.len() * if self.slow { 256 } else { 1 };
         let layout = |k: usize| {
@@ -118,13 +118,15 @@ impl Job<'_> {
                 }
                 let work = |(coefficients, first, out): (&Coefficients, usize, &mut [T])| {
                     let mut block = Block::new(sweep.orders.len());
-                    for (k, out) in out.chunks_mut(STRETCH * width).enumerate() {
+                    for (k, out) in out.chunks_mut(ROWS_PER_CHECK * width).enumerate() {
                         self.cancel.check()?;
                         vectorised(
                             #[inline(always)]
                             || {
-                                for (j, out) in out.chunks_mut(LANES * width).enumerate() {
-                                    let row = first + k * STRETCH + j * LANES;
+                                for (j, out) in
+                                    out.chunks_mut(ROWS_SIDE_BY_SIDE * width).enumerate()
+                                {
+                                    let row = first + k * ROWS_PER_CHECK + j * ROWS_SIDE_BY_SIDE;
                                     block.evaluate(&waves, coefficients, row);
                                     finish(&block, factor, out)?;
                                 }

@@ -3,7 +3,8 @@
 use super::{Quantity, Sweep};
 use crate::Complex64;
 use crate::engine::{Engine, Hold};
-use crate::load::{Harmonic, Loads, PhasorSum, Term, Turn, Wanted, found_or};
+use crate::load::source::{Column, Scaling};
+use crate::load::{BankPhase, Harmonic, Loads, PhasorSum, Term, Wanted, count, find_or_push};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
@@ -61,13 +62,14 @@ impl Sweep {
         };
         let mut layouts = vec![Layout::new(); quantities.len()];
         for &order in &self.orders {
-            let rounding = rounding(loads.list.len(), order.number());
             let terms = loads.sums(order, wanted);
             for (quantity, layout) in quantities.iter().zip(&mut layouts) {
+                let count = count(&loads.list, !quantity.is_planar());
+                let rounding = rounding(count, order.number());
                 let mut sums = Vec::new();
                 for (term, parts) in terms.iter().filter_map(|t| Some((t, quantity.parts(t)?))) {
                     let harmonic = term.harmonic;
-                    let sum = found_or(
+                    let sum = find_or_push(
                         &mut sums,
                         |sum: &LayoutSum| sum.harmonic == harmonic,
                         || LayoutSum { harmonic, ..LayoutSum::default() },
@@ -109,8 +111,8 @@ impl Quantity {
 
     /// The sums of a term that make it: forward part and conjugate of the backward part, or torque.
     fn parts(self, term: &Term<PhasorSum>) -> Option<[PhasorSum; 2]> {
-        let is_gas = matches!(term.harmonic, Harmonic::Gas(_));
-        let own = is_gas || matches!(term.harmonic, Harmonic::Torque(_) | Harmonic::Rod(_));
+        let is_gas = term.scaling == Scaling::Given;
+        let own = term.harmonic.column == Column::Roll;
         let left_out = match self.part() {
             Some(TorquePart::Whole) => false,
             Some(TorquePart::Inertia) => is_gas,
@@ -130,7 +132,7 @@ impl Quantity {
     /// Multiples of a quarter of the bank angle for the forward part (or torque) and for the conjugate of
     /// the backward part.
     pub(super) fn turn(self, order: Order, hold: Hold) -> [i64; 2] {
-        let turn = Turn::new(order, hold);
+        let turn = BankPhase::new(order, hold);
         if self.is_planar() { [turn.forward, turn.backward_conj] } else { [turn.roll, 0] }
     }
 }

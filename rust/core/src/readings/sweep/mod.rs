@@ -28,7 +28,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::order::{self, Order};
-use crate::readings::balance::TorquePart;
+use crate::readings::balance::{Bounds, TorquePart};
 use crate::readings::peaks::PeakFinder;
 
 /// What is evaluated at each point.
@@ -82,7 +82,7 @@ pub struct Sweep {
     /// Whether gas pressure counts in any engine.
     fired: bool,
     omitted: Vec<Order>,
-    error_bound: [f64; 3],
+    error_bound: Bounds,
 }
 
 impl Sweep {
@@ -117,7 +117,7 @@ impl Sweep {
             extremes,
             squares,
             omitted: Vec::new(),
-            error_bound: [0.0; 3],
+            error_bound: Bounds::default(),
         })
     }
 
@@ -156,9 +156,9 @@ impl Sweep {
         &self.omitted
     }
 
-    /// Bounds of what orders left out add to force, moment and torque at any crank angle and point.
+    /// Bounds of what orders left out add at any crank angle and point.
     #[must_use]
-    pub fn error_bound(&self) -> [f64; 3] {
+    pub fn error_bound(&self) -> Bounds {
         self.error_bound
     }
 

@@ -5,9 +5,10 @@
 //! over speed and load, and added.
 
 use super::axes::Axes;
-use super::kernel::{Number, PIECE};
+use super::kernel::{Number, ROWS_PER_TASK};
 use super::{Quantity, Sweep};
 use crate::Complex64;
+use crate::load::source::Scaling;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
@@ -17,7 +18,7 @@ use crate::pressure::map::{Between, between};
 use crate::readings::balance::TorquePart;
 
 /// Numbers written between two checks for cancellation, of rows that are long.
-const STRETCH: usize = 1 << 16;
+const NUMBERS_PER_TASK: usize = 1 << 16;
 
 /// Places of a sweep's speeds and loads in its map of cycles; without one a single cycle of weight 1.
 #[derive(Debug)]
@@ -158,9 +159,11 @@ impl Sweep {
             let mut means = memory::room(points)?;
             for point in 0..points {
                 let mut mean = 0.0;
-                for (gear, volume) in loads.gears.iter().zip(&volumes) {
-                    let (_, of_gear) = self.at_point(gear, point)?.gas(&[], None, cancel)?;
-                    mean += volume.value * of_gear[usize::from(on_crank)];
+                for (source, volume) in loads.at_point(&self.at(point))?.iter().zip(&volumes) {
+                    if source.parts().scaling == Scaling::Given {
+                        let means = source.torque(&[], cancel)?.mean;
+                        mean += volume.value * means[usize::from(on_crank)];
+                    }
                 }
                 means.push(mean);
             }
@@ -227,7 +230,8 @@ impl<T: Number> Operating<'_, T> {
         work: impl Fn(GridPoint, &mut [T], &mut [O]) -> Result<()> + Sync,
     ) -> Result<()> {
         let (speeds, loads) = (self.sweep.squares.len(), self.sweep.nodes.loads());
-        let rows = (STRETCH / (self.width.max(width) * cost).max(1)).clamp(1, PIECE);
+        let rows =
+            (NUMBERS_PER_TASK / (self.width.max(width) * cost).max(1)).clamp(1, ROWS_PER_TASK);
         let numbers = out.len() * cost;
         let pieces = memory::collected(out.chunks_mut(rows * width).enumerate())?;
         cancel.expect(pieces.len());

@@ -1,28 +1,21 @@
 //! Exact kinematics of an engine at one bank angle: what does not depend on the rod is evaluated once
 //! for many points.
 
+use std::sync::Arc;
+
 use super::{Quantity, Sweep};
-use crate::gear::GearKind;
-use crate::gear::slider_crank::{Cylinder, Proportions};
 use crate::load::Loads;
+use crate::load::kinematics::{AngleBlock, Columns, Kinematics, LoadSum, Quantities};
+use crate::load::source::{Scaling, Source};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
 use crate::readings::balance::TorquePart;
-use crate::readings::kinematics::{AngleBlock, Kinematics};
-use crate::readings::waveform::WaveformRows;
 
 /// An engine at one bank angle.
 pub(super) struct Placed {
     pub kinematics: Kinematics,
-    pub points: Vec<PlacedPoint>,
-}
-
-/// A point of rod ratio and offset.
-pub(super) struct PlacedPoint {
-    /// Slider-cranks of the pistons.
-    pub pistons: Vec<Proportions>,
-    /// Those of the pistons under pressure.
-    pub pressures: Vec<Proportions>,
+    /// Sources of the sums at points of rod ratio and offset.
+    pub points: Vec<Vec<Arc<dyn Source>>>,
 }
 
 impl Sweep {
@@ -40,29 +33,20 @@ impl Sweep {
         Ok(Placed { kinematics: Kinematics::new(&loads), points: Vec::new() })
     }
 
-    /// A point of rod ratio and pin offset.
+    /// Sources of the sums at a point of rod ratio and pin offset.
     pub(super) fn placed_point(
         &self,
         kinematics: &Kinematics,
         point: usize,
-    ) -> Result<PlacedPoint> {
-        let (ratio, offset) = self.at(point);
-        let at = |cylinder: &Cylinder| cylinder.proportions_with(ratio, offset);
-        let pistons = kinematics.pistons.iter().map(|pistons| at(&pistons.cylinder));
-        let pressures = kinematics.pressures.iter().map(|pressures| match &pressures.gear.kind {
-            GearKind::SliderCrank { cylinder, .. } => at(cylinder),
-            GearKind::Given(_) => Ok(pressures.proportions),
-        });
-        Ok(PlacedPoint {
-            pistons: pistons.collect::<Result<_>>()?,
-            pressures: pressures.collect::<Result<_>>()?,
-        })
+    ) -> Result<Vec<Arc<dyn Source>>> {
+        let point = self.at(point);
+        kinematics.sums.iter().map(|sum| sum.source.at_point(&point)).collect()
     }
 }
 
 impl Placed {
     /// Writes the values of every row, times a factor, at a block of crank angles; of torque that of
-    /// inertia or that of pressure, which takes none.
+    /// inertia or that of pressure.
     #[inline(always)]
     pub fn write<'o>(
         &self,
@@ -71,35 +55,33 @@ impl Placed {
         block: &AngleBlock,
         outs: &mut impl Iterator<Item = &'o mut [f64]>,
     ) {
-        let of_gas = quantity.part() == Some(TorquePart::Gas);
+        let scaling = match quantity.part() {
+            Some(TorquePart::Gas) => Scaling::Given,
+            _ => Scaling::SpeedSquared,
+        };
         let torque = !quantity.is_planar();
-        let mut unbalances = WaveformRows::ZERO;
-        if !of_gas {
-            unbalances.add_unbalances(&self.kinematics, block, torque, 1.0);
+        let wanted = Quantities { planar: !torque, torque };
+        let counts = |sum: &LoadSum| sum.source.parts().scaling == scaling;
+        let is_fixed = |sum: &LoadSum| sum.source.mechanism().is_none();
+        let mut fixed = Columns::ZERO;
+        for sum in self.kinematics.sums.iter().filter(|sum| counts(sum) && is_fixed(sum)) {
+            sum.source.over_angle(sum, block, wanted, 1.0, &mut fixed);
         }
-        let (mut rows, used) = (WaveformRows::ZERO, if torque { 4..6 } else { 0..4 });
+        let mut columns = Columns::ZERO;
         for (point, out) in self.points.iter().zip(outs) {
-            rows.columns[used.clone()].clone_from_slice(&unbalances.columns[used.clone()]);
-            if of_gas {
-                for (pressures, of) in self.kinematics.pressures.iter().zip(&point.pressures) {
-                    rows.add_pressure(pressures, of, block);
-                }
-            } else {
-                for (pistons, of) in self.kinematics.pistons.iter().zip(&point.pistons) {
-                    if torque {
-                        rows.add_pistons(pistons, of, block, [false, true], 1.0);
-                    } else {
-                        rows.add_pistons(pistons, of, block, [true, false], 1.0);
-                    }
+            columns.copy(&fixed, wanted);
+            for (sum, source) in self.kinematics.sums.iter().zip(point) {
+                if counts(sum) && !is_fixed(sum) {
+                    source.over_angle(sum, block, wanted, 1.0, &mut columns);
                 }
             }
-            let [force_x, force_y, moment_x, moment_y, roll, crank, ..] = &rows.columns;
+            let Columns { force, moment, torque: [roll, crank], .. } = &columns;
             let [of_force, of_moment] = self.kinematics.zero_bounds;
-            let (x, y, bound) = match quantity {
-                Quantity::Force => (force_x, force_y, of_force),
-                Quantity::Moment => (moment_x, moment_y, of_moment),
-                Quantity::Torque(_) => (roll, roll, 0.0),
-                Quantity::CrankTorque(_) => (crank, crank, 0.0),
+            let ([x, y], bound) = match quantity {
+                Quantity::Force => (force.each_ref(), of_force),
+                Quantity::Moment => (moment.each_ref(), of_moment),
+                Quantity::Torque(_) => ([roll; 2], 0.0),
+                Quantity::CrankTorque(_) => ([crank; 2], 0.0),
             };
             // Last, as where rows are multiplied for several speeds: a row has the same bits in any sweep.
             if torque {

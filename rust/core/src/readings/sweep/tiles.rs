@@ -12,7 +12,7 @@ use crate::numbers::order::Order;
 /// Crank angles of a tile.
 pub(super) const TILE: usize = 256;
 /// Angles summed side by side, in registers.
-const TOGETHER: usize = 16;
+const ANGLES_SIDE_BY_SIDE: usize = 16;
 
 /// A part of a sum that is not zero in every row: real or imaginary parts of the phasors of an order.
 #[derive(Clone, Copy)]
@@ -28,8 +28,8 @@ pub(super) struct Tiles(Vec<Vec<Tile>>);
 /// Whole lines of the cache.
 #[repr(align(64))]
 struct Tile {
-    cos: [[f64; TOGETHER]; TILE / TOGETHER],
-    sin: [[f64; TOGETHER]; TILE / TOGETHER],
+    cos: [[f64; ANGLES_SIDE_BY_SIDE]; TILE / ANGLES_SIDE_BY_SIDE],
+    sin: [[f64; ANGLES_SIDE_BY_SIDE]; TILE / ANGLES_SIDE_BY_SIDE],
 }
 
 impl OrderWave {
@@ -95,8 +95,8 @@ impl Tiles {
                 let numbers = if term.sine { &tile.sin } else { &tile.cos };
                 (row[term.order].map(|phasor| term.weight(phasor)), numbers)
             }));
-            for (block, out) in out.chunks_mut(TOGETHER).enumerate() {
-                let mut sums = [[0.0; COMPONENTS]; TOGETHER];
+            for (block, out) in out.chunks_mut(ANGLES_SIDE_BY_SIDE).enumerate() {
+                let mut sums = [[0.0; COMPONENTS]; ANGLES_SIDE_BY_SIDE];
                 for (weights, numbers) in &of_tile {
                     for (sum, number) in sums.iter_mut().zip(&numbers[block]) {
                         for (sum, weight) in sum.iter_mut().zip(weights) {
@@ -112,7 +112,7 @@ impl Tiles {
 
 impl Tile {
     fn new(angles: &CrankAngles, range: Range<usize>, order: Order) -> Self {
-        let zeros = [[0.0; TOGETHER]; TILE / TOGETHER];
+        let zeros = [[0.0; ANGLES_SIDE_BY_SIDE]; TILE / ANGLES_SIDE_BY_SIDE];
         let mut tile = Self { cos: zeros, sin: zeros };
         let [cos, sin] = [&mut tile.cos, &mut tile.sin].map(|numbers| numbers.as_flattened_mut());
         angles.multiples(order, range, cos, sin);

@@ -6,6 +6,7 @@ use super::placed::Placed;
 use super::tiles::{OrderWave, TILE, Tiles};
 use super::{Figure, Quantity, Sweep};
 use crate::Complex64;
+use crate::load::kinematics::{AngleBlock, BLOCK};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, parts};
 use crate::numbers::error::{Error, Result};
@@ -13,7 +14,6 @@ use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::pool;
 use crate::numbers::simd::vectorised;
-use crate::readings::kinematics::{AngleBlock, BLOCK};
 
 /// Points that share a tile of cosines and sines.
 const ROWS: usize = 128;
@@ -138,7 +138,8 @@ impl Sweep {
                         last = Some(place);
                     }
                     let Some(here) = placed.last_mut() else { continue };
-                    here.points.push(self.placed_point(&here.kinematics, point)?);
+                    let sources = self.placed_point(&here.kinematics, point)?;
+                    here.points.push(sources);
                 }
                 Ok(placed)
             },

@@ -1,15 +1,15 @@
 //! Harmonics of one cylinder whose crank radius and rod length deviate.
 
 use crate::Complex64;
-use crate::gear::harmonics::rod::TorqueHarmonics;
-use crate::gear::harmonics::{self, rod, table, torque};
-use crate::gear::slider_crank::Cylinder;
+use crate::mechanism::harmonics::rod::TorqueHarmonics;
+use crate::mechanism::harmonics::{self, rod, table, torque};
+use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 
 /// Real and imaginary parts of harmonics by order and sample: of the force; of the torques of the masses on block and crank over
 /// m·r²·ω²; of the same of the rod's inertia over it and ω². Empty where there are none.
-pub(super) type Amplitudes = [Vec<[Vec<f64>; 2]>; 5];
+pub(super) type SampleAmplitudes = [Vec<[Vec<f64>; 2]>; 5];
 
 /// Harmonics of a cylinder, by their numbers, for other crank radii and rod lengths, m.
 pub(super) fn amplitudes(
@@ -18,10 +18,10 @@ pub(super) fn amplitudes(
     (radii, rods): (&[f64], &[f64]),
     numbers: &[u32],
     cancel: &Cancel,
-) -> Result<Amplitudes> {
+) -> Result<SampleAmplitudes> {
     let offset = cylinder.pin_offset();
     let [centred, has_rod] = [offset == 0.0, wants_torque && cylinder.has_rod_inertia()];
-    let mut found = Amplitudes::default();
+    let mut found = SampleAmplitudes::default();
     if centred {
         // Many samples at once.
         let ratios: Vec<f64> = radii.iter().zip(rods).map(|(r, l)| r / l).collect();

@@ -70,7 +70,7 @@ impl Parameter {
 }
 
 /// Samples evaluated side by side.
-const CHUNK: usize = 128;
+const SAMPLES_AT_ONCE: usize = 128;
 
 /// Deviations of each of [`Parameter::ALL`] in some samples, one row of cylinders or pins after the other;
 /// empty where none deviates.
@@ -181,12 +181,16 @@ impl Tolerances {
         };
         let finder = PeakFinder::new(&self.nominal.orders)?;
         let Sampled { force, moment, torque, peaks } = &mut sampled;
-        let mut torque = torque.chunks_mut(CHUNK * orders);
-        let planar = force.chunks_mut(CHUNK * orders).zip(moment.chunks_mut(CHUNK * orders));
-        let mut tasks = memory::room(count.div_ceil(CHUNK))?;
-        for (k, ((force, moment), peaks)) in planar.zip(peaks.chunks_mut(CHUNK)).enumerate() {
+        let mut torque = torque.chunks_mut(SAMPLES_AT_ONCE * orders);
+        let planar = force
+            .chunks_mut(SAMPLES_AT_ONCE * orders)
+            .zip(moment.chunks_mut(SAMPLES_AT_ONCE * orders));
+        let mut tasks = memory::room(count.div_ceil(SAMPLES_AT_ONCE))?;
+        for (k, ((force, moment), peaks)) in
+            planar.zip(peaks.chunks_mut(SAMPLES_AT_ONCE)).enumerate()
+        {
             let torque = torque.next().unwrap_or_default();
-            tasks.push((k * CHUNK, Chunk { planar: [force, moment], torque, peaks }));
+            tasks.push((k * SAMPLES_AT_ONCE, Chunk { planar: [force, moment], torque, peaks }));
         }
         let work = |(first, out): (usize, Chunk)| {
             self.write((first, deviations), &finder, out, cancel)?;
@@ -272,7 +276,7 @@ struct Chunk<'a> {
 }
 
 /// The complex number of one sample.
-fn at([re, im]: &[[f64; CHUNK]; 2], sample: usize) -> Complex64 {
+fn at([re, im]: &[[f64; SAMPLES_AT_ONCE]; 2], sample: usize) -> Complex64 {
     Complex64::new(re[sample], im[sample])
 }
 

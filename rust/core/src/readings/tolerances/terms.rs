@@ -8,23 +8,23 @@
 use std::ops::Range;
 use std::rc::Rc;
 
-use super::amplitudes::{Amplitudes, amplitudes};
-use super::{CHUNK, Deviations, Parameter, pins};
+use super::amplitudes::{SampleAmplitudes, amplitudes};
+use super::{Deviations, Parameter, SAMPLES_AT_ONCE, pins};
 use crate::Complex64;
-use crate::engine::{Engine, Station};
-use crate::gear::slider_crank::Cylinder;
-use crate::load::{Arithmetic, Load, Loads, Phasors, Times, Wanted, Weight, superpose};
+use crate::engine::{Engine, Origin, Station};
+use crate::load::{Arithmetic, Factor, Load, Loads, Phasors, Wanted, Weight, superpose};
+use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::order::Order;
 use crate::numbers::simd::{sin_cos_degrees, vectorised};
 
 /// A number of each sample.
-type Reals = [f64; CHUNK];
+type Reals = [f64; SAMPLES_AT_ONCE];
 /// A complex number of each sample: real and imaginary parts.
 pub(super) type Complexes = [Reals; 2];
 
-const ZEROS: Complexes = [[0.0; CHUNK]; 2];
+const ZEROS: Complexes = [[0.0; SAMPLES_AT_ONCE]; 2];
 
 /// Sums of one order over ω².
 pub(super) struct SampleSums {
@@ -35,12 +35,20 @@ pub(super) struct SampleSums {
     pub torque: [Complexes; 2],
 }
 
-/// Load of a pin that deviates: of a cylinder, or a counterweight.
+/// Load of a pin that deviates.
 #[derive(Clone, Copy)]
 struct Deviating {
     pin: usize,
-    cylinder: Option<usize>,
-    is_piston: bool,
+    kind: DeviatingKind,
+}
+
+/// What deviates, by the index of its cylinder.
+#[derive(Clone, Copy)]
+enum DeviatingKind {
+    Piston(usize),
+    Rod(usize),
+    RotatingMass(usize),
+    Counterweight,
 }
 
 /// Loads of an engine whose figures deviate.
@@ -76,23 +84,26 @@ impl Terms {
         let laden = Engine::new("", "", laden.collect())?
             .with_counterweights(engine.counterweights().to_vec())?;
         let mut loads = Loads::new(&laden, reference);
-        let of_cylinders = |is_piston| {
-            let deviating = move |(i, &pin)| Deviating { pin, cylinder: Some(i), is_piston };
-            pin_of.iter().enumerate().map(deviating).map(Some)
+        let deviating = |load: &Load| {
+            let (pin, kind) = match load.place.origin {
+                Origin::Cylinder(i) if load.is_turning() => (i, DeviatingKind::RotatingMass(i)),
+                Origin::Cylinder(i) if load.parts.force.is_none() => (i, DeviatingKind::Rod(i)),
+                Origin::Cylinder(i) => (i, DeviatingKind::Piston(i)),
+                Origin::Counterweight(k) => {
+                    (engine.counterweights()[k].pin?, DeviatingKind::Counterweight)
+                }
+                Origin::Shaft(_) => return None,
+            };
+            Some(Deviating { pin: pin_of[pin], kind })
         };
-        let weights = engine.counterweights().iter().map(|weight| {
-            Some(Deviating { pin: pin_of[weight.pin?], cylinder: None, is_piston: false })
-        });
-        let all: Vec<_> = of_cylinders(true).chain(of_cylinders(false)).chain(weights).collect();
-        let mut kept = all.iter().map(Option::is_some);
-        loads.list.retain(|_| kept.next().unwrap_or_default());
+        loads.list.retain(|load| deviating(load).is_some());
         Ok(Self {
             orders: orders.to_vec(),
             harmonics,
             torque,
             places: engine.stations().to_vec(),
+            deviating: loads.list.iter().filter_map(deviating).collect(),
             loads,
-            deviating: all.into_iter().flatten().collect(),
             pin_of: pin_of.to_vec(),
             cylinders: engine.gears().to_vec(),
             cylinder_of: (0..engine.stations().len()).map(|i| engine.gear_of(i)).collect(),
@@ -140,8 +151,9 @@ impl Terms {
             let lengths = (&[cylinder.crank_radius()][..], &[cylinder.rod_length()][..]);
             amplitudes(cylinder, self.torque, lengths, numbers, cancel)
         };
-        let nominal: Vec<Amplitudes> = self.cylinders.iter().map(nominal).collect::<Result<_>>()?;
-        let mut one = Amplitudes::default();
+        let nominal: Vec<SampleAmplitudes> =
+            self.cylinders.iter().map(nominal).collect::<Result<_>>()?;
+        let mut one = SampleAmplitudes::default();
         one[0] = vec![[vec![1.0], vec![0.0]]; orders.len()];
         let deviates = |figure: Parameter| !deviations[figure as usize].is_empty();
         let harmonics = |(i, Station { cylinder, .. }): (usize, &Station)| {
@@ -150,7 +162,7 @@ impl Terms {
             let rod = around(cylinder.rod_length(), &rods[i]);
             amplitudes(cylinder, self.torque, (&radius, &rod), numbers, cancel)
         };
-        let changed: Vec<Amplitudes> =
+        let changed: Vec<SampleAmplitudes> =
             if deviates(Parameter::CrankRadius) || deviates(Parameter::RodLength) {
                 self.places.iter().enumerate().map(harmonics).collect::<Result<_>>()?
             } else {
@@ -158,32 +170,44 @@ impl Terms {
             };
         let turns = if deviates(Parameter::Pin) { turns(&angles, numbers) } else { Vec::new() };
         let reference = self.loads.reference;
-        let drawn = |(&Deviating { pin, cylinder, is_piston }, load): (&Deviating, &Load)| {
+        let drawn = |(&Deviating { pin, kind }, load): (&Deviating, &Load)| {
             let turns = turns.get(pin).map(|turns| &turns[..]);
-            let fixed = |value: f64| ([value; CHUNK], value);
+            let fixed = |value: f64| ([value; SAMPLES_AT_ONCE], value);
             let one = [&one; 2];
-            let Some(i) = cylinder else {
-                let lever = fixed(load.z - reference);
-                return Drawn { weights: vec![fixed(load.weight)], lever, amplitudes: one, turns };
+            let i = match kind {
+                DeviatingKind::Piston(i)
+                | DeviatingKind::Rod(i)
+                | DeviatingKind::RotatingMass(i) => i,
+                DeviatingKind::Counterweight => {
+                    let lever = fixed(load.place.lever(reference));
+                    let parts = vec![(0, fixed(load.weight))];
+                    return Drawn { parts, lever, amplitudes: one, turns };
+                }
             };
             let place = &self.places[i];
             let Station { cylinder, rotating_mass, z, .. } = *place;
             let radius = around(cylinder.crank_radius(), &radii[pin]);
             let lever = (around(-reference, &around(z, &places[i])), z - reference);
-            if !is_piston {
-                let unbalance = product(around(rotating_mass, &rotating[i]), &radius);
-                let weights = vec![(unbalance, rotating_mass * cylinder.crank_radius())];
-                return Drawn { weights, lever, amplitudes: one, turns };
-            }
-            let first_order = product(around(cylinder.reciprocating_mass(), &masses[i]), &radius);
-            let weights = vec![
-                (first_order, cylinder.first_order()),
-                (product(first_order, &radius), cylinder.second_moment()),
-                fixed(cylinder.rod_inertia_excess()),
-            ];
-            let nominal = &nominal[self.cylinder_of[i]];
-            let amplitudes = [changed.get(i).unwrap_or(nominal), nominal];
-            Drawn { weights, lever, amplitudes, turns }
+            let of_cylinder = &nominal[self.cylinder_of[i]];
+            let of_cylinder = [changed.get(i).unwrap_or(of_cylinder), of_cylinder];
+            let (parts, amplitudes) = match kind {
+                DeviatingKind::Piston(_) => {
+                    let mass = around(cylinder.reciprocating_mass(), &masses[i]);
+                    let first_order = product(mass, &radius);
+                    let force = (first_order, cylinder.first_order());
+                    let torque = (product(first_order, &radius), cylinder.second_moment());
+                    (vec![(0, force), (1, torque), (2, torque)], of_cylinder)
+                }
+                DeviatingKind::Rod(_) => {
+                    let torque = fixed(cylinder.rod_inertia_excess());
+                    (vec![(3, torque), (4, torque)], of_cylinder)
+                }
+                _ => {
+                    let unbalance = product(around(rotating_mass, &rotating[i]), &radius);
+                    (vec![(0, (unbalance, rotating_mass * cylinder.crank_radius()))], one)
+                }
+            };
+            Drawn { parts, lever, amplitudes, turns }
         };
         let loads: Vec<Drawn> = self.deviating.iter().zip(&self.loads.list).map(drawn).collect();
         let wanted = Wanted { planar: true, roll: self.torque, by_bank: false };
@@ -216,7 +240,7 @@ fn turns(angles: &[Reals], numbers: &[u32]) -> Vec<Vec<Complexes>> {
             #[inline(always)]
             || {
                 let [mut cos, mut sin] = ZEROS;
-                let degrees = product([f64::from(n); CHUNK], angles);
+                let degrees = product([f64::from(n); SAMPLES_AT_ONCE], angles);
                 sin_cos_degrees(&degrees, &mut sin, &mut cos);
                 [cos, sin]
             },
@@ -227,26 +251,22 @@ fn turns(angles: &[Reals], numbers: &[u32]) -> Vec<Vec<Complexes>> {
 
 /// A load as it was drawn, and as it is nominally.
 struct Drawn<'a> {
-    /// Of the force, and of a piston of the torques of masses and rod.
-    weights: Vec<(Reals, f64)>,
+    /// Lists of amplitudes, and weights: of the force, or of the torques on the block and on the crank.
+    parts: Vec<(usize, (Reals, f64))>,
     lever: (Reals, f64),
-    amplitudes: [&'a Amplitudes; 2],
+    amplitudes: [&'a SampleAmplitudes; 2],
     /// Turn of its pin, by order.
     turns: Option<&'a [Complexes]>,
 }
 
 impl Drawn<'_> {
     /// Complex weights at the order of this index, less the nominal ones: of the force, of the moment,
-    /// of the torques of masses and of rod on the block and on the crank.
+    /// of the torques on the block and on the crank; without those of which there are no amplitudes.
     fn changes(&self, k: usize) -> Vec<Complexes> {
-        let mut changes = Vec::with_capacity(6);
-        for list in 0..5 {
+        let mut changes = Vec::with_capacity(4);
+        for &(list, (ref weight, before)) in &self.parts {
             let [drawn, nominal] = self.amplitudes.map(|lists| lists[list].get(k));
-            let weight = self.weights.get(list.div_ceil(2));
-            let (Some(drawn), Some(nominal), Some((weight, before))) = (drawn, nominal, weight)
-            else {
-                break;
-            };
+            let (Some(drawn), Some(nominal)) = (drawn, nominal) else { break };
             let mut change = [*weight; 2];
             let mut levered = ZEROS;
             vectorised(
@@ -254,13 +274,13 @@ impl Drawn<'_> {
                 || {
                     for (change, values) in change.iter_mut().zip(drawn) {
                         match values[..] {
-                            [value] => multiply(change, &[value; CHUNK]),
+                            [value] => multiply(change, &[value; SAMPLES_AT_ONCE]),
                             _ => multiply(change, values),
                         }
                     }
                     if let Some(turns) = self.turns {
                         let ([re, im], [cos, sin]) = (&mut change, &turns[k]);
-                        for i in 0..CHUNK {
+                        for i in 0..SAMPLES_AT_ONCE {
                             let (x, y) = (re[i], im[i]);
                             re[i] = x * cos[i] - y * sin[i];
                             im[i] = x * sin[i] + y * cos[i];
@@ -269,7 +289,7 @@ impl Drawn<'_> {
                     for part in 0..2 {
                         let base = before * nominal[part][0];
                         let (lever, at_rest) = &self.lever;
-                        for i in 0..CHUNK {
+                        for i in 0..SAMPLES_AT_ONCE {
                             levered[part][i] = change[part][i] * lever[i] - base * at_rest;
                             change[part][i] -= base;
                         }
@@ -312,17 +332,15 @@ impl Arithmetic for Samples<'_> {
         _: (usize, &Load),
         weight: Weight,
         (unit, changes): &Self::Unit,
-        times: Times,
+        times: Factor,
     ) {
-        let range = match weight {
-            Weight::Force => 0..1,
-            Weight::Moment => 1..2,
-            Weight::Torque => 2..4,
-            Weight::Rod => 4..6,
-            // What deviates sits on the axis of the crank, and gas does not deviate.
-            Weight::ArmX | Weight::ArmY | Weight::Volume => return,
+        let values = match weight {
+            Weight::Force => &changes[..1],
+            Weight::Moment => &changes[1..2],
+            Weight::Roll => &changes[changes.len() - 2..],
+            // What deviates sits on the axis of the crank.
+            Weight::ArmX | Weight::ArmY => return,
         };
-        let values = &changes[range];
         sum.resize(values.len(), ZEROS);
         let unit = times.of(*unit);
         sum.iter_mut().zip(values).for_each(|(sum, values)| add(sum, unit, values));
@@ -331,9 +349,9 @@ impl Arithmetic for Samples<'_> {
 
 /// Columns of the samples from `first` on, of rows of `width` values; zero where nothing deviates.
 fn columns(values: &[f64], width: usize, first: usize) -> Vec<Reals> {
-    let mut columns = vec![[0.0; CHUNK]; width];
+    let mut columns = vec![[0.0; SAMPLES_AT_ONCE]; width];
     let rows = values.get(first * width..).unwrap_or_default();
-    for (sample, row) in rows.chunks_exact(width).take(CHUNK).enumerate() {
+    for (sample, row) in rows.chunks_exact(width).take(SAMPLES_AT_ONCE).enumerate() {
         for (column, &value) in columns.iter_mut().zip(row) {
             column[sample] = value;
         }
@@ -343,7 +361,7 @@ fn columns(values: &[f64], width: usize, first: usize) -> Vec<Reals> {
 
 /// A nominal value and its deviations.
 fn around(value: f64, deviations: &Reals) -> Reals {
-    let mut values = [value; CHUNK];
+    let mut values = [value; SAMPLES_AT_ONCE];
     values.iter_mut().zip(deviations).for_each(|(value, deviation)| *value += deviation);
     values
 }
@@ -364,7 +382,7 @@ fn add(sum: &mut Complexes, unit: Complex64, values: &Complexes) {
         #[inline(always)]
         || {
             let ([sum_re, sum_im], [re, im]) = (sum, values);
-            for i in 0..CHUNK {
+            for i in 0..SAMPLES_AT_ONCE {
                 sum_re[i] += unit.re * re[i] - unit.im * im[i];
                 sum_im[i] += unit.re * im[i] + unit.im * re[i];
             }

@@ -4,11 +4,13 @@
 use num_traits::CheckedMul;
 
 use super::super::roots::{FormalSum, PartOfTurn, Share, SymbolEntry, parts_of_turn};
-use super::super::{Levers, TypedProportions, too_long};
+use super::super::{ExactLoads, Levers, TypedProportions, too_long};
 use super::ProofQuantity;
 use crate::engine::{Engine, distinct, first_equal};
-use crate::gear::slider_crank::Cylinder;
-use crate::load::{self, Harmonic, Load, Loads, Source, Wanted, superpose};
+use crate::load::source::{Column, ExactFactor};
+use crate::load::{self, Harmonic, Load, Loads, Wanted, superpose};
+use crate::mechanism::Mechanism;
+use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
@@ -90,8 +92,10 @@ pub(super) type SymbolSums = Vec<load::Term<Vec<Share>>>;
 /// Everything about an engine that does not depend on the order.
 pub(super) struct Proof {
     pub loads: Loads,
-    /// A slider-crank of each gear, of proportions and speed of a crank.
-    pub motions: Vec<Cylinder>,
+    /// Motions, of proportions and speed of a crank.
+    pub motions: Vec<Mechanism>,
+    /// Motion of each source that has one.
+    motion_of: Vec<Option<usize>>,
     pub roots: FormalSum,
     /// Directions, equal ones by one symbol.
     bores: Vec<PartOfTurn>,
@@ -111,20 +115,24 @@ pub(super) struct Proof {
 
 impl Proof {
     pub fn new(engine: &Engine, reference: Option<f64>, cancel: &Cancel) -> Result<Self> {
-        let (loads, motions) = super::super::loads(engine, reference)?;
+        let ExactLoads { loads, motions, motion_of } = ExactLoads::new(engine, reference)?;
         let levers = Levers::new(engine, &loads, reference, cancel)?;
         let weights = |of: &dyn Fn(&Load) -> f64| {
             Multiples::new(&loads.list.iter().map(of).collect::<Vec<_>>(), cancel)
         };
-        let piston = |load: &Load, of: fn(f64, f64) -> f64| match load.source {
-            Source::Piston { second_moment, rod_inertia, .. } => of(second_moment, rod_inertia),
-            _ => 0.0,
+        let roll_of = |factor: ExactFactor| {
+            let loads = &loads;
+            move |load: &Load| if loads.source(load).exact() == factor { load.roll } else { 0.0 }
         };
-        let arms = loads.list.iter();
-        let arms = arms.flat_map(|load| [load.axis.re, load.axis.im].map(|arm| load.weight * arm));
-        let bores = loads.list.iter().map(|load| load.direction);
-        let speeds = loads.gears.iter().map(|gear| gear.ratio.unsigned_abs());
-        let sizes = motions.iter().map(|motion| TypedProportions::of(motion).mirrored());
+        let arm = |load: &Load| {
+            let axis = load.place.axis;
+            [axis.re, axis.im].map(|arm| load.weight * arm)
+        };
+        let arms = loads.list.iter().flat_map(arm);
+        let bores = loads.list.iter().map(|load| load.place.direction);
+        let sizes = motions.iter().map(|motion| {
+            (TypedProportions::of(motion.cylinder()).mirrored(), motion.ratio.unsigned_abs())
+        });
         let driven = |i: usize| {
             let crank = engine.cranks()[engine.crank_of(i)];
             (engine.gears()[engine.gear_of(i)], crank.ratio.unsigned_abs())
@@ -141,12 +149,13 @@ impl Proof {
             roots: FormalSum::new(&loads, cancel)?,
             bores: parts_of_turn(bores, false, cancel)?,
             planar: weights(&|load| load.weight)?,
-            masses: weights(&|load| piston(load, |second_moment, _| second_moment))?,
-            rods: weights(&|load| piston(load, |_, rod_inertia| rod_inertia))?,
+            masses: weights(&roll_of(ExactFactor::Piston))?,
+            rods: weights(&roll_of(ExactFactor::Rod))?,
             arms: Multiples::new(&arms.collect::<Vec<_>>(), cancel)?,
             levers,
-            mirrored: first_equal(sizes.zip(speeds)),
+            mirrored: first_equal(sizes),
             motions,
+            motion_of,
             gear_of: gear_of.collect(),
             gears,
             loads,
@@ -160,7 +169,7 @@ impl Proof {
 
     /// Multiple of the speed of its own crank that an order is for a motion.
     pub fn own_order(&self, motion: usize, order: Order) -> u32 {
-        order.halves() / 2 / self.loads.gears[motion].ratio.unsigned_abs()
+        order.halves() / 2 / self.motions[motion].ratio.unsigned_abs()
     }
 
     /// Channels of a piston's force and their signs; none where its harmonic is zero.
@@ -168,7 +177,7 @@ impl Proof {
         use Channel::{Force, One};
         let own = self.own_order(motion, order);
         let (mirrored, odd) = (self.mirrored[motion], own % 2 == 1);
-        let offset = self.motions[motion].pin_offset();
+        let offset = self.motions[motion].cylinder().pin_offset();
         let sign = offset.signum() as i128;
         match (offset == 0.0, own == 1, view.parts) {
             (true, true, _) => vec![(One, 1)],
@@ -188,9 +197,9 @@ impl Proof {
         [whole, odd]: [fn(usize) -> Channel; 2],
         (own, mirrored): (usize, usize),
     ) -> Vec<(Channel, i128)> {
-        let offset = self.motions[motion].pin_offset();
+        let offset = self.motions[motion].cylinder().pin_offset();
         // A crank that turns the other way mirrors the torque on the block.
-        let sense = i128::from(self.loads.list[load].ratio.signum());
+        let sense = i128::from(self.loads.list[load].place.ratio.signum());
         // T(θ) of an offset is −T(−θ) of the opposite one: sines are even in it.
         match (view.parts, offset == 0.0) {
             (false, _) => vec![(whole(own), sense)],
@@ -211,26 +220,29 @@ impl Proof {
         view: View,
     ) -> Vec<(Channel, i128)> {
         let both = |motion: usize| (motion, self.mirrored[motion]);
-        match harmonic {
-            Harmonic::One => vec![(Channel::One, 1)],
-            Harmonic::Force(motion) => self.force_channels(motion, order, view),
-            Harmonic::Torque(motion) if view.gears => {
-                let named = [Channel::Gear, Channel::OddOfGear];
+        let Some(motion) = self.motion_of[harmonic.source] else { return vec![(Channel::One, 1)] };
+        let at = (motion, share.load);
+        match (harmonic.column, self.exact(share.load)) {
+            (Column::Force, _) => self.force_channels(motion, order, view),
+            // In that of the gear.
+            (Column::Roll, ExactFactor::Rod) if view.gears => vec![],
+            (Column::Roll, ExactFactor::Rod) => {
+                self.torque_channels(at, view, [Channel::Rod, Channel::OddOfRod], both(motion))
+            }
+            (Column::Roll, _) if view.gears => {
                 let of_gear = self.gear_of[share.load];
-                self.torque_channels((motion, share.load), view, named, of_gear)
+                self.torque_channels(at, view, [Channel::Gear, Channel::OddOfGear], of_gear)
             }
-            Harmonic::Torque(motion) => {
+            (Column::Roll, _) => {
                 let named = [Channel::Masses, Channel::OddOfMasses];
-                self.torque_channels((motion, share.load), view, named, both(motion))
-            }
-            // In that of the gear; gas is not among these loads.
-            Harmonic::Rod(_) if view.gears => vec![],
-            Harmonic::Gas(_) => vec![],
-            Harmonic::Rod(motion) => {
-                let named = [Channel::Rod, Channel::OddOfRod];
-                self.torque_channels((motion, share.load), view, named, both(motion))
+                self.torque_channels(at, view, named, both(motion))
             }
         }
+    }
+
+    /// Factor of a load.
+    fn exact(&self, load: usize) -> ExactFactor {
+        self.loads.source(&self.loads.list[load]).exact()
     }
 
     /// Weights of one load's share of a sum, with their units and those of its levers.
@@ -238,12 +250,12 @@ impl Proof {
         use load::Weight;
         let i = share.load;
         let (list, (unit, weight)) = match share.weight {
-            Weight::Force | Weight::Moment | Weight::Volume => {
-                (SymbolWeights::Planar, self.planar.of[i])
+            Weight::Force | Weight::Moment => (SymbolWeights::Planar, self.planar.of[i]),
+            Weight::Roll if view.gears => (SymbolWeights::Gear, (0, Ratio::ONE)),
+            Weight::Roll if self.exact(i) == ExactFactor::Rod => {
+                (SymbolWeights::Rod, self.rods.of[i])
             }
-            Weight::Torque if view.gears => (SymbolWeights::Gear, (0, Ratio::ONE)),
-            Weight::Torque => (SymbolWeights::Masses, self.masses.of[i]),
-            Weight::Rod => (SymbolWeights::Rod, self.rods.of[i]),
+            Weight::Roll => (SymbolWeights::Masses, self.masses.of[i]),
             Weight::ArmX => (SymbolWeights::Arm, self.arms.of[2 * i]),
             Weight::ArmY => (SymbolWeights::Arm, self.arms.of[2 * i + 1]),
         };
@@ -299,7 +311,7 @@ impl Proof {
     /// A share, in which the forward and the backward part of a piston along (about) x or y are one
     /// where its bore is a symbol.
     fn component(&self, quantity: ProofQuantity, share: &Share) -> Option<Share> {
-        let piston = self.loads.list[share.load].source != Source::Unbalance;
+        let piston = !self.loads.list[share.load].is_turning();
         let bore = self.bores[share.load];
         if !quantity.is_component() || !piston || bore.symbol == 0 {
             return Some(*share);

@@ -23,7 +23,7 @@ fn rows_combine_waves_of_their_angle_with_coefficients_of_their_point() {
         // Also of a first row within an angle, and of rows after the last one.
         for row in [0, 5, 13, (angles * points).saturating_sub(3)] {
             block.evaluate(&waves, &coefficients, row);
-            for (i, row) in (row..angles * points).take(LANES).enumerate() {
+            for (i, row) in (row..angles * points).take(ROWS_SIDE_BY_SIDE).enumerate() {
                 for order in 0..orders {
                     let wave = |side: usize, column: usize| {
                         let wave = &waves.columns[waves.of_order[order][side]];

@@ -35,7 +35,7 @@ fn cancellation_stops_at_the_next_stretch() {
                 * rod_ratio.as_ref().map_or(1, Vec::len);
             let rows = 2 * of_engine;
             // Pieces of values times speeds are steps too.
-            let pieces = if rpm.len() > 1 { (rows * rpm.len()).div_ceil(PIECE) } else { 0 };
+            let pieces = if rpm.len() > 1 { (rows * rpm.len()).div_ceil(ROWS_PER_TASK) } else { 0 };
             let axes = Axes { bank_angle, rod_ratio, rpm, ..Axes::default() };
             let orders = vec![Order::whole(2).unwrap()];
             let sweep = Sweep::new(engines.clone(), axes, orders, None, &Cancel::new()).unwrap();
@@ -58,9 +58,9 @@ fn cancellation_stops_at_the_next_stretch() {
                 (result, done.into_inner(), cancel.progress())
             };
             assert_eq!(run(usize::MAX), (Ok(()), rows, (rows + pieces, rows + pieces)));
-            for first in (0..rows).filter(|row| (row % of_engine).is_multiple_of(STRETCH)) {
+            for first in (0..rows).filter(|row| (row % of_engine).is_multiple_of(ROWS_PER_CHECK)) {
                 let end = (first / of_engine + 1) * of_engine;
-                let end = end.min(first + STRETCH);
+                let end = end.min(first + ROWS_PER_CHECK);
                 let (result, done, _) = run(first + 1);
                 // After the last row only a step over speeds can notice.
                 let noticed = end < rows || pieces > 0;

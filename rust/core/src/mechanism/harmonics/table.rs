@@ -9,7 +9,7 @@ use super::force::coefficients;
 use super::near_one;
 use super::roots::{NEGLIGIBLE_LOG, Root};
 use crate::Complex64;
-use crate::gear::slider_crank::Proportions;
+use crate::mechanism::slider_crank::Proportions;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::limits;
@@ -80,24 +80,24 @@ fn fill<T: Send>(
     cancel: &Cancel,
     write: impl Fn(Range<usize>, &mut [T]) -> Result<()> + Sync,
 ) -> Result<()> {
-    const CHUNK: usize = 2048;
+    const RATIOS_PER_TASK: usize = 2048;
     if width == 0 {
         return Ok(());
     }
-    if rows <= CHUNK {
+    if rows <= RATIOS_PER_TASK {
         return write(0..rows, out);
     }
-    cancel.expect(rows.div_ceil(CHUNK));
-    let chunks = memory::collected(out.chunks_mut(CHUNK * width).enumerate())?;
+    cancel.expect(rows.div_ceil(RATIOS_PER_TASK));
+    let chunks = memory::collected(out.chunks_mut(RATIOS_PER_TASK * width).enumerate())?;
     pool::map(cancel, chunks, |(chunk, out)| {
         cancel.step()?;
-        write(chunk * CHUNK..rows.min((chunk + 1) * CHUNK), out)
+        write(chunk * RATIOS_PER_TASK..rows.min((chunk + 1) * RATIOS_PER_TASK), out)
     })
     .map(drop)
 }
 
 /// How many rod ratios go through a polynomial side by side.
-const LANES: usize = 16;
+const RATIOS_SIDE_BY_SIDE: usize = 16;
 
 /// Orders between two checks for cancellation.
 const ORDERS_PER_CHECK: usize = 16;
@@ -116,9 +116,12 @@ fn centred_rows(
     vectorised(
         #[inline(always)]
         || {
-            for (ratios, rows) in rod_ratios.chunks(LANES).zip(rows.chunks_mut(LANES * width)) {
+            for (ratios, rows) in rod_ratios
+                .chunks(RATIOS_SIDE_BY_SIDE)
+                .zip(rows.chunks_mut(RATIOS_SIDE_BY_SIDE * width))
+            {
                 // What a lane is given does not show in others: rows depend on their own ratio alone.
-                let mut lanes = [0.5; LANES];
+                let mut lanes = [0.5; RATIOS_SIDE_BY_SIDE];
                 for (lane, &λ) in lanes.iter_mut().zip(ratios) {
                     *lane = if near_one::is_near(λ) { 0.5 } else { λ };
                 }
@@ -148,22 +151,22 @@ fn root(λ: f64) -> f64 {
 
 #[inline(always)]
 fn lanes_of_rows(
-    rod_ratios: &[f64; LANES],
+    rod_ratios: &[f64; RATIOS_SIDE_BY_SIDE],
     orders: &[u32],
     tables: &[Horner],
     rows: &mut [f64],
     cancel: &Cancel,
 ) -> Result<()> {
     let width = orders.len();
-    let mut p = [0.0; LANES];
+    let mut p = [0.0; RATIOS_SIDE_BY_SIDE];
     for (p, &λ) in p.iter_mut().zip(rod_ratios) {
         *p = root(λ);
     }
     let square = p.map(|p| p * p);
     let fourth = square.map(|s| s * s);
     // What rounding took from p, and from its square, relative to them: they go into powers.
-    let (mut of_p, mut of_square) = ([0.0; LANES], [0.0; LANES]);
-    for lane in 0..LANES {
+    let (mut of_p, mut of_square) = ([0.0; RATIOS_SIDE_BY_SIDE], [0.0; RATIOS_SIDE_BY_SIDE]);
+    for lane in 0..RATIOS_SIDE_BY_SIDE {
         let (λ, p, square) = (rod_ratios[lane], p[lane], square[lane]);
         let rest = p.mul_add(p, -square);
         // Residual of λ(1 + p²) = 2p, where λ − 2p is exact, and a step of Newton's method.
@@ -182,10 +185,10 @@ fn lanes_of_rows(
             rows.iter_mut().skip(column).step_by(width).for_each(|v| *v = value);
             continue;
         }
-        let mut sum = [0.0; LANES];
+        let mut sum = [0.0; RATIOS_SIDE_BY_SIDE];
         let needed = table.terms.iter().take_while(|(_, from)| largest > *from).count();
         for &(term, from) in table.terms[..needed].iter().rev() {
-            for lane in 0..LANES {
+            for lane in 0..RATIOS_SIDE_BY_SIDE {
                 let term = if fourth[lane] > from { term } else { 0.0 };
                 sum[lane] = (sum[lane] + term) * fourth[lane];
             }
@@ -194,24 +197,24 @@ fn lanes_of_rows(
         if n <= LARGEST_PLAIN_ORDER {
             let squares = n / 2 - 1;
             for _ in 0..squares {
-                for lane in 0..LANES {
+                for lane in 0..RATIOS_SIDE_BY_SIDE {
                     power[lane] *= square[lane];
                 }
             }
             let (degree, squares) = (f64::from(n - 1), f64::from(squares));
-            for lane in 0..LANES {
+            for lane in 0..RATIOS_SIDE_BY_SIDE {
                 let correction = degree * of_p[lane] + squares * of_square[lane];
                 power[lane] = power[lane].mul_add(correction, power[lane]);
             }
         } else {
-            for lane in 0..LANES {
+            for lane in 0..RATIOS_SIDE_BY_SIDE {
                 let Ok(proportions) = Proportions::new(rod_ratios[lane], 0.0) else {
                     continue;
                 };
                 power[lane] = Root::new(proportions.above).power(n - 1);
             }
         }
-        for lane in 0..LANES {
+        for lane in 0..RATIOS_SIDE_BY_SIDE {
             power[lane] = table.leading * power[lane] * (1.0 - sum[lane]);
         }
         rows.iter_mut().skip(column).step_by(width).zip(power).for_each(|(v, p)| *v = p);
@@ -305,7 +308,7 @@ pub fn write_centred_roll(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gear::harmonics::torque::torque;
+    use crate::mechanism::harmonics::torque::torque;
 
     /// The rows agree with [`torque`], one slider-crank at a time.
     fn check(orders: &[u32]) {

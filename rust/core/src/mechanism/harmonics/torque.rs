@@ -4,7 +4,7 @@ use super::fractions::Fractions;
 use super::roots::{Root, Sides};
 use super::{force, rod};
 use crate::Complex64;
-use crate::gear::slider_crank::{Cylinder, Proportions};
+use crate::mechanism::slider_crank::{Cylinder, Proportions};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::order::Order;

@@ -21,111 +21,67 @@
 //! | tolerances | a complex number | a complex number for each sample, whose weights and levers come from its draws |
 //! | proofs, closed forms | a root of unity, times symbols for angles that are no parts of a turn | a list of such roots with rational weights |
 //!
-//! When a bank turns by δ, whatever belongs to it is multiplied as [`Turn`] says.
+//! When a bank turns by δ, whatever belongs to it is multiplied as [`BankPhase`] says.
 
+mod gas;
+pub(crate) mod kinematics;
 mod list;
+mod piston;
+mod place;
+mod rod;
+pub(crate) mod source;
+mod spectrum;
+mod unbalance;
 
 pub(crate) use self::list::Loads;
+pub(crate) use self::place::Place;
+use self::source::{Column, ForcePart, Parts, Repeats, Scaling};
 use crate::Complex64;
-use crate::engine::{Hold, Origin};
-use crate::numbers::angle::Angle;
+use crate::engine::Hold;
 use crate::numbers::order::Order;
 use crate::wrench::Planar;
 
-/// Origin of a load's amplitude.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Source {
-    /// A piston and its rod.
-    Piston {
-        /// Index into [`Loads::gears`].
-        gear: usize,
-        /// m·r², kg·m²: weight of the torques of the masses.
-        second_moment: f64,
-        /// Weight of the torques of the rod's inertia, kg·m².
-        rod_inertia: f64,
-    },
-    /// A mass off the axis of a shaft.
-    Unbalance,
-    /// Pressure on a piston, which makes torque alone: forces on head, wall and bearings cancel.
-    Pressure {
-        /// Index into [`Loads::gears`].
-        gear: usize,
-    },
-}
-
-/// A periodic load on the engine.
+/// A periodic load on the engine: a place, and a source with its weights.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Load {
-    /// Part of the engine that it belongs to.
-    pub origin: Origin,
-    pub source: Source,
-    /// m·r of a piston, the unbalance of a shaft, kg·m; area times crank radius of pressure, m³; below
-    /// zero where the load acts the other way.
+    pub place: Place,
+    /// Index into [`Loads::sources`].
+    pub source: usize,
+    /// Those of the source.
+    pub parts: Parts,
+    /// Of the force: m·r of a piston, the unbalance of a shaft, kg·m. Below zero, as the other weight,
+    /// where the load acts the other way.
     pub weight: f64,
-    /// Direction of the force when the crank stands at `phase`, from +x.
-    pub direction: Angle,
-    /// Unit vector of that direction, x + iy.
-    pub unit: Complex64,
-    /// Crank angle; of pressure half of that of the firing, which half orders turn by whole numbers.
-    pub phase: Angle,
-    /// Place along the crank, m.
-    pub z: f64,
-    /// Speed of its shaft over crank speed, negative where it turns against the crank.
-    pub ratio: i32,
-    /// Place of the shaft's axis, x + iy, m.
-    pub axis: Complex64,
-    /// Bank that it belongs to: that of a piston, or of a crankpin's piston.
-    pub bank: Option<usize>,
+    /// Of its torque: m·r² or rod inertia, kg·m²; area times crank radius of pressure, m³.
+    pub roll: f64,
 }
 
-/// Factor of a sum, which depends on the order and on the gear.
+/// Factor of a sum, which depends on the order: an amplitude of a source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
-pub(crate) enum Harmonic {
-    /// 1: unbalances.
-    #[default]
-    One,
-    /// Of the force of a gear.
-    Force(usize),
-    /// Of the torque of a gear's masses.
-    Torque(usize),
-    /// Of the torque of a gear's rod inertia.
-    Rod(usize),
-    /// Of the torque of the pressure on a gear's piston: whatever the speed, where all others are over ω².
-    Gas(usize),
-}
-
-impl Harmonic {
-    /// Index of the gear that it is of, if it is of one.
-    pub fn gear(self) -> Option<usize> {
-        match self {
-            Self::One => None,
-            Self::Force(k) | Self::Torque(k) | Self::Rod(k) | Self::Gas(k) => Some(k),
-        }
-    }
+pub(crate) struct Harmonic {
+    /// Index into [`Loads::sources`].
+    pub source: usize,
+    pub column: Column,
 }
 
 /// Real factor of a load's unit phasor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Weight {
-    /// m·r or unbalance.
+    /// That of the force.
     Force,
     /// The same times z − z₀.
     Moment,
-    /// m·r².
-    Torque,
-    /// Rod inertia.
-    Rod,
-    /// m·r or unbalance times x of its axis.
+    /// That of the force times x of its axis.
     ArmX,
-    /// m·r or unbalance times y of its axis.
+    /// That of the force times y of its axis.
     ArmY,
-    /// Area times crank radius.
-    Volume,
+    /// That of the torque.
+    Roll,
 }
 
 /// Factor of a load's part: `halves`/2 · i^`quarters`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Times {
+pub(crate) struct Factor {
     pub halves: i32,
     pub quarters: i32,
 }
@@ -150,7 +106,7 @@ pub(crate) trait Arithmetic {
         load: (usize, &Load),
         weight: Weight,
         unit: &Self::Unit,
-        times: Times,
+        times: Factor,
     );
 }
 
@@ -158,6 +114,7 @@ pub(crate) trait Arithmetic {
 #[derive(Debug, Clone)]
 pub(crate) struct Term<S> {
     pub harmonic: Harmonic,
+    pub scaling: Scaling,
     pub bank: Option<usize>,
     /// Forward part, and conjugate of the backward part.
     pub force: [S; 2],
@@ -185,31 +142,23 @@ pub(crate) fn superpose<A: Arithmetic>(
 ) -> Vec<Term<A::Sum>> {
     let mut terms = Vec::new();
     for at @ (_, load) in loads.iter().enumerate().filter(|(_, load)| load.acts_at(order)) {
-        let bank = load.bank.filter(|_| wanted.by_bank);
-        if let Source::Pressure { gear } = load.source {
-            if wanted.roll {
-                let phase = arithmetic.phase(at, -i64::from(order.halves()));
-                let sum = &mut term_of(&mut terms, Harmonic::Gas(gear), bank).roll;
-                arithmetic.add(sum, at, Weight::Volume, &phase, Times { halves: 2, quarters: 0 });
-            }
-            continue;
-        }
-        let phase = arithmetic.phase(at, -i64::from(order.halves() / 2));
-        let square = load.ratio * load.ratio;
-        let (harmonic, halves) = match load.source {
-            Source::Piston { gear, .. } => (Harmonic::Force(gear), square),
-            _ => (Harmonic::One, 2 * square),
-        };
-        let arm = wanted.roll && load.axis != Complex64::default();
-        if wanted.planar || arm {
-            let term = term_of(&mut terms, harmonic, bank);
+        let (parts, place) = (load.parts, &load.place);
+        let square = place.speed_squared();
+        let phase = arithmetic.phase(at, -load.phase_multiple(order));
+        let arm = wanted.roll && place.axis != Complex64::default();
+        let bank = place.bank.filter(|_| wanted.by_bank);
+        let harmonic = |column| Harmonic { source: load.source, column };
+        if let Some(force) = parts.force.filter(|_| wanted.planar || arm) {
+            let term = term_of(&mut terms, harmonic(Column::Force), parts.scaling, bank);
+            // What moves along a line is half forward, half backward.
+            let halves = if force == ForcePart::Along { square } else { 2 * square };
             for (side, sign) in [(0, 1), (1, -1)] {
                 if !load.has_part(side == 0) {
                     continue;
                 }
                 let unit = arithmetic.toward(at, &phase, side == 1);
                 let add = |sum: &mut A::Sum, weight, quarters| {
-                    arithmetic.add(sum, at, weight, &unit, Times { halves, quarters });
+                    arithmetic.add(sum, at, weight, &unit, Factor { halves, quarters });
                 };
                 if wanted.planar {
                     add(&mut term.force[side], Weight::Force, 0);
@@ -222,16 +171,10 @@ pub(crate) fn superpose<A: Arithmetic>(
                 }
             }
         }
-        let Source::Piston { gear, rod_inertia, .. } = load.source else { continue };
-        if wanted.roll {
-            let mut add = |harmonic, weight| {
-                let sum = &mut term_of(&mut terms, harmonic, bank).roll;
-                arithmetic.add(sum, at, weight, &phase, Times { halves: 2 * square, quarters: 0 });
-            };
-            add(Harmonic::Torque(gear), Weight::Torque);
-            if rod_inertia != 0.0 {
-                add(Harmonic::Rod(gear), Weight::Rod);
-            }
+        if parts.roll && wanted.roll {
+            let times = Factor { halves: 2 * square, quarters: 0 };
+            let term = term_of(&mut terms, harmonic(Column::Roll), parts.scaling, bank);
+            arithmetic.add(&mut term.roll, at, Weight::Roll, &phase, times);
         }
     }
     terms
@@ -241,17 +184,24 @@ pub(crate) fn superpose<A: Arithmetic>(
 fn term_of<S: Default>(
     terms: &mut Vec<Term<S>>,
     harmonic: Harmonic,
+    scaling: Scaling,
     bank: Option<usize>,
 ) -> &mut Term<S> {
     let same = |term: &Term<S>| (term.harmonic, term.bank) == (harmonic, bank);
-    found_or(terms, same, || {
+    find_or_push(terms, same, || {
         let [force, moment] = [(); 2].map(|()| [(); 2].map(|()| S::default()));
-        Term { harmonic, bank, force, moment, roll: S::default() }
+        Term { harmonic, scaling, bank, force, moment, roll: S::default() }
     })
 }
 
+/// Number of loads that have a part in forces and moments, or of all, which have one in torques: on it the
+/// rounding of their sums depends.
+pub(crate) fn count(loads: &[Load], torque: bool) -> usize {
+    loads.iter().filter(|load| torque || load.parts.force.is_some()).count()
+}
+
 /// The first of a list that is such, or a new one at its end.
-pub(crate) fn found_or<T>(
+pub(crate) fn find_or_push<T>(
     list: &mut Vec<T>,
     is_such: impl FnMut(&T) -> bool,
     new: impl FnOnce() -> T,
@@ -281,11 +231,11 @@ impl Arithmetic for Phasors {
     type Sum = PhasorSum;
 
     fn phase(&self, (_, load): (usize, &Load), times: i64) -> Complex64 {
-        load.phase.cis(times)
+        load.place.phase.cis(times)
     }
 
     fn toward(&self, (_, load): (usize, &Load), unit: &Complex64, conjugate: bool) -> Complex64 {
-        unit * if conjugate { load.unit.conj() } else { load.unit }
+        unit * if conjugate { load.place.unit.conj() } else { load.place.unit }
     }
 
     #[inline]
@@ -295,30 +245,27 @@ impl Arithmetic for Phasors {
         (_, load): (usize, &Load),
         weight: Weight,
         unit: &Complex64,
-        times: Times,
+        times: Factor,
     ) {
         let weight_and_size = |weight: f64| (weight, weight.abs());
-        let (weight, size) = match (weight, load.source) {
-            (Weight::Force | Weight::Volume, _) => weight_and_size(load.weight),
+        let place = &load.place;
+        let (weight, size) = match weight {
+            Weight::Force => weight_and_size(load.weight),
             // Rounding of a lever is relative to what it is the difference of.
-            (Weight::Moment, _) => (
-                load.weight * (load.z - self.reference),
-                load.weight.abs() * (load.z.abs() + self.reference.abs()),
+            Weight::Moment => (
+                load.weight * place.lever(self.reference),
+                load.weight.abs() * place.lever_size(self.reference),
             ),
-            (Weight::ArmX, _) => weight_and_size(load.weight * load.axis.re),
-            (Weight::ArmY, _) => weight_and_size(load.weight * load.axis.im),
-            (Weight::Torque, Source::Piston { second_moment, .. }) => {
-                weight_and_size(second_moment)
-            }
-            (Weight::Rod, Source::Piston { rod_inertia, .. }) => weight_and_size(rod_inertia),
-            (Weight::Torque | Weight::Rod, _) => (0.0, 0.0),
+            Weight::ArmX => weight_and_size(load.weight * place.axis.re),
+            Weight::ArmY => weight_and_size(load.weight * place.axis.im),
+            Weight::Roll => weight_and_size(load.roll),
         };
         sum.value += times.of(*unit) * weight;
         sum.size += 0.5 * f64::from(times.halves) * size;
     }
 }
 
-impl Times {
+impl Factor {
     /// A complex number times this factor.
     pub fn of(self, unit: Complex64) -> Complex64 {
         let half = 0.5 * f64::from(self.halves);
@@ -343,36 +290,42 @@ impl Term<PhasorSum> {
 }
 
 impl Load {
-    /// The order of an unbalance.
-    pub fn unbalance_order(&self) -> Option<Order> {
-        let order = Order::whole(self.ratio.unsigned_abs()).ok()?;
-        (self.source == Source::Unbalance).then_some(order)
-    }
-
     /// Whether it has a part at this order.
-    fn acts_at(&self, order: Order) -> bool {
-        match self.source {
-            Source::Piston { .. } => order.halves().is_multiple_of(2 * self.ratio.unsigned_abs()),
-            Source::Unbalance => order.halves() == 2 * self.ratio.unsigned_abs(),
-            Source::Pressure { .. } => true,
+    pub fn acts_at(&self, order: Order) -> bool {
+        let own = 2 * self.place.ratio.unsigned_abs();
+        match (self.parts.force, self.parts.repeats) {
+            (Some(ForcePart::Turning), _) => order.halves() == own,
+            (_, Repeats::EveryTurn) => order.halves().is_multiple_of(own),
+            (_, Repeats::EveryTwoTurns) => true,
         }
     }
 
-    /// Whether it has a forward part, or a backward part.
+    /// Multiple of its phase by which it lags at an order.
+    fn phase_multiple(&self, order: Order) -> i64 {
+        let halves = i64::from(order.halves());
+        if self.parts.repeats == Repeats::EveryTwoTurns { halves } else { halves / 2 }
+    }
+
+    /// Whether its force has a forward part, or a backward part.
     pub fn has_part(&self, forward: bool) -> bool {
-        self.source != Source::Unbalance || forward == (self.ratio > 0)
+        self.parts.force != Some(ForcePart::Turning) || forward == (self.place.ratio > 0)
+    }
+
+    /// Whether it turns with a shaft.
+    pub fn is_turning(&self) -> bool {
+        self.parts.force == Some(ForcePart::Turning)
     }
 }
 
 /// Multiples of δ/2 in the phase by which the parts of a bank's loads change at one order as it turns by δ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Turn {
+pub(crate) struct BankPhase {
     pub forward: i64,
     pub backward_conj: i64,
     pub roll: i64,
 }
 
-impl Turn {
+impl BankPhase {
     /// With pins held, a bore takes its top dead centres along; with the firing held it does not.
     pub fn new(order: Order, hold: Hold) -> Self {
         let halves = i64::from(order.halves());

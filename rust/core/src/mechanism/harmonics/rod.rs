@@ -9,7 +9,7 @@ use super::fractions::Fractions;
 use super::near_one;
 use super::roots::{Root, Roots, Sides, series_length};
 use crate::Complex64;
-use crate::gear::slider_crank::Proportions;
+use crate::mechanism::slider_crank::Proportions;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;

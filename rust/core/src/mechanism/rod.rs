@@ -5,7 +5,7 @@
 //! of two forces across the bore, at the crankpin and at the piston pin: none on the engine as a
 //! whole, a torque −J ω² φ''φ' on the crank, and J ω² φ''(1 + φ') on the block.
 
-use crate::gear::slider_crank::{CrankPosition, Proportions};
+use crate::mechanism::slider_crank::{CrankPosition, Proportions};
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 

@@ -2,7 +2,7 @@
 
 use super::near_one;
 use super::roots::{NEGLIGIBLE_LOG, Root, Sides};
-use crate::gear::slider_crank::Proportions;
+use crate::mechanism::slider_crank::Proportions;
 use crate::numbers::double::Double;
 
 /// The tolerance that leaves out nothing but what is lost to rounding anyway.

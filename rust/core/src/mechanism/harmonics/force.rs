@@ -4,7 +4,7 @@ use super::centred::{ALL_DIGITS, Centred};
 use super::offset;
 use super::roots::{Roots, Sides};
 use crate::Complex64;
-use crate::gear::slider_crank::Proportions;
+use crate::mechanism::slider_crank::Proportions;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;

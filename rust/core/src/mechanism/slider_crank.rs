@@ -72,6 +72,12 @@ impl Cylinder {
         Ok(Self { rod_inertia_excess: excess, ..self })
     }
 
+    /// The same lengths without masses: the motion depends on no more.
+    #[must_use]
+    pub(crate) fn without_masses(self) -> Self {
+        Self { reciprocating_mass: 0.0, rod_inertia_excess: 0.0, ..self }
+    }
+
     /// Crank radius r, half the stroke, m.
     #[must_use]
     pub fn crank_radius(&self) -> f64 {

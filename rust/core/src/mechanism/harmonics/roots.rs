@@ -1,6 +1,6 @@
 //! The two roots p₁ and p₂ from which all series of harmonics are made.
 
-use crate::gear::slider_crank::Proportions;
+use crate::mechanism::slider_crank::Proportions;
 use crate::numbers::double::Double;
 
 /// Terms left out are below e to the power of minus this, relative to the sum: under half a unit in

@@ -5,7 +5,7 @@
 
 use super::roots::{Root, Roots, Sides};
 use crate::Complex64;
-use crate::gear::slider_crank::Proportions;
+use crate::mechanism::slider_crank::Proportions;
 
 /// `F = (l/2r)·(cos²θ/(A − sin θ) + cos²θ/(B + sin θ))`: h'² = F − cos²θ, and φ'² = F·(r/l)².
 pub(super) struct Fractions {

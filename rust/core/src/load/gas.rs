@@ -1,0 +1,133 @@
+//! Pressure on a piston: the forces on head, wall and bearings cancel, and a torque remains.
+
+use std::sync::Arc;
+
+use super::kinematics::{AngleBlock, Columns, LoadSum, Quantities};
+use super::source::{
+    ExactFactor, Parts, Point, Repeats, Scale, Scaling, Source, Tail, TorqueAmplitudes, is_equal,
+};
+use crate::engine::layout::Strokes;
+use crate::mechanism::Mechanism;
+use crate::mechanism::harmonics::rod::TorqueHarmonics;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::Result;
+use crate::numbers::limits;
+use crate::numbers::order::Order;
+use crate::pressure::{Cycle, GasTorque};
+
+/// Torque over piston area and crank radius, Pa, of a cycle of pressure above the piston and an even one
+/// below.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct GasPressure {
+    /// On a crank as fast as the main one, whose cycles these are.
+    pub mechanism: Mechanism,
+    pub cycle: Arc<Cycle>,
+    /// Absolute pressure in the crankcase, Pa.
+    pub crankcase: f64,
+    /// Harmonics ½, 1, 1½ … as far as they are known.
+    pub known: Option<GasTorque>,
+}
+
+impl Source for GasPressure {
+    fn parts(&self) -> Parts {
+        let repeats = match self.cycle.strokes() {
+            Strokes::Two => Repeats::EveryTurn,
+            Strokes::Four => Repeats::EveryTwoTurns,
+        };
+        Parts { force: None, roll: true, scaling: Scaling::Given, repeats }
+    }
+
+    fn equals(&self, other: &dyn Source) -> bool {
+        is_equal(self, other)
+    }
+
+    fn mechanism(&self) -> Option<&Mechanism> {
+        Some(&self.mechanism)
+    }
+
+    /// The forces are internal, so that either torque balances the other.
+    fn torque(&self, orders: &[Order], cancel: &Cancel) -> Result<TorqueAmplitudes> {
+        let [on_block, _] = self.mechanism.senses();
+        let GasTorque { mean, phasors } =
+            match self.known.as_ref().and_then(|known| known.at(orders)) {
+                Some(torque) => torque,
+                None => {
+                    let Self { mechanism, cycle, crankcase, .. } = self;
+                    cycle.torque_of(&mechanism.proportions, *crankcase, orders, cancel)?
+                }
+            };
+        let roll = phasors.iter().map(|phasor| phasor * -on_block).collect();
+        let harmonics = TorqueHarmonics { roll, crank: phasors };
+        Ok(TorqueAmplitudes { harmonics, mean: [-on_block * mean, mean] })
+    }
+
+    fn orders(&self, highest: u32) -> Vec<u32> {
+        (1..=highest.min(limits::HIGHEST_ORDER)).collect()
+    }
+
+    /// Of tables no bound is known before they are integrated: see [`Source::up_to`].
+    fn beyond(&self, _: u32, torque: bool) -> Tail {
+        Tail { force: 0.0, torque: if torque { f64::INFINITY } else { 0.0 } }
+    }
+
+    fn up_to(
+        &self,
+        highest: Order,
+        cancel: &Cancel,
+    ) -> Result<Option<(Arc<dyn Source>, Vec<f64>)>> {
+        let Self { mechanism, cycle, crankcase, .. } = self;
+        let (known, tails) =
+            cycle.torque_up_to(&mechanism.proportions, *crankcase, highest, cancel)?;
+        Ok(Some((Arc::new(Self { known: Some(known), ..self.clone() }), tails)))
+    }
+
+    fn largest_torque(&self) -> f64 {
+        let torque = |degrees: u32| {
+            let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
+            let pressure = self.cycle.pressure_deg(f64::from(degrees)) - self.crankcase;
+            (pressure * self.mechanism.proportions.motion(sin, cos).velocity).abs()
+        };
+        (0..720).map(torque).fold(0.0, f64::max)
+    }
+
+    fn scale(&self) -> Scale {
+        Scale { force: 0.0, torque: Some(0.0) }
+    }
+
+    fn at_point(&self, point: &Point) -> Result<Arc<dyn Source>> {
+        let mechanism = self.mechanism.replaced(point.rod_ratio, point.pin_offset)?;
+        Ok(Arc::new(Self { mechanism, known: None, ..self.clone() }))
+    }
+
+    fn exact(&self) -> ExactFactor {
+        ExactFactor::Unknown
+    }
+
+    fn over_angle(
+        &self,
+        sum: &LoadSum,
+        block: &AngleBlock,
+        wanted: Quantities,
+        _: f64,
+        columns: &mut Columns,
+    ) {
+        if !wanted.torque {
+            return;
+        }
+        let [on_block, on_crank] = self.mechanism.senses();
+        let units = &*block.units(1);
+        for (i, θ) in block.degrees().iter().enumerate() {
+            let velocity =
+                self.mechanism.proportions.motion_at(&units.crank(sum.turned, i)).velocity;
+            let gauge = self.cycle.pressure_deg(θ - sum.phase_deg) - self.crankcase;
+            // The piston's way down is minus its distance from the crank.
+            let torque = -gauge * velocity * sum.roll;
+            for ((whole, gas), sense) in
+                columns.torque.iter_mut().zip(&mut columns.gas).zip([-on_block, on_crank])
+            {
+                whole[i] += sense * torque;
+                gas[i] += sense * torque;
+            }
+        }
+    }
+}

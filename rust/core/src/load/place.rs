@@ -1,0 +1,76 @@
+//! Where a load acts, and which way: the geometry of an engine, once.
+
+use crate::Complex64;
+use crate::engine::{Crank, Engine, Origin};
+use crate::numbers::angle::Angle;
+
+/// Where, which way and when a load acts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Place {
+    /// Part of the engine that it belongs to.
+    pub origin: Origin,
+    /// Direction of the force when the crank stands at `phase`, from +x.
+    pub direction: Angle,
+    /// Unit vector of that direction, x + iy.
+    pub unit: Complex64,
+    /// Crank angle; of a load that repeats in two turns half of it, which half orders turn by whole numbers.
+    pub phase: Angle,
+    /// Place along the crank, m.
+    pub z: f64,
+    /// Speed of its shaft over crank speed, negative where it turns against the crank.
+    pub ratio: i32,
+    /// Place of the shaft's axis, x + iy, m.
+    pub axis: Complex64,
+    /// Bank that it belongs to: that of a piston, or of a crankpin's piston.
+    pub bank: Option<usize>,
+}
+
+impl Place {
+    /// On the main crank, or on a shaft that `ratio` and `axis` are given of.
+    pub fn on_main(origin: Origin, direction: Angle, z: f64) -> Self {
+        Self {
+            origin,
+            direction,
+            unit: direction.cis(1),
+            phase: Angle::ZERO,
+            z,
+            ratio: 1,
+            axis: Complex64::default(),
+            bank: None,
+        }
+    }
+
+    /// On a shaft or crank of this speed and axis.
+    pub fn on(self, Crank { axis: [x, y], ratio }: Crank) -> Self {
+        Self { ratio, axis: Complex64::new(x, y), ..self }
+    }
+
+    /// On the crank of a cylinder, of its bank, at its top dead centre.
+    pub fn of_cylinder(self, engine: &Engine, cylinder: usize) -> Self {
+        let crank = engine.cranks()[engine.crank_of(cylinder)];
+        let (phase, bank) = (engine.stations()[cylinder].tdc, Some(engine.bank_of(cylinder)));
+        Self { phase, bank, ..self.on(crank) }
+    }
+
+    /// Along the bore of a cylinder.
+    pub fn along_bore(engine: &Engine, cylinder: usize) -> Self {
+        let station = &engine.stations()[cylinder];
+        Self::on_main(Origin::Cylinder(cylinder), station.bank, station.z)
+            .of_cylinder(engine, cylinder)
+    }
+
+    /// Distance from a plane, m.
+    pub fn lever(&self, reference: f64) -> f64 {
+        self.z - reference
+    }
+
+    /// What the rounding error of that distance is relative to.
+    pub fn lever_size(&self, reference: f64) -> f64 {
+        self.z.abs() + reference.abs()
+    }
+
+    /// Square of its shaft's speed, by which inertia scales.
+    pub fn speed_squared(&self) -> i32 {
+        self.ratio * self.ratio
+    }
+}

@@ -1,0 +1,99 @@
+//! Inertia of a connecting rod beyond that of its two masses: a torque alone.
+
+use std::sync::Arc;
+
+use super::kinematics::{AngleBlock, BLOCK, Columns, LoadSum, Quantities, add_inertia};
+use super::piston::{multiples, torque_beyond, torque_by};
+use super::source::{
+    Column, ExactFactor, Parts, Point, Scale, Source, Tail, TorqueAmplitudes, is_equal,
+};
+use crate::mechanism::rod::Swing;
+use crate::mechanism::{Mechanism, harmonics};
+use crate::numbers::cancel::Cancel;
+use crate::numbers::crank_angles::CrankAngles;
+use crate::numbers::error::Result;
+use crate::numbers::order::Order;
+use crate::numbers::simd::vectorised;
+
+/// Torque over the rod's inertia and ω².
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct RodInertia(pub Mechanism);
+
+impl Source for RodInertia {
+    fn parts(&self) -> Parts {
+        Parts::inertia(None, true)
+    }
+
+    fn equals(&self, other: &dyn Source) -> bool {
+        is_equal(self, other)
+    }
+
+    fn mechanism(&self) -> Option<&Mechanism> {
+        Some(&self.0)
+    }
+
+    fn torque(&self, orders: &[Order], cancel: &Cancel) -> Result<TorqueAmplitudes> {
+        torque_by(&self.0, orders, |own| harmonics::rod::torque(&self.0.proportions, own, cancel))
+    }
+
+    fn orders(&self, highest: u32) -> Vec<u32> {
+        multiples(&self.0, highest)
+    }
+
+    fn beyond(&self, highest: u32, torque: bool) -> Tail {
+        let own = self.0.own_highest(highest);
+        let torque = torque_beyond(&self.0, torque, harmonics::rod::tail_bound, own);
+        Tail { force: 0.0, torque }
+    }
+
+    /// Of order 1 it makes about J·r/l.
+    fn scale(&self) -> Scale {
+        Scale { force: 0.0, torque: Some(1.0 / self.0.proportions.rod) }
+    }
+
+    /// Order 2 falls from λ = 0.91 on: see the sweep's choice of orders.
+    fn grows_up_to(&self, _: Column) -> f64 {
+        0.9
+    }
+
+    fn at_point(&self, point: &Point) -> Result<Arc<dyn Source>> {
+        Ok(Arc::new(Self(self.0.replaced(point.rod_ratio, point.pin_offset)?)))
+    }
+
+    fn exact(&self) -> ExactFactor {
+        ExactFactor::Rod
+    }
+
+    fn over_angle(
+        &self,
+        sum: &LoadSum,
+        block: &AngleBlock,
+        wanted: Quantities,
+        square: f64,
+        columns: &mut Columns,
+    ) {
+        if !wanted.torque {
+            return;
+        }
+        let units = &*block.units(sum.ratio);
+        let [on_block, on_crank] = sum.senses().map(|sense| sense * square * sum.roll);
+        let [roll, crank] = &mut columns.torque;
+        vectorised(
+            #[inline(always)]
+            || {
+                for i in 0..BLOCK {
+                    let swing = Swing::new(&self.0.proportions, &units.crank(sum.turned, i));
+                    roll[i] += on_block * swing.roll();
+                    crank[i] += on_crank * swing.crank();
+                }
+            },
+        );
+    }
+
+    fn add_inertia(&self, sum: &LoadSum, angles: &CrankAngles, into: [&mut [f64]; 2]) {
+        add_inertia(&self.0, sum, angles, into, |crank| {
+            let swing = Swing::new(&self.0.proportions, crank);
+            [swing.velocity, swing.acceleration]
+        });
+    }
+}

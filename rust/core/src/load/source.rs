@@ -1,0 +1,204 @@
+//! What acts at a place: amplitudes by order, values over crank angle, bounds.
+
+use std::any::Any;
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use super::kinematics::{AngleBlock, Columns, LoadSum, Quantities};
+use crate::Complex64;
+use crate::mechanism::Mechanism;
+use crate::mechanism::harmonics::rod::TorqueHarmonics;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::crank_angles::CrankAngles;
+use crate::numbers::error::Result;
+use crate::numbers::order::Order;
+
+/// How a source acts at its place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Parts {
+    /// Force; none where all that remains of forces is a torque.
+    pub force: Option<ForcePart>,
+    /// Whether it makes a torque besides that of its force about another axis.
+    pub roll: bool,
+    pub scaling: Scaling,
+    pub repeats: Repeats,
+}
+
+/// How a force moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ForcePart {
+    /// Along its direction, at multiples of the speed of its crank.
+    Along,
+    /// Turning with its shaft, at the order of its speed alone.
+    Turning,
+}
+
+/// What amplitudes scale with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Scaling {
+    /// Inertia: with the square of the speed.
+    #[default]
+    SpeedSquared,
+    /// Pressure: as given, at any speed.
+    Given,
+}
+
+/// After which turns a source repeats.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Repeats {
+    /// Of its crank.
+    EveryTurn,
+    /// Those of a cycle of four strokes: it has half orders.
+    EveryTwoTurns,
+}
+
+impl Parts {
+    /// Of inertia that repeats in a turn.
+    pub const fn inertia(force: Option<ForcePart>, roll: bool) -> Self {
+        Self { force, roll, scaling: Scaling::SpeedSquared, repeats: Repeats::EveryTurn }
+    }
+}
+
+/// Which amplitude of a source.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub(crate) enum Column {
+    /// Of the force, and of its torque about another axis.
+    #[default]
+    Force,
+    /// Of the torque of its own.
+    Roll,
+}
+
+/// Amplitudes of the torque of a source at some orders, and its mean.
+pub(crate) struct TorqueAmplitudes {
+    pub harmonics: TorqueHarmonics,
+    /// On the block and on the main crank.
+    pub mean: [f64; 2],
+}
+
+/// Bounds of what orders above one add.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Tail {
+    pub force: f64,
+    /// To either torque.
+    pub torque: f64,
+}
+
+/// What a tolerance is relative to, over the weights of a load.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Scale {
+    pub force: f64,
+    /// None where it is that of the force at a crank radius, or at the distance of its axis.
+    pub torque: Option<f64>,
+}
+
+/// Factor of a source in exact sums.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ExactFactor {
+    /// 1.
+    One,
+    /// Symbols, one for a motion: of a piston's inertia.
+    Piston,
+    /// Of a rod's.
+    Rod,
+    /// No rational multiple of anything.
+    Unknown,
+}
+
+/// A point of a sweep: what it replaces of a mechanism.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Point {
+    pub rod_ratio: Option<f64>,
+    /// m.
+    pub pin_offset: Option<f64>,
+}
+
+/// What acts at a place, over the weights of a load.
+pub(crate) trait Source: Debug + Send + Sync + Any {
+    fn parts(&self) -> Parts;
+
+    /// Whether another source is the same.
+    fn equals(&self, other: &dyn Source) -> bool;
+
+    /// The motion that it depends on.
+    fn mechanism(&self) -> Option<&Mechanism> {
+        None
+    }
+
+    /// Amplitudes of the force; zero at orders that it does not have.
+    fn force(&self, orders: &[Order], cancel: &Cancel) -> Result<Vec<Complex64>> {
+        cancel.check()?;
+        Ok(vec![Complex64::default(); orders.len()])
+    }
+
+    /// Amplitudes of its torque on the block and on the main crank, and their means.
+    fn torque(&self, orders: &[Order], cancel: &Cancel) -> Result<TorqueAmplitudes> {
+        cancel.check()?;
+        let zero = vec![Complex64::default(); orders.len()];
+        let harmonics = TorqueHarmonics { roll: zero.clone(), crank: zero };
+        Ok(TorqueAmplitudes { harmonics, mean: [0.0; 2] })
+    }
+
+    /// Orders that it has up to one, multiples of the speed of the main crank.
+    fn orders(&self, highest: u32) -> Vec<u32>;
+
+    /// Bounds of what orders above a multiple of the speed of the main crank add; infinite where none is
+    /// known.
+    fn beyond(&self, highest: u32, torque: bool) -> Tail;
+
+    /// The same source, which keeps its amplitudes at orders ½, 1, 1½ … up to one, and bounds of what those
+    /// above each add; none where [`Source::beyond`] has a closed form.
+    fn up_to(
+        &self,
+        highest: Order,
+        cancel: &Cancel,
+    ) -> Result<Option<(Arc<dyn Source>, Vec<f64>)>> {
+        let _ = (highest, cancel);
+        Ok(None)
+    }
+
+    /// Largest torque among those at whole degrees, where [`Source::scale`] has none.
+    fn largest_torque(&self) -> f64 {
+        0.0
+    }
+
+    fn scale(&self) -> Scale;
+
+    /// Rod ratio up to which every order of a mechanism without offset grows with it.
+    fn grows_up_to(&self, column: Column) -> f64 {
+        let _ = column;
+        0.0
+    }
+
+    /// The source at a point of a sweep.
+    fn at_point(&self, point: &Point) -> Result<Arc<dyn Source>>;
+
+    fn exact(&self) -> ExactFactor;
+
+    /// Adds what loads of it add at a block of crank angles, of inertia times the square of a speed.
+    fn over_angle(
+        &self,
+        sum: &LoadSum,
+        block: &AngleBlock,
+        wanted: Quantities,
+        square: f64,
+        columns: &mut Columns,
+    );
+
+    /// Adds the moment of inertia of loads of it as seen from the main crank, kg·m², and its slope per
+    /// radian.
+    fn add_inertia(&self, sum: &LoadSum, angles: &CrankAngles, into: [&mut [f64]; 2]) {
+        let _ = (sum, angles, into);
+    }
+}
+
+impl PartialEq for dyn Source {
+    fn eq(&self, other: &Self) -> bool {
+        self.equals(other)
+    }
+}
+
+/// Whether another source is of the same kind, and equal.
+pub(super) fn is_equal<S: Source + PartialEq>(source: &S, other: &dyn Source) -> bool {
+    (other as &dyn Any).downcast_ref::<S>().is_some_and(|other| source == other)
+}

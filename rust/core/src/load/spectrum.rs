@@ -1,0 +1,60 @@
+//! A force of inertia that was given, order by order: it does not determine a torque, nor a motion.
+
+use std::sync::Arc;
+
+use super::kinematics::{AngleBlock, Columns, LoadSum, Quantities};
+use super::source::{ExactFactor, ForcePart, Parts, Point, Scale, Source, Tail, is_equal};
+use crate::Complex64;
+use crate::mechanism::at_own_orders;
+use crate::mechanism::spectrum::Spectrum;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::Result;
+use crate::numbers::order::Order;
+
+/// Force over ω², kg·m: masses and radius are in it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct GivenForce {
+    pub spectrum: Spectrum,
+    /// Speed of the crank over that of the main one, negative where it turns the other way.
+    pub ratio: i32,
+}
+
+impl Source for GivenForce {
+    fn parts(&self) -> Parts {
+        Parts::inertia(Some(ForcePart::Along), false)
+    }
+
+    fn equals(&self, other: &dyn Source) -> bool {
+        is_equal(self, other)
+    }
+
+    fn force(&self, orders: &[Order], _: &Cancel) -> Result<Vec<Complex64>> {
+        at_own_orders(self.ratio, orders, |own| {
+            Ok(own.iter().map(|&n| self.spectrum.amplitude(n)).collect())
+        })
+    }
+
+    fn orders(&self, _: u32) -> Vec<u32> {
+        self.spectrum.orders().into_iter().map(|own| own * self.ratio.unsigned_abs()).collect()
+    }
+
+    /// All of its orders are evaluated.
+    fn beyond(&self, _: u32, _: bool) -> Tail {
+        Tail::default()
+    }
+
+    fn scale(&self) -> Scale {
+        Scale { force: self.spectrum.largest(), torque: Some(0.0) }
+    }
+
+    fn at_point(&self, _: &Point) -> Result<Arc<dyn Source>> {
+        Ok(Arc::new(self.clone()))
+    }
+
+    fn exact(&self) -> ExactFactor {
+        ExactFactor::Unknown
+    }
+
+    /// Callers of exact kinematics reject engines of a given force.
+    fn over_angle(&self, _: &LoadSum, _: &AngleBlock, _: Quantities, _: f64, _: &mut Columns) {}
+}

@@ -1,0 +1,85 @@
+//! A mass off the axis of a shaft that turns evenly.
+
+use std::sync::Arc;
+
+use super::kinematics::{AngleBlock, BLOCK, Columns, LoadSum, Quantities};
+use super::source::{ExactFactor, ForcePart, Parts, Point, Scale, Source, Tail, is_equal};
+use crate::Complex64;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::Result;
+use crate::numbers::order::Order;
+use crate::numbers::simd::vectorised;
+
+/// Force over unbalance, ω² and the square of the shaft's speed, which this is.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct TurningUnbalance {
+    /// Speed of the shaft over crank speed, negative where it turns against the crank.
+    pub ratio: i32,
+}
+
+impl Source for TurningUnbalance {
+    fn parts(&self) -> Parts {
+        Parts::inertia(Some(ForcePart::Turning), false)
+    }
+
+    fn equals(&self, other: &dyn Source) -> bool {
+        is_equal(self, other)
+    }
+
+    /// One at every order: loads of it have none but that of their speed.
+    fn force(&self, orders: &[Order], cancel: &Cancel) -> Result<Vec<Complex64>> {
+        cancel.check()?;
+        let own = Order::whole(self.ratio.unsigned_abs())?;
+        let one = |order: &Order| Complex64::new(f64::from(u8::from(*order == own)), 0.0);
+        Ok(orders.iter().map(one).collect())
+    }
+
+    fn orders(&self, _: u32) -> Vec<u32> {
+        vec![self.ratio.unsigned_abs()]
+    }
+
+    /// Its only order is always evaluated.
+    fn beyond(&self, _: u32, _: bool) -> Tail {
+        Tail::default()
+    }
+
+    fn scale(&self) -> Scale {
+        Scale { force: 1.0, torque: None }
+    }
+
+    fn at_point(&self, _: &Point) -> Result<Arc<dyn Source>> {
+        Ok(Arc::new(self.clone()))
+    }
+
+    fn exact(&self) -> ExactFactor {
+        ExactFactor::One
+    }
+
+    fn over_angle(
+        &self,
+        sum: &LoadSum,
+        block: &AngleBlock,
+        wanted: Quantities,
+        square: f64,
+        columns: &mut Columns,
+    ) {
+        let units = &*block.units(sum.ratio);
+        let Columns { force: [force_x, force_y], moment: [moment_x, moment_y], torque, .. } =
+            columns;
+        let [force, moment, arm] = [sum.force, sum.moment, sum.arm].map(|sum| sum * square);
+        vectorised(
+            #[inline(always)]
+            || {
+                if wanted.planar {
+                    units.add_turning(force, sum.ratio, [force_x, force_y]);
+                    units.add_turning(moment, sum.ratio, [moment_x, moment_y]);
+                }
+                // A shaft that turns evenly takes no torque of the crank.
+                if wanted.torque && arm != Complex64::default() {
+                    let ([roll, _], mut real) = (torque, [0.0; BLOCK]);
+                    units.add_turning(arm, sum.ratio, [&mut real, roll]);
+                }
+            },
+        );
+    }
+}
