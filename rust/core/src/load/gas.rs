@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::kinematics::{AngleBlock, Columns, LoadSum, Quantities};
 use super::source::{
-    ExactFactor, Parts, Point, Repeats, Scale, Scaling, Source, Tail, TorqueAmplitudes, is_equal,
+    ExactFactor, Parts, Point, Repeats, Scale, Scaling, Source, SourceUpTo, Tail, TorqueAmplitudes,
+    is_equal,
 };
 use crate::engine::layout::Strokes;
 use crate::mechanism::Mechanism;
@@ -48,14 +49,12 @@ impl Source for GasPressure {
     /// The forces are internal, so that either torque balances the other.
     fn torque(&self, orders: &[Order], cancel: &Cancel) -> Result<TorqueAmplitudes> {
         let [on_block, _] = self.mechanism.senses();
-        let GasTorque { mean, phasors } =
-            match self.known.as_ref().and_then(|known| known.at(orders)) {
-                Some(torque) => torque,
-                None => {
-                    let Self { mechanism, cycle, crankcase, .. } = self;
-                    cycle.torque_of(&mechanism.proportions, *crankcase, orders, cancel)?
-                }
-            };
+        let known = self.known.as_ref().and_then(|known| known.at(orders));
+        let evaluate = || {
+            let Self { mechanism, cycle, crankcase, .. } = self;
+            cycle.torque_of(&mechanism.proportions, *crankcase, orders, cancel)
+        };
+        let GasTorque { mean, phasors } = known.map_or_else(evaluate, Ok)?;
         let roll = phasors.iter().map(|phasor| phasor * -on_block).collect();
         let harmonics = TorqueHarmonics { roll, crank: phasors };
         Ok(TorqueAmplitudes { harmonics, mean: [-on_block * mean, mean] })
@@ -70,11 +69,7 @@ impl Source for GasPressure {
         Tail { force: 0.0, torque: if torque { f64::INFINITY } else { 0.0 } }
     }
 
-    fn up_to(
-        &self,
-        highest: Order,
-        cancel: &Cancel,
-    ) -> Result<Option<(Arc<dyn Source>, Vec<f64>)>> {
+    fn up_to(&self, highest: Order, cancel: &Cancel) -> Result<Option<SourceUpTo>> {
         let Self { mechanism, cycle, crankcase, .. } = self;
         let (known, tails) =
             cycle.torque_up_to(&mechanism.proportions, *crankcase, highest, cancel)?;

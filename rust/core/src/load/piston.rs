@@ -171,8 +171,10 @@ pub(super) fn torque_by(
     let mut crank = at_own_orders(mechanism.ratio, orders, |_| Ok(crank))?;
     if mechanism.ratio != 1 {
         let [on_block, on_crank] = mechanism.senses();
-        roll.iter_mut().for_each(|roll| *roll *= on_block);
-        crank.iter_mut().for_each(|crank| *crank *= on_crank);
+        for (roll, crank) in roll.iter_mut().zip(&mut crank) {
+            *roll *= on_block;
+            *crank *= on_crank;
+        }
     }
     Ok(TorqueAmplitudes { harmonics: TorqueHarmonics { roll, crank }, mean: [0.0; 2] })
 }

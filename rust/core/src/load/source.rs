@@ -113,6 +113,10 @@ pub(crate) struct Point {
     pub pin_offset: Option<f64>,
 }
 
+/// A source that keeps its amplitudes at orders ½, 1, 1½ … up to one, and bounds of what those above each
+/// add.
+pub(crate) type SourceUpTo = (Arc<dyn Source>, Vec<f64>);
+
 /// What acts at a place, over the weights of a load.
 pub(crate) trait Source: Debug + Send + Sync + Any {
     fn parts(&self) -> Parts;
@@ -146,13 +150,8 @@ pub(crate) trait Source: Debug + Send + Sync + Any {
     /// known.
     fn beyond(&self, highest: u32, torque: bool) -> Tail;
 
-    /// The same source, which keeps its amplitudes at orders ½, 1, 1½ … up to one, and bounds of what those
-    /// above each add; none where [`Source::beyond`] has a closed form.
-    fn up_to(
-        &self,
-        highest: Order,
-        cancel: &Cancel,
-    ) -> Result<Option<(Arc<dyn Source>, Vec<f64>)>> {
+    /// The same source with its amplitudes up to an order; none where [`Source::beyond`] has a closed form.
+    fn up_to(&self, highest: Order, cancel: &Cancel) -> Result<Option<SourceUpTo>> {
         let _ = (highest, cancel);
         Ok(None)
     }

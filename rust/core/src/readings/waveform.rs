@@ -105,7 +105,9 @@ impl Columns {
     fn add_orders(&mut self, balance: &Balance, angles: &CrankAngles) {
         for (k, mean) in balance.mean.into_iter().enumerate() {
             for column in [&mut self.torque[k], &mut self.gas[k]] {
-                column.iter_mut().for_each(|torque| *torque += mean);
+                for torque in column.iter_mut() {
+                    *torque += mean;
+                }
             }
         }
         for (k, &order) in balance.orders.iter().enumerate() {
