@@ -18,7 +18,7 @@ const BOUNDED: &[(&str, &str)] = &[
     ("balancing/", "planes and shafts of one engine"),
     ("matching", "1000 cylinders of each set"),
     ("design", "free angles of one crank"),
-    ("gear/", "10 000 orders, and terms of a series that must converge"),
+    ("mechanism/", "10 000 orders, and terms of a series that must converge"),
     ("readings/choice.rs", "10 000 orders"),
     ("readings/exact/", "loads of one engine, 10 000 orders"),
     ("readings/tolerances/", "128 samples of 4096 harmonics, one of 10 000 orders"),
