@@ -694,7 +694,8 @@ def vee_layout_of(
     bank_angle_deg: Angle | None, bank_stagger: float, numbering: Numbering, odd_bank: Side
 ) -> dict[str, Any]:
     """Return where the cylinders of a vee are; rejects what an inline engine has no use for."""
-    across = vee_layout(bank_angle_deg or 0.0, 0.0, bank_stagger, numbering, odd_bank)
+    angle = 0.0 if bank_angle_deg is None else bank_angle_deg
+    across = vee_layout(angle, 0.0, bank_stagger, numbering, odd_bank)
     if bank_angle_deg is None:
         plain = vee_layout(0.0, 0.0, 0.0, "alternating", "right")
         for name in ("bank_stagger", "numbering", "odd_bank"):
