@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::source::{ForcePart, Repeats, Source};
+use super::source::Source;
 use super::{Loads, count, find_or_push};
 use crate::Complex64;
 use crate::mechanism::Mechanism;
@@ -83,23 +83,20 @@ impl Kinematics {
             zero_bounds[0] += size;
             zero_bounds[1] += size * place.lever_size(loads.reference);
             let mut phase = place.phase;
-            if load.parts.force == Some(ForcePart::Turning) {
+            if load.is_turning() {
                 // All of one speed are one vector at θ = 0.
                 force *= phase.cis(-i64::from(place.ratio));
                 phase = Angle::ZERO;
             }
-            let of_phase = match load.parts.repeats {
-                Repeats::EveryTurn => 1,
-                Repeats::EveryTwoTurns => 2,
-            };
+            let of_phase = load.phase_multiple(Order::FIRST);
             let same = |sum: &LoadSum| (sum.index, sum.phase) == (load.source, phase);
             let sum = find_or_push(&mut sums, same, || LoadSum {
                 source: Arc::clone(&loads.sources[load.source]),
                 index: load.source,
                 phase,
                 ratio: place.ratio,
-                phase_deg: f64::from(of_phase) * phase.degrees(),
-                turned: phase.cis(-i64::from(of_phase * place.ratio.abs())),
+                phase_deg: of_phase as f64 * phase.degrees(),
+                turned: phase.cis(-of_phase * i64::from(place.ratio.abs())),
                 force: Complex64::default(),
                 moment: Complex64::default(),
                 arm: Complex64::default(),
@@ -113,23 +110,13 @@ impl Kinematics {
         }
         Self { sums, zero_bounds }
     }
-}
 
-impl Kinematics {
     /// Adds the moment of inertia of what moves as seen from the main crank at a block of angles, kg·m²,
     /// and its slope.
     pub fn add_inertia(&self, angles: &CrankAngles, [inertia, slope]: [&mut [f64]; 2]) {
         for sum in &self.sums {
             sum.source.add_inertia(sum, angles, [&mut *inertia, &mut *slope]);
         }
-    }
-}
-
-impl LoadSum {
-    /// Factors of the torques on the block and on the main crank.
-    #[inline(always)]
-    pub fn senses(&self) -> [f64; 2] {
-        [f64::from(self.ratio.signum()), f64::from(self.ratio.abs())]
     }
 }
 

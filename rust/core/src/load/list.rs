@@ -15,7 +15,6 @@ use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 
 /// All loads of an engine about a reference plane.
-#[derive(Clone)]
 pub(crate) struct Loads {
     /// Pistons, one for each cylinder; unbalances of cranks, then of shafts; pressures; rods.
     pub list: Vec<Load>,

@@ -308,7 +308,7 @@ impl Load {
 
     /// Whether its force has a forward part, or a backward part.
     pub fn has_part(&self, forward: bool) -> bool {
-        self.parts.force != Some(ForcePart::Turning) || forward == (self.place.ratio > 0)
+        !self.is_turning() || forward == (self.place.ratio > 0)
     }
 
     /// Whether it turns with a shaft.

@@ -86,11 +86,10 @@ impl Source for PistonInertia {
         square: f64,
         columns: &mut Columns,
     ) {
-        let proportions = &self.0.proportions;
         let add = |columns: &mut Columns| match (wanted.planar, wanted.torque) {
-            (true, true) => add::<true, true>(proportions, sum, block, square, columns),
-            (true, false) => add::<true, false>(proportions, sum, block, square, columns),
-            _ => add::<false, true>(proportions, sum, block, square, columns),
+            (true, true) => add::<true, true>(&self.0, sum, block, square, columns),
+            (true, false) => add::<true, false>(&self.0, sum, block, square, columns),
+            _ => add::<false, true>(&self.0, sum, block, square, columns),
         };
         vectorised(
             #[inline(always)]
@@ -108,18 +107,18 @@ impl Source for PistonInertia {
 
 #[inline(always)]
 fn add<const PLANAR: bool, const TORQUE: bool>(
-    proportions: &Proportions,
+    mechanism: &Mechanism,
     sum: &LoadSum,
     block: &AngleBlock,
     square: f64,
     columns: &mut Columns,
 ) {
-    let units = &*block.units(sum.ratio);
+    let (units, proportions) = (&*block.units(sum.ratio), &mechanism.proportions);
     let Columns { force: [force_x, force_y], moment: [moment_x, moment_y], .. } = columns;
     let [roll, crank] = &mut columns.torque;
     // The force is against the acceleration of the piston away from the crank.
     let [force, moment, arm] = [sum.force, sum.moment, sum.arm].map(|sum| sum * -square);
-    let [on_block, on_crank] = sum.senses().map(|sense| sense * square * sum.roll);
+    let [on_block, on_crank] = mechanism.senses().map(|sense| sense * square * sum.roll);
     for i in 0..BLOCK {
         let motion = proportions.motion_at(&units.crank(sum.turned, i));
         if PLANAR {

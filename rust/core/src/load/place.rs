@@ -26,7 +26,7 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// On the main crank, or on a shaft that `ratio` and `axis` are given of.
+    /// On the main crank, with this direction at θ = 0.
     pub fn on_main(origin: Origin, direction: Angle, z: f64) -> Self {
         Self {
             origin,

@@ -76,7 +76,7 @@ impl Source for RodInertia {
             return;
         }
         let units = &*block.units(sum.ratio);
-        let [on_block, on_crank] = sum.senses().map(|sense| sense * square * sum.roll);
+        let [on_block, on_crank] = self.0.senses().map(|sense| sense * square * sum.roll);
         let [roll, crank] = &mut columns.torque;
         vectorised(
             #[inline(always)]

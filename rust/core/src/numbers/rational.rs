@@ -12,9 +12,9 @@ use crate::numbers::error::Result;
 use std::iter::zip;
 
 /// Largest denominator: millimetres of an engine of ten metres.
-const LARGEST_DENOMINATOR: f64 = 10_000.0;
+const LARGEST_DENOMINATOR_OF_RATIO: f64 = 10_000.0;
 /// Ratios that are known less well than this are not looked for: with tolerance t, a figure at
-/// random is taken for a ratio with a chance of t times the square of [`LARGEST_DENOMINATOR`].
+/// random is taken for a ratio with a chance of t times the square of [`LARGEST_DENOMINATOR_OF_RATIO`].
 const COARSEST: f64 = 1e-12;
 
 /// A rational number in lowest terms, denominator > 0. Its checked arithmetic gives None where it
@@ -74,13 +74,13 @@ pub fn common_multiple(a: i128, b: i128) -> Option<i128> {
     (a / common_divisor(a, b)).checked_mul(b)
 }
 
-/// p/q within the tolerance of x, q ≤ [`LARGEST_DENOMINATOR`]: the first convergent that is.
+/// p/q within the tolerance of x, q ≤ [`LARGEST_DENOMINATOR_OF_RATIO`]: the first convergent that is.
 pub(crate) fn recognise(x: f64, tolerance: f64) -> Option<Ratio> {
     // A quotient that underflows is of figures that are not zero.
     if tolerance > COARSEST || x.abs() > 1.0 / COARSEST || x == 0.0 {
         return None;
     }
-    convergents(x, LARGEST_DENOMINATOR)
+    convergents(x, LARGEST_DENOMINATOR_OF_RATIO)
         .find(|&(p, q)| (p / q - x).abs() <= tolerance)
         .map(|(p, q)| Ratio::new(p as i128, q as i128))
 }

@@ -57,7 +57,7 @@ pub struct Balance {
     /// Mean torques on the block and on the crank, of pressure alone.
     pub mean: [f64; 2],
     /// Bounds of what the orders left out add at any crank angle; 0 for orders that were given.
-    pub error_bound: Bounds,
+    pub error_bound: ErrorBounds,
     /// Whether torque is known: it was wanted, and the engine has no given spectrum of forces.
     pub has_torque: bool,
     /// Numbers of loads that have a force, and of all, on which rounding depends.
@@ -66,7 +66,7 @@ pub struct Balance {
 
 /// Bounds of what is left out.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Bounds {
+pub struct ErrorBounds {
     /// To the shaking force, N.
     pub force: f64,
     /// To the rocking moment, N·m.
@@ -75,7 +75,7 @@ pub struct Bounds {
     pub torque: f64,
 }
 
-impl Bounds {
+impl ErrorBounds {
     /// Of force, moment and torque side by side.
     #[must_use]
     pub fn values(self) -> [f64; 3] {
@@ -112,7 +112,7 @@ impl Balance {
         has_torque: bool,
         loads: &[Load],
     ) -> Self {
-        let (omitted, error_bound) = (Vec::new(), Bounds::default());
+        let (omitted, error_bound) = (Vec::new(), ErrorBounds::default());
         let counts = [false, true].map(|torque| count(loads, torque));
         Self { orders, omitted, wrenches, mean, error_bound, has_torque, counts }
     }

@@ -16,7 +16,7 @@ use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::readings::amplitude::wrenches;
-use crate::readings::balance::Bounds;
+use crate::readings::balance::ErrorBounds;
 use crate::wrench::Wrench;
 
 /// Orders above the last one evaluated add less than this part of the tolerance.
@@ -84,8 +84,8 @@ impl OrderSums {
     }
 
     /// Bounds at a square of speed.
-    pub fn bounds(self, square: f64) -> Bounds {
-        Bounds {
+    pub fn bounds(self, square: f64) -> ErrorBounds {
+        ErrorBounds {
             force: self.force * square,
             moment: self.moment * square,
             torque: self.inertia * square + self.gas,

@@ -19,12 +19,12 @@ use crate::readings::balance::angular_speed;
 
 /// Widest cell, degrees. Extremes between edges are those of a cubic, which misses a wave of order 12
 /// by 3e-7 of its height.
-const STEP: f64 = 0.5;
+const WIDEST_CELL: f64 = 0.5;
 /// Points inside a cell: through four goes a cubic, as pressure is between the angles of a table.
-const INSIDE: usize = 4;
+const POINTS_IN_CELL: usize = 4;
 /// Gauss-Legendre points of a cell, ascending in halves of its width from its middle, and weights.
-static RULE: LazyLock<[(f64, f64); INSIDE]> = LazyLock::new(|| {
-    let rule = gauss_legendre(INSIDE as u32);
+static RULE: LazyLock<[(f64, f64); POINTS_IN_CELL]> = LazyLock::new(|| {
+    let rule = gauss_legendre(POINTS_IN_CELL as u32);
     let mut ascending = std::array::from_fn(|k| rule[k]);
     ascending.sort_unstable_by(|(one, _), (other, _)| f64::total_cmp(one, other));
     ascending
@@ -38,9 +38,9 @@ const SLOWEST: f64 = 1e-4;
 /// Largest irregularity that can be asked for.
 const MOST_IRREGULAR: f64 = 0.5;
 /// Part of the work of a drive below which its fluctuation is rounding.
-const ROUNDING: f64 = 1e-13;
+const WORK_ROUNDING: f64 = 1e-13;
 /// Steps of iterations that gain digits with each.
-const STEPS: usize = 200;
+const MOST_STEPS_OF_ENERGY: usize = 200;
 
 /// Crank angles of one period at which torque is evaluated.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,7 +54,7 @@ pub struct CycleGrid {
 impl CycleGrid {
     /// A grid of one period, with edges at `knots` besides those of its own.
     pub fn new(period_deg: f64, knots: &[f64], cancel: &Cancel) -> Result<Self> {
-        if !(STEP..=STEP * MOST_CELLS as f64).contains(&period_deg) {
+        if !(WIDEST_CELL..=WIDEST_CELL * MOST_CELLS as f64).contains(&period_deg) {
             let hint = "give the period of the torque in degrees, such as 720";
             return Err(Error::figure("period_deg", period_deg, hint));
         }
@@ -62,7 +62,7 @@ impl CycleGrid {
             let hint = format!("give at most {MOST_CELLS}");
             return Err(Error::value("theta_deg", format!("{} angles", knots.len()), hint));
         }
-        let cells = (period_deg / STEP).ceil();
+        let cells = (period_deg / WIDEST_CELL).ceil();
         let mut edges_deg = memory::room(knots.len() + cells as usize + 1)?;
         edges_deg.extend((0..cells as usize).map(|k| period_deg * (k as f64 / cells)));
         for piece in knots.chunks(PIECE) {
@@ -73,9 +73,9 @@ impl CycleGrid {
         }
         edges_deg.sort_unstable_by(f64::total_cmp);
         // Knots beside an edge by no more than rounding.
-        edges_deg.dedup_by(|next, edge| *next - *edge <= 1e-9 * STEP);
+        edges_deg.dedup_by(|next, edge| *next - *edge <= 1e-9 * WIDEST_CELL);
         edges_deg.push(period_deg);
-        let mut nodes_deg = memory::room(INSIDE * (edges_deg.len() - 1))?;
+        let mut nodes_deg = memory::room(POINTS_IN_CELL * (edges_deg.len() - 1))?;
         for pair in edges_deg.windows(2) {
             let (middle, half) = (f64::midpoint(pair[0], pair[1]), 0.5 * (pair[1] - pair[0]));
             nodes_deg.extend(RULE.map(|(node, _)| middle + node * half));
@@ -192,7 +192,7 @@ struct Cubic {
 
 impl Cubic {
     /// The cubic with these values at the points inside a cell.
-    fn through(values: [f64; INSIDE], width: f64) -> Self {
+    fn through(values: [f64; POINTS_IN_CELL], width: f64) -> Self {
         let [_, _, (inner, _), (outer, _)] = *RULE;
         let square = outer * outer - inner * inner;
         // e₀ + e₂t² and t(o₁ + o₃t²) by the values at either pair of points.
@@ -254,9 +254,9 @@ struct Cell {
     /// Moment of inertia of pistons and rods.
     moving: Cubic,
     /// The same, and its slope per radian, at the points inside.
-    moving_inside: [[f64; 2]; INSIDE],
+    moving_inside: [[f64; 2]; POINTS_IN_CELL],
     /// Torque of gas and load there.
-    torque: [f64; INSIDE],
+    torque: [f64; POINTS_IN_CELL],
 }
 
 impl Cell {
@@ -355,7 +355,7 @@ impl WorkCurve {
         let width = |k: usize| (edges[k + 1] - edges[k]).to_radians();
         let mean = |values: &[f64]| {
             let of_cell = |(k, inside): (usize, &[f64])| width(k) * mean_of(inside);
-            let sum: f64 = values.chunks_exact(INSIDE).enumerate().map(of_cell).sum();
+            let sum: f64 = values.chunks_exact(POINTS_IN_CELL).enumerate().map(of_cell).sum();
             sum / period
         };
         let means = [mean(drive.torque), mean(drive.load)];
@@ -364,7 +364,7 @@ impl WorkCurve {
             if k % PIECE == 0 {
                 cancel.check()?;
             }
-            let places: [usize; INSIDE] = std::array::from_fn(|j| INSIDE * k + j);
+            let places: [usize; POINTS_IN_CELL] = std::array::from_fn(|j| POINTS_IN_CELL * k + j);
             let torque = places.map(|j| (drive.torque[j] - means[0]) - (drive.load[j] - means[1]));
             let slopes_of_work = Cubic::through(torque, width(k)).ends;
             let next = work + width(k) * mean_of(&torque);
@@ -402,7 +402,7 @@ impl WorkCurve {
         let highest = self.cells.iter().map(|cell| cell.work.ends[0]).fold(0.0, f64::max);
         let mean_moving = self.mean_moving();
         let mut energy = (inertia + mean_moving) * square - lowest;
-        for _ in 0..STEPS {
+        for _ in 0..MOST_STEPS_OF_ENERGY {
             cancel.check()?;
             let level = Level { inertia, mean_moving, half: energy / (inertia + mean_moving) };
             // The time of a period, and its slope by the energy.
@@ -461,7 +461,7 @@ impl WorkCurve {
         let moving = self.mean_moving();
         let energy = range(self.cells.iter().map(|cell| cell.work_with_inertia(self.omega)));
         let of_moving = 0.5 * self.omega * self.omega * moving;
-        if energy <= ROUNDING * (self.size + of_moving) {
+        if energy <= WORK_ROUNDING * (self.size + of_moving) {
             let hint = "the torque does not vary, and no flywheel is needed; give inertia";
             return Err(Error::figure("irregularity", wanted, hint));
         }
@@ -469,7 +469,7 @@ impl WorkCurve {
         let larger = of_moving.max(range(self.cells.iter().map(|cell| cell.work)));
         let tolerance = 1e-12_f64.max(4.0 * f64::EPSILON * larger / energy);
         let mut total = energy / (self.omega * self.omega * wanted);
-        for _ in 0..STEPS {
+        for _ in 0..MOST_STEPS_OF_ENERGY {
             let inertia = (total - moving).max(0.0);
             let Ok(run) = self.run(inertia, cancel) else {
                 cancel.check()?;
@@ -619,7 +619,9 @@ mod tests {
         for wanted in [0.3, 0.05, 1e-4, 6e-5, 1e-5, 3.7e-6, 1e-7, 1e-9] {
             let fit = run(&grid, &torque, Some(&engine), Evenness::Irregularity(wanted));
             let again = run(&grid, &torque, Some(&engine), Evenness::Inertia(fit.inertia));
-            assert!((again.irregularity / wanted - 1.0).abs() < 1e-11_f64.max(ROUNDING / wanted));
+            assert!(
+                (again.irregularity / wanted - 1.0).abs() < 1e-11_f64.max(WORK_ROUNDING / wanted)
+            );
             assert_eq!(again.speed, fit.speed);
         }
     }

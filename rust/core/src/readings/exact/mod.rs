@@ -90,10 +90,11 @@ impl ExactLoads {
         let first = first_equal(mechanisms.iter().map(typed));
         for (i, ((source, mechanism), first)) in mechanisms.iter().zip(first).enumerate() {
             if first == i {
+                motion_of[*source] = Some(motions.len());
                 motions.push(**mechanism);
+            } else {
+                motion_of[*source] = motion_of[mechanisms[first].0];
             }
-            let known = motion_of[mechanisms[first].0];
-            motion_of[*source] = known.or_else(|| motions.len().checked_sub(1));
         }
         Ok(Self { loads, motions, motion_of })
     }

@@ -17,19 +17,19 @@ use crate::numbers::{memory, pool};
 use crate::pressure::chamber::NARROWEST;
 
 /// Degree of the polynomials.
-const DEGREE: usize = 10;
+const LOAD_DEGREE: usize = 10;
 /// Widest panel, degrees.
-const STEP: f64 = 10.0;
+const WIDEST_PANEL: f64 = 10.0;
 /// Part of the largest value that the last coefficients of a polynomial may have.
-const RESOLVED: f64 = 1e-13;
+const LOAD_RESOLVED: f64 = 1e-13;
 /// Part of its terms up to which a load is rounding: some ten operations, each of half a unit.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
+const LOAD_ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// A polynomial of the degree leaves the middle of its values at the points by no more than this times
 /// half their range: 1 + (2/π) ln 11 (the Lebesgue constant), rounded up.
 const OVERSHOOT: f64 = 3.0;
 
 /// Values at the Chebyshev points of a panel.
-type Values = [f64; DEGREE + 1];
+type Values = [f64; LOAD_DEGREE + 1];
 
 /// Least and largest loads over a cycle, N: (n, 2). Of vectors their magnitudes.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,16 +63,16 @@ impl<const N: usize> Panel<N> {
 }
 
 /// Loads over a cycle, of a crank angle and one that is on the same side of all jumps.
-struct Curves<'a, F> {
+struct LoadCurves<'a, F> {
     edges: &'a [f64],
     of: F,
     cancel: &'a Cancel,
 }
 
-impl<const N: usize, F: Fn(f64, f64) -> [f64; N]> Curves<'_, F> {
+impl<const N: usize, F: Fn(f64, f64) -> [f64; N]> LoadCurves<'_, F> {
     fn sample(&self, low: f64, high: f64) -> Panel<N> {
-        let mut values = [[0.0; DEGREE + 1]; N];
-        for (k, theta) in points(low, high, DEGREE).enumerate() {
+        let mut values = [[0.0; LOAD_DEGREE + 1]; N];
+        for (k, theta) in points(low, high, LOAD_DEGREE).enumerate() {
             let of = (self.of)(theta, f64::midpoint(low, high));
             for (values, value) in values.iter_mut().zip(of) {
                 values[k] = value;
@@ -156,9 +156,9 @@ fn largest([low, high]: [f64; 2]) -> f64 {
 /// Places in [−1, 1], ascending, and values where a polynomial turns.
 fn turning_points(values: &Values) -> impl Iterator<Item = [f64; 2]> {
     let coefficients: Values = array::from_fn(|n| coefficient(values, n));
-    let places: Values = array::from_fn(|k| -node(k, DEGREE));
+    let places: Values = array::from_fn(|k| -node(k, LOAD_DEGREE));
     let [_, slopes, _] = jets(&coefficients, &places);
-    (0..DEGREE).filter(move |&k| slopes[k] * slopes[k + 1] < 0.0).map(move |k| {
+    (0..LOAD_DEGREE).filter(move |&k| slopes[k] * slopes[k + 1] < 0.0).map(move |k| {
         let (mut low, mut high) = (places[k], places[k + 1]);
         // The value has no slope there: 1e-9 off is right to rounding.
         for _ in 0..30 {
@@ -185,7 +185,7 @@ fn edges(of_loads: impl Iterator<Item = f64>, cycle: f64, cancel: &Cancel) -> Re
         cancel.check()?;
         memory::push(&mut edges, edge.rem_euclid(cycle))?;
     }
-    let steps = (cycle / STEP).ceil() as usize;
+    let steps = (cycle / WIDEST_PANEL).ceil() as usize;
     edges.extend((0..=steps).map(|k| cycle * (k as f64 / steps as f64)));
     edges.sort_unstable_by(f64::total_cmp);
     // Edges that only rounding parts are one.
@@ -200,13 +200,14 @@ impl Internal {
         let rods = pool::map(cancel, self.rods.iter().collect(), |rod| {
             let edges = edges(rod.edges_deg(), cycle, cancel)?;
             let of = |theta, beside| of_rod(rod, theta, beside);
-            let curves = Curves { edges: &edges, of, cancel };
+            let curves = LoadCurves { edges: &edges, of, cancel };
             let sampled = curves.sampled()?;
             let [pin, wrist, ..] = sampled.map(|range| range[1].sqrt());
-            let rounding = ROUNDING * rod.terms(pin);
+            let rounding = LOAD_ROUNDING * rod.terms(pin);
             let factors = [2.0 * pin, 2.0 * wrist, 1.0, 1.0, 1.0];
-            let tolerances: [f64; 5] =
-                array::from_fn(|n| (RESOLVED * largest(sampled[n])).max(rounding * factors[n]));
+            let tolerances: [f64; 5] = array::from_fn(|n| {
+                (LOAD_RESOLVED * largest(sampled[n])).max(rounding * factors[n])
+            });
             let mut found = curves.extremes(sampled, &tolerances)?;
             for squares in &mut found[..2] {
                 *squares = squares.map(|square| square.max(0.0).sqrt());
@@ -227,12 +228,12 @@ impl Internal {
                     [sum.re, sum.im].map(|x| if x.abs() <= carried.bound { 0.0 } else { x });
                 [x * x + y * y]
             };
-            let curves = Curves { edges: &edges, of, cancel };
+            let curves = LoadCurves { edges: &edges, of, cancel };
             let sampled = curves.sampled()?;
             let force = sampled[0][1].sqrt();
             let terms = carried.rods.iter().map(|&(share, i)| share.abs() * rods[i].1);
-            let rounding = ROUNDING * (terms.sum::<f64>() + carried.turning.norm());
-            let tolerance = (RESOLVED * force * force).max(2.0 * force * rounding);
+            let rounding = LOAD_ROUNDING * (terms.sum::<f64>() + carried.turning.norm());
+            let tolerance = (LOAD_RESOLVED * force * force).max(2.0 * force * rounding);
             let [squares] = curves.extremes(sampled, &[tolerance])?;
             Ok(squares.map(|square| square.max(0.0).sqrt()))
         })?;
@@ -254,12 +255,12 @@ impl Internal {
         pool::map(cancel, self.rods.iter().collect(), |rod| {
             let edges = edges(rod.edges_deg(), cycle, cancel)?;
             let of = |theta, beside| of_rod(rod, theta, beside);
-            let sampled = Curves { edges: &edges, of, cancel }.sampled()?;
+            let sampled = LoadCurves { edges: &edges, of, cancel }.sampled()?;
             // Less than rounding is none.
-            let rounding = ROUNDING * rod.terms(sampled[0][1].sqrt());
+            let rounding = LOAD_ROUNDING * rod.terms(sampled[0][1].sqrt());
             let of = |theta, beside| [of_rod(rod, theta, beside)[3]];
-            let curves = Curves { edges: &edges, of, cancel };
-            let tolerance = (RESOLVED * largest(sampled[3])).max(rounding);
+            let curves = LoadCurves { edges: &edges, of, cancel };
+            let tolerance = (LOAD_RESOLVED * largest(sampled[3])).max(rounding);
             let starts = (curves.of)(0.0, f64::midpoint(edges[0], edges[1]))[0] < -rounding;
             let (mut last, mut changes) = (starts, Vec::new());
             curves.visit(|panel, is_narrow| {
@@ -273,7 +274,7 @@ impl Internal {
                 let turning = changes_sign.then(|| turning_points(values)).into_iter().flatten();
                 let turning = turning.map(|[x, value]| (middle + 0.5 * x * (high - low), value));
                 let mut all: Vec<_> =
-                    points(low, high, DEGREE).zip(*values).chain(turning).collect();
+                    points(low, high, LOAD_DEGREE).zip(*values).chain(turning).collect();
                 all.sort_unstable_by(|one, other| f64::total_cmp(&one.0, &other.0));
                 let mut from = low;
                 for (theta, value) in all {

@@ -28,7 +28,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::order::{self, Order};
-use crate::readings::balance::{Bounds, TorquePart};
+use crate::readings::balance::{ErrorBounds, TorquePart};
 use crate::readings::peaks::PeakFinder;
 
 /// What is evaluated at each point.
@@ -82,7 +82,7 @@ pub struct Sweep {
     /// Whether gas pressure counts in any engine.
     fired: bool,
     omitted: Vec<Order>,
-    error_bound: Bounds,
+    error_bound: ErrorBounds,
 }
 
 impl Sweep {
@@ -117,7 +117,7 @@ impl Sweep {
             extremes,
             squares,
             omitted: Vec::new(),
-            error_bound: Bounds::default(),
+            error_bound: ErrorBounds::default(),
         })
     }
 
@@ -158,7 +158,7 @@ impl Sweep {
 
     /// Bounds of what orders left out add at any crank angle and point.
     #[must_use]
-    pub fn error_bound(&self) -> Bounds {
+    pub fn error_bound(&self) -> ErrorBounds {
         self.error_bound
     }
 
