@@ -306,15 +306,17 @@ def flag(name: str, value: object) -> bool:
     return bool(value)
 
 
-def one_of(name: str, value: object, choices: Iterable[str]) -> str:
+def one_of(
+    name: str, value: object, choices: Iterable[str], kind: type[InputError] = InputError
+) -> str:
     """Return one of a few words."""
     listed = list(choices)
     if not isinstance(value, str) or value not in listed:
         if not listed:
-            raise rejected(name, value, "there is none; leave it out")
+            raise rejected(name, value, "there is none; leave it out", kind)
         *before, last = map(_quoted, listed)
         hint = f"{', '.join(before)} or {last}" if before else last
-        raise rejected(name, value, f"give {hint}{nearest(value, listed)}")
+        raise rejected(name, value, f"give {hint}{nearest(value, listed)}", kind)
     return value
 
 

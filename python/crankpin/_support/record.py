@@ -10,27 +10,12 @@ import textwrap
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from types import MappingProxyType
-from typing import (
-    TYPE_CHECKING,
-    Any,
-    ClassVar,
-    Generic,
-    Self,
-    TypeVar,
-    dataclass_transform,
-    overload,
-)
+from typing import Any, ClassVar, Generic, Self, TypeVar, dataclass_transform, overload
 
 import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs
-
-if TYPE_CHECKING:
-    import pandas as pd
-    import xarray as xr
-
-    from crankpin._support.tables import Table
 
 Item = TypeVar("Item")
 
@@ -195,51 +180,6 @@ class Input(Record):
         for name in changes:
             inputs.one_of("replace", name, names)
         return changed(self, **changes)
-
-
-class Tabled(Record):
-    """Base class of records that are shown by their ``table``."""
-
-    @property
-    def table(self) -> Table:
-        """Table that is shown: columns of numbers with units."""
-        raise NotImplementedError
-
-    def to_pandas(self) -> pd.DataFrame:
-        """Return the table as a DataFrame (needs pandas).
-
-        Returns
-        -------
-        pandas.DataFrame
-            A row for each row of the table.
-
-        Raises
-        ------
-        ImportError
-            If pandas is not installed.
-        """
-        return self.table.to_pandas()
-
-    def to_xarray(self) -> xr.Dataset:
-        """Return the table as a Dataset with units, over its rows (needs xarray).
-
-        Returns
-        -------
-        xarray.Dataset
-            A variable for each column of the table.
-
-        Raises
-        ------
-        ImportError
-            If xarray is not installed.
-        """
-        return self.table.to_xarray()
-
-    def __repr__(self) -> str:
-        return repr(self.table)
-
-    def _repr_html_(self) -> str | None:
-        return self.table._repr_html_()
 
 
 class Listed(Generic[Item]):

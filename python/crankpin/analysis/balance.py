@@ -9,7 +9,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import KINDS, QUANTITIES
-from crankpin._support.record import Tabled, changed
+from crankpin._support.record import changed
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.drawing import draw
@@ -57,7 +57,7 @@ def mean_piston_speed(engine: Engine, rpm: float) -> float:
     return 4.0 * engine_core(engine).largest_crank_radius * rpm / 60.0
 
 
-class Balance(ByOrder, Tabled):
+class Balance(ByOrder):
     """Force, moment and torque of an engine at one speed, order by order.
 
     ``force``, ``moment``, ``torque`` and ``crank_torque`` are complex peak phasors, each a

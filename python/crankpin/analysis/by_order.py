@@ -10,6 +10,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
+from crankpin._support.frames import Tabled
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import AbsentError, read_only
 from crankpin.analysis import export
@@ -18,20 +19,23 @@ from crankpin.analysis.request import engine_core
 from crankpin.model import checks
 
 if TYPE_CHECKING:
-    import pandas as pd
     import xarray as xr
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order, Spectrum
+    from crankpin._support.tables import Table
     from crankpin.analysis.request import Request
     from crankpin.model.engine import Engine
 
 
-class ByOrder(Keyed, Quantities):
-    """Mixin of balances and sweeps: arrays computed when they are first read, orders as keys."""
+class ByOrder(Keyed, Quantities, Tabled):
+    """Base class of balances and sweeps: arrays computed when first read, orders as keys."""
 
-    request: Request
-    """The options of the result, checked."""
+    if TYPE_CHECKING:
+
+        @property
+        def request(self) -> Request:
+            """The options of the result, checked."""
 
     @property
     def orders(self) -> tuple[Order, ...]:
@@ -281,8 +285,8 @@ class ByOrder(Keyed, Quantities):
         chosen = self.request.orders is None
         return labels.NEGLIGIBLE * float(peaks.max(initial=0.0)) if chosen else 0.0
 
-    def to_pandas(self, *quantities: str) -> pd.DataFrame:
-        """Return a tidy table, one row a point, order, quantity and component (needs pandas).
+    def tidy(self, *quantities: str) -> Table:
+        """Return the long form, a row for each point, order, quantity and component.
 
         Columns are the swept dimensions, order, quantity, component, real and imag (the peak
         phasor), peak and unit.
@@ -294,32 +298,36 @@ class ByOrder(Keyed, Quantities):
 
         Returns
         -------
-        pandas.DataFrame
-            The table.
+        Table
+            The rows; its ``to_pandas`` and ``to_csv`` write them.
 
         Raises
         ------
         InputError
             If there is no such quantity.
-        ImportError
-            If pandas is not installed.
 
         Examples
         --------
         >>> import crankpin as cp
         >>> s = cp.sweep(cp.Engine.preset("i4"), rpm=[3000, 6000], orders=[2])
-        >>> s.to_pandas("torque").columns.tolist()
+        >>> list(s.tidy("torque"))
         ['rpm', 'order', 'quantity', 'component', 'real', 'imag', 'peak', 'unit']
         """
-        return export.to_pandas(self, self.request.named(quantities, fired=self.fired))
+        return export.tidy(self, self.request.named(quantities, fired=self.fired))
 
-    def to_xarray(self, *quantities: str, split_complex: bool = False) -> xr.Dataset:
+    def to_xarray(
+        self, *quantities: str, frame: str | None = None, split_complex: bool = False
+    ) -> xr.Dataset:
         """Return phasors, peaks, totals and bounds with dimensions and units (needs xarray).
+
+        Arrays keep the dimensions that rows of a frame would flatten.
 
         Parameters
         ----------
         *quantities : str, optional
             ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+        frame : str, optional
+            Name of one of ``frames``, to return its rows instead.
         split_complex : bool, default False
             Store complex arrays as real ones with a dimension ``part`` of "re" and "im", for
             ``to_netcdf(path)``: netCDF has no complex numbers. With the package netCDF4,
@@ -333,7 +341,7 @@ class ByOrder(Keyed, Quantities):
         Raises
         ------
         InputError
-            If there is no such quantity.
+            If there is no such quantity or frame.
         ImportError
             If xarray is not installed.
 
@@ -344,6 +352,8 @@ class ByOrder(Keyed, Quantities):
         >>> s.to_xarray("force").force.dims
         ('rpm', 'order', 'axis')
         """
+        if frame is not None:
+            return super().to_xarray(frame=frame)
         return export.to_xarray(
             self, self.request.named(quantities, fired=self.fired), split_complex=split_complex
         )

@@ -8,8 +8,9 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
+from crankpin._support.frames import Tabled
 from crankpin._support.quantities import QUANTITIES
-from crankpin._support.record import Tabled, read_only
+from crankpin._support.record import read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import Balance, balance
 from crankpin.analysis.drawing import draw

@@ -1,7 +1,9 @@
-"""Results as xarray datasets and tidy pandas tables."""
+"""Results as xarray datasets and as tables in long form."""
 
 from __future__ import annotations
 
+import itertools
+import math
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -9,11 +11,11 @@ import numpy as np
 
 from crankpin._support import inputs, labels, optional
 from crankpin._support.quantities import KINDS, PLANE_VECTORS
+from crankpin._support.tables import Column, Table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-    import pandas as pd
     import xarray as xr
     from numpy.typing import NDArray
 
@@ -103,9 +105,9 @@ def units(quantity: str) -> dict[str, str]:
     return {"units": KINDS[quantity].xarray_unit}
 
 
-def to_pandas(result: ByOrder, quantities: Sequence[str]) -> pd.DataFrame:
-    """Return phasors and peaks as a tidy table: a row a point, order, quantity and component."""
-    columns = []
+def tidy(result: ByOrder, quantities: Sequence[str]) -> Table:
+    """Return phasors and peaks in long form: a row a point, order, quantity and component."""
+    parts = []
     for quantity in quantities:
         phasors = result.read(quantity, "phasors")
         by_component: dict[str, NDArray[np.complex128]] = {"z": phasors}
@@ -116,42 +118,57 @@ def to_pandas(result: ByOrder, quantities: Sequence[str]) -> pd.DataFrame:
                 "forward": result.read(quantity, "forward"),
                 "backward": result.read(quantity, "backward"),
             }
-        for component, values in by_component.items():
-            flat = values.ravel()
-            figures = {"real": flat.real, "imag": flat.imag, "peak": np.abs(flat)}
-            columns.append((quantity, component, figures))
-    return _tidy({**result.coords, "order": result.orders}, columns, result.loads_counted)
+        parts += [
+            (quantity, component, {"real": each.real, "imag": each.imag, "peak": np.abs(each)})
+            for component, each in by_component.items()
+        ]
+    coords = {**result.coords, "order": result.orders}
+    return _long("Peak phasors by order", coords, parts, result.loads_counted)
 
 
-def waveforms_to_pandas(result: OverAngle, quantities: Sequence[str]) -> pd.DataFrame:
-    """Return values as a tidy table: a row a point, quantity and component."""
-    columns = []
+def waveforms_tidy(result: OverAngle, quantities: Sequence[str]) -> Table:
+    """Return values in long form: a row a point, quantity and component."""
+    parts = []
     for name in quantities:
         values = result.read(name)
         planar = name in PLANE_VECTORS
-        for k, component in enumerate("xy" if planar else "z"):
-            figures = {"value": (values[..., k] if planar else values).ravel()}
-            columns.append((name, component, figures))
-    return _tidy(result.coords, columns, result.loads_counted)
+        parts += [
+            (name, component, {"value": values[..., k] if planar else values})
+            for k, component in enumerate("xy" if planar else "z")
+        ]
+    return _long("Values over crank angle", result.coords, parts, result.loads_counted)
 
 
-def _tidy(
-    coords: Mapping[str, Any], columns: Sequence[tuple[str, str, Mapping[str, Any]]], loads: str
-) -> pd.DataFrame:
-    """Return figures of each quantity and component, below each other."""
-    pandas = optional.library("pandas")
-    points = {name: list(values) for name, values in coords.items()}
-    index = pandas.MultiIndex.from_product(list(points.values()), names=list(points))
-    parts = [
-        pandas.DataFrame(
-            {"quantity": quantity, "component": component, **figures, "unit": KINDS[quantity].unit},
-            index=index,
-        ).reset_index()
-        for quantity, component, figures in columns
+def points(coords: Mapping[str, Any], times: int = 1) -> list[Column]:
+    """Return a column of each dimension, a row for each point, or several times all points."""
+    listed = itertools.product(*(np.asarray(values).tolist() for values in coords.values()))
+    columns = list(zip(*listed, strict=True)) or [()] * len(coords)
+    return [
+        Column(name, values * times, digits=10)
+        for name, values in zip(coords, columns, strict=True)
     ]
-    table: pd.DataFrame = pandas.concat(parts, ignore_index=True)
-    table.attrs.update(labels.attributes(loads))
-    return table
+
+
+def _long(
+    title: str,
+    coords: Mapping[str, Any],
+    parts: Sequence[tuple[str, str, Mapping[str, NDArray[np.float64]]]],
+    loads: str,
+) -> Table:
+    """Return figures of each quantity and component, below each other."""
+    count = math.prod(len(values) for values in coords.values())
+
+    def repeated(texts: Iterable[str]) -> tuple[str, ...]:
+        return tuple(text for text in texts for _ in range(count))
+
+    columns = points(coords, len(parts))
+    columns.append(Column("quantity", repeated(quantity for quantity, _, _ in parts)))
+    columns.append(Column("component", repeated(component for _, component, _ in parts)))
+    for head in parts[0][2]:
+        values = (figures[head].ravel().tolist() for *_, figures in parts)
+        columns.append(Column(head, tuple(itertools.chain.from_iterable(values))))
+    columns.append(Column("unit", repeated(KINDS[quantity].unit for quantity, _, _ in parts)))
+    return Table(title, tuple(columns), loads=loads)
 
 
 def waveforms_to_xarray(result: OverAngle, quantities: Sequence[str]) -> xr.Dataset:

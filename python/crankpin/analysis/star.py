@@ -10,7 +10,8 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.record import Tabled, read_only
+from crankpin._support.frames import Tabled
+from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis import firing as fires
 from crankpin.analysis.drawing import draw

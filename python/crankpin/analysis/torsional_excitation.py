@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels
-from crankpin._support.record import Tabled, read_only
+from crankpin._support.frames import Tabled
+from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.contributions import contributions
 from crankpin.analysis.request import engine_core

@@ -10,8 +10,9 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
+from crankpin._support.frames import Tabled
 from crankpin._support.quantities import QUANTITIES
-from crankpin._support.record import Tabled, read_only
+from crankpin._support.record import read_only
 from crankpin._support.tables import Table
 from crankpin.analysis import export
 from crankpin.analysis.balance import mean_piston_speed
@@ -19,7 +20,6 @@ from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import Request, check_request, engine_core
 
 if TYPE_CHECKING:
-    import pandas as pd
     import xarray as xr
     from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
@@ -61,13 +61,18 @@ def waveform(
     return found
 
 
-class OverAngle:
-    """Mixin of waveforms: force, moment and torques over crank angle, in tables."""
+class OverAngle(Tabled):
+    """Base class of waveforms: force, moment and torques over crank angle."""
 
-    request: Request
-    """The options of the result, checked."""
-    theta_deg: NDArray[np.float64]
-    """Crank angles, degrees: (n_theta,)."""
+    if TYPE_CHECKING:
+
+        @property
+        def request(self) -> Request:
+            """The options of the result, checked."""
+
+        @property
+        def theta_deg(self) -> NDArray[np.float64]:
+            """Crank angles, degrees: (n_theta,)."""
 
     @property
     def orders(self) -> tuple[Order, ...] | None:
@@ -157,8 +162,8 @@ class OverAngle:
         """Attributes of a dataset of the result."""
         raise NotImplementedError
 
-    def to_pandas(self, *quantities: str) -> pd.DataFrame:
-        """Return a tidy table, one row a point, crank angle, quantity and component (needs pandas).
+    def tidy(self, *quantities: str) -> Table:
+        """Return the long form, a row for each point, crank angle, quantity and component.
 
         Columns are the swept dimensions, theta_deg, quantity, component, value and unit.
 
@@ -169,25 +174,27 @@ class OverAngle:
 
         Returns
         -------
-        pandas.DataFrame
-            The table.
+        Table
+            The rows; its ``to_pandas`` and ``to_csv`` write them.
 
         Raises
         ------
         InputError
             If there is no such quantity.
-        ImportError
-            If pandas is not installed.
         """
-        return export.waveforms_to_pandas(self, self.request.named(quantities, fired=self.fired))
+        return export.waveforms_tidy(self, self.request.named(quantities, fired=self.fired))
 
-    def to_xarray(self, *quantities: str) -> xr.Dataset:
+    def to_xarray(self, *quantities: str, frame: str | None = None) -> xr.Dataset:
         """Return arrays with named dimensions and units (needs xarray).
+
+        Arrays keep the dimensions that rows of a frame would flatten.
 
         Parameters
         ----------
         *quantities : str, optional
             ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+        frame : str, optional
+            Name of one of ``frames``, to return its rows instead.
 
         Returns
         -------
@@ -197,7 +204,7 @@ class OverAngle:
         Raises
         ------
         InputError
-            If there is no such quantity.
+            If there is no such quantity or frame.
         ImportError
             If xarray is not installed.
 
@@ -208,10 +215,12 @@ class OverAngle:
         >>> s.waveform([0, 90, 180]).to_xarray("force").force.dims
         ('rpm', 'theta_deg', 'axis')
         """
+        if frame is not None:
+            return super().to_xarray(frame=frame)
         return export.waveforms_to_xarray(self, self.request.named(quantities, fired=self.fired))
 
 
-class Waveform(OverAngle, Tabled):
+class Waveform(OverAngle):
     """Force, moment and torque of an engine at given crank angles.
 
     Made by :meth:`Engine.waveform`.

@@ -9,7 +9,8 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs
-from crankpin._support.record import Input, Tabled, read_only
+from crankpin._support.frames import Tabled
+from crankpin._support.record import Input, read_only
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
 from crankpin.model.cycle import Cycle

@@ -6,8 +6,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 from crankpin._support import inputs, labels
+from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin._support.record import Tabled, read_only
+from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import over_square
 from crankpin.analysis.balancing import planes as correction_planes
@@ -263,7 +264,7 @@ class Counterweights(Tabled):
 
     @property
     def table(self) -> Table:
-        """Table of the weights; below it what order 1 does before and after, over ω²."""
+        """Places, amounts and angles of the weights."""
         columns = (
             Column("plane", tuple(plane for plane, _ in self.by_plane)),
             Column("z", tuple(weight.z for weight in self.hardware), "m"),
@@ -272,7 +273,12 @@ class Counterweights(Tabled):
         )
         note = "" if self.by_plane else "No weights are needed in these planes, or none help."
         title = f"{labels.name_of(self.engine)}: counterweights"
-        return Table(title, columns, note, below=self._order_1())
+        return Table(title, columns, note)
+
+    @property
+    def frames(self) -> Frames:
+        """``table``; ``residual``: what order 1 does before and after, over ω²."""
+        return self._frames(residual=self._order_1)
 
     def _order_1(self) -> Table:
         states = {

@@ -12,8 +12,9 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
+from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import QUANTITIES
-from crankpin._support.record import Listed, Tabled, read_only
+from crankpin._support.record import Listed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import Balance, balance
 from crankpin.analysis.drawing import draw
@@ -221,7 +222,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
 
     @property
     def table(self) -> Table:
-        """Table of the unbalances; below it what each shaft exerts, and the residual."""
+        """Unbalances of the shafts."""
         listed = [
             (k, shaft, weight)
             for k, shaft in enumerate(self.hardware, 1)
@@ -243,7 +244,12 @@ class BalanceShafts(Listed[Shaft], Tabled):
                 "with the square of the speed as the shafts' torques do."
             )
         title = f"{labels.cut(labels.name_of(self.engine))}: balance shafts"
-        return Table(title, columns, note, below=self._loads())
+        return Table(title, columns, note)
+
+    @property
+    def frames(self) -> Frames:
+        """``table``; ``shafts``: what each removes, and its bearing loads; ``residual``."""
+        return self._frames(shafts=self._loads, residual=self._stays)
 
     def _loads(self) -> Table:
         columns = [
@@ -264,7 +270,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
                 Column("rear load", tuple(rear), "kg·m"),
             ]
         title = "What each shaft removes, and its bearing loads, over ω²"
-        return Table(title, tuple(columns), below=self._stays())
+        return Table(title, tuple(columns))
 
     def _stays(self) -> Table:
         parts = self.parts()

@@ -11,7 +11,8 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.record import Listed, Record, Tabled
+from crankpin._support.frames import Tabled
+from crankpin._support.record import Listed, Record
 from crankpin._support.tables import Table
 from crankpin.analysis.arrangements.cranks import HALF, Crank
 from crankpin.analysis.design.families import engines_of, turned

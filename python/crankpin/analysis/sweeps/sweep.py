@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import field
@@ -16,8 +15,9 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin._support.record import Tabled, changed, read_only
+from crankpin._support.record import changed, read_only
 from crankpin._support.tables import Column, Table
+from crankpin.analysis import export
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.drawing import draw
@@ -180,7 +180,7 @@ def sweep(
     return whole
 
 
-class Sweep(ByOrder, Tabled):
+class Sweep(ByOrder):
     """Force, moment and torque of engines over swept arguments: labelled arrays.
 
     The quantities are those of :class:`Balance` over more dimensions: ``s.moment.backward``,
@@ -680,11 +680,7 @@ class Sweep(ByOrder, Tabled):
 
     def _by_point(self, title: str, peaks: Callable[[str], NDArray[np.float64]]) -> Table:
         """Return a table of the points, with a peak of each quantity."""
-        points = list(itertools.product(*self.coords.values()))
-        columns = [
-            Column(name, tuple(each[k] for each in points), "", digits=10)
-            for k, name in enumerate(self.coords)
-        ]
+        columns = export.points(self.coords)
         for name in self.request.quantities:
             if name != "crank_torque":
                 kind = QUANTITIES[name]
@@ -701,16 +697,13 @@ class Sweep(ByOrder, Tabled):
         text = ", ".join([f"{engine}peaks{of}", *fixed, *held])
         return f"{text[0].upper()}{text[1:]}"
 
-    def __repr__(self) -> str:
+    @property
+    def _brief(self) -> str:
         if math.prod(len(values) for values in self.coords.values()) <= MOST_SHOWN:
-            return repr(self.table)
+            return ""
         swept = ", ".join(f"{name}: {len(values)}" for name, values in self.coords.items())
         loads = f", {self.loads_counted}" if self.loads_counted else ""
         return f"<Sweep over ({swept})> {self._title()}{loads}"
-
-    def _repr_html_(self) -> str | None:
-        points = math.prod(len(values) for values in self.coords.values())
-        return self.table._repr_html_() if points <= MOST_SHOWN else None
 
 
 def _place(name: str, value: object, values: Any) -> int:  # noqa: ANN401 - names or numbers

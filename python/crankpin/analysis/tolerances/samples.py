@@ -12,7 +12,7 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin._support.record import Tabled, changed, read_only
+from crankpin._support.record import changed, read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder, total_peaks
@@ -77,7 +77,7 @@ def _checked(name: str, request: Request) -> Objective:
     return found
 
 
-class Tolerances(ByOrder, Tabled):
+class Tolerances(ByOrder):
     """Samples of an engine whose parts deviate: force, moment and torque, order by order.
 
     The quantities are those of a balance with the dimension ``sample`` first: ``t.force.peak`` is
