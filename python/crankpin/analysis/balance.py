@@ -204,9 +204,10 @@ class Balance(ByOrder):
         self,
         ax: Axes,
         *,
+        figure: None = None,
         kind: Literal["spectrum", "ellipses"] = "spectrum",
         quantity: str | None = None,
-        **options: Any,  # noqa: ANN401
+        **options: object,
     ) -> Axes: ...
 
     @overload
@@ -214,9 +215,10 @@ class Balance(ByOrder):
         self,
         ax: None = None,
         *,
+        figure: None = None,
         kind: Literal["spectrum"] = "spectrum",
         quantity: str | None = None,
-        **options: Any,  # noqa: ANN401
+        **options: object,
     ) -> Axes: ...
 
     @overload
@@ -227,7 +229,7 @@ class Balance(ByOrder):
         figure: Figure | SubFigure | None = None,
         kind: Literal["ellipses", "phasors"],
         quantity: str | None = None,
-        **options: Any,  # noqa: ANN401
+        **options: object,
     ) -> NDArray[Any]: ...
 
     def plot(
@@ -237,7 +239,7 @@ class Balance(ByOrder):
         figure: Figure | SubFigure | None = None,
         kind: Literal["spectrum", "ellipses", "phasors"] = "spectrum",
         quantity: str | None = None,
-        **options: Any,
+        **options: object,
     ) -> Axes | NDArray[Any]:
         """Draw the orders; return the axes.
 

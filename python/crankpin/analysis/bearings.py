@@ -485,7 +485,7 @@ class BearingLoads(Tabled):
         *,
         figure: Figure | SubFigure | None = None,
         kind: Literal["polar", "curves", "bending"] = "polar",
-        **options: Any,  # noqa: ANN401 - as below
+        **options: object,
     ) -> Any:  # noqa: ANN401 - axes, or an array of axes
         """Draw loads; return the axes.
 

@@ -154,11 +154,7 @@ class Comparison(Tabled):
 
     @overload
     def plot(
-        self,
-        ax: Axes,
-        *,
-        quantity: str | None = None,
-        **style: Any,  # noqa: ANN401
+        self, ax: Axes, *, figure: None = None, quantity: str | None = None, **style: object
     ) -> Axes: ...
 
     @overload
@@ -168,7 +164,7 @@ class Comparison(Tabled):
         *,
         figure: Figure | SubFigure | None = None,
         quantity: str | None = None,
-        **style: Any,  # noqa: ANN401
+        **style: object,
     ) -> NDArray[Any]: ...
 
     def plot(
@@ -177,7 +173,7 @@ class Comparison(Tabled):
         *,
         figure: Figure | SubFigure | None = None,
         quantity: str | None = None,
-        **style: Any,
+        **style: object,
     ) -> Axes | NDArray[Any]:
         """Draw peaks of both engines over order, and the curves that force or moment trace.
 

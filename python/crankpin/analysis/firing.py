@@ -293,11 +293,7 @@ class Firing(Tabled):
     # --- tables and pictures --------------------------------------------------------------------
 
     def plot(
-        self,
-        ax: Axes | None = None,
-        *,
-        timing: Timing | None = None,
-        **style: Any,  # noqa: ANN401 - of matplotlib's collections
+        self, ax: Axes | None = None, *, timing: Timing | None = None, **style: object
     ) -> Axes:
         """Draw strokes, and with a timing open valves or ports, over a cycle; return the axes.
 

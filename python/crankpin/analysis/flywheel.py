@@ -313,23 +313,15 @@ class Flywheel(Tabled):
         return f"{labels.cut(name)}: speed over a cycle at {self.rpm:g} rpm"
 
     @overload
-    def plot(
-        self,
-        ax: Axes,
-        **style: Any,  # noqa: ANN401
-    ) -> Axes: ...
+    def plot(self, ax: Axes, *, figure: None = None, **style: object) -> Axes: ...
 
     @overload
     def plot(
-        self,
-        ax: None = None,
-        *,
-        figure: Figure | SubFigure | None = None,
-        **style: Any,  # noqa: ANN401
+        self, ax: None = None, *, figure: Figure | SubFigure | None = None, **style: object
     ) -> NDArray[Any]: ...
 
     def plot(
-        self, ax: Axes | None = None, *, figure: Figure | SubFigure | None = None, **style: Any
+        self, ax: Axes | None = None, *, figure: Figure | SubFigure | None = None, **style: object
     ) -> Axes | NDArray[Any]:
         """Draw torque over the cycle with its mean, and below it the speed; return the axes.
 

@@ -315,7 +315,7 @@ class Waveform(OverAngle):
         *,
         kind: Literal["curves", "orbit"] = "curves",
         quantity: str | None = None,
-        **options: Any,  # noqa: ANN401 - as below
+        **options: object,
     ) -> Axes:
         """Draw a quantity over crank angle, or the curve that its tip traces; return the axes.
 

@@ -448,7 +448,7 @@ class Cycle(Tabled, Input, ComputedCycles):
         *,
         cylinder: Cylinder | None = None,
         label: str | None = None,
-        **style: Any,  # noqa: ANN401 - of lines
+        **style: object,
     ) -> Axes:
         """Draw pressure over crank angle, or over volume.
 

@@ -648,9 +648,10 @@ class Engine(Builders):
         self,
         ax: Axes,
         *,
+        figure: None = None,
         kind: Literal["section", "star", "side"] | None = None,
         theta_deg: float = 0.0,
-        **style: Any,  # noqa: ANN401
+        **style: object,
     ) -> Axes: ...
 
     @overload
@@ -658,9 +659,10 @@ class Engine(Builders):
         self,
         ax: None = None,
         *,
+        figure: None = None,
         kind: Literal["section", "star", "side"],
         theta_deg: float = 0.0,
-        **style: Any,  # noqa: ANN401
+        **style: object,
     ) -> Axes: ...
 
     @overload
@@ -671,7 +673,7 @@ class Engine(Builders):
         figure: FigureBase | None = None,
         kind: None = None,
         theta_deg: float = 0.0,
-        **style: Any,  # noqa: ANN401
+        **style: object,
     ) -> NDArray[Any]: ...
 
     def plot(
@@ -681,7 +683,7 @@ class Engine(Builders):
         figure: FigureBase | None = None,
         kind: Literal["section", "star", "side"] | None = None,
         theta_deg: float = 0.0,
-        **style: Any,
+        **style: object,
     ) -> Axes | NDArray[Any]:
         """Draw the engine at a crank angle: cross-section, crank star, crank from the side.
 

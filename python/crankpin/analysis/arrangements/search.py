@@ -366,7 +366,7 @@ class ArrangementSearch(Record):
         found = (self._least(k, least) for k in range(len(self)))
         return tuple(heapq.nsmallest(wanted, found, key=measure))
 
-    def plot(self, ax: Axes | None = None, **options: Any) -> Axes:  # noqa: ANN401 - as below
+    def plot(self, ax: Axes | None = None, **options: object) -> Axes:
         """Draw the second-order moment that remains over the bank angles; return the axes.
 
         Parameters

@@ -365,7 +365,7 @@ class BobWeight(Tabled):
             for factor, direction_deg in self.straight(name):
                 yield factor, f"{name} along {direction_deg:.4g}°"
 
-    def plot(self, ax: Axes | None = None, *, quantity: str | None = None, **style: Any) -> Axes:  # noqa: ANN401
+    def plot(self, ax: Axes | None = None, *, quantity: str | None = None, **style: object) -> Axes:
         """Draw the residual of order 1 over the factor: longest, shortest vector; return the axes.
 
         Parameters

@@ -314,9 +314,10 @@ class Counterweights(Tabled):
         self,
         ax: Axes,
         *,
+        figure: None = None,
         kind: Literal["summary", "weights", "ellipses"] = "summary",
         quantity: str | None = None,
-        **style: Any,  # noqa: ANN401
+        **style: object,
     ) -> Axes: ...
 
     @overload
@@ -324,9 +325,10 @@ class Counterweights(Tabled):
         self,
         ax: None = None,
         *,
+        figure: None = None,
         kind: Literal["weights", "ellipses"],
         quantity: str | None = None,
-        **style: Any,  # noqa: ANN401
+        **style: object,
     ) -> Axes: ...
 
     @overload
@@ -337,7 +339,7 @@ class Counterweights(Tabled):
         figure: Figure | SubFigure | None = None,
         kind: Literal["summary"] = "summary",
         quantity: str | None = None,
-        **style: Any,  # noqa: ANN401
+        **style: object,
     ) -> NDArray[Any]: ...
 
     def plot(
@@ -347,7 +349,7 @@ class Counterweights(Tabled):
         figure: Figure | SubFigure | None = None,
         kind: Literal["summary", "weights", "ellipses"] = "summary",
         quantity: str | None = None,
-        **style: Any,
+        **style: object,
     ) -> Axes | NDArray[Any]:
         """Draw the weights, and what order 1 does before and after; return the axes.
 

@@ -152,7 +152,7 @@ class Designs(ByObjectives, Listed[Design], Tabled):
 
     # --- tables and pictures --------------------------------------------------------------------
 
-    def plot(self, ax: Axes | None = None, *, count: int = 4, **style: Any) -> Axes:  # noqa: ANN401
+    def plot(self, ax: Axes | None = None, *, count: int = 4, **style: object) -> Axes:
         """Draw the first objective of the best designs over bank angle; return the axes.
 
         A ring marks each design. Designs without banks, or by a function, are drawn as a dot each,

@@ -136,7 +136,7 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
 
     # --- tables and pictures --------------------------------------------------------------------
 
-    def plot(self, ax: Axes | None = None, **options: Any) -> Axes:  # noqa: ANN401 - as below
+    def plot(self, ax: Axes | None = None, **options: object) -> Axes:
         """Draw the first objective over bank angle, the best angles ringed; return the axes.
 
         Engines ranked without bank angles are listed, the best first. Of many engines the best

@@ -585,11 +585,12 @@ class Sweep(ByOrder):
         self,
         ax: Axes,
         *,
+        figure: None = None,
         kind: Literal["curves", "parts", "map", "orders", "bars"] | None = None,
         quantity: str | None = None,
         x: str | None = None,
         orders: Orders | None = None,
-        **options: Any,  # noqa: ANN401
+        **options: object,
     ) -> Axes: ...
 
     @overload
@@ -602,7 +603,7 @@ class Sweep(ByOrder):
         quantity: str | None = None,
         x: str | None = None,
         orders: Orders | None = None,
-        **options: Any,  # noqa: ANN401
+        **options: object,
     ) -> NDArray[Any]: ...
 
     def plot(
@@ -614,7 +615,7 @@ class Sweep(ByOrder):
         quantity: str | None = None,
         x: str | None = None,
         orders: Orders | None = None,
-        **options: Any,
+        **options: object,
     ) -> Axes | NDArray[Any]:
         """Draw peaks over what was swept; return the axes.
 

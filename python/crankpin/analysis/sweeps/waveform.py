@@ -186,9 +186,10 @@ class SweepWaveform(OverAngle):
         self,
         ax: Axes,
         *,
+        figure: None = None,
         kind: Literal["curves", "envelope"] | None = None,
         quantity: str | None = None,
-        **options: Any,  # noqa: ANN401
+        **options: object,
     ) -> Axes: ...
 
     @overload
@@ -199,7 +200,7 @@ class SweepWaveform(OverAngle):
         figure: Figure | SubFigure | None = None,
         kind: Literal["curves", "envelope"] | None = None,
         quantity: str | None = None,
-        **options: Any,  # noqa: ANN401
+        **options: object,
     ) -> NDArray[Any]: ...
 
     def plot(
@@ -209,7 +210,7 @@ class SweepWaveform(OverAngle):
         figure: Figure | SubFigure | None = None,
         kind: Literal["curves", "envelope"] | None = None,
         quantity: str | None = None,
-        **options: Any,
+        **options: object,
     ) -> Axes | NDArray[Any]:
         """Draw a quantity over crank angle, a panel for each axis; return the axes.
 

@@ -500,7 +500,7 @@ class Tolerances(ByOrder):
         *,
         kind: Literal["histogram", "ecdf", "shares"] = "histogram",
         by: str | None = None,
-        **style: Any,  # noqa: ANN401 - keywords of matplotlib
+        **style: object,
     ) -> Axes:
         """Draw the distribution of a value, or the shares of the tolerances; return the axes.
 
