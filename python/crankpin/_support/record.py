@@ -109,7 +109,7 @@ class Record:
     _mutable: ClassVar[tuple[str, ...]] = ()
     """Names of the fields whose values could be changed: arrays, lists and mappings."""
 
-    def __init_subclass__(cls, **options: Any) -> None:  # noqa: ANN401 - of other base classes
+    def __init_subclass__(cls, **options: object) -> None:
         super().__init_subclass__(**options)
         dataclasses.dataclass(frozen=True, eq=False, repr=False)(cls)
         cls._fields = dataclasses.fields(cls)  # type: ignore[arg-type] # made one above
@@ -158,7 +158,7 @@ class Record:
 class Input(Record):
     """Base class of records that describe what is computed, not what came out."""
 
-    def replace(self, **changes: Any) -> Self:  # noqa: ANN401 - values of fields
+    def replace(self, **changes: object) -> Self:
         """Return a copy with some fields changed.
 
         Parameters
@@ -238,7 +238,7 @@ def item_key(place: Any, count: int) -> Any:  # noqa: ANN401 - an int or a slice
 Changed = TypeVar("Changed", bound=Record)
 
 
-def changed(record: Changed, **changes: Any) -> Changed:  # noqa: ANN401 - values of fields
+def changed(record: Changed, **changes: object) -> Changed:
     """Return a copy of a record with some fields changed, whose numbers must be of these fields."""
     return type(record)(**_values(record) | changes)
 
@@ -258,7 +258,7 @@ def read_only(values: Item) -> Item:
     return found  # type: ignore[no-any-return]
 
 
-def _plain(value: Any) -> Any:  # noqa: ANN401 - values of fields
+def _plain(value: object) -> object:
     """Return a value that can be pickled: read-only mappings cannot."""
     if isinstance(value, Mapping):
         return {key: _plain(each) for key, each in value.items()}
@@ -276,7 +276,7 @@ def equal(a: Any, b: Any) -> bool:  # noqa: ANN401 - values of fields
     return bool(a == b)
 
 
-def _hashable(value: Any) -> Any:  # noqa: ANN401 - values of fields
+def _hashable(value: object) -> object:
     if isinstance(value, np.ndarray):
         return value.shape
     if isinstance(value, tuple):

@@ -486,7 +486,7 @@ class BearingLoads(Tabled):
         figure: Figure | SubFigure | None = None,
         kind: Literal["polar", "curves", "bending"] = "polar",
         **options: object,
-    ) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    ) -> Axes | NDArray[Any]:
         """Draw loads; return the axes.
 
         Parameters
@@ -527,7 +527,7 @@ class BearingLoads(Tabled):
         >>> ax = loads.plot(load="crankpin", numbers=[1], axes="crank")
         >>> ax = loads.plot(kind="bending", part="crankcase")
         """
-        return draw(self, ax, figure=figure, kind=kind, **options)
+        return draw(self, ax, figure=figure, kind=kind, **options)  # type: ignore[no-any-return]
 
     @property
     def table(self) -> Table:

@@ -349,7 +349,7 @@ class Sweep(ByOrder):
 
     # --- points ---------------------------------------------------------------------------------
 
-    def sel(self, **selection: Any) -> Balance | Sweep:  # noqa: ANN401 - a name or numbers
+    def sel(self, **selection: object) -> Balance | Sweep:
         """Return the balance at a point of the sweep, or the sweep of what is left to choose.
 
         The values of a balance are those of the sweep, to the last bit.
@@ -443,7 +443,7 @@ class Sweep(ByOrder):
             for name, value in selection.items()
         }
 
-    def engine_at(self, **selection: Any) -> Engine:  # noqa: ANN401 - a name or numbers
+    def engine_at(self, **selection: object) -> Engine:
         """Return the engine of a point of the sweep.
 
         Parameters
