@@ -12,7 +12,8 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
-from crankpin._support.record import Input, Record, changed, item_key
+from crankpin._support.frames import Tabled
+from crankpin._support.record import Input, changed, item_key
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.drawing import draw
 from crankpin.model.data import parts
@@ -187,7 +188,7 @@ def search_arrangements(
     return ArrangementSearch(core, count, rule, given, hold, shared, progress=watched)
 
 
-class ArrangementSearch(Record):
+class ArrangementSearch(Tabled):
     """Result of a search: counts, and the balanced bank angles with an arrangement for each.
 
     A sequence of :class:`Arrangement`, one for each bank angle, ascending: of all pairs that have
@@ -420,8 +421,8 @@ class ArrangementSearch(Record):
         position: int = item_key(index, len(self))
         return position % len(self)
 
-    def __repr__(self) -> str:
-        """Return a line in place of the table: there are thousands of bank angles."""
+    @property
+    def _brief(self) -> str:
         rule = ", alternating" if self.alternating else ""
         rule += " on shared pins" if self.shared_pins else ""
         found = f"{self.qualifying} of {self.candidates} pairs"
