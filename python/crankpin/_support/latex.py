@@ -15,7 +15,7 @@ NUMBER = re.compile(r"(-?[\d.]+)(?:e([-+]?\d+))?", re.ASCII)
 SPECIAL = {
     "\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
     **{character: f"\\{character}" for character in "&%$#_{}"},
-    "<": r"\textless{}", ">": r"\textgreater{}", "|": r"\textbar{}", '"': r"\textquotedbl{}",
+    "<": r"\textless{}", ">": r"\textgreater{}", "|": r"\textbar{}",
 }  # fmt: skip
 """What LaTeX takes for commands, or sets as other characters."""
 SYMBOLS = {
