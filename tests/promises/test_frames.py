@@ -55,6 +55,7 @@ def test_frames_begin_with_the_table(name: str) -> None:
     assert next(iter(result.frames)) == "table"
     assert result.frames["table"] == result.table
     for frame in result.frames.values():
+        assert frame.loads == result.table.loads
         assert isinstance(frame, cp.types.Table)
         assert frame.columns
         assert len({len(column.values) for column in frame.columns}) == 1
@@ -117,6 +118,7 @@ def tabular(latex: str) -> tuple[str, list[list[str]]]:
     plain = re.sub(r"\\[\\{}&%$#_]", lambda found: "  " if found[0] != r"\\" else "\n\n", latex)
     assert plain.count("{") == plain.count("}")
     assert plain.count("$") % 2 == 0
+    assert not set(re.sub(r"\$[^$]*\$", "", plain)) & set("_^#%~")
     begin = latex.index(r"\begin{tabular}{") + len(r"\begin{tabular}{")
     columns = latex[begin : latex.index("}", begin)]
     body = latex[latex.index("\n", begin) : latex.index(r"\end{tabular}")]
