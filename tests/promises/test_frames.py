@@ -195,7 +195,7 @@ def test_arrays_keep_their_dimensions_unless_a_frame_is_named(name: str) -> None
     ],
 )
 def test_the_command_line_has_every_frame(
-    typed: str, made: Any, capsys: pytest.CaptureFixture[str]
+    typed: str, made: Callable[[cp.Engine], Tabled], capsys: pytest.CaptureFixture[str]
 ) -> None:
     result = made(cp.Engine.preset("v8-crossplane"))
     for frame, table in result.frames.items():
