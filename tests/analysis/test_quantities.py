@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import copy
+import inspect
 import io
 import pickle
 import sys
@@ -382,7 +383,9 @@ def test_engines_among_arrangements_are_refused() -> None:
 
 def test_the_objective_is_required() -> None:
     with pytest.raises(cp.InputError, match=r"by = None: .*total\.moment\.peak"):
-        cp.rank(V6, rpm=1000)
+        cp.rank(V6, rpm=1000, by=None)  # type: ignore[arg-type]
+    for function in (cp.rank, cp.design):
+        assert inspect.signature(function).parameters["by"].default is inspect.Parameter.empty
 
 
 def test_without_gas_pressure_inertia_is_the_whole_torque() -> None:

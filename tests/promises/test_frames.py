@@ -17,6 +17,7 @@ from crankpin.cli import main
 from test_objects import OBJECTS
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
 RESULTS = {name: value for name, value in OBJECTS.items() if isinstance(value, Tabled)}
