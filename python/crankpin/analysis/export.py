@@ -5,11 +5,12 @@ from __future__ import annotations
 import itertools
 import math
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from crankpin._support import inputs, labels, optional
+from crankpin._support.frames import Tabled
 from crankpin._support.quantities import KINDS, PLANE_VECTORS
 from crankpin._support.tables import Column, Table
 
@@ -19,9 +20,10 @@ if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
 
-    from crankpin.analysis.by_order import ByOrder
-    from crankpin.analysis.waveform import OverAngle
+    from crankpin.analysis.request import Request
 
+Variable: TypeAlias = "tuple[tuple[str, ...], Any, dict[str, str]]"
+"""Dimensions, values and attributes of a variable of a dataset."""
 TRAILING: dict[str, tuple[str, ...]] = {
     "phasors": ("order", "axis"),
     "forward": ("order",),
@@ -59,84 +61,168 @@ def arrays(quantity: str) -> tuple[str, ...]:
     return tuple(what for _, _, what, _ in variables([quantity], fired=True))
 
 
-def to_xarray(
-    result: ByOrder,
+class Labelled(Tabled):
+    """Base class of results that are arrays over dimensions, of which frames show the most."""
+
+    if TYPE_CHECKING:
+
+        @property
+        def request(self) -> Request:
+            """The options of the result, checked."""
+
+        @property
+        def error_bound(self) -> Mapping[str, float]:
+            """Quantity → upper bound on what the omitted orders add, N or N·m."""
+
+        @property
+        def loads_counted(self) -> str:
+            """Loads that count where more could, in words."""
+
+    @property
+    def fired(self) -> bool:
+        """True if gas pressure is counted."""
+        return False
+
+    @property
+    def coords(self) -> Mapping[str, Any]:
+        """Dimension → its values."""
+        return {}
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Names of the dimensions before orders and axes."""
+        return tuple(self.coords)
+
+    @property
+    def _attributes(self) -> Mapping[str, Any]:
+        """Attributes of a dataset of the result."""
+        return {}
+
+    def _arrays(self, quantities: Sequence[str]) -> tuple[dict[str, Any], dict[str, Variable]]:
+        """Return dimension → values, and the variables of a dataset of some quantities."""
+        raise NotImplementedError
+
+    def _figures(self, quantity: str) -> Mapping[str, Mapping[str, NDArray[np.float64]]]:
+        """Return the columns of each component of a quantity in long form."""
+        raise NotImplementedError
+
+    def tidy(self, *quantities: str) -> Table:
+        """Return the long form, a row for each point, order, quantity and component.
+
+        Columns are the dimensions, ``order`` where there are orders, quantity, component, the peak
+        phasor as ``real`` and ``imag`` with its ``peak``, or over crank angle ``value``, and unit.
+
+        Parameters
+        ----------
+        *quantities : str, optional
+            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+
+        Returns
+        -------
+        Table
+            The rows; its ``to_pandas`` and ``to_csv`` write them.
+
+        Raises
+        ------
+        InputError
+            If there is no such quantity.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> i4 = cp.Engine.preset("i4")
+        >>> list(cp.sweep(i4, rpm=[3000, 6000], orders=[2]).tidy("torque"))
+        ['rpm', 'order', 'quantity', 'component', 'real', 'imag', 'peak', 'unit']
+        >>> list(i4.waveform(3000).tidy("force"))
+        ['theta_deg', 'quantity', 'component', 'value', 'unit']
+        """
+        named = self.request.named(quantities, fired=self.fired)
+        parts = [
+            (quantity, component, figures)
+            for quantity in named
+            for component, figures in self._figures(quantity).items()
+        ]
+        return _long(self._arrays(())[0], parts, self.loads_counted)
+
+    def to_xarray(
+        self, *quantities: str, frame: str | None = None, split_complex: bool = False
+    ) -> xr.Dataset:
+        """Return the arrays with dimensions, units and bounds (needs xarray).
+
+        Of orders these are phasors, peaks and totals. They keep the dimensions that rows of a frame
+        would flatten.
+
+        Parameters
+        ----------
+        *quantities : str, optional
+            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+        frame : str, optional
+            Name of one of ``frames``, to return its rows instead.
+        split_complex : bool, default False
+            Store complex arrays as real ones with a dimension ``part`` of "re" and "im", for
+            ``to_netcdf(path)``: netCDF has no complex numbers. With the package netCDF4,
+            ``to_netcdf(path, auto_complex=True)`` writes complex arrays too.
+
+        Returns
+        -------
+        xarray.Dataset
+            The arrays, with units as attributes.
+
+        Raises
+        ------
+        InputError
+            If there is no such quantity or frame.
+        ImportError
+            If xarray is not installed.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> s = cp.sweep(cp.Engine.preset("i4"), rpm=[1000, 2000], orders=[1, 2])
+        >>> s.to_xarray("force").force.dims
+        ('rpm', 'order', 'axis')
+        >>> s.waveform([0, 90, 180]).to_xarray("force").force.dims
+        ('rpm', 'theta_deg', 'axis')
+        """
+        if frame is not None:
+            return super().to_xarray(frame=frame)
+        named = self.request.named(quantities, fired=self.fired)
+        coords, arrays = self._arrays(named)
+        return dataset(self, named, coords, arrays, split_complex=split_complex)
+
+
+def dataset(
+    result: Labelled,
     quantities: Sequence[str],
-    arrays: Mapping[str, Any] | None = None,
+    coords: Mapping[str, Any],
+    arrays: Mapping[str, Variable],
     *,
     split_complex: bool = False,
 ) -> xr.Dataset:
-    """Return the arrays of some quantities, or those given, with named dimensions and units."""
-    if arrays is None:
-        arrays = {
-            name: ((*result.dims, *dims), result.read(quantity, what), units(quantity))
-            for name, quantity, what, dims in variables(quantities, fired=result.fired)
-        }
-    whole = all(isinstance(order, int) for order in result.orders)
-    orders = np.array(result.orders, dtype=np.int64 if whole else np.float64)
-    coords = _labelled(result.coords, quantities)
-    coords["order"] = ("order", orders, {"units": labels.XARRAY_UNITS["order"]})
-    bounds = {
-        f"{name.replace('.', '_')}_error_bound": result.error_bound[name.partition(".")[0]]
-        for name in quantities
-    }
+    """Return arrays of some quantities with dimensions, units, loads and bounds."""
+    labelled = labels.coordinates(coords)
+    if set(PLANE_VECTORS) & set(quantities):
+        labelled["axis"] = ("axis", ["x", "y"])
     if inputs.flag("split_complex", split_complex):
-        arrays = {name: _split(variable) for name, variable in arrays.items()}
-        coords["part"] = ("part", ["re", "im"])
-    loads = labels.attributes(result.loads_counted)
-    return optional.dataset(arrays, coords, {**result._attributes, **loads, **bounds})
+        arrays = {name: _split(*variable) for name, variable in arrays.items()}
+        labelled["part"] = ("part", ["re", "im"])
+    attributes = dict(result._attributes) | labels.attributes(result.loads_counted)
+    for name in quantities:
+        bound = result.error_bound[name.partition(".")[0]]
+        attributes[f"{name.replace('.', '_')}_error_bound"] = bound
+    return optional.dataset(arrays, labelled, attributes)
 
 
-def _split(variable: tuple[tuple[str, ...], Any, dict[str, str]]) -> Any:  # noqa: ANN401
-    dims, values, attributes = variable
+def _split(dims: tuple[str, ...], values: NDArray[Any], attributes: dict[str, str]) -> Variable:
+    """Return a variable of real and imaginary parts, unless it is real."""
     if values.dtype.kind != "c":
-        return variable
-    return ((*dims, "part"), np.stack([values.real, values.imag], axis=-1), attributes)
-
-
-def _labelled(coords: Mapping[str, Any], quantities: Sequence[str]) -> dict[str, Any]:
-    """Return coordinates with units, and the axes of forces and moments."""
-    axes = {"axis": ("axis", ["x", "y"])} if set(PLANE_VECTORS) & set(quantities) else {}
-    return labels.coordinates(coords) | axes
+        return dims, values, attributes
+    return (*dims, "part"), np.stack([values.real, values.imag], axis=-1), attributes
 
 
 def units(quantity: str) -> dict[str, str]:
     """Return the attributes of a quantity's variables."""
     return {"units": KINDS[quantity].xarray_unit}
-
-
-def tidy(result: ByOrder, quantities: Sequence[str]) -> Table:
-    """Return phasors and peaks in long form: a row a point, order, quantity and component."""
-    parts = []
-    for quantity in quantities:
-        phasors = result.read(quantity, "phasors")
-        by_component: dict[str, NDArray[np.complex128]] = {"z": phasors}
-        if quantity in PLANE_VECTORS:
-            by_component = {
-                "x": phasors[..., 0],
-                "y": phasors[..., 1],
-                "forward": result.read(quantity, "forward"),
-                "backward": result.read(quantity, "backward"),
-            }
-        parts += [
-            (quantity, component, {"real": each.real, "imag": each.imag, "peak": np.abs(each)})
-            for component, each in by_component.items()
-        ]
-    coords = {**result.coords, "order": result.orders}
-    return _long("Peak phasors by order", coords, parts, result.loads_counted)
-
-
-def waveforms_tidy(result: OverAngle, quantities: Sequence[str]) -> Table:
-    """Return values in long form: a row a point, quantity and component."""
-    parts = []
-    for name in quantities:
-        values = result.read(name)
-        planar = name in PLANE_VECTORS
-        parts += [
-            (name, component, {"value": values[..., k] if planar else values})
-            for k, component in enumerate("xy" if planar else "z")
-        ]
-    return _long("Values over crank angle", result.coords, parts, result.loads_counted)
 
 
 def points(coords: Mapping[str, Any], times: int = 1) -> list[Column]:
@@ -150,7 +236,6 @@ def points(coords: Mapping[str, Any], times: int = 1) -> list[Column]:
 
 
 def _long(
-    title: str,
     coords: Mapping[str, Any],
     parts: Sequence[tuple[str, str, Mapping[str, NDArray[np.float64]]]],
     loads: str,
@@ -168,15 +253,4 @@ def _long(
         values = (figures[head].ravel().tolist() for *_, figures in parts)
         columns.append(Column(head, tuple(itertools.chain.from_iterable(values))))
     columns.append(Column("unit", repeated(KINDS[quantity].unit for quantity, _, _ in parts)))
-    return Table(title, tuple(columns), loads=loads)
-
-
-def waveforms_to_xarray(result: OverAngle, quantities: Sequence[str]) -> xr.Dataset:
-    """Return values over coordinates, with named dimensions and units."""
-    arrays = {}
-    for name in quantities:
-        dims = (*result.dims, "axis") if name in PLANE_VECTORS else result.dims
-        arrays[name.replace(".", "_")] = (dims, result.read(name), units(name))
-    coords = _labelled(result.coords, quantities)
-    loads = labels.attributes(result.loads_counted)
-    return optional.dataset(arrays, coords, {**result._attributes, **loads})
+    return Table("Long form", tuple(columns), loads=loads)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -10,17 +10,16 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.frames import Tabled
-from crankpin._support.quantities import QUANTITIES
+from crankpin._support.quantities import KINDS, QUANTITIES
 from crankpin._support.record import read_only
 from crankpin._support.tables import Table
 from crankpin.analysis import export
 from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.drawing import draw
+from crankpin.analysis.export import Labelled
 from crankpin.analysis.request import Request, check_request, engine_core
 
 if TYPE_CHECKING:
-    import xarray as xr
     from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
@@ -61,14 +60,10 @@ def waveform(
     return found
 
 
-class OverAngle(Tabled):
+class OverAngle(Labelled):
     """Base class of waveforms: force, moment and torques over crank angle."""
 
     if TYPE_CHECKING:
-
-        @property
-        def request(self) -> Request:
-            """The options of the result, checked."""
 
         @property
         def theta_deg(self) -> NDArray[np.float64]:
@@ -138,86 +133,24 @@ class OverAngle(Tabled):
         raise NotImplementedError
 
     @property
-    def fired(self) -> bool:
-        """True if gas pressure is counted."""
-        return False
-
-    @property
-    def loads_counted(self) -> str:
-        """Loads that count where more could, in words: as :attr:`Balance.loads_counted`."""
-        raise NotImplementedError
-
-    @property
-    def dims(self) -> tuple[str, ...]:
-        """Names of the dimensions of arrays before the axis: those of a sweep, ``theta_deg``."""
-        return tuple(self.coords)
-
-    @property
     def coords(self) -> Mapping[str, Any]:
         """Dimension → its values: those of a sweep, then ``theta_deg``."""
         return {"theta_deg": self.theta_deg}
 
-    @property
-    def _attributes(self) -> Mapping[str, Any]:
-        """Attributes of a dataset of the result."""
-        raise NotImplementedError
+    def _arrays(self, quantities: Sequence[str]) -> tuple[dict[str, Any], dict[str, Any]]:
+        axes = {name: ("axis",) if KINDS[name].planar else () for name in quantities}
+        return dict(self.coords), {
+            name.replace(".", "_"): ((*self.dims, *axis), self.read(name), export.units(name))
+            for name, axis in axes.items()
+        }
 
-    def tidy(self, *quantities: str) -> Table:
-        """Return the long form, a row for each point, crank angle, quantity and component.
-
-        Columns are the swept dimensions, theta_deg, quantity, component, value and unit.
-
-        Parameters
-        ----------
-        *quantities : str, optional
-            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
-
-        Returns
-        -------
-        Table
-            The rows; its ``to_pandas`` and ``to_csv`` write them.
-
-        Raises
-        ------
-        InputError
-            If there is no such quantity.
-        """
-        return export.waveforms_tidy(self, self.request.named(quantities, fired=self.fired))
-
-    def to_xarray(self, *quantities: str, frame: str | None = None) -> xr.Dataset:
-        """Return arrays with named dimensions and units (needs xarray).
-
-        Arrays keep the dimensions that rows of a frame would flatten.
-
-        Parameters
-        ----------
-        *quantities : str, optional
-            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
-        frame : str, optional
-            Name of one of ``frames``, to return its rows instead.
-
-        Returns
-        -------
-        xarray.Dataset
-            The arrays, with units as attributes.
-
-        Raises
-        ------
-        InputError
-            If there is no such quantity or frame.
-        ImportError
-            If xarray is not installed.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> s = cp.sweep(cp.Engine.preset("i4"), rpm=[1000, 2000], orders=[2, 4])
-        >>> s.waveform([0, 90, 180]).to_xarray("force").force.dims
-        ('rpm', 'theta_deg', 'axis')
-        """
-        if frame is not None:
-            return super().to_xarray(frame=frame)
-        return export.waveforms_to_xarray(self, self.request.named(quantities, fired=self.fired))
+    def _figures(self, quantity: str) -> Mapping[str, Mapping[str, NDArray[np.float64]]]:
+        values, kind = self.read(quantity), KINDS[quantity]
+        parts = np.moveaxis(values, -1, 0) if kind.planar else (values,)
+        return {
+            component: {"value": part}
+            for component, part in zip(kind.components, parts, strict=True)
+        }
 
 
 class Waveform(OverAngle):

@@ -279,12 +279,6 @@ class Sweep(ByOrder):
         return self._core.mean_piston_speed
 
     @cached_property
-    def dims(self) -> tuple[str, ...]:
-        """Names of the swept dimensions."""
-        swept = (name for name in AXES if isinstance(self.axes.get(name), np.ndarray))
-        return (*(["engine"] if self.names is not None else []), *swept)
-
-    @cached_property
     def coords(self) -> Mapping[str, NDArray[np.float64] | tuple[str, ...]]:
         """Swept dimension → its values, in the order of the result's dimensions.
 
@@ -294,7 +288,8 @@ class Sweep(ByOrder):
         if self.names is not None:
             pairs = zip(self.names, self.engines, strict=True)
             coords["engine"] = _distinct([name or _name_of(engine) for name, engine in pairs])
-        coords |= {name: self.axes[name] for name in self.dims if name != "engine"}
+        swept = {name: self.axes.get(name) for name in AXES}
+        coords |= {name: each for name, each in swept.items() if isinstance(each, np.ndarray)}
         return read_only(coords)
 
     @cached_property

@@ -137,11 +137,6 @@ class Tolerances(ByOrder):
         return self.request.bounds(self.bounds)
 
     @property
-    def dims(self) -> tuple[str, ...]:
-        """Names of the dimensions of arrays before the orders: ``sample``."""
-        return ("sample",)
-
-    @property
     def coords(self) -> Mapping[str, Any]:
         """Dimension → its values: the number of each sample."""
         return {"sample": read_only(np.arange(self.samples))}
