@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-Label: TypeAlias = "str | Sequence[str | float]"
+Label: TypeAlias = "str | Sequence[str | float | None]"
 """Text before a row's numbers, or several texts and numbers, a column each."""
 
 TINY = "~0"
@@ -90,7 +90,7 @@ class Table(Tabled):
         title: str,
         header: Sequence[str | tuple[str, str]],
         labels: Sequence[Label],
-        rows: NDArray[np.float64],
+        rows: NDArray[np.float64] | None = None,
         decimals: int | None = None,
         note: str = "",
         loads: str = "",
@@ -105,8 +105,8 @@ class Table(Tabled):
             Heads of the columns: names, or pairs (name, unit).
         labels : sequence of str or sequence of str
             Label of each row, or several, before its numbers.
-        rows : ndarray of float, shape (n_rows, n_columns)
-            Numbers.
+        rows : ndarray of float, shape (n_rows, n_columns), optional
+            Numbers; by default the labels are the whole rows, numbers among them.
         decimals : int, optional
             Digits after the decimal point; by default five significant digits.
         note : str, optional
@@ -121,15 +121,16 @@ class Table(Tabled):
         """
         listed = [[label] if isinstance(label, str) else list(label) for label in labels]
         heads = [(head, "") if isinstance(head, str) else head for head in header]
-        before = len(heads) - rows.shape[1]
+        numbers = [] if rows is None else rows.T.tolist()
+        before, digits = len(heads) - len(numbers), 5 if rows is None else 10
         texts = zip(*listed, strict=True) if listed else [()] * before
         columns = [
-            Column(name, tuple(values), unit, digits=10)
+            Column(name, tuple(values), unit, digits)
             for (name, unit), values in zip(heads, texts, strict=False)
         ]
         columns += [
             Column(name, tuple(values), unit, decimals=decimals)
-            for (name, unit), values in zip(heads[before:], rows.T.tolist(), strict=True)
+            for (name, unit), values in zip(heads[before:], numbers, strict=True)
         ]
         return cls(title, tuple(columns), note, loads)
 

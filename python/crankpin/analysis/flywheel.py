@@ -295,14 +295,11 @@ class Flywheel(Tabled):
     def _approximated(self) -> Table:
         # Without pistons there is one.
         names = APPROXIMATIONS if self.engine is not None else ("torque",)
-        pairs = list(zip(self.approximations, self.errors, strict=True))[: len(names)]
-        return Table(
+        pairs = zip(names, self.approximations, self.errors, strict=False)
+        return Table.from_rows(
             "Textbooks' irregularity, fluctuation of energy over mean inertia and speed squared",
-            (
-                Column("of", names),
-                Column("irregularity", tuple(100.0 * value for value, _ in pairs), "%"),
-                Column("error", tuple(100.0 * error for _, error in pairs), "%"),
-            ),
+            ["of", ("irregularity", "%"), ("error", "%")],
+            [(name, 100.0 * value, 100.0 * error) for name, value, error in pairs],
             loads=self.loads_counted,
         )
 

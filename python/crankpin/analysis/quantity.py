@@ -526,12 +526,9 @@ class OrderBalance(Quantities, Tabled):
             rows.append((each.kind.words, each.unit, *row))
         heads = ["quantity", "unit", "x", "y", "largest", *parts]
         heads += [] if self.order == ALL else ["status"]
-        columns = zip(heads, zip(*rows, strict=True), strict=True)
         speed = labels.at_speed(self.result._attributes["rpm"])
-        where = f"{labels.name_of(self.result._engines[0])} {speed}"
-        title = f"{where}: {self._which}"
-        listed = tuple(Column(head, values) for head, values in columns)
-        return Table(title, listed, loads=self.loads_counted)
+        title = f"{labels.name_of(self.result._engines[0])} {speed}: {self._which}"
+        return Table.from_rows(title, heads, rows, loads=self.loads_counted)
 
     def _table_by_point(self) -> Table:
         """Return the largest peak of each quantity of a sweep at each point."""

@@ -282,8 +282,7 @@ class VanishingOrders(Tabled):
             for column, sums in enumerate(self.sums)
         ]
         heads = ("order", "quantity", "component", "verdict", "within_rounding")
-        columns = map(Column, heads, zip(*rows, strict=True))
-        return Table(f"{labels.name_of(self.engine)}: verdicts", tuple(columns))
+        return Table.from_rows(f"{labels.name_of(self.engine)}: verdicts", heads, rows)
 
     @property
     def table(self) -> Table:
@@ -301,4 +300,4 @@ class VanishingOrders(Tabled):
                 row.append(words.get(self._word(k, column), guess))
             cells.append(row)
         header, note = ["order", *SUMS.values()], "\n".join(self.obstacles)
-        return Table.from_rows(title, header, cells, np.empty((len(cells), 0)), note=note)
+        return Table.from_rows(title, header, cells, note=note)

@@ -11,7 +11,7 @@ import numpy as np
 from crankpin._support import labels
 from crankpin._support.frames import SHOWN, Tabled
 from crankpin._support.record import AbsentError, Listed, Record
-from crankpin._support.tables import Column, Table
+from crankpin._support.tables import Table
 from crankpin.analysis.balance import balance
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking.objectives import ByObjectives
@@ -144,16 +144,12 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
             for each in self.options
             for objective, value in zip(self.objectives, each.values, strict=True)
         ]  # fmt: skip
-        heads = [
-            ("name", ""), ("n_shafts", ""), ("unbalance", "kg·m"), ("on_front", ""),
-            ("reaches", ""), ("objective", ""), ("value", ""), ("unit", ""),
-        ]  # fmt: skip
-        columns = (
-            Column(head, values, unit)
-            for (head, unit), values in zip(heads, zip(*rows, strict=True), strict=True)
-        )
+        heads = (
+            "name", "n_shafts", ("unbalance", "kg·m"), "on_front", "reaches", "objective", "value",
+            "unit",
+        )  # fmt: skip
         title = f"{labels.name_of(self.engine)} at {self.rpm:g} rpm: sets of hardware"
-        return Table(title, tuple(columns), loads=self.loads_counted)
+        return Table.from_rows(title, heads, rows, loads=self.loads_counted)
 
     def plot(self, ax: Axes | None = None, **style: object) -> Axes:
         """Draw the residuals of the front in per cent of the engine's own; return the axes.

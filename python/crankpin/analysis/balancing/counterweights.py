@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, overload
 
@@ -9,7 +10,7 @@ from crankpin._support import inputs, labels
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import read_only
-from crankpin._support.tables import Column, Table
+from crankpin._support.tables import Table
 from crankpin.analysis.balance import over_square
 from crankpin.analysis.balancing import planes as correction_planes
 from crankpin.analysis.balancing.fitting import Fit, bay_loads, external, internal, left_by
@@ -265,15 +266,14 @@ class Counterweights(Tabled):
     @property
     def table(self) -> Table:
         """Places, amounts and angles of the weights."""
-        columns = (
-            Column("plane", tuple(plane for plane, _ in self.by_plane)),
-            Column("z", tuple(weight.z for weight in self.hardware), "m"),
-            Column("amount", tuple(weight.amount for weight in self.hardware), "kg·m"),
-            Column("angle", tuple(inputs.degrees(each.angle_deg) for each in self.hardware), "°"),
-        )
+        heads = ("plane", ("z", "m"), ("amount", "kg·m"), ("angle", "°"))
+        rows = [
+            (plane, each.z, each.amount, inputs.degrees(each.angle_deg))
+            for (plane, _), each in zip(self.by_plane, self.hardware, strict=True)
+        ]
         note = "" if self.by_plane else "No weights are needed in these planes, or none help."
         title = f"{labels.name_of(self.engine)}: counterweights"
-        return Table(title, columns, note)
+        return Table.from_rows(title, heads, rows, note=note)
 
     @property
     def frames(self) -> Frames:
@@ -281,14 +281,12 @@ class Counterweights(Tabled):
         return self._frames(residual=self._order_1)
 
     def _order_1(self) -> Table:
-        states = {
-            "before": over_square(self.engine, [1]), "after": self.residual,
-        }  # fmt: skip
-        vectors = [
-            (name, state, getattr(found[1], name))
-            for name in PLANE_VECTORS
-            for state, found in states.items()
-        ]
+        states = {"before": over_square(self.engine, [1]), "after": self.residual}
+        rows = []
+        for name, (state, balance) in itertools.product(PLANE_VECTORS, states.items()):
+            vector, kind = getattr(balance[1], name), QUANTITIES[name]
+            head = f"{kind.words}, {kind.unit_over_square}"
+            rows.append((head, state, float(vector.peak), abs(vector.minor)))
         words = [
             f"{part} {quantity} {verdict}"
             for quantity, parts in self.verdicts.items()
@@ -297,17 +295,8 @@ class Counterweights(Tabled):
         note = "; ".join(words) + "."
         if "undecided" in note and self.missing:
             note += f" Within {self.missing:.1e} of what was wanted."
-        kinds = [QUANTITIES[name] for name, _, _ in vectors]
-        return Table(
-            "Residual of order 1, half axes over ω²",
-            (
-                Column("quantity", tuple(f"{k.words}, {k.unit_over_square}" for k in kinds)),
-                Column("state", tuple(state for _, state, _ in vectors)),
-                Column("longest", tuple(float(vector.peak) for *_, vector in vectors)),
-                Column("shortest", tuple(abs(vector.minor) for *_, vector in vectors)),
-            ),
-            note,
-        )
+        title = "Residual of order 1, half axes over ω²"
+        return Table.from_rows(title, ["quantity", "state", "longest", "shortest"], rows, note=note)
 
     @overload
     def plot(
