@@ -95,6 +95,10 @@ class Tabled(Record):
     def _repr_html_(self) -> str | None:
         return None if self._brief else self.frames._repr_html_()
 
+    def _dataset(self) -> xr.Dataset | None:
+        """Return the arrays of a result that has dimensions."""
+        return None
+
     def to_pandas(self, *, frame: str = FIRST) -> pd.DataFrame:
         """Return a frame as a DataFrame (needs pandas).
 
@@ -119,18 +123,19 @@ class Tabled(Record):
         data = {head: list(each.values) for head, each in table._distinct()}
         return optional.data_frame(data, attributes=labels.attributes(table.loads))
 
-    def to_xarray(self, *, frame: str = FIRST) -> xr.Dataset:
-        """Return a frame as a Dataset with units, over its rows (needs xarray).
+    def to_xarray(self, *, frame: str | None = None) -> xr.Dataset:
+        """Return a Dataset with units and named dimensions (needs xarray).
 
         Parameters
         ----------
-        frame : str, default "table"
-            Name of one of ``frames``.
+        frame : str, optional
+            Name of one of ``frames``; by default the arrays of a result that has dimensions, which
+            rows would flatten, or else the table.
 
         Returns
         -------
         xarray.Dataset
-            A variable for each column of the frame.
+            A variable for each array, or for each column of the frame over its rows.
 
         Raises
         ------
@@ -139,7 +144,9 @@ class Tabled(Record):
         ImportError
             If xarray is not installed.
         """
-        table = self.frames[frame]
+        if frame is None and (whole := self._dataset()) is not None:
+            return whole
+        table = self.frames[FIRST if frame is None else frame]
         arrays = {
             head: ("row", each._array(), {"units": each.unit} if each.unit else {})
             for head, each in table._distinct(units=False)

@@ -434,37 +434,7 @@ class BearingLoads(Tabled):
 
     # --- tables and pictures ---------------------------------------------------------------------
 
-    def to_xarray(self, *, frame: str | None = None) -> xr.Dataset:
-        """Return the loads over crank angle with named dimensions and units (needs xarray).
-
-        Arrays keep the dimensions that rows of a frame would flatten.
-
-        Parameters
-        ----------
-        frame : str, optional
-            Name of one of ``frames``, to return its rows instead.
-
-        Returns
-        -------
-        xarray.Dataset
-            The loads, with units as attributes.
-
-        Raises
-        ------
-        InputError
-            If there is no such frame.
-        ImportError
-            If xarray is not installed.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> data = cp.bearing_loads(cp.Engine.preset("i4"), rpm=6000).to_xarray()
-        >>> data.main.dims
-        ('main_bearing', 'theta_deg', 'axis')
-        """
-        if frame is not None:
-            return super().to_xarray(frame=frame)
+    def _dataset(self) -> xr.Dataset:
         arrays: dict[str, Any] = {}
         for name, kind in LOADS.items():
             of = "main_bearing" if name == "main" else "cylinder"

@@ -149,8 +149,7 @@ class Labelled(Tabled):
     ) -> xr.Dataset:
         """Return the arrays with dimensions, units and bounds (needs xarray).
 
-        Of orders these are phasors, peaks and totals. They keep the dimensions that rows of a frame
-        would flatten.
+        Of orders these are phasors, peaks and totals.
 
         Parameters
         ----------
