@@ -121,7 +121,9 @@ class Tabled(Record):
         """
         table = self.frames[frame]
         data = {head: list(each.values) for head, each in table._distinct()}
-        return optional.data_frame(data, attributes=labels.attributes(table.loads))
+        found: pd.DataFrame = optional.library("pandas").DataFrame(data)
+        found.attrs.update(labels.attributes(table.loads))
+        return found
 
     def to_xarray(self, *, frame: str | None = None) -> xr.Dataset:
         """Return a Dataset with units and named dimensions (needs xarray).

@@ -448,18 +448,18 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled):
 class Quantities:
     """Mixin of what has force, moment and torques."""
 
-    def _quantity(self, name: str) -> Any:  # noqa: ANN401 - a vector or a scalar
+    def _quantity(self, name: str) -> Quantity:
         raise NotImplementedError
 
     @property
     def force(self) -> Quantity:
         """Shaking force along x and y, N."""
-        return self._quantity("force")  # type: ignore[no-any-return]
+        return self._quantity("force")
 
     @property
     def moment(self) -> Quantity:
         """Rocking moment about x (pitch) and y (yaw), N·m."""
-        return self._quantity("moment")  # type: ignore[no-any-return]
+        return self._quantity("moment")
 
     @property
     def torque(self) -> Quantity:
@@ -467,7 +467,7 @@ class Quantities:
 
         An AttributeError where it was not requested, or a force spectrum does not determine it.
         """
-        return self._quantity("torque")  # type: ignore[no-any-return]
+        return self._quantity("torque")
 
     @property
     def crank_torque(self) -> Quantity:
@@ -475,7 +475,7 @@ class Quantities:
 
         An AttributeError where it was not requested, or a force spectrum does not determine it.
         """
-        return self._quantity("crank_torque")  # type: ignore[no-any-return]
+        return self._quantity("crank_torque")
 
 
 class OrderBalance(Quantities, Tabled):

@@ -63,12 +63,6 @@ def waveform(
 class OverAngle(Labelled):
     """Base class of waveforms: force, moment and torques over crank angle."""
 
-    if TYPE_CHECKING:
-
-        @property
-        def theta_deg(self) -> NDArray[np.float64]:
-            """Crank angles, degrees: (n_theta,)."""
-
     @property
     def orders(self) -> tuple[Order, ...] | None:
         """Orders that are summed; None for exact kinematics."""
@@ -131,11 +125,6 @@ class OverAngle(Labelled):
 
     def _values(self, quantity: str) -> NDArray[np.float64]:
         raise NotImplementedError
-
-    @property
-    def coords(self) -> Mapping[str, Any]:
-        """Dimension → its values: those of a sweep, then ``theta_deg``."""
-        return {"theta_deg": self.theta_deg}
 
     def _arrays(self, quantities: Sequence[str]) -> tuple[dict[str, Any], dict[str, Any]]:
         axes = {name: ("axis",) if KINDS[name].planar else () for name in quantities}
@@ -234,6 +223,11 @@ class Waveform(OverAngle):
 
     def _values(self, quantity: str) -> NDArray[np.float64]:
         return self.__dict__["_by_name"][quantity]  # type: ignore[no-any-return]
+
+    @property
+    def coords(self) -> Mapping[str, Any]:
+        """Dimension → its values: the crank angles."""
+        return {"theta_deg": self.theta_deg}
 
     @property
     def _attributes(self) -> Mapping[str, Any]:
