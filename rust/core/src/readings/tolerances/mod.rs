@@ -8,13 +8,17 @@ mod terms;
 use self::terms::Terms;
 use crate::Complex64;
 use crate::engine::Engine;
+use crate::load::Loads;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::numbers::pool;
-use crate::readings::balance::{Balance, Orders, Request, Vector, angular_speed, balance};
+use crate::readings::balance::{
+    Balance, ErrorBounds, Orders, Request, Vector, angular_speed, balance,
+};
+use crate::readings::choice;
 use crate::readings::peaks::PeakFinder;
 use crate::wrench::Planar;
 
@@ -117,6 +121,20 @@ pub struct Sampled {
     pub torque: Vec<[Complex64; 2]>,
     /// Of each sample the longest force and moment and the largest torques, all orders together.
     pub peaks: Vec<[f64; 4]>,
+}
+
+/// Orders of samples that leave out at most `rtol` of each cylinder, because deviations undo what a layout
+/// cancels, and bounds of what the others add to the nominal engine.
+pub fn orders(
+    engine: &Engine,
+    request: &Request,
+    rtol: f64,
+    cancel: &Cancel,
+) -> Result<(Vec<Order>, ErrorBounds)> {
+    let omega = angular_speed(request.rpm)?;
+    let loads = Loads::new(engine, engine.reference(request.reference_z)?);
+    let (orders, left_out) = choice::within_each(rtol, engine, &loads, request.torque, cancel)?;
+    Ok((orders, left_out.bounds(omega * omega)))
 }
 
 impl Tolerances {
