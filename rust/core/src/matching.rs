@@ -337,11 +337,11 @@ impl Matching {
         }
     }
 
-    /// Write what a unit of each figure in each place of a set changes its measure by, at least:
-    /// (slots, figures).
-    fn write_rates(&self, kind: usize, set: usize, remainder: &[f64], rates: &mut [f64]) {
+    /// Write what a unit of each figure in each place of a set changes its measure by, at least, from
+    /// the slope of the measure: (slots, figures).
+    fn write_rates(&self, kind: usize, set: usize, slope: &[(usize, f64)], rates: &mut [f64]) {
         let kind = &self.kinds[kind];
-        let (figures, slope) = (kind.deviations.len(), self.measure.slope(remainder));
+        let figures = kind.deviations.len();
         let of_set = &mut rates[set * self.places * figures..][..self.places * figures];
         for (place, of_place) in of_set.chunks_exact_mut(figures).enumerate() {
             let units = kind.units(place);
@@ -354,7 +354,8 @@ impl Matching {
     /// Exchange two parts of a kind, within a set, between sets or with an unused one, while that is
     /// better; the parts that are used.
     ///
-    /// Most exchanges are known to be worse by the slope of the measure alone: a few products for each.
+    /// Most exchanges are known to be worse by the slope of the measure alone, a few products for each.
+    /// It remains a bound while the remainder changes: measures are proportional to their vectors.
     fn exchanged(
         &self,
         mut sequences: Vec<Vec<usize>>,
@@ -372,15 +373,21 @@ impl Matching {
                 let figures = self.kinds[kind].deviations.len();
                 // Of spare parts nothing counts.
                 let mut rates = vec![0.0; parts.len() * figures];
-                for (set, remainder) in remainders.iter().enumerate() {
-                    self.write_rates(kind, set, remainder, &mut rates);
-                }
+                let mut slopes = vec![Vec::new(); self.sets];
+                // By how much slopes say less than the measures, as a number below zero, until anew.
+                let mut slack = vec![f64::NEG_INFINITY; self.sets];
                 let deviations =
                     |part: usize| self.kinds[kind].deviations.iter().map(move |of| of[part]);
                 let mut held: Vec<f64> = parts.iter().flat_map(|&part| deviations(part)).collect();
                 for i in 0..used {
                     cancel.check()?;
                     *compared += parts.len() - i - 1;
+                    for (set, below) in slack.iter_mut().enumerate().filter(|(_, x)| **x < 0.0) {
+                        slopes[set] = self.measure.slope(&remainders[set]);
+                        self.write_rates(kind, set, &slopes[set], &mut rates);
+                        *below = 0.0;
+                    }
+                    let mut is_new = true;
                     for j in i + 1..parts.len() {
                         let [here, there] = [i, j].map(|slot| slot * figures..(slot + 1) * figures);
                         let shifts = held[there.clone()].iter().zip(&held[here.clone()]);
@@ -388,12 +395,16 @@ impl Matching {
                             .zip(rates[here].iter().zip(&rates[there]))
                             .map(|((new, old), (one, other))| (new - old) * (one - other))
                             .sum();
-                        if rise >= 0.0 {
+                        if rise >= 0.0 && is_new {
                             continue;
                         }
                         let (slots, moved) = ([i, j], [parts[i], parts[j]]);
                         let sets = slots.map(|slot| slot / self.places);
                         let changed = if j < used && sets[0] != sets[1] { 2 } else { 1 };
+                        let below: f64 = sets[..changed].iter().map(|&set| slack[set]).sum();
+                        if rise + below >= 0.0 {
+                            continue;
+                        }
                         let known: f64 = sets[..changed].iter().map(|&set| lengths[set]).sum();
                         if self.estimated(kind, slots, moved, &remainders) > known * (1.0 + CLOSE) {
                             continue;
@@ -419,8 +430,13 @@ impl Matching {
                             for (trial, set) in trials.iter_mut().zip(sets).take(changed) {
                                 mem::swap(&mut remainders[set], trial);
                                 lengths[set] = length(&remainders[set]);
-                                self.write_rates(kind, set, &remainders[set], &mut rates);
+                                let by_slope = slopes[set].iter();
+                                let by_slope: f64 = by_slope
+                                    .map(|&(k, x): &(usize, f64)| x * remainders[set][k])
+                                    .sum();
+                                slack[set] = by_slope - self.measure.of(&remainders[set]);
                             }
+                            is_new = false;
                         }
                     }
                 }

@@ -317,7 +317,7 @@ impl Problem<'_> {
         let mut cap = 0.0;
         for _ in 0..MOST {
             let bounds = self.capped(cap);
-            let Nearest { residual, .. } = self.nearest(wanted, &bounds)?;
+            let residual = self.left_of(wanted, &bounds)?;
             let size = residual.norm();
             if size <= 1e-3 * REACHED {
                 return Ok(bounds);
@@ -332,6 +332,13 @@ impl Problem<'_> {
         Err(self.not_found("least"))
     }
 
+    /// What the nearest weights leave of a target; at any angle they are cut to their bounds, which leaves
+    /// more than multipliers say.
+    fn left_of(&self, wanted: &Vectors, bounds: &[f64]) -> Result<Vectors> {
+        let Nearest { weights, residual } = self.nearest(wanted, bounds)?;
+        Ok(if self.directions.is_some() { residual } else { wanted - self.made(&weights) })
+    }
+
     fn capped(&self, cap: f64) -> Vec<f64> {
         self.bounds.iter().map(|bound| bound.min(cap)).collect()
     }
@@ -342,7 +349,7 @@ impl Problem<'_> {
     /// edge of what given bounds reach, no cap makes up for what is missed: those of the cap serve.
     fn relaxed(&self, wanted: &Vectors, cap: f64, missed: f64) -> Result<Vec<f64>> {
         let serves = |cap: f64| -> Result<bool> {
-            Ok(self.nearest(wanted, &self.capped(cap))?.residual.norm() <= 1e-3 * REACHED)
+            Ok(self.left_of(wanted, &self.capped(cap))?.norm() <= 1e-3 * REACHED)
         };
         let mut low = cap;
         // The cap is proved to be no more than the least: bounds further above it might not be it.
