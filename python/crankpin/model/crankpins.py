@@ -77,10 +77,7 @@ def bays(engine: Engine) -> tuple[Bay, ...]:
 
     Throws at one place are one.
     """
-    places, found = engine._core.throw_places(), []
-    for front, rear in pairwise(engine._core.bearings):
-        between = [(z, numbers) for z, numbers in places if front < z < rear]
-        if between:
-            cylinders = tuple(sorted(number for _, numbers in between for number in numbers))
-            found.append(Bay(cylinders, tuple(z for z, _ in between), (front, rear)))
-    return tuple(found)
+    return tuple(
+        Bay(tuple(cylinders), tuple(throws), (front, rear))
+        for cylinders, throws, (front, rear) in engine._core.bays()
+    )

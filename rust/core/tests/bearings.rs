@@ -7,11 +7,14 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use common::{angle, mixed, weighted};
+use crankpin_core::engine::crankpins::Bay;
 use crankpin_core::engine::{Details, Gas};
 use crankpin_core::internal::{Bearing, Internal, Part, TurningAxes};
 use crankpin_core::pressure::{Cycle, Given};
 use crankpin_core::waveform::exact;
-use crankpin_core::{Cancel, Complex64, Cylinder, Engine, Error, Request, Spectrum, Station};
+use crankpin_core::{
+    Angle, Cancel, Complex64, Cylinder, Engine, Error, Request, Spectrum, Station, Unbalance,
+};
 
 const RPM: f64 = 3000.0;
 const BORE: f64 = 0.09;
@@ -171,6 +174,32 @@ fn bearings_are_between_throws_unless_they_are_given() {
     for mains in [vec![0.06, 0.5], vec![0.0, 0.35], vec![0.0, z[1], 0.5]] {
         let error = mixed().with_mains(mains).unwrap_err().to_string();
         assert!(error.starts_with("mains = [") && error.contains("the throw of"), "{error}");
+    }
+}
+
+#[test]
+fn bays_are_between_bearings_and_have_what_turns_there() {
+    let bays = mixed().bays();
+    let cylinders: Vec<usize> = bays.iter().flat_map(|bay| bay.cylinders.clone()).collect();
+    assert_eq!(cylinders, [0, 1, 2, 3, 4, 5, 6]);
+    assert_close(&bays.iter().map(Bay::z).collect::<Vec<_>>(), &[0.05, 0.1, 0.19, 0.31, 0.4]);
+    // A weight at the pin of a cylinder of another bay has the angle of that pin, exactly.
+    let weight = |pin, z| Unbalance { amount: 0.01, angle: angle(180.0), z, pin };
+    let weights = vec![weight(Some(6), 0.16), weight(None, 0.25), weight(None, 0.6)];
+    let engine = mixed().with_counterweights(weights).unwrap();
+    let alone: Vec<Engine> = bays.iter().map(|bay| engine.of_bay(bay).unwrap()).collect();
+    let own: Vec<Vec<Angle>> = alone
+        .iter()
+        .map(|bay| bay.counterweights().iter().map(|weight| weight.angle).collect())
+        .collect();
+    let ahead = (engine.pin(6) + angle(180.0)).reduced();
+    assert_eq!(own, [vec![], vec![], vec![ahead], vec![angle(180.0)], vec![]]);
+    for (bay, alone) in bays.iter().zip(&alone) {
+        assert_eq!(alone.reference_z(), Some(bay.z()));
+        for (k, &cylinder) in bay.cylinders.iter().enumerate() {
+            assert_eq!(alone.stations()[k], engine.stations()[cylinder]);
+            assert_eq!(alone.pin(k), engine.pin(cylinder));
+        }
     }
 }
 

@@ -390,10 +390,16 @@ impl Engine {
         self.0.throws().into_iter().map(throw).collect()
     }
 
-    /// Places of the throws along the crank, ascending, and the cylinders at each.
-    fn throw_places(&self) -> Vec<(f64, Vec<usize>)> {
-        let places = self.0.throw_places().into_iter();
-        places.map(|place| (place.z, numbers(&place.cylinders))).collect()
+    /// Numbers of the cylinders, places of the throws and of the bearings of each bay of the main crank.
+    fn bays(&self) -> Vec<(Vec<usize>, Vec<f64>, [f64; 2])> {
+        let bays = self.0.bays().into_iter();
+        bays.map(|bay| (numbers(&bay.cylinders), bay.throws, bay.bearings)).collect()
+    }
+
+    /// Each bay as an engine of its own.
+    fn of_bays(&self) -> PyResult<Vec<Self>> {
+        let bays = self.0.bays();
+        bays.iter().map(|bay| self.0.of_bay(bay).or_raise().map(Self::from)).collect()
     }
 
     #[getter]

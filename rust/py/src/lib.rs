@@ -55,7 +55,7 @@ mod _core {
             cylinder_torque_harmonics, estimated_rod_inertia, motion, offset_table, rod_parts,
         },
         sweep::Sweep,
-        tolerances::{Tolerances, peaks_of_sums},
+        tolerances::{Tolerances, orders_of_samples, peaks_of_sums},
         vanishing::{star, vanishing},
         waveform::{CrankAngles, waveform},
     };

@@ -10,7 +10,7 @@ use ndarray::Array3;
 use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
-use crate::convert::{self, OrRaise, OrderNumber};
+use crate::convert::{self, OrRaise, OrderNumber, numbers};
 use crate::engine::{Engine, choice};
 use crate::interrupt;
 
@@ -99,6 +99,23 @@ impl Tolerances {
             )?,
         ))
     }
+}
+
+/// Orders of samples that leave out at most a part of each cylinder, and bounds of force, moment and torque
+/// on what others add to the nominal engine.
+#[guarded]
+#[pyfunction]
+pub fn orders_of_samples(
+    py: Python<'_>,
+    engine: &Bound<'_, Engine>,
+    rpm: f64,
+    rtol: f64,
+    torque: bool,
+) -> PyResult<(Vec<OrderNumber>, (f64, f64, f64))> {
+    let (engine, request) = (&engine.get().0, Request { rpm, reference_z: None, torque });
+    let work = |cancel: &_| core::tolerances::orders(engine, &request, rtol, cancel);
+    let (orders, bounds) = interrupt::run(py, work)?;
+    Ok((numbers(&orders), bounds.values().into()))
 }
 
 /// Largest magnitude over the turn of each row of peak phasors, one of each order, beside its mean.

@@ -292,6 +292,42 @@ def test_orders_that_the_nominal_engine_cancels_are_kept() -> None:
     assert 0.0 < t.error_bound["force"] <= 6e-4 * scale
 
 
+@pytest.mark.parametrize("seed", range(12))
+def test_what_is_left_out_is_within_its_bound_cylinder_by_cylinder(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    count = int(random.integers(1, 7))
+    engine = cp.Engine.from_lists(
+        [
+            cp.Cylinder(
+                random.uniform(0.02, 0.06),
+                random.uniform(0.09, 0.2),
+                random.uniform(0.2, 0.9),
+                pin_offset=random.uniform(-0.01, 0.01),
+                rod_inertia_excess=random.uniform(-2e-4, 2e-4),
+            )
+            for _ in range(count)
+        ],
+        tdc_deg=random.uniform(0, 360, count),
+        bank_deg=random.uniform(0, 360, count),
+        z=random.uniform(-0.3, 0.3, count),
+    )
+    rtol = 10.0 ** random.uniform(-6, -1)
+    t = cp.tolerances(engine, rpm=RPM, rotating_mass=0.001, samples=2, rtol=rtol)
+    every = engine.balance(RPM, orders=range(1, 200))
+    left = [k for k, order in enumerate(every.orders) if order not in t.orders]
+    for name in ("force", "moment", "torque", "crank_torque"):
+        peak = getattr(every, name).peak[left].sum()
+        # The sum of what is left out as if it peaked together; rounding of some 200 orders.
+        assert peak <= t.error_bound[name] * (1 + 1e-9) + 1e-9
+    for cylinder in engine.cylinders:
+        alone = cp.Engine.from_lists(cylinder, bank_deg=[90], tdc_deg=[0], z=[0])
+        kept = alone.balance(RPM, orders=t.orders)
+        exact = alone.balance(RPM, rtol=1e-12)
+        scale = cylinder.reciprocating_mass * cylinder.crank_radius * OMEGA**2
+        lost = exact.force.peak.sum() - kept.force.peak.sum()
+        assert lost <= (rtol + 1e-9) * scale
+
+
 @pytest.mark.parametrize("orders", [(2,), (2, 4), (3,)])
 def test_any_orders_can_be_asked_for(orders: tuple[int, ...]) -> None:
     every = tolerances(orders=(1, 2, 3, 4))
@@ -352,9 +388,9 @@ def test_exports_have_all_samples() -> None:
     assert data.force_peak.dims == ("sample", "order")
     assert np.array_equal(data.moment_total_peak, t.total.moment.peak)
     assert data.attrs["seed"] == 0
-    table = t.to_pandas("force")
+    table = t.tidy("force")
     assert len(table) == 20 * 4 * 4
-    assert {"sample", "order", "component", "peak", "unit"} <= set(table.columns)
+    assert {"sample", "order", "component", "peak", "unit"} <= set(table)
 
 
 def test_results_are_values() -> None:

@@ -224,7 +224,7 @@ def internal(
             )
     found = [
         external(
-            bay_alone(engine, bay),
+            alone,
             within,
             bounds,
             angles,
@@ -236,7 +236,7 @@ def internal(
         )
         if within
         else Fitted((), exact=False, missing=1.0)
-        for bay, within in zip(listed, inside, strict=True)
+        for bay, alone, within in zip(listed, _of_bays(engine), inside, strict=True)
     ]
     return Fitted(
         tuple(one for each in found for one in each.unbalances),
@@ -251,31 +251,10 @@ def _between(bay: Bay, planes: Mapping[str, float]) -> dict[str, float]:
 
 def bay_loads(engine: Engine) -> NDArray[np.complex128]:
     """Return what each throw exerts on its main bearings: forward force and moment, (n_bays, 2)."""
-    found = [turning(bay_alone(engine, bay), 1) for bay in bays(engine)]
+    found = [turning(each, 1) for each in _of_bays(engine)]
     return read_only(np.array(found, dtype=np.complex128))
 
 
-def bay_alone(engine: Engine, bay: Bay) -> Engine:
-    """Return the cylinders of a bay with what rotates there: an engine of one throw, about it."""
-    places = [number - 1 for number in bay.cylinders]
-    tdc_deg, bank_deg = ([angles[k] for k in places] for angles in engine._core.exact_angles)
-    crank_of = engine._core.cranks[1]
-    return Engine.from_lists(
-        [engine.cylinders[k] for k in places],
-        tdc_deg=tdc_deg,
-        bank_deg=bank_deg,
-        z=engine.z[places],
-        rotating_mass=engine.rotating_mass[places],
-        counterweights=[
-            _in_bay(engine, weight)
-            for weight in engine.counterweights
-            if bay.holds(weight.z) and (weight.pin is None or crank_of[weight.pin - 1] == 0)
-        ],
-        reference_z=bay.z,
-    )
-
-
-def _in_bay(engine: Engine, weight: Unbalance) -> Unbalance:
-    """Return a weight at its own angle: its pin has another number in a bay, or none."""
-    start = 0.0 if weight.pin is None else float(engine.pin_deg[weight.pin - 1])
-    return Unbalance(weight.amount, weight.z, start + inputs.degrees(weight.angle_deg))
+def _of_bays(engine: Engine) -> list[Engine]:
+    """Return each bay with what rotates there: engines of their throws, about them."""
+    return list(map(Engine, engine._core.of_bays()))

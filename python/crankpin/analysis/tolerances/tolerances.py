@@ -6,24 +6,23 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
-from crankpin._support.warnings import suppressed
-from crankpin.analysis.balance import balance, mean_piston_speed
+from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.request import Request, engine_core
 from crankpin.analysis.tolerances.samples import Tolerances, names_of
 from crankpin.analysis.tolerances.spreads import Distribution, Spreads
-from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Sequence
 
     from numpy.typing import ArrayLike
 
-    from crankpin._support.inputs import Order, Orders
+    from crankpin._support.inputs import Orders
     from crankpin._support.progress import Progress
-    from crankpin.model.cylinder import Cylinder
+    from crankpin.model.engine import Engine
 
 MOST_SEEDS = 2**64
 MOST_SAMPLES = 10**9
@@ -152,8 +151,10 @@ def tolerances(
         default_rtol=1e-4,
     )  # fmt: skip
     speed = inputs.number("rpm", rpm)
-    kept, bound = _orders(engine, speed, request)
-    request = request.at_orders(kept)
+    bound = (0.0, 0.0, 0.0)
+    if request.orders is None:
+        kept, bound = _core.orders_of_samples(engine._core, speed, request.rtol, request.torque)
+        request = request.at_orders(tuple(kept))
     shown = names_of(by, request)
     report = progress_bar.checked(progress)
     found = Tolerances(engine, speed, spreads, count, start, request, bound, shown)
@@ -172,31 +173,3 @@ def _seed(seed: object) -> int:
     if not 0 <= found < MOST_SEEDS:
         raise inputs.rejected("seed", seed, "give a whole number, 0 to 2**64 - 1")
     return found
-
-
-def _orders(
-    engine: Engine, rpm: float, request: Request
-) -> tuple[tuple[Order, ...], tuple[float, float, float]]:
-    """Return the orders of samples, and bounds on what others add to the nominal engine.
-
-    Each cylinder is evaluated alone, so that nothing cancels; balance shafts and counterweights
-    have no orders but their own.
-    """
-    if request.orders is not None:
-        return request.orders, (0.0, 0.0, 0.0)
-    found: set[Order] = {1, *(abs(shaft.ratio) for shaft in engine.shafts)}
-    force = moment = roll = 0.0
-    levers = abs(engine.z - engine.reference_z)
-    bounds: dict[Cylinder, Mapping[str, float]] = {}
-    for cylinder, lever in zip(engine.cylinders, levers.tolist(), strict=True):
-        if cylinder not in bounds:
-            single = Engine.from_lists(cylinder, bank_deg=[90], tdc_deg=[0], z=[0])
-            with suppressed():
-                # Units are checked of the engine as a whole.
-                alone = balance(single, rpm, rtol=request.rtol, torque=request.torque)
-            found |= set(alone.orders)
-            bounds[cylinder] = alone.error_bound
-        force += bounds[cylinder]["force"]
-        moment += bounds[cylinder]["force"] * lever
-        roll += bounds[cylinder].get("torque", 0.0)
-    return tuple(sorted(found)), (force, moment, roll)

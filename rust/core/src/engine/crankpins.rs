@@ -1,7 +1,7 @@
 //! Crankpins, throws and main bearings, read off an engine's stations.
 
-use super::Engine;
 use super::layout::MOST_ROUNDING;
+use super::{Engine, Unbalance};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result, shorten};
 
@@ -28,6 +28,25 @@ pub struct ThrowPlace {
     pub z: f64,
     /// Cylinders by index.
     pub cylinders: Vec<usize>,
+}
+
+/// Part of the main crank between two main bearings, with one throw or several.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bay {
+    /// Cylinders by index, ascending.
+    pub cylinders: Vec<usize>,
+    /// Places of the throws, ascending, m.
+    pub throws: Vec<f64>,
+    /// Places of the bearings in front and behind, m.
+    pub bearings: [f64; 2],
+}
+
+impl Bay {
+    /// Place midway between the first throw and the last, m.
+    #[must_use]
+    pub fn z(&self) -> f64 {
+        middle(self.throws.iter().copied())
+    }
 }
 
 impl Engine {
@@ -103,6 +122,43 @@ impl Engine {
             return vec![first - radius, first + radius];
         };
         [&[2.0 * first - front][..], &between, &[2.0 * last - rear]].concat()
+    }
+
+    /// The bays of the main crank that have throws, from front to flywheel.
+    #[must_use]
+    pub fn bays(&self) -> Vec<Bay> {
+        let (places, bearings) = (self.throw_places(), self.bearings());
+        let bay = |pair: &[f64]| {
+            let [front, rear] = [pair[0], pair[1]];
+            let between = || places.iter().filter(|place| front < place.z && place.z < rear);
+            let throws: Vec<f64> = between().map(|place| place.z).collect();
+            let mut cylinders: Vec<usize> =
+                between().flat_map(|place| &place.cylinders).copied().collect();
+            cylinders.sort_unstable();
+            (!throws.is_empty()).then_some(Bay { cylinders, throws, bearings: [front, rear] })
+        };
+        bearings.windows(2).filter_map(bay).collect()
+    }
+
+    /// The cylinders of a bay and what the main crank carries in it, as an engine of its own with moments
+    /// about the bay's plane.
+    pub fn of_bay(&self, bay: &Bay) -> Result<Self> {
+        let [front, rear] = bay.bearings;
+        let stations = bay.cylinders.iter().map(|&i| self.stations()[i]).collect();
+        let banks: Vec<usize> = bay.cylinders.iter().map(|&i| self.bank_of(i)).collect();
+        let of_main = |weight: &Unbalance| {
+            let on_main = weight.pin.is_none_or(|i| self.crank_of(i) == 0);
+            on_main && front <= weight.z && weight.z < rear
+        };
+        // The cylinder at whose pin a weight is may be in another bay.
+        let at_own_angle = |weight: Unbalance| {
+            let pin = weight.pin.map_or(Angle::ZERO, |i| self.pin(i));
+            Unbalance { angle: (pin + weight.angle).reduced(), pin: None, ..weight }
+        };
+        let weights = self.counterweights().iter().copied().filter(of_main).map(at_own_angle);
+        Self::in_banks("", "", stations, &banks)?
+            .with_counterweights(weights.collect())?
+            .with_reference(Some(bay.z()))
     }
 
     /// Rejects main bearings that leave a throw outside, or one at a bearing.

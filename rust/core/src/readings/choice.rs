@@ -7,9 +7,9 @@
 
 use std::sync::Arc;
 
-use crate::engine::Engine;
+use crate::engine::{Engine, Origin};
 use crate::load::source::{Repeats, Scale, Scaling, Source, Tail};
-use crate::load::{Loads, count};
+use crate::load::{Load, Loads, count};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -131,6 +131,39 @@ pub(crate) fn within(
         }
     }
     Ok(chosen)
+}
+
+/// Orders of which each cylinder alone leaves out at most `rtol`, as if nothing cancelled, with those of
+/// shafts and counterweights; and bounds of what all cylinders leave out, over ω². Without pressure.
+pub(crate) fn within_each(
+    rtol: f64,
+    engine: &Engine,
+    loads: &Loads,
+    torque: bool,
+    cancel: &Cancel,
+) -> Result<(Vec<Order>, OrderSums)> {
+    let (turning, others): (Vec<Load>, Vec<Load>) = loads
+        .list
+        .iter()
+        .filter(|load| load.parts.scaling == Scaling::SpeedSquared)
+        .partition(|load| load.is_turning());
+    let mut orders = turning
+        .iter()
+        .map(|load| Order::whole(load.place.ratio.unsigned_abs()))
+        .collect::<Result<Vec<_>>>()?;
+    let mut left_out = OrderSums::default().values();
+    for cylinder in 0..engine.stations().len() {
+        let mut list = others.clone();
+        list.retain(|load| load.place.origin == Origin::Cylinder(cylinder));
+        let alone = Loads { list, sources: loads.sources.clone(), ..*loads };
+        let chosen = within(rtol, engine, &alone, torque, cancel)?;
+        orders.extend(chosen.orders);
+        let lost = chosen.left_out.values();
+        left_out.iter_mut().zip(lost).for_each(|(sum, lost)| *sum += lost);
+    }
+    orders.sort_unstable();
+    orders.dedup();
+    Ok((orders, OrderSums::from_values(left_out)))
 }
 
 /// Drops orders from the smallest up while every sum stays within what it may lose.

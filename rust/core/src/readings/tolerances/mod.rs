@@ -8,13 +8,17 @@ mod terms;
 use self::terms::Terms;
 use crate::Complex64;
 use crate::engine::Engine;
+use crate::load::Loads;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::numbers::pool;
-use crate::readings::balance::{Balance, Orders, Request, Vector, angular_speed, balance};
+use crate::readings::balance::{
+    Balance, ErrorBounds, Orders, Request, Vector, angular_speed, balance,
+};
+use crate::readings::choice;
 use crate::readings::peaks::PeakFinder;
 use crate::wrench::Planar;
 
@@ -119,6 +123,20 @@ pub struct Sampled {
     pub peaks: Vec<[f64; 4]>,
 }
 
+/// Orders of samples that leave out at most `rtol` of each cylinder, because deviations undo what a layout
+/// cancels, and bounds of what the others add to the nominal engine.
+pub fn orders(
+    engine: &Engine,
+    request: &Request,
+    rtol: f64,
+    cancel: &Cancel,
+) -> Result<(Vec<Order>, ErrorBounds)> {
+    let omega = angular_speed(request.rpm)?;
+    let loads = Loads::new(engine, engine.reference(request.reference_z)?);
+    let (orders, left_out) = choice::within_each(rtol, engine, &loads, request.torque, cancel)?;
+    Ok((orders, left_out.bounds(omega * omega)))
+}
+
 impl Tolerances {
     /// Checks everything that can be wrong.
     ///
@@ -132,7 +150,6 @@ impl Tolerances {
         pin_of: &[usize],
         cancel: &Cancel,
     ) -> Result<Self> {
-        engine.check_one_crank("tolerances")?;
         if request.torque && engine.gas().is_some() {
             return Err(Error::NoTorque(
                 "tolerances do not count gas pressure; give torque=False, or engine.with_cycle(None)",
@@ -287,6 +304,14 @@ fn check_pins(engine: &Engine, pin_of: &[usize]) -> Result<()> {
     if (0..pins(pin_of)).any(|pin| !pin_of.contains(&pin)) {
         let hint = "count the pins from 0, each with a cylinder";
         return Err(Error::value("pins", format!("{pin_of:?}"), hint));
+    }
+    for (i, pin) in pin_of.iter().enumerate() {
+        let first = pin_of[..i].iter().position(|other| other == pin).unwrap_or(i);
+        if engine.crank_of(first) != engine.crank_of(i) {
+            let pair = format!("[{}, {}]", first + 1, i + 1);
+            let hint = "these cylinders are on different cranks; give them pins of their own";
+            return Err(Error::value("pins", pair, hint));
+        }
     }
     Ok(())
 }
