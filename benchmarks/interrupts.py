@@ -75,7 +75,7 @@ CALLS = {
         "cp.design(16, layout='vee', cylinder=v6.cylinders[0], bank_angle_deg=(45, 90), "
         "spacing=0.1, rpm=6000, by='total.moment.peak')"
     ),
-    "search of a V-26": "cp.search_arrangements(26)",
+    "search of a V-24": "cp.search_arrangements(24, phases_deg=range(0, 180, 15))",
     "search of a V-22, its bank angles": "cp.search_arrangements(22).bank_angles_deg",
     "search of a V-22 on shared pins": (
         "len(cp.search_arrangements(22, hold='pins', shared_pins=True))"

@@ -30,7 +30,7 @@ LONG_CALLS = {
     "harmonics with an offset": (
         "cp.slider_crank_harmonics(np.full(10_000_000, 0.9999), range(1, 5), 1e-7)"
     ),
-    "search of a V-26": "cp.search_arrangements(26)",
+    "search of a V-24": "cp.search_arrangements(24, phases_deg=range(0, 180, 15))",
     "ranking by name": (
         "cp.rank(v6, rpm=1000, bank_angle_deg=np.linspace(0, 180, 10_000_000), hold='pins', "
         "by='total.moment.peak')"

@@ -126,7 +126,7 @@ MANY = "many = cp.Engine.inline(v6.cylinders[0], throws_deg=range(1000), spacing
 @pytest.mark.parametrize(
     ("megabytes", "before", "call"),
     [
-        (1000, "", "cp.search_arrangements(26)"),
+        (1000, "", "cp.search_arrangements(24, phases_deg=range(0, 180, 15))"),
         (250, "angles = np.linspace(0, 720, 20_000_000)", "v6.waveform(3000, theta_deg=angles)"),
         (
             250,

@@ -78,6 +78,15 @@ def test_v22() -> None:
     assert len(V22) == 19_996_384
 
 
+def test_v24() -> None:
+    """The largest: twelve throws a bank, phases two by two."""
+    found = cp.search_arrangements(24)
+    assert found.candidates == 7_484_400**2
+    assert found.qualifying == 549_665_478_144
+    assert found.balanced == 217_503_504
+    assert len(found) == 682
+
+
 PROGRAM = """
 import hashlib
 import crankpin as cp
@@ -120,9 +129,13 @@ def test_progress_bar(capsys: pytest.CaptureFixture[str]) -> None:
     assert "V22" in capsys.readouterr().err
 
 
-def test_what_is_too_large_is_refused_by_name() -> None:
-    with pytest.raises(cp.InputError, match=r"cylinders: .* bytes, more .* fewer cylinders"):
-        cp.search_arrangements(30)
+def test_what_is_out_of_range_is_refused_by_name() -> None:
+    hint = "a bank has 2 to 12 throws: give 4 to 24 cylinders"
+    for cylinders in (2, 26, 30, 1000):
+        with pytest.raises(cp.InputError, match=f"cylinders = {cylinders}: {hint}"):
+            cp.search_arrangements(cylinders)
+    with pytest.raises(cp.InputError, match=f"cylinders = 26: {hint}"):
+        cp.search_arrangements(26, phases_deg=range(13))
     with pytest.raises(cp.InputError, match="progress = 3: give True"):
         cp.search_arrangements(6, progress=3)  # type: ignore[arg-type]
 

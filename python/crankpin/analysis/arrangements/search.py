@@ -126,7 +126,7 @@ def search_arrangements(
     Parameters
     ----------
     cylinders : int
-        Number of cylinders of the vee, even, 4 to 30.
+        Number of cylinders of the vee, even, 4 to 24: at most twelve throws a bank.
     alternating : bool, default False
         Only arrangements in which, in firing order, front and rear halves of a bank take turns and
         a central throw stands between a rear and a front one.
@@ -153,11 +153,11 @@ def search_arrangements(
     Raises
     ------
     InputError
-        If an argument is out of range, or the search would take more than 8 GiB.
+        If an argument is out of range.
 
     Notes
     -----
-    A V-22 (11!² pairs) takes a fraction of a second. A V-26 (13!² pairs) takes 2 GB, and has more
+    A V-22 (11!² pairs) takes a fraction of a second. Of twelve different phases there may be more
     bank angles than can be listed: ask for those :meth:`ArrangementSearch.within` a window.
 
     Examples
@@ -171,7 +171,7 @@ def search_arrangements(
     """
     count = inputs.whole("cylinders", cylinders)
     if not 0 <= count < 2**32:
-        raise inputs.rejected("cylinders", count, "give 4 to 30")
+        raise inputs.rejected("cylinders", count, "give 4 to 24")
     phases = None if phases_deg is None else inputs.angles("phases_deg", phases_deg)
     rule = inputs.flag("alternating", alternating)
     shared = inputs.flag("shared_pins", shared_pins)
@@ -259,8 +259,7 @@ class ArrangementSearch(Tabled):
     def within(self, low: float, high: float) -> ArrangementSearch:
         """Return the same search with only the bank angles from ``low`` to ``high``, degrees.
 
-        The search is not repeated, and angles outside are not computed: for searches with too many
-        angles to list.
+        The search is not repeated, and angles outside are not listed.
 
         Parameters
         ----------

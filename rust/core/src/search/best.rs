@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::Search;
 use super::angles::{AngleSource, Angles};
-use super::enumerate::{classes, packed, refuse_too_large};
+use super::enumerate::{classes, refuse_too_large};
 use super::families::Member;
 use super::family::{Families, Family};
 use super::images::Image;
@@ -26,7 +26,7 @@ const EQUAL_MOMENTS: f64 = 1e-9;
 const SHIFT: f64 = 1e12;
 
 /// Place of the arrangement that counts for those of its Z, and a second-order moment in units.
-type Key = (usize, [u64; 2]);
+type Key = (u32, [u64; 2]);
 
 /// By what pairs are compared; those alike in it are by the other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,19 +40,19 @@ pub enum Criterion {
 /// A bank: an image of an arrangement, turned.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct TurnedBank {
-    place: usize,
+    place: u32,
     image: Image,
     /// Parts of a turn.
     turned: u32,
     /// Place of the arrangement that counts for those of its Z.
-    of: usize,
+    of: u32,
     /// Twice its second-order moment.
     second: Complex64,
 }
 
 impl TurnedBank {
-    fn new(families: Families<'_>, place: usize) -> Self {
-        let second = families.moments.twice_second(packed(families.entries.all[place]));
+    fn new(families: Families<'_>, place: u32) -> Self {
+        let second = families.moments.twice_second(families.packed(place));
         Self { place, image: Image::ITSELF, turned: 0, of: place, second }
     }
 
@@ -70,8 +70,8 @@ impl TurnedBank {
 
     /// Phases of its throws, front to flywheel.
     pub(super) fn phases(self, families: Families<'_>) -> Vec<u32> {
-        let Families { moments, entries } = families;
-        let phases = moments.images.phases(packed(entries.all[self.place]), self.image);
+        let moments = families.moments;
+        let phases = moments.images.phases(families.packed(self.place), self.image);
         phases.map(|phase| (phase + self.turned) % moments.bank.parts).collect()
     }
 }
@@ -165,14 +165,10 @@ impl Equals {
             let (mut banks, mut all) = (Vec::new(), Vec::new());
             for class in classes(range) {
                 cancel.check()?;
-                let mut stored = Ok(());
                 families.sorted_out(place, class, &mut members, |of, member| {
-                    if stored.is_ok() {
-                        stored = Self::add(families, of, member, &mut banks);
-                    }
-                });
-                stored?;
-                banks.sort_unstable_by_key(|(key, bank)| (*key, bank.place, bank.image.bits()));
+                    Self::add(families, of, member, &mut banks)
+                })?;
+                banks.sort_unstable_by_key(|(key, bank)| (*key, bank.place, bank.image));
                 banks.dedup_by_key(|(key, _)| *key);
                 let size = |bank: &TurnedBank| bank.second.norm_sqr();
                 banks.sort_by(|(_, a), (_, b)| a.of.cmp(&b.of).then(size(a).total_cmp(&size(b))));
@@ -194,8 +190,8 @@ impl Equals {
         member: Member,
         to: &mut Vec<(Key, TurnedBank)>,
     ) -> Result<()> {
-        let Families { moments, entries } = families;
-        let known = |member: Member| (packed(entries.all[member.place]), member.argument);
+        let moments = families.moments;
+        let known = |member: Member| (families.packed(member.place), member.argument);
         let near = near(moments.twice(known(of).0).norm());
         for image in moments.images.all() {
             if let Some(turned) = moments.turned_to(known(of), known(member), image, near) {
@@ -209,7 +205,7 @@ impl Equals {
     }
 
     /// Those with the Z of the arrangement at a place, the first in its class that has it.
-    fn of(&self, place: usize) -> &[TurnedBank] {
+    fn of(&self, place: u32) -> &[TurnedBank] {
         let rest = &self.0[self.0.partition_point(|bank| bank.of < place)..];
         &rest[..rest.partition_point(|bank| bank.of == place)]
     }
@@ -234,12 +230,10 @@ impl Search {
         let families = self.families();
         let radians = bank_angle.to_radians();
         let (sin, cos) = (0.5 * radians).sin_cos();
-        let size = |place: usize| {
-            self.moments.twice(packed(self.entries.all[place])).norm() * radians.sin()
-        };
+        let size = |place: u32| self.moments.twice(families.packed(place)).norm() * radians.sin();
         let mut best = Best { by, second: f64::INFINITY, first: f64::INFINITY, pair: None };
         for family in angles.alike(origin, families)? {
-            let (second, image) = family.second();
+            let Family { first, second, image, .. } = family;
             let (turned, exchanged) = self.ahead(origin, family);
             // With the pins held, phases turn with the bores.
             let bores = match self.hold {
@@ -253,8 +247,7 @@ impl Search {
             match (self.equals(cancel)?, family.is_common()) {
                 (None, true) => best = self.best_of_all(best, pairs, radians.sin(), cancel)?,
                 (None, false) => {
-                    let [one, other] =
-                        [family.first(), second].map(|p| TurnedBank::new(families, p));
+                    let [one, other] = [first, second].map(|p| TurnedBank::new(families, p));
                     pairs.compare(&mut best, size(one.place), &[one], &[other]);
                 }
                 (Some(equals), true) => {
@@ -264,8 +257,8 @@ impl Search {
                     }
                 }
                 (Some(equals), false) => {
-                    let [one, other] = [family.first(), second].map(|place| equals.of(place));
-                    pairs.compare(&mut best, size(family.first()), one, other);
+                    let [one, other] = [first, second].map(|place| equals.of(place));
+                    pairs.compare(&mut best, size(first), one, other);
                 }
             }
         }
@@ -286,11 +279,11 @@ impl Search {
         let found = pool::map(cancel, self.entries.ranges(), |(start, range)| {
             cancel.check()?;
             let mut best = best;
-            for (k, &entry) in range.iter().enumerate().skip(balanced.saturating_sub(start)) {
-                let size = self.moments.twice(packed(entry)).norm() * sine;
-                let second = self.moments.twice_second(packed(entry)).norm() * factor;
+            for (k, entry) in range.iter().enumerate().skip(balanced.saturating_sub(start)) {
+                let size = self.moments.twice(entry.packed).norm() * sine;
+                let second = self.moments.twice_second(entry.packed).norm() * factor;
                 if best.exceeds(second, size) {
-                    let bank = TurnedBank::new(pairs.families, start + k);
+                    let bank = TurnedBank::new(pairs.families, (start + k) as u32);
                     pairs.take(&mut best, second, size, [bank; 2]);
                 }
             }
@@ -319,7 +312,7 @@ impl Search {
     /// have equal Z, and exchanging them is the second. At half a turn between different Z, turns are
     /// even in number, and moments of second order are turned by an odd number of double turns against
     /// the first: a whole circle for two turns, half of one for four, which reversing makes up for; with
-    /// six or more, and up to 15 throws, there is no such pair.
+    /// six or more, and up to 12 throws, there is no such pair.
     fn ahead(&self, origin: AngleSource, family: Family) -> (u32, bool) {
         let Moments { bank, turn, .. } = &self.moments;
         // The family's own angle is σ·f + j·turn; α = ε|α| with ε = σ·sign has the same f.

@@ -1,48 +1,39 @@
 //! All arrangements of a bank up to turning the crank and to their images, by the exact key of |Z|².
 //!
 //! Throws are placed in pairs from the ends inward, so that images can be compared, and cut, as far
-//! as the throws stand. Two walks: one counts how many arrangements fall into each range of keys, one
-//! puts them there; nothing is held but the arrangements themselves.
+//! as the throws stand.
 
 use std::cmp::Ordering;
 
 use super::images::{Image, Images, Packed};
 use super::magnitude::Magnitude;
+use super::ranges::{self, Ranges};
 use super::throws::{Bank, MOST_THROWS, Pool};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
-use crate::numbers::memory::{free_later, zeros};
-use crate::numbers::pool;
+use crate::numbers::{memory, pool};
 
-/// Most memory that the arrangements of a search may take, bytes.
+/// Most memory that what is listed of a search may take, bytes.
 pub const LARGEST_SEARCH: u128 = 8 << 30;
 
 /// Pairs of throws in the largest bank.
 const MOST_PAIRS: usize = MOST_THROWS / 2;
-/// Arrangements in one range of keys, about, and most ranges.
-const RANGE: u128 = 4096;
-const MOST_RANGES: u128 = 512;
 /// Tasks that share the walk, at least, where it is long.
 const TASKS: usize = 32;
 /// Pairs of throws below which cancellation is not checked.
 const UNINTERRUPTED: usize = 3;
 
-/// An arrangement and the number of its images, below the key of its |Z|²: the order is by key.
-/// A plain integer, for memory that is zero to begin with costs nothing before it is written.
-pub(super) type Entry = u128;
-
-#[inline]
-pub(super) fn key(entry: Entry) -> u64 {
-    (entry >> 64) as u64
+/// An arrangement and the number of its images, by the key of its |Z|².
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Entry {
+    pub key: u64,
+    pub packed: Packed,
 }
 
-#[inline]
-pub(super) fn packed(entry: Entry) -> Packed {
-    entry as u64
-}
-
-pub(super) fn image_count(entry: Entry) -> u64 {
-    packed(entry) & 15
+impl Entry {
+    pub(super) fn image_count(self) -> u64 {
+        self.packed & 15
+    }
 }
 
 /// The first of each set of images, sorted within ranges of keys.
@@ -61,31 +52,21 @@ impl Entries {
         cancel: &Cancel,
     ) -> Result<Self> {
         let arrangements = bank.count() / u128::from(bank.turns * images.count());
-        let bytes = arrangements * size_of::<Entry>() as u128;
-        refuse_too_large("cylinders", bytes, "ask for fewer cylinders")?;
+        let ranges = ranges::count(arrangements);
         let walk = Walk::new(bank, magnitude, images);
-        let tasks = walk.tasks(if arrangements > RANGE { TASKS } else { 1 }, bank);
-        let ranges = (arrangements / RANGE).clamp(1, MOST_RANGES).next_power_of_two() as usize;
-        cancel.expect(2 * tasks.len() + ranges);
-        let range = |key: u64| ((u128::from(key) * ranges as u128) >> 64) as usize;
-        let counts = pool::map(cancel, tasks.iter().collect(), |task| {
+        let tasks = walk.tasks(if ranges > 1 { TASKS } else { 1 }, bank)?;
+        cancel.expect(tasks.len() + ranges);
+        let gathered = pool::map(cancel, tasks, |task| {
             cancel.step()?;
-            let mut counts = vec![0; ranges];
-            walk.descend(task, cancel, &mut |key, _| counts[range(key)] += 1)?;
-            Ok(counts)
+            let mut entries = Ranges::new(ranges);
+            walk.descend(&task, cancel, &mut |entry| {
+                // Keys are spread evenly, and equal ones are in one range.
+                let range = (u128::from(entry.key) * ranges as u128) >> 64;
+                entries.push(range as usize, entry)
+            })?;
+            Ok(entries)
         })?;
-        let mut starts = vec![0];
-        for range in 0..ranges {
-            let size: usize = counts.iter().map(|counts| counts[range]).sum();
-            starts.push(starts[range] + size);
-        }
-        let mut all = zeros(starts[ranges])?;
-        let found = fill(&mut all, &walk, &tasks, &counts, range, cancel)
-            .and_then(|()| sort(&mut all, &starts, cancel));
-        if let Err(error) = found {
-            free_later(all);
-            return Err(error);
-        }
+        let (all, starts) = Ranges::sorted(gathered, cancel)?;
         Ok(Self { all, starts })
     }
 
@@ -103,50 +84,9 @@ pub(super) fn refuse_too_large(argument: &str, bytes: u128, hint: &'static str) 
     Err(Error::TooLarge { argument: argument.into(), bytes, limit: LARGEST_SEARCH, hint })
 }
 
-/// Each task puts its arrangements where they belong; it has a place in each range.
-fn fill(
-    all: &mut [Entry],
-    walk: &Walk<'_>,
-    tasks: &[Node],
-    counts: &[Vec<usize>],
-    range: impl Fn(u64) -> usize + Sync,
-    cancel: &Cancel,
-) -> Result<()> {
-    let ranges = counts.first().map_or(0, Vec::len);
-    let mut places: Vec<Vec<std::slice::IterMut<'_, Entry>>> =
-        tasks.iter().map(|_| Vec::with_capacity(ranges)).collect();
-    let mut rest = all;
-    for range in 0..ranges {
-        for (places, counts) in places.iter_mut().zip(counts) {
-            places.extend(rest.split_off_mut(..counts[range]).map(|place| place.iter_mut()));
-        }
-    }
-    let tasks = tasks.iter().zip(places).collect();
-    pool::map(cancel, tasks, |(task, mut places): (&Node, Vec<std::slice::IterMut<'_, Entry>>)| {
-        cancel.step()?;
-        walk.descend(task, cancel, &mut |key, packed| {
-            if let Some(place) = places[range(key)].next() {
-                *place = (Entry::from(key) << 64) | Entry::from(packed);
-            }
-        })
-    })
-    .map(drop)
-}
-
-fn sort(all: &mut [Entry], starts: &[usize], cancel: &Cancel) -> Result<()> {
-    let mut rest = all;
-    let parts = starts.windows(2).filter_map(|ends| rest.split_off_mut(..ends[1] - ends[0]));
-    let parts = parts.collect();
-    pool::map(cancel, parts, |part| {
-        part.sort_unstable();
-        cancel.step()
-    })
-    .map(drop)
-}
-
 /// Arrangements of equal |Z|.
 pub(super) fn classes(range: &[Entry]) -> impl Iterator<Item = &[Entry]> {
-    range.chunk_by(|&a, &b| key(a) == key(b))
+    range.chunk_by(|a, b| a.key == b.key)
 }
 
 /// Throws placed so far, in pairs from the ends inward.
@@ -200,7 +140,7 @@ impl<'a> Walk<'a> {
     }
 
     /// Nodes from which the whole walk goes on, at least `least` unless it ends there.
-    fn tasks(&self, least: usize, bank: &Bank) -> Vec<Node> {
+    fn tasks(&self, least: usize, bank: &Bank) -> Result<Vec<Node>> {
         let others = self.images.all().skip(1);
         let root = |pool| Node {
             pool,
@@ -215,11 +155,11 @@ impl<'a> Walk<'a> {
         while nodes.len() < least && nodes.iter().any(|node| self.pairs_left(node) > 1) {
             let mut next = Vec::new();
             for node in &nodes {
-                self.pairs(node, |pair| next.push(self.child(node, &pair)));
+                self.pairs(node, |pair| memory::push(&mut next, self.child(node, &pair)))?;
             }
             nodes = next;
         }
-        nodes
+        Ok(nodes)
     }
 
     fn pairs_left(&self, node: &Node) -> usize {
@@ -231,29 +171,22 @@ impl<'a> Walk<'a> {
         &self,
         node: &Node,
         cancel: &Cancel,
-        found: &mut impl FnMut(u64, Packed),
+        found: &mut impl FnMut(Entry) -> Result<()>,
     ) -> Result<()> {
         let left = self.pairs_left(node);
         if left == 1 {
-            self.pairs(node, |pair| self.leaf(node, &pair, found));
-            return Ok(());
+            return self.pairs(node, |pair| found(self.leaf(node, &pair)));
         }
         if left > UNINTERRUPTED {
             cancel.check()?;
         }
-        let mut result = Ok(());
-        self.pairs(node, |pair| {
-            if result.is_ok() {
-                result = self.descend(&self.child(node, &pair), cancel, found);
-            }
-        });
-        result
+        self.pairs(node, |pair| self.descend(&self.child(node, &pair), cancel, found))
     }
 
     /// Every next pair of throws that no image comes before. Images have the front throw turned back
     /// to a first phase: with another one there, an image comes before.
     #[inline]
-    fn pairs(&self, node: &Node, mut found: impl FnMut(Pair)) {
+    fn pairs(&self, node: &Node, mut found: impl FnMut(Pair) -> Result<()>) -> Result<()> {
         for front in node.pool.open(0) {
             let mut one = node.pool.clone();
             one.take(0, front);
@@ -261,10 +194,11 @@ impl<'a> Walk<'a> {
                 if let Some(tied) = self.tied(node, front, rear) {
                     let mut pool = one.clone();
                     pool.take(1, rear);
-                    found(Pair { front, rear, tied, pool });
+                    found(Pair { front, rear, tied, pool })?;
                 }
             }
         }
+        Ok(())
     }
 
     /// Images that are still equal, if none comes before the arrangement.
@@ -327,13 +261,13 @@ impl<'a> Walk<'a> {
 
     /// A central throw has no weight.
     #[inline]
-    fn leaf(&self, node: &Node, pair: &Pair, found: &mut impl FnMut(u64, Packed)) {
+    fn leaf(&self, node: &Node, pair: &Pair) -> Entry {
         let mut packed = self.packed(node, pair);
         if self.throws % 2 == 1 {
             packed |= (pair.pool.centre() as u64) << (4 * (self.throws / 2) + 4);
         }
         let images = self.images.count() / (1 + pair.tied.count_ones());
-        found(self.key(node, pair), packed | u64::from(images));
+        Entry { key: self.key(node, pair), packed: packed | u64::from(images) }
     }
 }
 
@@ -368,11 +302,11 @@ mod tests {
             let bank = &moments.bank;
             let magnitude = Magnitude::new(bank, &moments.ring).unwrap();
             let entries = Entries::new(bank, &magnitude, &moments.images, &Cancel::new()).unwrap();
-            let images: u64 = entries.all.iter().map(|&entry| image_count(entry)).sum();
+            let images: u64 = entries.all.iter().map(|entry| entry.image_count()).sum();
             assert_eq!(u128::from(images) * u128::from(bank.turns), bank.count(), "{bank:?}");
             for &entry in &entries.all {
                 for image in moments.images.all() {
-                    let phases: Vec<u32> = moments.images.phases(packed(entry), image).collect();
+                    let phases: Vec<u32> = moments.images.phases(entry.packed, image).collect();
                     let mut ascending = phases.clone();
                     ascending.sort_unstable();
                     assert_eq!(ascending, bank.phases);

@@ -7,10 +7,11 @@
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use super::enumerate::{Entry, classes, packed, refuse_too_large};
+use super::enumerate::{Entry, classes, refuse_too_large};
 use super::family::{Families, Family, Same};
 use super::images::Image;
 use super::moments::{NEAR, fold, near};
+use super::ranges::{self, Ranges};
 use super::window::WindowTarget;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -21,9 +22,8 @@ use crate::numbers::pool;
 const SMALL: f64 = 0.1;
 /// How near folded angles may be by rounding alone, unless |Z| is small.
 const NEAREST_FOLDED: f64 = NEAR / SMALL;
-/// Families in one range of folded angles, about, and most ranges.
-const RANGE: usize = 4096;
-const MOST_RANGES: usize = 512;
+/// Families between two checks for cancellation: each takes 1 µs, or two.
+const FAMILIES_PER_CHECK: usize = 4096;
 
 /// Families ascending by their folded angles, each angle once; and those whose angle is one of these,
 /// [`NEAREST_FOLDED`] to it.
@@ -36,7 +36,7 @@ pub(super) struct Distinct {
 /// An arrangement of a class.
 #[derive(Clone, Copy)]
 pub(super) struct Member {
-    pub place: usize,
+    pub place: u32,
     /// Of Z.
     pub argument: f64,
     /// What turns and images leave of it.
@@ -46,83 +46,46 @@ pub(super) struct Member {
 impl Families<'_> {
     /// Those whose folded angle is wanted.
     pub(super) fn all(self, wanted: &WindowTarget, cancel: &Cancel) -> Result<Distinct> {
-        let entries = self.entries.all.len();
-        refuse_too_many(least(entries, self.moments.images.mirror.is_some(), wanted), entries)?;
-        let ranges = (entries / RANGE).clamp(1, MOST_RANGES);
+        let ranges = ranges::count(self.entries.all.len() as u128);
         let per_radian = ranges as f64 / (0.5 * self.moments.turn);
-        self.in_ranges(ranges, per_radian, wanted, cancel)
-    }
-
-    /// The same, divided among ranges of folded angles.
-    fn in_ranges(
-        self,
-        ranges: usize,
-        per_radian: f64,
-        wanted: &WindowTarget,
-        cancel: &Cancel,
-    ) -> Result<Distinct> {
+        let range = |family: Family| ((family.folded() * per_radian) as usize).min(ranges - 1);
         cancel.expect(self.entries.ranges().len() + ranges);
         let count = AtomicUsize::new(0);
-        let mut found = pool::map(cancel, self.entries.ranges(), |(start, range)| {
-            let mut families = Vec::new();
-            let mut stored = Ok(());
-            let mut members = Vec::new();
-            let mut place = start;
-            for class in classes(range) {
-                self.sorted_out(place, class, &mut members, |_, _| ());
+        let mut gathered = pool::map(cancel, self.entries.ranges(), |(start, entries)| {
+            let (mut families, mut members) = (Ranges::new(ranges), Vec::new());
+            let (mut place, mut found) = (start, 0);
+            for class in classes(entries) {
+                self.sorted_out(place, class, &mut members, |_, _| Ok(()))?;
                 self.class(&members, |family| {
-                    if wanted.has(family.folded()) && stored.is_ok() {
-                        stored = memory::push(&mut families, family);
+                    if !wanted.has(family.folded()) {
+                        return Ok(());
                     }
-                });
+                    found += 1;
+                    families.push(range(family), family)
+                })?;
                 place += class.len();
             }
-            stored?;
-            count.fetch_add(families.len(), Ordering::Relaxed);
-            refuse_too_many(count.load(Ordering::Relaxed), self.entries.all.len())?;
+            let found = count.fetch_add(found, Ordering::Relaxed) + found;
+            refuse_too_many(found, self.entries.all.len())?;
             cancel.step()?;
-            Sorted::new(&families, ranges, per_radian)
+            Ok(families)
         })?;
-        let common = self.common().into_iter().filter(|family| wanted.has(family.folded()));
-        found.push(Sorted::new(&common.collect::<Vec<_>>(), ranges, per_radian)?);
-        let parts = pool::map(cancel, (0..ranges).collect(), |range| {
-            let mut families = memory::room(found.iter().map(|f| f.range(range).len()).sum())?;
-            for sorted in &found {
-                families.extend_from_slice(sorted.range(range));
-            }
-            families.sort_unstable();
-            cancel.step()?;
-            let mut small = Vec::new();
-            families.retain(|family| {
-                if family.is_small() {
-                    small.push(*family); // bounded: few families have a small |Z|
-                }
-                !family.is_small()
-            });
-            let room = memory::room(families.len())?;
-            let mut distinct = Distinct { families: room, others: Vec::new() };
-            distinct.join(&families, &mut Same::new(self))?;
-            Ok((distinct, small))
-        })?;
-        let count = |of: fn(&Distinct) -> usize| parts.iter().map(|(part, _)| of(part)).sum();
-        let mut all = Distinct {
-            families: memory::room(count(|part| part.families.len()))?,
-            others: memory::room(count(|part| part.others.len()))?,
-        };
-        let mut small = Vec::new();
-        let mut same = Same::new(self);
-        for (part, of_small) in parts {
-            // Only what is close to the joint can be there already.
-            let close = |family: &Family| {
-                let last = all.families.last();
-                last.is_some_and(|last| family.folded() - last.folded() <= NEAREST_FOLDED)
-            };
-            let (joint, rest) = part.families.split_at(part.families.partition_point(close));
-            all.join(joint, &mut same)?;
-            all.families.extend(rest);
-            memory::extend(&mut all.others, part.others.into_iter())?;
-            small.extend(of_small); // bounded: few families have a small |Z|
+        let mut common = Ranges::new(ranges);
+        for family in self.common().into_iter().filter(|family| wanted.has(family.folded())) {
+            common.push(range(family), family)?;
         }
+        gathered.push(common);
+        let (mut families, _) = Ranges::sorted(gathered, cancel)?;
+        let mut small = Vec::new();
+        families.retain(|family| {
+            if family.small {
+                small.push(*family); // bounded: few families have a small |Z|
+            }
+            !family.small
+        });
+        let mut all = Distinct::default();
+        let mut same = Same::new(self);
+        all.join(families, &mut same, cancel)?;
         self.insert(&mut all, &small, &mut same)?;
         all.others.sort_unstable();
         Ok(all)
@@ -132,7 +95,7 @@ impl Families<'_> {
     fn insert(self, to: &mut Distinct, families: &[Family], same: &mut Same<'_>) -> Result<()> {
         let mut new: Vec<Family> = Vec::new();
         for &family in families {
-            let size = self.moments.twice(packed(self.entries.all[family.first()])).norm();
+            let size = self.moments.twice(self.packed(family.first)).norm();
             let (low, high) = (family.folded() - near(size), family.folded() + near(size));
             let start = to.families.partition_point(|other| other.folded() < low);
             let close = to.families[start..].iter().take_while(|other| other.folded() <= high);
@@ -155,27 +118,27 @@ impl Families<'_> {
         start: usize,
         class: &[Entry],
         members: &mut Vec<Member>,
-        mut each: impl FnMut(Member, Member),
-    ) {
+        mut each: impl FnMut(Member, Member) -> Result<()>,
+    ) -> Result<()> {
         members.clear();
         // Rows of a remainder that is zero are zero: the key is 0, and the class is the first.
-        if start == 0 && self.moments.vanishes(packed(class[0])) {
-            return;
+        if start == 0 && self.moments.vanishes(class[0].packed) {
+            return Ok(());
         }
         for (i, &entry) in class.iter().enumerate() {
-            let argument = self.moments.twice(packed(entry)).arg();
-            members.push(Member { place: start + i, argument, folded: 0.0 });
+            let argument = self.moments.twice(entry.packed).arg();
+            members.push(Member { place: (start + i) as u32, argument, folded: 0.0 });
         }
         if let &mut [only] = members.as_mut_slice() {
-            each(only, only);
-            return;
+            return each(only, only);
         }
         for member in &mut *members {
             member.folded = self.moments.folded(member.argument);
         }
         members.sort_unstable_by(|a, b| a.folded.total_cmp(&b.folded).then(a.place.cmp(&b.place)));
-        let near = near(self.moments.twice(packed(class[0])).norm());
-        let known = |member: &Member| (packed(class[member.place - start]), member.argument);
+        let near = near(self.moments.twice(class[0].packed).norm());
+        let known =
+            |member: &Member| (class[member.place as usize - start].packed, member.argument);
         let mut distinct = 0;
         for i in 0..members.len() {
             let member = members[i];
@@ -184,14 +147,15 @@ impl Families<'_> {
                 .take_while(|other| member.folded - other.folded <= near)
                 .find(|other| self.moments.same(known(&member), known(other), near));
             if let Some(&same) = same {
-                each(same, member);
+                each(same, member)?;
             } else {
-                each(member, member);
+                each(member, member)?;
                 members[distinct] = member;
                 distinct += 1;
             }
         }
         members.truncate(distinct);
+        Ok(())
     }
 
     /// The families of one class: all pairs of its members, the second as all its images.
@@ -199,9 +163,9 @@ impl Families<'_> {
     /// An arrangement with itself, or reversed, has the same angles in every class: they are left to
     /// [`Self::common`].
     #[inline]
-    fn class(self, members: &[Member], mut found: impl FnMut(Family)) {
-        let Some(first) = members.first() else { return };
-        let size = self.moments.twice(packed(self.entries.all[first.place])).norm();
+    fn class(self, members: &[Member], mut found: impl FnMut(Family) -> Result<()>) -> Result<()> {
+        let Some(first) = members.first() else { return Ok(()) };
+        let size = self.moments.twice(self.packed(first.place)).norm();
         for (a, first) in members.iter().enumerate() {
             for (b, second) in members[a..].iter().enumerate() {
                 for image in self.moments.images.all() {
@@ -210,10 +174,12 @@ impl Families<'_> {
                     }
                     let angle = PI + self.moments.seen(second.argument, image) - first.argument;
                     let folded = fold(angle, self.moments.turn);
-                    found(Family::new(folded, first.place, second.place, image, size < SMALL));
+                    let small = size < SMALL;
+                    found(Family::new(folded, [first.place, second.place], image, small))?;
                 }
             }
         }
+        Ok(())
     }
 
     /// Those with the angle of a family among others, and itself.
@@ -230,10 +196,7 @@ impl Families<'_> {
             }
         }
         // One sequence, whichever of them is listed.
-        let rank = |family: &Family| {
-            let (second, image) = family.second();
-            (family.first(), second, image.bits())
-        };
+        let rank = |family: &Family| (family.first, family.second, family.image);
         alike.sort_unstable_by_key(rank);
         Ok(alike)
     }
@@ -241,74 +204,45 @@ impl Families<'_> {
     /// What every class has: a bank with itself, at half a circle, and with itself reversed, at 0.
     fn common(self) -> Vec<Family> {
         let entries = self.entries.all.iter();
-        let place = entries.enumerate().find(|(_, e)| !self.moments.vanishes(packed(**e)));
-        let family = |place: usize, angle: f64, image: Image| {
-            Family::new(fold(angle, self.moments.turn), place, place, image, false)
+        let place = entries.enumerate().find(|(_, e)| !self.moments.vanishes(e.packed));
+        let family = |place: u32, angle: f64, image: Image| {
+            Family::new(fold(angle, self.moments.turn), [place; 2], image, false)
         };
         place.map_or_else(Vec::new, |(place, _)| {
+            let place = place as u32;
             vec![family(place, PI, Image::ITSELF), family(place, 0.0, Image::OTHERS[0])]
         })
     }
 }
 
 impl Distinct {
-    /// Append ascending families.
-    fn join(&mut self, families: &[Family], same: &mut Same<'_>) -> Result<()> {
-        for &family in families {
-            let last = self.families.iter().rev();
+    /// Take ascending families.
+    fn join(&mut self, families: Vec<Family>, same: &mut Same<'_>, cancel: &Cancel) -> Result<()> {
+        let mut distinct = 0;
+        self.families = families;
+        for k in 0..self.families.len() {
+            if k.is_multiple_of(FAMILIES_PER_CHECK) {
+                cancel.check()?;
+            }
+            let family = self.families[k];
+            let last = self.families[..distinct].iter().rev();
             let mut close =
                 last.take_while(|other| family.folded() - other.folded() <= NEAREST_FOLDED);
             if close.any(|&other| same.angle(family, other)) {
                 memory::push(&mut self.others, family)?;
             } else {
-                self.families.push(family);
+                self.families[distinct] = family;
+                distinct += 1;
             }
         }
+        self.families.truncate(distinct);
         Ok(())
     }
 }
 
-/// Families grouped by ranges of their folded angles.
-struct Sorted {
-    families: Vec<Family>,
-    /// Where each range starts, and the end.
-    starts: Vec<usize>,
-}
-
-impl Sorted {
-    fn new(families: &[Family], ranges: usize, per_radian: f64) -> Result<Self> {
-        let range = |family: &Family| ((family.folded() * per_radian) as usize).min(ranges - 1);
-        let mut starts = vec![0; ranges + 1];
-        for family in families {
-            starts[range(family) + 1] += 1;
-        }
-        for i in 0..ranges {
-            starts[i + 1] += starts[i];
-        }
-        let mut next = starts.clone();
-        let mut sorted = memory::collected(families.iter().copied())?;
-        for family in families {
-            let place = &mut next[range(family)];
-            sorted[*place] = *family;
-            *place += 1;
-        }
-        Ok(Self { families: sorted, starts })
-    }
-
-    fn range(&self, range: usize) -> &[Family] {
-        &self.families[self.starts[range]..self.starts[range + 1]]
-    }
-}
-
-/// How many families are sure to come: half of what is to be expected where each arrangement and its
-/// mirror image make two.
-fn least(entries: usize, mirrored: bool, wanted: &WindowTarget) -> usize {
-    if mirrored { (entries as f64 * wanted.share()) as usize } else { 0 }
-}
-
-/// Families and entries are of one size; families are grouped, gathered, sorted and joined.
+/// Families are gathered, sorted and joined.
 fn refuse_too_many(families: usize, entries: usize) -> Result<()> {
-    let bytes = (4 * families as u128 + entries as u128) * size_of::<Family>() as u128;
+    let bytes = (3 * families * size_of::<Family>() + entries * size_of::<Entry>()) as u128;
     let hint = "ask for those within a narrower window, or for the counts alone";
     refuse_too_large("bank angles", bytes, hint)
 }
@@ -319,10 +253,8 @@ mod tests {
     use super::super::magnitude::Magnitude;
     use super::super::moments::Moments;
     use super::super::throws::Bank;
-    use std::f64::consts::TAU;
 
     use super::*;
-    use crate::engine::Hold;
     use crate::numbers::angle::Angle;
 
     fn with_entries(bank: Bank, look: impl Fn(&Moments, &Entries)) {
@@ -360,8 +292,12 @@ mod tests {
                 for class in classes(&entries.all) {
                     let start = entries.all.iter().position(|e| e == &class[0]).unwrap();
                     let mut members = Vec::new();
-                    families.sorted_out(start, class, &mut members, |_, _| ());
-                    families.class(&members, |family| all.push(family));
+                    families.sorted_out(start, class, &mut members, |_, _| Ok(())).unwrap();
+                    let push = |family| {
+                        all.push(family);
+                        Ok(())
+                    };
+                    families.class(&members, push).unwrap();
                 }
                 all.extend(families.common());
                 let mut same = Same::new(families);
@@ -380,8 +316,8 @@ mod tests {
         for bank in banks() {
             with_entries(bank, |moments, entries| {
                 let of = |entry: &Entry| {
-                    let z = moments.twice(packed(*entry));
-                    (packed(*entry), z.norm(), z.arg())
+                    let z = moments.twice(entry.packed);
+                    (entry.packed, z.norm(), z.arg())
                 };
                 let all: Vec<_> = entries.all.iter().map(of).filter(|a| a.1 > APART).collect();
                 for &(a, size_a, arg_a) in &all {
@@ -429,13 +365,12 @@ mod tests {
 
     #[test]
     fn what_does_not_fit_into_memory_is_refused() {
-        let most = (LARGEST_SEARCH / 16) as usize;
-        for (families, entries) in [(0, most), (most / 4, 0), (most / 4 - 1, 4)] {
+        let most = LARGEST_SEARCH as usize;
+        for (families, entries) in [(0, most / 16), (most / 72, 0)] {
             assert!(refuse_too_many(families, entries).is_ok());
             assert!(refuse_too_many(families, entries + 1).is_err());
+            assert!(refuse_too_many(families + 1, entries).is_err());
         }
-        let quarter = WindowTarget::new([0.0, 45.0], Hold::Firing, TAU);
-        assert_eq!((least(1000, true, &quarter), least(1000, false, &quarter)), (250, 0));
     }
 
     #[test]
@@ -462,8 +397,12 @@ mod tests {
     fn of_class(families: Families<'_>, class: &[Entry]) -> (usize, Vec<Family>) {
         let start = families.entries.all.iter().position(|e| e == &class[0]).unwrap();
         let (mut members, mut found) = (Vec::new(), Vec::new());
-        families.sorted_out(start, class, &mut members, |_, _| ());
-        families.class(&members, |family| found.push(family));
+        families.sorted_out(start, class, &mut members, |_, _| Ok(())).unwrap();
+        let push = |family| {
+            found.push(family);
+            Ok(())
+        };
+        families.class(&members, push).unwrap();
         (members.len(), found)
     }
 
@@ -472,7 +411,7 @@ mod tests {
         for bank in banks().into_iter().chain(small_banks()) {
             with_entries(bank, |moments, entries| {
                 for class in classes(&entries.all) {
-                    let z = |entry: &Entry| moments.twice(packed(*entry));
+                    let z = |entry: &Entry| moments.twice(entry.packed);
                     let size = z(&class[0]).norm();
                     let mut folded: Vec<f64> =
                         class.iter().map(|entry| moments.folded(z(entry).arg())).collect();
@@ -486,7 +425,7 @@ mod tests {
                     let pairs = count * count.saturating_sub(1) / 2 * images;
                     // Itself and itself reversed are common to all.
                     assert_eq!(found.len(), pairs + count * (images - 2));
-                    assert!(found.iter().all(|family| family.is_small() == (size < SMALL)));
+                    assert!(found.iter().all(|family| family.small == (size < SMALL)));
                 }
             });
         }
@@ -499,12 +438,12 @@ mod tests {
                 let families = Families { moments, entries };
                 let mut found: Vec<Family> = classes(&entries.all)
                     .flat_map(|class| of_class(families, class).1)
-                    .filter(|family| !family.is_small())
+                    .filter(|family| !family.small)
                     .take(200)
                     .collect();
                 found.sort();
                 let mut joined = Distinct::default();
-                joined.join(&found, &mut Same::new(families)).unwrap();
+                joined.join(found.clone(), &mut Same::new(families), &Cancel::new()).unwrap();
                 let mut both = [joined.families.clone(), joined.others].concat();
                 both.sort();
                 assert_eq!(both, found);
@@ -521,7 +460,7 @@ mod tests {
                 let families = Families { moments, entries };
                 let small: Vec<Family> = classes(&entries.all)
                     .flat_map(|class| of_class(families, class).1)
-                    .filter(|family| family.is_small())
+                    .filter(|family| family.small)
                     .collect();
                 assert!(!small.is_empty());
                 let inserted = |to: &[Family], new: &[Family]| {
@@ -545,53 +484,17 @@ mod tests {
                 for (k, family) in all.iter().enumerate() {
                     let others = [&all[..k], &all[k + 1..]].concat();
                     assert_eq!(inserted(&others, &[*family]), all);
-                    let size = moments.twice(packed(entries.all[family.first()])).norm();
+                    let size = moments.twice(families.packed(family.first)).norm();
                     for by in [-0.9, -0.1, 0.1, 0.9] {
-                        let (second, image) = family.second();
                         let folded = family.folded() + by * NEAR / size;
                         if folded >= 0.0 {
-                            let moved = Family::new(folded, family.first(), second, image, true);
+                            let places = [family.first, family.second];
+                            let moved = Family::new(folded, places, family.image, true);
                             assert_eq!(inserted(&all, &[moved]), all);
                             assert_eq!(inserted(&all, &[moved, *family, moved]), all);
                             assert_eq!(inserted(&[], &[moved, *family]), [moved]);
                         }
                     }
-                }
-            });
-        }
-    }
-
-    #[test]
-    fn however_they_are_shared_out_they_are_the_same() {
-        for bank in banks().into_iter().chain(small_banks()) {
-            with_entries(bank, |moments, entries| {
-                let families = Families { moments, entries };
-                let wanted = WindowTarget::new([0.0, 180.0], Hold::Firing, moments.turn);
-                let all = families.all(&wanted, &Cancel::new()).unwrap();
-                let check = |ranges: usize, per_radian: f64| {
-                    let cancel = Cancel::new();
-                    let found = families.in_ranges(ranges, per_radian, &wanted, &cancel);
-                    assert_eq!(found.unwrap(), all, "{ranges} {per_radian}");
-                    let (done, total) = cancel.progress();
-                    assert_eq!(done, total);
-                };
-                for ranges in 1..10 {
-                    check(ranges, ranges as f64 / (0.5 * moments.turn));
-                }
-                // Also where a range ends between angles that only rounding parts.
-                let mut found: Vec<f64> = classes(&entries.all)
-                    .flat_map(|class| of_class(families, class).1)
-                    .map(Family::folded)
-                    .collect();
-                found.sort_by(f64::total_cmp);
-                let parted = |pair: &&[f64]| {
-                    let apart = pair[1] - pair[0];
-                    apart < APART && apart > 4.0 * f64::EPSILON * pair[1]
-                };
-                for pair in found.windows(2).filter(parted).take(20) {
-                    let per_radian = 1.0 / f64::midpoint(pair[0], pair[1]);
-                    assert!(pair[0] * per_radian < 1.0 && pair[1] * per_radian >= 1.0);
-                    check(2, per_radian);
                 }
             });
         }

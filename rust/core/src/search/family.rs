@@ -3,54 +3,46 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::enumerate::{Entries, Entry, LARGEST_SEARCH, key, packed};
-use super::images::Image;
+use super::enumerate::{Entries, Entry, LARGEST_SEARCH};
+use super::images::{Image, Packed};
 use super::moments::Moments;
 
-/// A folded angle (its bits: it is not negative), and the two arrangements that have it: the place of
-/// the first, and of the second with its image and whether |Z| is small in the lowest bits.
+/// A folded angle, and the two arrangements that have it; ascending by the angle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Family(u128);
+pub(super) struct Family {
+    /// Bits of the folded angle: it is not negative.
+    bits: u64,
+    /// Place of the first bank's arrangement.
+    pub first: u32,
+    /// Place of the second bank's arrangement, and its image.
+    pub second: u32,
+    pub image: Image,
+    /// Whether |Z| is small.
+    pub small: bool,
+}
 
-/// Places are packed into 29 bits.
-const _: () = assert!(LARGEST_SEARCH / size_of::<Entry>() as u128 <= 1 << 29);
+/// Places fit into 32 bits.
+const _: () = assert!(LARGEST_SEARCH / size_of::<Entry>() as u128 <= 1 << 32);
 
 impl Family {
-    pub(super) fn new(folded: f64, first: usize, second: usize, image: Image, small: bool) -> Self {
-        let second = (second as u32) << 3 | image.bits() << 1 | u32::from(small);
-        Self(u128::from(folded.to_bits()) << 64 | (first as u128) << 32 | u128::from(second))
+    pub(super) fn new(folded: f64, [first, second]: [u32; 2], image: Image, small: bool) -> Self {
+        Self { bits: folded.to_bits(), first, second, image, small }
     }
 
     /// In [0, half of the least turn], radians.
     #[inline]
     pub(super) fn folded(self) -> f64 {
-        f64::from_bits((self.0 >> 64) as u64)
-    }
-
-    /// Place of the first bank's arrangement.
-    pub(super) fn first(self) -> usize {
-        (self.0 >> 32) as u32 as usize
-    }
-
-    /// Place of the second bank's arrangement, and its image.
-    pub(super) fn second(self) -> (usize, Image) {
-        let second = self.0 as u32;
-        ((second >> 3) as usize, Image::of_bits(second >> 1 & 3))
+        f64::from_bits(self.bits)
     }
 
     /// Whether its arrangements are one, or one and its reverse: others have the same angle then.
     pub(super) fn is_common(self) -> bool {
-        let (second, image) = self.second();
-        self.first() == second && !image.mirrored
+        self.first == self.second && !self.image.mirrored
     }
 
     /// Its arrangements, with the folded angle of another that is the same.
     pub(super) fn at(self, other: Self) -> Self {
-        Self((other.0 >> 64 << 64) | u128::from(self.0 as u64))
-    }
-
-    pub(super) fn is_small(self) -> bool {
-        self.0 & 1 == 1
+        Self { bits: other.bits, ..self }
     }
 }
 
@@ -62,11 +54,14 @@ pub(super) struct Families<'a> {
 }
 
 impl Families<'_> {
+    pub(super) fn packed(self, place: u32) -> Packed {
+        self.entries.all[place as usize].packed
+    }
+
     /// arg(−Z₂/Z₁) of a family, before it is folded.
     pub(super) fn angle(self, family: Family) -> f64 {
-        let argument = |place: usize| self.moments.twice(packed(self.entries.all[place])).arg();
-        let (second, image) = family.second();
-        PI + self.moments.seen(argument(second), image) - argument(family.first())
+        let argument = |place: u32| self.moments.twice(self.packed(place)).arg();
+        PI + self.moments.seen(argument(family.second), family.image) - argument(family.first)
     }
 
     /// The folded angle of a family in steps of a turn over `4·parts`, if it is a whole number of
@@ -75,7 +70,7 @@ impl Families<'_> {
     /// The angle of w = −Z₂Z̄₁ is one where w/w̄ is a root of unity, which lies in the field of the
     /// `parts`-th roots and is thus one of them or minus one.
     pub(super) fn steps(self, family: Family) -> Option<i64> {
-        let Families { moments, entries } = self;
+        let moments = self.moments;
         let parts = i64::from(moments.bank.parts);
         let angle = self.angle(family);
         let steps = (angle * (4 * parts) as f64 / TAU).round() as i64;
@@ -85,10 +80,9 @@ impl Families<'_> {
             (false, false) => (-1, (steps - parts) / 2),
             (false, true) => return None,
         };
-        let (second, image) = family.second();
         let [mut first, mut other, mut product] = [const { Vec::new() }; 3];
-        moments.combination(packed(entries.all[family.first()]), Image::ITSELF, &mut first);
-        moments.combination(packed(entries.all[second]), image, &mut other);
+        moments.combination(self.packed(family.first), Image::ITSELF, &mut first);
+        moments.combination(self.packed(family.second), family.image, &mut other);
         moments.ring.times_conjugate(&other, &first, &mut product);
         let mut difference = product.clone();
         for (k, term) in product.iter().enumerate() {
@@ -138,13 +132,12 @@ impl<'a> Same<'a> {
     pub(super) fn angle(&mut self, a: Family, b: Family) -> bool {
         let Families { moments, entries } = self.families;
         for (family, of) in [(a, &mut self.of_a), (b, &mut self.of_b)] {
-            let (second, image) = family.second();
-            let arrangement = |place: usize| packed(entries.all[place]);
-            moments.combination(arrangement(family.first()), Image::ITSELF, &mut of.first);
-            moments.combination(arrangement(second), image, &mut of.second);
+            let packed = [family.first, family.second].map(|place| self.families.packed(place));
+            moments.combination(packed[0], Image::ITSELF, &mut of.first);
+            moments.combination(packed[1], family.image, &mut of.second);
             moments.ring.times_conjugate(&of.second, &of.first, &mut of.numerator);
         }
-        let class = |family: Family| key(entries.all[family.first()]);
+        let class = |family: Family| entries.all[family.first as usize].key;
         let (mut x, mut y) = (&self.of_a.numerator, &self.of_b.numerator);
         if class(a) != class(b) {
             // Multiplied out, |Z|² being its own conjugate.

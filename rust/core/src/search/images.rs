@@ -14,10 +14,10 @@ pub(super) fn index(packed: Packed, throw: usize) -> usize {
 }
 
 /// An image of an arrangement.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Image {
-    pub reversed: bool,
     pub mirrored: bool,
+    pub reversed: bool,
 }
 
 impl Image {
@@ -42,10 +42,6 @@ impl Image {
     /// In two bits.
     pub(super) const fn bits(self) -> u32 {
         self.reversed as u32 | (self.mirrored as u32) << 1
-    }
-
-    pub(super) const fn of_bits(bits: u32) -> Self {
-        Self { reversed: bits & 1 == 1, mirrored: bits & 2 == 2 }
     }
 }
 

@@ -56,7 +56,12 @@ impl Magnitude {
             largest * columns.iter().map(|column| column[row].abs()).sum::<i64>()
         });
         if packing.bits > 64 {
-            return Err(too_rich(bank));
+            let phases: Vec<String> =
+                bank.phases.iter().map(|p| format!("{p}/{}", bank.parts)).collect();
+            let hint = "sums over these parts of a turn do not fit the integers of the search; \
+                        give fewer throws, or phases that are multiples of a larger part of a turn";
+            let value = format!("turn × ({})", phases.join(", "));
+            return Err(Error::value("phases_deg", value, hint));
         }
         let spread = |packed: u128| (packed as u64).wrapping_mul(SPREAD);
         // The column of distance 0 counts a throw twice.
@@ -78,14 +83,6 @@ impl Magnitude {
     pub(super) fn pair(&self, phase: u32, other: u32) -> u64 {
         self.by_distance[phase.abs_diff(other) as usize]
     }
-}
-
-/// Keys that do not fit.
-pub(super) fn too_rich(bank: &Bank) -> Error {
-    let phases: Vec<String> = bank.phases.iter().map(|p| format!("{p}/{}", bank.parts)).collect();
-    let hint = "sums over these parts of a turn do not fit the integers of the search; give fewer \
-                throws, or phases that are multiples of a larger part of a turn";
-    Error::value("phases_deg", format!("turn × ({})", phases.join(", ")), hint)
 }
 
 #[cfg(test)]
@@ -119,7 +116,7 @@ mod tests {
 
     #[test]
     fn phases_whose_keys_do_not_fit_are_named() {
-        let phases: Vec<Angle> = (0..15).map(|k| Angle::from_turns(k * k, 359).unwrap()).collect();
+        let phases: Vec<Angle> = (0..12).map(|k| Angle::from_turns(k * k, 359).unwrap()).collect();
         let moments = Moments::new(Bank::with_phases(&phases).unwrap());
         let error = moments
             .and_then(|moments| Magnitude::new(&moments.bank, &moments.ring).map(drop))

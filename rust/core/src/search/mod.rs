@@ -15,6 +15,7 @@ mod images;
 mod magnitude;
 mod moments;
 mod packing;
+mod ranges;
 mod shared;
 mod throws;
 mod window;
@@ -26,7 +27,7 @@ pub use self::angles::Angles;
 pub use self::best::Criterion;
 use self::best::Equals;
 pub use self::enumerate::LARGEST_SEARCH;
-use self::enumerate::{Entries, Entry, classes, image_count, packed};
+use self::enumerate::{Entries, Entry, classes};
 use self::family::Families;
 use self::magnitude::Magnitude;
 use self::moments::Moments;
@@ -78,7 +79,7 @@ impl Search {
         let entries = Entries::new(&moments.bank, &magnitude, &moments.images, cancel)?;
         let turns = u128::from(moments.bank.turns);
         let pairs = |class: &[Entry]| {
-            let images: u64 = class.iter().map(|&entry| image_count(entry)).sum();
+            let images: u64 = class.iter().map(|entry| entry.image_count()).sum();
             (u128::from(images) * turns).pow(2)
         };
         let qualifying = pool::map(cancel, entries.ranges(), |(_, range)| {
@@ -96,7 +97,7 @@ impl Search {
     fn zero_class(&self) -> &[Entry] {
         // Rows of a remainder that is zero are zero: the key is 0, and the class is the first.
         let first = classes(&self.entries.all).next();
-        first.filter(|class| self.moments.vanishes(packed(class[0]))).unwrap_or_default()
+        first.filter(|class| self.moments.vanishes(class[0].packed)).unwrap_or_default()
     }
 
     /// One bank's throws.
@@ -265,7 +266,6 @@ pub fn bank(cylinders: usize, alternating: bool, phases: Option<&[Angle]>) -> Re
 
 #[cfg(test)]
 mod tests {
-    use super::enumerate::key;
     use super::images::Image;
     use super::*;
     use crate::load::{Loads, Wanted};
@@ -307,7 +307,7 @@ mod tests {
             let search = Search::new(bank, hold, &Cancel::new()).unwrap();
             let (entries, moments) = (&search.entries.all, &search.moments);
             let phases = |k: usize| {
-                let phases = moments.images.phases(packed(entries[k]), Image::ITSELF);
+                let phases = moments.images.phases(entries[k].packed, Image::ITSELF);
                 let angle = |p: u32| Angle::from_turns(p.into(), moments.bank.parts.into());
                 phases.map(|p| angle(p).unwrap()).collect::<Vec<_>>()
             };
@@ -325,9 +325,9 @@ mod tests {
             };
             let sizes: Vec<f64> = (0..entries.len()).map(size).collect();
             for (j, (&entry, &size)) in entries.iter().zip(&sizes).enumerate() {
-                assert!((moments.twice(packed(entry)).norm() - size).abs() < 1e-12, "{throws} {j}");
+                assert!((moments.twice(entry.packed).norm() - size).abs() < 1e-12, "{throws} {j}");
                 for (&other, &others) in entries.iter().zip(&sizes).take(j) {
-                    assert_eq!(key(entry) == key(other), (size - others).abs() < 1e-9);
+                    assert_eq!(entry.key == other.key, (size - others).abs() < 1e-9);
                 }
             }
         }

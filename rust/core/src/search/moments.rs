@@ -3,8 +3,6 @@
 use std::f64::consts::{PI, TAU};
 
 use super::images::{Image, Images, Packed, index};
-use super::magnitude::too_rich;
-use super::packing::Packing;
 use super::throws::Bank;
 use crate::Complex64;
 use crate::numbers::angle::Angle;
@@ -12,7 +10,7 @@ use crate::numbers::error::Result;
 use crate::numbers::ring::Ring;
 
 /// How near the arguments of two arrangements may be by rounding alone, times |2Z|: that is a sum of
-/// 15 terms of at most 14, good to 1e-13.
+/// 12 terms of at most 11, good to 1e-13.
 pub(super) const NEAR: f64 = 1e-12;
 
 /// The same of arrangements of this |2Z|.
@@ -34,10 +32,6 @@ pub(super) struct Moments {
     squares: Vec<Complex64>,
     /// One part of a turn.
     pub part: Angle,
-    /// The same as remainders, packed.
-    exact: Vec<u128>,
-    /// Index among the distinct phases of each part of a turn.
-    index_of: Vec<usize>,
 }
 
 impl Moments {
@@ -48,27 +42,9 @@ impl Moments {
         let part = Angle::from_turns(1, parts)?;
         let [units, squares] =
             [1, 2].map(|n| images.distinct.iter().map(|&k| part.cis(n * i64::from(k))).collect());
-        let remainder = |&phase: &u32| {
-            let mut combination = vec![0; bank.parts as usize];
-            combination[phase as usize] = 1;
-            ring.remainder(&combination)
-        };
-        let columns: Vec<Vec<i64>> = images.distinct.iter().map(remainder).collect();
         let weights = bank.weights();
-        let largest: i64 = weights.iter().map(|w| w.abs()).sum();
-        let packing = Packing::new(&columns, &columns, |row| {
-            largest * columns.iter().map(|column| column[row].abs()).max().unwrap_or(0)
-        });
-        if packing.bits > 128 {
-            return Err(too_rich(&bank));
-        }
-        let mut index_of = vec![0; bank.parts as usize];
-        for (index, &phase) in images.distinct.iter().enumerate() {
-            index_of[phase as usize] = index;
-        }
         let turn = TAU / f64::from(bank.turns);
-        let exact = packing.columns;
-        Ok(Self { bank, ring, images, turn, weights, units, squares, part, exact, index_of })
+        Ok(Self { bank, ring, images, turn, weights, units, squares, part })
     }
 
     /// Twice Z = Σ s e^{i·phase}.
@@ -102,7 +78,9 @@ impl Moments {
 
     /// Whether Z is exactly zero.
     pub(super) fn vanishes(&self, packed: Packed) -> bool {
-        self.sum(|throw| self.exact[index(packed, throw)]) == 0
+        let mut combination = Vec::new();
+        self.combination(packed, Image::ITSELF, &mut combination);
+        self.ring.vanishes(&combination, &mut Vec::new())
     }
 
     /// Argument of an image's Z, from the arrangement's own.
@@ -145,22 +123,15 @@ impl Moments {
         if fold(apart, self.turn) > near {
             return None;
         }
-        let wanted = self.sum(|throw| self.exact[index(a.0, throw)]);
-        let turned = self.turns_in(apart) as u32;
-        let parts = self.bank.parts;
-        let found = self.sum(|throw| {
-            let phase = self.images.seen(self.images.distinct[index(b.0, throw)], image);
-            self.exact[self.index_of[((phase + turned) % parts) as usize]]
-        });
-        (wanted == if image.reversed { found.wrapping_neg() } else { found }).then_some(turned)
-    }
-
-    fn sum(&self, of: impl Fn(usize) -> u128) -> u128 {
-        let terms = self.weights.iter().enumerate();
-        terms.fold(0, |sum, (throw, &weight)| {
-            // Below zero, a weight is a large number that wraps round.
-            sum.wrapping_add(of(throw).wrapping_mul(i128::from(weight) as u128))
-        })
+        let turned = self.turns_in(apart);
+        let parts = self.bank.parts as usize;
+        let [mut wanted, mut seen] = [const { Vec::new() }; 2];
+        self.combination(a.0, Image::ITSELF, &mut wanted);
+        self.combination(b.0, image, &mut seen);
+        for (k, term) in seen.iter().enumerate() {
+            wanted[(k + turned) % parts] -= term;
+        }
+        self.ring.vanishes(&wanted, &mut Vec::new()).then_some(turned as u32)
     }
 
     /// An angle as the nearest number of least turns, in parts of a turn.

@@ -1,7 +1,6 @@
 //! Arrangements of a vee whose banks share their pins: with these held, Z is that of both banks, and
 //! first-order moment is all forward at 90°.
 
-use super::enumerate::{image_count, packed};
 use super::images::{Image, Packed};
 use super::{Search, Solution};
 use crate::engine::Hold;
@@ -23,7 +22,7 @@ impl Search {
     #[must_use]
     pub fn shared_balanced(&self) -> u128 {
         let turns = u128::from(self.moments.bank.turns);
-        let images = self.zero_class().iter().map(|&entry| u128::from(image_count(entry)));
+        let images = self.zero_class().iter().map(|entry| u128::from(entry.image_count()));
         turns * images.sum::<u128>()
     }
 
@@ -37,9 +36,9 @@ impl Search {
         }
         cancel.expect(entries.len());
         let mut keyed = memory::room(entries.len())?;
-        for (place, &entry) in entries.iter().enumerate() {
+        for (place, entry) in entries.iter().enumerate() {
             cancel.step()?;
-            keyed.push((self.shared_key(packed(entry)), place));
+            keyed.push((self.shared_key(entry.packed), place));
         }
         keyed.sort_unstable();
         memory::collected(keyed.into_iter().map(|(_, place)| place))
@@ -61,7 +60,7 @@ impl Search {
     /// What the arrangement at a place is at 90°; its front pin is at 0.
     #[must_use]
     pub fn shared_solution(&self, place: usize) -> Option<Solution> {
-        let key = self.shared_key(packed(*self.entries.all.get(place)?));
+        let key = self.shared_key(self.entries.all.get(place)?.packed);
         let throws = self.bank().throws();
         let phases: Vec<u32> = (0..throws).rev().map(|i| (key >> (9 * i)) as u32 & 0x1ff).collect();
         Some(self.evaluated(Hold::Pins, [phases.clone(), phases], 90.0))
@@ -106,7 +105,7 @@ mod tests {
                 {
                     assert!((phasor.norm() - wanted).abs() < 1e-13);
                 }
-                let images = image_count(search.entries.all[place]);
+                let images = search.entries.all[place].image_count();
                 balanced += if found.counterweight < 1e-13 { images } else { 0 };
             }
             let turns = u64::from(search.bank().turns);

@@ -4,8 +4,8 @@ use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::rational::divisor;
 
-/// Most throws in a bank; an arrangement is packed into four bits a throw.
-pub const MOST_THROWS: usize = 15;
+/// Most throws in a bank.
+pub const MOST_THROWS: usize = 12;
 
 /// Phases of one bank's throws, and which of their arrangements are candidates.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -11,7 +11,6 @@ const WINDOW_ERROR: f64 = 1e-9;
 pub(super) struct WindowTarget {
     /// From, to; radians.
     intervals: Vec<[f64; 2]>,
-    half: f64,
 }
 
 impl WindowTarget {
@@ -26,7 +25,7 @@ impl WindowTarget {
                 vec![[2.0 * low, 2.0 * high], [TAU - 2.0 * high, TAU - 2.0 * low]]
             }
         };
-        let mut intervals: Vec<[f64; 2]> = windows
+        let intervals: Vec<[f64; 2]> = windows
             .into_iter()
             .filter(|[low, high]| low <= high)
             .flat_map(|[low, high]| {
@@ -41,27 +40,12 @@ impl WindowTarget {
             })
             .map(|[from, to]| [from - WINDOW_ERROR, to + WINDOW_ERROR])
             .collect();
-        intervals.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        // Those that overlap are one.
-        intervals.dedup_by(|next, last| {
-            let overlap = next[0] <= last[1];
-            if overlap {
-                last[1] = last[1].max(next[1]);
-            }
-            overlap
-        });
-        Self { intervals, half }
+        Self { intervals }
     }
 
     #[inline]
     pub(super) fn has(&self, folded: f64) -> bool {
         self.intervals.iter().any(|[from, to]| folded >= *from && folded <= *to)
-    }
-
-    /// How large a part of all folded angles is wanted.
-    pub(super) fn share(&self) -> f64 {
-        let wanted: f64 = self.intervals.iter().map(|[from, to]| to - from).sum();
-        (wanted / self.half).min(1.0)
     }
 }
 
@@ -79,7 +63,6 @@ mod tests {
                 for window in [[0.0, 180.0], [20.0, 31.0], [0.0, 5.0], [88.0, 92.5], [170.0, 180.0]]
                 {
                     let wanted = WindowTarget::new(window, hold, turn);
-                    let mut count = 0;
                     for step in 0..ANGLES {
                         // Halves, so that none is at the edge of a window.
                         let folded = 0.5 * turn * (f64::from(step) + 0.5) / f64::from(ANGLES);
@@ -98,12 +81,7 @@ mod tests {
                                 }
                             });
                         assert_eq!(wanted.has(folded), expected, "{turn} {hold:?} {window:?}");
-                        count += u32::from(expected);
                     }
-                    // To the four ends of two intervals.
-                    let part = f64::from(count) / f64::from(ANGLES);
-                    assert!((wanted.share() - part).abs() <= 4.0 / f64::from(ANGLES));
-                    assert!(wanted.share() <= 1.0);
                 }
             }
         }
