@@ -205,5 +205,5 @@ def test_the_command_line_has_every_frame(
             out, err = capsys.readouterr()
             assert out == expected
             assert err == (f"crankpin: {table.loads}\n" if options and table.loads else "")
-    assert main([*typed.split(), "--frame", "tabel"]) == 2
-    assert "--frame = tabel: give table or" in capsys.readouterr().err
+    assert main([*typed.split(), "--frame", "tables"]) == 2
+    assert "--frame = tables: give table or" in capsys.readouterr().err

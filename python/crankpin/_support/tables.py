@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-Label: TypeAlias = "str | Sequence[str | float | None]"
+Label: TypeAlias = "str | Sequence[object]"
 """Text before a row's numbers, or several texts and numbers, a column each."""
 
 TINY = "~0"

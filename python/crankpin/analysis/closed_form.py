@@ -320,6 +320,7 @@ class ClosedForm(Record):
         return found
 
     def __repr__(self) -> str:
+        """Return the formulas: they are no table of numbers."""
         name = labels.name_of(self.engine)
         lines = [f"{name}: {QUANTITIES[self.quantity].words} of order {self.order}"]
         lines += [f"{axis:>9} {getattr(self, axis)}" for axis in COMPONENTS]

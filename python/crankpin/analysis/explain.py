@@ -77,6 +77,7 @@ class Explanation(Record):
         return "\n".join(self.sentences)
 
     def __repr__(self) -> str:
+        """Return the sentences: they are no table of numbers."""
         speed = "" if self.rpm is None else f" at {self.rpm:g} rpm"
         return f"{labels.name_of(self.engine)}{speed}\n{self}"
 

@@ -282,25 +282,19 @@ class Waveform(OverAngle):
     @property
     def table(self) -> Table:
         """Table that is shown: least and largest value of each component, and where."""
-        names, found = [], []
+        rows = []
         for name in self.request.quantities:
             kind = QUANTITIES[name]
             values = self.read(name).reshape(-1, len(kind.components))
             for component, column in zip(kind.components, values.T, strict=True):
-                names.append((kind.words, component, kind.unit))
-                if column.size:
-                    low, high = column.argmin(), column.argmax()
-                    theta = self.theta_deg
-                    found.append((column[low], theta[low], column[high], theta[high]))
-                else:
-                    found.append((np.nan,) * 4)
-        rows = np.array(found).reshape(-1, 4)
+                at = [column.argmin(), column.argmax()] if column.size else []
+                ends = np.stack([column[at], self.theta_deg[at]], axis=1).ravel().tolist()
+                rows.append((kind.words, component, kind.unit, *(ends or [np.nan] * 4)))
         where = f"{labels.name_of(self.engine)} at {self.rpm:g} rpm"
         title = f"{where}, {len(self.theta_deg)} crank angles, {self._how}"
         return Table.from_rows(
             title,
             ["quantity", "component", "unit", "least", ("at", "°"), "largest", ("at", "°")],
-            names,
             rows,
             loads=self.loads_counted,
         )

@@ -14,7 +14,7 @@ from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
 from crankpin._support.frames import Tabled
 from crankpin._support.record import Input, changed, item_key
-from crankpin._support.tables import Column, Table
+from crankpin._support.tables import Table
 from crankpin.analysis.drawing import draw
 from crankpin.model.data import parts
 from crankpin.model.engine import Engine
@@ -392,27 +392,22 @@ class ArrangementSearch(Tabled):
     @property
     def table(self) -> Table:
         """Table of the bank angles, with an arrangement for each."""
-        listed = list(self)
-        banks = [(each.first_deg, each.second_deg) for each in listed]
-        right, left = (
-            tuple("-".join(f"{angle:.6g}" for angle in pair[side]) for pair in banks)
-            for side in (0, 1)
-        )
-        title = f"V{self.cylinders}: moments over m·r·ω²·spacing, those of order 2 over a₂ too"
-        return Table(
-            title,
+        rows = [
             (
-                Column("right bank", right, "°"),
-                Column("left bank", left, "°"),
-                Column("bank angle", tuple(each.bank_angle_deg for each in listed), "°"),
-                Column("counterweight", tuple(each.counterweight for each in listed)),
-                Column("order 2 about x", tuple(each.second_order[0] for each in listed)),
-                Column("order 2 about y", tuple(each.second_order[1] for each in listed)),
-                Column(
-                    "near circular", tuple("yes" if each.near_circular else "no" for each in listed)
-                ),
-            ),
-        )
+                *("-".join(f"{a:.6g}" for a in bank) for bank in (each.first_deg, each.second_deg)),
+                each.bank_angle_deg, each.counterweight, *each.second_order,
+                "yes" if each.near_circular else "no",
+            )
+            for each in self
+        ]  # fmt: skip
+        return Table.from_rows(
+            f"V{self.cylinders}: moments over m·r·ω²·spacing, those of order 2 over a₂ too",
+            [
+                ("right bank", "°"), ("left bank", "°"), ("bank angle", "°"), "counterweight",
+                "order 2 about x", "order 2 about y", "near circular",
+            ],
+            rows,
+        )  # fmt: skip
 
     def _index(self, index: object) -> int:
         if isinstance(index, slice):

@@ -157,10 +157,9 @@ class TwoPlaneCorrection(Tabled):
     @property
     def table(self) -> Table:
         """Table of the corrections."""
-        columns = [np.array(self.correction_z), self.amount_g_mm, self.angle_deg, self.drill_deg]
+        figures = (self.correction_z, self.amount_g_mm, self.angle_deg, self.drill_deg)
         return Table.from_rows(
             "Two-plane correction",
             ["plane", ("z", "m"), ("unbalance", "g·mm"), ("add at", "°"), ("or drill at", "°")],
-            [[1], [2]],
-            np.stack(columns, axis=1),
+            [(k + 1, *(float(each[k]) for each in figures)) for k in (0, 1)],
         )

@@ -170,21 +170,18 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
     @property
     def table(self) -> Table:
         """Table that is shown: the choices, best first."""
-        choices = self.choices
         parts = [
             f"Ranked by {self._description()}",
             *([labels.HELD[self.hold]] if self.hold else []),
         ]
         title = ", ".join(parts)
         heads = [(each.head, each.unit) for each in self.objectives]
-        rows_of = [(each.place, each.name, _several(each.bank_angles_deg)) for each in choices]
-        rows = np.array([each.values for each in choices]).reshape(-1, len(heads))
+        rows = [
+            (each.place, each.name, _several(each.bank_angles_deg), *each.values)
+            for each in self.choices
+        ]
         return Table.from_rows(
-            title,
-            ["place", "engine", ("bank angle", "°"), *heads],
-            rows_of,
-            rows,
-            loads=self.loads_counted,
+            title, ["place", "engine", ("bank angle", "°"), *heads], rows, loads=self.loads_counted
         )
 
     @property

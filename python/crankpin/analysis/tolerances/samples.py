@@ -530,21 +530,14 @@ class Tolerances(ByOrder):
         """Table that is shown: nominal value, mean, spread and quantiles."""
         header = ["", "unit", "nominal", "mean", "std"]
         header += [f"{100 * q:g} %" for q in QUANTILES]
-        names = [(by, self._objective(by).unit) for by in self.by]
-        rows = [
-            [self.nominal_value(by), self.mean(by), self.std(by), *self.quantile(by=by)]
-            for by in self.by
-        ]
+        rows = []
+        for by in self.by:
+            figures = (self.nominal_value(by), self.mean(by), self.std(by))
+            rows.append((by, self._objective(by).unit, *figures, *self.quantile(by=by).tolist()))
         engine = labels.name_of(self.engine)
         title = f"{engine} at {self.rpm:g} rpm: {self.samples} samples, {self.figures.text}"
         of_torque = any("torque" in self._objective(by).quantity for by in self.by)
-        return Table.from_rows(
-            title,
-            header,
-            names,
-            np.array(rows).reshape(-1, len(header) - 2),
-            loads=self.loads_counted if of_torque else "",
-        )
+        return Table.from_rows(title, header, rows, loads=self.loads_counted if of_torque else "")
 
     def _objective(self, by: str | None) -> Objective:
         name = self.by[0] if by is None else inputs.text("by", by)
