@@ -389,12 +389,12 @@ impl Matching {
                     }
                     let mut is_new = true;
                     for j in i + 1..parts.len() {
-                        let [here, there] = [i, j].map(|slot| slot * figures..(slot + 1) * figures);
-                        let shifts = held[there.clone()].iter().zip(&held[here.clone()]);
-                        let rise: f64 = shifts
-                            .zip(rates[here].iter().zip(&rates[there]))
-                            .map(|((new, old), (one, other))| (new - old) * (one - other))
-                            .sum();
+                        let (one, other) = (i * figures, j * figures);
+                        let mut rise = 0.0;
+                        for f in 0..figures {
+                            rise += (held[other + f] - held[one + f])
+                                * (rates[one + f] - rates[other + f]);
+                        }
                         if rise >= 0.0 && is_new {
                             continue;
                         }
