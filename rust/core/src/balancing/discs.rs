@@ -3,12 +3,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::least_squares::RANK_TOLERANCE;
-use super::weights::{Nearest, REACHED, ROUNDING, Vectors, each};
+use super::weights::{REACHED, ROUNDING, Vectors};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
+use crate::numbers::singular_values::SingularValues;
 
-/// Weights |u| ≤ bound nearest to the target and, of those, with the least sum of squares; equations
-/// are independent.
+/// Weights |u| ≤ bound nearest to the target and, of those, with the least sum of squares.
 ///
 /// They are u = λᵀ·rows, cut to their bounds, with multipliers λ that maximise a concave function
 /// of at most four real variables. A target beyond reach leaves a residual r, and λ grows along it:
@@ -18,19 +18,19 @@ pub(super) fn nearest(
     target: &Vectors,
     bounds: &[f64],
     cancel: &Cancel,
-) -> Result<Nearest> {
-    let discs = Discs { rows: rows.clone(), target: target.clone(), bounds };
-    if let Some((found, residual)) = discs.but_one_place() {
-        return Ok(Nearest { weights: each(&found), residual });
+) -> Result<Option<Vectors>> {
+    // Equations that depend on each other become one: multipliers are then bounded.
+    let values = SingularValues::of(rows);
+    let basis = values.left.columns(0, values.rank(RANK_TOLERANCE));
+    let discs = Discs { rows: basis.tr_mul(rows), target: basis.tr_mul(target), bounds };
+    if let Some(found) = discs.but_one_place() {
+        return Ok(Some(found));
     }
-    let mut residual = target.clone();
     let mut multipliers = Vectors::zeros(discs.target.nrows(), 2);
     // Squares weigh less and less beside what is missing: at last no more than its rounding.
     for power in 0..=15 {
         cancel.check()?;
-        let squares = 10.0_f64.powi(-power);
-        multipliers = discs.maximum(multipliers, squares);
-        residual = &multipliers * squares;
+        multipliers = discs.maximum(multipliers, 10.0_f64.powi(-power));
         let left = discs.rest(&multipliers).norm();
         let found = discs.weights(&multipliers);
         let mut sizes = found.row_iter().map(|weight| weight.norm()).zip(bounds);
@@ -39,7 +39,7 @@ pub(super) fn nearest(
             break;
         }
     }
-    Ok(Nearest { weights: each(&discs.weights(&multipliers)), residual })
+    Ok(Some(discs.weights(&multipliers)))
 }
 
 struct Discs<'a> {
@@ -66,7 +66,7 @@ impl Discs<'_> {
     }
 
     /// Weights that leave a residual which planes at one place cannot see; None if there are none.
-    fn but_one_place(&self) -> Option<(Vectors, Vectors)> {
+    fn but_one_place(&self) -> Option<Vectors> {
         if self.rows.nrows() < 2 {
             return None;
         }
@@ -99,9 +99,7 @@ impl Discs<'_> {
                 found.set_row(p, &(&rest * (here * rows[(0, p)].signum() / length)));
                 amount -= here;
             }
-            let mut left = Vectors::zeros(2, 2);
-            left.set_row(1, &(target.row(1) * (1.0 - reach / wanted)));
-            (amount <= ROUNDING).then(|| (found, turn.tr_mul(&left)))
+            (amount <= ROUNDING).then_some(found)
         })
     }
 

@@ -37,9 +37,6 @@ pub(super) const PENALTIES: [f64; 5] = [1e4, 1e6, 1e8, 1e6, 1e4];
 const EXACT: f64 = 1e-13;
 const ROUNDS: usize = 60;
 
-/// Gradients below this part of the figures they are made of are rounding.
-pub(super) const FLAT: f64 = 1e-14;
-
 /// Variables and the multipliers of the equations.
 pub(super) struct Minimum {
     pub x: DVector<f64>,
@@ -90,6 +87,8 @@ fn nonnegative(
     mut x: DVector<f64>,
     cancel: &Cancel,
 ) -> Result<DVector<f64>> {
+    /// Gradients below this part of the figures they are made of are rounding.
+    const FLAT: f64 = 1e-14;
     let norms: Vec<f64> = columns.column_iter().map(|column| column.norm()).collect();
     let mut used: Vec<usize> = (0..x.len()).filter(|&k| x[k] > 0.0).collect();
     let mut rejected = vec![false; x.len()];
@@ -97,8 +96,7 @@ fn nonnegative(
     // Each step lowers the sum of squares, but for rounding: what comes of it is checked elsewhere.
     for _ in 0..1000 + 10 * x.len() {
         cancel.check()?;
-        let best = on(&columns.select_columns(&used), target);
-        let Some(best) = best else {
+        let Some(best) = on(columns, &used, target) else {
             // The column entered last depends on the others.
             let Some(last) = entered.take().or_else(|| used.last().copied()) else { return Ok(x) };
             used.retain(|&k| k != last);
@@ -149,16 +147,15 @@ fn nonnegative(
     Ok(x)
 }
 
-/// Least squares on columns; None where they depend on each other.
-pub(super) fn on(columns: &DMatrix<f64>, target: &DVector<f64>) -> Option<DVector<f64>> {
-    let count = columns.ncols();
-    if count == 0 {
+/// Least squares on some columns; None where they depend on each other.
+fn on(columns: &DMatrix<f64>, used: &[usize], target: &DVector<f64>) -> Option<DVector<f64>> {
+    if used.is_empty() {
         return Some(DVector::zeros(0));
     }
-    if count > columns.nrows() {
+    if used.len() > columns.nrows() {
         return None;
     }
-    let factors = columns.clone().qr();
+    let factors = columns.select_columns(used).qr();
     let mut turned = target.clone();
     factors.q_tr_mul(&mut turned);
     let upper = factors.r();
@@ -166,18 +163,7 @@ pub(super) fn on(columns: &DMatrix<f64>, target: &DVector<f64>) -> Option<DVecto
     if diagonal.min() <= f64::EPSILON * columns.nrows() as f64 * diagonal.max() {
         return None;
     }
-    upper.solve_upper_triangular(&turned.rows(0, count).into_owned())
-}
-
-/// What columns leave of a target: the part at right angles to all of them, in its own last digits,
-/// where a difference of target and sums would be their rounding.
-pub(super) fn across(columns: &DMatrix<f64>, target: &DVector<f64>) -> DVector<f64> {
-    let (rows, count) = columns.shape();
-    let mut all = columns.clone().resize_horizontally(count + rows, 0.0);
-    all.columns_mut(count, rows).fill_with_identity();
-    let q = all.qr().q();
-    let rest = q.columns(count, rows - count);
-    rest * rest.tr_mul(target)
+    upper.solve_upper_triangular(&turned.rows(0, used.len()).into_owned())
 }
 
 /// One matrix below another.

@@ -70,13 +70,6 @@ pub struct FittedWeights {
     pub missing: f64,
 }
 
-/// Weights nearest to a target, and what they leave of it: known to more digits than the difference
-/// of target and weights where these make up for each other.
-pub(super) struct Nearest {
-    pub weights: Vec<PlacedWeight>,
-    pub residual: Vectors,
-}
-
 /// Vectors in the cross-section, a row for each plane or for each equation.
 pub(super) type Vectors = DMatrix<f64>;
 
@@ -122,7 +115,7 @@ pub fn least(request: &WeightRequest, cancel: &Cancel) -> Result<FittedWeights> 
     for bound in &mut bounds {
         *bound /= size;
     }
-    let plain = Problem {
+    let problem = Problem {
         rows,
         target,
         bounds,
@@ -132,15 +125,14 @@ pub fn least(request: &WeightRequest, cancel: &Cancel) -> Result<FittedWeights> 
         }),
         cancel,
     };
-    let problem = plain.turned();
     let mut amounts = problem.least(request.minimise)?;
     let is_proved = problem.made_up(&mut amounts);
     let largest = amounts.iter().map(|weight| weight.vector.norm()).fold(0.0, f64::max);
     amounts.retain(|weight| weight.vector.norm() > 10.0 * NEGLIGIBLE * largest);
     // Of planes near each other the others make up for what was left out.
     problem.made_up(&mut amounts);
-    let reached = is_proved && plain.is_rounding(&amounts);
-    let missing = plain.missing(&amounts).row_iter().map(|part| part.norm()).fold(0.0, f64::max);
+    let reached = is_proved && problem.is_rounding(&amounts);
+    let missing = problem.missing(&amounts).row_iter().map(|part| part.norm()).fold(0.0, f64::max);
     let missing = missing * size;
     let list = amounts
         .into_iter()
@@ -187,20 +179,6 @@ pub(super) struct Problem<'a> {
 }
 
 impl Problem<'_> {
-    /// The same problem in equations of which no two are alike, beside a target of length 1.
-    ///
-    /// Where planes are near each other, weights far above the target make up for each other in force and
-    /// in moment: both are sums of rounding there. Turned to the singular vectors, one equation holds all
-    /// that cancels, and the other what is left to exert, to its own last digits.
-    fn turned(&self) -> Self {
-        let values = SingularValues::of(&self.rows);
-        let basis = values.left.columns(0, values.rank(RANK_TOLERANCE));
-        let size = self.target.norm();
-        let (bounds, directions) = (self.bounds.clone(), self.directions.clone());
-        let [rows, target] = [&self.rows, &self.target].map(|of| basis.tr_mul(of) / size);
-        Problem { rows, target, bounds, directions, ..*self }
-    }
-
     fn least(&self, minimise: Minimise) -> Result<Vec<PlacedWeight>> {
         if self.directions.is_none() && minimise == Minimise::Squares {
             let found = least_squares(&self.rows, &self.target, self.target.nrows()).solution;
@@ -208,7 +186,7 @@ impl Problem<'_> {
                 return Ok(each(&found));
             }
         }
-        let Nearest { weights: mut found, residual } = self.nearest(&self.target, &self.bounds)?;
+        let mut found = self.nearest(&self.target, &self.bounds)?;
         let mut bounds = self.bounds.clone();
         if minimise == Minimise::Largest {
             // At any angle a plane that hardly sees what is missing is known to more digits as it is.
@@ -219,11 +197,11 @@ impl Problem<'_> {
             };
             let made = problem.made(&found);
             bounds = problem.least_bounds(&made)?;
-            found = problem.nearest(target, &bounds)?.weights;
+            found = problem.nearest(target, &bounds)?;
         }
         match &self.directions {
             Some(directions) => {
-                match angle_lists::least_squares(self, directions, &bounds, &found, &residual)? {
+                match angle_lists::least_squares(self, directions, &bounds, &found)? {
                     Some(least) => Ok(least),
                     // The least largest weights leave hardly a choice: any of them will do.
                     None if minimise == Minimise::Largest => Ok(found),
@@ -272,32 +250,24 @@ impl Problem<'_> {
     }
 
     /// Weights within bounds that come nearest to a target; at any angle, the least such weights.
-    fn nearest(&self, target: &Vectors, bounds: &[f64]) -> Result<Nearest> {
-        let nearest = match &self.directions {
-            None => discs::nearest(&self.rows, target, bounds, self.cancel)?,
+    fn nearest(&self, target: &Vectors, bounds: &[f64]) -> Result<Vec<PlacedWeight>> {
+        let found = match &self.directions {
+            None => discs::nearest(&self.rows, target, bounds, self.cancel)?.map(|u| each(&u)),
             Some(directions) => angle_lists::nearest(self, directions, target, bounds)?,
         };
-        if self.is_nearest(&nearest, target, bounds) {
-            Ok(nearest)
-        } else {
-            Err(self.not_found("nearest"))
-        }
+        let found = found.filter(|found| self.is_nearest(found, target, bounds));
+        found.ok_or_else(|| self.not_found("nearest"))
     }
 
     /// Whether no weights within bounds come nearer to a target: they would go further along the residual.
-    fn is_nearest(&self, nearest: &Nearest, target: &Vectors, bounds: &[f64]) -> bool {
-        let Nearest { weights, residual } = nearest;
-        // Equations hold to their digits: sums of weights that make up for each other have fewer.
-        let apart = (target - self.made(weights) - residual).norm();
-        if apart > REACHED.max(NEGLIGIBLE * self.rows.amax()) {
-            return false;
-        }
-        let further = self.support(residual).into_iter().zip(bounds).map(|(support, bound)| {
-            let is_rounding = bound.is_infinite() && support <= REACHED * self.rows.amax().max(1.0);
+    fn is_nearest(&self, weights: &[PlacedWeight], target: &Vectors, bounds: &[f64]) -> bool {
+        let made = self.made(weights);
+        let residual = target - &made;
+        let further = self.support(&residual).into_iter().zip(bounds).map(|(support, bound)| {
+            let is_rounding = bound.is_infinite() && support <= REACHED;
             if is_rounding { 0.0 } else { support * bound }
         });
-        let along = (target - residual).dot(residual);
-        residual.norm() <= REACHED || further.sum::<f64>() - along <= REACHED * residual.norm()
+        residual.norm() <= REACHED || further.sum::<f64>() - made.dot(&residual) <= REACHED
     }
 
     pub fn not_found(&self, which: &str) -> Error {
@@ -317,7 +287,7 @@ impl Problem<'_> {
         let mut cap = 0.0;
         for _ in 0..MOST {
             let bounds = self.capped(cap);
-            let residual = self.left_of(wanted, &bounds)?;
+            let residual = wanted - self.made(&self.nearest(wanted, &bounds)?);
             let size = residual.norm();
             if size <= 1e-3 * REACHED {
                 return Ok(bounds);
@@ -332,13 +302,6 @@ impl Problem<'_> {
         Err(self.not_found("least"))
     }
 
-    /// What the nearest weights leave of a target; at any angle they are cut to their bounds, which leaves
-    /// more than multipliers say.
-    fn left_of(&self, wanted: &Vectors, bounds: &[f64]) -> Result<Vectors> {
-        let Nearest { weights, residual } = self.nearest(wanted, bounds)?;
-        Ok(if self.directions.is_some() { residual } else { wanted - self.made(&weights) })
-    }
-
     fn capped(&self, cap: f64) -> Vec<f64> {
         self.bounds.iter().map(|bound| bound.min(cap)).collect()
     }
@@ -349,7 +312,8 @@ impl Problem<'_> {
     /// edge of what given bounds reach, no cap makes up for what is missed: those of the cap serve.
     fn relaxed(&self, wanted: &Vectors, cap: f64, missed: f64) -> Result<Vec<f64>> {
         let serves = |cap: f64| -> Result<bool> {
-            Ok(self.left_of(wanted, &self.capped(cap))?.norm() <= 1e-3 * REACHED)
+            let found = self.nearest(wanted, &self.capped(cap))?;
+            Ok((wanted - self.made(&found)).norm() <= 1e-3 * REACHED)
         };
         let mut low = cap;
         // The cap is proved to be no more than the least: bounds further above it might not be it.
@@ -465,7 +429,7 @@ pub(super) fn sums(weights: &[PlacedWeight], planes: usize) -> Vec<f64> {
 }
 
 /// A weight in each plane.
-pub(super) fn each(found: &Vectors) -> Vec<PlacedWeight> {
+fn each(found: &Vectors) -> Vec<PlacedWeight> {
     let weight = |(plane, vector)| PlacedWeight { plane, angle: 0, vector };
     complex(found).into_iter().enumerate().map(weight).collect()
 }
@@ -583,13 +547,7 @@ mod tests {
             let problem = force(target, &bounds, by_quarters, &cancel);
             let found = weights(&[(0, exerted[0]), (1, exerted[1])]);
             let case = format!("{target} within {bounds:?} by {exerted:?}");
-            let residual = problem.missing(&found);
-            let nearest = Nearest { weights: found, residual };
-            assert_eq!(
-                problem.is_nearest(&nearest, &problem.target, &bounds),
-                is_nearest,
-                "{case}"
-            );
+            assert_eq!(problem.is_nearest(&found, &problem.target, &bounds), is_nearest, "{case}");
         }
     }
 

@@ -124,7 +124,8 @@ pub struct Sampled {
 }
 
 /// Orders of samples that leave out at most `rtol` of each cylinder, because deviations undo what a layout
-/// cancels, and bounds of what the others add to the nominal engine.
+/// cancels, and bounds of what the others add to the nominal engine; order 1 among them, which rotating
+/// masses have that deviate.
 pub fn orders(
     engine: &Engine,
     request: &Request,
@@ -133,7 +134,10 @@ pub fn orders(
 ) -> Result<(Vec<Order>, ErrorBounds)> {
     let omega = angular_speed(request.rpm)?;
     let loads = Loads::new(engine, engine.reference(request.reference_z)?);
-    let (orders, left_out) = choice::within_each(rtol, engine, &loads, request.torque, cancel)?;
+    let (mut orders, left_out) = choice::within_each(rtol, engine, &loads, request.torque, cancel)?;
+    if orders.first() != Some(&Order::FIRST) {
+        orders.insert(0, Order::FIRST);
+    }
     Ok((orders, left_out.bounds(omega * omega)))
 }
 
