@@ -51,7 +51,9 @@ pub use pressure::{Cycle, GasTorque};
 pub use readings::balance::{Balance, Orders, Request};
 pub use readings::sweep::Sweep;
 pub use readings::waveform::Waveform;
-pub use readings::{balance, exact, flywheel, internal, peaks, sweep, terms, tolerances, waveform};
+pub use readings::{
+    balance, exact, flywheel, internal, mounted, peaks, sweep, terms, tolerances, waveform,
+};
 
 /// Complex numbers as ndarray and `NumPy` share them.
 pub type Complex64 = num_complex::Complex64;

@@ -179,7 +179,7 @@ fn low_frequencies_keep_their_digits() {
 }
 
 /// A random body, and three to six random mounts of it.
-fn random(number: &mut impl FnMut() -> f64, damping: bool) -> Powertrain {
+pub fn random(number: &mut impl FnMut() -> f64, damping: bool) -> Powertrain {
     let scale = 10.0_f64.powf(3.0 * number());
     let root = Matrix3::from_fn(|_, _| number()) + Matrix3::identity() * 2.0;
     let moments = root * root.transpose();
