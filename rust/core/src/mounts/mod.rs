@@ -5,6 +5,7 @@
 
 mod axes;
 mod body;
+pub(crate) mod file;
 mod footprint;
 mod modes;
 mod mount;
@@ -18,7 +19,7 @@ pub use self::axes::{Axes, ElasticAxis, axes};
 pub use self::body::{Products, RigidBody};
 pub use self::footprint::support_margin;
 pub use self::modes::{FreeMotion, Modes, modes};
-pub use self::mount::{Mount, MountFigures, motion_of_point};
+pub use self::mount::{Mount, MountFigures, Orientation, motion_of_point};
 pub use self::severity::{GRADES, Levels, grade};
 pub use self::statics::{Static, at_rest};
 pub use self::stiffness::{Dynamic, InertiaTrack, Table};

@@ -4,12 +4,23 @@ use nalgebra::{Matrix3, Matrix3x6, Vector3};
 
 use super::stiffness::{Dynamic, InertiaTrack, Table};
 use crate::Complex64;
+use crate::numbers::angle::{Angle, cis_degrees};
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 
 /// Largest scalar product of two directions at right angles, and error of a length of 1, that typed
 /// digits make; axes are made exact.
 const SKEW_BY_TYPING: f64 = 1e-3;
+
+/// How a mount's axes stand in the engine.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Orientation {
+    /// The first axis is turned from +x towards +y by degrees, the second is a quarter turn ahead of it, and
+    /// the third is along z.
+    Tilt(f64),
+    /// Directions of the first, second and third axis: a row each.
+    Axes([[f64; 3]; 3]),
+}
 
 /// Figures of a mount as they are given.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -18,8 +29,8 @@ pub struct MountFigures {
     pub name: String,
     /// Place of its elastic centre, m.
     pub at: [f64; 3],
-    /// Directions of its first, second and third axis: a row each.
-    pub axes: [[f64; 3]; 3],
+    /// Directions of its axes.
+    pub orientation: Orientation,
     /// Static stiffness along them, N/m.
     pub stiffness: [f64; 3],
     /// Dynamic stiffness; the static one where it is not given.
@@ -42,24 +53,29 @@ pub struct Mount {
     dynamic: Dynamic,
 }
 
+impl Default for Orientation {
+    fn default() -> Self {
+        Self::Tilt(0.0)
+    }
+}
+
 impl Mount {
     /// A mount of these figures.
-    pub fn new(mut figures: MountFigures) -> Result<Self> {
+    pub fn new(figures: MountFigures) -> Result<Self> {
         limits::name("name", &figures.name)?;
         for (k, place) in figures.at.into_iter().enumerate() {
             limits::finite(&format!("at[{k}]"), place)?;
         }
-        let axes = orthonormal(&figures.axes)?;
+        let axes = figures.orientation.axes()?;
         for (k, stiffness) in figures.stiffness.into_iter().enumerate() {
             limits::not_negative(&format!("stiffness[{k}]"), stiffness)?;
         }
         let dynamic = figures.dynamic()?;
         dynamic.check()?;
-        figures.axes = [0, 1, 2].map(|row| [0, 1, 2].map(|column| axes[(row, column)]));
         Ok(Self { figures, axes, dynamic })
     }
 
-    /// The figures, axes at right angles.
+    /// The figures.
     #[must_use]
     pub fn figures(&self) -> &MountFigures {
         &self.figures
@@ -140,6 +156,20 @@ impl MountFigures {
     }
 }
 
+impl Orientation {
+    /// The axes, a row each.
+    fn axes(self) -> Result<Matrix3<f64>> {
+        match self {
+            Self::Axes(rows) => orthonormal(&rows),
+            Self::Tilt(degrees) => {
+                Angle::from_degrees(degrees).map_err(|error| error.named("tilt_deg"))?;
+                let Complex64 { re: cos, im: sin } = cis_degrees(degrees);
+                Ok(Matrix3::new(cos, sin, 0.0, -sin, cos, 0.0, 0.0, 0.0, 1.0))
+            }
+        }
+    }
+}
+
 /// Three directions at exact right angles, from ones that are to a few digits.
 fn orthonormal(rows: &[[f64; 3]; 3]) -> Result<Matrix3<f64>> {
     let axes = Matrix3::from_fn(|row, column| rows[row][column]);
@@ -171,23 +201,31 @@ pub fn motion_of_point(arm: &Vector3<f64>) -> Matrix3x6<f64> {
 mod tests {
     use super::*;
 
-    const UPRIGHT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-
     fn figures() -> MountFigures {
-        MountFigures { axes: UPRIGHT, stiffness: [1e5; 3], ..MountFigures::default() }
+        MountFigures { stiffness: [1e5; 3], ..MountFigures::default() }
+    }
+
+    fn along(rows: [[f64; 3]; 3]) -> Result<Mount> {
+        Mount::new(MountFigures { orientation: Orientation::Axes(rows), ..figures() })
     }
 
     #[test]
     fn axes_are_made_exact_and_others_rejected() {
         let axes = [[0.707, 0.707, 0.0], [-0.707, 0.707, 0.0], [0.0, 0.0, -1.0]];
-        let made = Mount::new(MountFigures { axes, ..figures() }).unwrap().axes();
+        let made = along(axes).unwrap().axes();
         let product = made * made.transpose();
         assert!((product - Matrix3::identity()).amax() < 1e-15);
         assert!((made[(2, 2)] + 1.0).abs() < 1e-15);
         let axes = [[1.0, 0.0, 0.0], [0.1, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let error = Mount::new(MountFigures { axes, ..figures() }).unwrap_err().to_string();
+        let error = along(axes).unwrap_err().to_string();
         assert!(error.starts_with("axes = ") && error.contains("at right angles"), "{error}");
-        assert!(Mount::new(MountFigures { axes: [[f64::NAN; 3]; 3], ..figures() }).is_err());
+        assert!(along([[f64::NAN; 3]; 3]).is_err());
+        let orientation = Orientation::Tilt(90.0);
+        let turned = Mount::new(MountFigures { orientation, ..figures() }).unwrap().axes();
+        assert_eq!(turned.row(0).transpose(), Vector3::y());
+        let orientation = Orientation::Tilt(f64::NAN);
+        let error = Mount::new(MountFigures { orientation, ..figures() }).unwrap_err();
+        assert!(error.to_string().starts_with("tilt_deg = NaN"));
     }
 
     #[test]

@@ -7,14 +7,7 @@ use crate::numbers::draws;
 
 /// A mount without damping, upright.
 pub fn mount(name: &str, at: [f64; 3], stiffness: [f64; 3]) -> MountFigures {
-    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    MountFigures { name: name.into(), at, axes, stiffness, ..MountFigures::default() }
-}
-
-/// Axes turned about z by degrees.
-fn tilted(degrees: f64) -> [[f64; 3]; 3] {
-    let (sin, cos) = degrees.to_radians().sin_cos();
-    [[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]]
+    MountFigures { name: name.into(), at, stiffness, ..MountFigures::default() }
 }
 
 pub fn powertrain(body: RigidBody, mounts: impl IntoIterator<Item = MountFigures>) -> Powertrain {
@@ -65,7 +58,7 @@ fn four_equal_mounts_have_six_modes_in_closed_form() {
 fn inclined_mounts_have_an_elastic_centre_above_them() {
     let [stiff, soft] = [4e5, 8e4];
     let inclined = |name, x: f64, degrees| MountFigures {
-        axes: tilted(degrees),
+        orientation: Orientation::Tilt(degrees),
         ..mount(name, [x, -0.222_748_08, 0.0], [stiff, soft, soft])
     };
     let pair = [inclined("right", 0.3, 130.0), inclined("left", -0.3, 50.0)];
@@ -195,7 +188,9 @@ pub fn random(number: &mut impl FnMut() -> f64, damping: bool) -> Powertrain {
         let axes = turn.matrix();
         let mut positive = |scale: f64| [0; 3].map(|_| scale * (1.0 + 0.9 * number()));
         figures.push(MountFigures {
-            axes: [0, 1, 2].map(|row| [0, 1, 2].map(|column| axes[(row, column)])),
+            orientation: Orientation::Axes(
+                [0, 1, 2].map(|row| [0, 1, 2].map(|column| axes[(row, column)])),
+            ),
             loss_factor: if damping { positive(0.2) } else { [0.0; 3] },
             damping: if damping { positive(scale * 50.0) } else { [0.0; 3] },
             stiffness: positive(scale * 1e4),
