@@ -231,7 +231,8 @@ class RollAxes(Tabled):
             [*self.torque_roll, self.torque_roll_deg, *cg, 0.0],
             [*self.elastic, self.elastic_deg, *self.elastic_foot, self.pitch],
         ]
-        heads = [*(f"direction {axis}" for axis in "xyz"), ("to the crank", "°")]
+        heads: list[str | tuple[str, str]] = [f"direction {axis}" for axis in "xyz"]
+        heads.append(("to the crank", "°"))
         heads += [*((f"through {axis}", "m") for axis in "xyz"), ("pitch", "m/rad")]
         note = f"{self.angle_deg:.4g}° and {1e3 * self.distance:.4g} mm between both axes."
         title = f"{labels.name_of(self.powertrain.engine)} on its mounts: axes of roll"

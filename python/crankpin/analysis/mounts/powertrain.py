@@ -322,8 +322,8 @@ class Powertrain(Input):
         mass, cg, inertia = core.body
         body = RigidBody(mass, cg, inertia, products="tensor")
         mounts = [Mount._of(figures) for figures in core.mounts]
-        for mount in mounts:
-            checks.mount(mount.name, mount.at, mount.stiffness)
+        for name, at, _, stiffness, *_ in core.mounts:
+            checks.mount(name, at, stiffness)
         engine = Engine._read(core_engine)
         with suppressed():
             return cls(engine, body, mounts)

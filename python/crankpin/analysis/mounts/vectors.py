@@ -123,7 +123,8 @@ class VectorQuantity(Keyed, Record):
         return changed(self, order=None if order is None else order_key(order))
 
     def __repr__(self) -> str:
-        which = {None: "", ALL: " of all orders"}.get(self.order, f" of order {self.order}")
+        which = "" if self.order is None else f" of order {self.order}"
+        which = " of all orders" if self.order == ALL else which
         name, loads = labels.printable(self.words), self.result.loads_counted
         if not self.result.dims and self.order is not None:
             return f"<VectorQuantity {name}{which}: peak {self.peak:.5g} {self.unit}, {loads}>"
