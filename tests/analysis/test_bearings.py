@@ -441,9 +441,7 @@ def test_results_are_records_over_named_dimensions() -> None:
     np.testing.assert_array_equal(data.side_thrust.sel(cylinder=3), loads.side_thrust[2])
     assert not loads.main.flags.writeable
     assert loads.table["crankpin"].values == tuple(loads.peak("crankpin"))
-    below = loads.table.below
-    assert below is not None
-    assert below["mean"].values == tuple(loads.mean("main"))
+    assert loads.frames["mains"]["mean"].values == tuple(loads.mean("main"))
 
 
 @pytest.mark.parametrize("engine", [WEIGHTED, FIRED], ids=["inertia", "gas"])

@@ -177,7 +177,7 @@ def test_an_angle_that_is_no_part_of_a_turn_is_not_decided() -> None:
     assert "?≠0" in repr(v)
     assert v.obstacles[0] in repr(v)
     assert f"<p>{v.obstacles[0]}</p>" in v._repr_html_()
-    assert v.to_pandas().verdict.iloc[1] == "undecided"
+    assert v.tidy()["verdict"].values[1] == "undecided"
     close = cp.Engine.from_lists(
         CYLINDER, tdc_deg=[0, 120 + 1e-13, 240], bank_deg=[90] * 3, z=[0, 0.1, 0.2]
     ).vanishing_orders(1)

@@ -788,10 +788,10 @@ def test_firings_are_frozen_and_copied() -> None:
 
 def test_tables() -> None:
     table = PAGE.to_pandas()
-    assert table.index.tolist() == list(PAGE.order)
-    assert table["interval_deg"].tolist() == [90.0] * 8
-    assert table["angle_deg"].tolist() == [90.0 * k for k in range(8)]
-    assert table["gap_in_bank_deg"].tolist() == [270, 90, 180, 180, 270, 90, 180, 180]
+    assert table["cylinder"].tolist() == list(PAGE.order)
+    assert table["to the next °"].tolist() == [90.0] * 8
+    assert table["fires at °"].tolist() == [90.0 * k for k in range(8)]
+    assert table["to the next of its bank °"].tolist() == [270, 90, 180, 180, 270, 90, 180, 180]
     assert "<td>270</td>" in str(PAGE._repr_html_())
     assert PAGE.to_xarray()["to the next"].values.tolist() == [90.0] * 8
 
@@ -820,7 +820,7 @@ def test_command_of_an_order(capsys: CAPTURE, tmp_path: Path) -> None:
     assert len(lines) == 10
     head, *rows = csv.reader(io.StringIO(printed(capsys, *argv, "--csv")))
     assert head[0] == "cylinder"
-    assert [float(row[1]) for row in rows] == PAGE.to_pandas()["angle_deg"].tolist()
+    assert [float(row[1]) for row in rows] == list(PAGE.table["fires at"].values)
     picture, before = tmp_path / "v8.png", plt.get_fignums()
     printed(capsys, *argv, "--plot", str(picture))
     assert picture.read_bytes().startswith(b"\x89PNG")

@@ -174,8 +174,7 @@ def test_jumps_of_pressure_are_where_cylinders_fire() -> None:
     # A jump inside a cell would be some 1e-3 off.
     assert found.mean_torque == pytest.approx(mean, rel=1e-9)
     assert found.engine is jumping
-    below = found.table.below
-    assert below is not None
+    below = found.frames["approximations"]
     assert below["irregularity"].values == tuple(100 * each for each in found.approximations)
 
 
@@ -515,6 +514,5 @@ def test_the_table_has_the_figures() -> None:
         found.lowest_rpm,
         found.highest_rpm,
     )
-    below = found.table.below
-    assert below is not None
+    below = found.frames["approximations"]
     assert below["error"].values == (100 * (found.approximations[0] / found.irregularity - 1),)

@@ -427,8 +427,8 @@ def test_tables_and_datasets_have_the_parts() -> None:
     whole = dataset.torque_gas + dataset.torque_inertia
     assert np.allclose(whole, dataset.torque, rtol=1e-14)
     assert dataset.crank_torque_gas.attrs["units"] == "N m"
-    table = waveform.to_pandas()
-    assert set(table.quantity) >= {"torque.gas", "crank_torque.inertia"}
+    table = waveform.tidy()
+    assert set(table["quantity"].values) >= {"torque.gas", "crank_torque.inertia"}
     assert set(engines()["i4"].waveform(rpm=3000, theta_deg=[0.0]).to_xarray()) == {
         "force", "moment", "torque", "crank_torque",
     }  # fmt: skip

@@ -60,6 +60,7 @@ OF_DESIGN: dict[str, Any] = {
     "tolerances": lambda e: cp.tolerances(e, 3000, pin_deg=0.1, samples=20, orders=[1, 2]),
 }
 NOTHING_OF_GAS = {
+    "Table",  # has its loads itself
     "ArrangementSearch", "BalanceShafts", "BobWeight", "Counterweights", "Match",
     "TwoPlaneCorrection",  # force and moment
     "VanishingOrders", "Verdicts",  # which orders of either there are

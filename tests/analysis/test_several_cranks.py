@@ -292,6 +292,40 @@ def test_the_bound_about_a_point_is_one_figure_everywhere() -> None:
 # --- the forward theorem --------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize("seed", range(30))
+def test_a_sample_of_tolerances_is_an_engine(seed: int) -> None:
+    engine = random_engine(seed)
+    masses = [each.reciprocating_mass for each in engine.cylinders]
+    spreads = {
+        "reciprocating_mass": 0.01 * np.array(masses),
+        "rotating_mass": 0.01,
+        "crank_radius": 1e-5,
+        "pin_deg": 0.3,
+        "z": 1e-3,
+        "rod_length": 1e-4,
+    }
+    t = cp.tolerances(engine, RPM, samples=3, seed=seed, **spreads)
+    known = t.engine_at(1).replace(reference_z=engine.reference_z).balance(RPM, orders=t.orders)
+    for name in ("force", "moment", "torque", "crank_torque"):
+        found, expected = np.asarray(getattr(t, name))[1], np.asarray(getattr(known, name))
+        # Rounding of some thirty terms, some of which cancel.
+        scale = size(engine, RPM) + abs(expected).max()
+        assert abs(found - expected).max() <= 1e-12 * scale
+        peak = getattr(t.total, name).peak[1]
+        assert peak == pytest.approx(getattr(known.total, name).peak, rel=1e-10, abs=1e-12 * scale)
+
+
+def test_cylinders_on_two_cranks_share_no_pin_of_tolerances() -> None:
+    draft = next(d for d in map(Draft, range(30)) if {0, 1} <= {*d.crank_of})
+    draft.cranks[1] = (0.2, 0.0, 1)
+    draft.tdc_deg, draft.bank_deg = np.zeros((2, len(draft.crank_of)))
+    one, other = (draft.crank_of.index(crank) + 1 for crank in (0, 1))
+    alone = [[n] for n in range(1, len(draft.crank_of) + 1) if n not in (one, other)]
+    pair = rf"\[{min(one, other)}, {max(one, other)}\]"
+    with pytest.raises(cp.InputError, match=rf"pins = {pair}: .* different cranks"):
+        cp.tolerances(draft.engine(), RPM, pin_deg=0.1, pins=[[one, other], *alone])
+
+
 @pytest.mark.parametrize("seed", SEEDS)
 def test_bob_weights_act_in_the_sense_of_their_cranks(seed: int) -> None:
     engine = random_engine(seed, ratios=(1, -1), offset=seed % 2 == 1)

@@ -51,16 +51,16 @@ def test_two_strokes_take_the_example_of_a_two_stroke(capsys: CAPTURE) -> None:
 
 def test_bearings_are_those_of_the_library(capsys: CAPTURE) -> None:
     loads = cp.bearing_loads(cp.Engine.preset("v6-60"), rpm=4000)
-    assert printed(capsys, "bearings v6-60 --rpm 4000") == f"{loads.table.text()}\n"
-    for load, peaks in (("main", loads.peak("main")), ("crankpin", loads.peak("crankpin"))):
-        typed = f"bearings v6-60 --rpm 4000 --load {load} --csv"
+    assert printed(capsys, "bearings v6-60 --rpm 4000") == f"{loads.frames.text()}\n"
+    for load, frame in (("main", "mains"), ("crankpin", "table")):
+        typed = f"bearings v6-60 --rpm 4000 --frame {frame} --csv"
         head, *rows = csv.reader(io.StringIO(printed(capsys, typed)))
         column = head.index("largest N" if load == "main" else "crankpin N")
-        assert [float(row[column]) for row in rows] == peaks.tolist()
+        assert [float(row[column]) for row in rows] == loads.peak(load).tolist()
 
 
 def test_bearings_count_gas_where_a_cycle_is_given(capsys: CAPTURE, tmp_path: Path) -> None:
-    table = cp.bearing_loads(fired("i4", "diesel", 0.1), rpm=1500).table.text()
+    table = cp.bearing_loads(fired("i4", "diesel", 0.1), rpm=1500).frames.text()
     out = printed(capsys, "bearings i4 --rpm 1500 --cycle diesel --bore 100mm")
     assert out.startswith(table)
     assert table not in printed(capsys, "bearings i4 --rpm 1500")

@@ -53,7 +53,7 @@ def test_counterweights_are_those_of_the_library(
 ) -> None:
     engine = cp.Engine.preset("v6-90")
     fitted = cp.counterweights(engine, planes=planes)  # type: ignore[arg-type]
-    assert printed(capsys, "counterweights", "v6-90", *typed) == (f"{fitted.table.text()}\n")
+    assert printed(capsys, "counterweights", "v6-90", *typed) == (f"{fitted.frames.text()}\n")
     head, *rows = csv.reader(
         io.StringIO(printed(capsys, "counterweights", "v6-90", "--csv", *typed))
     )
@@ -85,7 +85,7 @@ def test_bob_weights_are_those_of_the_library(capsys: CAPTURE) -> None:
     engine = cp.Engine.preset("v8-crossplane", rotating_mass=0.55)
     cylinders = [each.replace(reciprocating_mass=0.62) for each in engine.cylinders]
     bob = cp.bob_weight(engine.replace(cylinder=cylinders), 0.52, oil=0.004)
-    assert printed(capsys, "bob-weight", "v8-crossplane", *typed) == (f"{bob.table.text()}\n")
+    assert printed(capsys, "bob-weight", "v8-crossplane", *typed) == (f"{bob.frames.text()}\n")
     *_, last = csv.reader(io.StringIO(printed(capsys, "bob-weight", "v8-crossplane", "--csv")))
     assert last == ["7, 8", "315.0", "0.0", "900.0", "0.0", "450.0"]
     assert "50 %" in printed(capsys, "bob-weight", "single")

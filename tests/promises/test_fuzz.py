@@ -89,7 +89,7 @@ def test_fuzz_reaches_the_whole_public_surface() -> None:
         assert name in labels | PLAIN | {"__version__", "types"}
     for label in ("firing.gaps", "firing.valves", "i4.firings", "throws", "ValveTiming"):
         assert label in labels
-    for label in ("Engine.from_lists", "v6.balance", "sweep.to_pandas", "balance.plot", "i4.save"):
+    for label in ("Engine.from_lists", "v6.balance", "sweep.tidy", "balance.plot", "i4.save"):
         assert label in labels
     for label in ("balance []", "quantity ==", "sweep in", "ranking []", "i4 <", "v6 r+"):
         assert label in labels

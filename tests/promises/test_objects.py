@@ -734,11 +734,9 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
 
 @every_object
 def test_columns_have_their_units_apart(name: str) -> None:
-    table = getattr(OBJECTS[name], "table", None)
-    while table is not None:
+    for table in getattr(OBJECTS[name], "frames", {}).values():
         for column in table.columns:
             assert column.name.split()[-1:] not in [["°"], ["m"], ["kg"], ["g"], ["N"], ["N·m"]]
-        table = table.below
 
 
 def test_a_balance_is_shown_as_a_table() -> None:
@@ -770,34 +768,34 @@ def test_a_balance_is_shown_as_html_in_notebooks() -> None:
 # --- tables of other libraries ------------------------------------------------------------------
 
 
-def test_balance_to_pandas() -> None:
-    frame = balance().to_pandas()
+def test_balance_in_long_form() -> None:
+    frame = balance().tidy().to_pandas()
     assert isinstance(frame, pd.DataFrame)
     assert frame.shape == (3 * (4 + 4 + 1 + 1), 7)
     assert set(frame.quantity) == {"force", "moment", "torque", "crank_torque"}
     y = frame[(frame.quantity == "moment") & (frame.component == "y")]
     assert list(y.order) == [1, 2, 6]
     np.testing.assert_array_equal(y.real + 1j * y.imag, balance().moment.y)
-    assert "torque" not in set(balance(spectrum=SPECTRUM).to_pandas().quantity)
+    assert "torque" not in balance(spectrum=SPECTRUM).tidy()["quantity"].values
 
 
-def test_waveform_to_pandas() -> None:
-    frame = waveform().to_pandas()
+def test_waveform_in_long_form() -> None:
+    frame = waveform().tidy().to_pandas()
     assert list(frame.columns) == ["theta_deg", "quantity", "component", "value", "unit"]
     assert len(frame) == 6 * len(THETA)
     crank = frame[frame.quantity == "crank_torque"]
     np.testing.assert_array_equal(crank.value, waveform().crank_torque)
-    assert len(waveform(orders=[1], spectrum=SPECTRUM).to_pandas()) == 4 * len(THETA)
+    assert len(waveform(orders=[1], spectrum=SPECTRUM).tidy()) == 4 * len(THETA)
 
 
-def test_sweep_to_pandas() -> None:
-    frame = sweep().to_pandas("force")
+def test_sweep_in_long_form() -> None:
+    frame = sweep().tidy("force").to_pandas()
     assert list(frame.columns)[:4] == ["engine", "bank_angle_deg", "rpm", "order"]
     x = frame[frame.component == "x"].set_index(["engine", "bank_angle_deg", "rpm", "order"])
     assert x.peak["again", 75.0, 5000.0, 2] == sweep().force.peak_xy[1, 1, 1, 1, 0]
-    torque = sweep().to_pandas("torque")
-    np.testing.assert_array_equal(torque.peak, sweep().torque.peak.ravel())
-    assert len(cp.sweep(V6, rpm=5000, orders=[1]).to_pandas("torque")) == 1
+    torque = sweep().tidy("torque")
+    np.testing.assert_array_equal(torque["peak"].values, sweep().torque.peak.ravel())
+    assert len(cp.sweep(V6, rpm=5000, orders=[1]).tidy("torque")) == 1
 
 
 UNITS = {"force": "N", "moment": "N m", "torque": "N m", "crank_torque": "N m"}

@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
+from crankpin._support.frames import Frames
 from crankpin._support.record import Listed, Record
-from crankpin._support.tables import Column, Table, stacked
+from crankpin._support.tables import Column, Table
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -112,14 +113,21 @@ def test_a_table_is_text_html_csv_and_data_frame(tmp_path: Path) -> None:
     assert dataset.attrs == {"title": "A <title>"}
 
 
-def test_tables_of_no_rows_are_tables_and_tables_stack() -> None:
+def test_tables_of_no_rows_are_tables_and_stand_below_each_other() -> None:
     empty = Table.from_rows("Nothing", ["a", ("b", "N")], [], np.empty((0, 1)))
     assert empty.text() == "Nothing\na  b N"
     assert empty.to_csv() == "a,b N\n"
     assert len(empty.to_pandas()) == 0
-    both = stacked(TABLE, empty)
+    both = Frames({"first": lambda: TABLE, "second": lambda: empty})
     assert both.text() == f"{TABLE.text()}\n\n{empty.text()}"
-    assert both.html() == TABLE.html() + empty.html()
+    assert both._repr_html_() == TABLE.html() + empty.html()
+    assert list(both) == ["first", "second"]
+    assert both["second"] is empty
+    assert "third" not in both
+    with pytest.raises(KeyError, match=r'frame = .third.: give "first" or "second"'):
+        both["third"]
+    assert list(TABLE.frames) == ["table"]
+    assert TABLE.frames["table"] is TABLE
 
 
 def test_numbers_too_small_to_matter_are_marked_but_kept() -> None:

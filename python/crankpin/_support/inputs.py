@@ -177,7 +177,7 @@ def output(name: str, values: NDArray[np.float64], shape: tuple[int, ...]) -> ND
     return values
 
 
-def number(name: str, value: Any) -> float:  # noqa: ANN401 - anything that float() takes
+def number(name: str, value: object) -> float:
     """Return a float."""
     if type(value) is float or (type(value) is int and abs(value) < 2**53):
         return float(value)
@@ -201,7 +201,7 @@ def _real(value: Any) -> float:  # noqa: ANN401 - anything that float() takes
     return float(value)
 
 
-def finite(name: str, value: Any) -> float:  # noqa: ANN401 - as above
+def finite(name: str, value: object) -> float:
     """Return a finite float."""
     found = number(name, value)
     if not math.isfinite(found):
@@ -209,7 +209,7 @@ def finite(name: str, value: Any) -> float:  # noqa: ANN401 - as above
     return found
 
 
-def optional_number(name: str, value: Any) -> float | None:  # noqa: ANN401 - as above
+def optional_number(name: str, value: object) -> float | None:
     """Return a float, or None for None."""
     return None if value is None else number(name, value)
 
@@ -240,7 +240,7 @@ def crank_angles(theta_deg: ArrayLike | None) -> NDArray[np.float64]:
     return theta
 
 
-def angular_speed(rpm: Any) -> float:  # noqa: ANN401 - anything that float() takes
+def angular_speed(rpm: object) -> float:
     """Return ω in rad/s."""
     return _core.angular_speed(number("rpm", rpm))
 
@@ -306,15 +306,17 @@ def flag(name: str, value: object) -> bool:
     return bool(value)
 
 
-def one_of(name: str, value: object, choices: Iterable[str]) -> str:
+def one_of(
+    name: str, value: object, choices: Iterable[str], kind: type[InputError] = InputError
+) -> str:
     """Return one of a few words."""
     listed = list(choices)
     if not isinstance(value, str) or value not in listed:
         if not listed:
-            raise rejected(name, value, "there is none; leave it out")
+            raise rejected(name, value, "there is none; leave it out", kind)
         *before, last = map(_quoted, listed)
         hint = f"{', '.join(before)} or {last}" if before else last
-        raise rejected(name, value, f"give {hint}{nearest(value, listed)}")
+        raise rejected(name, value, f"give {hint}{nearest(value, listed)}", kind)
     return value
 
 
@@ -388,7 +390,7 @@ def firing_order(name: str, values: object) -> str:
     return "-".join(shorten(number) for number in items(name, values, hint))
 
 
-def order(value: Any) -> Order:  # noqa: ANN401 - anything that float() takes
+def order(value: object) -> Order:
     """Return an order, an int or a half as a float; a TypeError or ValueError for anything else."""
     if type(value) is int:
         return value

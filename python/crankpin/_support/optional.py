@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    import pandas as pd
     import xarray as xr
 
 EXTRAS = {
@@ -29,15 +28,6 @@ def library(name: str) -> Any:  # noqa: ANN401 - a module
     except ImportError as error:
         hint = f'pip install "crankpin[{EXTRAS.get(name, name)}]"'
         raise ImportError(f"{name} is not installed: {hint}") from error
-
-
-def data_frame(
-    data: object, *, attributes: Mapping[str, object] | None = None, **options: object
-) -> pd.DataFrame:
-    """Return a table of pandas with its attributes."""
-    frame: pd.DataFrame = library("pandas").DataFrame(data, **options)
-    frame.attrs.update(attributes or {})
-    return frame
 
 
 def dataset(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from crankpin._support import inputs, optional
 
@@ -33,12 +33,12 @@ def _bar(description: str) -> Iterator[Callable[[int, int], object]]:
         yield show
 
 
-def checked(progress: Any) -> Progress:  # noqa: ANN401 - anything a caller may give
+def checked(progress: object) -> Progress:
     """Return the argument if progress can be reported to it."""
     if progress is True:
         optional.library("tqdm.auto")
         return True
     if progress is False or callable(progress):
-        return progress  # type: ignore[no-any-return] # callables return what they like
+        return progress
     hint = "give True for a tqdm bar, or a function of (steps done, steps in all)"
     raise inputs.rejected("progress", progress, hint)

@@ -10,27 +10,12 @@ import textwrap
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from types import MappingProxyType
-from typing import (
-    TYPE_CHECKING,
-    Any,
-    ClassVar,
-    Generic,
-    Self,
-    TypeVar,
-    dataclass_transform,
-    overload,
-)
+from typing import Any, ClassVar, Generic, Self, TypeVar, dataclass_transform, overload
 
 import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs
-
-if TYPE_CHECKING:
-    import pandas as pd
-    import xarray as xr
-
-    from crankpin._support.tables import Table
 
 Item = TypeVar("Item")
 
@@ -124,7 +109,7 @@ class Record:
     _mutable: ClassVar[tuple[str, ...]] = ()
     """Names of the fields whose values could be changed: arrays, lists and mappings."""
 
-    def __init_subclass__(cls, **options: Any) -> None:  # noqa: ANN401 - of other base classes
+    def __init_subclass__(cls, **options: object) -> None:
         super().__init_subclass__(**options)
         dataclasses.dataclass(frozen=True, eq=False, repr=False)(cls)
         cls._fields = dataclasses.fields(cls)  # type: ignore[arg-type] # made one above
@@ -173,7 +158,7 @@ class Record:
 class Input(Record):
     """Base class of records that describe what is computed, not what came out."""
 
-    def replace(self, **changes: Any) -> Self:  # noqa: ANN401 - values of fields
+    def replace(self, **changes: object) -> Self:
         """Return a copy with some fields changed.
 
         Parameters
@@ -195,51 +180,6 @@ class Input(Record):
         for name in changes:
             inputs.one_of("replace", name, names)
         return changed(self, **changes)
-
-
-class Tabled(Record):
-    """Base class of records that are shown by their ``table``."""
-
-    @property
-    def table(self) -> Table:
-        """Table that is shown: columns of numbers with units."""
-        raise NotImplementedError
-
-    def to_pandas(self) -> pd.DataFrame:
-        """Return the table as a DataFrame (needs pandas).
-
-        Returns
-        -------
-        pandas.DataFrame
-            A row for each row of the table.
-
-        Raises
-        ------
-        ImportError
-            If pandas is not installed.
-        """
-        return self.table.to_pandas()
-
-    def to_xarray(self) -> xr.Dataset:
-        """Return the table as a Dataset with units, over its rows (needs xarray).
-
-        Returns
-        -------
-        xarray.Dataset
-            A variable for each column of the table.
-
-        Raises
-        ------
-        ImportError
-            If xarray is not installed.
-        """
-        return self.table.to_xarray()
-
-    def __repr__(self) -> str:
-        return repr(self.table)
-
-    def _repr_html_(self) -> str | None:
-        return self.table._repr_html_()
 
 
 class Listed(Generic[Item]):
@@ -298,7 +238,7 @@ def item_key(place: Any, count: int) -> Any:  # noqa: ANN401 - an int or a slice
 Changed = TypeVar("Changed", bound=Record)
 
 
-def changed(record: Changed, **changes: Any) -> Changed:  # noqa: ANN401 - values of fields
+def changed(record: Changed, **changes: object) -> Changed:
     """Return a copy of a record with some fields changed, whose numbers must be of these fields."""
     return type(record)(**_values(record) | changes)
 
@@ -318,7 +258,7 @@ def read_only(values: Item) -> Item:
     return found  # type: ignore[no-any-return]
 
 
-def _plain(value: Any) -> Any:  # noqa: ANN401 - values of fields
+def _plain(value: object) -> object:
     """Return a value that can be pickled: read-only mappings cannot."""
     if isinstance(value, Mapping):
         return {key: _plain(each) for key, each in value.items()}
@@ -336,7 +276,7 @@ def equal(a: Any, b: Any) -> bool:  # noqa: ANN401 - values of fields
     return bool(a == b)
 
 
-def _hashable(value: Any) -> Any:  # noqa: ANN401 - values of fields
+def _hashable(value: object) -> object:
     if isinstance(value, np.ndarray):
         return value.shape
     if isinstance(value, tuple):

@@ -1,37 +1,25 @@
-"""Tables: columns with units, as text, HTML, CSV, DataFrame or Dataset."""
+"""Tables: columns with units, as text, HTML, CSV, LaTeX, DataFrame or Dataset."""
 
 from __future__ import annotations
 
-import csv
 import html
-import io
 import math
-import re
-from typing import TYPE_CHECKING, Any, TypeAlias, overload
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from crankpin._support import files, inputs, labels, optional
-from crankpin._support.record import AbsentItemError, Record, changed
+from crankpin._support import inputs, labels
+from crankpin._support.frames import Tabled
+from crankpin._support.record import AbsentItemError, Record
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
-    from pathlib import Path
 
-    import pandas as pd
-    import xarray as xr
     from numpy.typing import ArrayLike, NDArray
 
-Label: TypeAlias = "str | Sequence[str | float]"
+Label: TypeAlias = "str | Sequence[str | float | None]"
 """Text before a row's numbers, or several texts and numbers, a column each."""
 
-SHOWN = 30
-"""Rows of a long table in text: a screen."""
-SHOWN_IN_NOTEBOOKS = 60
-"""Rows of a long table in a notebook."""
-FORMULA = re.compile(r"\s*[=+\-@＝＋－＠]|[\t\n]")
-"""Beginning of a text that a spreadsheet takes for a formula."""
-NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.ASCII | re.IGNORECASE)
 TINY = "~0"
 """What stands for a number that is not zero, but too small to matter."""
 
@@ -66,11 +54,17 @@ class Column(Record):
     def _rounded(self, value: float | None) -> str:
         if value is None:
             return "–"
+        if isinstance(value, bool):
+            return str(value)
         if not value or isinstance(value, (int, np.integer)):
             return str(value) if value else "0"
         if abs(value) < self.least:
             return TINY
         return f"{value:.{self.digits}g}" if self.decimals is None else f"{value:.{self.decimals}f}"
+
+    def _array(self) -> NDArray[Any]:
+        """Return the values as an array, NaN where a number is missing."""
+        return np.array([math.nan if each is None else each for each in self.values])
 
     @property
     def is_text(self) -> bool:
@@ -78,17 +72,15 @@ class Column(Record):
         return all(isinstance(each, str) for each in self.values)
 
 
-class Table(Record):
-    """Columns under a title: text, HTML, CSV, DataFrame and Dataset follow from them."""
+class Table(Tabled):
+    """Columns under a title: text, HTML, CSV, LaTeX, DataFrame and Dataset follow from them."""
 
     title: str
-    """Line above the table."""
+    """Line above the table, or several."""
     columns: tuple[Column, ...]
     """Columns, all of one length."""
     note: str = ""
     """Line under the table in text and HTML."""
-    below: Table | None = None
-    """A further table of the same result, shown below this one."""
     loads: str = ""
     """Loads that its numbers count, where more could: the last line under the table."""
 
@@ -98,10 +90,9 @@ class Table(Record):
         title: str,
         header: Sequence[str | tuple[str, str]],
         labels: Sequence[Label],
-        rows: NDArray[np.float64],
+        rows: NDArray[np.float64] | None = None,
         decimals: int | None = None,
         note: str = "",
-        below: Table | None = None,
         loads: str = "",
     ) -> Table:
         """Return a table of rows: labels before numbers; heads are names or (name, unit).
@@ -114,14 +105,12 @@ class Table(Record):
             Heads of the columns: names, or pairs (name, unit).
         labels : sequence of str or sequence of str
             Label of each row, or several, before its numbers.
-        rows : ndarray of float, shape (n_rows, n_columns)
-            Numbers.
+        rows : ndarray of float, shape (n_rows, n_columns), optional
+            Numbers; by default the labels are the whole rows, numbers among them.
         decimals : int, optional
             Digits after the decimal point; by default five significant digits.
         note : str, optional
             Text below the table.
-        below : Table, optional
-            Table shown below this one.
         loads : str, optional
             Loads that count, in words.
 
@@ -132,17 +121,23 @@ class Table(Record):
         """
         listed = [[label] if isinstance(label, str) else list(label) for label in labels]
         heads = [(head, "") if isinstance(head, str) else head for head in header]
-        before = len(heads) - rows.shape[1]
+        numbers = [] if rows is None else rows.T.tolist()
+        before, digits = len(heads) - len(numbers), 5 if rows is None else 10
         texts = zip(*listed, strict=True) if listed else [()] * before
         columns = [
-            Column(name, tuple(values), unit, digits=10)
+            Column(name, tuple(values), unit, digits)
             for (name, unit), values in zip(heads, texts, strict=False)
         ]
         columns += [
             Column(name, tuple(values), unit, decimals=decimals)
-            for (name, unit), values in zip(heads[before:], rows.T.tolist(), strict=True)
+            for (name, unit), values in zip(heads[before:], numbers, strict=True)
         ]
-        return cls(title, tuple(columns), note, below, loads)
+        return cls(title, tuple(columns), note, loads)
+
+    @property
+    def table(self) -> Table:
+        """The table: it is its own only frame."""
+        return self
 
     @property
     def header(self) -> list[str]:
@@ -202,14 +197,7 @@ class Table(Record):
             for line in lines
         )
         title, notes = labels.without_controls(self.title), self._notes(rows)
-        text = "\n".join(filter(None, [title, *body, *notes]))
-        return f"{text}\n\n{self.below.text(rows)}" if self.below is not None else text
-
-    def __repr__(self) -> str:
-        return self.text(SHOWN)
-
-    def _repr_html_(self) -> str:
-        return self.html(SHOWN_IN_NOTEBOOKS)
+        return "\n".join(filter(None, [title, *body, *notes]))
 
     def html(self, rows: int | None = None) -> str:
         """Return the first rows, or all, as HTML for notebooks.
@@ -229,15 +217,12 @@ class Table(Record):
             "<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>"
             for row in self.cells()[:rows]
         )
-        caption = f"<caption>{html.escape(labels.without_controls(self.title))}</caption>"
+        title = "; ".join(labels.without_controls(self.title).split("\n"))
+        caption = f"<caption>{html.escape(title)}</caption>"
         notes = "".join(f"<p>{html.escape(note)}</p>" for note in self._notes(rows))
-        below = self.below.html(rows) if self.below is not None else ""
-        return (
-            f"<table>{caption}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
-            f"{notes}{below}"
-        )
+        return f"<table>{caption}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{notes}"
 
-    def _notes(self, rows: int | None) -> Iterable[str]:
+    def _notes(self, rows: int | None = None) -> Iterable[str]:
         """Yield the lines under the table."""
         if rows is not None and rows < len(self):
             yield f"{rows} of {len(self)} rows"
@@ -247,79 +232,6 @@ class Table(Record):
             yield f"{TINY}: not zero, but too small to matter."
         if self.loads:
             yield labels.in_words(self.loads)
-
-    @overload
-    def to_csv(self, path: None = None) -> str: ...
-
-    @overload
-    def to_csv(self, path: str | Path) -> None: ...
-
-    def to_csv(self, path: str | Path | None = None) -> str | None:
-        """Return the table as CSV, numbers in full: they read back unchanged; or write a file.
-
-        Tables below this one are not in it. A text that a spreadsheet would take for a formula has
-        an apostrophe before it.
-
-        Parameters
-        ----------
-        path : str or pathlib.Path, optional
-            A ``.csv`` file to write, in UTF-8; by default the text is returned.
-
-        Returns
-        -------
-        str or None
-            The text; None where a file was written.
-
-        Raises
-        ------
-        InputError
-            If the name ends otherwise.
-        OSError
-            If the file cannot be written.
-        """
-        file = io.StringIO()
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(map(_inert, self.header))
-        writer.writerows(zip(*(map(_inert, each.values) for each in self.columns), strict=True))
-        if path is None:
-            return file.getvalue()
-        files.write(inputs.file_path(path, (".csv",), "name a .csv file"), file.getvalue())
-        return None
-
-    def to_pandas(self) -> pd.DataFrame:
-        """Return a DataFrame, names and units as the heads of its columns (needs pandas).
-
-        Returns
-        -------
-        pandas.DataFrame
-            A column for each column of the table.
-
-        Raises
-        ------
-        ImportError
-            If pandas is not installed.
-        """
-        data = {head: list(each.values) for head, each in self._distinct()}
-        return optional.data_frame(data, attributes=labels.attributes(self.loads))
-
-    def to_xarray(self) -> xr.Dataset:
-        """Return a Dataset over the rows, units as attributes (needs xarray).
-
-        Returns
-        -------
-        xarray.Dataset
-            A variable for each column of the table.
-
-        Raises
-        ------
-        ImportError
-            If xarray is not installed.
-        """
-        arrays = {
-            head: ("row", np.array(each.values), {"units": each.unit} if each.unit else {})
-            for head, each in self._distinct(units=False)
-        }
-        return optional.dataset(arrays, {}, {"title": self.title} | labels.attributes(self.loads))
 
     def _distinct(self, *, units: bool = True) -> Iterable[tuple[str, Column]]:
         """Yield the columns with heads that are distinct."""
@@ -336,14 +248,6 @@ def _cell(text: str) -> str:
     return labels.without_controls(text).translate({10: " ", 9: " "})
 
 
-def _inert(value: Any) -> Any:  # noqa: ANN401 - a number or a text
-    """Return a text that no terminal obeys and no spreadsheet runs; numbers as they are."""
-    if not isinstance(value, str):
-        return value
-    text = labels.without_controls(value)
-    return f"'{text}" if FORMULA.match(text) and not NUMBER.fullmatch(text) else text
-
-
 def common_decimals(values: ArrayLike) -> int | None:
     """Return how many decimals show the largest number to six digits, None outside 0.01 to 1e9.
 
@@ -353,11 +257,3 @@ def common_decimals(values: ArrayLike) -> int | None:
     if not 0.01 <= largest < 1e9:
         return None
     return max(0, 5 - math.floor(math.log10(largest)))
-
-
-def stacked(*tables: Table) -> Table:
-    """Return the first of some tables with the others below it."""
-    *above, whole = tables
-    for table in reversed(above):
-        whole = changed(table, below=whole)
-    return whole

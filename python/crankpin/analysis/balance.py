@@ -9,7 +9,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import KINDS, QUANTITIES
-from crankpin._support.record import Tabled, changed
+from crankpin._support.record import changed
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.drawing import draw
@@ -57,7 +57,7 @@ def mean_piston_speed(engine: Engine, rpm: float) -> float:
     return 4.0 * engine_core(engine).largest_crank_radius * rpm / 60.0
 
 
-class Balance(ByOrder, Tabled):
+class Balance(ByOrder):
     """Force, moment and torque of an engine at one speed, order by order.
 
     ``force``, ``moment``, ``torque`` and ``crank_torque`` are complex peak phasors, each a
@@ -204,9 +204,10 @@ class Balance(ByOrder, Tabled):
         self,
         ax: Axes,
         *,
+        figure: None = None,
         kind: Literal["spectrum", "ellipses"] = "spectrum",
         quantity: str | None = None,
-        **options: Any,  # noqa: ANN401
+        **options: object,
     ) -> Axes: ...
 
     @overload
@@ -214,9 +215,10 @@ class Balance(ByOrder, Tabled):
         self,
         ax: None = None,
         *,
+        figure: None = None,
         kind: Literal["spectrum"] = "spectrum",
         quantity: str | None = None,
-        **options: Any,  # noqa: ANN401
+        **options: object,
     ) -> Axes: ...
 
     @overload
@@ -227,7 +229,7 @@ class Balance(ByOrder, Tabled):
         figure: Figure | SubFigure | None = None,
         kind: Literal["ellipses", "phasors"],
         quantity: str | None = None,
-        **options: Any,  # noqa: ANN401
+        **options: object,
     ) -> NDArray[Any]: ...
 
     def plot(
@@ -237,7 +239,7 @@ class Balance(ByOrder, Tabled):
         figure: Figure | SubFigure | None = None,
         kind: Literal["spectrum", "ellipses", "phasors"] = "spectrum",
         quantity: str | None = None,
-        **options: Any,
+        **options: object,
     ) -> Axes | NDArray[Any]:
         """Draw the orders; return the axes.
 

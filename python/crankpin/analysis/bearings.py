@@ -11,8 +11,9 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
+from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import LOADS
-from crankpin._support.record import Tabled, read_only
+from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.drawing import draw
@@ -433,26 +434,7 @@ class BearingLoads(Tabled):
 
     # --- tables and pictures ---------------------------------------------------------------------
 
-    def to_xarray(self) -> xr.Dataset:
-        """Return the loads over crank angle with named dimensions and units (needs xarray).
-
-        Returns
-        -------
-        xarray.Dataset
-            The loads, with units as attributes.
-
-        Raises
-        ------
-        ImportError
-            If xarray is not installed.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> data = cp.bearing_loads(cp.Engine.preset("i4"), rpm=6000).to_xarray()
-        >>> data.main.dims
-        ('main_bearing', 'theta_deg', 'axis')
-        """
+    def _dataset(self) -> xr.Dataset:
         arrays: dict[str, Any] = {}
         for name, kind in LOADS.items():
             of = "main_bearing" if name == "main" else "cylinder"
@@ -473,8 +455,8 @@ class BearingLoads(Tabled):
         *,
         figure: Figure | SubFigure | None = None,
         kind: Literal["polar", "curves", "bending"] = "polar",
-        **options: Any,  # noqa: ANN401 - as below
-    ) -> Any:  # noqa: ANN401 - axes, or an array of axes
+        **options: object,
+    ) -> Axes | NDArray[Any]:
         """Draw loads; return the axes.
 
         Parameters
@@ -515,11 +497,11 @@ class BearingLoads(Tabled):
         >>> ax = loads.plot(load="crankpin", numbers=[1], axes="crank")
         >>> ax = loads.plot(kind="bending", part="crankcase")
         """
-        return draw(self, ax, figure=figure, kind=kind, **options)
+        return draw(self, ax, figure=figure, kind=kind, **options)  # type: ignore[no-any-return]
 
     @property
     def table(self) -> Table:
-        """Table that is shown: largest and mean loads of each cylinder, then of each bearing."""
+        """Largest and mean loads of each cylinder."""
         where = f"{labels.name_of(self.engine)} at {self.rpm:g} rpm"
         over = "of a cycle" if self.at_any_angle else f"at {len(self.theta_deg)} crank angles"
         least, most = self._range("rod_force")
@@ -532,7 +514,6 @@ class BearingLoads(Tabled):
             "rod compressed": np.maximum(most, 0.0),
             "pulled": np.maximum(-least, 0.0),
         }
-        of_mains = {"largest": self.peak("main"), "mean": self.mean("main")}
         return Table(
             f"{where}, largest loads {over}",
             (
@@ -541,14 +522,23 @@ class BearingLoads(Tabled):
                 Column("pulled for", tuple(in_tension), "°"),
             ),
             loads=self.loads_counted,
-            below=Table(
-                "Main bearings, which share the loads between them by the lever rule",
-                (
-                    _counted("main", len(self.main)),
-                    Column("z", tuple(self.engine.mains.tolist()), "m"),
-                    *(Column(name, tuple(each.tolist()), "N") for name, each in of_mains.items()),
-                ),
+        )
+
+    @property
+    def frames(self) -> Frames:
+        """``table``; ``mains``: largest and mean load of each main bearing."""
+        return self._frames(mains=self._of_mains)
+
+    def _of_mains(self) -> Table:
+        loads = {"largest": self.peak("main"), "mean": self.mean("main")}
+        return Table(
+            "Main bearings, which share the loads between them by the lever rule",
+            (
+                _counted("main", len(self.main)),
+                Column("z", tuple(self.engine.mains.tolist()), "m"),
+                *(Column(name, tuple(each.tolist()), "N") for name, each in loads.items()),
             ),
+            loads=self.loads_counted,
         )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
@@ -10,16 +10,15 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.quantities import QUANTITIES
+from crankpin._support.quantities import KINDS, QUANTITIES
 from crankpin._support.record import AbsentError, read_only
 from crankpin.analysis import export
+from crankpin.analysis.export import Labelled
 from crankpin.analysis.quantity import ALL, Keyed, OrderBalance, Quantities, Quantity, order_key
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks
 
 if TYPE_CHECKING:
-    import pandas as pd
-    import xarray as xr
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order, Spectrum
@@ -27,11 +26,8 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 
-class ByOrder(Keyed, Quantities):
-    """Mixin of balances and sweeps: arrays computed when they are first read, orders as keys."""
-
-    request: Request
-    """The options of the result, checked."""
+class ByOrder(Keyed, Quantities, Labelled):
+    """Base class of balances and sweeps: arrays computed when first read, orders as keys."""
 
     @property
     def orders(self) -> tuple[Order, ...]:
@@ -48,16 +44,6 @@ class ByOrder(Keyed, Quantities):
         return self.__dict__["_omitted"]  # type: ignore[no-any-return]
 
     @property
-    def error_bound(self) -> Mapping[str, float]:
-        """Quantity → upper bound on what the omitted orders add, N or N·m."""
-        raise NotImplementedError
-
-    @property
-    def fired(self) -> bool:
-        """True if gas pressure is counted."""
-        return False
-
-    @property
     def loads_counted(self) -> str:
         """Loads that count where more could, in words: as :attr:`Engine.loads_counted`.
 
@@ -69,21 +55,6 @@ class ByOrder(Keyed, Quantities):
     def _titles(self) -> tuple[str, ...]:
         """Names that distinguish the engines."""
         return tuple(map(labels.name_of, self._engines))
-
-    @property
-    def dims(self) -> tuple[str, ...]:
-        """Names of the swept dimensions."""
-        return ()
-
-    @property
-    def coords(self) -> Mapping[str, Any]:
-        """Swept dimension → its values."""
-        return {}
-
-    @property
-    def _attributes(self) -> Mapping[str, Any]:
-        """Attributes of a dataset of the result."""
-        return {}
 
     @property
     def spectrum(self) -> Spectrum | None:
@@ -281,72 +252,25 @@ class ByOrder(Keyed, Quantities):
         chosen = self.request.orders is None
         return labels.NEGLIGIBLE * float(peaks.max(initial=0.0)) if chosen else 0.0
 
-    def to_pandas(self, *quantities: str) -> pd.DataFrame:
-        """Return a tidy table, one row a point, order, quantity and component (needs pandas).
+    # --- in other forms -----------------------------------------------------------------------
 
-        Columns are the swept dimensions, order, quantity, component, real and imag (the peak
-        phasor), peak and unit.
+    def _arrays(self, quantities: Sequence[str]) -> tuple[dict[str, Any], dict[str, Any]]:
+        variables = export.variables(quantities, fired=self.fired)
+        return {**self.coords, "order": self.orders}, {
+            name: ((*self.dims, *dims), self.read(quantity, what), export.units(quantity))
+            for name, quantity, what, dims in variables
+        }
 
-        Parameters
-        ----------
-        *quantities : str, optional
-            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
-
-        Returns
-        -------
-        pandas.DataFrame
-            The table.
-
-        Raises
-        ------
-        InputError
-            If there is no such quantity.
-        ImportError
-            If pandas is not installed.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> s = cp.sweep(cp.Engine.preset("i4"), rpm=[3000, 6000], orders=[2])
-        >>> s.to_pandas("torque").columns.tolist()
-        ['rpm', 'order', 'quantity', 'component', 'real', 'imag', 'peak', 'unit']
-        """
-        return export.to_pandas(self, self.request.named(quantities, fired=self.fired))
-
-    def to_xarray(self, *quantities: str, split_complex: bool = False) -> xr.Dataset:
-        """Return phasors, peaks, totals and bounds with dimensions and units (needs xarray).
-
-        Parameters
-        ----------
-        *quantities : str, optional
-            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
-        split_complex : bool, default False
-            Store complex arrays as real ones with a dimension ``part`` of "re" and "im", for
-            ``to_netcdf(path)``: netCDF has no complex numbers. With the package netCDF4,
-            ``to_netcdf(path, auto_complex=True)`` writes complex arrays too.
-
-        Returns
-        -------
-        xarray.Dataset
-            The arrays, with units as attributes.
-
-        Raises
-        ------
-        InputError
-            If there is no such quantity.
-        ImportError
-            If xarray is not installed.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> s = cp.sweep(cp.Engine.preset("i4"), rpm=[1000, 2000], orders=[1, 2])
-        >>> s.to_xarray("force").force.dims
-        ('rpm', 'order', 'axis')
-        """
-        return export.to_xarray(
-            self, self.request.named(quantities, fired=self.fired), split_complex=split_complex
-        )
+    def _figures(self, quantity: str) -> Mapping[str, Mapping[str, NDArray[np.float64]]]:
+        phasors = self.read(quantity, "phasors")
+        parts = {"z": phasors}
+        if KINDS[quantity].planar:
+            parts = {"x": phasors[..., 0], "y": phasors[..., 1]}
+            parts |= {part: self.read(quantity, part) for part in labels.TURNING}
+        return {
+            component: {"real": values.real, "imag": values.imag, "peak": np.abs(values)}
+            for component, values in parts.items()
+        }
 
 
 def total_peaks(

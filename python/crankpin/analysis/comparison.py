@@ -8,8 +8,9 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
+from crankpin._support.frames import Tabled
 from crankpin._support.quantities import QUANTITIES
-from crankpin._support.record import Tabled, read_only
+from crankpin._support.record import read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import Balance, balance
 from crankpin.analysis.drawing import draw
@@ -153,11 +154,7 @@ class Comparison(Tabled):
 
     @overload
     def plot(
-        self,
-        ax: Axes,
-        *,
-        quantity: str | None = None,
-        **style: Any,  # noqa: ANN401
+        self, ax: Axes, *, figure: None = None, quantity: str | None = None, **style: object
     ) -> Axes: ...
 
     @overload
@@ -167,7 +164,7 @@ class Comparison(Tabled):
         *,
         figure: Figure | SubFigure | None = None,
         quantity: str | None = None,
-        **style: Any,  # noqa: ANN401
+        **style: object,
     ) -> NDArray[Any]: ...
 
     def plot(
@@ -176,7 +173,7 @@ class Comparison(Tabled):
         *,
         figure: Figure | SubFigure | None = None,
         quantity: str | None = None,
-        **style: Any,
+        **style: object,
     ) -> Axes | NDArray[Any]:
         """Draw peaks of both engines over order, and the curves that force or moment trace.
 

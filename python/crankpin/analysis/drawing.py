@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 
-def draw(result: object, ax: Any = None, **options: Any) -> Any:  # noqa: ANN401 - matplotlib's axes
+def draw(result: object, ax: object = None, **options: object) -> Any:  # noqa: ANN401 - axes
     """Draw a result; matplotlib is imported here."""
     optional.library("matplotlib")
     from crankpin import plot  # noqa: PLC0415 - matplotlib is imported when used

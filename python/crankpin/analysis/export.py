@@ -1,25 +1,29 @@
-"""Results as xarray datasets and tidy pandas tables."""
+"""Results as xarray datasets and as tables in long form."""
 
 from __future__ import annotations
 
+import itertools
+import math
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from crankpin._support import inputs, labels, optional
+from crankpin._support.frames import Tabled
 from crankpin._support.quantities import KINDS, PLANE_VECTORS
+from crankpin._support.tables import Column, Table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-    import pandas as pd
     import xarray as xr
     from numpy.typing import NDArray
 
-    from crankpin.analysis.by_order import ByOrder
-    from crankpin.analysis.waveform import OverAngle
+    from crankpin.analysis.request import Request
 
+Variable: TypeAlias = "tuple[tuple[str, ...], Any, dict[str, str]]"
+"""Dimensions, values and attributes of a variable of a dataset."""
 TRAILING: dict[str, tuple[str, ...]] = {
     "phasors": ("order", "axis"),
     "forward": ("order",),
@@ -57,45 +61,162 @@ def arrays(quantity: str) -> tuple[str, ...]:
     return tuple(what for _, _, what, _ in variables([quantity], fired=True))
 
 
-def to_xarray(
-    result: ByOrder,
+class Labelled(Tabled):
+    """Base class of results that are arrays over dimensions, of which frames show the most."""
+
+    if TYPE_CHECKING:
+
+        @property
+        def request(self) -> Request:
+            """The options of the result, checked."""
+
+        @property
+        def error_bound(self) -> Mapping[str, float]:
+            """Quantity → upper bound on what the omitted orders add, N or N·m."""
+
+        @property
+        def loads_counted(self) -> str:
+            """Loads that count where more could, in words."""
+
+    @property
+    def fired(self) -> bool:
+        """True if gas pressure is counted."""
+        return False
+
+    @property
+    def coords(self) -> Mapping[str, Any]:
+        """Dimension → its values."""
+        return {}
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Names of the dimensions before orders and axes."""
+        return tuple(self.coords)
+
+    @property
+    def _attributes(self) -> Mapping[str, Any]:
+        """Attributes of a dataset of the result."""
+        return {}
+
+    def _arrays(self, quantities: Sequence[str]) -> tuple[dict[str, Any], dict[str, Variable]]:
+        """Return dimension → values, and the variables of a dataset of some quantities."""
+        raise NotImplementedError
+
+    def _figures(self, quantity: str) -> Mapping[str, Mapping[str, NDArray[np.float64]]]:
+        """Return the columns of each component of a quantity in long form."""
+        raise NotImplementedError
+
+    def tidy(self, *quantities: str) -> Table:
+        """Return the long form, a row for each point, order, quantity and component.
+
+        Columns are the dimensions, ``order`` where there are orders, quantity, component, the peak
+        phasor as ``real`` and ``imag`` with its ``peak``, or over crank angle ``value``, and unit.
+
+        Parameters
+        ----------
+        *quantities : str, optional
+            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+
+        Returns
+        -------
+        Table
+            The rows; its ``to_pandas`` and ``to_csv`` write them.
+
+        Raises
+        ------
+        InputError
+            If there is no such quantity.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> i4 = cp.Engine.preset("i4")
+        >>> list(cp.sweep(i4, rpm=[3000, 6000], orders=[2]).tidy("torque"))
+        ['rpm', 'order', 'quantity', 'component', 'real', 'imag', 'peak', 'unit']
+        >>> list(i4.waveform(3000).tidy("force"))
+        ['theta_deg', 'quantity', 'component', 'value', 'unit']
+        """
+        named = self.request.named(quantities, fired=self.fired)
+        parts = [
+            (quantity, component, figures)
+            for quantity in named
+            for component, figures in self._figures(quantity).items()
+        ]
+        return _long(self._arrays(())[0], parts, self.loads_counted)
+
+    def to_xarray(
+        self, *quantities: str, frame: str | None = None, split_complex: bool = False
+    ) -> xr.Dataset:
+        """Return the arrays with dimensions, units and bounds (needs xarray).
+
+        Of orders these are phasors, peaks and totals.
+
+        Parameters
+        ----------
+        *quantities : str, optional
+            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+        frame : str, optional
+            Name of one of ``frames``, to return its rows instead.
+        split_complex : bool, default False
+            Store complex arrays as real ones with a dimension ``part`` of "re" and "im", for
+            ``to_netcdf(path)``: netCDF has no complex numbers. With the package netCDF4,
+            ``to_netcdf(path, auto_complex=True)`` writes complex arrays too.
+
+        Returns
+        -------
+        xarray.Dataset
+            The arrays, with units as attributes.
+
+        Raises
+        ------
+        InputError
+            If there is no such quantity or frame.
+        ImportError
+            If xarray is not installed.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> s = cp.sweep(cp.Engine.preset("i4"), rpm=[1000, 2000], orders=[1, 2])
+        >>> s.to_xarray("force").force.dims
+        ('rpm', 'order', 'axis')
+        >>> s.waveform([0, 90, 180]).to_xarray("force").force.dims
+        ('rpm', 'theta_deg', 'axis')
+        """
+        if frame is not None:
+            return super().to_xarray(frame=frame)
+        named = self.request.named(quantities, fired=self.fired)
+        coords, arrays = self._arrays(named)
+        return dataset(self, named, coords, arrays, split_complex=split_complex)
+
+
+def dataset(
+    result: Labelled,
     quantities: Sequence[str],
-    arrays: Mapping[str, Any] | None = None,
+    coords: Mapping[str, Any],
+    arrays: Mapping[str, Variable],
     *,
     split_complex: bool = False,
 ) -> xr.Dataset:
-    """Return the arrays of some quantities, or those given, with named dimensions and units."""
-    if arrays is None:
-        arrays = {
-            name: ((*result.dims, *dims), result.read(quantity, what), units(quantity))
-            for name, quantity, what, dims in variables(quantities, fired=result.fired)
-        }
-    whole = all(isinstance(order, int) for order in result.orders)
-    orders = np.array(result.orders, dtype=np.int64 if whole else np.float64)
-    coords = _labelled(result.coords, quantities)
-    coords["order"] = ("order", orders, {"units": labels.XARRAY_UNITS["order"]})
-    bounds = {
-        f"{name.replace('.', '_')}_error_bound": result.error_bound[name.partition(".")[0]]
-        for name in quantities
-    }
+    """Return arrays of some quantities with dimensions, units, loads and bounds."""
+    labelled = labels.coordinates(coords)
+    if set(PLANE_VECTORS) & set(quantities):
+        labelled["axis"] = ("axis", ["x", "y"])
     if inputs.flag("split_complex", split_complex):
-        arrays = {name: _split(variable) for name, variable in arrays.items()}
-        coords["part"] = ("part", ["re", "im"])
-    loads = labels.attributes(result.loads_counted)
-    return optional.dataset(arrays, coords, {**result._attributes, **loads, **bounds})
+        arrays = {name: _split(*variable) for name, variable in arrays.items()}
+        labelled["part"] = ("part", ["re", "im"])
+    attributes = dict(result._attributes) | labels.attributes(result.loads_counted)
+    for name in quantities:
+        bound = result.error_bound[name.partition(".")[0]]
+        attributes[f"{name.replace('.', '_')}_error_bound"] = bound
+    return optional.dataset(arrays, labelled, attributes)
 
 
-def _split(variable: tuple[tuple[str, ...], Any, dict[str, str]]) -> Any:  # noqa: ANN401
-    dims, values, attributes = variable
+def _split(dims: tuple[str, ...], values: NDArray[Any], attributes: dict[str, str]) -> Variable:
+    """Return a variable of real and imaginary parts, unless it is real."""
     if values.dtype.kind != "c":
-        return variable
-    return ((*dims, "part"), np.stack([values.real, values.imag], axis=-1), attributes)
-
-
-def _labelled(coords: Mapping[str, Any], quantities: Sequence[str]) -> dict[str, Any]:
-    """Return coordinates with units, and the axes of forces and moments."""
-    axes = {"axis": ("axis", ["x", "y"])} if set(PLANE_VECTORS) & set(quantities) else {}
-    return labels.coordinates(coords) | axes
+        return dims, values, attributes
+    return (*dims, "part"), np.stack([values.real, values.imag], axis=-1), attributes
 
 
 def units(quantity: str) -> dict[str, str]:
@@ -103,63 +224,32 @@ def units(quantity: str) -> dict[str, str]:
     return {"units": KINDS[quantity].xarray_unit}
 
 
-def to_pandas(result: ByOrder, quantities: Sequence[str]) -> pd.DataFrame:
-    """Return phasors and peaks as a tidy table: a row a point, order, quantity and component."""
-    columns = []
-    for quantity in quantities:
-        phasors = result.read(quantity, "phasors")
-        by_component: dict[str, NDArray[np.complex128]] = {"z": phasors}
-        if quantity in PLANE_VECTORS:
-            by_component = {
-                "x": phasors[..., 0],
-                "y": phasors[..., 1],
-                "forward": result.read(quantity, "forward"),
-                "backward": result.read(quantity, "backward"),
-            }
-        for component, values in by_component.items():
-            flat = values.ravel()
-            figures = {"real": flat.real, "imag": flat.imag, "peak": np.abs(flat)}
-            columns.append((quantity, component, figures))
-    return _tidy({**result.coords, "order": result.orders}, columns, result.loads_counted)
-
-
-def waveforms_to_pandas(result: OverAngle, quantities: Sequence[str]) -> pd.DataFrame:
-    """Return values as a tidy table: a row a point, quantity and component."""
-    columns = []
-    for name in quantities:
-        values = result.read(name)
-        planar = name in PLANE_VECTORS
-        for k, component in enumerate("xy" if planar else "z"):
-            figures = {"value": (values[..., k] if planar else values).ravel()}
-            columns.append((name, component, figures))
-    return _tidy(result.coords, columns, result.loads_counted)
-
-
-def _tidy(
-    coords: Mapping[str, Any], columns: Sequence[tuple[str, str, Mapping[str, Any]]], loads: str
-) -> pd.DataFrame:
-    """Return figures of each quantity and component, below each other."""
-    pandas = optional.library("pandas")
-    points = {name: list(values) for name, values in coords.items()}
-    index = pandas.MultiIndex.from_product(list(points.values()), names=list(points))
-    parts = [
-        pandas.DataFrame(
-            {"quantity": quantity, "component": component, **figures, "unit": KINDS[quantity].unit},
-            index=index,
-        ).reset_index()
-        for quantity, component, figures in columns
+def points(coords: Mapping[str, Any], times: int = 1) -> list[Column]:
+    """Return a column of each dimension, a row for each point, or several times all points."""
+    listed = itertools.product(*(np.asarray(values).tolist() for values in coords.values()))
+    columns = list(zip(*listed, strict=True)) or [()] * len(coords)
+    return [
+        Column(name, values * times, digits=10)
+        for name, values in zip(coords, columns, strict=True)
     ]
-    table: pd.DataFrame = pandas.concat(parts, ignore_index=True)
-    table.attrs.update(labels.attributes(loads))
-    return table
 
 
-def waveforms_to_xarray(result: OverAngle, quantities: Sequence[str]) -> xr.Dataset:
-    """Return values over coordinates, with named dimensions and units."""
-    arrays = {}
-    for name in quantities:
-        dims = (*result.dims, "axis") if name in PLANE_VECTORS else result.dims
-        arrays[name.replace(".", "_")] = (dims, result.read(name), units(name))
-    coords = _labelled(result.coords, quantities)
-    loads = labels.attributes(result.loads_counted)
-    return optional.dataset(arrays, coords, {**result._attributes, **loads})
+def _long(
+    coords: Mapping[str, Any],
+    parts: Sequence[tuple[str, str, Mapping[str, NDArray[np.float64]]]],
+    loads: str,
+) -> Table:
+    """Return figures of each quantity and component, below each other."""
+    count = math.prod(len(values) for values in coords.values())
+
+    def repeated(texts: Iterable[str]) -> tuple[str, ...]:
+        return tuple(text for text in texts for _ in range(count))
+
+    columns = points(coords, len(parts))
+    columns.append(Column("quantity", repeated(quantity for quantity, _, _ in parts)))
+    columns.append(Column("component", repeated(component for _, component, _ in parts)))
+    for head in parts[0][2]:
+        values = (figures[head].ravel().tolist() for *_, figures in parts)
+        columns.append(Column(head, tuple(itertools.chain.from_iterable(values))))
+    columns.append(Column("unit", repeated(KINDS[quantity].unit for quantity, _, _ in parts)))
+    return Table("Long form", tuple(columns), loads=loads)

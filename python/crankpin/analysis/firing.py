@@ -5,21 +5,21 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support import inputs, labels, optional, tables
-from crankpin._support.record import Tabled, read_only
+from crankpin._support import inputs, labels, tables
+from crankpin._support.frames import Tabled
+from crankpin._support.record import read_only
 from crankpin.analysis.gas_exchange import PortTiming, Timing, ValveTiming, angles
 from crankpin.model import checks
 from crankpin.model.builders import vee_layout_of
 from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
-    import pandas as pd
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
@@ -292,34 +292,8 @@ class Firing(Tabled):
 
     # --- tables and pictures --------------------------------------------------------------------
 
-    def to_pandas(self) -> pd.DataFrame:
-        """Return a table, one row a cylinder that fires, in firing order (needs pandas).
-
-        Returns
-        -------
-        pandas.DataFrame
-            The table.
-
-        Raises
-        ------
-        ImportError
-            If pandas is not installed.
-        """
-        places = np.array(self.order) - 1
-        columns = {
-            "angle_deg": self.angles_deg[places],
-            "interval_deg": self.intervals_deg,
-            "gap_in_bank_deg": self._gap_in_bank(),
-        }
-        index = optional.library("pandas").Index(self.order, name="cylinder")
-        return optional.data_frame(columns, index=index)
-
     def plot(
-        self,
-        ax: Axes | None = None,
-        *,
-        timing: Timing | None = None,
-        **style: Any,  # noqa: ANN401 - of matplotlib's collections
+        self, ax: Axes | None = None, *, timing: Timing | None = None, **style: object
     ) -> Axes:
         """Draw strokes, and with a timing open valves or ports, over a cycle; return the axes.
 
@@ -363,11 +337,10 @@ class Firing(Tabled):
         name = labels.name_of(self.engine)
         places = np.array(self.order) - 1
         rows = np.stack([self.angles_deg[places], self.intervals_deg, self._gap_in_bank()], axis=1)
-        names = [f"{cylinder}" for cylinder in self.order]
         return tables.Table.from_rows(
             f"{name}: {self.summary}",
             ["cylinder", ("fires at", "°"), ("to the next", "°"), ("to the next of its bank", "°")],
-            names,
+            [(cylinder,) for cylinder in self.order],
             rows,
         )
 
@@ -384,6 +357,7 @@ class Firing(Tabled):
         return "-".join(f"{interval:.10g}" for interval in self.intervals_deg)
 
     def __repr__(self) -> str:
+        """Return a line in place of the table: firings are listed by the dozen."""
         return f"<Firing {self.summary}>"
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.record import Tabled
+from crankpin._support.frames import Frames, Tabled
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
@@ -264,7 +264,7 @@ class Flywheel(Tabled):
 
     @property
     def table(self) -> Table:
-        """Table of the figures; below it the approximations and their errors."""
+        """Speed, inertia, energy and torque."""
         figures = (
             ("moment of inertia", self.inertia, "kg·m²"),
             ("irregularity", 100.0 * self.irregularity, "%"),
@@ -280,7 +280,12 @@ class Flywheel(Tabled):
             Column("value", values, digits=6),
             Column("unit", units),
         )
-        return Table(self.title, columns, below=self._approximated(), loads=self.loads_counted)
+        return Table(self.title, columns, loads=self.loads_counted)
+
+    @property
+    def frames(self) -> Frames:
+        """``table``; ``approximations``: textbooks' irregularities and their errors."""
+        return self._frames(approximations=self._approximated)
 
     @property
     def loads_counted(self) -> str:
@@ -290,14 +295,12 @@ class Flywheel(Tabled):
     def _approximated(self) -> Table:
         # Without pistons there is one.
         names = APPROXIMATIONS if self.engine is not None else ("torque",)
-        pairs = list(zip(self.approximations, self.errors, strict=True))[: len(names)]
-        return Table(
+        pairs = zip(names, self.approximations, self.errors, strict=False)
+        return Table.from_rows(
             "Textbooks' irregularity, fluctuation of energy over mean inertia and speed squared",
-            (
-                Column("of", names),
-                Column("irregularity", tuple(100.0 * value for value, _ in pairs), "%"),
-                Column("error", tuple(100.0 * error for _, error in pairs), "%"),
-            ),
+            ["of", ("irregularity", "%"), ("error", "%")],
+            [(name, 100.0 * value, 100.0 * error) for name, value, error in pairs],
+            loads=self.loads_counted,
         )
 
     @property
@@ -307,23 +310,15 @@ class Flywheel(Tabled):
         return f"{labels.cut(name)}: speed over a cycle at {self.rpm:g} rpm"
 
     @overload
-    def plot(
-        self,
-        ax: Axes,
-        **style: Any,  # noqa: ANN401
-    ) -> Axes: ...
+    def plot(self, ax: Axes, *, figure: None = None, **style: object) -> Axes: ...
 
     @overload
     def plot(
-        self,
-        ax: None = None,
-        *,
-        figure: Figure | SubFigure | None = None,
-        **style: Any,  # noqa: ANN401
+        self, ax: None = None, *, figure: Figure | SubFigure | None = None, **style: object
     ) -> NDArray[Any]: ...
 
     def plot(
-        self, ax: Axes | None = None, *, figure: Figure | SubFigure | None = None, **style: Any
+        self, ax: Axes | None = None, *, figure: Figure | SubFigure | None = None, **style: object
     ) -> Axes | NDArray[Any]:
         """Draw torque over the cycle with its mean, and below it the speed; return the axes.
 

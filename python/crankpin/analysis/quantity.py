@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias
 
 import numpy as np
@@ -10,16 +10,11 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
+from crankpin._support.frames import Tabled
 from crankpin._support.quantities import KINDS, PARTS, Kind
-from crankpin._support.record import (
-    AbsentError,
-    AbsentItemError,
-    Record,
-    Tabled,
-    changed,
-    read_only,
-)
+from crankpin._support.record import AbsentError, AbsentItemError, Record, changed, read_only
 from crankpin._support.tables import Column, Table
+from crankpin.analysis import export
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -93,7 +88,7 @@ class Keyed:
 # --- quantities ---------------------------------------------------------------------------------
 
 
-class Quantity(Keyed, NDArrayOperatorsMixin, Record):
+class Quantity(Keyed, NDArrayOperatorsMixin, Tabled):
     """Peak phasors of a quantity: of every order as an array, of one order, or of all together.
 
     Order n is ``Re(P exp(inθ))``. ``moment[2]`` is order 2, ``2 in moment`` says whether it is
@@ -378,82 +373,93 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
 
     @property
     def table(self) -> Table:
-        """Table that a quantity of a balance shows: peaks by order, and of all orders together.
+        """Peaks by order, and of all orders together; those of a sweep at each point.
 
         Torques of a fired engine have their mean, their phases and their parts too.
         """
-        if self.result.dims or self.order is not None:
-            raise AbsentError("table is that of a balance's orders: use the table of the result")
-        shown, left_out = self.result._shown_orders(self.name)
-        if self.result.fired and not self.kind.planar:
-            return self._table_of_parts(list(shown), labels.not_shown(left_out))
-        columns = [Column("order", (*(self.orders[k] for k in shown), ALL))]
-        total = self[ALL]
-        for head, what in self._columns().items():
-            name, _, axis = what.partition(".")
-            values = np.abs(self._read(name))[list(shown)]
-            whole = getattr(total, name) if name.startswith("peak") else None
-            if axis:
-                values, whole = values[:, int(axis)], float(total._read(name)[int(axis)])
-            columns.append(Column(head, (*values.tolist(), whole)))
+        keys: tuple[Order | Literal["all"], ...] = (self.order,) if self.order is not None else ()
+        note = ""
+        if self.order is None:
+            shown, left_out = self.result._shown_orders(self.name)
+            keys, note = (*(self.orders[k] for k in shown), ALL), labels.not_shown(left_out)
         title = f"{self.kind.words}, {self.unit}"
-        return Table(title, tuple(columns), labels.not_shown(left_out), loads=self.loads_counted)
-
-    def _table_of_parts(self, shown: list[int], note: str) -> Table:
-        """Return mean, peaks and phases of a torque and of its parts."""
-        columns = [Column("order", ("mean", *(self.orders[k] for k in shown), ALL))]
-        parts = [self] if self.name in PARTS else [self, self.gas, self.inertia]
-        least = self.result._least_shown(self.peak)
-        for each in parts:
-            phasors, peaks = each.phasor[shown], each.peak[shown]
-            phases = np.angle(phasors, deg=True)
-            angles = [phase if peak else None for phase, peak in zip(phases, peaks, strict=True)]
-            part = "" if each is self else each.name.partition(".")[-1]
+        if self.result.dims:
+            columns = export.points(self.result.coords)
             columns += [
                 Column(
-                    part or self.kind.symbols[0],
-                    (each.mean, *peaks.tolist(), each[ALL].peak),
-                    self.unit,
-                    least=least,
-                ),
-                Column(f"{part} phase".strip(), (None, *angles, None), "°", digits=4),
+                    ALL if key == ALL else f"order {key}", tuple(self[key].peak.ravel().tolist())
+                )
+                for key in keys
             ]
-        return Table(self.kind.words, tuple(columns), note, loads=self.loads_counted)
+        elif self.result.fired and not self.kind.planar:
+            title, columns = self.kind.words, self._columns_of_parts(keys)
+        else:
+            columns = [Column("order", keys)]
+            columns += [
+                Column(head, tuple(self[key]._figure(what) for key in keys))
+                for head, what in self._columns().items()
+            ]
+        return Table(title, tuple(columns), note, loads=self.loads_counted)
 
-    def __repr__(self) -> str:
+    def _figure(self, what: str) -> float | None:
+        """Return a figure of one order of a balance; None where all together have none."""
+        name, _, axis = what.partition(".")
+        if self.order == ALL and not name.startswith("peak"):
+            return None
+        values = np.abs(self._read(name))
+        return float(values[int(axis)] if axis else values)
+
+    def _columns_of_parts(self, keys: Sequence[Order | Literal["all"]]) -> list[Column]:
+        """Return mean, peaks and phases of a torque and of its parts."""
+        columns = [Column("order", ("mean", *keys))]
+        parts = [self] if self.name in PARTS else [self, self.gas, self.inertia]
+        least = self.result._least_shown(np.asarray(self.peak))
+        for part in parts:
+            peaks = [part[key]._figure("peak") for key in keys]
+            phases = [
+                None if key == ALL or not peak else float(np.angle(part[key].phasor, deg=True))
+                for key, peak in zip(keys, peaks, strict=True)
+            ]
+            name = "" if part is self else part.name.partition(".")[-1]
+            mean = changed(part, order=None).mean
+            head = name or self.kind.symbols[0]
+            columns += [
+                Column(head, (mean, *peaks), self.unit, least=least),
+                Column(f"{name} phase".strip(), (None, *phases), "°", digits=4),
+            ]
+        return columns
+
+    @property
+    def _brief(self) -> str:
+        if not self.result.dims and self.order is None:
+            return ""
         name = self.kind.words
         which = f" of {'all orders' if self.order == ALL else f'order {self.order}'}"
         loads = f", {self.loads_counted}" if self.loads_counted else ""
-        if self.result.dims:
-            dims, shape = self.result.dims, self.peak.shape
-            if self.order is None:
-                dims, shape, which = self.dims, self.shape, ""
-            over = ", ".join(f"{d}: {n}" for d, n in zip(dims, shape, strict=True))
-            return f"<Quantity {name}{which}, {self.unit}, over ({over}){loads}>"
-        if self.order is not None:
+        if not self.result.dims:
             return f"<Quantity {name}{which}: peak {self.peak:.5g} {self.unit}{loads}>"
-        return repr(self.table)
-
-    def _repr_html_(self) -> str | None:
-        plain = self.result.dims or self.order is not None
-        return None if plain else self.table._repr_html_()
+        dims, shape = self.result.dims, self.peak.shape
+        if self.order is None:
+            dims, shape, which = self.dims, self.shape, ""
+        over = ", ".join(f"{d}: {n}" for d, n in zip(dims, shape, strict=True))
+        return f"<Quantity {name}{which}, {self.unit}, over ({over}){loads}>"
 
 
 class Quantities:
     """Mixin of what has force, moment and torques."""
 
-    def _quantity(self, name: str) -> Any:  # noqa: ANN401 - a vector or a scalar
+    def _quantity(self, name: str) -> Quantity:
         raise NotImplementedError
 
     @property
     def force(self) -> Quantity:
         """Shaking force along x and y, N."""
-        return self._quantity("force")  # type: ignore[no-any-return]
+        return self._quantity("force")
 
     @property
     def moment(self) -> Quantity:
         """Rocking moment about x (pitch) and y (yaw), N·m."""
-        return self._quantity("moment")  # type: ignore[no-any-return]
+        return self._quantity("moment")
 
     @property
     def torque(self) -> Quantity:
@@ -461,7 +467,7 @@ class Quantities:
 
         An AttributeError where it was not requested, or a force spectrum does not determine it.
         """
-        return self._quantity("torque")  # type: ignore[no-any-return]
+        return self._quantity("torque")
 
     @property
     def crank_torque(self) -> Quantity:
@@ -469,7 +475,7 @@ class Quantities:
 
         An AttributeError where it was not requested, or a force spectrum does not determine it.
         """
-        return self._quantity("crank_torque")  # type: ignore[no-any-return]
+        return self._quantity("crank_torque")
 
 
 class OrderBalance(Quantities, Tabled):
@@ -503,12 +509,12 @@ class OrderBalance(Quantities, Tabled):
 
     @property
     def table(self) -> Table:
-        """Table of a balance's order: peaks along (about) x and y, the largest, and its parts.
+        """Peaks along (about) x and y, the largest, and its parts; of a sweep at each point.
 
         The status is that of :attr:`Quantity.status`.
         """
         if self.result.dims:
-            raise AbsentError("table is that of a balance's order: use the table of the sweep")
+            return self._table_by_point()
         parts = () if self.order == ALL else ("forward", "backward")
         rows: list[tuple[str | float | None, ...]] = []
         for each in self._each():
@@ -520,12 +526,19 @@ class OrderBalance(Quantities, Tabled):
             rows.append((each.kind.words, each.unit, *row))
         heads = ["quantity", "unit", "x", "y", "largest", *parts]
         heads += [] if self.order == ALL else ["status"]
-        columns = zip(heads, zip(*rows, strict=True), strict=True)
         speed = labels.at_speed(self.result._attributes["rpm"])
-        where = f"{labels.name_of(self.result._engines[0])} {speed}"
-        title = f"{where}: {self._which}"
-        listed = tuple(Column(head, values) for head, values in columns)
-        return Table(title, listed, loads=self.loads_counted)
+        title = f"{labels.name_of(self.result._engines[0])} {speed}: {self._which}"
+        return Table.from_rows(title, heads, rows, loads=self.loads_counted)
+
+    def _table_by_point(self) -> Table:
+        """Return the largest peak of each quantity of a sweep at each point."""
+        columns = export.points(self.result.coords)
+        columns += [
+            Column(each.kind.vector_symbol, tuple(each.peak.ravel().tolist()), each.unit)
+            for each in self._each()
+        ]
+        title = f"Peaks of {self._which}"
+        return Table(title, tuple(columns), loads=self.loads_counted)
 
     @property
     def loads_counted(self) -> str:
@@ -544,11 +557,9 @@ class OrderBalance(Quantities, Tabled):
     def _which(self) -> str:
         return "all orders" if self.order == ALL else f"order {self.order}"
 
-    def __repr__(self) -> str:
+    @property
+    def _brief(self) -> str:
         if not self.result.dims:
-            return repr(self.table)
+            return ""
         lines = (f"  {getattr(self, name)!r}" for name in self.result.request.quantities)
         return "\n".join([f"<OrderBalance of {self._which}>", *lines])
-
-    def _repr_html_(self) -> str | None:
-        return None if self.result.dims else self.table._repr_html_()

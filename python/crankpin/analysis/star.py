@@ -10,7 +10,8 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.record import Tabled, read_only
+from crankpin._support.frames import Tabled
+from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis import firing as fires
 from crankpin.analysis.drawing import draw
@@ -142,20 +143,12 @@ class StarDiagram(Keyed, Tabled):
 
     @overload
     def plot(
-        self,
-        ax: Axes,
-        *,
-        order: Order | None = None,
-        **style: Any,  # noqa: ANN401
+        self, ax: Axes, *, figure: None = None, order: Order | None = None, **style: object
     ) -> Axes: ...
 
     @overload
     def plot(
-        self,
-        ax: None = None,
-        *,
-        order: Order,
-        **style: Any,  # noqa: ANN401
+        self, ax: None = None, *, figure: None = None, order: Order, **style: object
     ) -> Axes: ...
 
     @overload
@@ -165,7 +158,7 @@ class StarDiagram(Keyed, Tabled):
         *,
         figure: FigureBase | None = None,
         order: None = None,
-        **style: Any,  # noqa: ANN401
+        **style: object,
     ) -> NDArray[Any]: ...
 
     def plot(
@@ -174,7 +167,7 @@ class StarDiagram(Keyed, Tabled):
         *,
         figure: FigureBase | None = None,
         order: Order | None = None,
-        **style: Any,
+        **style: object,
     ) -> Axes | NDArray[Any]:
         """Draw the vectors of the orders from the centre, with their sums.
 

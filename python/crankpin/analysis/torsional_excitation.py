@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels
-from crankpin._support.record import Tabled, read_only
-from crankpin._support.tables import Column, Table
+from crankpin._support.frames import Tabled
+from crankpin._support.record import read_only
+from crankpin._support.tables import Table
 from crankpin.analysis.contributions import contributions
 from crankpin.analysis.request import engine_core
 
@@ -52,26 +53,17 @@ class TorsionalExcitation(Tabled):
 
     @property
     def table(self) -> Table:
-        """Amplitude and phase by cylinder and order; ``table.to_csv(path)`` writes a file."""
+        """Amplitude and phase by cylinder and order."""
         frequency = self.angular_frequency.tolist()
         rows = [
             (number + 1, order, frequency[k], abs(phasor), math.atan2(phasor.imag, phasor.real))
             for number, phasors in enumerate(self.torque.tolist())
             for k, (order, phasor) in enumerate(zip(self.orders, phasors, strict=True))
         ]
-        heads = (
-            ("cylinder", ""),
-            ("order", ""),
-            ("frequency", "rad/s"),
-            ("amplitude", "N·m"),
-            ("phase", "rad"),
-        )
-        columns = (
-            Column(name, values, unit)
-            for (name, unit), values in zip(heads, zip(*rows, strict=True), strict=True)
-        )
-        title = f"{labels.name_of(self.engine)}: torque on the crank, {self.rpm:.10g} rpm"
-        return Table(f"TorsionalExcitation of {title}", tuple(columns), loads=self.loads_counted)
+        heads = ("cylinder", "order", ("frequency", "rad/s"), ("amplitude", "N·m"))
+        name = labels.name_of(self.engine)
+        title = f"TorsionalExcitation of {name}: torque on the crank, {self.rpm:.10g} rpm"
+        return Table.from_rows(title, (*heads, ("phase", "rad")), rows, loads=self.loads_counted)
 
     @property
     def loads_counted(self) -> str:

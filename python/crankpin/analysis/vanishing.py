@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import inputs, labels, optional
+from crankpin._support import inputs, labels
+from crankpin._support.frames import Tabled
 from crankpin._support.quantities import COMPONENTS
-from crankpin._support.record import AbsentError, Tabled, read_only
+from crankpin._support.record import AbsentError, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis import firing as fires
 from crankpin.analysis.quantity import Keyed
@@ -18,7 +19,6 @@ from crankpin.analysis.request import engine_core
 from crankpin.model import checks
 
 if TYPE_CHECKING:
-    import pandas as pd
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Order, Orders
@@ -266,28 +266,23 @@ class VanishingOrders(Tabled):
 
     # --- tables ---------------------------------------------------------------------------------
 
-    def to_pandas(self) -> pd.DataFrame:
-        """Return a tidy table, one row an order, quantity and component (needs pandas).
+    def tidy(self) -> Table:
+        """Return the long form, a row for each order, quantity and component.
 
         Columns are order, quantity, component, verdict and within_rounding.
 
         Returns
         -------
-        pandas.DataFrame
-            The table.
-
-        Raises
-        ------
-        ImportError
-            If pandas is not installed.
+        Table
+            The rows; its ``to_pandas`` and ``to_csv`` write them.
         """
         rows = [
-            (order, quantity, component, self._word(k, column), self.within_rounding[k, column])
+            (order, *sums, self._word(k, column), bool(self.within_rounding[k, column]))
             for k, order in enumerate(self.orders)
-            for column, (quantity, component) in enumerate(self.sums)
+            for column, sums in enumerate(self.sums)
         ]
-        columns = ["order", "quantity", "component", "verdict", "within_rounding"]
-        return optional.data_frame(rows, columns=columns)
+        heads = ("order", "quantity", "component", "verdict", "within_rounding")
+        return Table.from_rows(f"{labels.name_of(self.engine)}: verdicts", heads, rows)
 
     @property
     def table(self) -> Table:
@@ -305,4 +300,4 @@ class VanishingOrders(Tabled):
                 row.append(words.get(self._word(k, column), guess))
             cells.append(row)
         header, note = ["order", *SUMS.values()], "\n".join(self.obstacles)
-        return Table.from_rows(title, header, cells, np.empty((len(cells), 0)), note=note)
+        return Table.from_rows(title, header, cells, note=note)

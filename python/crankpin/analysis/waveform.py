@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -10,17 +10,16 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.quantities import QUANTITIES
-from crankpin._support.record import Tabled, read_only
+from crankpin._support.quantities import KINDS, QUANTITIES
+from crankpin._support.record import read_only
 from crankpin._support.tables import Table
 from crankpin.analysis import export
 from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.drawing import draw
+from crankpin.analysis.export import Labelled
 from crankpin.analysis.request import Request, check_request, engine_core
 
 if TYPE_CHECKING:
-    import pandas as pd
-    import xarray as xr
     from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
@@ -61,13 +60,8 @@ def waveform(
     return found
 
 
-class OverAngle:
-    """Mixin of waveforms: force, moment and torques over crank angle, in tables."""
-
-    request: Request
-    """The options of the result, checked."""
-    theta_deg: NDArray[np.float64]
-    """Crank angles, degrees: (n_theta,)."""
+class OverAngle(Labelled):
+    """Base class of waveforms: force, moment and torques over crank angle."""
 
     @property
     def orders(self) -> tuple[Order, ...] | None:
@@ -132,86 +126,23 @@ class OverAngle:
     def _values(self, quantity: str) -> NDArray[np.float64]:
         raise NotImplementedError
 
-    @property
-    def fired(self) -> bool:
-        """True if gas pressure is counted."""
-        return False
+    def _arrays(self, quantities: Sequence[str]) -> tuple[dict[str, Any], dict[str, Any]]:
+        axes = {name: ("axis",) if KINDS[name].planar else () for name in quantities}
+        return dict(self.coords), {
+            name.replace(".", "_"): ((*self.dims, *axis), self.read(name), export.units(name))
+            for name, axis in axes.items()
+        }
 
-    @property
-    def loads_counted(self) -> str:
-        """Loads that count where more could, in words: as :attr:`Balance.loads_counted`."""
-        raise NotImplementedError
-
-    @property
-    def dims(self) -> tuple[str, ...]:
-        """Names of the dimensions of arrays before the axis: those of a sweep, ``theta_deg``."""
-        return tuple(self.coords)
-
-    @property
-    def coords(self) -> Mapping[str, Any]:
-        """Dimension → its values: those of a sweep, then ``theta_deg``."""
-        return {"theta_deg": self.theta_deg}
-
-    @property
-    def _attributes(self) -> Mapping[str, Any]:
-        """Attributes of a dataset of the result."""
-        raise NotImplementedError
-
-    def to_pandas(self, *quantities: str) -> pd.DataFrame:
-        """Return a tidy table, one row a point, crank angle, quantity and component (needs pandas).
-
-        Columns are the swept dimensions, theta_deg, quantity, component, value and unit.
-
-        Parameters
-        ----------
-        *quantities : str, optional
-            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
-
-        Returns
-        -------
-        pandas.DataFrame
-            The table.
-
-        Raises
-        ------
-        InputError
-            If there is no such quantity.
-        ImportError
-            If pandas is not installed.
-        """
-        return export.waveforms_to_pandas(self, self.request.named(quantities, fired=self.fired))
-
-    def to_xarray(self, *quantities: str) -> xr.Dataset:
-        """Return arrays with named dimensions and units (needs xarray).
-
-        Parameters
-        ----------
-        *quantities : str, optional
-            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
-
-        Returns
-        -------
-        xarray.Dataset
-            The arrays, with units as attributes.
-
-        Raises
-        ------
-        InputError
-            If there is no such quantity.
-        ImportError
-            If xarray is not installed.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> s = cp.sweep(cp.Engine.preset("i4"), rpm=[1000, 2000], orders=[2, 4])
-        >>> s.waveform([0, 90, 180]).to_xarray("force").force.dims
-        ('rpm', 'theta_deg', 'axis')
-        """
-        return export.waveforms_to_xarray(self, self.request.named(quantities, fired=self.fired))
+    def _figures(self, quantity: str) -> Mapping[str, Mapping[str, NDArray[np.float64]]]:
+        values, kind = self.read(quantity), KINDS[quantity]
+        parts = np.moveaxis(values, -1, 0) if kind.planar else (values,)
+        return {
+            component: {"value": part}
+            for component, part in zip(kind.components, parts, strict=True)
+        }
 
 
-class Waveform(OverAngle, Tabled):
+class Waveform(OverAngle):
     """Force, moment and torque of an engine at given crank angles.
 
     Made by :meth:`Engine.waveform`.
@@ -294,6 +225,11 @@ class Waveform(OverAngle, Tabled):
         return self.__dict__["_by_name"][quantity]  # type: ignore[no-any-return]
 
     @property
+    def coords(self) -> Mapping[str, Any]:
+        """Dimension → its values: the crank angles."""
+        return {"theta_deg": self.theta_deg}
+
+    @property
     def _attributes(self) -> Mapping[str, Any]:
         """Attributes of a dataset: name of the engine, and speed."""
         return {"engine": self.engine.name, "rpm": self.rpm}
@@ -306,7 +242,7 @@ class Waveform(OverAngle, Tabled):
         *,
         kind: Literal["curves", "orbit"] = "curves",
         quantity: str | None = None,
-        **options: Any,  # noqa: ANN401 - as below
+        **options: object,
     ) -> Axes:
         """Draw a quantity over crank angle, or the curve that its tip traces; return the axes.
 

@@ -187,6 +187,7 @@ OPTIONS: dict[str, dict[str, Any]] = {
         "help": "units of numbers without one: g,mm or lb,in; a number may also have its own, such "
         "as 86mm, 480g, 3.4in, 2oz, 180g·mm (default: %(default)s)",
     },
+    "--frame": {"help": "print this table alone (default: all; with --csv the first)"},
     "--csv": {"action": "store_true", "help": "print CSV in place of the table"},
     "--plot": {"metavar": "FILE", "help": "write a picture (.pdf, .png, .svg)"},
     "--save": {
@@ -470,6 +471,10 @@ class Given:
                 raise InputError(f"--spectrum = {shown}: order {order} is given twice")
             amplitudes[order] = float(self.decimal("--spectrum", amplitude, "kg·m"))
         return amplitudes
+
+    def frame(self) -> str | None:
+        """Return the table to print, if one is named."""
+        return self._typed.get("frame")
 
     def picture_file(self) -> Path | None:
         """Return the file of the picture, checked before anything is computed for it."""

@@ -11,7 +11,7 @@ from crankpin._core import InputError
 from crankpin._support import labels
 from crankpin._support.tables import Table
 from crankpin.cli.arguments import command, option
-from crankpin.cli.outputs import Shown
+from crankpin.cli.outputs import Shown, only
 from crankpin.model.presets import Presets
 from crankpin.view.page import save_gallery
 
@@ -25,7 +25,7 @@ MOST_SHOWN = 20
 
 @command("presets", "list the engines known by name", "--csv", example="presets")
 def _presets(_: Given) -> Shown:
-    return Shown(Presets().table("description"))
+    return Shown(only(Presets().table("description")))
 
 
 @command(
@@ -52,7 +52,7 @@ def _firing(given: Given) -> Shown:
     best = engine.firing(given.text("--firing-order"), strokes=strokes)
     others = "".join(f"  {way.intervals_text}\n" for way in ways[1:])
     note = f"The same order in other turns, intervals in degrees:\n{others}" if others else ""
-    return Shown(best.table, best, note=note)
+    return Shown(best.frames, best, note=note)
 
 
 def _firing_orders(engine: Engine, strokes: int | None, *, csv: bool) -> Shown:
@@ -71,7 +71,7 @@ def _firing_orders(engine: Engine, strokes: int | None, *, csv: bool) -> Shown:
         rows,
     )
     rest = len(firings) - len(shown)
-    return Shown(table, note=f"and {rest} more: --csv prints all\n" if rest else "")
+    return Shown(only(table), note=f"and {rest} more: --csv prints all\n" if rest else "")
 
 
 @command(

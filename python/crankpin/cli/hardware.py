@@ -56,7 +56,9 @@ OF_OPTIONS = ("--rpm", "--by", "--target")
     ),
     option("--bound", help="largest mass·radius of a plane, kg·m"),
     option("--angles", metavar="RANGE", help="drilling places, degrees: 0,90,180,270 or 0:345:15"),
-    "--reference-z --units --csv --plot --save --force",
+    "--reference-z --units",
+    option("--frame", choices=("table", "residual")),
+    "--csv --plot --save --force",
     example="counterweights v8-crossplane --planes webs --plot weights.png",
     note="Amounts are mass·radius in kg·m, angles those at θ = 0 from +x, as the crank turns.\n"
     "Residuals are in kg·m and kg·m², to be multiplied by ω².",
@@ -72,7 +74,7 @@ def _counterweights(given: Given) -> Shown:
         bound=given.optional("--bound", "kg·m"),
         angles_deg=None if angles is None else np.atleast_1d(angles).tolist(),
     )
-    return Shown(fit.table, fit, engine=fit.fitted)
+    return Shown(fit.frames, fit, engine=fit.fitted)
 
 
 def _planes(given: Given) -> Planes:
@@ -106,7 +108,9 @@ def _mass(flag: str, what: str) -> Option:
     _mass("--rotating-mass", "big end, bolts and bearing shells"),
     _mass("--reciprocating-mass", "piston, pin, rings and small end"),
     _mass("--oil", "oil of a crankpin (default: 0)"),
-    "--units --csv --plot --save --force",
+    "--units",
+    option("--frame", choices=("table", "factors")),
+    "--csv --plot --save --force",
     example="bob-weight v8-crossplane --rotating-mass 550g --reciprocating-mass 620g --oil 4g",
     note="Masses are those of one cylinder, by default the engine's.",
 )
@@ -118,7 +122,7 @@ def _bob_weight(given: Given) -> Shown:
     if (mass := given.optional("--rotating-mass", "kg")) is not None:
         engine = engine.replace(rotating_mass=mass)
     bob = bob_weight(engine, given.number("--factor"), given.optional("--oil", "kg") or 0.0)
-    return Shown(bob.table, bob, engine=bob.fitted)
+    return Shown(bob.frames, bob, engine=bob.fitted)
 
 
 def _axis(flag: str, where: str) -> Option:
@@ -158,8 +162,8 @@ def _axis(flag: str, where: str) -> Option:
         "[1].moment.peak=0,total.moment.peak=300 or total.moment.peak=5%%",
     ),
     "--reference-z --units --quantity",
-    option("--csv", help="print the first table as CSV"),
-    "--plot",
+    option("--frame", choices=("table", "shafts", "residual")),
+    "--csv --plot",
     option(
         "--save",
         help="write the engine with what was found (.toml, .json); without --ratios the least "
@@ -191,7 +195,7 @@ def _fit(engine: Engine, given: Given) -> Shown:
         remove=given.text("--remove") or "both",
         rpm=given.optional("--rpm", "rpm"),
     )
-    return Shown(fit.table, fit, {"quantity": given.quantity([engine])}, fit.fitted)
+    return Shown(fit.frames, fit, {"quantity": given.quantity([engine])}, fit.fitted)
 
 
 def _compare(engine: Engine, given: Given) -> Shown:
@@ -208,7 +212,7 @@ def _compare(engine: Engine, given: Given) -> Shown:
         relative=relative,
     )
     # Without a set that reaches the target there is no engine to be saved, which is an error.
-    return Shown(options.table, options, engine=options.fitted if saved else None)
+    return Shown(options.frames, options, engine=options.fitted if saved else None)
 
 
 def _coordinates(given: Given, flag: str) -> float | list[float | None] | None:

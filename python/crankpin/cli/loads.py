@@ -11,7 +11,7 @@ from crankpin._support.quantities import LOADS
 from crankpin._support.record import changed
 from crankpin.analysis.bearings import AXES, bearing_loads
 from crankpin.cli.arguments import command, option
-from crankpin.cli.outputs import Shown, left_out
+from crankpin.cli.outputs import Shown, left_out, only
 from crankpin.model.computed_cycles import EXAMPLES
 from crankpin.model.cycle import Cycle
 
@@ -59,7 +59,7 @@ def _torque(given: Given) -> Shown:
     table = getattr(balance, quantity).table
     title = f"{labels.name_of(engine)} at {rpm:g} rpm: {table.title}"
     note += left_out(balance) if chosen["orders"] == "auto" else ""
-    return Shown(changed(table, title=title), drawn, {"quantity": quantity}, note=note)
+    return Shown(only(changed(table, title=title)), drawn, {"quantity": quantity}, note=note)
 
 
 @command(
@@ -77,8 +77,7 @@ def _torque(given: Given) -> Shown:
         "--load",
         choices=tuple(LOADS),
         default="main",
-        help="what is drawn, and with --csv whether main bearings or cylinders are printed "
-        "(default: %(default)s)",
+        help="load of the picture (default: %(default)s)",
     ),
     option(
         "--picture",
@@ -92,20 +91,19 @@ def _torque(given: Given) -> Shown:
         default="engine",
         help="axes of a polar picture (default: %(default)s)",
     ),
-    "--units --csv --plot",
+    "--units",
+    option("--frame", choices=("table", "mains")),
+    "--csv --plot",
     example="bearings i4 --rpm 6000 --load crankpin --axes crank --plot pin.png",
     note="Main bearings share the loads between them by the lever rule.",
 )
 def _bearings(given: Given) -> Shown:
     engine, note = _fired(given, "bearings")
-    kind, load = given.text("--picture"), given.text("--load")
+    kind = given.text("--picture")
     loads = bearing_loads(engine, given.number("--rpm", "rpm"))
     known = {"polar": ("load", "axes"), "curves": ("load",), "bending": ()}[kind]
     options = {name: given.text(f"--{name}") for name in known}
-    table = loads.table
-    if given.text("--csv") and load == "main" and table.below is not None:
-        table = changed(table.below, loads=table.loads)
-    return Shown(table, loads, {"kind": kind, **options}, note=note)
+    return Shown(loads.frames, loads, {"kind": kind, **options}, note=note)
 
 
 def _fired(given: Given, name: str, otherwise: str | None = None) -> tuple[Engine, str]:

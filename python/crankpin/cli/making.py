@@ -12,7 +12,7 @@ from crankpin.analysis.design.design import design
 from crankpin.analysis.tolerances.spreads import FIGURES, SPREADS
 from crankpin.analysis.tolerances.tolerances import tolerances
 from crankpin.cli.arguments import command, option
-from crankpin.cli.outputs import Shown
+from crankpin.cli.outputs import Shown, only
 
 if TYPE_CHECKING:
     from crankpin.cli.arguments import Given, Option
@@ -112,7 +112,7 @@ def _design(given: Given) -> Shown:
     if pick > len(found) and given.text("--save") is not None:
         raise InputError(f"--pick = {pick}: there are {len(found)} designs")
     engines = dict(enumerate(found.engines, start=1))
-    return Shown(found.table, found, engine=engines.get(pick))
+    return Shown(found.frames, found, engine=engines.get(pick))
 
 
 def _spacing(engine: Engine) -> float:
@@ -192,5 +192,5 @@ def _tolerances(given: Given) -> Shown:
         **given.chosen(),
     )
     if given.text("--shares"):
-        return Shown(result.shares, result, {"kind": "shares"}, note=note)
-    return Shown(result.table, result, note=note)
+        return Shown(only(result.shares), result, {"kind": "shares"}, note=note)
+    return Shown(result.frames, result, note=note)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TextIO
 import numpy as np
 
 from crankpin._support import files, labels
+from crankpin._support.frames import FIRST, Frames
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -29,7 +30,7 @@ MOST_OMITTED = 8
 class Shown(NamedTuple):
     """What a command found."""
 
-    table: Table
+    frames: Frames
     drawn: Any = None
     """Result of which ``--plot`` is a picture."""
     options: Mapping[str, str] = MappingProxyType({})
@@ -37,7 +38,7 @@ class Shown(NamedTuple):
     engine: Engine | None = None
     """Engine that ``--save`` writes."""
     note: str = ""
-    """Text below the table, of which CSV has none."""
+    """Text below the tables, of which CSV has none."""
 
 
 def shown(given: Given, run: Run) -> str:
@@ -46,16 +47,29 @@ def shown(given: Given, run: Run) -> str:
     found = run(given)
     if isinstance(found, str):
         return found
+    printed, loads = _printed(given, found)
     if file is not None and found.engine is not None:
         found.engine.save(file)
     if picture is not None:
         _draw(found.drawn, picture, **found.options)
-    if not given.text("--csv"):
-        return f"{found.table.text()}\n{found.note}"
-    if found.table.loads:  # a line in CSV would be a row to those who read it
-        say(found.table.loads)
-    # CSV is of one table, without those below it.
-    return found.table.to_csv()
+    if loads:
+        say(loads)
+    return printed
+
+
+def _printed(given: Given, found: Shown) -> tuple[str, str]:
+    """Return text or CSV, and the loads beside CSV, where a line would be a row to a program."""
+    name = given.frame()
+    if given.text("--csv"):
+        table = found.frames[name or FIRST]
+        return table.to_csv(), table.loads
+    shown = found.frames if name is None else found.frames[name]
+    return f"{shown.text()}\n{found.note}", ""
+
+
+def only(table: Table) -> Frames:
+    """Return a table as the only frame."""
+    return Frames({FIRST: lambda: table})
 
 
 def left_out(result: Balance | Sweep) -> str:

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import itertools
 import math
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import labels, tables
+from crankpin._support.frames import FIRST, Frames
 from crankpin._support.quantities import QUANTITIES
-from crankpin._support.record import changed
 from crankpin._support.tables import Table
 from crankpin.analysis.ranking.rank import rank
 from crankpin.analysis.sweeps.sweep import Sweep, engine_titles, sweep
 from crankpin.cli.arguments import MOST_ROWS, PROG, command, option
-from crankpin.cli.outputs import Shown, left_out
+from crankpin.cli.outputs import Shown, left_out, only
 
 if TYPE_CHECKING:
     from crankpin.cli.arguments import Given
@@ -49,7 +50,7 @@ def _balance(given: Given) -> Shown:
         note = left_out(balance)
     elif any(order % 1 for order in chosen["orders"]) and not engine.fired:
         note = HALF_ORDERS
-    return Shown(balance.table, balance, {"quantity": given.quantity([engine])}, note=note)
+    return Shown(balance.frames, balance, {"quantity": given.quantity([engine])}, note=note)
 
 
 @command(
@@ -114,13 +115,13 @@ def _sweep(given: Given) -> Shown:
         spectrum=given.spectrum(),
         **chosen,
     )
-    found, note = _tables_of(result, given)
+    frames, note = _frames_of(result, given)
     note = note + left_out(result) if chosen["orders"] == "auto" else ""
     drawn = {"quantity": given.quantity(result.engines)}
-    return Shown(tables.stacked(*found), result, drawn, note=note)
+    return Shown(frames, result, drawn, note=note)
 
 
-def _tables_of(result: Sweep, given: Given) -> tuple[list[Table], str]:
+def _frames_of(result: Sweep, given: Given) -> tuple[Frames, str]:
     """Return a table for each engine, or a single one with a column of engines; and a note.
 
     For reading, engines that are swept along something else stand below each other, as in the
@@ -151,16 +152,22 @@ def _tables_of(result: Sweep, given: Given) -> tuple[list[Table], str]:
     # The title has a spectrum.
     loads = getattr(result, quantity).loads_counted if result.spectrum is None else ""
     if "engine" not in result.coords or (dims and not given.text("--csv")):
-        of_engines = [
-            Table.from_rows(f"{name}: {how}", heads, swept, each, decimals)
-            for name, each in zip(engine_titles(result), rows, strict=True)
-        ]
-        return [*of_engines[:-1], changed(of_engines[-1], loads=loads)], note
+        of_engines = zip(
+            result.coords.get("engine", [FIRST]), engine_titles(result), rows, strict=True
+        )
+        return Frames(
+            {
+                str(name): partial(
+                    Table.from_rows, f"{title}: {how}", heads, swept, each, decimals, loads=loads
+                )
+                for name, title, each in of_engines
+            }
+        ), note
     points = [(name, *point) for name in result.coords["engine"] for point in swept]
     title = f"{how[0].upper()}{how[1:]}"
     table = rows.reshape(len(points), rows.shape[-1])
     whole = Table.from_rows(title, ["engine", *heads], points, table, decimals, loads=loads)
-    return [whole], note
+    return only(whole), note
 
 
 def _how(result: Sweep, given: Given) -> str:
@@ -219,4 +226,4 @@ def _rank(given: Given) -> Shown:
         refine=given.text("--refine"),
         **given.chosen(),
     )
-    return Shown(ranking.table, ranking, engine=ranking[0].engine)
+    return Shown(ranking.frames, ranking, engine=ranking[0].engine)

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import functools
 import math
-from typing import TYPE_CHECKING, Any, Literal, Self
+from typing import TYPE_CHECKING, Literal, Self
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs, labels
-from crankpin._support.record import Input, Tabled, read_only
+from crankpin._support.frames import Tabled
+from crankpin._support.record import Input, read_only
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
 from crankpin.model import checks, cycle_files
@@ -447,7 +448,7 @@ class Cycle(Tabled, Input, ComputedCycles):
         *,
         cylinder: Cylinder | None = None,
         label: str | None = None,
-        **style: Any,  # noqa: ANN401 - of lines
+        **style: object,
     ) -> Axes:
         """Draw pressure over crank angle, or over volume.
 

@@ -9,8 +9,9 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs
-from crankpin._support.record import Input, Tabled, read_only
-from crankpin._support.tables import Column, Table
+from crankpin._support.frames import Tabled
+from crankpin._support.record import Input, read_only
+from crankpin._support.tables import Table
 from crankpin._support.warnings import suppressed
 from crankpin.model.cycle import Cycle
 
@@ -168,20 +169,13 @@ class CycleMap(Tabled, Input):
     @property
     def table(self) -> Table:
         """Peak pressure by speed and load."""
-        listed = [
-            (speed, load, cycle)
+        rows = [
+            (speed, load, float(cycle.pressure.max()), cycle.name)
             for speed, row in zip(self.rpm.tolist(), self.cycles, strict=True)
             for load, cycle in zip(self.load.tolist(), row, strict=True)
         ]
-        return Table(
-            "CycleMap over speed and load",
-            (
-                Column("speed", tuple(speed for speed, _, _ in listed), "rpm", digits=10),
-                Column("load", tuple(load for _, load, _ in listed), digits=10),
-                Column("peak pressure", tuple(float(c.pressure.max()) for *_, c in listed), "Pa"),
-                Column("cycle", tuple(cycle.name for *_, cycle in listed)),
-            ),
-        )
+        heads = (("speed", "rpm"), "load", ("peak pressure", "Pa"), "cycle")
+        return Table.from_rows("CycleMap over speed and load", heads, rows)
 
 
 def _weights(

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 import numpy as np
 
 from crankpin._support import labels
-from crankpin._support.record import AbsentError, changed
-from crankpin._support.tables import SHOWN, Table
+from crankpin._support.record import AbsentError
+from crankpin._support.tables import Table
 from crankpin.model import shafts as rotating
 from crankpin.model.builders import Builders
 from crankpin.model.data import EngineData, Hold
@@ -578,7 +578,8 @@ class Engine(Builders):
             columns["rotating mass", "kg"] = self.rotating_mass
         numbered = [(number, names[number]) for number in range(1, len(self) + 1)]
         rows = np.stack(list(columns.values()), axis=1)
-        return Table.from_rows("", ["cylinder", "bank", *columns], numbered, rows)
+        title = "\n".join(self._summary())
+        return Table.from_rows(title, ["cylinder", "bank", *columns], numbered, rows)
 
     def _summary(self) -> list[str]:
         """Return the lines above a table of the engine."""
@@ -630,11 +631,11 @@ class Engine(Builders):
         return f"{throws}, pins split by {listed[0] if len({*listed}) == 1 else ', '.join(listed)}°"
 
     def __repr__(self) -> str:
-        return "\n".join([*self._summary(), self.table.text(SHOWN)])
+        return repr(self.table)
 
     def _repr_html_(self) -> str:
-        table = changed(self.table, title="; ".join(self._summary()))._repr_html_()
-        picture = self._picture()
+        """Return a picture above the table, where matplotlib is installed."""
+        table, picture = self.table._repr_html_() or "", self._picture()
         return table if picture is None else f"<div>{picture}</div>{table}"
 
     def _picture(self) -> str | None:
@@ -647,9 +648,10 @@ class Engine(Builders):
         self,
         ax: Axes,
         *,
+        figure: None = None,
         kind: Literal["section", "star", "side"] | None = None,
         theta_deg: float = 0.0,
-        **style: Any,  # noqa: ANN401
+        **style: object,
     ) -> Axes: ...
 
     @overload
@@ -657,9 +659,10 @@ class Engine(Builders):
         self,
         ax: None = None,
         *,
+        figure: None = None,
         kind: Literal["section", "star", "side"],
         theta_deg: float = 0.0,
-        **style: Any,  # noqa: ANN401
+        **style: object,
     ) -> Axes: ...
 
     @overload
@@ -670,7 +673,7 @@ class Engine(Builders):
         figure: FigureBase | None = None,
         kind: None = None,
         theta_deg: float = 0.0,
-        **style: Any,  # noqa: ANN401
+        **style: object,
     ) -> NDArray[Any]: ...
 
     def plot(
@@ -680,7 +683,7 @@ class Engine(Builders):
         figure: FigureBase | None = None,
         kind: Literal["section", "star", "side"] | None = None,
         theta_deg: float = 0.0,
-        **style: Any,
+        **style: object,
     ) -> Axes | NDArray[Any]:
         """Draw the engine at a crank angle: cross-section, crank star, crank from the side.
 

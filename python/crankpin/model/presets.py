@@ -15,8 +15,6 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, tables
 from crankpin._support.record import AbsentItemError
@@ -79,10 +77,7 @@ class Presets(Mapping[str, Engine]):
             banks = "–" if angle is None else f"{angle:.6g}"
             rows.append((name, len(engine), banks, engine.firing_order or "–", text))
         return tables.Table.from_rows(
-            "Presets",
-            ["name", "cylinders", ("bank angle", "°"), "firing order", column],
-            rows,
-            np.empty((len(rows), 0)),
+            "Presets", ["name", "cylinders", ("bank angle", "°"), "firing order", column], rows
         )
 
 

@@ -13,6 +13,8 @@ from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balance import Balance
 from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
+    Drawn,
+    Kinds,
     add_legend,
     axes_or_new,
     check_one_place,
@@ -68,7 +70,7 @@ def spectrum(
     quantity: str | None = None,
     log: bool = False,
     label: str | None = None,
-    **style: Any,  # noqa: ANN401 - of lines
+    **style: object,
 ) -> Axes:
     """Draw peaks over order; exact zeros as hollow circles on the axis."""
     name = drawn_quantity(quantity, nonzero_in(result))
@@ -106,7 +108,9 @@ def spectrum(
     return ax
 
 
-def _stems(ax: Axes, orders: Any, peaks: Any, text: str, style: dict[str, Any]) -> None:  # noqa: ANN401
+def _stems(
+    ax: Axes, orders: NDArray[Any], peaks: NDArray[Any], text: str, style: dict[str, Any]
+) -> None:
     """Draw one series: a line up to each peak, a marker there, a hollow circle for zero."""
     along = np.repeat(orders, 3)
     up = np.stack([np.zeros_like(peaks), peaks, np.full_like(peaks, np.nan)], axis=1).ravel()
@@ -165,11 +169,11 @@ PHASES = np.linspace(0.0, 2.0 * np.pi, 181)
 def ellipses(
     result: Balance,
     ax: Axes | None = None,
-    figure: Any = None,  # noqa: ANN401 - checked
+    figure: object = None,
     *,
     quantity: str | None = None,
-    **style: Any,  # noqa: ANN401 - of lines
-) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    **style: object,
+) -> Drawn:
     """Draw a panel for each of the largest orders, or all of them on given axes."""
     name = plane_vector(quantity, result)
     places, note = largest(result, name)
@@ -225,17 +229,17 @@ def direction(order: OrderBalance, name: str) -> str:
 
 # --- balance -------------------------------------------------------------------------------------
 
-KINDS = {"spectrum": spectrum, "ellipses": ellipses, "phasors": phasors}
+KINDS: Kinds = {"spectrum": spectrum, "ellipses": ellipses, "phasors": phasors}
 
 
 @picture.register(Balance)
 def _balance(
     result: Balance,
-    ax: Any = None,  # noqa: ANN401 - checked
+    ax: object = None,
     *,
-    figure: Any = None,  # noqa: ANN401 - checked
+    figure: object = None,
     kind: str = "spectrum",
-    **options: Any,  # noqa: ANN401 - of the kind
-) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    **options: object,
+) -> Drawn:
     check_one_place(ax, figure)
     return KINDS[inputs.one_of("kind", kind, KINDS)](result, ax, figure, **options)

@@ -42,11 +42,7 @@ def names_there(ax: Axes) -> list[str]:
     return [text.get_text() for text in ax.get_yticklabels()] if count_series(ax) else []
 
 
-def rows_for(
-    ax: Axes,
-    names: Sequence[str],
-    **style: Any,  # noqa: ANN401 - of text
-) -> NDArray[np.intp]:
+def rows_for(ax: Axes, names: Sequence[str], **style: Any) -> NDArray[np.intp]:  # noqa: ANN401
     """Return the rows of these names, new ones below those there; name them on the left."""
     wanted = [plain_text(name) for name in names]
     every = list(dict.fromkeys([*names_there(ax), *wanted]))
@@ -75,7 +71,7 @@ def _balance_shafts(
     *,
     quantity: str | None = None,
     label: str | None = None,
-    **style: Any,  # noqa: ANN401 - of markers
+    **style: object,
 ) -> Axes:
     every = result.parts()
     there = {each.quantity for each in every if max(each.before, each.after) > 0.0}
@@ -118,11 +114,7 @@ SMALLEST = 5.0
 
 @picture.register(BalancerOptions)
 def _balancers(
-    result: BalancerOptions,
-    ax: Axes | None = None,
-    *,
-    label: str | None = None,
-    **style: Any,  # noqa: ANN401 - of markers
+    result: BalancerOptions, ax: Axes | None = None, *, label: str | None = None, **style: object
 ) -> Axes:
     ax = axes_or_new(ax)
     alone = not count_series(ax)
@@ -217,7 +209,7 @@ def _bob_weight(
     *,
     quantity: str | None = None,
     label: str | None = None,
-    **style: Any,  # noqa: ANN401 - of lines
+    **style: object,
 ) -> Axes:
     name = _chosen(result, quantity)
     ax = axes_or_new(ax)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,6 +11,8 @@ from crankpin._support.quantities import LOADS
 from crankpin.analysis.bearings import PARTS, BearingLoads
 from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
+    Drawn,
+    Kinds,
     add_legend,
     axes_or_new,
     check_one_place,
@@ -48,8 +50,8 @@ def polar(
     numbers: Iterable[int] | None = None,
     axes: str = "engine",
     label: str | None = None,
-    **style: Any,  # noqa: ANN401 - of lines
-) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    **style: object,
+) -> Drawn:
     """Draw the tips of loads: a panel for each bearing, or all of them on given axes."""
     vectors = result.turned(load, axes)
     places = _places(numbers, len(vectors))
@@ -84,7 +86,7 @@ def curves(
     load: str = "main",
     numbers: Iterable[int] | None = None,
     label: str | None = None,
-    **style: Any,  # noqa: ANN401 - of lines
+    **style: object,
 ) -> Axes:
     """Draw the magnitudes of bearing loads over crank angle; of other loads, their values."""
     kind = LOADS[inputs.one_of("load", load, LOADS)]
@@ -116,7 +118,7 @@ def bending(
     *,
     part: str | None = None,
     label: str | None = None,
-    **style: Any,  # noqa: ANN401 - of lines
+    **style: object,
 ) -> Axes:
     """Draw the largest bending moments along z, with the main bearings."""
     parts = PARTS if part is None else (inputs.one_of("part", part, PARTS),)
@@ -171,17 +173,17 @@ def _names(load: str, places: list[int], label: str | None) -> list[str]:
     return [f"{before}{LOADS[load].words} {place + 1}" for place in places]
 
 
-KINDS = {"polar": polar, "curves": curves, "bending": bending}
+KINDS: Kinds = {"polar": polar, "curves": curves, "bending": bending}
 
 
 @picture.register(BearingLoads)
 def _bearing_loads(
     result: BearingLoads,
-    ax: Any = None,  # noqa: ANN401 - checked
+    ax: object = None,
     *,
-    figure: Any = None,  # noqa: ANN401 - checked
+    figure: object = None,
     kind: str = "polar",
-    **options: Any,  # noqa: ANN401 - of the kind
-) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    **options: object,
+) -> Drawn:
     check_one_place(ax, figure)
     return KINDS[inputs.one_of("kind", kind, KINDS)](result, ax, figure, **options)

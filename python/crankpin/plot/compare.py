@@ -12,6 +12,7 @@ from crankpin.analysis.comparison import Comparison
 from crankpin.analysis.waveform import Waveform
 from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
+    Drawn,
     check_one_place,
     inches_of,
     label_x,
@@ -45,10 +46,10 @@ def _comparison(
     result: Comparison,
     ax: Axes | None = None,
     *,
-    figure: Any = None,  # noqa: ANN401 - checked
+    figure: object = None,
     quantity: str | None = None,
-    **style: Any,  # noqa: ANN401 - of bars
-) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    **style: object,
+) -> Drawn:
     check_one_place(ax, figure)
     name = drawn_quantity(quantity, nonzero_in(result.before, result.after))
     result.before.request.check(name)

@@ -16,6 +16,7 @@ from crankpin.model.crankpins import crankpins
 from crankpin.plot.balance import direction, ellipse
 from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
+    Drawn,
     add_figure_legend,
     add_legend,
     axes_or_new,
@@ -37,6 +38,8 @@ from crankpin.plot.words import drawn_quantity, nonzero_in
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.typing import ColorType
+    from numpy.typing import ArrayLike
 
 NEEDLE = 0.2
 """Length of an arrow, inches; in low axes less."""
@@ -50,13 +53,13 @@ KINDS = ("summary", "weights", "ellipses")
 @picture.register(Counterweights)
 def _counterweights(
     result: Counterweights,
-    ax: Any = None,  # noqa: ANN401 - checked
+    ax: object = None,
     *,
-    figure: Any = None,  # noqa: ANN401 - checked
+    figure: object = None,
     kind: str = "summary",
     quantity: str | None = None,
-    **style: Any,  # noqa: ANN401 - of lines
-) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    **style: object,
+) -> Drawn:
     check_one_place(ax, figure)
     chosen = inputs.one_of("kind", kind, KINDS)
     exists = nonzero_in(over_square(result.engine, [1])[1], result.residual[1])
@@ -77,7 +80,7 @@ def _counterweights(
     return ax
 
 
-def _summary(result: Counterweights, figure: Any, style: dict[str, Any]) -> Any:  # noqa: ANN401
+def _summary(result: Counterweights, figure: object, style: dict[str, Any]) -> Drawn:
     if "label" in style:
         raise InputError('label: kind="summary" shows one result; give kind="weights" and ax')
     before = over_square(result.engine, [1])[1]
@@ -140,12 +143,7 @@ def _weights(ax: Axes, result: Counterweights, style: dict[str, Any]) -> None:
 
 
 def _needles(
-    ax: Axes,
-    x: Any,  # noqa: ANN401 - an array
-    y: Any,  # noqa: ANN401 - an array
-    angles_deg: list[float],
-    colour: Any,  # noqa: ANN401 - a colour
-    gid: str,
+    ax: Axes, x: ArrayLike, y: ArrayLike, angles_deg: list[float], colour: ColorType, gid: str
 ) -> None:
     """Draw a dot at each point and an arrow from there, in the direction seen on the paper."""
     ax.plot(x, y, "o", color=colour, markersize=4.0, gid=gid, label="_", zorder=3)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from matplotlib.font_manager import FontProperties
@@ -61,7 +61,7 @@ WEIGHTS = "crankpin counterweights"
 # --- star ---------------------------------------------------------------------------------------
 
 
-def star(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # noqa: ANN401
+def star(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     """Draw crankpins in their directions, numbered, with rotating masses and counterweights.
 
     Unbalances of one direction are added up; the area of their disc or sector is as the sum.
@@ -151,7 +151,7 @@ class Stretch(NamedTuple):
     """From one web to the next, m."""
 
 
-def side(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # noqa: ANN401
+def side(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     """Draw journals, crankpins, webs, unbalances and balance shafts over z, as seen from x < 0."""
     ink = inks_of(ax)
     at = geometry(engine, theta_deg)

@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 
 from crankpin._support import inputs
 from crankpin._support.quantities import QUANTITIES
-from crankpin.plot.layout import label_x, label_y, make_panels, note_zero
+from crankpin.plot.layout import Drawn, label_x, label_y, make_panels, note_zero
 from crankpin.plot.rows import Rows, Words, along_x, at, dimension, rows_of, values_of, words_of
 from crankpin.plot.style import (
     DASHES,
@@ -177,14 +177,14 @@ ZERO, LEAST = "exactly zero", "least of all"
 def curves(
     sweep: Sweep,
     ax: Axes | None = None,
-    figure: Any = None,  # noqa: ANN401 - checked
+    figure: object = None,
     *,
     quantity: str | None = None,
     x: str | None = None,
     orders: object = None,
     log: bool = False,
-    **style: Any,  # noqa: ANN401 - of lines
-) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    **style: object,
+) -> Drawn:
     """Draw peaks over a swept dimension, rows for orders and columns for axes."""
     logarithmic = inputs.flag("log", log)
     name = drawn_quantity(quantity, nonzero_in(sweep.total))

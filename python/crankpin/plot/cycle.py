@@ -12,6 +12,7 @@ from crankpin.model.computed_cycles import area
 from crankpin.model.cycle import Cycle
 from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
+    Drawn,
     add_legend,
     axes_or_new,
     check_one_place,
@@ -26,6 +27,7 @@ from crankpin.plot.words import joined, loads_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from numpy.typing import NDArray
 
     from crankpin.model.cylinder import Cylinder
 
@@ -37,7 +39,7 @@ def _cycle(
     *,
     cylinder: Cylinder | None = None,
     label: str | None = None,
-    **style: Any,  # noqa: ANN401 - of lines
+    **style: object,
 ) -> Axes:
     ax = axes_or_new(ax)
     first = not count_series(ax)
@@ -66,23 +68,23 @@ def _cycle(
     return ax
 
 
-def _swept(cylinder: Cylinder, theta_deg: Any) -> Any:  # noqa: ANN401 - arrays
+def _swept(cylinder: Cylinder, theta_deg: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the volume between the piston and its highest point, cm³."""
     bore_area = area(cylinder)
     rod, offset = cylinder.rod_length + cylinder.crank_radius, cylinder.pin_offset
     highest = np.sqrt((rod - offset) * (rod + offset))
-    return 1e6 * bore_area * (highest - cylinder.position(theta_deg))
+    return np.asarray(1e6 * bore_area * (highest - cylinder.position(theta_deg)))
 
 
 @picture.register(Flywheel)
 def _flywheel(
     result: Flywheel,
-    ax: Any = None,  # noqa: ANN401 - checked
+    ax: object = None,
     *,
-    figure: Any = None,  # noqa: ANN401 - checked
+    figure: object = None,
     label: str | None = None,
-    **style: Any,  # noqa: ANN401 - of lines
-) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    **style: object,
+) -> Drawn:
     check_one_place(ax, figure)
     panels = make_panels(ax, figure, 2, 1, row_height=0.55, sharex=True)
     theta = result.theta_deg

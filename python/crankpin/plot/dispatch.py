@@ -14,7 +14,7 @@ from crankpin._support import inputs
 _UNKNOWN = re.compile(r"(?:unexpected keyword|multiple values for) argument '(\w+)'")
 
 
-def draw(result: object, ax: Any = None, **options: Any) -> Any:  # noqa: ANN401 - axes
+def draw(result: object, ax: object = None, **options: object) -> Any:  # noqa: ANN401 - axes
     """Draw a result on matplotlib axes, by default new ones; return the axes.
 
     The options are those of the result's ``plot`` method. Nothing is shown: notebooks show the
@@ -38,6 +38,6 @@ def draw(result: object, ax: Any = None, **options: Any) -> Any:  # noqa: ANN401
 
 
 @functools.singledispatch
-def picture(result: object, ax: Any = None, **options: Any) -> Any:  # noqa: ANN401 - axes
+def picture(result: object, ax: object = None, **options: object) -> Any:  # noqa: ANN401 - axes
     """Draw a result; the functions that do are registered by its class."""
     raise inputs.rejected("result", result, "there is no picture of this kind")

@@ -19,6 +19,7 @@ from crankpin.model.engine import Engine
 from crankpin.plot.crank import side, star
 from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
+    Drawn,
     add_figure_legend,
     add_legend,
     axes_or_new,
@@ -120,8 +121,8 @@ def _engine(
     figure: FigureBase | None = None,
     kind: str | None = None,
     theta_deg: float = 0.0,
-    **style: Any,  # noqa: ANN401
-) -> Axes | NDArray[Any]:
+    **style: object,
+) -> Drawn:
     check_one_place(ax, figure)
     theta = crank_angle(theta_deg)
     if kind is not None:
@@ -139,7 +140,7 @@ def _engine(
     return all_panels(engine, figure, theta, style)
 
 
-def panel(engine: Engine, ax: Axes, kind: str, theta: float, **style: Any) -> None:  # noqa: ANN401
+def panel(engine: Engine, ax: Axes, kind: str, theta: float, **style: object) -> None:
     """Draw one of the pictures on axes."""
     PANELS[kind](engine, ax, theta, **style)
     if kind == "side":

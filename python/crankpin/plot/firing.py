@@ -48,11 +48,7 @@ class Kind(NamedTuple):
 
 @picture.register(Firing)
 def _firing(
-    result: Firing,
-    ax: Axes | None = None,
-    *,
-    timing: Timing | None = None,
-    **style: Any,  # noqa: ANN401
+    result: Firing, ax: Axes | None = None, *, timing: Timing | None = None, **style: object
 ) -> Axes:
     rows = [cylinder for bank in result.banks for cylinder in bank]
     room = 1.0 if ax is None else 0.55  # the legend of given axes will take its part
@@ -131,7 +127,7 @@ def _bars(
     pieces: Sequence[tuple[float, float]],
     row: int,
     place: tuple[float, float],
-    **style: Any,  # noqa: ANN401
+    **style: Any,  # noqa: ANN401 - of matplotlib
 ) -> None:
     if "color" in style:  # of faces and edges; matplotlib warns of both
         style = {key: each for key, each in style.items() if key not in {"facecolor", "edgecolor"}}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
 import matplotlib as mpl
 import numpy as np
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from matplotlib.font_manager import FontProperties
+    from matplotlib.typing import ColorType
     from numpy.typing import NDArray
 
 SHORT = 1.9
@@ -39,6 +40,12 @@ HANDLE, BETWEEN = 2.2, 1.2
 """Length of a line in a legend, and distance of its columns, in sizes of type."""
 
 
+Drawn: TypeAlias = "Axes | NDArray[Any]"
+"""What a picture returns: axes, or an array of axes."""
+Kinds: TypeAlias = "dict[str, Callable[..., Drawn]]"
+"""Kind of a picture → the function that draws it."""
+
+
 class Panels(NamedTuple):
     """Panels of a picture, and the figure that they fill, or the axes that were given."""
 
@@ -49,7 +56,7 @@ class Panels(NamedTuple):
     """True for axes that were given: they take title and legend of the picture."""
 
     @property
-    def drawn(self) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    def drawn(self) -> Axes | NDArray[Any]:
         """What a picture returns."""
         return self.axes[0, 0] if self.single else self.axes
 
@@ -73,7 +80,7 @@ class Panels(NamedTuple):
             add_figure_legend(self.figure, handles, title if handles else "")
 
 
-def axes_or_new(ax: Axes | None) -> Axes:
+def axes_or_new(ax: object) -> Axes:
     """Return the axes given, or those of a new pyplot figure."""
     if ax is not None and not isinstance(ax, Axes):
         raise inputs.rejected("ax", ax, "give matplotlib axes")
@@ -81,8 +88,8 @@ def axes_or_new(ax: Axes | None) -> Axes:
 
 
 def make_panels(
-    ax: Axes | None,
-    figure: Any,  # noqa: ANN401 - checked
+    ax: object,
+    figure: object,
     rows: int,
     columns: int,
     *,
@@ -331,7 +338,7 @@ def label_y(ax: Axes, *lines: str) -> None:
     _fit(ax, ax.yaxis.label, _FittedText(ax.yaxis.label, lines, ax, "height"))
 
 
-def note_zero(ax: Axes, color: Any = None) -> None:  # noqa: ANN401 - a colour
+def note_zero(ax: Axes, color: ColorType | None = None) -> None:
     """Write that all values are zero."""
     ink = muted(ax) if color is None else color
     text = ax.text(0.5, 0.56, "zero throughout", transform=ax.transAxes, color=ink)
@@ -347,7 +354,7 @@ def add_legend(
     *,
     last: str = "",
     handles: Sequence[Any] | None = None,
-    **style: Any,  # noqa: ANN401 - of a legend
+    **style: object,
 ) -> None:
     """Put a legend below axes and their label, in as many columns as fit.
 

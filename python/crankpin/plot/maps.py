@@ -10,7 +10,7 @@ from matplotlib.colors import LogNorm, Normalize
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.quantities import QUANTITIES
-from crankpin.plot.layout import Panels, label_x, label_y, make_panels, note_zero
+from crankpin.plot.layout import Drawn, Panels, label_x, label_y, make_panels, note_zero
 from crankpin.plot.rows import Row, Rows, along_x, dimension, rows_of, words_of
 from crankpin.plot.style import foreground
 from crankpin.plot.ticks import degrees, numeric
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from matplotlib.axes import Axes
+    from matplotlib.collections import QuadMesh
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Order
@@ -38,14 +39,14 @@ BELOW = (0.5, 0.5, 0.5, 0.2)
 def heat_map(
     sweep: Sweep,
     ax: Axes | None = None,
-    figure: Any = None,  # noqa: ANN401 - checked
+    figure: object = None,
     *,
     quantity: str | None = None,
     x: str | None = None,
     orders: object = None,
     log: bool = False,
-    **style: Any,  # noqa: ANN401 - of pcolormesh
-) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    **style: object,
+) -> Drawn:
     """Draw peaks over two numeric dimensions, rows for orders or engines and columns for axes.
 
     Orders have a scale of colours each, engines one that they share.
@@ -76,13 +77,13 @@ def heat_map(
 def order_map(
     sweep: Sweep,
     ax: Axes | None = None,
-    figure: Any = None,  # noqa: ANN401 - checked
+    figure: object = None,
     *,
     quantity: str | None = None,
     x: str | None = None,
     log: bool = True,
-    **style: Any,  # noqa: ANN401 - of pcolormesh
-) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    **style: object,
+) -> Drawn:
     """Draw peaks over speed, or another swept number, and order, in one scale, logarithmic."""
     logarithmic = inputs.flag("log", log)
     name = drawn_quantity(quantity, nonzero_in(sweep.total))
@@ -201,7 +202,7 @@ def _cells(
     orders: Sequence[Order],
     peaks: NDArray[np.float64],
     options: dict[str, Any],
-) -> Any:  # noqa: ANN401 - what pcolormesh returns
+) -> QuadMesh:
     """Draw a row of cells for each order; those of an order that is zero stay empty."""
     in_order = np.argsort(x, kind="stable")
     step = 1.0 if all(isinstance(order, int) for order in orders) else 0.5
@@ -217,7 +218,7 @@ def _cells(
                 panel.text(middle, order, "zero", color=foreground(panel), **look)
         cells[cells == 0.0] = np.nan
         drawn = {"shading": "nearest", "rasterized": True} | options
-        mesh = panel.pcolormesh(x[in_order], rows, cells, **drawn)
+        mesh: QuadMesh = panel.pcolormesh(x[in_order], rows, cells, **drawn)
         mesh.set_cmap(mesh.get_cmap().with_extremes(under=BELOW))
         panel.set_ylim(0.5 * step, rows[-1] + 0.5 * step)
         if not peaks.any():
@@ -226,10 +227,7 @@ def _cells(
 
 
 def _colour_bar(
-    panels: Sequence[Axes] | NDArray[Any],
-    mesh: Any,  # noqa: ANN401 - what pcolormesh returns
-    quantity: str,
-    peaks: NDArray[np.float64],
+    panels: Sequence[Axes] | NDArray[Any], mesh: QuadMesh, quantity: str, peaks: NDArray[np.float64]
 ) -> None:
     """Draw the scale of colours of peaks, pointed where some are below it."""
     below = ((peaks > 0.0) & (peaks < (mesh.norm.vmin or 0.0))).any()

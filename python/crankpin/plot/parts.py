@@ -14,7 +14,15 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.plot.curves import ZERO, Curve, lines, mark
-from crankpin.plot.layout import Panels, label_x, label_y, make_panels, set_panel_title, width_for
+from crankpin.plot.layout import (
+    Drawn,
+    Panels,
+    label_x,
+    label_y,
+    make_panels,
+    set_panel_title,
+    width_for,
+)
 from crankpin.plot.rows import MOST, along_x, dimension, given_orders, largest, values_of, words_of
 from crankpin.plot.style import DISTINCT, entries_of, series
 from crankpin.plot.ticks import degrees, magnitude_scale, numeric, span
@@ -34,14 +42,14 @@ WIDE = 1.6
 def parts(
     sweep: Sweep,
     ax: Axes | None = None,
-    figure: Any = None,  # noqa: ANN401 - checked
+    figure: object = None,
     *,
     quantity: str | None = None,
     x: str | None = None,
     orders: object = None,
     log: bool = False,
-    **style: Any,  # noqa: ANN401 - of lines
-) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    **style: object,
+) -> Drawn:
     """Draw both parts over a swept number, a panel for each order and what else was swept."""
     name = drawn_quantity(quantity, nonzero_in(sweep.total), PLANE_VECTORS)
     logarithmic = inputs.flag("log", log)
@@ -83,12 +91,7 @@ def parts(
     return made.drawn if made.single else panels
 
 
-def _panels(
-    ax: Axes | None,
-    figure: Any,  # noqa: ANN401 - checked
-    orders: int,
-    rest: int,
-) -> tuple[Panels, NDArray[Any]]:
+def _panels(ax: Axes | None, figure: object, orders: int, rest: int) -> tuple[Panels, NDArray[Any]]:
     """Return panels, also as (orders, rest). As many are side by side as fit."""
     width = width_for(figure)
     if rest > 1 and width >= WIDE * rest:

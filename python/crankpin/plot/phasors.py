@@ -19,6 +19,7 @@ from crankpin.analysis.star import StarDiagram
 from crankpin.plot import ticks
 from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
+    Drawn,
     add_figure_legend,
     add_legend,
     axes_or_new,
@@ -64,7 +65,7 @@ def phasors(
     *,
     quantity: str | None = None,
     orders: Orders | None = None,
-    **style: Any,  # noqa: ANN401 - of arrows
+    **style: object,
 ) -> NDArray[Any]:
     """Draw the phasors of cylinders, counterweights and shafts head to tail, with their sum.
 
@@ -266,10 +267,10 @@ def _star(
     result: StarDiagram,
     ax: Axes | None = None,
     *,
-    figure: Any = None,  # noqa: ANN401 - checked
+    figure: object = None,
     order: Order | None = None,
-    **style: Any,  # noqa: ANN401
-) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    **style: object,
+) -> Drawn:
     check_one_place(ax, figure)
     if order is not None and figure is not None:
         raise inputs.rejected("figure", figure, "one order has one panel; give ax")

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
     from matplotlib.axes import Axes
+    from matplotlib.typing import ColorType
     from numpy.typing import NDArray
 
     from crankpin.analysis.balance import Balance
@@ -49,7 +50,7 @@ def plane_vector(quantity: object, result: Balance | Waveform) -> str:
     return name
 
 
-def arrow_at(ax: Axes, curve: NDArray[np.complex128], place: int, colour: Any) -> None:  # noqa: ANN401
+def arrow_at(ax: Axes, curve: NDArray[np.complex128], place: int, colour: ColorType) -> None:
     """Draw the head of an arrow on a curve, in the direction in which it is passed."""
     tip, before = curve[place], curve[place - 1]
     if tip == before:

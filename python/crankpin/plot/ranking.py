@@ -45,11 +45,7 @@ FORBIDDEN = "needs a pin split that is not allowed"
 
 @picture.register(Ranking)
 def _ranking(
-    ranking: Ranking,
-    ax: Axes | None = None,
-    *,
-    label: str | None = None,
-    **style: Any,  # noqa: ANN401 - of lines
+    ranking: Ranking, ax: Axes | None = None, *, label: str | None = None, **style: object
 ) -> Axes:
     ax = axes_or_new(ax)
     names, shared = short_names(list(ranking.names))
@@ -133,7 +129,7 @@ def _designs(
     *,
     count: int = 4,
     label: str | None = None,
-    **style: Any,  # noqa: ANN401 - of lines
+    **style: object,
 ) -> Axes:
     number = inputs.whole("count", count, 1)
     ax = axes_or_new(ax)
@@ -213,11 +209,7 @@ def _over_bank_angle(
 
 @picture.register(ArrangementSearch)
 def _search(
-    result: ArrangementSearch,
-    ax: Axes | None = None,
-    *,
-    label: str | None = None,
-    **style: Any,  # noqa: ANN401 - of lines
+    result: ArrangementSearch, ax: Axes | None = None, *, label: str | None = None, **style: object
 ) -> Axes:
     ax = axes_or_new(ax)
     found = list(result)

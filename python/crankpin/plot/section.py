@@ -47,7 +47,7 @@ SKIRT = 0.26
 """Bottom of a piston below its pin, over the bore."""
 
 
-def section(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # noqa: ANN401
+def section(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     """Draw bores, pistons, rods, crank, counterweights and balance shafts."""
     at = geometry(engine, theta_deg)
     bores = assumed_bores(engine)

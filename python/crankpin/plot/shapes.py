@@ -133,11 +133,7 @@ def points(outline: NDArray[np.complex128]) -> NDArray[np.float64]:
     return np.stack([outline.real, outline.imag], axis=-1)
 
 
-def add(
-    ax: Axes,
-    outlines: Iterable[NDArray[np.complex128]],
-    **style: Any,  # noqa: ANN401
-) -> None:
+def add(ax: Axes, outlines: Iterable[NDArray[np.complex128]], **style: Any) -> None:  # noqa: ANN401
     """Draw outlines, each over the ones before it."""
     if "color" in style:  # of faces and edges; matplotlib warns of both
         style = {key: each for key, each in style.items() if key not in {"facecolor", "edgecolor"}}

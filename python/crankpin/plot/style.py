@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from matplotlib.axes import Axes
+    from matplotlib.typing import ColorType
     from numpy.typing import NDArray
 
 
@@ -65,7 +66,7 @@ def muted(ax: Axes, strength: float = 0.65) -> tuple[float, float, float]:
     return tint(ax, foreground(ax), strength)
 
 
-def tint(ax: Axes, colour: Any, strength: float) -> tuple[float, float, float]:  # noqa: ANN401
+def tint(ax: Axes, colour: ColorType, strength: float) -> tuple[float, float, float]:
     """Return a colour between background (0) and another one (1)."""
     mixed = strength * np.array(colors.to_rgb(colour))
     mixed += (1.0 - strength) * np.array(background(ax))
@@ -157,10 +158,10 @@ def ring(
     ax: Axes,
     x: NDArray[Any],
     y: NDArray[Any],
-    colour: Any,  # noqa: ANN401 - a colour
+    colour: ColorType,
     marker: str,
     label: str,
-    **style: Any,  # noqa: ANN401 - of lines
+    **style: object,
 ) -> None:
     """Draw hollow marks; the first with a label on the axes is its entry in the legend."""
     look = {"marker": marker, "markersize": 8.0, "markeredgewidth": 1.2, "zorder": 4, "gid": MARK}
@@ -168,11 +169,7 @@ def ring(
 
 
 def hollow(
-    ax: Axes,
-    x: NDArray[Any],
-    y: NDArray[Any],
-    colour: Any,  # noqa: ANN401 - a colour
-    **style: Any,  # noqa: ANN401 - of lines
+    ax: Axes, x: NDArray[Any], y: NDArray[Any], colour: ColorType, **style: object
 ) -> Line2D:
     """Draw circles with the colour of the background in them, such as those of zeros."""
     look: dict[str, Any] = {"linestyle": "", "marker": "o", "clip_on": False, "zorder": 3}

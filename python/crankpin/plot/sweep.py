@@ -12,7 +12,7 @@ from crankpin._support.quantities import QUANTITIES
 from crankpin.analysis.sweeps.sweep import Sweep
 from crankpin.plot.curves import curves
 from crankpin.plot.dispatch import picture
-from crankpin.plot.layout import check_one_place, label_x, make_panels
+from crankpin.plot.layout import Drawn, Kinds, check_one_place, label_x, make_panels
 from crankpin.plot.maps import heat_map, order_map
 from crankpin.plot.parts import parts
 from crankpin.plot.rows import given_orders, largest, words_of
@@ -45,12 +45,12 @@ CLASSES = {
 def bars(
     sweep: Sweep,
     ax: Axes | None = None,
-    figure: Any = None,  # noqa: ANN401 - checked
+    figure: object = None,
     *,
     quantity: str | None = None,
     orders: object = None,
-    **style: Any,  # noqa: ANN401 - of bars
-) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    **style: object,
+) -> Drawn:
     """Draw the longest vectors of each engine, a panel for force and one for moment."""
     if list(sweep.coords) != ["engine"]:
         swept = ", ".join(sweep.coords)
@@ -134,19 +134,25 @@ def _class(ax: Axes, classes: Sequence[str]) -> None:
 
 # --- sweep ---------------------------------------------------------------------------------------
 
-KINDS = {"curves": curves, "parts": parts, "map": heat_map, "orders": order_map, "bars": bars}
+KINDS: Kinds = {
+    "curves": curves,
+    "parts": parts,
+    "map": heat_map,
+    "orders": order_map,
+    "bars": bars,
+}
 
 
 @picture.register(Sweep)
 def _sweep(
     result: Sweep,
-    ax: Any = None,  # noqa: ANN401 - checked
+    ax: object = None,
     *,
-    figure: Any = None,  # noqa: ANN401 - checked
+    figure: object = None,
     kind: str | None = None,
     x: str | None = None,
-    **options: Any,  # noqa: ANN401 - of the kind
-) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    **options: object,
+) -> Drawn:
     check_one_place(ax, figure)
     if options.get("quantity", "") is None:
         del options["quantity"]  # each kind has its own default
@@ -160,7 +166,7 @@ def _sweep(
             if value is not None:
                 hint = 'has no meaning for kind="bars"; leave it out'
                 raise inputs.rejected(name, value, hint)
-        return bars(result, ax, figure, **options)
+        return KINDS[chosen](result, ax, figure, **options)
     return KINDS[chosen](result, ax, figure, x=x, **options)
 
 

@@ -37,7 +37,7 @@ def _tolerances(
     kind: str = "histogram",
     by: str | None = None,
     label: str | None = None,
-    **style: Any,  # noqa: ANN401 - of the kind
+    **style: object,
 ) -> Axes:
     kinds = {"histogram": _histogram, "ecdf": _ecdf, "shares": None}
     distribution = kinds[inputs.one_of("kind", kind, kinds)]

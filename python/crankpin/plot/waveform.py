@@ -15,6 +15,7 @@ from crankpin.analysis.waveform import Waveform
 from crankpin.plot.curves import bundle_of, colour_scale
 from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
+    Drawn,
     add_legend,
     axes_or_new,
     check_one_place,
@@ -42,6 +43,8 @@ from crankpin.plot.words import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
@@ -56,7 +59,7 @@ def orbit(
     *,
     quantity: str | None = None,
     label: str | None = None,
-    **style: Any,  # noqa: ANN401 - of lines
+    **style: object,
 ) -> Axes:
     """Draw the tip of a force or moment, with crank angles and the direction marked."""
     name = plane_vector(quantity, result)
@@ -81,13 +84,13 @@ BANDS = ((0.0, 1.0, 0.2, "smallest to largest"), (0.25, 0.75, 0.35, "middle half
 @picture.register(SweepWaveform)
 def _sweep_waveform(
     result: SweepWaveform,
-    ax: Any = None,  # noqa: ANN401 - checked
+    ax: object = None,
     *,
-    figure: Any = None,  # noqa: ANN401 - checked
+    figure: object = None,
     kind: str | None = None,
     quantity: str | None = None,
-    **style: Any,  # noqa: ANN401 - of lines
-) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    **style: object,
+) -> Drawn:
     check_one_place(ax, figure)
     name = drawn_quantity(quantity, nonzero_in(result))
     count = math.prod(len(values) for values in result.sweep.coords.values())
@@ -183,11 +186,7 @@ def _limit(ax: Axes, values: NDArray[np.float64]) -> None:
 
 @picture.register(Waveform)
 def _waveform(
-    result: Waveform,
-    ax: Axes | None = None,
-    *,
-    kind: str = "curves",
-    **options: Any,  # noqa: ANN401 - of the kind
+    result: Waveform, ax: Axes | None = None, *, kind: str = "curves", **options: object
 ) -> Axes:
     return _KINDS[inputs.one_of("kind", kind, _KINDS)](result, ax, **options)
 
@@ -198,7 +197,7 @@ def curves(
     *,
     quantity: str | None = None,
     label: str | None = None,
-    **style: Any,  # noqa: ANN401 - of lines
+    **style: object,
 ) -> Axes:
     """Draw a quantity over crank angle, a curve for each axis."""
     name = drawn_quantity(quantity, nonzero_in(result))
@@ -228,4 +227,4 @@ def curves(
     return ax
 
 
-_KINDS = {"curves": curves, "orbit": orbit}
+_KINDS: dict[str, Callable[..., Axes]] = {"curves": curves, "orbit": orbit}

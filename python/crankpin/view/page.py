@@ -128,7 +128,7 @@ def module(*entries: str) -> str:
     return "\n".join(found.values())
 
 
-def as_json(value: Any) -> str:  # noqa: ANN401 - whatever JSON can hold
+def as_json(value: object) -> str:
     """Return JSON that may stand in a script element: no text in it can end the element."""
     return json.dumps(value, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
 

@@ -457,7 +457,7 @@ def test_table_has_every_bank_angle() -> None:
     assert list(table["bank angle"].values) == search.bank_angles_deg.tolist()
     last = search[-1]
     assert [column.values[-1] for column in table.columns[2:]] == [
-        last.bank_angle_deg, last.counterweight, *last.second_order,
+        last.bank_angle_deg, last.counterweight, *last.second_order, "yes",
     ]  # fmt: skip
     assert [float(angle) for angle in table["left bank"].values[-1].split("-")] == [
         *last.second_deg

@@ -629,11 +629,8 @@ def test_result_is_frozen_and_copies() -> None:
 
 
 def test_tables_show_the_fit() -> None:
-    unbalances = FIT.table
-    shafts = unbalances.below
-    assert shafts is not None
-    stays = shafts.below
-    assert stays is not None
+    unbalances, shafts, stays = FIT.frames.values()
+    assert list(FIT.frames) == ["table", "shafts", "residual"]
     weights = [w for each in FIT for w in each.unbalances]
     assert list(unbalances["unbalance"].values) == [w.amount for w in weights]
     assert list(unbalances["phase"].values) == [w.angle_deg for w in weights]

@@ -260,14 +260,14 @@ def test_table_shows_the_front_and_whether_it_reaches_the_target() -> None:
     assert "arget" not in repr(cp.balancer_options(I4, rpm=RPM))
 
 
-def test_to_pandas_has_all_sets() -> None:
-    table = OPTIONS.to_pandas()
-    assert table.columns.tolist() == [
+def test_the_long_form_has_all_sets() -> None:
+    table = OPTIONS.tidy()
+    assert list(table) == [
         "name", "n_shafts", "unbalance", "on_front", "reaches", "objective", "value", "unit",
     ]  # fmt: skip
-    assert table["value"].tolist() == [value for each in OPTIONS for value in each.values]
-    assert table["name"].tolist() == [each.name for each in OPTIONS for _ in range(2)]
-    assert table["on_front"].sum() == 2 * len(OPTIONS.front)
+    assert list(table["value"].values) == [value for each in OPTIONS for value in each.values]
+    assert list(table["name"].values) == [each.name for each in OPTIONS for _ in range(2)]
+    assert table.to_pandas()["on_front"].sum() == 2 * len(OPTIONS.front)
 
 
 @pytest.mark.parametrize(

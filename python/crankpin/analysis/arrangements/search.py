@@ -8,14 +8,13 @@ import math
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support import inputs, optional
+from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
-from crankpin._support.record import Input, Record, changed, item_key
-from crankpin._support.tables import Table
+from crankpin._support.frames import Tabled
+from crankpin._support.record import Input, changed, item_key
+from crankpin._support.tables import Column, Table
 from crankpin.analysis.drawing import draw
 from crankpin.model.data import parts
 from crankpin.model.engine import Engine
@@ -23,7 +22,7 @@ from crankpin.model.engine import Engine
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    import pandas as pd
+    import numpy as np
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
@@ -189,7 +188,7 @@ def search_arrangements(
     return ArrangementSearch(core, count, rule, given, hold, shared, progress=watched)
 
 
-class ArrangementSearch(Record):
+class ArrangementSearch(Tabled):
     """Result of a search: counts, and the balanced bank angles with an arrangement for each.
 
     A sequence of :class:`Arrangement`, one for each bank angle, ascending: of all pairs that have
@@ -368,7 +367,7 @@ class ArrangementSearch(Record):
         found = (self._least(k, least) for k in range(len(self)))
         return tuple(heapq.nsmallest(wanted, found, key=measure))
 
-    def plot(self, ax: Axes | None = None, **options: Any) -> Axes:  # noqa: ANN401 - as below
+    def plot(self, ax: Axes | None = None, **options: object) -> Axes:
         """Draw the second-order moment that remains over the bank angles; return the axes.
 
         Parameters
@@ -394,49 +393,27 @@ class ArrangementSearch(Record):
     @property
     def table(self) -> Table:
         """Table of the bank angles, with an arrangement for each."""
-        found = list(self)
-        banks = [
-            [
-                "-".join(f"{angle:.6g}" for angle in bank)
-                for bank in (each.first_deg, each.second_deg)
-            ]
-            for each in found
-        ]
-        in_degrees = [(head, "°") for head in ("right bank", "left bank", "bank angle")]
-        rows = [(each.bank_angle_deg, each.counterweight, *each.second_order) for each in found]
-        title = f"V{self.cylinders}: moments over m·r·ω²·spacing, those of order 2 over a₂ too"
-        return Table.from_rows(
-            title,
-            [*in_degrees, "counterweight", "order 2 about x", "order 2 about y"],
-            banks,
-            np.array(rows).reshape(-1, 4),
+        listed = list(self)
+        banks = [(each.first_deg, each.second_deg) for each in listed]
+        right, left = (
+            tuple("-".join(f"{angle:.6g}" for angle in pair[side]) for pair in banks)
+            for side in (0, 1)
         )
-
-    def to_pandas(self) -> pd.DataFrame:
-        """Return the arrangements as a table, one row a bank angle (needs pandas).
-
-        Returns
-        -------
-        pandas.DataFrame
-            A row for each bank angle.
-
-        Raises
-        ------
-        ImportError
-            If pandas is not installed.
-        """
-        pandas = optional.library("pandas")
-        rows = list(self)
-        columns = {
-            "first_deg": [row.first_deg for row in rows],
-            "second_deg": [row.second_deg for row in rows],
-            "counterweight": [row.counterweight for row in rows],
-            "second_order_x": [row.second_order[0] for row in rows],
-            "second_order_y": [row.second_order[1] for row in rows],
-            "near_circular": [row.near_circular for row in rows],
-        }
-        index = pandas.Index([row.bank_angle_deg for row in rows], name="bank_angle_deg")
-        return optional.data_frame(columns, index=index)
+        title = f"V{self.cylinders}: moments over m·r·ω²·spacing, those of order 2 over a₂ too"
+        return Table(
+            title,
+            (
+                Column("right bank", right, "°"),
+                Column("left bank", left, "°"),
+                Column("bank angle", tuple(each.bank_angle_deg for each in listed), "°"),
+                Column("counterweight", tuple(each.counterweight for each in listed)),
+                Column("order 2 about x", tuple(each.second_order[0] for each in listed)),
+                Column("order 2 about y", tuple(each.second_order[1] for each in listed)),
+                Column(
+                    "near circular", tuple("yes" if each.near_circular else "no" for each in listed)
+                ),
+            ),
+        )
 
     def _index(self, index: object) -> int:
         if isinstance(index, slice):
@@ -444,7 +421,8 @@ class ArrangementSearch(Record):
         position: int = item_key(index, len(self))
         return position % len(self)
 
-    def __repr__(self) -> str:
+    @property
+    def _brief(self) -> str:
         rule = ", alternating" if self.alternating else ""
         rule += " on shared pins" if self.shared_pins else ""
         found = f"{self.qualifying} of {self.candidates} pairs"

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crankpin._support import labels, optional
-from crankpin._support.record import AbsentError, Listed, Record, Tabled
-from crankpin._support.tables import SHOWN, Table
+from crankpin._support import labels
+from crankpin._support.frames import SHOWN, Tabled
+from crankpin._support.record import AbsentError, Listed, Record
+from crankpin._support.tables import Table
 from crankpin.analysis.balance import balance
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking.objectives import ByObjectives
 
 if TYPE_CHECKING:
-    import pandas as pd
     from matplotlib.axes import Axes
 
     from crankpin.analysis.balance import Balance
@@ -126,20 +126,15 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
 
     # --- tables and pictures --------------------------------------------------------------------
 
-    def to_pandas(self) -> pd.DataFrame:
-        """Return all sets as a tidy table, one row a set and objective (needs pandas).
+    def tidy(self) -> Table:
+        """Return all sets in long form, a row for each set and objective.
 
-        Columns are name, n_shafts, unbalance (kg·m), on_front, reaches, objective, value and unit.
+        Columns are name, n_shafts, unbalance, on_front, reaches, objective, value and unit.
 
         Returns
         -------
-        pandas.DataFrame
-            The table.
-
-        Raises
-        ------
-        ImportError
-            If pandas is not installed.
+        Table
+            The rows; its ``to_pandas`` and ``to_csv`` write them.
         """
         rows = [
             (
@@ -149,11 +144,12 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
             for each in self.options
             for objective, value in zip(self.objectives, each.values, strict=True)
         ]  # fmt: skip
-        columns = [
-            "name", "n_shafts", "unbalance", "on_front", "reaches", "objective", "value", "unit",
-        ]  # fmt: skip
-        attributes = labels.attributes(self.loads_counted)
-        return optional.data_frame(rows, columns=columns, attributes=attributes)
+        heads = (
+            "name", "n_shafts", ("unbalance", "kg·m"), "on_front", "reaches", "objective", "value",
+            "unit",
+        )  # fmt: skip
+        title = f"{labels.name_of(self.engine)} at {self.rpm:g} rpm: sets of hardware"
+        return Table.from_rows(title, heads, rows, loads=self.loads_counted)
 
     def plot(self, ax: Axes | None = None, **style: object) -> Axes:
         """Draw the residuals of the front in per cent of the engine's own; return the axes.

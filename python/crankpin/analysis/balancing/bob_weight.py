@@ -10,8 +10,9 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
+from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin._support.record import Tabled, read_only
+from crankpin._support.record import read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import over_square
 from crankpin.analysis.balancing.fitting import LARGEST_FACTOR, check_factor, with_bob_weights
@@ -328,32 +329,17 @@ class BobWeight(Tabled):
             [(_numbers(pin),) for pin in self.crankpins],
             rows,
             decimals=1,
-            below=self.table_of_factors(),
         )
 
-    def table_of_factors(self, factors: ArrayLike | None = None) -> Table:
-        """Return the table of residuals of order 1 by factor: half axes over ω².
+    @property
+    def frames(self) -> Frames:
+        """``table``; ``factors``: residual of order 1 by balance factor, half axes over ω²."""
+        return self._frames(factors=self._by_factor)
 
-        Parameters
-        ----------
-        factors : array_like, shape (n_factors,), optional
-            Parts of the reciprocating mass; by default some usual ones, with those of a straight
-            line.
-
-        Returns
-        -------
-        Table
-            A row for each factor, kg·m and kg·m².
-
-        Raises
-        ------
-        InputError
-            If an argument is out of range.
-        """
-        given = TABULATED if factors is None else inputs.listed_numbers("factors", factors)
-        check_factor("factors", given)
-        words: dict[float, list[str]] = {float(factor): [] for factor in given}
-        for factor, text in self._remarkable() if factors is None else ():
+    def _by_factor(self) -> Table:
+        """Return the residual at the usual factors, and at those of a straight line."""
+        words: dict[float, list[str]] = {float(factor): [] for factor in TABULATED}
+        for factor, text in self._remarkable():
             # 0.5 comes out as 0.49999999999999994 at times.
             near = next((each for each in words if abs(each - factor) < ALIKE), factor)
             words.setdefault(near, []).extend([text] if text else [])
@@ -379,7 +365,7 @@ class BobWeight(Tabled):
             for factor, direction_deg in self.straight(name):
                 yield factor, f"{name} along {direction_deg:.4g}°"
 
-    def plot(self, ax: Axes | None = None, *, quantity: str | None = None, **style: Any) -> Axes:  # noqa: ANN401
+    def plot(self, ax: Axes | None = None, *, quantity: str | None = None, **style: object) -> Axes:
         """Draw the residual of order 1 over the factor: longest, shortest vector; return the axes.
 
         Parameters

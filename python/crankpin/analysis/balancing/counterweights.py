@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import itertools
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 from crankpin._support import inputs, labels
+from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin._support.record import Tabled, read_only
-from crankpin._support.tables import Column, Table
+from crankpin._support.record import read_only
+from crankpin._support.tables import Table
 from crankpin.analysis.balance import over_square
 from crankpin.analysis.balancing import planes as correction_planes
 from crankpin.analysis.balancing.fitting import Fit, bay_loads, external, internal, left_by
@@ -263,26 +265,28 @@ class Counterweights(Tabled):
 
     @property
     def table(self) -> Table:
-        """Table of the weights; below it what order 1 does before and after, over ω²."""
-        columns = (
-            Column("plane", tuple(plane for plane, _ in self.by_plane)),
-            Column("z", tuple(weight.z for weight in self.hardware), "m"),
-            Column("amount", tuple(weight.amount for weight in self.hardware), "kg·m"),
-            Column("angle", tuple(inputs.degrees(each.angle_deg) for each in self.hardware), "°"),
-        )
+        """Places, amounts and angles of the weights."""
+        heads = ("plane", ("z", "m"), ("amount", "kg·m"), ("angle", "°"))
+        rows = [
+            (plane, each.z, each.amount, inputs.degrees(each.angle_deg))
+            for (plane, _), each in zip(self.by_plane, self.hardware, strict=True)
+        ]
         note = "" if self.by_plane else "No weights are needed in these planes, or none help."
         title = f"{labels.name_of(self.engine)}: counterweights"
-        return Table(title, columns, note, below=self._order_1())
+        return Table.from_rows(title, heads, rows, note=note)
+
+    @property
+    def frames(self) -> Frames:
+        """``table``; ``residual``: what order 1 does before and after, over ω²."""
+        return self._frames(residual=self._order_1)
 
     def _order_1(self) -> Table:
-        states = {
-            "before": over_square(self.engine, [1]), "after": self.residual,
-        }  # fmt: skip
-        vectors = [
-            (name, state, getattr(found[1], name))
-            for name in PLANE_VECTORS
-            for state, found in states.items()
-        ]
+        states = {"before": over_square(self.engine, [1]), "after": self.residual}
+        rows = []
+        for name, (state, balance) in itertools.product(PLANE_VECTORS, states.items()):
+            vector, kind = getattr(balance[1], name), QUANTITIES[name]
+            head = f"{kind.words}, {kind.unit_over_square}"
+            rows.append((head, state, float(vector.peak), abs(vector.minor)))
         words = [
             f"{part} {quantity} {verdict}"
             for quantity, parts in self.verdicts.items()
@@ -291,26 +295,18 @@ class Counterweights(Tabled):
         note = "; ".join(words) + "."
         if "undecided" in note and self.missing:
             note += f" Within {self.missing:.1e} of what was wanted."
-        kinds = [QUANTITIES[name] for name, _, _ in vectors]
-        return Table(
-            "Residual of order 1, half axes over ω²",
-            (
-                Column("quantity", tuple(f"{k.words}, {k.unit_over_square}" for k in kinds)),
-                Column("state", tuple(state for _, state, _ in vectors)),
-                Column("longest", tuple(float(vector.peak) for *_, vector in vectors)),
-                Column("shortest", tuple(abs(vector.minor) for *_, vector in vectors)),
-            ),
-            note,
-        )
+        title = "Residual of order 1, half axes over ω²"
+        return Table.from_rows(title, ["quantity", "state", "longest", "shortest"], rows, note=note)
 
     @overload
     def plot(
         self,
         ax: Axes,
         *,
+        figure: None = None,
         kind: Literal["summary", "weights", "ellipses"] = "summary",
         quantity: str | None = None,
-        **style: Any,  # noqa: ANN401
+        **style: object,
     ) -> Axes: ...
 
     @overload
@@ -318,9 +314,10 @@ class Counterweights(Tabled):
         self,
         ax: None = None,
         *,
+        figure: None = None,
         kind: Literal["weights", "ellipses"],
         quantity: str | None = None,
-        **style: Any,  # noqa: ANN401
+        **style: object,
     ) -> Axes: ...
 
     @overload
@@ -331,7 +328,7 @@ class Counterweights(Tabled):
         figure: Figure | SubFigure | None = None,
         kind: Literal["summary"] = "summary",
         quantity: str | None = None,
-        **style: Any,  # noqa: ANN401
+        **style: object,
     ) -> NDArray[Any]: ...
 
     def plot(
@@ -341,7 +338,7 @@ class Counterweights(Tabled):
         figure: Figure | SubFigure | None = None,
         kind: Literal["summary", "weights", "ellipses"] = "summary",
         quantity: str | None = None,
-        **style: Any,
+        **style: object,
     ) -> Axes | NDArray[Any]:
         """Draw the weights, and what order 1 does before and after; return the axes.
 

@@ -12,8 +12,9 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
+from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import QUANTITIES
-from crankpin._support.record import Listed, Tabled, read_only
+from crankpin._support.record import Listed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import Balance, balance
 from crankpin.analysis.drawing import draw
@@ -221,21 +222,16 @@ class BalanceShafts(Listed[Shaft], Tabled):
 
     @property
     def table(self) -> Table:
-        """Table of the unbalances; below it what each shaft exerts, and the residual."""
-        listed = [
-            (k, shaft, weight)
+        """Unbalances of the shafts."""
+        heads = ("shaft", "ratio", ("x", "m"), ("y", "m"), ("z", "m"), ("unbalance", "kg·m"))
+        rows = [
+            (
+                f"{k}", f"{shaft.ratio:+d}", shaft.x, shaft.y, weight.z, weight.amount,
+                inputs.degrees(weight.angle_deg),
+            )
             for k, shaft in enumerate(self.hardware, 1)
             for weight in shaft.unbalances
-        ]
-        columns = (
-            Column("shaft", tuple(str(k) for k, _, _ in listed)),
-            Column("ratio", tuple(f"{shaft.ratio:+d}" for _, shaft, _ in listed)),
-            Column("x", tuple(shaft.x for _, shaft, _ in listed), "m"),
-            Column("y", tuple(shaft.y for _, shaft, _ in listed), "m"),
-            Column("z", tuple(weight.z for *_, weight in listed), "m"),
-            Column("unbalance", tuple(weight.amount for *_, weight in listed), "kg·m"),
-            Column("phase", tuple(inputs.degrees(weight.angle_deg) for *_, weight in listed), "°"),
-        )
+        ]  # fmt: skip
         note = ""
         if self.engine.fired:
             note = (
@@ -243,7 +239,12 @@ class BalanceShafts(Listed[Shaft], Tabled):
                 "with the square of the speed as the shafts' torques do."
             )
         title = f"{labels.cut(labels.name_of(self.engine))}: balance shafts"
-        return Table(title, columns, note, below=self._loads())
+        return Table.from_rows(title, (*heads, ("phase", "°")), rows, note=note)
+
+    @property
+    def frames(self) -> Frames:
+        """``table``; ``shafts``: what each removes, and its bearing loads; ``residual``."""
+        return self._frames(shafts=self._loads, residual=self._stays)
 
     def _loads(self) -> Table:
         columns = [
@@ -264,21 +265,16 @@ class BalanceShafts(Listed[Shaft], Tabled):
                 Column("rear load", tuple(rear), "kg·m"),
             ]
         title = "What each shaft removes, and its bearing loads, over ω²"
-        return Table(title, tuple(columns), below=self._stays())
+        return Table(title, tuple(columns))
 
     def _stays(self) -> Table:
-        parts = self.parts()
-        kinds = [QUANTITIES[each.quantity] for each in parts]
-        return Table(
-            "Residual, over ω²",
-            (
-                Column("order", tuple(str(each.order) for each in parts)),
-                Column("quantity", tuple(f"{k.words}, {k.unit_over_square}" for k in kinds)),
-                Column("part", tuple(each.part for each in parts)),
-                Column("before", tuple(each.before for each in parts)),
-                Column("after", tuple(each.after for each in parts)),
-            ),
-        )
+        rows = []
+        for each in self.parts():
+            kind = QUANTITIES[each.quantity]
+            quantity = f"{kind.words}, {kind.unit_over_square}"
+            rows.append((str(each.order), quantity, each.part, each.before, each.after))
+        heads = ["order", "quantity", "part", "before", "after"]
+        return Table.from_rows("Residual, over ω²", heads, rows)
 
     def parts(self) -> tuple[Part, ...]:
         """Return the parts of force, moment and torque of the shafts' orders, before and after.

@@ -9,7 +9,8 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
-from crankpin._support.record import Tabled, read_only
+from crankpin._support.frames import Tabled
+from crankpin._support.record import read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.geometry import direction
 from crankpin.model.shafts import Unbalance

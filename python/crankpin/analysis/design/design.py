@@ -46,7 +46,7 @@ def design(
     cylinder: Cylinder,
     spacing: float,
     rpm: float,
-    by: str | Measure | Sequence[str | Measure] | None = None,
+    by: str | Measure | Sequence[str | Measure],
     bank_angle_deg: Range | None = None,
     shared_pins: bool | None = None,
     pin_split_deg: Range | None = None,
@@ -85,8 +85,8 @@ def design(
         Distance between neighbouring throws, m.
     rpm : float
         Crank speed, rpm.
-    by : str, callable or sequence of these, optional
-        Quantity to minimise, required, as in :func:`crankpin.rank`: names of objectives, the later
+    by : str, callable or sequence of these
+        Quantity to minimise, as in :func:`crankpin.rank`: names of objectives, the later
         ones breaking ties. Functions of a :class:`Balance` only where no angle varies.
     bank_angle_deg : number, str or pair of these, optional
         Bank angle of a vee, degrees, or the lowest and the highest to choose from:

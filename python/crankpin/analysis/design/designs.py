@@ -11,7 +11,8 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.record import Listed, Record, Tabled
+from crankpin._support.frames import Tabled
+from crankpin._support.record import Listed, Record
 from crankpin._support.tables import Table
 from crankpin.analysis.arrangements.cranks import HALF, Crank
 from crankpin.analysis.design.families import engines_of, turned
@@ -151,7 +152,7 @@ class Designs(ByObjectives, Listed[Design], Tabled):
 
     # --- tables and pictures --------------------------------------------------------------------
 
-    def plot(self, ax: Axes | None = None, *, count: int = 4, **style: Any) -> Axes:  # noqa: ANN401
+    def plot(self, ax: Axes | None = None, *, count: int = 4, **style: object) -> Axes:
         """Draw the first objective of the best designs over bank angle; return the axes.
 
         A ring marks each design. Designs without banks, or by a function, are drawn as a dot each,

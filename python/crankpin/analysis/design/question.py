@@ -126,8 +126,8 @@ def checked(
     even_firing: object,
     intervals_deg: Angles | None,
     strokes: object,
-    bank_stagger: Any,  # noqa: ANN401 - checked here
-    rotating_mass: Any,  # noqa: ANN401 - checked here
+    bank_stagger: object,
+    rotating_mass: object,
     counterweights: object,
     shafts: Iterable[int],
 ) -> Question:
@@ -248,7 +248,7 @@ def _range(name: str, given: Any, low: Exact, high: Exact) -> tuple[Exact, Exact
     return first, last
 
 
-def _throws(count: int, given: Any) -> tuple[tuple[Exact, ...], ...]:  # noqa: ANN401 - checked here
+def _throws(count: int, given: object) -> tuple[tuple[Exact, ...], ...]:
     if given is None:
         # Over two turns an even number of throws comes to half as many directions, each twice.
         return tuple(_spread(count, turns * TURN) for turns in ((1,) if count % 2 else (1, 2)))

@@ -29,7 +29,7 @@ def rank(
     engines: Engines | Arrangement | Sequence[Arrangement] | ArrangementSearch,
     rpm: float,
     *,
-    by: str | Measure | Sequence[str | Measure] | None = None,
+    by: str | Measure | Sequence[str | Measure],
     bank_angle_deg: ArrayLike | None = None,
     hold: Hold | None = None,
     orders: Orders = "auto",
@@ -50,8 +50,8 @@ def rank(
         :class:`ArrangementSearch`.
     rpm : float
         Crank speed, rpm.
-    by : str, callable or sequence of these, optional
-        Quantity to minimise, required: the name of an objective (see Notes), several names with
+    by : str, callable or sequence of these
+        Quantity to minimise: the name of an objective (see Notes), several names with
         commas, a function that takes the :class:`Balance` of an engine at a bank angle and returns
         a number (NaN or inf for an engine to avoid), or a list of these; later ones break ties.
     bank_angle_deg : array_like, shape (n_angles,), optional

@@ -6,13 +6,14 @@ import contextlib
 import dataclasses
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import labels
-from crankpin._support.record import Listed, Record, Tabled, changed
+from crankpin._support.frames import Tabled
+from crankpin._support.record import Listed, Record, changed
 from crankpin._support.tables import Table
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking.objectives import ByObjectives, of_table
@@ -135,7 +136,7 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
 
     # --- tables and pictures --------------------------------------------------------------------
 
-    def plot(self, ax: Axes | None = None, **options: Any) -> Axes:  # noqa: ANN401 - as below
+    def plot(self, ax: Axes | None = None, **options: object) -> Axes:
         """Draw the first objective over bank angle, the best angles ringed; return the axes.
 
         Engines ranked without bank angles are listed, the best first. Of many engines the best

@@ -59,7 +59,8 @@ def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Datas
             shape = tuple(sizes[dim] for dim in dims)
             values = dask.zeros(shape, dtype=kind, chunks=tuple(by_name[dim] for dim in dims))
         variables[name] = (dims, values, export.units(quantity))
-    return export.to_xarray(whole, quantities, variables)
+    coords = {**whole.coords, "order": whole.orders}
+    return export.dataset(whole, quantities, coords, variables)
 
 
 def _block(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import field
@@ -16,8 +15,9 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin._support.record import Tabled, changed, read_only
+from crankpin._support.record import changed, read_only
 from crankpin._support.tables import Column, Table
+from crankpin.analysis import export
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.drawing import draw
@@ -180,7 +180,7 @@ def sweep(
     return whole
 
 
-class Sweep(ByOrder, Tabled):
+class Sweep(ByOrder):
     """Force, moment and torque of engines over swept arguments: labelled arrays.
 
     The quantities are those of :class:`Balance` over more dimensions: ``s.moment.backward``,
@@ -279,12 +279,6 @@ class Sweep(ByOrder, Tabled):
         return self._core.mean_piston_speed
 
     @cached_property
-    def dims(self) -> tuple[str, ...]:
-        """Names of the swept dimensions."""
-        swept = (name for name in AXES if isinstance(self.axes.get(name), np.ndarray))
-        return (*(["engine"] if self.names is not None else []), *swept)
-
-    @cached_property
     def coords(self) -> Mapping[str, NDArray[np.float64] | tuple[str, ...]]:
         """Swept dimension → its values, in the order of the result's dimensions.
 
@@ -294,7 +288,8 @@ class Sweep(ByOrder, Tabled):
         if self.names is not None:
             pairs = zip(self.names, self.engines, strict=True)
             coords["engine"] = _distinct([name or _name_of(engine) for name, engine in pairs])
-        coords |= {name: self.axes[name] for name in self.dims if name != "engine"}
+        swept = {name: self.axes.get(name) for name in AXES}
+        coords |= {name: each for name, each in swept.items() if isinstance(each, np.ndarray)}
         return read_only(coords)
 
     @cached_property
@@ -349,7 +344,7 @@ class Sweep(ByOrder, Tabled):
 
     # --- points ---------------------------------------------------------------------------------
 
-    def sel(self, **selection: Any) -> Balance | Sweep:  # noqa: ANN401 - a name or numbers
+    def sel(self, **selection: object) -> Balance | Sweep:
         """Return the balance at a point of the sweep, or the sweep of what is left to choose.
 
         The values of a balance are those of the sweep, to the last bit.
@@ -443,7 +438,7 @@ class Sweep(ByOrder, Tabled):
             for name, value in selection.items()
         }
 
-    def engine_at(self, **selection: Any) -> Engine:  # noqa: ANN401 - a name or numbers
+    def engine_at(self, **selection: object) -> Engine:
         """Return the engine of a point of the sweep.
 
         Parameters
@@ -585,11 +580,12 @@ class Sweep(ByOrder, Tabled):
         self,
         ax: Axes,
         *,
+        figure: None = None,
         kind: Literal["curves", "parts", "map", "orders", "bars"] | None = None,
         quantity: str | None = None,
         x: str | None = None,
         orders: Orders | None = None,
-        **options: Any,  # noqa: ANN401
+        **options: object,
     ) -> Axes: ...
 
     @overload
@@ -602,7 +598,7 @@ class Sweep(ByOrder, Tabled):
         quantity: str | None = None,
         x: str | None = None,
         orders: Orders | None = None,
-        **options: Any,  # noqa: ANN401
+        **options: object,
     ) -> NDArray[Any]: ...
 
     def plot(
@@ -614,7 +610,7 @@ class Sweep(ByOrder, Tabled):
         quantity: str | None = None,
         x: str | None = None,
         orders: Orders | None = None,
-        **options: Any,
+        **options: object,
     ) -> Axes | NDArray[Any]:
         """Draw peaks over what was swept; return the axes.
 
@@ -680,11 +676,7 @@ class Sweep(ByOrder, Tabled):
 
     def _by_point(self, title: str, peaks: Callable[[str], NDArray[np.float64]]) -> Table:
         """Return a table of the points, with a peak of each quantity."""
-        points = list(itertools.product(*self.coords.values()))
-        columns = [
-            Column(name, tuple(each[k] for each in points), "", digits=10)
-            for k, name in enumerate(self.coords)
-        ]
+        columns = export.points(self.coords)
         for name in self.request.quantities:
             if name != "crank_torque":
                 kind = QUANTITIES[name]
@@ -701,16 +693,13 @@ class Sweep(ByOrder, Tabled):
         text = ", ".join([f"{engine}peaks{of}", *fixed, *held])
         return f"{text[0].upper()}{text[1:]}"
 
-    def __repr__(self) -> str:
+    @property
+    def _brief(self) -> str:
         if math.prod(len(values) for values in self.coords.values()) <= MOST_SHOWN:
-            return repr(self.table)
+            return ""
         swept = ", ".join(f"{name}: {len(values)}" for name, values in self.coords.items())
         loads = f", {self.loads_counted}" if self.loads_counted else ""
         return f"<Sweep over ({swept})> {self._title()}{loads}"
-
-    def _repr_html_(self) -> str | None:
-        points = math.prod(len(values) for values in self.coords.values())
-        return self.table._repr_html_() if points <= MOST_SHOWN else None
 
 
 def _place(name: str, value: object, values: Any) -> int:  # noqa: ANN401 - names or numbers

@@ -14,7 +14,7 @@ from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
 from crankpin._support.quantities import KINDS
-from crankpin._support.record import Record, read_only
+from crankpin._support.record import read_only
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.waveform import OverAngle
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.sweeps.sweep import Sweep
 
 
-class SweepWaveform(OverAngle, Record):
+class SweepWaveform(OverAngle):
     """Force, moment and torque over crank angle at every point of a sweep.
 
     Each is computed when it is first read, and kept. Dimensions are those of the sweep without
@@ -67,7 +67,7 @@ class SweepWaveform(OverAngle, Record):
         super().__post_init__()
 
     @property
-    def request(self) -> Request:  # type: ignore[override] # read-only here
+    def request(self) -> Request:
         """The options of the sweep, checked."""
         return self.sweep.request
 
@@ -186,9 +186,10 @@ class SweepWaveform(OverAngle, Record):
         self,
         ax: Axes,
         *,
+        figure: None = None,
         kind: Literal["curves", "envelope"] | None = None,
         quantity: str | None = None,
-        **options: Any,  # noqa: ANN401
+        **options: object,
     ) -> Axes: ...
 
     @overload
@@ -199,7 +200,7 @@ class SweepWaveform(OverAngle, Record):
         figure: Figure | SubFigure | None = None,
         kind: Literal["curves", "envelope"] | None = None,
         quantity: str | None = None,
-        **options: Any,  # noqa: ANN401
+        **options: object,
     ) -> NDArray[Any]: ...
 
     def plot(
@@ -209,7 +210,7 @@ class SweepWaveform(OverAngle, Record):
         figure: Figure | SubFigure | None = None,
         kind: Literal["curves", "envelope"] | None = None,
         quantity: str | None = None,
-        **options: Any,
+        **options: object,
     ) -> Axes | NDArray[Any]:
         """Draw a quantity over crank angle, a panel for each axis; return the axes.
 
@@ -249,7 +250,8 @@ class SweepWaveform(OverAngle, Record):
         """
         return draw(self, ax, figure=figure, kind=kind, quantity=quantity, **options)  # type: ignore[no-any-return]
 
-    def __repr__(self) -> str:
+    @property
+    def _brief(self) -> str:
         swept = ", ".join(f"{name}: {len(values)}" for name, values in self.coords.items())
         loads = f", {self.loads_counted}" if self.loads_counted else ""
         return f"<SweepWaveform over ({swept}), {self._how}{loads}>"

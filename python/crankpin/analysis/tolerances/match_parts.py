@@ -12,8 +12,9 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
+from crankpin._support.frames import Tabled
 from crankpin._support.quantities import PLANE_VECTORS
-from crankpin._support.record import Record, Tabled
+from crankpin._support.record import Record
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import over_square

@@ -12,7 +12,7 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin._support.record import Tabled, changed, read_only
+from crankpin._support.record import changed, read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder, total_peaks
@@ -77,7 +77,7 @@ def _checked(name: str, request: Request) -> Objective:
     return found
 
 
-class Tolerances(ByOrder, Tabled):
+class Tolerances(ByOrder):
     """Samples of an engine whose parts deviate: force, moment and torque, order by order.
 
     The quantities are those of a balance with the dimension ``sample`` first: ``t.force.peak`` is
@@ -135,11 +135,6 @@ class Tolerances(ByOrder, Tabled):
     def error_bound(self) -> Mapping[str, float]:
         """Quantity → upper bound on what omitted orders add to the nominal engine, N or N·m."""
         return self.request.bounds(self.bounds)
-
-    @property
-    def dims(self) -> tuple[str, ...]:
-        """Names of the dimensions of arrays before the orders: ``sample``."""
-        return ("sample",)
 
     @property
     def coords(self) -> Mapping[str, Any]:
@@ -500,7 +495,7 @@ class Tolerances(ByOrder, Tabled):
         *,
         kind: Literal["histogram", "ecdf", "shares"] = "histogram",
         by: str | None = None,
-        **style: Any,  # noqa: ANN401 - keywords of matplotlib
+        **style: object,
     ) -> Axes:
         """Draw the distribution of a value, or the shares of the tolerances; return the axes.
 

@@ -7,6 +7,7 @@
 //! combination of the two. Every number is evaluated by itself, whatever else is swept.
 
 use std::ops::{Add, Mul, Range};
+use std::sync::Arc;
 
 use bytemuck::Zeroable;
 
@@ -19,6 +20,7 @@ use crate::load::Loads;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::parts;
 use crate::numbers::error::Result;
+use crate::numbers::memory;
 use crate::numbers::pool;
 use crate::numbers::simd::vectorised;
 use crate::readings::balance::TorquePart;
@@ -51,7 +53,28 @@ pub(super) struct Job<'a> {
     pub cancel: &'a Cancel,
 }
 
+type LoadsAndLayout = (Loads, Arc<Layout>);
+
 impl Job<'_> {
+    /// Loads and layout sums of some engines; those of one engine with other pressures share their sums.
+    fn layouts(&self, engines: &[usize]) -> Result<Vec<LoadsAndLayout>> {
+        let mut layouts: Vec<LoadsAndLayout> = memory::room(engines.len())?;
+        for &k in engines {
+            self.cancel.check()?;
+            let loads = self.sweep.loads(k);
+            let before = layouts.last().filter(|(before, _)| before.list == loads.list);
+            let layout = if let Some((_, layout)) = before {
+                Arc::clone(layout)
+            } else {
+                let engine = &self.sweep.engines[k];
+                let layouts = self.sweep.layouts(engine, &loads, &[self.quantity])?;
+                Arc::new(layouts.into_iter().next().unwrap_or_default())
+            };
+            layouts.push((loads, layout));
+        }
+        Ok(layouts)
+    }
+
     /// Evaluates every row; `finish` writes those of a block, times a factor.
     pub fn rows<T: Number>(
         &self,
@@ -66,17 +89,11 @@ impl Job<'_> {
         let slab = (SLAB / sweep.orders.len().max(1)).clamp(ROWS_PER_CHECK, 1 << 14);
         let slabs = |length: usize| (0..length).step_by(slab).map(move |k| k..length.min(k + slab));
         let numbers = out.len() * if self.slow { 256 } else { 1 };
-        let layout = |k: usize| {
-            self.cancel.check()?;
-            let loads = sweep.loads(k);
-            let layouts = sweep.layouts(&sweep.engines[k], &loads, &[self.quantity])?;
-            Ok((loads, layouts.into_iter().next().unwrap_or_default()))
-        };
         // Harmonics of a cycle take as long as waking another thread.
         let engines: Vec<usize> = sweep.engines_of(self.quantity).collect();
         let many = pool::worth(numbers)
             || engines.len() > 3 && self.quantity.part() == Some(TorquePart::Gas);
-        let layouts: Vec<(Loads, Layout)> = pool::map_if(many, self.cancel, engines, layout)?;
+        let layouts = self.layouts(&engines)?;
         self.cancel.expect(layouts.len() * angles * points);
         for angle_slab in slabs(angles) {
             let waves = Waves::new(sweep, self.quantity, angle_slab.clone(), self.cancel)?;
@@ -85,7 +102,7 @@ impl Job<'_> {
                 let each_part = layouts.iter().flat_map(|of_engine| {
                     parts.iter().map(move |points| (of_engine, points.clone()))
                 });
-                let coefficients = |((loads, layout), points): (&(Loads, Layout), Range<usize>)| {
+                let coefficients = |((loads, layout), points): (&LoadsAndLayout, Range<usize>)| {
                     Coefficients::new(sweep, self.quantity, (loads, layout), points, self.cancel)
                 };
                 let coefficients =

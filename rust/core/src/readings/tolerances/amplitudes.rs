@@ -1,6 +1,7 @@
 //! Harmonics of one cylinder whose crank radius and rod length deviate.
 
 use crate::Complex64;
+use crate::mechanism::Mechanism;
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::mechanism::harmonics::{self, rod, table, torque};
 use crate::mechanism::slider_crank::Cylinder;
@@ -11,14 +12,20 @@ use crate::numbers::error::Result;
 /// m·r²·ω²; of the same of the rod's inertia over it and ω². Empty where there are none.
 pub(super) type SampleAmplitudes = [Vec<[Vec<f64>; 2]>; 5];
 
-/// Harmonics of a cylinder, by their numbers, for other crank radii and rod lengths, m.
+/// Harmonics of a cylinder, on a crank of some speed, at some orders of the main crank, for other crank radii and rod lengths, m.
+///
+/// At orders that are no multiples of the speed of its crank they are any: no load has a part there.
 pub(super) fn amplitudes(
-    cylinder: &Cylinder,
+    (cylinder, ratio): &(Cylinder, i32),
     wants_torque: bool,
     (radii, rods): (&[f64], &[f64]),
-    numbers: &[u32],
+    orders: &[u32],
     cancel: &Cancel,
 ) -> Result<SampleAmplitudes> {
+    let mechanism = Mechanism::new(cylinder, *ratio);
+    let own: Vec<u32> = orders.iter().map(|&n| mechanism.own_highest(n).max(1)).collect();
+    let numbers = &own[..];
+    let [on_block, on_crank] = mechanism.senses();
     let offset = cylinder.pin_offset();
     let [centred, has_rod] = [offset == 0.0, wants_torque && cylinder.has_rod_inertia()];
     let mut found = SampleAmplitudes::default();
@@ -35,8 +42,8 @@ pub(super) fn amplitudes(
         found[0] = columns(&values, [1.0, 0.0]);
         if wants_torque {
             table::write_centred_roll(&ratios, numbers, &mut values, cancel)?;
-            found[1] = columns(&values, [0.0, 1.0]);
-            found[2] = columns(&values, [0.0, -1.0]);
+            found[1] = columns(&values, [0.0, on_block]);
+            found[2] = columns(&values, [0.0, -on_crank]);
         }
     }
     for (&radius, &length) in radii.iter().zip(rods).filter(|_| !centred || has_rod) {
@@ -49,8 +56,8 @@ pub(super) fn amplitudes(
             }
         };
         let mut push_torque = |list, TorqueHarmonics { roll, crank }: TorqueHarmonics| {
-            push(list, roll);
-            push(list + 1, crank);
+            push(list, roll.iter().map(|roll| roll * on_block).collect());
+            push(list + 1, crank.iter().map(|crank| crank * on_crank).collect());
         };
         if has_rod {
             push_torque(3, rod::torque(&proportions, numbers, cancel)?);

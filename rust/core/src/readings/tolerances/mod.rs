@@ -150,7 +150,6 @@ impl Tolerances {
         pin_of: &[usize],
         cancel: &Cancel,
     ) -> Result<Self> {
-        engine.check_one_crank("tolerances")?;
         if request.torque && engine.gas().is_some() {
             return Err(Error::NoTorque(
                 "tolerances do not count gas pressure; give torque=False, or engine.with_cycle(None)",
@@ -305,6 +304,14 @@ fn check_pins(engine: &Engine, pin_of: &[usize]) -> Result<()> {
     if (0..pins(pin_of)).any(|pin| !pin_of.contains(&pin)) {
         let hint = "count the pins from 0, each with a cylinder";
         return Err(Error::value("pins", format!("{pin_of:?}"), hint));
+    }
+    for (i, pin) in pin_of.iter().enumerate() {
+        let first = pin_of[..i].iter().position(|other| other == pin).unwrap_or(i);
+        if engine.crank_of(first) != engine.crank_of(i) {
+            let pair = format!("[{}, {}]", first + 1, i + 1);
+            let hint = "these cylinders are on different cranks; give them pins of their own";
+            return Err(Error::value("pins", pair, hint));
+        }
     }
     Ok(())
 }

@@ -11,7 +11,7 @@ use std::rc::Rc;
 use super::amplitudes::{SampleAmplitudes, amplitudes};
 use super::{Deviations, Parameter, SAMPLES_AT_ONCE, pins};
 use crate::Complex64;
-use crate::engine::{Engine, Origin, Station};
+use crate::engine::{Engine, Origin, Station, distinct};
 use crate::load::{Arithmetic, Factor, Load, Loads, Phasors, Wanted, Weight, superpose};
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
@@ -54,16 +54,18 @@ enum DeviatingKind {
 /// Loads of an engine whose figures deviate.
 pub(super) struct Terms {
     orders: Vec<Order>,
-    /// The same as harmonics of a gear.
-    harmonics: Vec<u32>,
+    /// The same of the main crank, as whole numbers.
+    numbers: Vec<u32>,
     torque: bool,
     places: Vec<Station>,
     loads: Loads,
     deviating: Vec<Deviating>,
     pin_of: Vec<usize>,
-    /// Different cylinders, and which of them is in each place.
-    cylinders: Vec<Cylinder>,
+    /// Different cylinders with the speeds of their cranks, and which of them is in each place.
+    cylinders: Vec<(Cylinder, i32)>,
     cylinder_of: Vec<usize>,
+    /// Speed of each pin's crank over that of the main one.
+    ratio_of: Vec<i32>,
 }
 
 impl Terms {
@@ -78,11 +80,21 @@ impl Terms {
             let hint = "give whole orders: those of inertia, which tolerances are of";
             order.as_whole().ok_or_else(|| Error::value("orders", order, hint))
         };
-        let harmonics: Vec<u32> = orders.iter().map(whole).collect::<Result<_>>()?;
+        let numbers: Vec<u32> = orders.iter().map(whole).collect::<Result<_>>()?;
         // Every pin carries mass: a tolerance of none is an unbalance too.
         let laden = engine.stations().iter().map(|p| Station { rotating_mass: 1.0, ..*p });
+        let count = engine.stations().len();
+        let crank_of = (0..count).map(|i| engine.crank_of(i)).collect();
         let laden = Engine::new("", "", laden.collect())?
+            .with_cranks(engine.cranks().to_vec(), crank_of)?
             .with_counterweights(engine.counterweights().to_vec())?;
+        let ratio = |i: usize| engine.cranks()[engine.crank_of(i)].ratio;
+        let (cylinders, cylinder_of) =
+            distinct((0..count).map(|i| (engine.stations()[i].cylinder, ratio(i))));
+        let mut ratio_of = vec![1; pins(pin_of)];
+        for (i, &pin) in pin_of.iter().enumerate() {
+            ratio_of[pin] = ratio(i);
+        }
         let mut loads = Loads::new(&laden, reference);
         let deviating = |load: &Load| {
             let (pin, kind) = match load.place.origin {
@@ -99,14 +111,15 @@ impl Terms {
         loads.list.retain(|load| deviating(load).is_some());
         Ok(Self {
             orders: orders.to_vec(),
-            harmonics,
+            numbers,
             torque,
             places: engine.stations().to_vec(),
             deviating: loads.list.iter().filter_map(deviating).collect(),
             loads,
             pin_of: pin_of.to_vec(),
-            cylinders: engine.gears().to_vec(),
-            cylinder_of: (0..engine.stations().len()).map(|i| engine.gear_of(i)).collect(),
+            cylinders,
+            cylinder_of,
+            ratio_of,
         })
     }
 
@@ -144,12 +157,12 @@ impl Terms {
         cancel: &Cancel,
         mut write: impl FnMut(usize, &SampleSums),
     ) -> Result<()> {
-        let (orders, numbers) = (&self.orders[range.clone()], &self.harmonics[range]);
+        let (orders, numbers) = (&self.orders[range.clone()], &self.numbers[range]);
         let [masses, rotating, radii, angles, places, rods] = Parameter::ALL
             .map(|figure| columns(deviations[figure as usize], self.count(figure), first));
-        let nominal = |cylinder: &Cylinder| {
-            let lengths = (&[cylinder.crank_radius()][..], &[cylinder.rod_length()][..]);
-            amplitudes(cylinder, self.torque, lengths, numbers, cancel)
+        let nominal = |of: &(Cylinder, i32)| {
+            let lengths = (&[of.0.crank_radius()][..], &[of.0.rod_length()][..]);
+            amplitudes(of, self.torque, lengths, numbers, cancel)
         };
         let nominal: Vec<SampleAmplitudes> =
             self.cylinders.iter().map(nominal).collect::<Result<_>>()?;
@@ -160,7 +173,8 @@ impl Terms {
             cancel.check()?;
             let radius = around(cylinder.crank_radius(), &radii[self.pin_of[i]]);
             let rod = around(cylinder.rod_length(), &rods[i]);
-            amplitudes(cylinder, self.torque, (&radius, &rod), numbers, cancel)
+            let of = &self.cylinders[self.cylinder_of[i]];
+            amplitudes(of, self.torque, (&radius, &rod), numbers, cancel)
         };
         let changed: Vec<SampleAmplitudes> =
             if deviates(Parameter::CrankRadius) || deviates(Parameter::RodLength) {
@@ -168,7 +182,11 @@ impl Terms {
             } else {
                 Vec::new()
             };
-        let turns = if deviates(Parameter::Pin) { turns(&angles, numbers) } else { Vec::new() };
+        let turns = if deviates(Parameter::Pin) {
+            turns(&angles, &self.ratio_of, numbers)
+        } else {
+            Vec::new()
+        };
         let reference = self.loads.reference;
         let drawn = |(&Deviating { pin, kind }, load): (&Deviating, &Load)| {
             let turns = turns.get(pin).map(|turns| &turns[..]);
@@ -233,20 +251,23 @@ impl Terms {
     }
 }
 
-/// Unit phasors by pin and order: of n times the deviation.
-fn turns(angles: &[Reals], numbers: &[u32]) -> Vec<Vec<Complexes>> {
-    let turn = |angles: &Reals, n: u32| {
+/// Unit phasors by pin and order: of n times the angle of the main crank by which it is ahead.
+fn turns(angles: &[Reals], ratio_of: &[i32], numbers: &[u32]) -> Vec<Vec<Complexes>> {
+    let turn = |angles: &Reals, multiple: f64| {
         vectorised(
             #[inline(always)]
             || {
                 let [mut cos, mut sin] = ZEROS;
-                let degrees = product([f64::from(n); SAMPLES_AT_ONCE], angles);
+                let degrees = product([multiple; SAMPLES_AT_ONCE], angles);
                 sin_cos_degrees(&degrees, &mut sin, &mut cos);
                 [cos, sin]
             },
         )
     };
-    angles.iter().map(|angles| numbers.iter().map(|&n| turn(angles, n)).collect()).collect()
+    let of_pin = |(angles, &ratio): (&Reals, &i32)| {
+        numbers.iter().map(|&n| turn(angles, f64::from(n) / f64::from(ratio))).collect()
+    };
+    angles.iter().zip(ratio_of).map(of_pin).collect()
 }
 
 /// A load as it was drawn, and as it is nominally.
@@ -329,20 +350,21 @@ impl Arithmetic for Samples<'_> {
     fn add(
         &self,
         sum: &mut Self::Sum,
-        _: (usize, &Load),
+        (_, load): (usize, &Load),
         weight: Weight,
         (unit, changes): &Self::Unit,
         times: Factor,
     ) {
-        let values = match weight {
-            Weight::Force => &changes[..1],
-            Weight::Moment => &changes[1..2],
-            Weight::Roll => &changes[changes.len() - 2..],
-            // What deviates sits on the axis of the crank.
-            Weight::ArmX | Weight::ArmY => return,
+        let (values, arm) = match weight {
+            Weight::Force => (&changes[..1], 1.0),
+            Weight::Moment => (&changes[1..2], 1.0),
+            Weight::Roll => (&changes[changes.len() - 2..], 1.0),
+            // A force on an arm turns the block alone.
+            Weight::ArmX => (&changes[..1], load.place.axis.re),
+            Weight::ArmY => (&changes[..1], load.place.axis.im),
         };
         sum.resize(values.len(), ZEROS);
-        let unit = times.of(*unit);
+        let unit = times.of(*unit) * arm;
         sum.iter_mut().zip(values).for_each(|(sum, values)| add(sum, unit, values));
     }
 }

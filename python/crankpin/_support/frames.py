@@ -1,0 +1,244 @@
+"""Results as named frames: text, HTML, CSV, LaTeX, DataFrame and Dataset follow from them."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING, overload
+
+from crankpin._support import files, inputs, labels, latex, optional
+from crankpin._support.record import AbsentItemError, Record, changed
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    import pandas as pd
+    import xarray as xr
+
+    from crankpin._support.tables import Table
+
+FIRST = "table"
+"""Name of the first frame of every result."""
+SHOWN = 30
+"""Rows of a long table in text: a screen."""
+SHOWN_IN_NOTEBOOKS = 60
+"""Rows of a long table in a notebook."""
+FORMULA = re.compile(r"\s*[=+\-@＝＋－＠]|[\t\n]")
+"""Beginning of a text that a spreadsheet takes for a formula."""
+NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.ASCII | re.IGNORECASE)
+
+
+class Frames(Mapping[str, "Table"]):
+    """Tables of a result by name, in the order in which they are shown.
+
+    A table is computed when it is read.
+    """
+
+    def __init__(self, makers: Mapping[str, Callable[[], Table]]) -> None:
+        self._makers = dict(makers)
+
+    def __getitem__(self, name: str) -> Table:
+        """Return the table of a name, or raise an InputError."""
+        return self._makers[inputs.one_of("frame", name, self._makers, AbsentItemError)]()
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._makers)
+
+    def __len__(self) -> int:
+        return len(self._makers)
+
+    def _shown(self) -> Iterator[Table]:
+        """Yield the tables; of neighbours that count the same loads the last one says so."""
+        tables = list(self.values())
+        for table, below in zip(tables, [*tables[1:], None], strict=True):
+            once = below is not None and below.loads == table.loads
+            yield changed(table, loads="") if once else table
+
+    def text(self, rows: int | None = None) -> str:
+        """Return the tables as text below each other, the first rows of each or all."""
+        return "\n\n".join(each.text(rows) for each in self._shown())
+
+    def __repr__(self) -> str:
+        return self.text(SHOWN)
+
+    def _repr_html_(self) -> str:
+        return "".join(each.html(SHOWN_IN_NOTEBOOKS) for each in self._shown())
+
+
+class Tabled(Record):
+    """Base class of results, which are named frames: tables of columns with units."""
+
+    @property
+    def table(self) -> Table:
+        """First of the frames."""
+        raise NotImplementedError
+
+    @property
+    def frames(self) -> Frames:
+        """Tables by name, in the order shown: ``table``."""
+        return self._frames()
+
+    def _frames(self, **further: Callable[[], Table]) -> Frames:
+        """Return the table, and further frames by name."""
+        return Frames({FIRST: lambda: self.table} | further)
+
+    @property
+    def _brief(self) -> str:
+        """Line in place of frames that would take long to compute; empty to show them."""
+        return ""
+
+    def __repr__(self) -> str:
+        return self._brief or repr(self.frames)
+
+    def _repr_html_(self) -> str | None:
+        return None if self._brief else self.frames._repr_html_()
+
+    def _dataset(self) -> xr.Dataset | None:
+        """Return the arrays of a result that has dimensions."""
+        return None
+
+    def to_pandas(self, *, frame: str = FIRST) -> pd.DataFrame:
+        """Return a frame as a DataFrame (needs pandas).
+
+        Parameters
+        ----------
+        frame : str, default "table"
+            Name of one of ``frames``.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each row of the frame, names and units as the heads of its columns.
+
+        Raises
+        ------
+        InputError
+            If there is no such frame.
+        ImportError
+            If pandas is not installed.
+        """
+        table = self.frames[frame]
+        data = {head: list(each.values) for head, each in table._distinct()}
+        found: pd.DataFrame = optional.library("pandas").DataFrame(data)
+        found.attrs.update(labels.attributes(table.loads))
+        return found
+
+    def to_xarray(self, *, frame: str | None = None) -> xr.Dataset:
+        """Return a Dataset with units and named dimensions (needs xarray).
+
+        Parameters
+        ----------
+        frame : str, optional
+            Name of one of ``frames``; by default the arrays of a result that has dimensions, which
+            rows would flatten, or else the table.
+
+        Returns
+        -------
+        xarray.Dataset
+            A variable for each array, or for each column of the frame over its rows.
+
+        Raises
+        ------
+        InputError
+            If there is no such frame.
+        ImportError
+            If xarray is not installed.
+        """
+        if frame is None and (whole := self._dataset()) is not None:
+            return whole
+        table = self.frames[FIRST if frame is None else frame]
+        arrays = {
+            head: ("row", each._array(), {"units": each.unit} if each.unit else {})
+            for head, each in table._distinct(units=False)
+        }
+        attributes = {"title": table.title} | labels.attributes(table.loads)
+        return optional.dataset(arrays, {}, attributes)
+
+    @overload
+    def to_csv(self, path: None = None, *, frame: str = FIRST) -> str: ...
+
+    @overload
+    def to_csv(self, path: str | Path, *, frame: str = FIRST) -> None: ...
+
+    def to_csv(self, path: str | Path | None = None, *, frame: str = FIRST) -> str | None:
+        """Return a frame as CSV, numbers in full: they read back unchanged; or write a file.
+
+        A text that a spreadsheet would take for a formula has an apostrophe before it.
+
+        Parameters
+        ----------
+        path : str or pathlib.Path, optional
+            A ``.csv`` file to write, in UTF-8; by default the text is returned.
+        frame : str, default "table"
+            Name of one of ``frames``.
+
+        Returns
+        -------
+        str or None
+            The text; None where a file was written.
+
+        Raises
+        ------
+        InputError
+            If there is no such frame, or the name ends otherwise.
+        OSError
+            If the file cannot be written.
+        """
+        table, file = self.frames[frame], io.StringIO()
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(map(_inert, table.header))
+        writer.writerows(zip(*(map(_inert, each.values) for each in table.columns), strict=True))
+        return _written(file.getvalue(), path, ".csv")
+
+    @overload
+    def to_latex(self, path: None = None, *, frame: str = FIRST) -> str: ...
+
+    @overload
+    def to_latex(self, path: str | Path, *, frame: str = FIRST) -> None: ...
+
+    def to_latex(self, path: str | Path | None = None, *, frame: str = FIRST) -> str | None:
+        """Return a frame as a table of LaTeX, which needs its package booktabs; or write a file.
+
+        The title is its caption; numbers are rounded as in text.
+
+        Parameters
+        ----------
+        path : str or pathlib.Path, optional
+            A ``.tex`` file to write, in UTF-8; by default the text is returned.
+        frame : str, default "table"
+            Name of one of ``frames``.
+
+        Returns
+        -------
+        str or None
+            The text; None where a file was written.
+
+        Raises
+        ------
+        InputError
+            If there is no such frame, or the name ends otherwise.
+        OSError
+            If the file cannot be written.
+        """
+        table = self.frames[frame]
+        columns = "".join("l" if column.is_text else "r" for column in table.columns)
+        text = latex.table(table.title, table.header, table.cells(), table._notes(), columns)
+        return _written(text, path, ".tex")
+
+
+def _inert(value: object) -> object:
+    """Return a text that no terminal obeys and no spreadsheet runs; numbers as they are."""
+    if not isinstance(value, str):
+        return value
+    text = labels.without_controls(value)
+    return f"'{text}" if FORMULA.match(text) and not NUMBER.fullmatch(text) else text
+
+
+def _written(text: str, path: str | Path | None, ending: str) -> str | None:
+    """Return a text, or write it to a file."""
+    if path is None:
+        return text
+    files.write(inputs.file_path(path, (ending,), f"name a {ending} file"), text)
+    return None
