@@ -157,8 +157,8 @@ def test_inputs_and_results_are_frozen_records() -> None:
     for each in results[:4]:
         assert len(each.table) > 1
         assert "\n" in repr(each)
-    assert len(P.modes(20.0).strain_table) == 6
-    assert "T F_y" in r.sel(rpm=800.0).transmissibility_table
+    assert len(P.modes(20.0).frames["strain"]) == 6
+    assert "T F_y" in r.sel(rpm=800.0).frames["loads"]
 
 
 def test_datasets_have_dimensions_and_units() -> None:

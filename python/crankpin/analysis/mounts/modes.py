@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import labels
-from crankpin._support.record import Tabled, read_only
+from crankpin._support.frames import Frames, Tabled
+from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
 
 if TYPE_CHECKING:
@@ -131,7 +132,7 @@ class MountModes(Tabled):
 
     @property
     def table(self) -> Table:
-        """Table that is shown: frequencies, kinetic energy by coordinate, purity, loss factors."""
+        """Frequencies, kinetic energy by coordinate, purity, loss factors."""
         columns = self._by_mode()
         for name, place in zip(COORDINATES, PLACES, strict=True):
             columns.append(Column(name, tuple(self.energy[place].tolist()), "%", decimals=1))
@@ -141,8 +142,11 @@ class MountModes(Tabled):
         return Table(title, tuple(columns), self._notes())
 
     @property
-    def strain_table(self) -> Table:
-        """Table of the mounts' shares in the elastic energy of each mode."""
+    def frames(self) -> Frames:
+        """``table``; ``strain``: shares of the mounts in the elastic energy of each mode."""
+        return self._frames(strain=self._of_mounts)
+
+    def _of_mounts(self) -> Table:
         columns = self._by_mode()
         for name, shares in zip(self.powertrain.names, self.strain.tolist(), strict=True):
             columns.append(Column(name, tuple(shares), "%", decimals=1))
@@ -225,7 +229,7 @@ class RollAxes(Tabled):
 
     @property
     def table(self) -> Table:
-        """Table that is shown: directions, angles to the crank, and places of both axes."""
+        """Directions, angles to the crank, and places of both axes."""
         cg = np.array(self.powertrain.body.cg)
         rows = [
             [*self.torque_roll, self.torque_roll_deg, *cg, 0.0],

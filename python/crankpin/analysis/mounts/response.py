@@ -9,7 +9,8 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
-from crankpin._support.record import Record, Tabled, changed, read_only
+from crankpin._support.frames import Frames, Tabled
+from crankpin._support.record import Record, changed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.mounts.vectors import Source, VectorQuantity
@@ -412,7 +413,7 @@ class MountResponse(MountQuantities, Keyed, Tabled):
 
     @property
     def table(self) -> Table:
-        """Table that is shown: peaks of the force on the body, and of each mount.
+        """Peaks of the force on the body, and of each mount.
 
         By order at one speed, else of all orders together at each speed.
         """
@@ -441,10 +442,11 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         return Table(title, tuple(columns), loads=self.loads_counted)
 
     @property
-    def transmissibility_table(self) -> Table:
-        """Table of load, load on the body and their ratio, by order, at one speed."""
-        if self.dims:
-            raise InputError("transmissibility_table is that of one speed: use sel(rpm=…)")
+    def frames(self) -> Frames:
+        """``table``; at one speed ``loads``: those of the engine, on the body, and their ratio."""
+        return self._frames() if self.dims else self._frames(loads=self._of_loads)
+
+    def _of_loads(self) -> Table:
         columns = [Column("order", self.orders)]
         pairs = zip(self.load.T, self.support_load.T, self.transmissibility.T, strict=True)
         for name, (load, support, ratio) in zip(LOADS, pairs, strict=True):
@@ -458,19 +460,7 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         title = self._title("loads about the CG")
         return Table(title, tuple(columns), loads=self.loads_counted)
 
-    def to_xarray(self) -> xr.Dataset:
-        """Return loads, motion and forces with dimensions and units (needs xarray).
-
-        Returns
-        -------
-        xarray.Dataset
-            Peak phasors over rpm, if swept, order, mount and axis.
-
-        Raises
-        ------
-        ImportError
-            If xarray is not installed.
-        """
+    def _dataset(self) -> xr.Dataset:
         swept = (*self.dims, "order")
         forces = self._read("mounts", self._core.mount_forces)
         arrays = {

@@ -8,7 +8,8 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.record import Tabled, read_only
+from crankpin._support.frames import Tabled
+from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
 from crankpin.model.mounts import _vector
 
@@ -94,7 +95,7 @@ class StaticState(Tabled):
 
     @property
     def table(self) -> Table:
-        """Table that is shown: forces of the mounts on what carries them, by weight and torque."""
+        """Forces of the mounts on what carries them, by weight and torque."""
         columns = [Column("mount", self.powertrain.names)]
         for cause, forces in (("weight", self.weight_force), ("torque", self.torque_force)):
             for axis, values in zip("xyz", forces.T.tolist(), strict=True):
