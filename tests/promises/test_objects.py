@@ -167,7 +167,7 @@ OBJECTS: dict[str, Any] = {
     "MountModes": MOUNTED.modes(20.0),
     "RollAxes": MOUNTED.axes(20.0),
     "MountResponse": MOUNTED.response([900.0, 3000.0], orders=[1, 2]),
-    "MountResponse at one speed": MOUNTED.response(3000.0),
+    "MountResponse at one speed": MOUNTED.response(3000.0, orders=[2, 4]),
     "OrderResponse": MOUNTED.response(3000.0)[2],
     "VectorQuantity": MOUNTED.response(3000.0).body_force,
     "PointMotion": MOUNTED.response(3000.0).at((0.0, 0.3, 0.0)),
@@ -244,6 +244,12 @@ def test_arrays_are_read_only(name: str) -> None:
     without = (
         "Cylinder",
         "Rod",
+        "InertiaTrack",
+        "Mount",
+        "RigidBody",
+        "Powertrain",
+        "PointMotion",
+        "WorstForce",
         "Shaft",
         "Unbalance",
         "ValveTiming",
@@ -331,6 +337,7 @@ def test_completion_offers_what_is_public() -> None:
 
 INPUTS = (cp.Engine, cp.Cylinder, cp.Rod, cp.Shaft, cp.Unbalance, cp.Cycle, cp.CycleMap)
 INPUTS += (cp.ValveTiming, cp.PortTiming, cp.types.Arrangement)
+INPUTS += (cp.InertiaTrack, cp.Mount, cp.RigidBody, cp.Powertrain)
 
 
 @every_object
@@ -737,6 +744,10 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
     tables = ("Balance", "OrderBalance", "Comparison", "Engine", "Vanishing", "ClosedForm")
     tables += (
         "Ranking",
+        "StaticState",
+        "MountModes",
+        "MountResponse",
+        "RollAxes",
         "Waveform",
         "Counterweights",
         "BearingLoads",
@@ -965,6 +976,8 @@ def test_every_public_object_is_documented_and_the_main_ones_by_example() -> Non
             cp.types.Balance,
             cp.types.OrderBalance,
             cp.types.Table,
+            cp.Mount,
+            cp.RigidBody,
             cp.Rod,
             cp.Shaft,
             cp.Unbalance,

@@ -69,6 +69,9 @@ class PointMotion(Record):
         source = ("at", self.point, name)
         return VectorQuantity(self.result, source, words, MOTIONS[name], self.order)
 
+    def __repr__(self) -> str:
+        return f"<PointMotion of {self.point} m{_which(self.order)}, {self.result.loads_counted}>"
+
     @property
     def displacement(self) -> VectorQuantity:
         """Displacement along x, y and z, m."""
@@ -97,6 +100,13 @@ class PointMotion(Record):
             raise InputError(f"order = {self.order}: grade is that of all orders together")
         grades = self.result._by_speed(self.result._core.grades(list(self.point)))
         return grades if grades.ndim else float(grades)
+
+
+def _which(order: Key) -> str:
+    """Return the order in words."""
+    if order is None:
+        return ""
+    return " of all orders" if order == ALL else f" of order {order}"
 
 
 class MountQuantities:
@@ -157,6 +167,9 @@ class OrderResponse(MountQuantities, Record):
 
     def _key(self) -> tuple[MountResponse, Key]:
         return self.result, self.order
+
+    def __repr__(self) -> str:
+        return f"<OrderResponse{_which(self.order)}: {self.body_force!r}>"
 
     def _of(self, name: str) -> Any:  # noqa: ANN401 - a number at one speed
         if self.order == ALL:
@@ -406,6 +419,21 @@ class MountResponse(MountQuantities, Keyed, Tabled):
 
     # --- tables -----------------------------------------------------------------------------------
 
+    def _shown(self) -> tuple[list[int], str]:
+        """Return the places of the orders that tables at one speed show, and a line on the others.
+
+        Of orders chosen automatically, those whose forces are all negligible are left out.
+        """
+        places = list(range(len(self.orders)))
+        if self.request.orders is not None:
+            return places, ""
+        peaks = np.array([vector.peak for vector in self.mount_force.values()]).max(axis=0)
+        kept = peaks > labels.NEGLIGIBLE * peaks.max()
+        if not kept.any():
+            return places, ""
+        left_out = [order for order, shown in zip(self.orders, kept, strict=True) if not shown]
+        return np.flatnonzero(kept).tolist(), labels.not_shown(left_out)
+
     def _title(self, of: str) -> str:
         at = "" if self.dims else f" {labels.at_speed(float(self.rpm))}"
         given = " of the orders given" if self.request.orders is not None else ""
@@ -417,20 +445,22 @@ class MountResponse(MountQuantities, Keyed, Tabled):
 
         By order at one speed, else of all orders together at each speed.
         """
-        force = self.body_force
+        force, note = self.body_force, ""
         if self.dims:
             speeds = tuple(np.asarray(self.rpm).tolist())
             columns = [Column("rpm", speeds, digits=10)]
             force = force.total
         else:
-            frequency = [float(order) * float(self.rpm) / 60.0 for order in self.orders]
-            columns = [Column("order", (*self.orders, ALL)), Column("f", (*frequency, None), "Hz")]
+            places, note = self._shown()
+            orders = [self.orders[k] for k in places]
+            frequency = [float(order) * float(self.rpm) / 60.0 for order in orders]
+            columns = [Column("order", (*orders, ALL)), Column("f", (*frequency, None), "Hz")]
 
         def peaks(vector: VectorQuantity, what: str) -> NDArray[np.float64]:
             values = np.asarray(getattr(vector, what))
             if self.dims:
                 return values
-            return np.concatenate([values, np.asarray(getattr(vector.total, what))[None]])
+            return np.concatenate([values[places], np.asarray(getattr(vector.total, what))[None]])
 
         for axis, values in zip("xyz", peaks(force, "peak_xyz").T.tolist(), strict=True):
             columns.append(Column(f"|F_{axis}|", tuple(values), "N"))
@@ -439,7 +469,7 @@ class MountResponse(MountQuantities, Keyed, Tabled):
             of_mount = vector.total if self.dims else vector
             columns.append(Column(name, tuple(peaks(of_mount, "peak").tolist()), "N"))
         title = self._title("peaks of the force on the body, and of each mount")
-        return Table(title, tuple(columns), loads=self.loads_counted)
+        return Table(title, tuple(columns), note, loads=self.loads_counted)
 
     @property
     def frames(self) -> Frames:
@@ -447,8 +477,10 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         return self._frames() if self.dims else self._frames(loads=self._of_loads)
 
     def _of_loads(self) -> Table:
-        columns = [Column("order", self.orders)]
-        pairs = zip(self.load.T, self.support_load.T, self.transmissibility.T, strict=True)
+        places, note = self._shown()
+        columns = [Column("order", tuple(self.orders[k] for k in places))]
+        each = (self.load, self.support_load, self.transmissibility)
+        pairs = zip(*(values[places].T for values in each), strict=True)
         for name, (load, support, ratio) in zip(LOADS, pairs, strict=True):
             unit = "N" if name.startswith("F") else "N·m"
             if not np.any(load) and not np.any(support):
@@ -458,7 +490,7 @@ class MountResponse(MountQuantities, Keyed, Tabled):
             listed = (None if np.isnan(each) else each for each in ratio.tolist())
             columns.append(Column(f"T {name}", tuple(listed)))
         title = self._title("loads about the CG")
-        return Table(title, tuple(columns), loads=self.loads_counted)
+        return Table(title, tuple(columns), note, loads=self.loads_counted)
 
     def _dataset(self) -> xr.Dataset:
         swept = (*self.dims, "order")
