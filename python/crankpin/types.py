@@ -17,7 +17,7 @@ from crankpin.analysis.firing import Firing
 from crankpin.analysis.flywheel import Flywheel
 from crankpin.analysis.mounts.modes import MountModes, RollAxes
 from crankpin.analysis.mounts.response import MountResponse, OrderResponse, PointMotion, WorstForce
-from crankpin.analysis.mounts.statics import StaticState
+from crankpin.analysis.mounts.static_state import StaticState
 from crankpin.analysis.mounts.vectors import VectorQuantity
 from crankpin.analysis.quantity import OrderBalance, Quantity
 from crankpin.analysis.ranking.ranking import Choice, Ranking

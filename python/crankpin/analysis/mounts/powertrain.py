@@ -11,7 +11,7 @@ from crankpin._support.record import Input
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.mounts import modes as natural
 from crankpin.analysis.mounts import response as forced
-from crankpin.analysis.mounts import statics
+from crankpin.analysis.mounts import static_state
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks, engine_files
 from crankpin.model.engine import Engine
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Orders
     from crankpin.analysis.mounts.modes import MountModes, RollAxes
     from crankpin.analysis.mounts.response import MountResponse
-    from crankpin.analysis.mounts.statics import StaticState
+    from crankpin.analysis.mounts.static_state import StaticState
 
 
 class Powertrain(Input):
@@ -103,7 +103,7 @@ class Powertrain(Input):
         torque: float | Literal["engine"] = 0.0,
         *,
         gear_ratio: float = 1.0,
-        gravity: Sequence[float] = statics.GRAVITY,
+        gravity: Sequence[float] = static_state.GRAVITY,
         rpm: float = 1000.0,
     ) -> StaticState:
         """Return sag, preloads and wind-up, with the static stiffness of the mounts.
@@ -146,7 +146,7 @@ class Powertrain(Input):
         >>> p.static().preload[:, 1].round(4)
         array([-638.8332, -481.9268, -448.304 ])
         """
-        return statics.static(self, torque, gear_ratio, gravity, rpm)
+        return static_state.static(self, torque, gear_ratio, gravity, rpm)
 
     def modes(self, frequency: float | None = None) -> MountModes:
         """Return the natural modes, with the dynamic stiffness of the mounts.

@@ -1,4 +1,4 @@
-//! A rigid body on its mounts: stiffness and mass, statics, modes, axes.
+//! A rigid body on its mounts: stiffness and mass, state at rest, modes, axes.
 //!
 //! The motion is q = (u, φ): displacement of the centre of gravity and a small rotation. Places are in
 //! the engine's axes. What an engine makes of it is a reading of its loads.
@@ -10,7 +10,7 @@ mod footprint;
 mod modes;
 mod mount;
 mod severity;
-mod statics;
+mod static_state;
 mod stiffness;
 
 use nalgebra::{Cholesky, Matrix3x6, U6, Vector3};
@@ -21,7 +21,7 @@ pub use self::footprint::support_margin;
 pub use self::modes::{FreeMotion, Modes, modes};
 pub use self::mount::{Mount, MountFigures, Orientation, motion_of_point};
 pub use self::severity::{GRADES, Levels, grade};
-pub use self::statics::{Static, at_rest};
+pub use self::static_state::{Static, at_rest};
 pub use self::stiffness::{Dynamic, InertiaTrack, Table};
 use crate::Complex64;
 use crate::numbers::error::{Error, Result};
