@@ -46,7 +46,7 @@ P = cp.Powertrain(I4, BODY, MOUNTS)
         ({"table": ([5.0, np.nan], TABLE[1])}, r"frequency\[1\] = NaN"),
         ({"table": TABLE, "loss_factor": 0.1}, "loss_factor = given beside a table"),
         ({"table": 7}, "table = 7: give a pair"),
-        ({"stifness": 1}, "replace = 'stifness'.*stiffness"),
+        ({"rigidity": 1}, "replace = 'rigidity'.*stiffness"),
     ],
 )
 def test_impossible_mounts_are_rejected(change: dict[str, Any], said: str) -> None:
