@@ -24,6 +24,7 @@ from crankpin.analysis.design.design import design
 from crankpin.analysis.firing import throws
 from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
+from crankpin.analysis.mounts.powertrain import Powertrain
 from crankpin.analysis.ranking.rank import rank
 from crankpin.analysis.star import star_diagram
 from crankpin.analysis.sweeps.sweep import sweep
@@ -35,6 +36,7 @@ from crankpin.model.cycle_map import CycleMap
 from crankpin.model.cylinder import Cylinder, Rod, slider_crank_harmonics
 from crankpin.model.engine import Engine
 from crankpin.model.gas_torque import gas_torque_harmonics
+from crankpin.model.mounts import InertiaTrack, Mount, RigidBody
 from crankpin.model.presets import presets
 from crankpin.model.shafts import Shaft, Unbalance
 
@@ -43,8 +45,12 @@ __all__ = [
     "CycleMap",
     "Cylinder",
     "Engine",
+    "InertiaTrack",
     "InputError",
+    "Mount",
     "PortTiming",
+    "Powertrain",
+    "RigidBody",
     "Rod",
     "Shaft",
     "Unbalance",

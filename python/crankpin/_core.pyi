@@ -22,6 +22,8 @@ __all__ = [
     "InputError",
     "Internal",
     "Merit",
+    "Powertrain",
+    "Response",
     "Search",
     "Sweep",
     "Tolerances",
@@ -31,6 +33,7 @@ __all__ = [
     "balance",
     "centred_table",
     "check_cylinder",
+    "check_mount",
     "check_timing",
     "closed_form",
     "crank_radius_of_stroke",
@@ -43,13 +46,16 @@ __all__ = [
     "least_weights",
     "matched",
     "motion",
+    "mount_stiffness",
     "near_miss",
     "offset_table",
     "orders_of_samples",
     "pair_heights",
     "peaks_of_sums",
+    "peaks_of_vectors",
     "places_on_axis",
     "repeats_first",
+    "rigid_body",
     "rod_parts",
     "roll_torque",
     "shared",
@@ -544,3 +550,50 @@ def arrangement(
     parts: _Parts,
     spacing: float,
 ) -> Engine: ...
+
+_Vector: TypeAlias = tuple[float, float, float]
+_Body: TypeAlias = tuple[float, _Vector, Any]
+
+def rigid_body(
+    mass: float, cg: Sequence[float], inertia: Sequence[Sequence[float]], products: str | None
+) -> tuple[list[list[float]], list[float], float]: ...
+def check_mount(figures: tuple[Any, ...]) -> None: ...
+def mount_stiffness(figures: tuple[Any, ...], frequency: float) -> _Complex: ...
+def peaks_of_vectors(orders: Sequence[float], phasors: _Complex) -> _Real: ...
+
+@final
+class Powertrain:
+    def __new__(cls, body: _Body, mounts: Sequence[tuple[Any, ...]]) -> Self: ...
+    @staticmethod
+    def from_text(text: str, toml: bool) -> tuple[Engine, Powertrain | None]: ...
+    def to_text(self, engine: Engine, toml: bool) -> str: ...
+    @property
+    def body(self) -> _Body: ...
+    @property
+    def mounts(self) -> list[tuple[Any, ...]]: ...
+    def static(
+        self, gravity: Sequence[float], torque: float
+    ) -> tuple[list[list[float]], list[_Real], float]: ...
+    def modes(
+        self, frequency: float | None
+    ) -> tuple[_Real, list[_Real], list[_Real], list[int], list[str]]: ...
+    def axes(self, frequency: float | None) -> tuple[list[list[float]], _Real, list[float]]: ...
+    def response(
+        self, engine: Engine, rpm: _Real, orders: Sequence[float] | None, rtol: float
+    ) -> Response: ...
+
+@final
+class Response:
+    @property
+    def orders(self) -> list[float]: ...
+    @property
+    def omitted(self) -> list[float]: ...
+    @property
+    def error_bound(self) -> list[float]: ...
+    def loads(self) -> _Complex: ...
+    def motions(self) -> _Complex: ...
+    def mount_forces(self) -> _Complex: ...
+    def support_loads(self) -> _Complex: ...
+    def at(self, point: Sequence[float], derivative: str) -> _Complex: ...
+    def grades(self, point: Sequence[float]) -> _Real: ...
+    def power(self) -> _Real: ...

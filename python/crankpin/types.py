@@ -15,6 +15,10 @@ from crankpin.analysis.design.designs import Design, Designs
 from crankpin.analysis.explain import Explanation
 from crankpin.analysis.firing import Firing
 from crankpin.analysis.flywheel import Flywheel
+from crankpin.analysis.mounts.modes import MountModes, RollAxes
+from crankpin.analysis.mounts.response import MountResponse, OrderResponse, PointMotion, WorstForce
+from crankpin.analysis.mounts.static_state import StaticState
+from crankpin.analysis.mounts.vectors import VectorQuantity
 from crankpin.analysis.quantity import OrderBalance, Quantity
 from crankpin.analysis.ranking.ranking import Choice, Ranking
 from crankpin.analysis.star import StarDiagram
@@ -45,10 +49,16 @@ __all__ = [
     "Firing",
     "Flywheel",
     "Match",
+    "MountModes",
+    "MountResponse",
     "OrderBalance",
+    "OrderResponse",
+    "PointMotion",
     "Quantity",
     "Ranking",
+    "RollAxes",
     "StarDiagram",
+    "StaticState",
     "Sweep",
     "SweepWaveform",
     "Table",
@@ -56,6 +66,8 @@ __all__ = [
     "TorsionalExcitation",
     "TwoPlaneCorrection",
     "VanishingOrders",
+    "VectorQuantity",
     "Verdicts",
     "Waveform",
+    "WorstForce",
 ]

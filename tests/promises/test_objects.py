@@ -84,6 +84,16 @@ def designs(**options: Any) -> cp.types.Designs:
     return cp.design(6, **given | options)
 
 
+MOUNTED = cp.Powertrain(
+    I4,
+    cp.RigidBody(150.0, (0.0, 0.06, 0.1), (7.0, 8.0, 4.5)),
+    [
+        cp.Mount("front", (0.0, -0.1, -0.3), 1e5, track=cp.InertiaTrack(1e5, 9.0, 0.2)),
+        cp.Mount("right", (0.3, -0.1, 0.4), (2e5, 1e5, 1e5), tilt_deg=130, loss_factor=0.1),
+        cp.Mount("left", (-0.3, -0.1, 0.4), (2e5, 1e5, 1e5), tilt_deg=50, damping=200.0),
+    ],
+)
+
 OBJECTS: dict[str, Any] = {
     "Cylinder": OFFSET,
     "Cycle": cp.Cycle(np.arange(0.0, 720.0, 20.0), np.linspace(1e5, 3e6, 36)),
@@ -149,6 +159,19 @@ OBJECTS: dict[str, Any] = {
     "Waveform, fired": FIRED.waveform(3000, theta_deg=THETA),
     "Flywheel, fired": cp.flywheel(FIRED, 3000, inertia=0.1),
     "TorsionalExcitation, fired": cp.torsional_excitation(FIRED, 3000),
+    "InertiaTrack": MOUNTED.mounts[0].track,
+    "Mount": MOUNTED.mounts[0],
+    "RigidBody": MOUNTED.body,
+    "Powertrain": MOUNTED,
+    "StaticState": MOUNTED.static(100.0),
+    "MountModes": MOUNTED.modes(20.0),
+    "RollAxes": MOUNTED.axes(20.0),
+    "MountResponse": MOUNTED.response([900.0, 3000.0], orders=[1, 2]),
+    "MountResponse at one speed": MOUNTED.response(3000.0, orders=[2, 4]),
+    "OrderResponse": MOUNTED.response(3000.0)[2],
+    "VectorQuantity": MOUNTED.response(3000.0).body_force,
+    "PointMotion": MOUNTED.response(3000.0).at((0.0, 0.3, 0.0)),
+    "WorstForce": MOUNTED.response(3000.0).worst(),
 }
 every_object = pytest.mark.parametrize("name", OBJECTS)
 
@@ -221,6 +244,12 @@ def test_arrays_are_read_only(name: str) -> None:
     without = (
         "Cylinder",
         "Rod",
+        "InertiaTrack",
+        "Mount",
+        "RigidBody",
+        "Powertrain",
+        "PointMotion",
+        "WorstForce",
         "Shaft",
         "Unbalance",
         "ValveTiming",
@@ -308,6 +337,7 @@ def test_completion_offers_what_is_public() -> None:
 
 INPUTS = (cp.Engine, cp.Cylinder, cp.Rod, cp.Shaft, cp.Unbalance, cp.Cycle, cp.CycleMap)
 INPUTS += (cp.ValveTiming, cp.PortTiming, cp.types.Arrangement)
+INPUTS += (cp.InertiaTrack, cp.Mount, cp.RigidBody, cp.Powertrain)
 
 
 @every_object
@@ -714,6 +744,10 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
     tables = ("Balance", "OrderBalance", "Comparison", "Engine", "Vanishing", "ClosedForm")
     tables += (
         "Ranking",
+        "StaticState",
+        "MountModes",
+        "MountResponse",
+        "RollAxes",
         "Waveform",
         "Counterweights",
         "BearingLoads",
@@ -942,6 +976,8 @@ def test_every_public_object_is_documented_and_the_main_ones_by_example() -> Non
             cp.types.Balance,
             cp.types.OrderBalance,
             cp.types.Table,
+            cp.Mount,
+            cp.RigidBody,
             cp.Rod,
             cp.Shaft,
             cp.Unbalance,

@@ -87,6 +87,18 @@ STRONGEST_BRAKE = -5e5
 """Imep, Pa, below which figures are likely wrong: motored engines have -2e5, and engine brakes, the
 exception, as much as -1.2e6."""
 
+MOST_MISSING = 1e-9
+"""Part of the largest principal moment that rounding lets the sum of the others lack."""
+
+FARTHEST_CG = 5.0
+"""Distance of a centre of gravity or a mount from the crank, m, above which it is not in metres."""
+
+GYRATION = (1e-3, 5.0)
+"""Radii of gyration, m, of bodies from a model engine to a ship's; others are in other units."""
+
+MOUNT_STIFFNESS = (1e3, 1e9)
+"""Stiffness of a mount, N/m, below and above which it is likely not in N/m."""
+
 UNITS = "Lengths are metres here, masses kilograms"
 MILLIMETRES = ": was it given in millimetres?"
 GRAMS_MILLIMETRES = ": was it given in g·mm or g·m?"
@@ -263,6 +275,39 @@ def crankcase(pressure: float) -> None:
         warn(f"crankcase = {pressure:g} Pa: was it given in bar or kPa? Pressures are Pa here")
     elif pressure > LARGEST_PRESSURE:
         warn(f"crankcase = {pressure:g} Pa: is it in Pa? Pressures are Pa here")
+
+
+def body(mass: float, cg: Sequence[float], moments: Sequence[float], missing: float) -> None:
+    """Warn of a tensor that no body has, and of figures in other units."""
+    if missing > MOST_MISSING:
+        listed = ", ".join(f"{moment:.6g}" for moment in moments)
+        warn(
+            f"inertia has principal moments of {listed} kg·m²: the largest is more than the sum of "
+            f"the others, which lacks {100 * missing:.3g} % of it; no body has such a tensor. Is "
+            "it about the centre of gravity, with the right sign of its products?"
+        )
+    found = []
+    smallest, largest = (math.sqrt(moments[k] / mass) for k in (0, 2))
+    if smallest < GYRATION[0] or largest > GYRATION[1]:
+        found.append(
+            f"inertia has radii of gyration from {smallest:.3g} to {largest:.3g} m: are mass and "
+            "inertia in kg and kg·m²?"
+        )
+    if max(map(abs, cg)) > FARTHEST_CG:
+        found.append(f"cg = {tuple(cg)} m{MILLIMETRES}")
+    _report(found)
+
+
+def mount(name: str, at: Sequence[float], stiffness: Sequence[float]) -> None:
+    """Warn of a mount whose figures seem to be in other units."""
+    found = []
+    least, most = MOUNT_STIFFNESS
+    wrong = [k for k in stiffness if k and not least <= k <= most]
+    if wrong:
+        found.append(f"stiffness of mount {name!r} = {wrong[0]:g} N/m: was it given in N/mm?")
+    if max(map(abs, at)) > FARTHEST_CG:
+        found.append(f"at of mount {name!r} = {tuple(at)} m{MILLIMETRES}")
+    _report(found)
 
 
 def _at(radius: float) -> str:

@@ -5,6 +5,7 @@
 //!   roots of unity;
 //! - [`mechanism`]: one cylinder's running gear and its harmonics;
 //! - [`pressure`]: cylinder pressure over a cycle, and the torque of it;
+//! - [`mounts`]: a rigid body on elastic mounts, without an engine;
 //! - [`engine`]: running gears, banks and shafts in their places, layouts, files;
 //! - [`wrench`] and `load`: every load of an engine in one list, superposed order by order;
 //! - [`readings`] of that list: balances, waveforms and their peaks, bearing loads, sweeps, tolerances,
@@ -26,6 +27,7 @@ pub mod firing;
 mod load;
 pub mod matching;
 pub mod mechanism;
+pub mod mounts;
 pub mod numbers;
 pub mod pressure;
 pub mod readings;
@@ -49,7 +51,9 @@ pub use pressure::{Cycle, GasTorque};
 pub use readings::balance::{Balance, Orders, Request};
 pub use readings::sweep::Sweep;
 pub use readings::waveform::Waveform;
-pub use readings::{balance, exact, flywheel, internal, peaks, sweep, terms, tolerances, waveform};
+pub use readings::{
+    balance, exact, flywheel, internal, mounted, peaks, sweep, terms, tolerances, waveform,
+};
 
 /// Complex numbers as ndarray and `NumPy` share them.
 pub type Complex64 = num_complex::Complex64;

@@ -18,6 +18,7 @@ mod flywheel;
 mod internal;
 mod interrupt;
 mod matching;
+mod mounts;
 mod pressure;
 mod reserve;
 mod search;
@@ -48,6 +49,9 @@ mod _core {
         flywheel::CycleGrid,
         internal::Internal,
         matching::matched,
+        mounts::{
+            Powertrain, Response, check_mount, mount_stiffness, peaks_of_vectors, rigid_body,
+        },
         pressure::{Cycle, places_on_axis, repeats_first},
         search::{BankAngles, Search, arrangement},
         slider_crank::{

@@ -7,6 +7,8 @@ use serde::{Deserialize, Serialize};
 use super::layout::Strokes;
 use super::{Crank, Details, Engine, Gas, Shaft, Station, Unbalance};
 use crate::mechanism::slider_crank::Cylinder;
+use crate::mounts::Powertrain;
+use crate::mounts::file::PowertrainEntry;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result, shorten};
 use crate::pressure::{ATMOSPHERE, Cycle};
@@ -52,6 +54,9 @@ struct EngineFile {
     /// Pressure in cylinders over a cycle.
     #[serde(default, skip_serializing_if = "is_default")]
     cycles: Vec<Cycle>,
+    /// The engine's body and its mounts, which an engine alone does not have.
+    #[serde(default, skip_serializing_if = "is_default")]
+    powertrain: Option<PowertrainEntry>,
 }
 
 #[derive(Serialize, Deserialize, PartialEq)]
@@ -293,7 +298,19 @@ impl EngineFile {
             cycles: engine.gas().map_or_else(Vec::new, |gas| {
                 gas.cycles.iter().map(|cycle| Cycle::clone(cycle)).collect()
             }),
+            powertrain: None,
         })
+    }
+
+    /// The engine, and its body on mounts, if there is one.
+    fn mounted(mut self) -> Result<(Engine, Option<Powertrain>)> {
+        let powertrain = self.powertrain.take().map(PowertrainEntry::powertrain).transpose()?;
+        Ok((self.engine()?, powertrain))
+    }
+
+    fn with_powertrain(mut self, powertrain: Option<&Powertrain>) -> Self {
+        self.powertrain = powertrain.map(PowertrainEntry::of);
+        self
     }
 
     /// Pressure in the cylinders.
@@ -405,12 +422,24 @@ fn same_directions(stations: &[Station], numbers: &[usize]) -> Result<()> {
 
 /// Text as TOML.
 pub fn to_toml(engine: &Engine) -> Result<String> {
-    toml::to_string(&EngineFile::of(engine)?).map_err(|e| unreadable("TOML", &e))
+    mounted_to_toml(engine, None)
 }
 
 /// Text as JSON.
 pub fn to_json(engine: &Engine) -> Result<String> {
-    serde_json::to_string_pretty(&EngineFile::of(engine)?).map_err(|e| unreadable("JSON", &e))
+    mounted_to_json(engine, None)
+}
+
+/// An engine, and its body on mounts, as TOML.
+pub fn mounted_to_toml(engine: &Engine, powertrain: Option<&Powertrain>) -> Result<String> {
+    let file = EngineFile::of(engine)?.with_powertrain(powertrain);
+    toml::to_string(&file).map_err(|e| unreadable("TOML", &e))
+}
+
+/// An engine, and its body on mounts, as JSON.
+pub fn mounted_to_json(engine: &Engine, powertrain: Option<&Powertrain>) -> Result<String> {
+    let file = EngineFile::of(engine)?.with_powertrain(powertrain);
+    serde_json::to_string_pretty(&file).map_err(|e| unreadable("JSON", &e))
 }
 
 /// The engine as data, of any size, for copies that no person reads.
@@ -420,35 +449,53 @@ pub fn to_state(engine: &Engine) -> Result<String> {
 
 /// The engine that [`to_state`] wrote.
 pub fn from_state(text: &str) -> Result<Engine> {
-    serde_json::from_str::<EngineFile>(text).map_err(|e| unreadable("JSON", &e))?.engine()
+    of_json(text)?.engine()
 }
 
-/// Engine from TOML.
+fn of_json(text: &str) -> Result<EngineFile> {
+    serde_json::from_str(text).map_err(|e| unreadable("JSON", &e))
+}
+
+/// Engine from TOML, whether or not the file has a body on mounts too.
 pub fn from_toml(text: &str) -> Result<Engine> {
-    let text = readable("TOML", text)?;
-    toml::from_str::<EngineFile>(text)
-        .map_err(|error| {
-            let end = error.span().map_or(0, |span| span.start.min(text.len()));
-            let index = text.get(..end).map_or(0, |before| before.matches('\n').count());
-            // The parser's own display quotes the whole line, however long.
-            let entry = text.lines().nth(index).and_then(|line| line.split_once('='));
-            let (key, value) = entry.map_or(("", ""), |(key, value)| (key.trim(), value.trim()));
-            let key = if key.is_empty() { String::new() } else { format!(", {}", shorten(key)) };
-            let (hint, reason) = (hint(value), plain(error.message()));
-            Error::File {
-                format: "TOML",
-                reason: format!("line {}{key}: {reason}{hint}", index + 1),
-            }
-        })?
-        .engine()
+    of_toml(text)?.engine()
 }
 
-/// Engine from JSON.
+/// Engine from TOML, and its body on mounts, if there is one.
+pub fn mounted_from_toml(text: &str) -> Result<(Engine, Option<Powertrain>)> {
+    of_toml(text)?.mounted()
+}
+
+fn of_toml(text: &str) -> Result<EngineFile> {
+    let text = readable("TOML", text)?;
+    toml::from_str(text).map_err(|error| {
+        let end = error.span().map_or(0, |span| span.start.min(text.len()));
+        let index = text.get(..end).map_or(0, |before| before.matches('\n').count());
+        // The parser's own display quotes the whole line, however long.
+        let entry = text.lines().nth(index).and_then(|line| line.split_once('='));
+        let (key, value) = entry.map_or(("", ""), |(key, value)| (key.trim(), value.trim()));
+        let key = if key.is_empty() { String::new() } else { format!(", {}", shorten(key)) };
+        let (hint, reason) = (hint(value), plain(error.message()));
+        Error::File { format: "TOML", reason: format!("line {}{key}: {reason}{hint}", index + 1) }
+    })
+}
+
+/// Engine from JSON, whether or not the file has a body on mounts too.
 pub fn from_json(text: &str) -> Result<Engine> {
+    of_json(objects_checked(text)?)?.engine()
+}
+
+/// Engine from JSON, and its body on mounts, if there is one.
+pub fn mounted_from_json(text: &str) -> Result<(Engine, Option<Powertrain>)> {
+    of_json(objects_checked(text)?)?.mounted()
+}
+
+/// A text whose objects are objects.
+fn objects_checked(text: &str) -> Result<&str> {
     let text = readable("JSON", text)?;
     let value = serde_json::from_str(text).map_err(|e| unreadable("JSON", &e))?;
     check_tables(&value, "the file")?;
-    from_state(text)
+    Ok(text)
 }
 
 /// A message of serde's with JSON's words for types, and not too long.
@@ -493,8 +540,24 @@ fn readable<'t>(format: &'static str, text: &'t str) -> Result<&'t str> {
 
 /// Rejects arrays in place of objects, which serde would read by position.
 fn check_tables(value: &serde_json::Value, place: &str) -> Result<()> {
-    const LISTS: [&str; 6] =
-        ["cranks", "placements", "counterweights", "shafts", "unbalances", "cycles"];
+    const LISTS: [&str; 7] =
+        ["cranks", "placements", "counterweights", "shafts", "unbalances", "cycles", "mounts"];
+    const NUMBERS: [&str; 14] = [
+        "mains",
+        "theta_deg",
+        "pressure",
+        "cg",
+        "inertia",
+        "at",
+        "axes",
+        "stiffness",
+        "dynamic_stiffness",
+        "loss_factor",
+        "damping",
+        "frequency",
+        "real",
+        "imaginary",
+    ];
     let Some(table) = value.as_object() else {
         let reason = format!("{place}: give an object, {{ }}");
         return Err(Error::File { format: "JSON", reason });
@@ -504,8 +567,8 @@ fn check_tables(value: &serde_json::Value, place: &str) -> Result<()> {
             check_tables(value, key)?;
         }
         let Some(list) = value.as_array() else { continue };
-        if ["mains", "theta_deg", "pressure"].contains(&key.as_str()) {
-            continue; // of numbers
+        if NUMBERS.contains(&key.as_str()) {
+            continue;
         }
         if !LISTS.contains(&key.as_str()) {
             let reason = format!("{}: an array is not allowed here", shorten(key));
@@ -682,6 +745,64 @@ mod tests {
                 assert_eq!(text.matches("rod_inertia_excess").count(), inertias, "{text}");
             }
         }
+    }
+
+    #[test]
+    fn bodies_on_mounts_read_back_as_equal_ones() {
+        use crate::Complex64;
+        use crate::mounts::{
+            InertiaTrack, Mount, MountFigures, Orientation, Products, RigidBody, Table,
+        };
+        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+        let (tdc, bank) = (Angle::ZERO, Angle::QUARTER_TURN);
+        let place = Station { cylinder, tdc, bank, z: 0.0, rotating_mass: 0.0 };
+        let engine = Engine::new("", "", vec![place]).unwrap();
+        let inertia = [[6.0, 0.4, -0.9], [0.4, 8.5, 0.3], [-0.9, 0.3, 3.2]];
+        let body = RigidBody::new(150.0, [0.1, 0.2, 0.3], inertia, Some(Products::Tensor)).unwrap();
+        let plain =
+            MountFigures { name: "a".into(), stiffness: [1e5; 3], ..MountFigures::default() };
+        let axes = [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+        let track = Some(InertiaTrack { stiffness: 1e5, frequency: 9.0, damping_ratio: 0.2 });
+        let stiffness = vec![[Complex64::new(1.0 / 3.0, 0.1); 3]; 2];
+        let mounts = [
+            plain.clone(),
+            MountFigures {
+                name: "b".into(),
+                orientation: Orientation::Axes(axes),
+                dynamic_stiffness: Some([2e5; 3]),
+                loss_factor: [0.1, 0.2, 0.3],
+                damping: [1.0; 3],
+                track,
+                ..plain.clone()
+            },
+            MountFigures {
+                name: "c".into(),
+                orientation: Orientation::Tilt(45.0),
+                table: Some(Table { frequency: vec![0.0, 50.0], stiffness }),
+                ..plain
+            },
+        ];
+        let mounts = mounts.into_iter().map(|figures| Mount::new(figures).unwrap()).collect();
+        let powertrain = Powertrain::new(body, mounts).unwrap();
+        let text = mounted_to_toml(&engine, Some(&powertrain)).unwrap();
+        let both = (engine.clone(), Some(powertrain.clone()));
+        assert_eq!(mounted_from_toml(&text).unwrap(), both, "{text}");
+        let json = mounted_to_json(&engine, Some(&powertrain)).unwrap();
+        assert_eq!(mounted_from_json(&json).unwrap(), both);
+        assert_eq!(
+            (from_toml(&text).unwrap(), from_json(&json).unwrap()),
+            (engine.clone(), engine)
+        );
+        let error = |from: &str, to: &str| {
+            mounted_from_toml(&text.replacen(from, to, 1)).unwrap_err().to_string()
+        };
+        let said = "powertrain.body.products = None: give";
+        assert!(error("products = \"tensor\"", "").starts_with(said));
+        let said = "powertrain.mounts[1].loss_factor[0] = -0.1: give zero or more";
+        assert!(error("loss_factor = [0.1,", "loss_factor = [-0.1,").starts_with(said));
+        let said = "powertrain.mounts[2].tilt_deg = 45.0: is given beside axes";
+        let axes = "tilt_deg = 45.0\naxes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]";
+        assert!(error("tilt_deg = 45.0", axes).starts_with(said));
     }
 
     #[test]

@@ -1,5 +1,5 @@
 //! The true peak of a sum of orders: the largest magnitude of a trigonometric polynomial, or of a
-//! vector of two.
+//! vector of two or three.
 //!
 //! Samples alone miss it by up to 1 − cos(nh/2). Here intervals of a grid of sixteen points to the
 //! shortest wave of the squared magnitude are halved until bounds of the derivatives rule them out, or
@@ -92,6 +92,11 @@ impl PeakFinder {
     /// max over θ of the length of the vector (Re Σ Xₙ e^{inθ}, Re Σ Yₙ e^{inθ}).
     pub fn of_vector(&self, x: &[Complex64], y: &[Complex64], cancel: &Cancel) -> Result<f64> {
         self.longest([x, y], cancel)
+    }
+
+    /// max over θ of the length of the vector (Re Σ Xₙ e^{inθ}, Re Σ Yₙ e^{inθ}, Re Σ Zₙ e^{inθ}).
+    pub fn of_vector_in_space(&self, rows: [&[Complex64]; 3], cancel: &Cancel) -> Result<f64> {
+        self.longest(rows, cancel)
     }
 
     fn longest<const N: usize>(&self, rows: [&[Complex64]; N], cancel: &Cancel) -> Result<f64> {
@@ -205,6 +210,42 @@ pub fn largest_sums(
     Ok(peaks)
 }
 
+/// Largest magnitude along x, y and z, and largest length, of each sum of orders of vectors in space: rows
+/// of peak phasors, one of each order.
+pub fn largest_vectors(
+    orders: &[Order],
+    phasors: &[[Complex64; 3]],
+    cancel: &Cancel,
+) -> Result<Vec<[f64; 4]>> {
+    order::check_list(orders)?;
+    let rows = phasors.chunks_exact(orders.len());
+    if let [_] = orders {
+        let of_ellipse = |[x, y, z]: &[Complex64; 3]| {
+            let squares = x * x + y * y + z * z;
+            let size = x.norm_sqr() + y.norm_sqr() + z.norm_sqr();
+            // The longer half axis.
+            [x.norm(), y.norm(), z.norm(), (0.5 * (size + squares.norm())).sqrt()]
+        };
+        return memory::collected(phasors.iter().map(of_ellipse));
+    }
+    let finder = PeakFinder::new(orders)?;
+    let mut peaks = memory::zeros(rows.len())?;
+    let rows = memory::collected(peaks.iter_mut().zip(rows))?;
+    pool::map(cancel, rows, |(peaks, row)| {
+        cancel.check()?;
+        let component = |axis: usize| memory::collected(row.iter().map(|vector| vector[axis]));
+        let [x, y, z] = [component(0)?, component(1)?, component(2)?];
+        *peaks = [
+            finder.along_axis(&x, cancel)?,
+            finder.along_axis(&y, cancel)?,
+            finder.along_axis(&z, cancel)?,
+            finder.of_vector_in_space([&x, &y, &z], cancel)?,
+        ];
+        Ok(())
+    })?;
+    Ok(peaks)
+}
+
 /// Value and two derivatives by crank angle.
 type Jet = [f64; 3];
 
@@ -270,14 +311,23 @@ impl<const N: usize> VectorSum<'_, N> {
         Ok(squares)
     }
 
-    /// The same by a fast Fourier transform (Stockham's, radix 2) of x + iy.
+    /// The same by fast Fourier transforms (Stockham's, radix 2) of x + iy, a pair of rows each.
     fn transformed(&self, cancel: &Cancel) -> Result<Vec<f64>> {
+        let mut squares: Vec<f64> = memory::zeros(self.finder.units.len())?;
+        for pair in self.rows.chunks(2) {
+            for (square, value) in squares.iter_mut().zip(self.transform(pair, cancel)?) {
+                *square += value.norm_sqr();
+            }
+        }
+        Ok(squares)
+    }
+
+    /// x + iy at the points of the grid, of one row or two.
+    fn transform(&self, pair: &[&[Complex64]], cancel: &Cancel) -> Result<Vec<Complex64>> {
         let units = &self.finder.units;
         let count = units.len();
         let mut from: Vec<Complex64> = memory::zeros(count)?;
-        for (row, unit) in
-            self.rows.iter().zip([Complex64::new(0.5, 0.0), Complex64::new(0.0, 0.5)])
-        {
+        for (row, unit) in pair.iter().zip([Complex64::new(0.5, 0.0), Complex64::new(0.0, 0.5)]) {
             for (&wave, phasor) in self.finder.waves.iter().zip(*row) {
                 let phasor = phasor * self.scale;
                 from[wave as usize] += unit * phasor;
@@ -301,7 +351,7 @@ impl<const N: usize> VectorSum<'_, N> {
             mem::swap(&mut from, &mut to);
             (half, stride) = (half / 2, 2 * stride);
         }
-        memory::collected(from.iter().map(Complex64::norm_sqr))
+        Ok(from)
     }
 
     /// Bounds on the derivatives of the squared length, whose distance from its mean is known.

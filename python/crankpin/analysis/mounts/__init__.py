@@ -1,0 +1,1 @@
+"""An engine on its mounts: at rest, its modes and axes, and its response to the engine's orders."""

@@ -1,0 +1,508 @@
+"""Response of a powertrain on its mounts to the engine's orders, over speed."""
+
+from __future__ import annotations
+
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Literal, Self
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs, labels, optional
+from crankpin._support.frames import Frames, Tabled
+from crankpin._support.record import Record, changed, read_only
+from crankpin._support.tables import Column, Table
+from crankpin.analysis.balance import mean_piston_speed
+from crankpin.analysis.mounts.vectors import Source, VectorQuantity
+from crankpin.analysis.quantity import ALL, Key, Keyed, order_key
+from crankpin.analysis.request import Request, check_request
+from crankpin.model.mounts import _vector
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    import xarray as xr
+    from numpy.typing import ArrayLike, NDArray
+
+    from crankpin import _core
+    from crankpin._support.inputs import Order, Orders
+    from crankpin.analysis.mounts.powertrain import Powertrain
+
+LOADS = ("F_x", "F_y", "F_z", "M_x", "M_y", "M_z")
+"""Components of a load about the centre of gravity."""
+MOTIONS = {"displacement": "m", "velocity": "m/s", "acceleration": "m/s²"}
+"""Motion of a point → its unit."""
+SCOPE = (
+    "ISO 10816-6:1995: reciprocating machines above 100 kW, not in road vehicles; rms of 2 Hz to "
+    "1000 Hz."
+)
+"""What severity grades are for."""
+
+
+def response(
+    powertrain: Powertrain, rpm: ArrayLike, *, orders: Orders, rtol: float | None
+) -> MountResponse:
+    """Return the response; :meth:`Powertrain.response` documents the arguments."""
+    request = Request.checked(orders=orders, rtol=rtol, spectrum=None, torque=True)
+    speeds = inputs.array("rpm", rpm)
+    given: Any = inputs.copied(inputs.vector("rpm", speeds)) if speeds.ndim else float(speeds)
+    found = MountResponse(powertrain, given, request)
+    inputs.warn_of_units(mean_piston_speed(powertrain.engine, float(np.max(speeds))))
+    return found
+
+
+class PointMotion(Record):
+    """Motion of a point of the powertrain.
+
+    Made by :meth:`MountResponse.at`.
+    """
+
+    result: MountResponse
+    """The response that it belongs to."""
+    point: tuple[float, float, float]
+    """Place in the engine's axes, m."""
+    order: Key = None
+    """The order; ``"all"`` for all orders together, None for every order."""
+
+    def _moved(self, name: str) -> VectorQuantity:
+        words = f"{name} of the point {self.point}"
+        source = ("at", self.point, name)
+        return VectorQuantity(self.result, source, words, MOTIONS[name], self.order)
+
+    def __repr__(self) -> str:
+        return f"<PointMotion of {self.point} m{_which(self.order)}, {self.result.loads_counted}>"
+
+    @property
+    def displacement(self) -> VectorQuantity:
+        """Displacement along x, y and z, m."""
+        return self._moved("displacement")
+
+    @property
+    def velocity(self) -> VectorQuantity:
+        """Velocity along x, y and z, m/s."""
+        return self._moved("velocity")
+
+    @property
+    def acceleration(self) -> VectorQuantity:
+        """Acceleration along x, y and z, m/s²."""
+        return self._moved("acceleration")
+
+    @property
+    def grade(self) -> Any:  # noqa: ANN401 - a number at one speed
+        """Vibration severity grade of ISO 10816-6 at each speed: (…).
+
+        The worst of the rms displacement, velocity and acceleration along x, y and z, each of 2 Hz
+        to 1000 Hz, of all orders together: 1.1, 1.8, 2.8, 4.5, 7.1, 11, 18, 28, 45, 71, 112 or 180;
+        infinite above. The standard is for reciprocating machines above 100 kW that do not drive
+        road vehicles; which zone a grade is in depends on the machine's class there.
+        """
+        if self.order not in (None, ALL):
+            raise InputError(f"order = {self.order}: grade is that of all orders together")
+        grades = self.result._by_speed(self.result._core.grades(list(self.point)))
+        return grades if grades.ndim else float(grades)
+
+
+def _which(order: Key) -> str:
+    """Return the order in words."""
+    if order is None:
+        return ""
+    return " of all orders" if order == ALL else f" of order {order}"
+
+
+class MountQuantities:
+    """Mixin of a response and of one of its orders: the vectors that both have."""
+
+    def _key(self) -> tuple[MountResponse, Key]:
+        raise NotImplementedError
+
+    @property
+    def body_force(self) -> VectorQuantity:
+        """Sum of the mounts' forces on what carries them, N."""
+        result, order = self._key()
+        return VectorQuantity(result, ("support",), "force on the body", "N", order)
+
+    @property
+    def mount_force(self) -> Mapping[str, VectorQuantity]:
+        """Name of a mount → its force on what carries it, N."""
+        result, order = self._key()
+        return MappingProxyType(
+            {
+                name: VectorQuantity(result, ("mount", k), f"force of mount {name!r}", "N", order)
+                for k, name in enumerate(result.powertrain.names)
+            }
+        )
+
+    def at(self, point: Sequence[float]) -> PointMotion:
+        """Return the motion of a point of the powertrain.
+
+        Parameters
+        ----------
+        point : sequence of float
+            Place (x, y, z) in the engine's axes, m.
+
+        Returns
+        -------
+        PointMotion
+            Displacement, velocity, acceleration and severity grade.
+
+        Raises
+        ------
+        InputError
+            If it is no point.
+        """
+        result, order = self._key()
+        return PointMotion(result, _vector("point", point), order)
+
+
+class OrderResponse(MountQuantities, Record):
+    """One order of a response, or all orders together.
+
+    Made by a response's ``[order]``.
+    """
+
+    result: MountResponse
+    """The response."""
+    order: Order | Literal["all"]
+    """Multiple of crank speed, or ``"all"``."""
+
+    def _key(self) -> tuple[MountResponse, Key]:
+        return self.result, self.order
+
+    def __repr__(self) -> str:
+        return f"<OrderResponse{_which(self.order)}: {self.body_force!r}>"
+
+    def _of(self, name: str) -> Any:  # noqa: ANN401 - a number at one speed
+        if self.order == ALL:
+            raise InputError(f'order = "all": give one order, such as r[2].{name}')
+        one = self.result._with_order(self.order)
+        values = getattr(one, name)
+        axis = len(one.dims)
+        return read_only(np.take(values, one.orders.index(self.order), axis=axis))
+
+    @property
+    def load(self) -> NDArray[np.complex128]:
+        """Load of the engine about the CG, N and N·m: (…, n_loads)."""
+        return self._of("load")  # type: ignore[no-any-return]
+
+    @property
+    def motion(self) -> NDArray[np.complex128]:
+        """Displacement of the CG, m, and rotation, rad: (…, n_loads)."""
+        return self._of("motion")  # type: ignore[no-any-return]
+
+    @property
+    def transmissibility(self) -> NDArray[np.float64]:
+        """Load on what carries the mounts over that of the engine: (…, n_loads)."""
+        return self._of("transmissibility")  # type: ignore[no-any-return]
+
+    @property
+    def power_in(self) -> NDArray[np.float64]:
+        """Mean power that the engine puts in, W: (…,)."""
+        return self._of("power_in")  # type: ignore[no-any-return]
+
+    @property
+    def power_lost(self) -> NDArray[np.float64]:
+        """Mean power that each mount dissipates, W: (…, n_mounts)."""
+        return self._of("power_lost")  # type: ignore[no-any-return]
+
+
+class WorstForce(Record):
+    """Largest force of one order on what carries the mounts, and the mode nearest to it."""
+
+    force: float
+    """Length of the longest vector, N."""
+    mount: str
+    """Name of the mount; empty for the sum of all."""
+    rpm: float
+    """Crank speed."""
+    order: Order
+    """Multiple of crank speed."""
+    frequency: float
+    """Frequency of the order, Hz."""
+    mode: int
+    """Number of the mode of the nearest frequency, from 1."""
+    mode_frequency: float
+    """Its frequency, Hz."""
+
+
+class MountResponse(MountQuantities, Keyed, Tabled):
+    """Response of a powertrain on its mounts: forces on what carries it, motion, power.
+
+    An order is a key: ``response[2].body_force``, ``response.body_force[2]``;
+    ``response.body_force.total`` is all orders together. Arrays are over ``rpm``, if several speeds
+    were given, then orders, then axes. Phasors are peaks at e^{inθ}. Made by
+    :meth:`Powertrain.response`.
+    """
+
+    powertrain: Powertrain
+    """The powertrain."""
+    rpm: NDArray[np.float64] | float
+    """Crank speeds: an array where several were given, else a number."""
+    request: Request
+    """Orders and tolerance, checked."""
+
+    def __post_init__(self) -> None:
+        request = check_request(self.request, "Powertrain.response")
+        speeds = np.atleast_1d(np.asarray(self.rpm, dtype=float))
+        core = self.powertrain._core.response(
+            self.powertrain.engine._core, speeds, request.orders, request.rtol
+        )
+        self.__dict__.update(_response=core, _orders=tuple(core.orders), _cache={})
+        super().__post_init__()
+
+    def _key(self) -> tuple[MountResponse, Key]:
+        return self, None
+
+    @property
+    def _core(self) -> _core.Response:
+        return self.__dict__["_response"]  # type: ignore[no-any-return]
+
+    @property
+    def orders(self) -> tuple[Order, ...]:
+        """Multiples of crank speed, of a fired engine halves too."""
+        return self.__dict__["_orders"]  # type: ignore[no-any-return]
+
+    @property
+    def omitted(self) -> tuple[Order, ...]:
+        """With ``orders="auto"``: orders of the engine left out that are not zero."""
+        return tuple(self._core.omitted)
+
+    @property
+    def error_bound(self) -> Mapping[str, float]:
+        """Quantity → bound of what omitted orders add to the engine's load at the highest speed.
+
+        ``"force"``, N, ``"moment"`` and ``"torque"`` about the CG, N·m.
+        """
+        names = ("force", "moment", "torque")
+        return MappingProxyType(dict(zip(names, self._core.error_bound, strict=True)))
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Names of the swept dimensions: ``("rpm",)`` or none."""
+        return ("rpm",) if isinstance(self.rpm, np.ndarray) else ()
+
+    @property
+    def loads_counted(self) -> str:
+        """Gas pressure that counts, in words: as :attr:`Engine.loads_counted`."""
+        return self.powertrain.engine.loads_counted
+
+    def _by_speed(self, values: NDArray[Any]) -> NDArray[Any]:
+        """Return values over speeds, or those of the one speed."""
+        return values if self.dims else values[0]
+
+    def _read(self, key: Any, compute: Any) -> NDArray[Any]:  # noqa: ANN401 - a call
+        kept: dict[Any, NDArray[Any]] = self.__dict__["_cache"]
+        if key not in kept:
+            kept[key] = read_only(self._by_speed(compute()))
+        return kept[key]
+
+    def _vectors(self, source: Source) -> NDArray[np.complex128]:
+        """Return peak phasors of a vector: (…, n_orders, 3)."""
+        kind, *rest = source
+        if kind == "at":
+            point, name = rest
+            return self._read(source, lambda: self._core.at(list(point), name))
+        if kind == "mount":
+            return self._read("mounts", self._core.mount_forces)[..., rest[0], :]
+        return self.support_load[..., :3]
+
+    def _with_order(self, order: Any) -> MountResponse:  # noqa: ANN401 - an order
+        """Return this response if it has an order, else the same of that order alone."""
+        if order in self.orders:
+            return self
+        kept: dict[Any, Any] = self.__dict__["_cache"]
+        key = ("order", order)
+        if key not in kept:
+            kept[key] = changed(self, request=self.request.at_orders((order,)))
+        return kept[key]  # type: ignore[no-any-return]
+
+    def __getitem__(self, order: Order | Literal["all"]) -> OrderResponse:
+        """Return one order, or with ``"all"`` all of ``orders`` together."""
+        return OrderResponse(self, order_key(order))
+
+    @property
+    def load(self) -> NDArray[np.complex128]:
+        """Load of the engine about the CG, force, N, and moment, N·m: (…, n_orders, n_loads)."""
+        return self._read("load", self._core.loads)
+
+    @property
+    def motion(self) -> NDArray[np.complex128]:
+        """Displacement of the CG, m, and rotation, rad: (…, n_orders, n_loads)."""
+        return self._read("motion", self._core.motions)
+
+    @property
+    def support_load(self) -> NDArray[np.complex128]:
+        """Sum of the mounts' forces on what carries them, N, and moments about the CG, N·m.
+
+        Of shape (…, n_orders, n_loads).
+        """
+        return self._read("support", self._core.support_loads)
+
+    @property
+    def transmissibility(self) -> NDArray[np.float64]:
+        """Load on what carries the mounts over that of the engine, of each component.
+
+        |support_load|/|load|, NaN where the engine has no load in that direction: there mounts make
+        some of loads in others. Of shape (…, n_orders, n_loads).
+        """
+        load = np.abs(self.load)
+        ratio = np.full(load.shape, np.nan)
+        np.divide(np.abs(self.support_load), load, out=ratio, where=load > 0.0)
+        return read_only(ratio)
+
+    @property
+    def power_in(self) -> NDArray[np.float64]:
+        """Mean power that the engine puts into the motion, W: (…, n_orders)."""
+        return self._read("power", self._core.power)[..., 0]
+
+    @property
+    def power_lost(self) -> NDArray[np.float64]:
+        """Mean power that each mount dissipates, W: (…, n_orders, n_mounts)."""
+        return self._read("power", self._core.power)[..., 1:]
+
+    def sel(self, *, rpm: float) -> Self:
+        """Return the response at one of the speeds.
+
+        Parameters
+        ----------
+        rpm : float
+            One of the speeds given.
+
+        Returns
+        -------
+        MountResponse
+            The response at that speed alone.
+
+        Raises
+        ------
+        InputError
+            If it is not among them.
+        """
+        speed, speeds = inputs.number("rpm", rpm), np.atleast_1d(self.rpm)
+        if speed not in speeds:
+            nearest = speeds[np.abs(speeds - speed).argmin()]
+            hint = f"is not among the {len(speeds)} speeds given; the nearest is {nearest:.10g}"
+            raise inputs.rejected("rpm", rpm, hint)
+        return changed(self, rpm=speed)
+
+    def worst(self, quantity: Literal["mount_force", "body_force"] = "mount_force") -> WorstForce:
+        """Return the largest force of one order: where, at which speed, near to which mode.
+
+        Parameters
+        ----------
+        quantity : {"mount_force", "body_force"}, default "mount_force"
+            The force of one mount, or the sum of all.
+
+        Returns
+        -------
+        WorstForce
+            Force, mount, speed, order, and the mode of the nearest frequency.
+
+        Raises
+        ------
+        InputError
+            If there is no such quantity.
+        """
+        inputs.one_of("quantity", quantity, ("mount_force", "body_force"))
+        names = self.powertrain.names if quantity == "mount_force" else ("",)
+        each = [*self.mount_force.values()] if quantity == "mount_force" else [self.body_force]
+        speeds = np.atleast_1d(self.rpm)
+        peaks = np.array([np.reshape(vector.peak, (len(speeds), -1)) for vector in each])
+        mount, speed, place = np.unravel_index(int(peaks.argmax()), peaks.shape)
+        order = self.orders[place]
+        frequency = float(order) * float(speeds[speed]) / 60.0
+        varies = self.powertrain._varies
+        modes = self.powertrain.modes(frequency if varies else None).frequency
+        mode = int(np.abs(modes - frequency).argmin())
+        force = float(peaks[mount, speed, place])
+        found = (force, names[mount], float(speeds[speed]), order, frequency)
+        return WorstForce(*found, mode + 1, float(modes[mode]))
+
+    # --- tables -----------------------------------------------------------------------------------
+
+    def _shown(self) -> tuple[list[int], str]:
+        """Return the places of the orders that tables at one speed show, and a line on the others.
+
+        Of orders chosen automatically, those whose forces are all negligible are left out.
+        """
+        places = list(range(len(self.orders)))
+        if self.request.orders is not None:
+            return places, ""
+        peaks = np.array([vector.peak for vector in self.mount_force.values()]).max(axis=0)
+        kept = peaks > labels.NEGLIGIBLE * peaks.max()
+        if not kept.any():
+            return places, ""
+        left_out = [order for order, shown in zip(self.orders, kept, strict=True) if not shown]
+        return np.flatnonzero(kept).tolist(), labels.not_shown(left_out)
+
+    def _title(self, of: str) -> str:
+        at = "" if self.dims else f" {labels.at_speed(float(self.rpm))}"
+        given = " of the orders given" if self.request.orders is not None else ""
+        return f"{labels.name_of(self.powertrain.engine)} on its mounts{at}: {of}{given}"
+
+    @property
+    def table(self) -> Table:
+        """Peaks of the force on the body, and of each mount.
+
+        By order at one speed, else of all orders together at each speed.
+        """
+        force, note = self.body_force, ""
+        if self.dims:
+            speeds = tuple(np.asarray(self.rpm).tolist())
+            columns = [Column("rpm", speeds, digits=10)]
+            force = force.total
+        else:
+            places, note = self._shown()
+            orders = [self.orders[k] for k in places]
+            frequency = [float(order) * float(self.rpm) / 60.0 for order in orders]
+            columns = [Column("order", (*orders, ALL)), Column("f", (*frequency, None), "Hz")]
+
+        def peaks(vector: VectorQuantity, what: str) -> NDArray[np.float64]:
+            values = np.asarray(getattr(vector, what))
+            if self.dims:
+                return values
+            return np.concatenate([values[places], np.asarray(getattr(vector.total, what))[None]])
+
+        for axis, values in zip("xyz", peaks(force, "peak_xyz").T.tolist(), strict=True):
+            columns.append(Column(f"|F_{axis}|", tuple(values), "N"))
+        columns.append(Column("|F|", tuple(peaks(force, "peak").tolist()), "N"))
+        for name, vector in self.mount_force.items():
+            of_mount = vector.total if self.dims else vector
+            columns.append(Column(name, tuple(peaks(of_mount, "peak").tolist()), "N"))
+        title = self._title("peaks of the force on the body, and of each mount")
+        return Table(title, tuple(columns), note, loads=self.loads_counted)
+
+    @property
+    def frames(self) -> Frames:
+        """``table``; at one speed ``loads``: those of the engine, on the body, and their ratio."""
+        return self._frames() if self.dims else self._frames(loads=self._of_loads)
+
+    def _of_loads(self) -> Table:
+        places, note = self._shown()
+        columns = [Column("order", tuple(self.orders[k] for k in places))]
+        each = (self.load, self.support_load, self.transmissibility)
+        pairs = zip(*(values[places].T for values in each), strict=True)
+        for name, (load, support, ratio) in zip(LOADS, pairs, strict=True):
+            unit = "N" if name.startswith("F") else "N·m"
+            if not np.any(load) and not np.any(support):
+                continue
+            columns.append(Column(f"|{name}| of the engine", tuple(np.abs(load).tolist()), unit))
+            columns.append(Column(f"|{name}| on the body", tuple(np.abs(support).tolist()), unit))
+            listed = (None if np.isnan(each) else each for each in ratio.tolist())
+            columns.append(Column(f"T {name}", tuple(listed)))
+        title = self._title("loads about the CG")
+        return Table(title, tuple(columns), note, loads=self.loads_counted)
+
+    def _dataset(self) -> xr.Dataset:
+        swept = (*self.dims, "order")
+        forces = self._read("mounts", self._core.mount_forces)
+        arrays = {
+            "load": ((*swept, "component"), self.load, {"units": "N, N m"}),
+            "motion": ((*swept, "component"), self.motion, {"units": "m, rad"}),
+            "support_load": ((*swept, "component"), self.support_load, {"units": "N, N m"}),
+            "mount_force": ((*swept, "mount", "axis"), forces, {"units": "N"}),
+        }
+        coords: dict[str, Any] = {"rpm": self.rpm} if self.dims else {}
+        coords |= {"order": list(map(float, self.orders)), "component": list(LOADS)}
+        coords |= {"mount": list(self.powertrain.names), "axis": list("xyz")}
+        attributes = labels.attributes(self.loads_counted)
+        return optional.dataset(arrays, coords, attributes)

@@ -1,0 +1,137 @@
+"""A powertrain at rest: sag and preload under its weight, wind-up under a mean torque."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs, labels
+from crankpin._support.frames import Tabled
+from crankpin._support.record import read_only
+from crankpin._support.tables import Column, Table
+from crankpin.model.mounts import _vector
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from crankpin.analysis.mounts.powertrain import Powertrain
+
+GRAVITY = (0.0, -9.80665, 0.0)
+"""Standard gravity of an upright engine, m/s²."""
+
+
+class StaticState(Tabled):
+    """A powertrain at rest on the static stiffness of its mounts.
+
+    Made by :meth:`Powertrain.static`.
+    """
+
+    powertrain: Powertrain
+    """The powertrain."""
+    torque: float
+    """Mean torque that leaves the unit, N·m, about +z: −torque acts on the body."""
+    gravity: tuple[float, float, float]
+    """Acceleration of gravity in the engine's axes, m/s²."""
+
+    def __post_init__(self) -> None:
+        core = self.powertrain._core
+        displacement, forces, margin = core.static(list(self.gravity), -self.torque)
+        moved = np.array(displacement)
+        values = {
+            "_shift": read_only(moved[:, :3]),
+            "_turn_deg": read_only(np.degrees(moved[:, 3:])),
+            "_forces": read_only(np.array(forces)),
+            "_margin": margin,
+        }
+        self.__dict__.update(values)
+        super().__post_init__()
+
+    @property
+    def sag(self) -> NDArray[np.float64]:
+        """Displacement of the centre of gravity under the weight, m: (n_axes,)."""
+        return self.__dict__["_shift"][0]  # type: ignore[no-any-return]
+
+    @property
+    def sag_deg(self) -> NDArray[np.float64]:
+        """Rotation about x, y and z under the weight, degrees: (n_axes,)."""
+        return self.__dict__["_turn_deg"][0]  # type: ignore[no-any-return]
+
+    @property
+    def wind_up(self) -> NDArray[np.float64]:
+        """Displacement of the centre of gravity under the torque, m: (n_axes,)."""
+        return self.__dict__["_shift"][1]  # type: ignore[no-any-return]
+
+    @property
+    def wind_up_deg(self) -> NDArray[np.float64]:
+        """Rotation about x, y and z under the torque, degrees: (n_axes,)."""
+        return self.__dict__["_turn_deg"][1]  # type: ignore[no-any-return]
+
+    @property
+    def weight_force(self) -> NDArray[np.float64]:
+        """Force of each mount on what carries it due to the weight, N: (n_mounts, n_axes)."""
+        return self.__dict__["_forces"][0]  # type: ignore[no-any-return]
+
+    @property
+    def torque_force(self) -> NDArray[np.float64]:
+        """Force of each mount on what carries it due to the torque, N: (n_mounts, n_axes)."""
+        return self.__dict__["_forces"][1]  # type: ignore[no-any-return]
+
+    @property
+    def preload(self) -> NDArray[np.float64]:
+        """Force of each mount on what carries it, of weight and torque, N: (n_mounts, n_axes)."""
+        return read_only(self.weight_force + self.torque_force)
+
+    @property
+    def support_margin(self) -> float:
+        """Distance of the centre of gravity from the edge of the polygon of the mounts, m.
+
+        Seen along gravity; above zero inside. Outside, some mount is pulled.
+        """
+        return self.__dict__["_margin"]  # type: ignore[no-any-return]
+
+    @property
+    def table(self) -> Table:
+        """Forces of the mounts on what carries them, by weight and torque."""
+        columns = [Column("mount", self.powertrain.names)]
+        for cause, forces in (("weight", self.weight_force), ("torque", self.torque_force)):
+            for axis, values in zip("xyz", forces.T.tolist(), strict=True):
+                columns.append(Column(f"{cause} F_{axis}", tuple(values), "N"))
+        x, y, z = 1e3 * self.sag
+        note = (
+            f"Sag of the CG ({x:.4g}, {y:.4g}, {z:.4g}) mm; wind-up {self.wind_up_deg[2]:.4g}° "
+            f"about z under {self.torque:.6g} N·m that leave the unit. The CG is "
+            f"{'inside' if self.support_margin > 0.0 else 'outside'} the mounts' polygon by "
+            f"{1e3 * abs(self.support_margin):.4g} mm. Static stiffness."
+        )
+        title = (
+            f"{labels.name_of(self.powertrain.engine)} at rest: forces on what carries the mounts"
+        )
+        return Table(title, tuple(columns), note)
+
+
+def static(
+    powertrain: Powertrain,
+    torque: float | Literal["engine"],
+    gear_ratio: float,
+    gravity: Sequence[float],
+    rpm: float,
+) -> StaticState:
+    """Return the state at rest; :meth:`Powertrain.static` documents the arguments."""
+    leaving: Any = torque
+    if isinstance(torque, str):
+        inputs.one_of("torque", torque, ("engine",))
+        if not powertrain.engine.fired:
+            hint = (
+                "the engine has no cycle and so no mean torque: give N·m, or engine.with_cycle(…)"
+            )
+            raise InputError(f'torque = "engine": {hint}')
+        leaving = powertrain.engine.balance(rpm, orders=[1]).crank_torque.mean
+    ratio = inputs.finite("gear_ratio", gear_ratio)
+    if ratio == 0.0:
+        raise InputError("gear_ratio = 0.0: give crank speed over output speed, such as 1 or 12.5")
+    leaving = inputs.finite("torque", leaving) * ratio
+    return StaticState(powertrain, leaving, _vector("gravity", gravity))

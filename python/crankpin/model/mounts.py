@@ -1,0 +1,315 @@
+"""A rigid body and its mounts: mass and inertia, places, stiffness at rest and in motion."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+import numpy as np
+
+from crankpin import _core
+from crankpin._core import InputError
+from crankpin._support import inputs
+from crankpin._support.record import Input
+from crankpin._support.warnings import suppressed
+from crankpin.model import checks
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import ArrayLike, NDArray
+
+Products: TypeAlias = Literal["tensor", "positive-integrals"]
+Vector: TypeAlias = tuple[float, float, float]
+Rows: TypeAlias = tuple[Vector, Vector, Vector]
+
+THREE = "give three numbers"
+
+
+class RigidBody(Input):
+    """Engine, gearbox and all that moves with them as one body, in the engine's axes.
+
+    Parameters
+    ----------
+    mass : float
+        Mass, kg.
+    cg : sequence of float
+        Centre of gravity (x, y, z) in the engine's axes, m: x to the right and y up from the
+        crank's axis, z along it in the sense of the cylinders' ``z``.
+    inertia : array_like
+        Inertia tensor **about the centre of gravity**, kg·m²: three rows of three numbers, or the
+        three moments of a body without products. One about another point p has to be moved:
+        I − m (d² − d dᵀ), with d from the centre of gravity to p (parallel axes).
+    products : {"tensor", "positive-integrals"}, optional
+        Sign of the entries off the diagonal: ``"tensor"``: −∫xy dm; ``"positive-integrals"``:
+        ∫xy dm, as many CAD systems print them. Required where they are not zero: with the wrong one
+        the torque roll axis tilts to the other side.
+
+    Raises
+    ------
+    InputError
+        If the tensor is not symmetric or not positive definite, or ``products`` is missing.
+
+    Warns
+    -----
+    UserWarning
+        If the largest principal moment is more than the sum of the others, which no body has, or
+        figures seem to be in millimetres or grams.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> body = cp.RigidBody(mass=150, cg=(0, 0.06, 0), inertia=(7, 8, 4.5))
+    >>> body.principal_moments
+    (4.5, 7.0, 8.0)
+    """
+
+    mass: float
+    cg: Sequence[float]
+    inertia: ArrayLike
+    products: Products | None = None
+
+    def __post_init__(self) -> None:
+        mass = inputs.number("mass", self.mass)
+        cg = _vector("cg", self.cg)
+        given = inputs.array("inertia", self.inertia)
+        if given.shape not in ((3,), (3, 3)):
+            hint = (
+                "give three rows of three numbers, or the three moments of a body without products"
+            )
+            raise InputError(f"inertia has shape {given.shape}: {hint}")
+        given = np.diag(given) if given.ndim == 1 else given
+        if self.products is not None:
+            inputs.one_of("products", self.products, ("tensor", "positive-integrals"))
+        tensor, moments, missing = _core.rigid_body(mass, cg, given.tolist(), self.products)
+        has_products = any(tensor[i][j] for i in range(3) for j in range(i))
+        fields = {
+            "mass": mass,
+            "cg": cg,
+            "inertia": tuple(map(tuple, tensor)),
+            "products": "tensor" if has_products else None,
+            "_moments": tuple(moments),
+        }
+        self.__dict__.update(fields)
+        checks.body(mass, cg, moments, missing)
+
+    @property
+    def principal_moments(self) -> Vector:
+        """Principal moments of inertia, ascending, kg·m²."""
+        return self.__dict__["_moments"]  # type: ignore[no-any-return]
+
+    @property
+    def _figures(self) -> tuple[float, Any, Any]:
+        return (self.mass, self.cg, self.inertia)
+
+
+class InertiaTrack(Input):
+    """Fluid of a hydraulic mount, which swings in a channel between two chambers.
+
+    It adds K(f) = k (−x² + 2iζx)/(1 − x² + 2iζx), x = f/f₀, to the dynamic stiffness of the mount's
+    first axis: nothing at rest, k far above f₀, where the fluid is locked, and most loss below f₀.
+
+    Parameters
+    ----------
+    stiffness : float
+        Stiffness k that the chambers' walls add where the fluid is locked, N/m.
+    frequency : float
+        Frequency f₀ of the fluid on the chambers' walls, Hz.
+    damping_ratio : float
+        Damping ζ of the fluid over its critical damping.
+
+    Raises
+    ------
+    InputError
+        If a figure is not above zero.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> track = cp.InertiaTrack(stiffness=1.8e5, frequency=10, damping_ratio=0.25)
+    >>> front = cp.Mount("front", at=(0, 0, -0.2), stiffness=2e5, loss_factor=0.06, track=track)
+    >>> abs(front.dynamic_at(8)[0]).round(2)
+    np.float64(303865.19)
+    """
+
+    stiffness: float
+    frequency: float
+    damping_ratio: float
+
+    def __post_init__(self) -> None:
+        for name in ("stiffness", "frequency", "damping_ratio"):
+            self.__dict__[name] = value = inputs.finite(name, getattr(self, name))
+            if value <= 0.0:
+                raise InputError(f"{name} = {value}: give a number that is more than zero")
+
+
+class Mount(Input):
+    """Elastic mount: a place, three axes, and stiffness along them at rest and in motion.
+
+    Parameters
+    ----------
+    name : str
+        Name of the mount, such as ``"right"``.
+    at : sequence of float
+        Place (x, y, z) in the engine's axes, m.
+    stiffness : float or sequence of float
+        Static stiffness along the first, second and third axis, N/m; a number is that of all three.
+        It counts for sag and preload.
+    tilt_deg : float, optional
+        Direction of the first axis from +x towards +y, degrees; the second is a quarter turn ahead
+        of it, the third along z. By default 0: the axes are x, y and z.
+    axes : array_like, optional
+        Directions of the three axes, a row each, in place of ``tilt_deg``.
+    dynamic_stiffness : float or sequence of float, optional
+        Stiffness in motion, N/m, of rubber often 1.2 to 1.5 times the static one; by default the
+        static stiffness. It counts for modes and response.
+    loss_factor : float or sequence of float, default 0.0
+        Imaginary over real part of the dynamic stiffness (hysteretic damping).
+    damping : float or sequence of float, default 0.0
+        Viscous damping, N·s/m; it may stand beside a loss factor.
+    track : InertiaTrack, optional
+        Fluid of a hydraulic mount, along the first axis.
+    table : pair of array_like, optional
+        Frequencies, Hz, and the complex dynamic stiffness along the three axes at each of them,
+        N/m: of shapes (n_frequencies,) and (n_frequencies, 3), in place of ``dynamic_stiffness``,
+        ``loss_factor``, ``damping`` and ``track``. It is interpolated, never extrapolated.
+
+    Raises
+    ------
+    InputError
+        If a figure is out of range: a stiffness or a damping below zero, axes not at right angles.
+
+    Warns
+    -----
+    UserWarning
+        If a stiffness seems to be in N/mm, or a place in millimetres.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> right = cp.Mount("right", at=(0.28, 0, -0.1), stiffness=(2.2e5, 8e4, 8e4), tilt_deg=130)
+    >>> right.replace(loss_factor=0.1).dynamic_at(20)[0]
+    np.complex128(220000+22000j)
+    """
+
+    name: str
+    at: Sequence[float]
+    stiffness: float | Sequence[float]
+    tilt_deg: float | None = None
+    axes: ArrayLike | None = None
+    dynamic_stiffness: float | Sequence[float] | None = None
+    loss_factor: float | Sequence[float] = 0.0
+    damping: float | Sequence[float] = 0.0
+    track: InertiaTrack | None = None
+    table: tuple[ArrayLike, ArrayLike] | None = None
+
+    def __post_init__(self) -> None:
+        fields: dict[str, Any] = {"name": inputs.text("name", self.name)}
+        fields["at"] = _vector("at", self.at)
+        for name in ("stiffness", "dynamic_stiffness", "loss_factor", "damping"):
+            value = getattr(self, name)
+            fields[name] = None if value is None else _along_axes(name, value)
+        fields["tilt_deg"] = inputs.optional_number("tilt_deg", self.tilt_deg)
+        if self.axes is not None:
+            if self.tilt_deg is not None:
+                raise inputs.rejected("tilt_deg", self.tilt_deg, "leave it out, or axes")
+            rows = inputs.array("axes", self.axes)
+            if rows.shape != (3, 3):
+                hint = "give three rows of three numbers, the directions of the mount's axes"
+                raise InputError(f"axes has shape {rows.shape}: {hint}")
+            fields["axes"] = tuple(map(tuple, rows.tolist()))
+        if self.track is not None and not isinstance(self.track, InertiaTrack):
+            raise inputs.rejected("track", self.track, "give a crankpin.InertiaTrack")
+        fields["table"] = None if self.table is None else _table(self.table)
+        self.__dict__.update(fields)
+        _core.check_mount(self._figures)
+        checks.mount(self.name, fields["at"], fields["stiffness"])
+
+    @property
+    def _figures(self) -> Any:  # noqa: ANN401 - as the core takes them
+        """The figures as the core takes them."""
+        track = self.track
+        return (
+            self.name,
+            self.at,
+            self.axes if self.axes is not None else self.tilt_deg or 0.0,
+            self.stiffness,
+            self.dynamic_stiffness,
+            self.loss_factor,
+            self.damping,
+            None if track is None else (track.stiffness, track.frequency, track.damping_ratio),
+            self.table,
+        )
+
+    @classmethod
+    def _of(cls, figures: Any) -> Mount:  # noqa: ANN401 - as the core gives them
+        """Return a mount of the core."""
+        name, at, direction, stiffness, dynamic, loss, damping, track, table = figures
+        is_tilt = isinstance(direction, float)
+        with suppressed():  # Warned of where it was given.
+            return cls(
+                name,
+                at,
+                stiffness,
+                tilt_deg=direction if is_tilt and direction else None,
+                axes=None if is_tilt else direction,
+                dynamic_stiffness=dynamic,
+                loss_factor=loss,
+                damping=damping,
+                track=None if track is None else InertiaTrack(*track),
+                table=table,
+            )
+
+    def dynamic_at(self, frequency: float) -> NDArray[np.complex128]:
+        """Return the complex dynamic stiffness along the three axes at a frequency.
+
+        Parameters
+        ----------
+        frequency : float
+            Frequency, Hz, zero or more; at zero there is no damping.
+
+        Returns
+        -------
+        ndarray of complex, shape (3,)
+            Stiffness, N/m; the imaginary part is the loss.
+
+        Raises
+        ------
+        InputError
+            If the frequency is below zero, or outside of the table.
+        """
+        return _core.mount_stiffness(self._figures, inputs.number("frequency", frequency))
+
+
+def _vector(name: str, values: object) -> Vector:
+    """Return three finite numbers."""
+    listed = inputs.items(name, values, THREE)
+    if len(listed) != 3:
+        raise inputs.rejected(name, values, THREE)
+    x, y, z = (inputs.finite(f"{name}[{k}]", each) for k, each in enumerate(listed))
+    return (x, y, z)
+
+
+def _along_axes(name: str, values: Any) -> Vector:  # noqa: ANN401 - a number or three
+    """Return three numbers, of one the same along all axes."""
+    if np.ndim(values) == 0:
+        number = inputs.number(name, values)
+        return (number, number, number)
+    return _vector(name, values)
+
+
+def _table(given: Any) -> tuple[tuple[float, ...], tuple[Any, ...]]:  # noqa: ANN401 - checked here
+    """Return frequencies and complex stiffnesses along the axes."""
+    hint = (
+        "give a pair: frequencies in Hz, and complex stiffnesses of shape (n_frequencies, 3), N/m"
+    )
+    pair = inputs.items("table", given, hint)
+    if len(pair) != 2:
+        raise inputs.rejected("table", given, hint)
+    frequency = inputs.listed_numbers("table: frequency", pair[0])
+    try:
+        stiffness = np.array(pair[1], dtype=complex)
+    except (TypeError, ValueError) as error:
+        raise inputs.rejected("table", pair[1], f"{hint} ({inputs.reason(error)})") from None
+    if stiffness.shape != (len(frequency), 3):
+        raise InputError(f"table: stiffness has shape {stiffness.shape}: {hint}")
+    return tuple(frequency), tuple(map(tuple, stiffness.tolist()))

@@ -1,0 +1,173 @@
+//! A rigid body on its mounts: stiffness and mass, state at rest, modes, axes.
+//!
+//! The motion is q = (u, φ): displacement of the centre of gravity and a small rotation. Places are in
+//! the engine's axes. What an engine makes of it is a reading of its loads.
+
+mod axes;
+mod body;
+pub(crate) mod file;
+mod footprint;
+mod modes;
+mod mount;
+mod severity;
+mod static_state;
+mod stiffness;
+
+use nalgebra::{Cholesky, Matrix3x6, U6, Vector3};
+
+pub use self::axes::{Axes, ElasticAxis, axes};
+pub use self::body::{Products, RigidBody};
+pub use self::footprint::support_margin;
+pub use self::modes::{FreeMotion, Modes, modes};
+pub use self::mount::{Mount, MountFigures, Orientation, motion_of_point};
+pub use self::severity::{GRADES, Levels, grade};
+pub use self::static_state::{Static, at_rest};
+pub use self::stiffness::{Dynamic, InertiaTrack, Table};
+use crate::Complex64;
+use crate::numbers::error::{Error, Result};
+
+/// Most mounts of a body.
+pub const MOST_MOUNTS: usize = 1000;
+/// Least over largest pivot of a matrix that has an inverse.
+const LEAST_PIVOT: f64 = 1e-14;
+
+/// Complex 6 × 6 matrix of the motion.
+pub type ComplexMatrix6 = nalgebra::Matrix6<Complex64>;
+/// Complex motion, or load, about the CG.
+pub type ComplexVector6 = nalgebra::Vector6<Complex64>;
+
+/// A body on its mounts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Powertrain {
+    body: RigidBody,
+    mounts: Vec<Mount>,
+    /// Deflection of each mount along its axes, of the motion.
+    deflections: Vec<Matrix3x6<f64>>,
+}
+
+impl Powertrain {
+    /// A body on at least one mount, whose names are distinct.
+    pub fn new(body: RigidBody, mounts: Vec<Mount>) -> Result<Self> {
+        if mounts.is_empty() || mounts.len() > MOST_MOUNTS {
+            let hint = format!("give 1 to {MOST_MOUNTS} mounts");
+            return Err(Error::value("mounts", format!("{} mounts", mounts.len()), hint));
+        }
+        for (k, mount) in mounts.iter().enumerate() {
+            if mounts[..k].iter().any(|other| other.name() == mount.name()) {
+                let hint = "is the name of another mount: give each its own";
+                return Err(Error::value(format!("mounts[{k}].name"), mount.name(), hint));
+            }
+        }
+        let deflection = |mount: &Mount| mount.axes() * motion_of_point(&(mount.at() - body.cg()));
+        let deflections = mounts.iter().map(deflection).collect();
+        Ok(Self { body, mounts, deflections })
+    }
+
+    /// The body.
+    #[must_use]
+    pub fn body(&self) -> &RigidBody {
+        &self.body
+    }
+
+    /// The mounts.
+    #[must_use]
+    pub fn mounts(&self) -> &[Mount] {
+        &self.mounts
+    }
+
+    /// Deflection of each mount along its own axes, of the motion.
+    #[must_use]
+    pub fn deflections(&self) -> &[Matrix3x6<f64>] {
+        &self.deflections
+    }
+
+    /// Stiffness of each mount along its axes at an angular speed, N/m; `point` names the operation.
+    pub fn stiffnesses(
+        &self,
+        omega: f64,
+        point: impl Fn() -> String,
+    ) -> Result<Vec<[Complex64; 3]>> {
+        self.mounts.iter().map(|mount| mount.stiffness_at(omega, &point)).collect()
+    }
+
+    /// Sum of mounts of these stiffnesses along their axes: complex symmetric.
+    #[must_use]
+    pub fn assembled(&self, stiffnesses: &[[Complex64; 3]]) -> ComplexMatrix6 {
+        let mut sum = ComplexMatrix6::zeros();
+        for (deflection, along) in self.deflections.iter().zip(stiffnesses) {
+            for (axis, &stiffness) in along.iter().enumerate() {
+                let row = deflection.row(axis);
+                for (j, &right) in row.iter().enumerate() {
+                    let scaled = stiffness * right;
+                    for (i, &left) in row.iter().enumerate() {
+                        sum[(i, j)] += scaled * left;
+                    }
+                }
+            }
+        }
+        sum
+    }
+
+    /// Factor L of the mass matrix, L·Lᵀ.
+    fn mass_factor(&self) -> Result<Cholesky<f64, U6>> {
+        Cholesky::new(self.body.mass_matrix()).ok_or_else(|| {
+            let hint = "give a tensor whose principal moments are above zero";
+            Error::value("inertia", "not positive definite", hint)
+        })
+    }
+
+    /// Motion under a load about the CG at an angular speed; none where the matrix has no inverse, as in
+    /// undamped resonance.
+    #[must_use]
+    pub fn motion(
+        &self,
+        stiffnesses: &[[Complex64; 3]],
+        omega: f64,
+        load: &ComplexVector6,
+    ) -> Option<ComplexVector6> {
+        let mass = self.body.mass_matrix();
+        let matrix = self.assembled(stiffnesses) - mass.map(|m| Complex64::from(m * omega * omega));
+        // In units in which translations and rotations are of one size.
+        let scale = mass.diagonal().map(|m| Complex64::from(m.sqrt().recip()));
+        let scaled = ComplexMatrix6::from_diagonal(&scale);
+        let factors = (scaled * matrix * scaled).lu();
+        let pivots = factors.u().diagonal().map(Complex64::norm);
+        if pivots.min().is_nan() || pivots.min() <= LEAST_PIVOT * pivots.max() {
+            return None;
+        }
+        Some(scaled * factors.solve(&(scaled * load))?)
+    }
+
+    /// Force of each mount on what carries it, along x, y and z, of stiffnesses along its axes.
+    #[must_use]
+    pub fn force_on_support(
+        &self,
+        mount: usize,
+        stiffness: &[Complex64; 3],
+        motion: &ComplexVector6,
+    ) -> [Complex64; 3] {
+        let along = complex(&self.deflections[mount]) * motion;
+        let forces = nalgebra::Vector3::from_fn(|axis, _| stiffness[axis] * along[axis]);
+        let axes = self.mounts[mount].axes().transpose().map(Complex64::from);
+        (axes * forces).into()
+    }
+
+    /// Motion of a point, of a motion.
+    #[must_use]
+    pub fn motion_of(&self, point: [f64; 3], motion: &ComplexVector6) -> [Complex64; 3] {
+        let arm = Vector3::from(point) - self.body.cg();
+        (complex(&motion_of_point(&arm)) * motion).into()
+    }
+}
+
+fn complex(matrix: &Matrix3x6<f64>) -> Matrix3x6<Complex64> {
+    matrix.map(Complex64::from)
+}
+
+/// Real part of stiffnesses.
+fn real(stiffnesses: &[[Complex64; 3]]) -> Vec<[f64; 3]> {
+    stiffnesses.iter().map(|along| along.map(|k| k.re)).collect()
+}
+
+#[cfg(test)]
+pub(crate) mod tests;

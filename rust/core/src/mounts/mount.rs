@@ -1,0 +1,261 @@
+//! A mount: a place, three axes at right angles, stiffness along them at rest and in motion.
+
+use nalgebra::{Matrix3, Matrix3x6, Vector3};
+
+use super::stiffness::{Dynamic, InertiaTrack, Table};
+use crate::Complex64;
+use crate::numbers::angle::{Angle, cis_degrees};
+use crate::numbers::error::{Error, Result};
+use crate::numbers::limits;
+
+/// Largest scalar product of two directions at right angles, and error of a length of 1, that typed
+/// digits make; axes are made exact.
+const SKEW_BY_TYPING: f64 = 1e-3;
+
+/// How a mount's axes stand in the engine.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Orientation {
+    /// The first axis is turned from +x towards +y by degrees, the second is a quarter turn ahead of it, and
+    /// the third is along z.
+    Tilt(f64),
+    /// Directions of the first, second and third axis: a row each.
+    Axes([[f64; 3]; 3]),
+}
+
+/// Figures of a mount as they are given.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct MountFigures {
+    /// Name.
+    pub name: String,
+    /// Place of its elastic centre, m.
+    pub at: [f64; 3],
+    /// Directions of its axes.
+    pub orientation: Orientation,
+    /// Static stiffness along them, N/m.
+    pub stiffness: [f64; 3],
+    /// Dynamic stiffness; the static one where it is not given.
+    pub dynamic_stiffness: Option<[f64; 3]>,
+    /// Imaginary over real part of the dynamic stiffness.
+    pub loss_factor: [f64; 3],
+    /// Viscous damping, N·s/m.
+    pub damping: [f64; 3],
+    /// Fluid of a hydraulic mount, along the first axis.
+    pub track: Option<InertiaTrack>,
+    /// Measured dynamic stiffness, in place of the figures above.
+    pub table: Option<Table>,
+}
+
+/// A mount, checked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mount {
+    figures: MountFigures,
+    axes: Matrix3<f64>,
+    dynamic: Dynamic,
+}
+
+impl Default for Orientation {
+    fn default() -> Self {
+        Self::Tilt(0.0)
+    }
+}
+
+impl Mount {
+    /// A mount of these figures.
+    pub fn new(figures: MountFigures) -> Result<Self> {
+        limits::name("name", &figures.name)?;
+        for (k, place) in figures.at.into_iter().enumerate() {
+            limits::finite(&format!("at[{k}]"), place)?;
+        }
+        let axes = figures.orientation.axes()?;
+        for (k, stiffness) in figures.stiffness.into_iter().enumerate() {
+            limits::not_negative(&format!("stiffness[{k}]"), stiffness)?;
+        }
+        let dynamic = figures.dynamic()?;
+        dynamic.check()?;
+        Ok(Self { figures, axes, dynamic })
+    }
+
+    /// The figures.
+    #[must_use]
+    pub fn figures(&self) -> &MountFigures {
+        &self.figures
+    }
+
+    /// Name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.figures.name
+    }
+
+    /// Place, m.
+    #[must_use]
+    pub fn at(&self) -> Vector3<f64> {
+        self.figures.at.into()
+    }
+
+    /// Directions of its axes, a row each.
+    #[must_use]
+    pub fn axes(&self) -> Matrix3<f64> {
+        self.axes
+    }
+
+    /// Static stiffness along its axes, N/m.
+    #[must_use]
+    pub fn static_stiffness(&self) -> [f64; 3] {
+        self.figures.stiffness
+    }
+
+    /// Dynamic stiffness.
+    #[must_use]
+    pub fn dynamic(&self) -> &Dynamic {
+        &self.dynamic
+    }
+
+    /// Complex stiffness along its axes at an angular speed, N/m; outside of a table an error about a
+    /// point of operation in words, such as "order 2 at 3000 rpm".
+    pub fn stiffness_at(
+        &self,
+        omega: f64,
+        point: impl FnOnce() -> String,
+    ) -> Result<[Complex64; 3]> {
+        self.dynamic.at(omega).ok_or_else(|| {
+            let [low, high] = self.dynamic.range();
+            let frequency = omega / std::f64::consts::TAU;
+            let argument = format!("table of mount {:?}", self.figures.name);
+            let hint = format!(
+                "{}, is outside: it has {low} to {high} Hz; extend the table, or leave out this point",
+                point()
+            );
+            Error::value(argument, format!("{frequency:.6} Hz"), hint)
+        })
+    }
+}
+
+impl MountFigures {
+    fn dynamic(&self) -> Result<Dynamic> {
+        let Some(table) = &self.table else {
+            return Ok(Dynamic::Constant {
+                stiffness: self.dynamic_stiffness.unwrap_or(self.stiffness),
+                loss_factor: self.loss_factor,
+                damping: self.damping,
+                track: self.track,
+            });
+        };
+        let given = [
+            ("dynamic_stiffness", self.dynamic_stiffness.is_some()),
+            ("loss_factor", self.loss_factor != [0.0; 3]),
+            ("damping", self.damping != [0.0; 3]),
+            ("track", self.track.is_some()),
+        ];
+        if let Some((name, _)) = given.into_iter().find(|(_, given)| *given) {
+            let hint =
+                "the table has the whole dynamic stiffness and its loss: leave out one of them";
+            return Err(Error::value(name, "given beside a table", hint));
+        }
+        Ok(Dynamic::Table(table.clone()))
+    }
+}
+
+impl Orientation {
+    /// The axes, a row each.
+    fn axes(self) -> Result<Matrix3<f64>> {
+        match self {
+            Self::Axes(rows) => orthonormal(&rows),
+            Self::Tilt(degrees) => {
+                Angle::from_degrees(degrees).map_err(|error| error.named("tilt_deg"))?;
+                let Complex64 { re: cos, im: sin } = cis_degrees(degrees);
+                Ok(Matrix3::new(cos, sin, 0.0, -sin, cos, 0.0, 0.0, 0.0, 1.0))
+            }
+        }
+    }
+}
+
+/// Three directions at exact right angles, from ones that are to a few digits.
+fn orthonormal(rows: &[[f64; 3]; 3]) -> Result<Matrix3<f64>> {
+    let axes = Matrix3::from_fn(|row, column| rows[row][column]);
+    let skew = (axes * axes.transpose() - Matrix3::identity()).amax();
+    if skew.is_nan() || skew > SKEW_BY_TYPING {
+        let hint = "give three rows of length 1 at right angles to each other: the directions of the \
+                    mount's first, second and third axis";
+        return Err(Error::value("axes", format!("{rows:?}"), hint));
+    }
+    let first = axes.row(0).transpose().normalize();
+    let second = axes.row(1).transpose();
+    let second = (second - first * first.dot(&second)).normalize();
+    let third = first.cross(&second);
+    // A third axis of the other sense is the same axis.
+    let third = if third.dot(&axes.row(2).transpose()) < 0.0 { -third } else { third };
+    Ok(Matrix3::from_rows(&[first.transpose(), second.transpose(), third.transpose()]))
+}
+
+/// Motion of a point that is this far from the CG, of (displacement of the CG, rotation): u + φ × arm.
+#[must_use]
+pub fn motion_of_point(arm: &Vector3<f64>) -> Matrix3x6<f64> {
+    let mut motion = Matrix3x6::zeros();
+    motion.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
+    motion.fixed_view_mut::<3, 3>(0, 3).copy_from(&-arm.cross_matrix());
+    motion
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn figures() -> MountFigures {
+        MountFigures { stiffness: [1e5; 3], ..MountFigures::default() }
+    }
+
+    fn along(rows: [[f64; 3]; 3]) -> Result<Mount> {
+        Mount::new(MountFigures { orientation: Orientation::Axes(rows), ..figures() })
+    }
+
+    #[test]
+    fn axes_are_made_exact_and_others_rejected() {
+        let axes = [[0.707, 0.707, 0.0], [-0.707, 0.707, 0.0], [0.0, 0.0, -1.0]];
+        let made = along(axes).unwrap().axes();
+        let product = made * made.transpose();
+        assert!((product - Matrix3::identity()).amax() < 1e-15);
+        assert!((made[(2, 2)] + 1.0).abs() < 1e-15);
+        let axes = [[1.0, 0.0, 0.0], [0.1, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let error = along(axes).unwrap_err().to_string();
+        assert!(error.starts_with("axes = ") && error.contains("at right angles"), "{error}");
+        assert!(along([[f64::NAN; 3]; 3]).is_err());
+        let orientation = Orientation::Tilt(90.0);
+        let turned = Mount::new(MountFigures { orientation, ..figures() }).unwrap().axes();
+        assert_eq!(turned.row(0).transpose(), Vector3::y());
+        let orientation = Orientation::Tilt(f64::NAN);
+        let error = Mount::new(MountFigures { orientation, ..figures() }).unwrap_err();
+        assert!(error.to_string().starts_with("tilt_deg = NaN"));
+    }
+
+    #[test]
+    fn dynamic_stiffness_is_the_static_one_a_figure_or_a_table() {
+        let mount = Mount::new(figures()).unwrap();
+        let at_rest = mount.stiffness_at(10.0, String::new).unwrap();
+        assert_eq!(at_rest, [Complex64::new(1e5, 0.0); 3]);
+        let dynamic_stiffness = Some([1.3e5; 3]);
+        let mount = Mount::new(MountFigures { dynamic_stiffness, ..figures() }).unwrap();
+        assert_eq!(mount.stiffness_at(10.0, String::new).unwrap()[0].re, 1.3e5);
+        assert_eq!(mount.static_stiffness(), [1e5; 3]);
+        let stiffness = vec![[Complex64::new(1e5, 1e4); 3]; 2];
+        let table = Some(Table { frequency: vec![1.0, 2.0], stiffness });
+        let named = MountFigures { name: "rear".into(), table: table.clone(), ..figures() };
+        let error = Mount::new(named)
+            .unwrap()
+            .stiffness_at(std::f64::consts::TAU * 50.0, || "order 2 at 1500 rpm".into());
+        let said = "table of mount \"rear\" = 50.000000 Hz: order 2 at 1500 rpm, is outside: it has 1 to 2 Hz";
+        assert!(error.unwrap_err().to_string().starts_with(said));
+        let both = MountFigures { table, loss_factor: [0.1; 3], ..figures() };
+        let error = Mount::new(both).unwrap_err().to_string();
+        assert!(error.starts_with("loss_factor = given beside a table"), "{error}");
+    }
+
+    #[test]
+    fn a_point_moves_with_the_cg_and_about_it() {
+        let arm = Vector3::new(0.1, -0.2, 0.3);
+        let [shift, turn] = [Vector3::new(1.0, 2.0, 3.0), Vector3::new(-0.4, 0.5, 0.6)];
+        let both = nalgebra::Vector6::new(1.0, 2.0, 3.0, -0.4, 0.5, 0.6);
+        let moved = motion_of_point(&arm) * both;
+        assert!((moved - (shift + turn.cross(&arm))).amax() < 1e-15);
+    }
+}

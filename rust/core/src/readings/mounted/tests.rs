@@ -1,0 +1,236 @@
+//! Figures of an inline four on four mounts, and laws of random powertrains under random engines.
+
+use nalgebra::Vector3;
+
+use super::*;
+use crate::engine::Station;
+use crate::mechanism::slider_crank::Cylinder;
+use crate::mounts::tests::{four_mounts, random};
+use crate::numbers::angle::Angle;
+use crate::numbers::draws;
+use crate::readings::peaks::largest_vectors;
+
+fn degrees(degrees: f64) -> Angle {
+    Angle::from_degrees(degrees).unwrap()
+}
+
+fn station(cylinder: Cylinder, tdc: f64, bank: f64, z: f64) -> Station {
+    Station { cylinder, tdc: degrees(tdc), bank: degrees(bank), z, rotating_mass: 0.0 }
+}
+
+/// An inline four of 0.45 kg, r 43 mm, l 145 mm, its mid-plane at z = 0.
+fn inline_four() -> Engine {
+    let cylinder = Cylinder::new(0.043, 0.145, 0.45, 0.0).unwrap();
+    let places = [(0.0, -0.15), (180.0, -0.05), (180.0, 0.05), (0.0, 0.15)];
+    let stations = places.map(|(tdc, z)| station(cylinder, tdc, 90.0, z));
+    Engine::new("", "", stations.to_vec()).unwrap()
+}
+
+/// The crank 60 mm below the CG of the body on four mounts: everything moved up by that.
+fn crank_below() -> Arc<Powertrain> {
+    let [loss, up] = [0.1, 0.06];
+    let of_cg = four_mounts(loss);
+    let rows = |m: nalgebra::Matrix3<f64>| [0, 1, 2].map(|i| [0, 1, 2].map(|j| m[(i, j)]));
+    let body =
+        crate::mounts::RigidBody::new(150.0, [0.0, up, 0.0], rows(of_cg.body().inertia()), None);
+    let mounts = of_cg.mounts().iter().map(|mount| {
+        let mut figures = mount.figures().clone();
+        figures.at[1] += up;
+        crate::mounts::Mount::new(figures).unwrap()
+    });
+    Arc::new(Powertrain::new(body.unwrap(), mounts.collect()).unwrap())
+}
+
+fn whole(orders: &[u32]) -> Orders {
+    Orders::whole(orders).unwrap()
+}
+
+fn assert_near(value: f64, expected: f64) {
+    // Figures have eight digits.
+    assert!((value - expected).abs() <= 6e-8 * expected.abs(), "{value} is not {expected}");
+}
+
+#[test]
+fn an_inline_four_at_3000_rpm() {
+    let cancel = Cancel::new();
+    let response =
+        Response::new(&inline_four(), crank_below(), &[3000.0], &whole(&[2, 4, 6]), &cancel)
+            .unwrap();
+    assert_near(response.loads()[0][1].norm(), 2317.3515);
+    assert_near(response.loads()[0][5].norm(), 164.327_04);
+    let sums = response.support_loads(&cancel).unwrap();
+    assert_near(sums[0][1].norm(), 48.169_592);
+    assert_near(sums[0][0].norm(), 10.606_355);
+    assert_near(response.motions()[0][1].norm(), 39.942_113e-6);
+    let free = response.loads()[0][1].norm() / (200.0 * std::f64::consts::PI).powi(2) / 150.0;
+    assert_near(free, 39.1328e-6);
+    let power = response.power(&cancel).unwrap();
+    assert_near(power[0][1..].iter().sum(), 83.048_425e-3);
+    assert_near(power[0][0], 83.048_425e-3);
+    let head = [0.0, 0.06 + 0.35, 0.0];
+    let velocity = response.at(head, Derivative::Velocity, &cancel).unwrap();
+    let rms =
+        |axis: usize| (velocity.iter().map(|v| v[axis].norm_sqr()).sum::<f64>() / 2.0).sqrt() * 1e3;
+    assert_near(rms(1), 17.746_952);
+    assert_near(rms(0), 14.966_088);
+    // 17.7 mm/s, most of it at 100 Hz.
+    assert_eq!(response.grades(head, &cancel).unwrap(), [18.0]);
+}
+
+#[test]
+fn a_half_order_of_torque_rolls_the_engine() {
+    // 60 N m about z at order 1/2 of 800 rpm.
+    let on_mounts = crank_below();
+    let omega = TAU * 800.0 / 120.0;
+    let mut load = ComplexVector6::zeros();
+    load[5] = Complex64::from(60.0);
+    let along = on_mounts.stiffnesses(omega, String::new).unwrap();
+    let motion = on_mounts.motion(&along, omega, &load).unwrap();
+    assert_near(motion[5].norm().to_degrees(), 0.095_812_975);
+}
+
+/// A random vee of one to six cylinders.
+fn random_engine(number: &mut impl FnMut() -> f64) -> Engine {
+    let count = 1 + (2.5 * (number() + 1.0)) as usize;
+    let stations = (0..count).map(|k| {
+        let cylinder = Cylinder::new(0.05, 0.15, 0.6 + 0.5 * number(), 0.01 * number()).unwrap();
+        let bank = if k.is_multiple_of(2) { 60.0 } else { 120.0 };
+        let mut place = station(cylinder, (180.0 * number()).round(), bank, number());
+        place.rotating_mass = 0.3 + 0.2 * number();
+        place
+    });
+    Engine::new("", "", stations.collect()).unwrap()
+}
+
+#[test]
+fn forces_moments_and_power_balance() {
+    let (mut number, cancel) = (draws(21), Cancel::new());
+    for _ in 0..30 {
+        let engine = random_engine(&mut number);
+        let on_mounts = Arc::new(random(&mut number, true));
+        let rpm = [0.0, 300.0 * (1.1 + number()), 3000.0 * (1.1 + number())];
+        let auto = Orders::Auto { rtol: 1e-9 };
+        let response =
+            Response::new(&engine, Arc::clone(&on_mounts), &rpm, &auto, &cancel).unwrap();
+        let mass = on_mounts.body().mass_matrix().map(Complex64::from);
+        let cg = on_mounts.body().cg();
+        let forces = response.mount_forces(&cancel).unwrap();
+        let sums = response.support_loads(&cancel).unwrap();
+        let power = response.power(&cancel).unwrap();
+        let count = on_mounts.mounts().len();
+        for (point, load) in response.loads().iter().enumerate() {
+            let (motion, omega) = (response.motions()[point], response.omega_of(point));
+            let inertia = mass * motion * Complex64::from(omega * omega);
+            let expected = load + inertia;
+            // Sizes of what is added up, and some hundred roundings of each.
+            let size = load.norm() + inertia.norm() + sums[point].norm();
+            assert!((expected - sums[point]).norm() <= 1e-12 * size);
+            let mut sum = ComplexVector6::zeros();
+            for (mount, force) in on_mounts.mounts().iter().zip(&forces[point * count..]) {
+                let arm = (mount.at() - cg).map(Complex64::from);
+                let force = Vector3::from(*force);
+                let moment = arm.cross(&force);
+                sum += ComplexVector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
+            }
+            assert!((sum - sums[point]).norm() <= 1e-12 * size);
+            let lost: f64 = power[point][1..].iter().sum();
+            // Reactive power is what the power put in is the small rest of.
+            let reactive = omega * load.norm() * motion.norm();
+            assert!((lost - power[point][0]).abs() <= 1e-12 * reactive);
+            assert!(power[point].iter().skip(1).all(|&lost| lost >= 0.0));
+        }
+        assert!(response.error_bound().force >= 0.0);
+    }
+}
+
+#[test]
+fn receptances_are_reciprocal_and_have_the_limits_of_springs_and_of_a_free_body() {
+    let mut number = draws(22);
+    for _ in 0..30 {
+        let on_mounts = random(&mut number, true);
+        let unit = |k: usize| {
+            let mut load = ComplexVector6::zeros();
+            load[k] = Complex64::ONE;
+            load
+        };
+        let mass = on_mounts.body().mass_matrix().map(Complex64::from);
+        let motions = |omega: f64| {
+            let along = on_mounts.stiffnesses(omega, String::new).unwrap();
+            [0, 1, 2, 3, 4, 5].map(|k| on_mounts.motion(&along, omega, &unit(k)).unwrap())
+        };
+        let between = motions(30.0);
+        for (i, j) in (0..6).flat_map(|i| (0..i).map(move |j| (i, j))) {
+            let size = (between[i][i] * between[j][j]).norm().sqrt();
+            assert!((between[i][j] - between[j][i]).norm() < 1e-12 * size);
+        }
+        let rest = on_mounts.assembled(&on_mounts.stiffnesses(0.0, String::new).unwrap());
+        for (k, motion) in motions(0.0).iter().enumerate() {
+            assert!((rest * motion - unit(k)).norm() < 1e-10);
+        }
+        let omega = 1e9;
+        for (k, motion) in motions(omega).iter().enumerate() {
+            let free = mass * motion * Complex64::from(-omega * omega);
+            // Viscous damping falls with the speed alone.
+            assert!((free - unit(k)).norm() < 1e-4);
+        }
+    }
+}
+
+#[test]
+fn undamped_resonance_and_tables_left_are_named() {
+    let cancel = Cancel::new();
+    let on_mounts = Arc::new(four_mounts(0.0));
+    let vertical = crate::mounts::modes(&on_mounts, None).unwrap().frequency[2];
+    let rpm = [1000.0, vertical * 30.0];
+    let error = Response::new(&inline_four(), on_mounts, &rpm, &whole(&[4, 2]), &cancel);
+    let error = error.unwrap_err().to_string();
+    assert!(error.contains("order 2 is at 14.235251 Hz"), "{error}");
+    let mut figures = four_mounts(0.0).mounts()[0].figures().clone();
+    let stiffness = vec![[Complex64::new(1e5, 1e4); 3]; 2];
+    figures.table = Some(crate::mounts::Table { frequency: vec![0.0, 90.0], stiffness });
+    let mut mounts = four_mounts(0.1).mounts().to_vec();
+    mounts[0] = crate::mounts::Mount::new(figures).unwrap();
+    let on_mounts = Arc::new(Powertrain::new(*four_mounts(0.1).body(), mounts).unwrap());
+    let response = |rpm: f64| {
+        let on_mounts = Arc::clone(&on_mounts);
+        Response::new(&inline_four(), on_mounts, &[rpm], &whole(&[2]), &cancel)
+    };
+    assert!(response(2699.0).is_ok());
+    let error = response(3000.0).unwrap_err().to_string();
+    let said = "table of mount \"0\" = 100.000000 Hz: order 2 at 3000 rpm, is outside";
+    assert!(error.starts_with(said), "{error}");
+}
+
+#[test]
+fn peaks_of_vectors_in_space_are_true() {
+    let (mut number, cancel) = (draws(23), Cancel::new());
+    let some =
+        |halves: &[u32]| halves.iter().map(|&h| Order::from_halves(h).unwrap()).collect::<Vec<_>>();
+    let many: Vec<u32> = (1..260).collect();
+    for halves in [&[4][..], &[1, 2, 3, 8], &many] {
+        let orders = some(halves);
+        let mut draw = || Complex64::new(number(), number());
+        let phasors: Vec<[Complex64; 3]> =
+            orders.iter().map(|_| [draw(), draw(), draw()]).collect();
+        let peaks = largest_vectors(&orders, &phasors, &cancel).unwrap()[0];
+        let mut sampled = [0.0_f64; 4];
+        let samples = 40 * 1024;
+        for k in 0..samples {
+            let theta = 2.0 * TAU * f64::from(k) / f64::from(samples);
+            let mut vector = [0.0; 3];
+            for (order, phasor) in orders.iter().zip(&phasors) {
+                let unit = Complex64::cis(order.number() * theta);
+                (0..3).for_each(|axis| vector[axis] += (phasor[axis] * unit).re);
+            }
+            let length = Vector3::from(vector).norm();
+            for (largest, value) in
+                sampled.iter_mut().zip([vector[0], vector[1], vector[2], length])
+            {
+                *largest = largest.max(value.abs());
+            }
+        }
+        for (peak, sampled) in peaks.iter().zip(sampled) {
+            assert!(*peak >= sampled * (1.0 - 1e-12) && *peak < sampled * (1.0 + 2e-4), "{peak}");
+        }
+    }
+}

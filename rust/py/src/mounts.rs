@@ -1,0 +1,370 @@
+//! Rigid bodies on mounts, and engines on them.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use crate::array::frozen;
+use crankpin_core as core;
+use crankpin_core::engine::file;
+use crankpin_core::mounted::Derivative;
+use crankpin_core::mounts::{self, InertiaTrack, Mount, MountFigures, Products, RigidBody, Table};
+use crankpin_core::peaks::largest_vectors;
+use crankpin_core::{Complex64, memory};
+use crankpin_macros::guarded;
+use ndarray::{Array1, Array2};
+use numpy::{PyArray1, PyArray2, PyArrayDyn, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+
+use crate::balance;
+use crate::boundary;
+use crate::convert::{self, OrRaise, OrderNumber, numbers};
+use crate::engine::{Engine, choice};
+use crate::interrupt;
+
+/// Mass, centre of gravity, tensor of inertia.
+type Body = (f64, [f64; 3], [[f64; 3]; 3]);
+/// Frequencies, and complex stiffnesses along the three axes at them.
+type Rows = (Vec<f64>, Vec<[Complex64; 3]>);
+/// Name, place, orientation, static and dynamic stiffness, loss factor, damping, track, table.
+type Figures = (
+    String,
+    [f64; 3],
+    Orientation,
+    [f64; 3],
+    Option<[f64; 3]>,
+    [f64; 3],
+    [f64; 3],
+    Option<(f64, f64, f64)>,
+    Option<Rows>,
+);
+/// Displacements by weight and torque, forces of the mounts by each, and the margin of support.
+type Static<'py> = ([[f64; 6]; 2], [Bound<'py, PyArray2<f64>>; 2], f64);
+/// Frequencies, shapes, energy and strain energy, then purity, loss factor and damped frequency, groups, and
+/// free motions in words.
+type Modes<'py> = (
+    Bound<'py, PyArray1<f64>>,
+    [Bound<'py, PyArray2<f64>>; 3],
+    [Bound<'py, PyArray1<f64>>; 3],
+    [usize; 6],
+    Vec<String>,
+);
+/// Directions of torque roll axis and elastic axis and the foot of that, distances of the mounts, and figures:
+/// angles of both to the crank, between them, distance, pitch, compliance.
+type Axes<'py> = ([[f64; 3]; 3], Bound<'py, PyArray1<f64>>, [f64; 6]);
+
+/// Degrees about z, or directions of the axes.
+#[derive(FromPyObject, IntoPyObject)]
+pub enum Orientation {
+    /// Degrees.
+    Tilt(f64),
+    /// A row for each axis.
+    Axes([[f64; 3]; 3]),
+}
+
+/// Body of a tensor that was checked.
+fn body((mass, cg, inertia): Body) -> core::Result<RigidBody> {
+    RigidBody::new(mass, cg, inertia, Some(Products::Tensor))
+}
+
+fn mount(figures: Figures) -> core::Result<Mount> {
+    let (name, at, orientation, stiffness, dynamic_stiffness, loss_factor, damping, track, table) =
+        figures;
+    let track = track.map(|(stiffness, frequency, damping_ratio)| InertiaTrack {
+        stiffness,
+        frequency,
+        damping_ratio,
+    });
+    Mount::new(MountFigures {
+        name,
+        at,
+        orientation: match orientation {
+            Orientation::Tilt(degrees) => mounts::Orientation::Tilt(degrees),
+            Orientation::Axes(axes) => mounts::Orientation::Axes(axes),
+        },
+        stiffness,
+        dynamic_stiffness,
+        loss_factor,
+        damping,
+        track,
+        table: table.map(|(frequency, stiffness)| Table { frequency, stiffness }),
+    })
+}
+
+/// The tensor of a body's inertia, its principal moments, and what the smaller ones lack to the largest.
+#[guarded]
+#[pyfunction]
+pub fn rigid_body(
+    mass: f64,
+    cg: [f64; 3],
+    inertia: [[f64; 3]; 3],
+    products: Option<&str>,
+) -> PyResult<([[f64; 3]; 3], [f64; 3], f64)> {
+    let products = products.map(Products::named).transpose().or_raise()?;
+    let body = RigidBody::new(mass, cg, inertia, products).or_raise()?;
+    let tensor = body.inertia();
+    let rows = [0, 1, 2].map(|row| [0, 1, 2].map(|column| tensor[(row, column)]));
+    Ok((rows, body.principal_moments(), body.missing_inertia()))
+}
+
+/// Rejects a mount that there is not.
+#[guarded]
+#[pyfunction]
+pub fn check_mount(figures: Figures) -> PyResult<()> {
+    mount(figures).or_raise().map(drop)
+}
+
+/// Complex stiffness of a mount along its axes at a frequency, Hz.
+#[guarded]
+#[pyfunction]
+pub fn mount_stiffness(
+    py: Python<'_>,
+    figures: Figures,
+    frequency: f64,
+) -> PyResult<Bound<'_, PyArray1<Complex64>>> {
+    let frequency = core::limits::distance("frequency", frequency).or_raise()?;
+    let mount = mount(figures).or_raise()?;
+    let along = mount.stiffness_at(frequency * TAU, || "the frequency given".into()).or_raise()?;
+    frozen(py, along.to_vec().into())
+}
+
+/// A body on mounts.
+#[pyclass(frozen, module = "crankpin._core")]
+pub struct Powertrain(Arc<mounts::Powertrain>);
+
+#[guarded]
+#[pymethods]
+impl Powertrain {
+    #[new]
+    fn new(body: Body, mounts: Vec<Figures>) -> PyResult<Self> {
+        let mounts = mounts.into_iter().map(mount).collect::<core::Result<_>>().or_raise()?;
+        let powertrain = mounts::Powertrain::new(self::body(body).or_raise()?, mounts);
+        powertrain.or_raise().map(|powertrain| Self(Arc::new(powertrain)))
+    }
+
+    /// Engine and body on mounts of a file, or no body.
+    #[staticmethod]
+    fn from_text(text: &str, toml: bool) -> PyResult<(Engine, Option<Self>)> {
+        let read = if toml { file::mounted_from_toml } else { file::mounted_from_json };
+        let (engine, powertrain) = read(text).or_raise()?;
+        Ok((engine.into(), powertrain.map(|powertrain| Self(Arc::new(powertrain)))))
+    }
+
+    /// Text of a file of an engine and this.
+    fn to_text<'py>(
+        &self,
+        py: Python<'py>,
+        engine: &Bound<'_, Engine>,
+        toml: bool,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let write = if toml { file::mounted_to_toml } else { file::mounted_to_json };
+        boundary::text(py, &write(&engine.get().0, Some(&self.0)).or_raise()?)
+    }
+
+    #[getter]
+    fn body(&self) -> Body {
+        let (body, tensor) = (self.0.body(), self.0.body().inertia());
+        let rows = [0, 1, 2].map(|row| [0, 1, 2].map(|column| tensor[(row, column)]));
+        (body.mass(), body.cg().into(), rows)
+    }
+
+    #[getter]
+    fn mounts(&self) -> Vec<Figures> {
+        let figures = |mount: &Mount| {
+            let each = mount.figures().clone();
+            let orientation = match each.orientation {
+                mounts::Orientation::Tilt(degrees) => Orientation::Tilt(degrees),
+                mounts::Orientation::Axes(axes) => Orientation::Axes(axes),
+            };
+            let track = each.track.map(|t| (t.stiffness, t.frequency, t.damping_ratio));
+            (
+                each.name,
+                each.at,
+                orientation,
+                each.stiffness,
+                each.dynamic_stiffness,
+                each.loss_factor,
+                each.damping,
+                track,
+                each.table.map(|table| (table.frequency, table.stiffness)),
+            )
+        };
+        self.0.mounts().iter().map(figures).collect()
+    }
+
+    /// At rest, under gravity and a torque on the body about z.
+    #[pyo3(name = "static")]
+    fn at_rest<'py>(
+        &self,
+        py: Python<'py>,
+        gravity: [f64; 3],
+        torque: f64,
+    ) -> PyResult<Static<'py>> {
+        let found = mounts::at_rest(&self.0, gravity, torque).or_raise()?;
+        let [weight, torque] = found.force;
+        let forces = [frozen(py, Array2::from(weight))?, frozen(py, Array2::from(torque))?];
+        Ok((found.displacement, forces, found.support_margin))
+    }
+
+    fn modes<'py>(&self, py: Python<'py>, frequency: Option<f64>) -> PyResult<Modes<'py>> {
+        let found = mounts::modes(&self.0, frequency).or_raise()?;
+        let square = |matrix: &nalgebra::Matrix6<f64>| {
+            frozen(py, Array2::from_shape_fn((6, 6), |place| matrix[place]))
+        };
+        let row = |values: [f64; 6]| frozen(py, Array1::from(values.to_vec()));
+        Ok((
+            row(found.frequency)?,
+            [
+                square(&found.shapes)?,
+                square(&found.energy)?,
+                frozen(py, Array2::from(found.strain))?,
+            ],
+            [row(found.purity)?, row(found.loss_factor)?, row(found.damped_frequency)?],
+            found.group,
+            found.free.iter().map(mounts::FreeMotion::in_words).collect(),
+        ))
+    }
+
+    fn axes<'py>(&self, py: Python<'py>, frequency: Option<f64>) -> PyResult<Axes<'py>> {
+        let found = mounts::axes(&self.0, frequency).or_raise()?;
+        let elastic = found.elastic;
+        Ok((
+            [found.torque_roll, elastic.direction, elastic.foot],
+            frozen(py, Array1::from(found.mount_distances))?,
+            [
+                found.torque_roll_deg,
+                elastic.angle_deg,
+                found.angle_deg,
+                found.distance,
+                elastic.pitch,
+                elastic.compliance,
+            ],
+        ))
+    }
+
+    fn response(
+        &self,
+        py: Python<'_>,
+        engine: &Bound<'_, Engine>,
+        rpm: PyReadonlyArray1<'_, f64>,
+        orders: Option<Vec<OrderNumber>>,
+        rtol: f64,
+    ) -> PyResult<Response> {
+        let (orders, rpm) = (balance::orders(orders, rtol)?, rpm.as_slice()?);
+        let engine = &engine.get().0;
+        let found = interrupt::run(py, |cancel| {
+            core::mounted::Response::new(engine, Arc::clone(&self.0), rpm, &orders, cancel)
+        })?;
+        Ok(Response { core: found, speeds: rpm.len(), mounts: self.0.mounts().len() })
+    }
+}
+
+/// An engine on its mounts at some speeds.
+#[pyclass(frozen, module = "crankpin._core")]
+pub struct Response {
+    core: core::mounted::Response,
+    speeds: usize,
+    mounts: usize,
+}
+
+impl Response {
+    /// Rows of a width as an array over speeds, orders, and what the rows are of.
+    fn shaped<'py, T: numpy::Element + 'static>(
+        &self,
+        py: Python<'py>,
+        values: Vec<T>,
+        rest: &[usize],
+    ) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
+        let shape = [&[self.speeds, self.core.orders().len()], rest].concat();
+        frozen(py, memory::array("response", shape, values).or_raise()?)
+    }
+}
+
+/// Numbers of vectors side by side.
+fn side_by_side<const N: usize>(rows: &[nalgebra::SVector<Complex64, N>]) -> Vec<Complex64> {
+    rows.iter().flat_map(|row| row.iter().copied()).collect()
+}
+
+#[guarded]
+#[pymethods]
+impl Response {
+    #[getter]
+    fn orders(&self) -> Vec<OrderNumber> {
+        numbers(self.core.orders())
+    }
+
+    #[getter]
+    fn omitted(&self) -> Vec<OrderNumber> {
+        numbers(self.core.omitted())
+    }
+
+    /// Of force, moment and torque of the engine.
+    #[getter]
+    fn error_bound(&self) -> [f64; 3] {
+        self.core.error_bound().values()
+    }
+
+    /// The engine's load about the CG: (`n_rpm`, `n_orders`, 6).
+    fn loads<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
+        self.shaped(py, side_by_side(self.core.loads()), &[6])
+    }
+
+    /// Displacement of the CG and rotation: (`n_rpm`, `n_orders`, 6).
+    fn motions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
+        self.shaped(py, side_by_side(self.core.motions()), &[6])
+    }
+
+    /// Force of each mount on what carries it: (`n_rpm`, `n_orders`, `n_mounts`, 3).
+    fn mount_forces<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
+        let forces = interrupt::run(py, |cancel| self.core.mount_forces(cancel))?;
+        self.shaped(py, forces.into_flattened(), &[self.mounts, 3])
+    }
+
+    /// Their sum, and that of their moments about the CG: (`n_rpm`, `n_orders`, 6).
+    fn support_loads<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
+        let sums = interrupt::run(py, |cancel| self.core.support_loads(cancel))?;
+        self.shaped(py, side_by_side(&sums), &[6])
+    }
+
+    /// Motion of a point: (`n_rpm`, `n_orders`, 3).
+    fn at<'py>(
+        &self,
+        py: Python<'py>,
+        point: [f64; 3],
+        derivative: &str,
+    ) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
+        let derivatives = [
+            ("displacement", Derivative::Displacement),
+            ("velocity", Derivative::Velocity),
+            ("acceleration", Derivative::Acceleration),
+        ];
+        let derivative = choice("derivative", derivative, &derivatives)?;
+        let moved = interrupt::run(py, |cancel| self.core.at(point, derivative, cancel))?;
+        self.shaped(py, moved.into_flattened(), &[3])
+    }
+
+    /// Severity grade of a point at each speed.
+    fn grades<'py>(&self, py: Python<'py>, point: [f64; 3]) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let grades = interrupt::run(py, |cancel| self.core.grades(point, cancel))?;
+        frozen(py, grades.into())
+    }
+
+    /// Power put in, and dissipated by each mount: (`n_rpm`, `n_orders`, 1 + `n_mounts`).
+    fn power<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let rows = interrupt::run(py, |cancel| self.core.power(cancel))?;
+        self.shaped(py, rows.concat(), &[1 + self.mounts])
+    }
+}
+
+/// Largest magnitude along x, y and z, and largest length, of each row of vectors, one of each order.
+#[guarded]
+#[pyfunction]
+pub fn peaks_of_vectors<'py>(
+    py: Python<'py>,
+    orders: Vec<OrderNumber>,
+    phasors: PyReadonlyArray2<'_, Complex64>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let orders = convert::orders(&orders)?;
+    let (vectors, _) = phasors.as_slice()?.as_chunks::<3>();
+    let peaks = interrupt::run(py, |cancel| largest_vectors(&orders, vectors, cancel))?;
+    frozen(py, Array2::from(peaks))
+}

@@ -1,0 +1,97 @@
+"""Do forces, moments and power of random engines on random mounts balance?"""
+
+from __future__ import annotations
+
+import crankpin as cp
+import numpy as np
+import pytest
+
+PRESETS = ("single", "i4", "v6-60", "v8-crossplane")
+
+
+def random_case(seed: int) -> tuple[cp.Powertrain, np.ndarray]:
+    """Return a random powertrain and random speeds."""
+    draw = np.random.default_rng(seed)
+    engine = cp.Engine.preset(PRESETS[seed % len(PRESETS)])
+    weight = cp.Unbalance(draw.uniform(0, 0.02), z=draw.uniform(-0.3, 0.3), angle_deg=30)
+    engine = engine.with_counterweights([*engine.counterweights, weight])
+    root = draw.normal(size=(3, 3))
+    moments = root @ root.T + np.eye(3)
+    inertia = np.trace(moments) * np.eye(3) - moments
+    body = cp.RigidBody(150.0, tuple(draw.uniform(-0.2, 0.2, 3)), inertia, products="tensor")
+    mounts = [
+        cp.Mount(
+            f"{k}",
+            tuple(draw.uniform(-0.5, 0.5, 3)),
+            tuple(draw.uniform(5e4, 4e5, 3)),
+            tilt_deg=draw.uniform(-180, 180),
+            loss_factor=tuple(draw.uniform(0.02, 0.3, 3)),
+            damping=tuple(draw.uniform(0, 500, 3)),
+        )
+        for k in range(draw.integers(3, 7))
+    ]
+    return cp.Powertrain(engine, body, mounts), draw.uniform(300, 6000, 4)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_forces_moments_and_power_balance(seed: int) -> None:
+    p, rpm = random_case(seed)
+    r = p.response(rpm, rtol=1e-6)
+    rate = np.multiply.outer(rpm, np.array(r.orders)) * (2.0 * np.pi / 60.0)
+    mass = p.body.mass * np.eye(6)
+    mass[3:, 3:] = p.body.inertia
+    inertia = rate[..., None] ** 2 * (r.motion @ mass)
+    size = np.linalg.norm(r.load, axis=-1) + np.linalg.norm(inertia, axis=-1)
+    size += np.linalg.norm(r.support_load, axis=-1)
+    # Some hundred roundings of what is added up.
+    assert (np.linalg.norm(r.load + inertia - r.support_load, axis=-1) <= 1e-12 * size).all()
+    forces = np.stack([r.mount_force[name].xyz for name in p.names], axis=-2)
+    arms = np.array([mount.at for mount in p.mounts]) - np.array(p.body.cg)
+    moments = np.cross(arms, forces).sum(axis=-2)
+    whole = np.concatenate([forces.sum(axis=-2), moments], axis=-1)
+    assert (np.linalg.norm(whole - r.support_load, axis=-1) <= 1e-12 * size).all()
+    reactive = rate * np.linalg.norm(r.load, axis=-1) * np.linalg.norm(r.motion, axis=-1)
+    assert (np.abs(r.power_in - r.power_lost.sum(axis=-1)) <= 1e-12 * reactive).all()
+    assert (r.power_lost >= 0.0).all()
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_load_is_the_balance_about_the_cg(seed: int) -> None:
+    p, rpm = random_case(seed)
+    r = p.response(rpm[0], orders=[1, 2, 4])
+    b = p.engine.balance(rpm[0], orders=[1, 2, 4]).about(p.body.cg)
+    expected = np.concatenate(
+        [b.force.xy, np.zeros((3, 1)), b.moment.xy, b.torque.phasor[:, None]], axis=-1
+    )
+    # Rounding of what cancels: of the largest force and its lever.
+    assert np.abs(r.load - expected).max() <= 1e-12 * np.abs(expected).max()
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_points_orders_and_speeds_agree_however_they_are_read(seed: int) -> None:
+    p, rpm = random_case(seed)
+    r = p.response(rpm, orders=[0.5, 1, 2, 4])
+    at_cg = r.at(p.body.cg)
+    assert at_cg.displacement.xyz == pytest.approx(r.motion[..., :3], abs=1e-18)
+    one = r.sel(rpm=float(rpm[2]))
+    assert np.array_equal(one.motion, r.motion[2])
+    point = one.at((0.1, 0.2, 0.3))
+    rate = 1j * 2.0 * np.pi / 60.0 * rpm[2] * np.array(r.orders)[:, None]
+    assert point.velocity.xyz == pytest.approx(rate * point.displacement.xyz)
+    assert point.acceleration.xyz == pytest.approx(rate * point.velocity.xyz)
+    theta = np.radians(np.arange(0, 720, 0.5))
+    waves = np.exp(1j * np.multiply.outer(theta, np.array(r.orders)))
+    sampled = (waves @ point.velocity.xyz).real
+    peaks = np.array([*point.velocity.total.peak_xyz, point.velocity.total.peak])
+    found = np.append(np.abs(sampled).max(axis=0), np.linalg.norm(sampled, axis=1).max())
+    # Samples at half degrees of order 4 miss 1 − cos(1°) at most.
+    assert (peaks >= found * (1 - 1e-12)).all()
+    assert (peaks <= found * (1 + 2e-4) + 1e-18).all()
+    rms = np.sqrt((sampled**2).mean(axis=0))
+    assert point.velocity.total.rms_xyz == pytest.approx(rms)
+    other = one[3].body_force
+    assert np.array_equal(other.xyz, p.response(float(rpm[2]), orders=[3]).body_force.xyz[0])
+    worst = r.worst()
+    peaks_of_mounts = [vector.peak.max() for vector in r.mount_force.values()]
+    assert worst.force == max(peaks_of_mounts)
+    assert r.mount_force[worst.mount][worst.order].peak.max() == worst.force
