@@ -360,7 +360,7 @@ def angle(name: str, value: object) -> str:
         of_float = value.denominator > LARGEST_BINARY and value == float(value)
         if abs(value) < MOST_EXACT and value.denominator < MOST_EXACT and not of_float:
             value = f"{value.numerator}/{value.denominator}"
-    elif isinstance(value, np.ndarray) and not value.ndim:
+    elif isinstance(value, np.ndarray) and not value.ndim and value is not np.ma.masked:
         return angle(name, value[()])
     elif isinstance(value, (Decimal, np.longdouble)):
         value = str(value)

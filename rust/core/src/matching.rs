@@ -635,14 +635,14 @@ mod tests {
                         measure.slope(&vector).iter().map(|&(k, x)| x * change[k]).sum();
                     // A few roundings of figures of order 1.
                     let room = measure.of(&sum) - measure.of(&vector) - least;
-                    assert!(room >= -1e-15 * dimensions as f64, "{vector:?} {change:?}");
+                    assert!(room >= -1e-15 * f64::from(dimensions), "{vector:?} {change:?}");
                     // And not much more, for small changes of a length.
                     let small = 1e-6;
                     let near: Vec<f64> =
                         vector.iter().zip(&change).map(|(a, b)| a + small * b).collect();
                     let rest = measure.of(&near) - measure.of(&vector) - small * least;
                     let long = measure == Measure::Length && length(&vector) > 0.1;
-                    assert!(!long || rest <= 10.0 * dimensions as f64 * small * small, "{rest}");
+                    assert!(!long || rest <= 10.0 * f64::from(dimensions) * small * small, "{rest}");
                 }
             }
         }

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
+from collections.abc import Iterable
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
-
-import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs
@@ -24,7 +23,7 @@ from crankpin.model import checks
 from crankpin.model.data import big_end
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Sequence
 
     from crankpin._support.inputs import Angle, Angles
     from crankpin.model.cylinder import Cylinder
@@ -236,9 +235,12 @@ def _splits(kind: str, shared_pins: bool | None, given: Range | None) -> tuple[E
     return _range("pin_split_deg", given, -HALF, HALF)
 
 
-def _range(name: str, given: Any, low: Exact, high: Exact) -> tuple[Exact, Exact]:  # noqa: ANN401
-    ends = given if np.ndim(given) else (given, given)
+def _range(name: str, given: Range, low: Exact, high: Exact) -> tuple[Exact, Exact]:
     hint = f"give an angle, or the lowest and the highest, {low} to {high}"
+    is_one = isinstance(given, str) or not isinstance(given, Iterable)
+    ends: Sequence[Any] = (given, given)
+    if not is_one and getattr(given, "ndim", None) != 0:
+        ends = inputs.items(name, given, hint)
     if len(ends) != 2:
         raise inputs.rejected(name, given, hint)
     first, last = (exact(inputs.angle(name, end)) for end in ends)
