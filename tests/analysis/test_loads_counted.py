@@ -28,6 +28,11 @@ WORDS = {
     "lame": (LAME, "gas: example petrol, full load; cylinder 3 does not fire"),
 }
 RESULTS: dict[str, Any] = {
+    "mounts": lambda e: cp.Powertrain(
+        e,
+        cp.RigidBody(100.0, (0.0, 0.1, 0.0), (7.0, 8.0, 4.5)),
+        [cp.Mount(name, (x, 0.0, 0.1), 2e5) for name, x in (("a", 0.2), ("b", -0.2), ("c", 0.0))],
+    ).response(3000),
     "balance": lambda e: e.balance(3000, orders=[1, 2]),
     "order": lambda e: e.balance(3000, orders=[1, 2])[2],
     "torque": lambda e: e.balance(3000, orders=[1, 2]).torque,
@@ -65,6 +70,9 @@ NOTHING_OF_GAS = {
     "TwoPlaneCorrection",  # force and moment
     "VanishingOrders", "Verdicts",  # which orders of either there are
     "Firing",  # angles; those that do not fire are named
+    "MountModes",
+    "RollAxes",
+    "StaticState",
 }  # fmt: skip
 """Results in tables that no pressure changes."""
 

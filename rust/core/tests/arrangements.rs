@@ -315,7 +315,7 @@ fn what_is_no_bank_is_refused() {
     let said = |result: Result<Bank, Error>| result.unwrap_err().to_string();
     assert!(said(bank(7, false, None)).contains("even number"));
     for cylinders in [2, 32] {
-        assert!(said(bank(cylinders, false, None)).contains("4 to 30"), "{cylinders}");
+        assert!(said(bank(cylinders, false, None)).contains("4 to 24"), "{cylinders}");
         assert!(said(bank(cylinders, false, None)).contains(&cylinders.to_string()));
     }
     let three = [0.0, 120.0, 240.0].map(|d| Angle::from_degrees(d).unwrap());
