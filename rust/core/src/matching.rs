@@ -642,7 +642,10 @@ mod tests {
                         vector.iter().zip(&change).map(|(a, b)| a + small * b).collect();
                     let rest = measure.of(&near) - measure.of(&vector) - small * least;
                     let long = measure == Measure::Length && length(&vector) > 0.1;
-                    assert!(!long || rest <= 10.0 * f64::from(dimensions) * small * small, "{rest}");
+                    assert!(
+                        !long || rest <= 10.0 * f64::from(dimensions) * small * small,
+                        "{rest}"
+                    );
                 }
             }
         }
