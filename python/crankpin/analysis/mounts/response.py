@@ -341,8 +341,8 @@ class MountResponse(MountQuantities, Keyed, Tabled):
     def transmissibility(self) -> NDArray[np.float64]:
         """Load on what carries the mounts over that of the engine, of each component.
 
-        |support_load|/|load|, NaN where the engine has no load in that direction: there mounts make
-        some of loads in others. Of shape (…, n_orders, n_loads).
+        Magnitude of ``support_load`` over that of ``load``, NaN where the engine has no load in
+        that direction: there mounts make some of loads in others. Of shape (…, n_orders, n_loads).
         """
         load = np.abs(self.load)
         ratio = np.full(load.shape, np.nan)

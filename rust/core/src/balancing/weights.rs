@@ -272,7 +272,8 @@ impl Problem<'_> {
 
     pub fn not_found(&self, which: &str) -> Error {
         let hint = format!(
-            "the {which} weights were not found to nine digits; give fewer planes or angles"
+            "the {which} weights were not found to nine digits; give planes farther apart, or fewer \
+             planes or angles"
         );
         Error::value("planes", format!("{} places", self.bounds.len()), hint)
     }

@@ -350,7 +350,7 @@ impl FromStr for Angle {
     type Err = Error;
 
     /// Degrees, exact: a fraction (`"360/7"`) or a decimal (`"51.4"`). A decimal of more digits than
-    /// [`decimal::parse`] takes stands for what its nearest double stands for, and one within the
+    /// `numbers::decimal` reads stands for what its nearest double stands for, and one within the
     /// rounding of k/N of a turn, N ≤ 1000, that no decimal is, for that: it was printed of one.
     fn from_str(text: &str) -> Result<Self> {
         let wrong = || Error::value("angle", text, "give degrees, such as 90, 51.4 or \"360/7\"");
