@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal, Self
+from typing import TYPE_CHECKING, Any, Generic, Literal, Self
 
 import numpy as np
 
@@ -14,7 +14,15 @@ from crankpin._support.quantities import KINDS, QUANTITIES
 from crankpin._support.record import AbsentError, read_only
 from crankpin.analysis import export
 from crankpin.analysis.export import Labelled
-from crankpin.analysis.quantity import ALL, Keyed, OrderBalance, Quantities, Quantity, order_key
+from crankpin.analysis.quantity import (
+    ALL,
+    Keyed,
+    OrderBalance,
+    Quantities,
+    Quantity,
+    Value,
+    order_key,
+)
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks
 
@@ -26,7 +34,7 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 
-class ByOrder(Keyed, Quantities, Labelled):
+class ByOrder(Keyed, Quantities["NDArray[np.float64]", Value], Labelled, Generic[Value]):
     """Base class of balances and sweeps: arrays computed when first read, orders as keys."""
 
     @property
@@ -62,11 +70,11 @@ class ByOrder(Keyed, Quantities, Labelled):
         return self.request.spectrum
 
     @property
-    def total(self) -> OrderBalance:
+    def total(self) -> OrderBalance[Value]:
         """All orders together, as in ``total.force.peak`` and ``total.moment.peak_xy``."""
         return OrderBalance(self, ALL)
 
-    def __getitem__(self, order: Order | Literal["all"]) -> OrderBalance:
+    def __getitem__(self, order: Order | Literal["all"]) -> OrderBalance[Value]:
         """Return one order, or with ``"all"`` all of ``orders`` together.
 
         An order that is not among ``orders`` is computed when it is read: zero where the layout
@@ -80,7 +88,7 @@ class ByOrder(Keyed, Quantities, Labelled):
         """
         return OrderBalance(self, order_key(order))
 
-    def _quantity(self, name: str) -> Quantity:
+    def _quantity(self, name: str) -> Quantity[NDArray[np.float64], Value]:
         return Quantity(self, name)
 
     def about(self, point: ArrayLike | None = None, *, z: float | None = None) -> Self:
@@ -191,11 +199,11 @@ class ByOrder(Keyed, Quantities, Labelled):
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
         raise NotImplementedError
 
-    def _with_order(self, order: Order) -> ByOrder:
+    def _with_order(self, order: Order) -> ByOrder[Value]:
         """Return this result if it has an order, else the same of that order alone."""
         if order_key(order) in (*self.orders, ALL):
             return self
-        found: ByOrder | None = self._kept.get(order)
+        found: ByOrder[Value] | None = self._kept.get(order)
         if found is None:
             found = self._kept.setdefault(order, self._at_orders((order,)))
         return found

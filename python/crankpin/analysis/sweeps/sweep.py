@@ -180,7 +180,7 @@ def sweep(
     return whole
 
 
-class Sweep(ByOrder):
+class Sweep(ByOrder[Any]):
     """Force, moment and torque of engines over swept arguments: labelled arrays.
 
     The quantities are those of :class:`Balance` over more dimensions: ``s.moment.backward``,

@@ -77,7 +77,7 @@ def _checked(name: str, request: Request) -> Objective:
     return found
 
 
-class Tolerances(ByOrder):
+class Tolerances(ByOrder["NDArray[np.float64]"]):
     """Samples of an engine whose parts deviate: force, moment and torque, order by order.
 
     The quantities are those of a balance with the dimension ``sample`` first: ``t.force.peak`` is
