@@ -23,10 +23,10 @@ from crankpin._support.warnings import warn
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-Angle: TypeAlias = float | Decimal | Fraction | str
+Angle: TypeAlias = float | Decimal | Fraction | str | np.floating[Any] | np.integer[Any]
 """Degrees: a number, a ``Decimal``, a ``Fraction``, or a string such as ``"360/7"``."""
 
-Angles: TypeAlias = "Sequence[Angle] | NDArray[np.float64]"
+Angles: TypeAlias = "Sequence[Angle] | NDArray[np.floating[Any] | np.integer[Any]]"
 Order: TypeAlias = int | float
 """Multiple of crank speed: an int where it is whole, a float such as 0.5 where it is a half."""
 Orders: TypeAlias = "Order | Iterable[Order] | Literal['auto']"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 
@@ -448,6 +448,46 @@ class BearingLoads(Tabled):
         }
         attributes = {"engine": self.engine.name, "rpm": self.rpm}
         return optional.dataset(arrays, coords, attributes | labels.attributes(self.loads_counted))
+
+    @overload
+    def plot(
+        self,
+        ax: Axes,
+        *,
+        figure: None = None,
+        kind: Literal["polar", "curves", "bending"] = "polar",
+        **options: object,
+    ) -> Axes: ...
+
+    @overload
+    def plot(
+        self,
+        ax: None = None,
+        *,
+        figure: None = None,
+        kind: Literal["curves", "bending"],
+        **options: object,
+    ) -> Axes: ...
+
+    @overload
+    def plot(
+        self,
+        ax: None = None,
+        *,
+        figure: Figure | SubFigure,
+        kind: Literal["polar"] = "polar",
+        **options: object,
+    ) -> NDArray[Any]: ...
+
+    @overload
+    def plot(
+        self,
+        ax: None = None,
+        *,
+        figure: None = None,
+        kind: Literal["polar"] = "polar",
+        **options: object,
+    ) -> Any: ...  # noqa: ANN401 - panels, or of one bearing the axes
 
     def plot(
         self,

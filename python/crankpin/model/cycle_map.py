@@ -16,7 +16,7 @@ from crankpin._support.warnings import suppressed
 from crankpin.model.cycle import Cycle
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable
 
     from numpy.typing import ArrayLike, NDArray
 
@@ -57,10 +57,10 @@ class CycleMap(Tabled, Input):
     """Crank speeds: (n_rpm,)."""
     load: NDArray[np.float64]
     """Loads: (n_load,)."""
-    cycles: Sequence[Sequence[Cycle]]
+    cycles: tuple[tuple[Cycle, ...], ...]
     """Cycles, by speed and load."""
 
-    def __init__(self, rpm: ArrayLike, load: ArrayLike, cycles: Sequence[Sequence[Cycle]]) -> None:
+    def __init__(self, rpm: ArrayLike, load: ArrayLike, cycles: Iterable[Iterable[Cycle]]) -> None:
         for name, values in (("rpm", rpm), ("load", load)):
             axis = inputs.vector(name, values).copy()
             if not axis.size or not np.isfinite(axis).all() or (np.diff(axis) <= 0.0).any():

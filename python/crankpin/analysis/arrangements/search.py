@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     import numpy as np
     from matplotlib.axes import Axes
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Angles
     from crankpin._support.progress import Progress
@@ -49,17 +49,33 @@ class Arrangement(Input):
     """First-order moment that a counterweight cancels, over m·r·ω²·spacing."""
     second_order: tuple[float, float]
     """Second-order moments about x and about y, over m·r·ω²·spacing·a₂ (a₂ ≈ rod ratio)."""
-    hold: Hold = "firing"
+    hold: Hold
     """``"firing"`` if phases are minus the TDCs, ``"pins"`` if they are the crankpins."""
 
-    def __post_init__(self) -> None:
-        for name in ("bank_angle_deg", "counterweight"):
-            object.__setattr__(self, name, inputs.number(name, getattr(self, name)))
-        for name in ("first_deg", "second_deg", "second_order"):
-            values = getattr(self, name)
-            if type(values) is not tuple or any(type(value) is not float for value in values):
-                object.__setattr__(self, name, tuple(inputs.listed_numbers(name, values)))
-        inputs.one_of("hold", self.hold, ("firing", "pins"))
+    def __init__(
+        self,
+        bank_angle_deg: float,
+        first_deg: ArrayLike,
+        second_deg: ArrayLike,
+        counterweight: float,
+        second_order: ArrayLike,
+        hold: Hold = "firing",
+    ) -> None:
+        numbers = {"bank_angle_deg": bank_angle_deg, "counterweight": counterweight}
+        for name, value in numbers.items():
+            object.__setattr__(self, name, inputs.number(name, value))
+        lists: dict[str, Any] = {
+            "first_deg": first_deg,
+            "second_deg": second_deg,
+            "second_order": second_order,
+        }
+        for name, values in lists.items():
+            # Searches make thousands, of tuples of floats.
+            kept = type(values) is tuple and all(type(value) is float for value in values)
+            listed = values if kept else tuple(inputs.listed_numbers(name, values))
+            object.__setattr__(self, name, listed)
+        inputs.one_of("hold", hold, ("firing", "pins"))
+        object.__setattr__(self, "hold", hold)
 
     @property
     def near_circular(self) -> bool:

@@ -19,6 +19,8 @@ from crankpin.model.shafts import Shaft, unbalance_of
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from numpy.typing import ArrayLike
+
     from crankpin.model.engine import Engine
 
 
@@ -33,10 +35,10 @@ def balance_shafts(
     engine: Engine,
     ratios: int | Sequence[int],
     *,
-    x: float | Sequence[float | None] | None = None,
-    y: float | Sequence[float | None] | None = None,
-    planes: Sequence[float] | Sequence[Sequence[float] | None] | None = None,
-    bearings: Sequence[float] | Sequence[Sequence[float] | None] | None = None,
+    x: ArrayLike | Sequence[float | None] | None = None,
+    y: ArrayLike | Sequence[float | None] | None = None,
+    planes: ArrayLike | Sequence[ArrayLike | None] | None = None,
+    bearings: ArrayLike | Sequence[ArrayLike | None] | None = None,
     remove: Remove | Sequence[Remove] = "both",
     rpm: float | None = None,
 ) -> BalanceShafts:

@@ -15,9 +15,11 @@ from crankpin.model import checks
 from crankpin.model.crankpins import bays
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
     from crankpin.model.engine import Engine
 
-Planes: TypeAlias = "str | Sequence[float] | Mapping[str, float]"
+Planes: TypeAlias = "ArrayLike | Mapping[str, float]"
 HINT = 'give "ends", "webs", a list of places or a mapping name → place in metres'
 MOST = 200
 """Largest number of planes."""

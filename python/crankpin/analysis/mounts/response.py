@@ -19,7 +19,7 @@ from crankpin.analysis.request import Request, check_request
 from crankpin.model.mounts import _vector
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Mapping
 
     import xarray as xr
     from numpy.typing import ArrayLike, NDArray
@@ -132,7 +132,7 @@ class MountQuantities:
             }
         )
 
-    def at(self, point: Sequence[float]) -> PointMotion:
+    def at(self, point: ArrayLike) -> PointMotion:
         """Return the motion of a point of the powertrain.
 
         Parameters

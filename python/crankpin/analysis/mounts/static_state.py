@@ -14,9 +14,7 @@ from crankpin._support.tables import Column, Table
 from crankpin.model.mounts import _vector
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from crankpin.analysis.mounts.powertrain import Powertrain
 
@@ -117,7 +115,7 @@ def static(
     powertrain: Powertrain,
     torque: float | Literal["engine"],
     gear_ratio: float,
-    gravity: Sequence[float],
+    gravity: ArrayLike,
     rpm: float,
 ) -> StaticState:
     """Return the state at rest; :meth:`Powertrain.static` documents the arguments."""
