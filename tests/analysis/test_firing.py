@@ -555,8 +555,9 @@ def test_an_inline_crank_made_for_an_order_fires_in_it(
     wanted = data.draw(interval_lists(5, 180 * strokes))
     engine = made_for(order, wanted, strokes=strokes)
     throws, _ = cp.throws(order, intervals_deg=wanted, strokes=strokes)
-    known = {"firing_order": engine.firing_order, "strokes": strokes}
-    assert engine == cp.Engine.inline(CYLINDER, throws_deg=throws, spacing=0.1, **known)
+    assert engine == cp.Engine.inline(
+        CYLINDER, throws_deg=throws, spacing=0.1, firing_order=engine.firing_order, strokes=strokes
+    )
 
 
 @pytest.mark.parametrize(

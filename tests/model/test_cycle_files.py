@@ -29,7 +29,7 @@ def written(
     ]
     if options.get("comma"):
         lines = [line.replace(".", ",") for line in lines]
-    path = folder / options.get("name", "bench.csv")
+    path = folder / str(options.get("name", "bench.csv"))
     path.write_text("\n".join([header, *lines]), options.get("encoding", "utf-8"))
     return path
 

@@ -144,13 +144,21 @@ def test_powertrains_read_back_from_files(tmp_path: Path) -> None:
 
 def test_inputs_and_results_are_frozen_records() -> None:
     r = P.response([800.0, 900.0], orders=[2])
-    results = [P.static(10), P.modes(20.0), P.axes(20.0), r, r[2], r.body_force, r.at((0, 0, 0))]
+    results: list[Any] = [
+        P.static(10),
+        P.modes(20.0),
+        P.axes(20.0),
+        r,
+        r[2],
+        r.body_force,
+        r.at((0, 0, 0)),
+    ]
     for each in [P, BODY, *MOUNTS, *results]:
         assert pickle.loads(pickle.dumps(each)) == each  # noqa: S301 - our own
         assert copy.copy(each) is each
         assert hash(each) == hash(copy.deepcopy(each))
         with pytest.raises(AttributeError):
-            each.anything = 1  # type: ignore[union-attr]
+            each.anything = 1
     assert BODY.replace(mass=160.0).inertia == BODY.inertia
     assert not r.load.flags.writeable
     assert not r.body_force.xyz.flags.writeable
