@@ -228,9 +228,9 @@ class BearingLoads(Tabled):
         axes : {"crank", "rod", "engine"}, default "crank"
             ``"crank"``: along the throw outwards, and a quarter turn ahead in the direction of
             rotation of its crank; of main bearings the throw is that of the first cylinder on their
-            crank. This shows where a pin or a journal is loaded. ``"rod"``: along the rod to the wrist
-            pin, and a quarter turn ahead, for the bearings in the rod. ``"engine"``: x and y, as the
-            arrays are.
+            crank. This shows where a pin or a journal is loaded. ``"rod"``: along the rod to the
+            wrist pin, and a quarter turn ahead, for the bearings in the rod. ``"engine"``: x and y,
+            as the arrays are.
 
         Returns
         -------
