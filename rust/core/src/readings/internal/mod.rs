@@ -33,6 +33,25 @@ use crate::wrench::rounding;
 const MOST_SHARE: f64 = 1e6;
 
 /// An engine at a speed, for the loads inside it.
+///
+/// ```
+/// # let four = crankpin_core::engine::file::from_toml(
+/// #     "schema = 1
+/// #     cylinder = { crank_radius = 0.043, rod_length = 0.145, reciprocating_mass = 0.66 }
+/// #     placements = [
+/// #         { tdc_deg = 0, bank_deg = 90, z = 0 }, { tdc_deg = 180, bank_deg = 90, z = 0.1 },
+/// #         { tdc_deg = 180, bank_deg = 90, z = 0.2 }, { tdc_deg = 0, bank_deg = 90, z = 0.3 },
+/// #     ]",
+/// # )?;
+/// use crankpin_core::Cancel;
+/// use crankpin_core::internal::Internal;
+///
+/// let engine = Internal::new(&four, 6000.0)?;
+/// let loads = engine.loads(&[0.0, 90.0, 180.0], &Cancel::new())?;
+/// assert_eq!(loads.main.dim(), (5, 3, 2)); // a bearing beside each throw
+/// assert!(loads.main[[2, 0, 1]].abs() > loads.main[[0, 0, 1]].abs()); // the middle one has two throws
+/// # Ok::<(), crankpin_core::Error>(())
+/// ```
 pub struct Internal {
     rods: Vec<DrivenRod>,
     /// On each crank besides the forces of rods on its pins.
