@@ -32,6 +32,15 @@ const NEAR_MISS: f64 = 1e-5;
 pub const LARGEST_ANGLE: f64 = 1e12;
 
 /// An angle: a reduced fraction of a turn, or a finite double of degrees.
+///
+/// ```
+/// use crankpin_core::Angle;
+///
+/// let seventh: Angle = "360/7".parse()?;
+/// assert_eq!(seventh.times(7), Angle::TURN); // exactly
+/// assert_eq!(Angle::from_degrees(51.4)? + Angle::from_degrees(0.6)?, "52".parse()?);
+/// # Ok::<(), crankpin_core::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Angle(Kind);
 
