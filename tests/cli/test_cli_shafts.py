@@ -99,8 +99,8 @@ def test_a_speed_of_zero_is_zero(capsys: pytest.CaptureFixture[str]) -> None:
 @pytest.mark.parametrize(
     ("argv", "words"),
     [
-        (["i4", "--x", "0.1"], "--x needs --ratios"),
-        (["i4", "--quantity", "force"], "--quantity needs --ratios"),
+        (["i4", "--x", "0.1"], "--x = 0.1: needs --ratios"),
+        (["i4", "--quantity", "force"], "--quantity = force: needs --ratios"),
         (["i4", "--ratios", "2", "--rpm", "3"], "--rpm is of the comparison without --ratios"),
         (["i4", "--ratios", "2", "--target", "a=1"], "--target is of the comparison"),
         (["i4", "--ratios", "half"], "--ratios = half: give whole numbers"),
@@ -113,7 +113,7 @@ def test_a_speed_of_zero_is_zero(capsys: pytest.CaptureFixture[str]) -> None:
             "--target = total.force.peak=1,total.moment.peak=5%: give all values in %, or none",
         ),
         (["i4", "--target", "total.force.peak=x"], "--target = x: give a number"),
-        (["i4", "--save", "x.toml"], "--save needs --ratios or --target"),
+        (["i4", "--save", "x.toml"], "--save = x.toml: needs --ratios or --target"),
         (["i4", "--save", "x.toml", "--target", "[4].force.peak=0"], "no set reaches the target"),
         (["ijesc-v6", "--ratios", "1"], "NAME = ijesc-v6: shafts takes one engine"),
         (["i4", "--ratios", "2", "--plot", "x.gif"], "--plot = x.gif"),

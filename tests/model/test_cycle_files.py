@@ -162,7 +162,7 @@ def test_what_is_saved_reads_back_as_an_equal_cycle(
         ("", ABSOLUTE, "no line of two numbers"),
         ("angle|p\n0|1e5\n", ABSOLUTE, r"no line of two numbers.* with digits is '0\|1e5'"),
         ("angle,p\n0,1e5\n1,high\n", ABSOLUTE, "line 2 of the numbers, '1 high', has no number"),
-        ("angle,p\n0,1e5\n1\n", ABSOLUTE, "line 2 of the numbers, '1', has no number in column 1"),
+        ("angle,p\n0,1e5\n1\n", ABSOLUTE, "no number in column 1 of line 2 of the numbers, '1'"),
         ("angle,p\n0,0,1,5\n", ABSOLUTE, "decimals written with commas"),
         ("angle,p\n0,1e5\n", {**ABSOLUTE, "columns": ("angle", "q")}, "there is no 'q'"),
         ("angle,p\n0,1e5\n", {**ABSOLUTE, "columns": (0,)}, "give two"),

@@ -120,7 +120,9 @@ def test_arrows_that_would_cover_each_other_are_moved_aside() -> None:
 
 def test_they_need_a_figure() -> None:
     _, ax = plt.subplots()
-    with pytest.raises(cp.InputError, match='ax: kind="phasors" has several panels; give figure='):
+    with pytest.raises(
+        cp.InputError, match=r'ax = .*: kind="phasors" has several panels; give figure='
+    ):
         I4.balance(3000).plot(ax, kind="phasors")
     figure = plt.figure()
     part = figure.subfigures(1, 2)[0]

@@ -454,7 +454,7 @@ def test_errors_name_the_argument(changes: dict[str, Any], message: str) -> None
 
 def test_errors_of_results() -> None:
     t = tolerances(samples=3)
-    with pytest.raises(cp.InputError, match=r"^point: moments of samples .* engine\.replace"):
+    with pytest.raises(cp.InputError, match=r"^point is .*: moments of samples .* engine\.replace"):
         t.about(0.1)
     with pytest.raises(cp.InputError, match="sample = 3: give a number from 0 to 2"):
         t.engine_at(3)
@@ -482,5 +482,5 @@ def test_nothing_varies_where_nothing_deviates() -> None:
 
 @pytest.mark.parametrize("given", [{}, {"pin_deg": 0}, {"z": [0.0] * 6}])
 def test_some_part_must_deviate(given: dict[str, Any]) -> None:
-    with pytest.raises(cp.InputError, match="no part deviates: give a spread, recip"):
+    with pytest.raises(cp.InputError, match="no part deviates; give a spread, recip"):
         cp.tolerances(I6, rpm=RPM, **given)
