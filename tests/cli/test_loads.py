@@ -127,8 +127,8 @@ def test_files_of_cycles_are_read_as_options_say(capsys: CAPTURE, tmp_path: Path
     for typed, hints in (
         (f"bearings i4 {read}", ["--pressure-unit = None: ", "give one of Pa"]),
         (f"torque i4 {read} --pressure-unit bar", ["--gauge = None: ", "give --gauge, or --abso"]),
-        ("torque i4 --tdc 3", ["--tdc = 3: needs a file of --cycle"]),
-        ("torque i4 --cycle petrol --gauge", ["--gauge = True: needs a file of --cycle"]),
+        ("torque i4 --tdc 3", ["--tdc needs a file of --cycle"]),
+        ("torque i4 --cycle petrol --gauge", ["--gauge needs a file of --cycle"]),
         (f"torque i4 {read} --gauge --absolute", ["--gauge cannot be combined with --absolute"]),
     ):
         assert main(typed.split()) == 2

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from crankpin._support import inputs
 from crankpin.analysis.balancing.balance_shafts import REMOVE, balance_shafts
 from crankpin.analysis.balancing.balancer_options import DEFAULT, balancer_options
 from crankpin.analysis.balancing.bob_weight import bob_weight
@@ -178,7 +179,7 @@ def _shafts(given: Given) -> Shown:
     for name in OF_OPTIONS if fits else OF_A_FIT:
         if given.text(name) is not None and not (name == "--rpm" and engine.fired):
             what = "is of the comparison without" if fits else "needs"
-            raise rejected(name, str(given.text(name)), f"{what} --ratios")
+            raise inputs.faulty(name, f"{what} --ratios", "leave it out" if fits else "give them")
     return _fit(engine, given) if fits else _compare(engine, given)
 
 

@@ -113,8 +113,7 @@ def _fired(given: Given, name: str, otherwise: str | None = None) -> tuple[Engin
         engine = engine.replace(firing_order=order)
     of_a_file = [each.names[0] for each in OF_A_FILE if given.text(each.names[0])]
     if of_a_file and (typed is None or typed in EXAMPLES):
-        option = of_a_file[0]
-        raise rejected(option, str(given.text(option)), "needs a file of --cycle")
+        raise inputs.faulty(of_a_file[0], "needs a file of --cycle", "give its path")
     bore, crankcase = given.optional("--bore", "m"), given.optional("--crankcase", "Pa")
     if typed is None and engine.fired:
         cylinders = [each if bore is None else each.replace(bore=bore) for each in engine.cylinders]

@@ -651,7 +651,8 @@ def slider_crank_harmonics(
         shape = np.broadcast_shapes(ratios.shape, offsets.shape)
     except (ValueError, RuntimeError) as error:
         hint = f"give shapes that broadcast ({inputs.reason(error)})"
-        raise inputs.faulty("pin_offset_ratio", f"has shape {offsets.shape}", hint) from None
+        fault = f"has shape {offsets.shape}, rod_ratio has {ratios.shape}"
+        raise inputs.faulty("pin_offset_ratio", fault, hint) from None
     # Nothing is copied until its size is known to be small enough.
     ratios = inputs.array("rod_ratio", np.broadcast_to(ratios, shape))
     offsets = inputs.array("pin_offset_ratio", np.broadcast_to(offsets, shape))

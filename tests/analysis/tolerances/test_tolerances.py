@@ -437,7 +437,7 @@ def test_progress_is_told() -> None:
             {"by": "[3].force.peak"},
             r"orders = \[1, 2, 4, 6\]: by = \"\[3\].force.peak\" needs order 3",
         ),
-        ({"by": "unevenness_deg"}, r"by = \"unevenness_deg\": has no value for each sample"),
+        ({"by": "unevenness_deg"}, r"by = 'unevenness_deg': has no value for each sample"),
         ({"by": "total.torque.peak", "torque": False}, r"torque is not available: it was not"),
         ({"pins": [[1, 2], [3, 4]]}, r"pins = .*: name each cylinder once"),
         (
