@@ -21,8 +21,10 @@ import numpy as np
 import pytest
 from conftest import DATA
 from crankpin import cli
+from crankpin._support import inputs
+from crankpin._support.record import AbsentItemError
 from crankpin.cli import main
-from crankpin.cli.arguments import COMMANDS, Given
+from crankpin.cli.arguments import COMMANDS, Given, error_in_options
 from matplotlib import pyplot as plt
 
 IJESC = [
@@ -619,6 +621,19 @@ def test_errors_are_one_line(
     monkeypatch.chdir(tmp_path)
     assert said in refused(capsys, *argv.split())
     assert not any(tmp_path.iterdir())
+
+
+def test_an_error_named_as_in_a_shell_keeps_its_fields() -> None:
+    hint = 'give hold="pins", or rpm=[1, 2]; see bank_angle'
+    error = error_in_options(
+        inputs.rejected("bank_angle_deg[1]", 190.0, hint, AbsentItemError),
+        {"bank_angle": "190", "hold": None, "rpm": None},
+    )
+    assert type(error) is AbsentItemError
+    assert (error.argument, error.value) == ("--bank-angle[1]", "190.0")
+    assert error.hint == "give --hold pins, or --rpm 1,2; see bank_angle"
+    assert str(error) == f"{error.argument} = {error.value}: {error.hint}"
+    assert error_in_options(cp.InputError("a sentence"), {}).args == ("a sentence",)
 
 
 @pytest.mark.filterwarnings("default")

@@ -13,11 +13,11 @@ pyo3::create_exception!(
     InputError,
     PyValueError,
     "An input that makes no engine, or a request that cannot be met.\n\n\
-     The message is \"argument = value: hint\", and each part an attribute; one that the message does \
-     not have is None. Copies and other processes keep them.\n\n\
+     The message is \"argument = value: hint\", or \"argument has 3 entries: hint\" and the like; its \
+     parts are attributes, None where it has no such part. Pickled errors keep them.\n\n\
      Attributes\n----------\n\
-     argument : str or None\n    Name of the argument; \"stroke\", or \"mounts[2].at\".\n\
-     value : str or None\n    The value rejected, as text.\n\
+     argument : str or None\n    Name of what was rejected: \"stroke\", \"mounts[2].at\".\n\
+     value : str or None\n    The value that was rejected, as text.\n\
      hint : str or None\n    What would be right.\n"
 );
 
