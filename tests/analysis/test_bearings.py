@@ -426,7 +426,7 @@ def far_counterweight() -> object:
         (lambda: cp.bearing_loads(I4, RPM).read("moment"), "load = 'moment': "),
         (lambda: cp.bearing_loads(I4, RPM).turned("side_thrust"), "load = 'side_thrust': "),
         (lambda: cp.bearing_loads(I4, RPM).turned(axes="bore"), "axes = 'bore': "),
-        (lambda: cp.bearing_loads(I4, RPM).turned("main", "rod"), 'axes = "rod": '),
+        (lambda: cp.bearing_loads(I4, RPM).turned("main", "rod"), "axes = 'rod': "),
         (lambda: cp.bearing_loads(I4, RPM).bending("block"), "part = 'block': "),
     ],
 )

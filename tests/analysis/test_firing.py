@@ -861,7 +861,7 @@ def test_command_lists_orders(capsys: CAPTURE) -> None:
             ["i4", "--firing-order", "1-2-3-4"],
             "--firing-order = 1-2-3-4: this crank cannot fire in",
         ),
-        (["i4", "--all", "--plot", "i4.png"], "--plot needs --firing-order"),
+        (["i4", "--all", "--plot", "i4.png"], "--plot = i4.png: needs --firing-order"),
         (
             ["i4", "--firing-order", "1-3-4-2", "--plot", "i4.txt"],
             "--plot = i4.txt: a picture's name",

@@ -461,8 +461,8 @@ def test_inertia_torque_is_not_counted_twice() -> None:
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"inertia": None}, "give one of them"),
-        ({"irregularity": 0.01}, "give one of them"),
+        ({"inertia": None}, "irregularity = None: give one of inertia, irr"),
+        ({"irregularity": 0.01}, "give one of inertia, irregularity"),
         ({"inertia": 0.0}, "above 0"),
         ({"inertia": -1.0}, "zero or more"),
         ({"inertia": 1e-3}, "stops"),
@@ -480,7 +480,7 @@ def test_inertia_torque_is_not_counted_twice() -> None:
         ({"drive": ([0, 720], [1, 1]), "period_deg": 360}, "span 720"),
         ({"drive": ([0, 90], [1, 2]), "period_deg": 360}, "span 90"),
         ({"drive": (np.arange(0, 180, 10), np.arange(18))}, "17 N·m after 170°"),
-        ({"load": ([0, 90, 170], [3, 1, 2])}, "load: 2 N·m after 170°"),
+        ({"load": ([0, 90, 170], [3, 1, 2])}, "load ends in 2 N·m after 170°"),
         (
             {"drive": ([0, 90, 90, 90, 360], [1, 2, 3, 4, 1])},
             r"drive\[0\]\[3\] = 90.0: is given three",

@@ -153,7 +153,7 @@ def test_an_order_says_why_it_is_zero_or_not_in_the_total() -> None:
     ).balance(6000)
     assert odd.force[1].status == "zero within rounding"
     for quantity in (b.force, b.total.force):
-        with pytest.raises(cp.InputError, match="status is defined for one order"):
+        with pytest.raises(cp.InputError, match="status is undefined for force: give one order"):
             quantity.status  # noqa: B018
 
 

@@ -789,8 +789,8 @@ def test_unknown_presets_suggest_near_names_and_what_builds_them(
     assert str(caught.value) == expected
     built = f"build it by {command}; " if command else ""
     built = "crankpin new makes engines of your own; " if alone else built
-    assert presets_module.suggestion(name, typed=True) == (
-        f'"{name}": no such preset; {hint}{built}"crankpin presets" lists all; engine files end in '
+    assert presets_module.unknown("NAME", name, typed=True).hint == (
+        f'no such preset; {hint}{built}"crankpin presets" lists all; engine files end in '
         ".toml or .json"
     )
 

@@ -138,7 +138,9 @@ def test_each_name_is_measured_once_for_its_lane_and_once_for_its_place(
 
 def test_they_need_a_figure() -> None:
     _, ax = plt.subplots()
-    with pytest.raises(cp.InputError, match='ax: kind="phasors" has several panels; give figure='):
+    with pytest.raises(
+        cp.InputError, match=r'ax = .*: kind="phasors" has several panels; give figure='
+    ):
         I4.balance(3000).plot(ax, kind="phasors")  # type: ignore[call-overload]
     figure = plt.figure()
     parts: Any = figure.subfigures(1, 2)

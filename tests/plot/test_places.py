@@ -42,7 +42,7 @@ if TYPE_CHECKING:
         (lambda: over_bank_angle().plot(orders=[3.25]), "orders"),
         (lambda: cp.sweep([V6, I4], rpm=1000).plot(kind="orders"), "one swept number"),
         (lambda: cp.sweep([V6, I4], rpm=1000).plot(kind="bars", x="engine"), "leave it out"),
-        (lambda: cp.sweep(V6, rpm=1000).plot(), "nothing was swept"),
+        (lambda: cp.sweep(V6, rpm=1000).plot(), "sweep is of one point"),
         (lambda: cp.sweep(I4, rpm=3000).waveform([0.0]).plot(quantity="speed"), "quantity"),
         (lambda: cp.sweep(I4, rpm=3000).waveform([0.0]).plot(kind="bars"), "kind"),  # type: ignore[call-overload]
         (lambda: V6.balance(3000).plot(ax="left"), "give matplotlib axes"),  # type: ignore[call-overload]

@@ -610,7 +610,7 @@ def test_a_quantity_is_equal_item_by_item_and_has_no_hash() -> None:
     assert (b.total.moment == None) is False  # noqa: E711 - the comparison meant
     assert (b.total.moment == balance().total.moment) is True
     assert b.total.moment != b.total.force
-    with pytest.raises(cp.InputError, match=r"add of .*: give numbers, or an array"):
+    with pytest.raises(cp.InputError, match=r"operands of add = .*: give numbers, or an array"):
         np.add(b.moment, [1, 2, 3, 4, 5])
     assert True not in b
     assert np.array([1, 2]) not in b

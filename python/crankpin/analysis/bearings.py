@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import LOADS
@@ -255,7 +254,9 @@ class BearingLoads(Tabled):
         if chosen == "engine":
             return self.read(name)
         if (name, chosen) == ("main", "rod"):
-            raise InputError('axes = "rod": main bearings have none; give "crank" or "engine"')
+            raise inputs.rejected(
+                "axes", "rod", 'main bearings have none; give "crank" or "engine"'
+            )
         return self._core.turned(name, chosen, self.theta_deg)
 
     def magnitude(self, load: str) -> NDArray[np.float64]:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Generic, Literal, Self
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import KINDS, QUANTITIES
 from crankpin._support.record import AbsentError, read_only
@@ -118,8 +117,7 @@ class ByOrder(Keyed, Quantities["NDArray[np.float64]", Value], Labelled, Generic
         >>> b[2].moment.peak, round(b.about(z=0.0)[2].moment.peak, 1)
         (np.float64(0.0), np.float64(1390.4))
         """
-        if (point is None) == (z is None):
-            raise InputError("about: give a point, such as (0, 0.2, 0.1), or z")
+        inputs.only_one_of(point=point, z=z)
         name = "z" if point is None else "point"
         request = self.request.about(name, z if point is None else point)
         for engine in self._engines:
@@ -227,7 +225,8 @@ class ByOrder(Keyed, Quantities["NDArray[np.float64]", Value], Labelled, Generic
     def _proved_zero(self, quantity: str, order: Order) -> bool:
         """Return whether a quantity of one order is proved to vanish."""
         name = inputs.one_of("quantity", quantity, QUANTITIES)
-        raise AbsentError(f"{name}: only a balance has proofs; read them at a point of the sweep")
+        hint = "only a balance has proofs; read them at a point of the sweep"
+        raise inputs.rejected("quantity", name, hint, AbsentError)
 
     # --- tables -----------------------------------------------------------------------------------
 

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Generic, Literal, Self, TypeAlias
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Tabled
 from crankpin._support.quantities import KINDS, PARTS, Kind
@@ -20,6 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from typing_extensions import TypeVar
 
+    from crankpin._core import InputError
     from crankpin._support.inputs import Order
     from crankpin.analysis.by_order import ByOrder
 
@@ -61,7 +61,7 @@ def one_order(order: object) -> Order:
     """Return the order of a key, or raise an InputError, also for all orders together."""
     found = order_key(order)
     if isinstance(found, str):
-        raise InputError(f"order = {ALL!r}: give one order, such as 2 or 0.5")
+        raise inputs.rejected("order", ALL, "give one order, such as 2 or 0.5")
     return found
 
 
@@ -224,7 +224,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
     def phasor(self) -> NDArray[np.complex128]:
         """Peak phasors of a torque, N·m: (…, n_orders)."""
         if self.kind.planar:
-            raise AbsentError(f"{self.name} has two phasors per order: use xy, x or y")
+            raise self._absent("phasor", f"{self.name} has two per order; use xy, x or y")
         return self._read("phasors")  # type: ignore[no-any-return]
 
     @property
@@ -241,9 +241,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
     def mean(self) -> Value:
         """Mean of a torque over the cycle, N·m: (…); zero without gas pressure."""
         if self.kind.planar or self.order not in (None, ALL):
-            raise AbsentError(
-                "mean is defined for a torque, all orders together, as in b.torque.mean"
-            )
+            raise self._absent("mean", "give a torque, all orders together, as in b.torque.mean")
         values = self.result.read(self.name, "mean")
         found: Any = values if values.ndim else float(values)
         return found  # type: ignore[no-any-return]
@@ -270,7 +268,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
         :meth:`Engine.vanishing_orders`; ``"zero within rounding"``: below its ``zero_bound``.
         """
         if self.order is None or self.order == ALL:
-            raise AbsentError('status is defined for one order: give it, as in "moment[2].status"')
+            raise self._absent("status", 'give one order, as in "moment[2].status"')
         if np.any(self._read("phasors")):
             return "summed" if self.order in self.result.orders else "omitted"
         proved = self.result._proved_zero(self.name, self.order)
@@ -284,25 +282,24 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
             at = (slice(None),) * len(one.dims) + (one.orders.index(self.order),)
             return one.read(self.name, what)[at]
         if what not in ("peak", "peak_xy"):
-            raise AbsentError(
-                "all orders together have peaks alone; give an order, as in b[2], or read the "
-                f"arrays of a balance, as in b.{self.name}"
-            )
+            hint = f"as in b[2], or read the arrays of a balance, as in b.{self.name}"
+            raise self._absent(what, f"all orders together have peaks alone; give an order, {hint}")
         values = self.result.read(self.name, f"total_{what}")
         return values if values.ndim else float(values)
 
     def _part(self, part: str) -> Self:
         if (name := f"{self.name}.{part}") not in PARTS:
-            raise AbsentError(f"{part} is a part of torque and crank_torque, not of {self.name}")
+            raise self._absent(part, "give torque or crank_torque, which have it")
         return changed(self, name=name)
+
+    def _absent(self, what: str, hint: str) -> InputError:
+        return inputs.faulty(what, f"is undefined for {self.name}", hint, AbsentError)
 
     def _planar(self, what: str, name: str = "") -> Any:  # noqa: ANN401 - as above
         """Return an array of a vector; of a torque raise an error that names what is read."""
         if not self.kind.planar:
-            hint = "it has phasor and peak"
-            raise AbsentError(
-                f"{name or what} is that of a vector; {self.name} is about z alone: {hint}"
-            )
+            fault = f"is that of a vector; {self.name} is about z alone"
+            raise inputs.faulty(name or what, fault, "it has phasor and peak", AbsentError)
         return self._read(what)
 
     def __getitem__(self, order: Order | Literal["all"]) -> Quantity[Value, Value]:
@@ -328,9 +325,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
         try:
             return getattr(ufunc, method)(*plain, **keywords)
         except (ValueError, OverflowError, ZeroDivisionError) as error:
-            shown = " and ".join(map(inputs.shorten, arguments))
             hint = f"give numbers, or an array that broadcasts ({inputs.reason(error)})"
-            raise InputError(f"{ufunc.__name__} of {shown}: {hint}") from None
+            raise inputs.rejected(f"operands of {ufunc.__name__}", arguments, hint) from None
 
     def __eq__(self, other: object) -> Any:  # noqa: ANN401 - an array, or a bool
         """Return where phasors are equal, as of arrays; False for what is no array of their shape.

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.record import Input
 from crankpin._support.warnings import suppressed
@@ -76,7 +75,7 @@ class RigidBody(Input):
             hint = (
                 "give three rows of three numbers, or the three moments of a body without products"
             )
-            raise InputError(f"inertia has shape {given.shape}: {hint}")
+            raise inputs.faulty("inertia", f"has shape {given.shape}", hint)
         given = np.diag(given) if given.ndim == 1 else given
         if products is not None:
             inputs.one_of("products", products, ("tensor", "positive-integrals"))
@@ -139,7 +138,7 @@ class InertiaTrack(Input):
         for name in ("stiffness", "frequency", "damping_ratio"):
             self.__dict__[name] = value = inputs.finite(name, getattr(self, name))
             if value <= 0.0:
-                raise InputError(f"{name} = {value}: give a number that is more than zero")
+                raise inputs.rejected(name, value, "give a number that is more than zero")
 
 
 class Mount(Input):
@@ -232,7 +231,7 @@ class Mount(Input):
             rows = inputs.array("axes", axes)
             if rows.shape != (3, 3):
                 hint = "give three rows of three numbers, the directions of the mount's axes"
-                raise InputError(f"axes has shape {rows.shape}: {hint}")
+                raise inputs.faulty("axes", f"has shape {rows.shape}", hint)
             fields["axes"] = tuple(map(tuple, rows.tolist()))
         if track is not None and not isinstance(track, InertiaTrack):
             raise inputs.rejected("track", track, "give a crankpin.InertiaTrack")
@@ -329,5 +328,5 @@ def _table(given: Any) -> tuple[tuple[float, ...], tuple[Any, ...]]:  # noqa: AN
     except (TypeError, ValueError) as error:
         raise inputs.rejected("table", pair[1], f"{hint} ({inputs.reason(error)})") from None
     if stiffness.shape != (len(frequency), 3):
-        raise InputError(f"table: stiffness has shape {stiffness.shape}: {hint}")
+        raise inputs.faulty("table", f"has stiffness of shape {stiffness.shape}", hint)
     return tuple(frequency), tuple(map(tuple, stiffness.tolist()))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, TypeAlias
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.record import Input
 from crankpin._support.warnings import suppressed
@@ -64,14 +63,16 @@ class Unbalance(Input):
         object.__setattr__(self, "amount", inputs.finite("amount", amount))
         object.__setattr__(self, "z", inputs.finite("z", z))
         if self.amount < 0.0:
-            raise InputError(f"amount = {self.amount}: give zero or more; angle_deg turns it round")
+            raise inputs.rejected(
+                "amount", self.amount, "give zero or more; angle_deg turns it round"
+            )
         checks.unbalance(self.amount)
         angle = inputs.angle("angle_deg", angle_deg)
         object.__setattr__(self, "angle_deg", _readable(angle))
         if pin is not None:
             pin = inputs.whole("pin", pin)
             if pin < 1:
-                raise InputError(f"pin = {pin}: give the number of a cylinder, from 1")
+                raise inputs.rejected("pin", pin, "give the number of a cylinder, from 1")
         object.__setattr__(self, "pin", pin)
 
 
@@ -131,7 +132,7 @@ class Shaft(Input):
     ) -> None:
         object.__setattr__(self, "ratio", inputs.whole("ratio", ratio))
         if self.ratio == 0:
-            raise InputError("ratio = 0: give a whole number other than 0, such as -1 or 2")
+            raise inputs.rejected("ratio", 0, "give a whole number other than 0, such as -1 or 2")
         object.__setattr__(self, "x", inputs.finite("x", x))
         object.__setattr__(self, "y", inputs.finite("y", y))
         object.__setattr__(self, "name", inputs.text("name", name))
@@ -139,7 +140,7 @@ class Shaft(Input):
         for k, each in enumerate(self.unbalances):
             if each.pin is not None:
                 hint = "leave it out: only the crankshaft has crankpins"
-                raise InputError(f"unbalances[{k}].pin = {each.pin}: {hint}")
+                raise inputs.rejected(f"unbalances[{k}].pin", each.pin, hint)
 
 
 def with_counterweights(core: _core.Engine, weights: Iterable[Unbalance]) -> _core.Engine:

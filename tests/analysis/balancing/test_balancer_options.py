@@ -289,7 +289,10 @@ def test_the_long_form_has_all_sets() -> None:
         ({"most_shafts": -1}, "^most_shafts = -1: give 0 or more"),
         ({"places": 3}, "^places = 3: give a mapping"),
         ({"places": {-1: (1, 2, 3)}}, r"^places\[-1\] = \(1, 2, 3\): give a mapping"),
-        ({"places": {3: (1, 2)}}, r"^places\[3\]: ratios of the shafts compared are -1, -2, 2"),
+        (
+            {"places": {3: (1, 2)}},
+            r"^places\[3\] = .*: ratios of the shafts compared are -1, -2, 2",
+        ),
         ({"places": {-1: (1, "x")}}, r"^places\[-1\] = 'x': give a number"),
         ({"planes": "x"}, r"^planes = 'x': give \"ends\" or"),
         ({"orders": [1], "by": "[2].force.peak"}, r"^orders = \[1\]"),

@@ -914,7 +914,7 @@ def test_results_are_frozen_and_copied() -> None:
         ({"factor": {}}, "factor = {}: give a number"),
         ({"factor": {"torque": 1}}, 'factor = \'torque\': give "force" or "moment"'),
         ({"bound": -1}, "bound = -1.0: give a mass·radius"),
-        ({"bound": {"x": 1}}, r"bound\['x'\]: is not a plane; choose from: \['front', 'rear'\]"),
+        ({"bound": {"x": 1}}, r"bound = 'x': is not a plane; choose from: \['front', 'rear'\]"),
         ({"angles_deg": []}, "angles_deg has 0 angles: give 1 to 360"),
         (
             {"planes": [0.0] * 101, "angles_deg": list(range(100))},

@@ -262,7 +262,7 @@ def test_tables() -> None:
         ({"rods": [0.6] * 4}, r"rods has shape \(4,\): .*small end and big end of each rod"),
         ({"rods": [[0.2, 0.4]] * 3}, r"rods has 3 entries"),
         ({"by": "weight"}, r'by = \'weight\': give "balance" or "spread"'),
-        ({"orders": "auto"}, r"orders = \"auto\": give whole numbers"),
+        ({"orders": "auto"}, r"orders = 'auto': give whole numbers"),
         ({"seed": -1}, r"seed = -1"),
         ({"pistons": [0.4] * 1001}, r"pistons has 1001 entries: give 1000 at most"),
     ],

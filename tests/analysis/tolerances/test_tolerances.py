@@ -439,7 +439,7 @@ def test_progress_is_told() -> None:
             {"by": "[3].force.peak"},
             r"orders = \[1, 2, 4, 6\]: by = \"\[3\].force.peak\" needs order 3",
         ),
-        ({"by": "unevenness_deg"}, r"by = \"unevenness_deg\": has no value for each sample"),
+        ({"by": "unevenness_deg"}, r"by = 'unevenness_deg': has no value for each sample"),
         ({"by": "total.torque.peak", "torque": False}, r"torque is not available: it was not"),
         ({"pins": [[1, 2], [3, 4]]}, r"pins = .*: name each cylinder once"),
         (
@@ -456,7 +456,7 @@ def test_errors_name_the_argument(changes: dict[str, Any], message: str) -> None
 
 def test_errors_of_results() -> None:
     t = tolerances(samples=3)
-    with pytest.raises(cp.InputError, match=r"^point: moments of samples .* engine\.replace"):
+    with pytest.raises(cp.InputError, match=r"^point is .*: moments of samples .* engine\.replace"):
         t.about(0.1)
     with pytest.raises(cp.InputError, match="sample = 3: give a number from 0 to 2"):
         t.engine_at(3)
@@ -484,5 +484,5 @@ def test_nothing_varies_where_nothing_deviates() -> None:
 
 @pytest.mark.parametrize("given", [{}, {"pin_deg": 0}, {"z": [0.0] * 6}])
 def test_some_part_must_deviate(given: dict[str, Any]) -> None:
-    with pytest.raises(cp.InputError, match="no part deviates: give a spread, recip"):
+    with pytest.raises(cp.InputError, match="no part deviates; give a spread, recip"):
         cp.tolerances(I6, rpm=RPM, **given)

@@ -9,7 +9,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
 from crankpin._support.frames import Tabled
@@ -194,9 +193,11 @@ def search_arrangements(
     held = inputs.text("hold", hold, 'give "firing" or "pins"')
     watched = progress_bar.checked(progress)
     if shared and (held != "pins" or rule):
-        raise InputError(
-            'shared_pins = True: give hold="pins", and leave out alternating; with top dead '
-            "centres held pins are split at all but one bank angle"
+        raise inputs.rejected(
+            "shared_pins",
+            True,
+            'give hold="pins", and leave out alternating; with top dead centres held pins are '
+            "split at all but one bank angle",
         )
     with progress_bar.shown(watched, f"V{count}") as told:
         core = _core.Search(count, rule, phases, held, shared, told)
@@ -244,8 +245,7 @@ class ArrangementSearch(Tabled):
     def __post_init__(self) -> None:
         core: object = self._search
         if not isinstance(core, _core.Search):
-            hint = "use crankpin.search_arrangements"
-            raise InputError(f"ArrangementSearch({inputs.shorten(core)}): {hint}")
+            raise inputs.rejected("search", core, "use crankpin.search_arrangements")
 
     @property
     def candidates(self) -> int:
@@ -461,7 +461,7 @@ def _again(
 def _bank_angle(name: str, value: object) -> float:
     angle = inputs.number(name, value)
     if math.isnan(angle):
-        raise InputError(f"{name} = nan: give a bank angle in degrees")
+        raise inputs.rejected(name, angle, "give a bank angle in degrees")
     return angle
 
 

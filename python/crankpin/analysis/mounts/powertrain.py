@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import files, inputs
 from crankpin._support.record import Input
 from crankpin._support.warnings import suppressed
@@ -259,7 +258,9 @@ class Powertrain(Input):
         number = inputs.whole("cylinder", cylinder)
         cycles = self.engine.cycles
         if cycles is None:
-            raise InputError(f"cylinder = {number}: no cylinder fires; give engine.with_cycle(…)")
+            raise inputs.rejected(
+                "cylinder", number, "no cylinder fires; give engine.with_cycle(…)"
+            )
         if not 1 <= number <= len(cycles):
             raise inputs.rejected("cylinder", number, f"give a number from 1 to {len(cycles)}")
         listed: list[Any] = [*cycles]
