@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::array::frozen;
 use crankpin_core as core;
 use crankpin_core::engine::file;
+use crankpin_core::mount_designs::{DesignRequest, Figure, Variation, mount_designs};
 use crankpin_core::mounted::Derivative;
 use crankpin_core::mounts::{
     self, InertiaTrack, Mount, MountFigures, Products, Receiver, Receptance, RigidBody, Table,
@@ -55,6 +56,22 @@ type Modes<'py> = (
 /// Directions of torque roll axis and elastic axis and the foot of that, distances of the mounts, and figures:
 /// angles of both to the crank, between them, distance, pitch, compliance.
 type Axes<'py> = ([[f64; 3]; 3], Bound<'py, PyArray1<f64>>, [f64; 6]);
+
+/// Frequencies, purity and least purity; least and largest frequencies by stiffness, mass and place of the
+/// CG; derivatives by that; corners of the least purity.
+type Robustness<'py> = (
+    Bound<'py, PyArray2<f64>>,
+    [Bound<'py, PyArray2<f64>>; 3],
+    Bound<'py, PyArray2<f64>>,
+    [Vec<[bool; 3]>; 6],
+);
+/// Orders, omitted ones, bounds; frequencies, largest peaks, rms.
+type Designs<'py> = (
+    (Vec<OrderNumber>, Vec<OrderNumber>, [f64; 3]),
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArrayDyn<f64>>,
+    Bound<'py, PyArrayDyn<f64>>,
+);
 
 /// Degrees about z, or directions of the axes.
 #[derive(FromPyObject, IntoPyObject)]
@@ -316,6 +333,76 @@ impl Powertrain {
                 elastic.pitch,
                 elastic.compliance,
             ],
+        ))
+    }
+
+    fn robustness<'py>(
+        &self,
+        py: Python<'py>,
+        tolerances: (Vec<f64>, f64, f64, f64, bool),
+        frequency: Option<f64>,
+    ) -> PyResult<Robustness<'py>> {
+        let (stiffness, mass, inertia, cg, by_axis) = tolerances;
+        let tolerances = mounts::MountTolerances { stiffness, mass, inertia, cg, by_axis };
+        let found = interrupt::run(py, |cancel| {
+            mounts::robustness(&self.0, &tolerances, frequency, cancel)
+        })?;
+        let rows = |rows: &[[f64; 6]]| frozen(py, Array2::from(rows.to_vec()));
+        Ok((
+            rows(&[found.frequency, found.purity, found.least_purity])?,
+            [rows(&found.by_stiffness)?, rows(&found.by_mass)?, rows(&found.by_cg)?],
+            rows(&found.cg_slope)?,
+            found.corner,
+        ))
+    }
+
+    /// Figures of designs: orders, those omitted, bounds of these, natural frequencies, (`n_designs`, 6),
+    /// largest peaks, (`n_designs`, `n_quantities`, `n_orders`, 3), and rms, (`n_designs`, `n_quantities`, 3).
+    fn designs<'py>(
+        &self,
+        py: Python<'py>,
+        engine: &Bound<'_, Engine>,
+        vary: Vec<(usize, String, PyReadonlyArray2<'_, f64>)>,
+        rpm: PyReadonlyArray1<'_, f64>,
+        orders: (Option<Vec<OrderNumber>>, f64),
+        quantities: (bool, Vec<[f64; 3]>),
+        frequency: Option<f64>,
+    ) -> PyResult<Designs<'py>> {
+        let figures = [
+            ("at", Figure::At),
+            ("tilt_deg", Figure::Tilt),
+            ("stiffness", Figure::Stiffness),
+            ("dynamic_stiffness", Figure::DynamicStiffness),
+            ("loss_factor", Figure::LossFactor),
+            ("damping", Figure::Damping),
+        ];
+        let mut variations = Vec::new();
+        for (mount, name, values) in vary {
+            let figure = choice("vary", &name, &figures)?;
+            let (rows, _) = values.as_slice()?.as_chunks::<3>();
+            let values = memory::collected(rows.iter().copied()).or_raise()?;
+            variations.push(Variation { mount, figure, values });
+        }
+        let (orders, rpm) = (balance::orders(orders.0, orders.1)?, rpm.as_slice()?);
+        let (mount_forces, points) = quantities;
+        let request =
+            DesignRequest { rpm, orders: &orders, mount_forces, points: &points, frequency };
+        let engine = &engine.get().0;
+        let found = interrupt::run(py, |cancel| {
+            mount_designs(engine, &self.0, &variations, &request, cancel)
+        })?;
+        let (count, orders) = (found.frequency.len(), found.orders.len());
+        let of_largest = [count, found.quantities, orders, 3];
+        let of_rms = [count, found.quantities, 3];
+        let largest = found.largest.into_flattened();
+        let rms = found.rms.into_flattened();
+        let largest = memory::array("designs", of_largest.as_slice(), largest).or_raise()?;
+        let rms = memory::array("designs", of_rms.as_slice(), rms).or_raise()?;
+        Ok((
+            (numbers(&found.orders), numbers(&found.omitted), found.error_bound.values()),
+            frozen(py, Array2::from(found.frequency))?,
+            frozen(py, largest)?,
+            frozen(py, rms)?,
         ))
     }
 

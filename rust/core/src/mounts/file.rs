@@ -218,18 +218,9 @@ impl ReceptanceEntry {
             let transfer = joined_rows(&entry.real, &entry.imaginary, &place, |re, im| {
                 [0, 1, 2].map(|axis| Complex64::new(re[axis], im[axis]))
             })?;
-            if let Some(row) = transfer.iter().find(|row| row.len() != coordinates.len()) {
-                let of = "coordinates";
-                limits::same_length(&place, row.len(), of, coordinates.len(), "coordinate")?;
-            }
             receivers.push(Receiver { name: entry.name, transfer });
         }
-        let values = values?;
-        for matrix in &values {
-            let (count, of) = (coordinates.len() * coordinates.len(), "coordinates, squared");
-            limits::same_length("real", matrix.len(), of, count, "pair of coordinates")?;
-        }
-        Receptance { coordinates, frequency: self.frequency, values, receivers }.checked()
+        Receptance { coordinates, frequency: self.frequency, values: values?, receivers }.checked()
     }
 }
 

@@ -5,10 +5,12 @@
 
 mod axes;
 mod body;
+pub(crate) mod equations;
 pub(crate) mod file;
 mod footprint;
 mod modes;
 mod mount;
+mod robustness;
 mod severity;
 mod static_state;
 mod stiffness;
@@ -19,8 +21,10 @@ use nalgebra::{Cholesky, Matrix3x6, U6, Vector3};
 pub use self::axes::{Axes, ElasticAxis, axes};
 pub use self::body::{Products, RigidBody};
 pub use self::footprint::support_margin;
+pub(crate) use self::modes::natural_frequencies;
 pub use self::modes::{FreeMotion, Modes, modes};
 pub use self::mount::{Mount, MountFigures, Orientation, motion_of_point};
+pub use self::robustness::{MountTolerances, Robustness, robustness};
 pub use self::severity::{GRADES, Levels, grade};
 pub use self::static_state::{Static, at_rest};
 pub use self::stiffness::{Dynamic, InertiaTrack, Table};
@@ -123,6 +127,13 @@ impl Powertrain {
             let hint = "give a tensor whose principal moments are above zero";
             Error::value("inertia", "not positive definite", hint)
         })
+    }
+
+    /// The matrix L⁻ᵀ whose columns have unit mass.
+    fn unit_mass(&self) -> Result<nalgebra::Matrix6<f64>> {
+        let inverse = self.mass_factor()?.l().try_inverse();
+        let error = || Error::value("inertia", "not positive definite", "give a tensor that is");
+        inverse.map(|inverse| inverse.transpose()).ok_or_else(error)
     }
 
     /// Motion under a load about the CG at an angular speed; none where the matrix has no inverse, as in

@@ -71,6 +71,10 @@ impl Receptance {
             return Err(Error::value("coordinates", "[]", hint));
         }
         for (k, coordinate) in self.coordinates.iter().enumerate() {
+            if coordinate.1 > 2 {
+                let hint = "give 0, 1 or 2 for x, y or z";
+                return Err(Error::value(format!("coordinates[{k}]"), coordinate.1, hint));
+            }
             if self.coordinates[..k].contains(coordinate) {
                 let (name, axis) = (&coordinate.0, DIRECTIONS[coordinate.1]);
                 let hint = "is there twice: give each coordinate once";
@@ -90,6 +94,9 @@ impl Receptance {
             "frequency",
         )?;
         for (k, matrix) in self.values.iter_mut().enumerate() {
+            let argument = format!("table: receptance[{k}]");
+            let of = "a square of the coordinates";
+            limits::same_length(&argument, matrix.len(), of, count * count, "pair of coordinates")?;
             for row in 0..count {
                 for column in 0..=row {
                     let mean = (matrix[row * count + column] + matrix[column * count + row]) * 0.5;
@@ -116,6 +123,7 @@ impl Receptance {
                 "frequency",
             )?;
             for row in &receiver.transfer {
+                limits::same_length(&argument, row.len(), "coordinates", count, "coordinate")?;
                 for &value in row.iter().flatten() {
                     finite(|| argument.clone(), value)?;
                 }

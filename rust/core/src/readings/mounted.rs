@@ -10,6 +10,7 @@ use crate::Complex64;
 use crate::engine::Engine;
 use nalgebra::Vector3;
 
+use crate::mounts::equations::{Equations, LANES, Lanes6, lanes, product, rows};
 use crate::mounts::{ComplexVector6, Levels, Powertrain, State, Support, grade};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -17,6 +18,7 @@ use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::numbers::pool;
+use crate::numbers::simd::vectorised;
 use crate::readings::balance::{ErrorBounds, Orders, Request, angular_speed, balance};
 use crate::wrench::Wrench;
 
@@ -38,6 +40,17 @@ pub struct Response {
     carriers: Vec<Vector3<Complex64>>,
     /// Motion of a subframe; empty without one.
     subframe: Vec<ComplexVector6>,
+}
+
+/// An engine's loads about a centre of gravity.
+pub(crate) struct Loads {
+    pub orders: Vec<Order>,
+    pub omitted: Vec<Order>,
+    pub error_bound: ErrorBounds,
+    /// Angular speed of the crank at each speed.
+    pub omega: Vec<f64>,
+    /// At each order, with parts by inertia over ω².
+    unit: Vec<Wrench>,
 }
 
 /// One order at one speed.
@@ -67,11 +80,11 @@ fn load(wrench: &Wrench) -> ComplexVector6 {
     ComplexVector6::new(force_x, force_y, Complex64::ZERO, pitch, yaw, wrench.torque().roll)
 }
 
-impl Response {
-    /// Motion at each speed, rpm, in each order of the engine's balance.
+impl Loads {
+    /// Those of an engine at some speeds.
     pub fn new(
         engine: &Engine,
-        powertrain: Arc<Powertrain>,
+        cg: Vector3<f64>,
         rpm: &[f64],
         orders: &Orders,
         cancel: &Cancel,
@@ -84,7 +97,6 @@ impl Response {
         for &rpm in rpm {
             omega.push(angular_speed(rpm)?);
         }
-        let cg = powertrain.body().cg();
         let at = |rpm: f64| {
             let request = Request { rpm, reference_z: Some(cg.z), torque: true };
             balance(engine, &request, orders, cancel)
@@ -98,19 +110,50 @@ impl Response {
         };
         let about_cg: Vec<Wrench> =
             unit.wrenches.iter().map(|wrench| wrench.moved([cg.x, cg.y, 0.0])).collect();
-        let count = unit.orders.len();
-        let hint = "give fewer speeds or orders";
-        limits::result_size("response", &[rpm.len(), count, 6], size_of::<Complex64>(), hint)?;
-        let mut loads = memory::room(rpm.len() * count)?;
-        for omega in &omega {
-            loads.extend(about_cg.iter().map(|wrench| load(&wrench.at_speed(omega * omega))));
-        }
         let roll = cg.x.hypot(cg.y) * error_bound.force;
-        let mut response = Self {
-            powertrain,
+        Ok(Self {
             orders: unit.orders,
             omitted: unit.omitted,
             error_bound: ErrorBounds { torque: error_bound.torque + roll, ..error_bound },
+            omega,
+            unit: about_cg,
+        })
+    }
+
+    /// Load of each order that is times ω², and that of gas pressure.
+    pub fn amplitudes(&self) -> Vec<[ComplexVector6; 2]> {
+        let parts = |wrench: &Wrench| {
+            let gas = Wrench { gas: wrench.gas, ..Wrench::default() };
+            [load(&Wrench { gas: crate::wrench::Torque::default(), ..*wrench }), load(&gas)]
+        };
+        self.unit.iter().map(parts).collect()
+    }
+}
+
+impl Response {
+    /// Motion at each speed, rpm, in each order of the engine's balance.
+    pub fn new(
+        engine: &Engine,
+        powertrain: Arc<Powertrain>,
+        rpm: &[f64],
+        orders: &Orders,
+        cancel: &Cancel,
+    ) -> Result<Self> {
+        let of_engine = Loads::new(engine, powertrain.body().cg(), rpm, orders, cancel)?;
+        let count = of_engine.orders.len();
+        let hint = "give fewer speeds or orders";
+        limits::result_size("response", &[rpm.len(), count, 6], size_of::<Complex64>(), hint)?;
+        let mut loads = memory::room(rpm.len() * count)?;
+        for omega in &of_engine.omega {
+            let wrenches = of_engine.unit.iter();
+            loads.extend(wrenches.map(|wrench| load(&wrench.at_speed(omega * omega))));
+        }
+        let Loads { orders, omitted, error_bound, omega, .. } = of_engine;
+        let mut response = Self {
+            powertrain,
+            orders,
+            omitted,
+            error_bound,
             omega,
             loads,
             motions: Vec::new(),
@@ -155,12 +198,24 @@ impl Response {
             let carriers = of_carriers.next().unwrap_or_default();
             parts.push((piece, motions, carriers, of_subframe.next().unwrap_or_default()));
         }
-        // A factorisation takes some two hundred times as long as a product.
-        pool::each(cancel, parts, 256 * points, |(piece, motions, carriers, subframe)| {
+        // Where there are few, a factorisation each is the shortest.
+        let equations = if points > LANES && moves == 0 {
+            let rates = (0..points).map(|point| self.omega_of(point));
+            Some(Equations::new(&self.powertrain, rates.fold(f64::MAX, f64::min))?)
+        } else {
+            None
+        };
+        // What takes a factorisation takes some two hundred times as long as a product.
+        let numbers = if equations.is_some() { 16 } else { 256 };
+        pool::each(cancel, parts, numbers * points, |(piece, motions, carriers, subframe)| {
             cancel.check()?;
+            let solved = match &equations {
+                Some(equations) => self.solve_in_lanes(equations, rpm, piece, motions)?,
+                None => vec![false; motions.len()],
+            };
             for (k, motion) in motions.iter_mut().enumerate() {
                 let point = piece * POINTS_PER_TASK + k;
-                if self.loads[point] == ComplexVector6::zeros() {
+                if solved[k] || self.loads[point] == ComplexVector6::zeros() {
                     continue;
                 }
                 let state = self.state(point, rpm[self.place(point).0])?;
@@ -176,6 +231,65 @@ impl Response {
         })?;
         (self.motions, self.carriers, self.subframe) = (motions, carriers, subframe);
         Ok(())
+    }
+
+    /// Motions of a piece of the points; which of them were solved.
+    fn solve_in_lanes(
+        &self,
+        equations: &Equations,
+        rpm: &[f64],
+        piece: usize,
+        motions: &mut [ComplexVector6],
+    ) -> Result<Vec<bool>> {
+        let first = piece * POINTS_PER_TASK;
+        let mut all = memory::room(motions.len())?;
+        let [to, from] = [rows(&equations.to), rows(&equations.from)];
+        let directions = 3 * self.powertrain.mounts().len() * usize::from(equations.is_factored());
+        let mut stiffnesses = vec![[[0.0; LANES]; 2]; directions];
+        for (k, motions) in motions.chunks_mut(LANES).enumerate() {
+            let points = first + k * LANES..first + k * LANES + motions.len();
+            let loads = lanes(&self.loads[points.clone()]);
+            let mut squares = [0.0; LANES];
+            for l in 0..LANES {
+                let point = (points.start + l).min(points.end - 1);
+                let omega = self.omega_of(point);
+                squares[l] = omega * omega;
+                if directions == 0 || self.loads[point] == ComplexVector6::zeros() {
+                    continue;
+                }
+                let (row, order) = self.place(point);
+                let words = || format!("order {order} at {} rpm", rpm[row]);
+                for (mount, along) in self.powertrain.mounts().iter().zip(stiffnesses.chunks_mut(3))
+                {
+                    for (value, to) in mount.stiffness_at(omega, words)?.iter().zip(along) {
+                        (to[0][l], to[1][l]) = (value.re, value.im);
+                    }
+                }
+            }
+            let (solved, moved) = vectorised(
+                #[inline(always)]
+                || {
+                    let mut solution: Lanes6 = [[[0.0; LANES]; 6]; 2];
+                    for (k, row) in to.iter().enumerate() {
+                        [solution[0][k], solution[1][k]] = product(row, &loads);
+                    }
+                    let solved = equations.solve(&squares, &stiffnesses, &mut solution);
+                    let mut moved: Lanes6 = [[[0.0; LANES]; 6]; 2];
+                    for (k, row) in from.iter().enumerate() {
+                        [moved[0][k], moved[1][k]] = product(row, &solution);
+                    }
+                    (solved, moved)
+                },
+            );
+            for (l, motion) in motions.iter_mut().enumerate() {
+                all.push(solved[l]);
+                if solved[l] && self.loads[points.start + l] != ComplexVector6::zeros() {
+                    let part = |k: usize, _| Complex64::new(moved[0][k][l], moved[1][k][l]);
+                    *motion = ComplexVector6::from_fn(part);
+                }
+            }
+        }
+        Ok(all)
     }
 
     /// Index of the speed, and the order, of a point.
