@@ -93,7 +93,7 @@ struct Shared<'a> {
     loads: Loads,
     /// Speeds in lanes, the last one again where there are fewer.
     omega: Vec<Lane>,
-    /// Load of each order over ω², and the rest.
+    /// Load of each order over (nω)², and that of gas pressure.
     amplitudes: Vec<[ComplexVector6; 2]>,
     /// Stiffness of each direction of each mount at the speeds of each lane and order, as it is without
     /// variations; empty where no design needs it.

@@ -6,10 +6,10 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use crate::Complex64;
-use crate::engine::Engine;
 use nalgebra::Vector3;
 
+use crate::Complex64;
+use crate::engine::Engine;
 use crate::mounts::equations::{Equations, LANES, Lanes6, lanes, product, rows};
 use crate::mounts::{ComplexVector6, Levels, Powertrain, State, Support, grade};
 use crate::numbers::cancel::Cancel;
@@ -120,13 +120,14 @@ impl Loads {
         })
     }
 
-    /// Load of each order that is times ω², and that of gas pressure.
+    /// Load of each order over (nω)², and that of gas pressure.
     pub fn amplitudes(&self) -> Vec<[ComplexVector6; 2]> {
-        let parts = |wrench: &Wrench| {
+        let parts = |(wrench, order): (&Wrench, &Order)| {
             let gas = Wrench { gas: wrench.gas, ..Wrench::default() };
-            [load(&Wrench { gas: crate::wrench::Torque::default(), ..*wrench }), load(&gas)]
+            let inertia = Wrench { gas: crate::wrench::Torque::default(), ..*wrench };
+            [load(&inertia) / Complex64::from(order.number().powi(2)), load(&gas)]
         };
-        self.unit.iter().map(parts).collect()
+        self.unit.iter().zip(&self.orders).map(parts).collect()
     }
 }
 

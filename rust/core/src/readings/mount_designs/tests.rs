@@ -168,7 +168,7 @@ fn modes_that_merge_lose_no_digits() {
     // ω = 90 rad/s is .9 of the modes' frequency.
     let equations = Equations::new(&merged, 90.0).unwrap();
     assert!(!equations.is_factored());
-    let load = ComplexVector6::new(1.0, 0.3, 0.0, 0.0, 0.0, 0.0).map(Complex64::from);
+    let load = nalgebra::Vector6::new(1.0, 0.3, 0.0, 0.0, 0.0, 0.0).map(Complex64::from);
     let start = equations.to * load;
     let mut solution: Lanes6 = [
         std::array::from_fn(|k| [start[k].re; LANES]),

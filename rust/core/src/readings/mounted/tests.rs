@@ -252,7 +252,7 @@ fn two_stages(below: f64) -> Powertrain {
 
 /// State under 1 N along y.
 fn pushed(powertrain: &Powertrain, omega: f64) -> (State, [Complex64; 3]) {
-    let load = ComplexVector6::new(0.0, 1.0, 0.0, 0.0, 0.0, 0.0).map(Complex64::from);
+    let load = nalgebra::Vector6::new(0.0, 1.0, 0.0, 0.0, 0.0, 0.0).map(Complex64::from);
     let along = powertrain.stiffnesses(omega, String::new).unwrap();
     let state = powertrain.state(&along, omega, &load, String::new).unwrap().unwrap();
     let deflection = powertrain.deflection(0, &state.motion, state.carrier.first());
@@ -290,7 +290,7 @@ fn a_mass_on_a_mass_passes_more_than_on_a_fixed_floor() {
     let (_, on_floor) =
         pushed(&two_stages(300.0).on(receptance(Complex64::ZERO, 0.0).unwrap()).unwrap(), omega);
     assert_near(on_floor[1].norm(), 0.481_627_52);
-    let error = receptance(stiffness.inv().conj(), 0.0).unwrap_err().to_string();
+    let error = receptance(stiffness.inv(), 1e-7).unwrap_err().to_string();
     assert!(error.contains("conjugate them"), "{error}");
     let outside =
         measured.state(&[[Complex64::ONE; 3]], TAU * 31.0, &state.motion, || "order 1".into());
@@ -382,7 +382,7 @@ fn stages_balance_in_force_and_power_and_agree_with_their_receptance() {
             assert!(size(&(state.motion - motion)) <= 1e-9 * size(&motion));
         }
         // On a body that does not move, the answer of one stage.
-        let heavy = below.body().scaled(1e14, 1e14);
+        let heavy = below.body().scaled(1e20, 1e20);
         let heavy = Powertrain::new(heavy, below.mounts().to_vec()).unwrap();
         let on_heavy = Arc::new(above.clone().on(Support::Subframe(Box::new(heavy))).unwrap());
         let fixed = Response::new(&engine, Arc::new(above), &rpm, &orders, &cancel).unwrap();
