@@ -7,7 +7,7 @@ from numba import njit, prange
 
 
 @njit(parallel=True, fastmath=True, cache=False)
-def factored(stiffness, damping, mass, load, omega):  # noqa: ANN001, ANN201 - compiled
+def factored(stiffness, damping, mass, load, omega):  # noqa: ANN001, ANN202, PLR0912 - compiled
     """Factorise each point of each design without pivots: largest |K q| of forces over speed."""
     count, (speeds, orders) = len(stiffness), omega.shape
     out = np.zeros((count, orders, 3))
@@ -44,7 +44,7 @@ def factored(stiffness, damping, mass, load, omega):  # noqa: ANN001, ANN201 - c
 
 
 @njit(parallel=True, fastmath=True, cache=False)
-def superposed(values, shapes, rows, load, omega):  # noqa: ANN001, ANN201 - compiled
+def superposed(values, shapes, rows, load, omega):  # noqa: ANN001, ANN202 - compiled
     """Superpose modes at each point of each design: largest force over speed."""
     count, (speeds, orders) = len(values), omega.shape
     out = np.zeros((count, orders, 3))

@@ -1,8 +1,8 @@
 """Many designs of mounts: crankpin against batched solving and modal superposition.
 
-``python benchmarks/mounts.py`` times, over the number of designs, the largest force on the body over
-200 speeds of each of 12 orders of an inline four on four mounts: with hysteretic damping, where
-stiffness is constant, and with viscous damping, where each frequency has its own. Against
+``python benchmarks/mounts.py`` times, over the number of designs, the largest force on the body
+over 200 speeds of each of 12 orders of an inline four on four mounts: with hysteretic damping,
+where stiffness is constant, and with viscous damping, where each frequency has its own. Against
 `numpy.linalg.solve` of batches, complex modes in NumPy, and, where numba is installed, an LDLᵀ
 factorisation and complex modes compiled with two threads. The others are handed their matrices;
 crankpin assembles them, and finds the natural frequencies too. It writes ``mounts.csv`` and
@@ -38,10 +38,7 @@ HEADER = ("damping", "method", "designs", "nanoseconds_per_point", "error")
 HAS_NUMBA = importlib.util.find_spec("numba") is not None
 
 ENGINE = cp.Engine.inline(
-    cp.Cylinder(0.043, 0.145, 0.45),
-    throws_deg=[0, 180, 180, 0],
-    spacing=0.1,
-    name="I4",
+    cp.Cylinder(0.043, 0.145, 0.45), throws_deg=[0, 180, 180, 0], spacing=0.1, name="I4"
 ).with_counterweights([cp.Unbalance(0.002, z=0.4, angle_deg=20)])
 INERTIA = np.array([[7.0, 0.2, -0.4], [0.2, 8.0, 0.3], [-0.4, 0.3, 4.5]])
 CG = np.array([0.01, 0.06, 0.15])
@@ -162,7 +159,7 @@ def measured(counts: list[int]) -> list[tuple[str, str, int, float, float]]:
             few = case(min(count, 10), viscous)
             expected = solved(few)
             size = np.linalg.norm(expected, axis=-1, keepdims=True)
-            calls = {name: (lambda m=method: m(of)) for name, method in chosen.items()}
+            calls = {name: (lambda m=method, of=of: m(of)) for name, method in chosen.items()}
             times = interleaved(calls, rounds=3, seconds=0.3, runs=1)
             points = count * len(ORDERS) * len(RPM)
             for name, seconds in times.items():

@@ -31,8 +31,8 @@ SWEPT = {
 every_result = pytest.mark.parametrize("name", [*RESULTS, *SWEPT])
 UNTABLED = {
     "Arrangement", "BalancerOption", "Choice", "Cylinder", "Design", "Engine", "PortTiming", "Rod",
-    "Shaft", "Unbalance", "ValveTiming", "InertiaTrack", "Mount", "Powertrain", "RigidBody", "Subframe",
-    "Receptance",
+    "Shaft", "Unbalance", "ValveTiming", "InertiaTrack", "Mount", "Powertrain", "RigidBody",
+    "Subframe", "Receptance",
     "OrderResponse", "PointMotion", "VectorQuantity", "WorstForce",
     # inputs, and items of results that have tables
     "ClosedForm", "Explanation",  # formulas and sentences

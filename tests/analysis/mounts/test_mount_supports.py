@@ -22,9 +22,7 @@ CORNERS = [(x, 0.0, z) for x in (0.3, -0.3) for z in (0.3, -0.3)]
 
 def four(stiffness: float, loss: float) -> list[cp.Mount]:
     """Return four equal mounts at the corners of a square."""
-    return [
-        cp.Mount(f"{k}", at, stiffness / 4.0, loss_factor=loss) for k, at in enumerate(CORNERS)
-    ]
+    return [cp.Mount(f"{k}", at, stiffness / 4.0, loss_factor=loss) for k, at in enumerate(CORNERS)]
 
 
 FIXED = cp.Powertrain(SINGLE, UPPER, four(1.2e6, 0.1))
@@ -133,7 +131,9 @@ def test_impossible_supports_are_rejected() -> None:
 
 
 @pytest.mark.parametrize("support", [STAGES.support, as_receptance()])
-def test_supports_read_back_from_files(tmp_path: Path, support: Any) -> None:
+def test_supports_read_back_from_files(
+    tmp_path: Path, support: cp.Subframe | cp.Receptance
+) -> None:
     p = FIXED.on(support)
     for name in ("p.toml", "p.json"):
         p.save(tmp_path / name)
