@@ -89,10 +89,11 @@ class Powertrain(Input):
             if not isinstance(mount, Mount):
                 raise inputs.rejected(f"mounts[{k}]", mount, "give a crankpin.Mount")
         figures = [mount._figures for mount in listed]
-        if self.support is not None and not isinstance(self.support, Subframe | Receptance):
+        support: Any = self.support
+        if support is not None and not isinstance(support, Subframe | Receptance):
             hint = "give a crankpin.Subframe or a crankpin.Receptance"
-            raise inputs.rejected("support", self.support, hint)
-        below = None if self.support is None else self.support._figures
+            raise inputs.rejected("support", support, hint)
+        below = None if support is None else support._figures
         core = _core.Powertrain(self.body._figures, figures, below)
         self.__dict__.update(mounts=tuple(listed), _powertrain=core)
 
