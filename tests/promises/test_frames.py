@@ -33,7 +33,7 @@ UNTABLED = {
     "Arrangement", "BalancerOption", "Choice", "Cylinder", "Design", "Engine", "PortTiming", "Rod",
     "Shaft", "Unbalance", "ValveTiming", "InertiaTrack", "Mount", "Powertrain", "RigidBody",
     "Subframe", "Receptance",
-    "OrderResponse", "PointMotion", "VectorQuantity", "WorstForce",
+    "OrderResponse", "VectorQuantity", "WorstForce",
     # inputs, and items of results that have tables
     "ClosedForm", "Explanation",  # formulas and sentences
 }  # fmt: skip

@@ -769,6 +769,7 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
         "StaticState",
         "MountModes",
         "MountResponse",
+        "PointMotion",
         "RollAxes",
         "Waveform",
         "Counterweights",

@@ -88,6 +88,10 @@ TABLE = Table(
 )
 
 
+def test_numbers_that_round_to_zero_have_no_minus() -> None:
+    assert Column("share", (-0.04, -0.06, 0.04), "%", decimals=1).cells() == ["0.0", "-0.1", "0.0"]
+
+
 def test_a_table_is_text_html_csv_and_data_frame(tmp_path: Path) -> None:
     assert TABLE.text().splitlines() == [
         "A <title>",

@@ -818,11 +818,13 @@ class EngineData:
         Raises
         ------
         InputError
-            If the name ends otherwise.
+            If the name ends otherwise, or the file is there and has a ``[powertrain]``, which would
+            be lost.
         OSError
             If the file cannot be written.
         """
         file = engine_files.checked(path)
+        engine_files.check_keeps_mounts(file)
         toml = engine_files.is_toml(file)
         text = engine_files.commented(self.to_toml()) if toml else self.to_json()
         files.write(file, text)

@@ -10,7 +10,7 @@ use std::array::from_fn;
 
 use nalgebra::Schur;
 
-use super::{ComplexMatrix6, ComplexVector6, LEAST_PIVOT, Powertrain};
+use super::{ComplexMatrix6, ComplexVector6, Powertrain};
 use crate::Complex64;
 use crate::numbers::error::Result;
 
@@ -29,6 +29,9 @@ const MOST_STEPS: usize = 500;
 const LARGEST_GROWTH: f64 = 1e3;
 /// Norm of K over the least ω² for which its rounding costs four digits at most.
 const LARGEST_SPREAD: f64 = 1e4;
+/// Distance from a resonance, over the norm of K and ω², within which the factorisation with pivots decides
+/// whether there is an answer.
+const RESONANCE: f64 = 1e-10;
 /// Entries of a symmetric matrix.
 const ENTRIES: usize = 21;
 
@@ -43,9 +46,15 @@ pub(crate) struct Equations {
 
 enum Form {
     /// Upper triangle of the Schur form.
-    Triangle(Box<ComplexMatrix6>),
+    Triangle(Box<Triangle>),
     /// For each direction of each mount the entries of the stiffness by it, in coordinates of unit mass.
     Directions(Vec<[f64; ENTRIES]>),
+}
+
+/// Upper triangle, real and imaginary parts, and the norm of it.
+struct Triangle {
+    entries: [[[f64; 2]; 6]; 6],
+    size: f64,
 }
 
 /// Row and column of an entry.
@@ -83,7 +92,9 @@ impl Equations {
             let stiffnesses = powertrain.stiffnesses(least, String::new)?;
             let matrix = complex.transpose() * powertrain.assembled(&stiffnesses) * complex;
             if let Some((turn, triangle)) = schur(&matrix, least) {
-                let form = Form::Triangle(Box::new(triangle));
+                let part = |i: usize, j: usize| [triangle[(i, j)].re, triangle[(i, j)].im];
+                let entries = from_fn(|i| from_fn(|j| part(i, j)));
+                let form = Form::Triangle(Box::new(Triangle { entries, size: matrix.norm() }));
                 return Ok(Self {
                     form,
                     to: turn.adjoint() * complex.transpose(),
@@ -136,28 +147,30 @@ fn schur(matrix: &ComplexMatrix6, least: f64) -> Option<(ComplexMatrix6, Complex
     ((product - matrix).norm() <= RECOMPOSED * size).then_some((turn, triangle))
 }
 
+// No closure below but what is called once: one that is not inlined would be compiled for the baseline, where
+// a fused product is a call.
+
 #[inline(always)]
-fn substituted(triangle: &ComplexMatrix6, squares: &Lane, load: &mut Lanes6) -> [bool; LANES] {
+fn substituted(triangle: &Triangle, squares: &Lane, load: &mut Lanes6) -> [bool; LANES] {
     let mut is_solved = [true; LANES];
-    let size = triangle.iter().map(|value| value.norm_sqr()).sum::<f64>().sqrt();
     let [re, im] = load;
     for k in (0..6).rev() {
         let (mut real, mut imaginary) = (re[k], im[k]);
         for j in k + 1..6 {
-            let t = triangle[(k, j)];
+            let [t_re, t_im] = triangle.entries[k][j];
             for l in 0..LANES {
-                real[l] = (-t.re).mul_add(re[j][l], t.im.mul_add(im[j][l], real[l]));
-                imaginary[l] = (-t.re).mul_add(im[j][l], (-t.im).mul_add(re[j][l], imaginary[l]));
+                real[l] = (-t_re).mul_add(re[j][l], t_im.mul_add(im[j][l], real[l]));
+                imaginary[l] = (-t_re).mul_add(im[j][l], (-t_im).mul_add(re[j][l], imaginary[l]));
             }
         }
-        let d = triangle[(k, k)];
+        let [d_re, d_im] = triangle.entries[k][k];
         for l in 0..LANES {
-            let rest = d.re - squares[l];
-            let norm = rest.mul_add(rest, d.im * d.im);
+            let rest = d_re - squares[l];
+            let norm = rest.mul_add(rest, d_im * d_im);
             let inverse = 1.0 / norm;
-            re[k][l] = rest.mul_add(real[l], d.im * imaginary[l]) * inverse;
-            im[k][l] = rest.mul_add(imaginary[l], -(d.im * real[l])) * inverse;
-            let least = LEAST_PIVOT * (size + squares[l]);
+            re[k][l] = rest.mul_add(real[l], d_im * imaginary[l]) * inverse;
+            im[k][l] = rest.mul_add(imaginary[l], -(d_im * real[l])) * inverse;
+            let least = RESONANCE * (triangle.size + squares[l]);
             is_solved[l] &= norm > least * least;
         }
     }
@@ -220,7 +233,8 @@ fn factored(
         }
         for i in k + 1..6 {
             let [a_re, a_im] = lower[i];
-            for (j, [b_re, b_im]) in column.iter().enumerate().take(i + 1).skip(k + 1) {
+            for j in k + 1..=i {
+                let [b_re, b_im] = &column[j];
                 let [re, im] = &mut matrix[entry(i, j)];
                 for l in 0..LANES {
                     re[l] = (-a_re[l]).mul_add(b_re[l], a_im[l].mul_add(b_im[l], re[l]));
@@ -251,20 +265,24 @@ fn factored(
         }
         (x_re[k], x_im[k]) = (real, imaginary);
     }
-    from_fn(|l| {
-        let (size, growth) = (size[l] * size[l], LARGEST_GROWTH * LARGEST_GROWTH);
+    let mut is_solved = [false; LANES];
+    for l in 0..LANES {
+        let square = size[l] * size[l];
         // Not of numbers that are none.
-        worst[l] <= growth * size && least[l] > LEAST_PIVOT * LEAST_PIVOT * size
-    })
+        is_solved[l] = worst[l] <= LARGEST_GROWTH * LARGEST_GROWTH * square
+            && least[l] > RESONANCE * RESONANCE * square;
+    }
+    is_solved
 }
 
 /// Products of a complex matrix's rows and six complex numbers at each frequency.
 #[inline(always)]
 pub(crate) fn product(row: &[Complex64; 6], of: &Lanes6) -> [Lane; 2] {
     let mut sum = [[0.0; LANES]; 2];
-    for (k, factor) in row.iter().enumerate() {
+    for k in 0..6 {
+        let factor = row[k];
         for l in 0..LANES {
-            let [re, im] = [of[0][k][l], of[1][k][l]];
+            let (re, im) = (of[0][k][l], of[1][k][l]);
             sum[0][l] = factor.re.mul_add(re, (-factor.im).mul_add(im, sum[0][l]));
             sum[1][l] = factor.re.mul_add(im, factor.im.mul_add(re, sum[1][l]));
         }

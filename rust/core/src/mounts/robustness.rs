@@ -143,8 +143,7 @@ fn corners(
 ) -> Result<([f64; 6], [Vec<[bool; 3]>; 6])> {
     // Directions that are at one end together.
     let mut parameters: Vec<Vec<(usize, usize)>> = Vec::new();
-    for (mount, _) in tolerances.stiffness.iter().enumerate().filter(|(_, share)| **share > 0.0)
-    {
+    for (mount, _) in tolerances.stiffness.iter().enumerate().filter(|(_, share)| **share > 0.0) {
         let axes = (0..3).filter(|&axis| along[mount][axis] > 0.0).map(|axis| (mount, axis));
         if tolerances.by_axis {
             parameters.extend(axes.map(|place| vec![place]));

@@ -430,7 +430,8 @@ impl Outputs {
         Ok(outputs)
     }
 
-    /// Adds squares of the magnitudes of all quantities: the largest, and the sum over orders.
+    /// Adds squares of the magnitudes of all quantities: the largest, and the sum over orders. Without closures
+    /// for the reason in [`crate::mounts::equations`].
     #[inline(always)]
     fn add(
         &self,
@@ -440,61 +441,67 @@ impl Outputs {
         most: &mut [[Lane; 3]],
         sums: &mut [[Lane; 3]],
     ) {
+        let one = [1.0; LANES];
         let mut quantity = 0;
-        let mut take = |vector: &[[Lane; 2]; 3], factor: Option<&Lane>| {
-            for axis in 0..3 {
-                let [re, im] = &vector[axis];
-                for l in 0..LANES {
-                    let square = re[l].mul_add(re[l], im[l] * im[l]);
-                    let square = factor.map_or(square, |factor| square * factor[l]);
-                    most[quantity][axis][l] = most[quantity][axis][l].max(square);
-                    sums[quantity][axis][l] += square;
-                }
-            }
+        for rows in &self.forces {
+            let vector = vector(rows, solution);
+            take(&vector, &one, &mut most[quantity], &mut sums[quantity]);
             quantity += 1;
-        };
-        if self.deflections.is_empty() {
-            for rows in &self.forces {
-                take(&[0, 1, 2].map(|axis| product(&rows[axis], solution)), None);
-            }
-        } else {
-            let zero = [[0.0; LANES]; 2];
-            let mut sum = [zero; 3];
-
-            // Of the sum first, then of each mount.
-            for pass in 0..=usize::from(self.mount_forces) {
-                for ((rows, axes), along) in self.deflections.iter().zip(stiffnesses.chunks(3)) {
-                    let mut forces = [zero; 3];
-                    for axis in 0..3 {
-                        let [re, im] = product(&rows[axis], solution);
-                        let [k_re, k_im] = &along[axis];
-                        for (force, factor) in forces.iter_mut().zip(&axes[axis]) {
-                            for l in 0..LANES {
-                                let real = k_re[l].mul_add(re[l], -(k_im[l] * im[l]));
-                                let imaginary = k_re[l].mul_add(im[l], k_im[l] * re[l]);
-                                force[0][l] = factor.mul_add(real, force[0][l]);
-                                force[1][l] = factor.mul_add(imaginary, force[1][l]);
-                            }
-                        }
-                    }
-                    if pass == 1 {
-                        take(&forces, None);
-                        continue;
-                    }
-                    for (sum, force) in sum.iter_mut().zip(&forces) {
+        }
+        if !self.deflections.is_empty() {
+            let mut sum = [[[0.0; LANES]; 2]; 3];
+            for (mount, (rows, axes)) in self.deflections.iter().enumerate() {
+                let moved = vector(rows, solution);
+                let mut forces = [[[0.0; LANES]; 2]; 3];
+                for axis in 0..3 {
+                    let [k_re, k_im] = &stiffnesses[3 * mount + axis];
+                    let [re, im] = &moved[axis];
+                    for along in 0..3 {
+                        let factor = axes[axis][along];
                         for l in 0..LANES {
-                            sum[0][l] += force[0][l];
-                            sum[1][l] += force[1][l];
+                            let real = k_re[l].mul_add(re[l], -(k_im[l] * im[l]));
+                            let imaginary = k_re[l].mul_add(im[l], k_im[l] * re[l]);
+                            forces[along][0][l] = factor.mul_add(real, forces[along][0][l]);
+                            forces[along][1][l] = factor.mul_add(imaginary, forces[along][1][l]);
                         }
                     }
                 }
-                if pass == 0 {
-                    take(&sum, None);
+                for along in 0..3 {
+                    for l in 0..LANES {
+                        sum[along][0][l] += forces[along][0][l];
+                        sum[along][1][l] += forces[along][1][l];
+                    }
+                }
+                if self.mount_forces {
+                    take(&forces, &one, &mut most[1 + mount], &mut sums[1 + mount]);
                 }
             }
+            take(&sum, &one, &mut most[0], &mut sums[0]);
+            quantity = if self.mount_forces { 1 + self.deflections.len() } else { 1 };
         }
         for rows in &self.points {
-            take(&[0, 1, 2].map(|axis| product(&rows[axis], solution)), Some(squares));
+            let moved = vector(rows, solution);
+            take(&moved, squares, &mut most[quantity], &mut sums[quantity]);
+            quantity += 1;
+        }
+    }
+}
+
+/// Three components of a quantity.
+#[inline(always)]
+fn vector(rows: &[[Complex64; 6]; 3], solution: &Lanes6) -> [[Lane; 2]; 3] {
+    [product(&rows[0], solution), product(&rows[1], solution), product(&rows[2], solution)]
+}
+
+/// Adds squares of magnitudes times a factor.
+#[inline(always)]
+fn take(vector: &[[Lane; 2]; 3], factor: &Lane, most: &mut [Lane; 3], sums: &mut [Lane; 3]) {
+    for axis in 0..3 {
+        let [re, im] = &vector[axis];
+        for l in 0..LANES {
+            let square = re[l].mul_add(re[l], im[l] * im[l]) * factor[l];
+            most[axis][l] = if square > most[axis][l] { square } else { most[axis][l] };
+            sums[axis][l] += square;
         }
     }
 }
