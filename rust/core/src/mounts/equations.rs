@@ -6,6 +6,8 @@
 //! without pivots; where that would lose digits, or the matrix has no inverse, the frequency is left to the
 //! factorisation with pivots of [`Powertrain::motion`].
 
+#![allow(clippy::needless_range_loop, reason = "lanes of several arrays are indexed in step")]
+
 use std::array::from_fn;
 
 use nalgebra::Schur;
@@ -135,7 +137,7 @@ impl Equations {
 /// Unitary and triangular factor of a matrix, unless their rounding would count at an angular speed.
 fn schur(matrix: &ComplexMatrix6, least: f64) -> Option<(ComplexMatrix6, ComplexMatrix6)> {
     let size = matrix.norm();
-    if !(size <= LARGEST_SPREAD * least * least) {
+    if size.is_nan() || size > LARGEST_SPREAD * least * least {
         return None;
     }
     let scale = Complex64::from(size);

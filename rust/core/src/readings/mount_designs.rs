@@ -1,5 +1,7 @@
 //! An engine on many designs of its mounts: natural frequencies, and the largest responses over speed.
 
+#![allow(clippy::needless_range_loop, reason = "lanes of several arrays are indexed in step")]
+
 use std::f64::consts::TAU;
 
 use nalgebra::Matrix3x6;
