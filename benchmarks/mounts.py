@@ -159,6 +159,7 @@ def measured(counts: list[int]) -> list[tuple[str, str, int, float, float]]:
             few = case(min(count, 10), viscous)
             expected = solved(few)
             size = np.linalg.norm(expected, axis=-1, keepdims=True)
+            size[size == 0.0] = 1.0  # Orders without a load, of which nothing but zero is right.
             calls = {name: (lambda m=method, of=of: m(of)) for name, method in chosen.items()}
             times = interleaved(calls, rounds=3, seconds=0.3, runs=1)
             points = count * len(ORDERS) * len(RPM)
