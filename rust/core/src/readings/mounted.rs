@@ -199,8 +199,7 @@ impl Response {
             let carriers = of_carriers.next().unwrap_or_default();
             parts.push((piece, motions, carriers, of_subframe.next().unwrap_or_default()));
         }
-        // Where there are few, a factorisation each is the shortest.
-        let equations = if points > LANES && moves == 0 {
+        let equations = if points > 0 && moves == 0 {
             let rates = (0..points).map(|point| self.omega_of(point));
             Some(Equations::new(&self.powertrain, rates.fold(f64::MAX, f64::min))?)
         } else {
