@@ -22,6 +22,7 @@ COMMANDS = {
     "orders": ["--quick"],
     "bearings": ["--quick"],
     "gas_orders": ["--quick"],
+    "mounts": ["--quick"],
     "stability": [],
 }
 """Each a file beside this one that takes ``--out``, with what makes it quick."""

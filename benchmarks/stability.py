@@ -25,11 +25,14 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from PIL import Image
 from stability_cases import CASES, HARMONICS
+from stability_mounts import MOUNTS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 OUT = Path(__file__).parent / "out"
+ALL = [*CASES, *MOUNTS]
+"""Cases besides harmonics."""
 LEAST, MOST = -17.0, 0.0
 """Colours run over these powers of ten: from exact to wholly wrong."""
 SHARES = (0.0, 1e-12, 1 - 1e-9)
@@ -60,10 +63,10 @@ def of_harmonics() -> Map:
 
 def of_the_rest() -> Map:
     """Take what one would do at first, and crankpin."""
-    errors = [[case.plain(), case.ours()] for case in CASES]
-    labels = [[case.method, ""] for case in CASES]
-    conditions = [f"{case.group}: {case.condition}" for case in CASES]
-    promises = np.array([case.promise for case in CASES])
+    errors = [[case.plain(), case.ours()] for case in ALL]
+    labels = [[case.method, ""] for case in ALL]
+    conditions = [f"{case.group}: {case.condition}" for case in ALL]
+    promises = np.array([case.promise for case in ALL])
     return Map(conditions, ["a plain method", "crankpin"], np.array(errors), promises, labels)
 
 
@@ -138,7 +141,7 @@ def tables(maps: list[Map]) -> str:
         lines.append(f"| {condition} | " + " | ".join(map(shown, errors)) + " |")
     lines += ["", "| condition | promise | because | plain method | its error | ours |"]
     lines.append("|---|---:|---|---|---:|---:|")
-    for case in CASES:
+    for case in ALL:
         promise = "exact" if case.promise == 0 else f"{case.promise:.0e}"
         method = case.method.replace("|", r"\|")
         figures = f"{method} | {shown(case.plain())} | {shown(case.ours())}"

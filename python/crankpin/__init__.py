@@ -39,6 +39,7 @@ from crankpin.model.gas_torque import gas_torque_harmonics
 from crankpin.model.mounts import InertiaTrack, Mount, RigidBody
 from crankpin.model.presets import presets
 from crankpin.model.shafts import Shaft, Unbalance
+from crankpin.model.supports import Receptance, Subframe
 
 __all__ = [
     "Cycle",
@@ -50,9 +51,11 @@ __all__ = [
     "Mount",
     "PortTiming",
     "Powertrain",
+    "Receptance",
     "RigidBody",
     "Rod",
     "Shaft",
+    "Subframe",
     "Unbalance",
     "ValveTiming",
     "__version__",

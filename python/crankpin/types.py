@@ -15,8 +15,10 @@ from crankpin.analysis.design.designs import Design, Designs
 from crankpin.analysis.explain import Explanation
 from crankpin.analysis.firing import Firing
 from crankpin.analysis.flywheel import Flywheel
+from crankpin.analysis.mounts.designs import MountDesigns
 from crankpin.analysis.mounts.modes import MountModes, RollAxes
 from crankpin.analysis.mounts.response import MountResponse, OrderResponse, PointMotion, WorstForce
+from crankpin.analysis.mounts.robustness import MountRobustness
 from crankpin.analysis.mounts.static_state import StaticState
 from crankpin.analysis.mounts.vectors import VectorQuantity
 from crankpin.analysis.quantity import OrderBalance, Quantity
@@ -49,8 +51,10 @@ __all__ = [
     "Firing",
     "Flywheel",
     "Match",
+    "MountDesigns",
     "MountModes",
     "MountResponse",
+    "MountRobustness",
     "OrderBalance",
     "OrderResponse",
     "PointMotion",

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING
 import bearings
 import gas_orders
 import harmonics
+import mounts
 import orders
 import peaks
 import tolerances
@@ -159,6 +160,17 @@ def test_bearings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert {row["method"] for row in rows} == {"NumPy", "crankpin"}
     # rounding of some ten operations, of numbers of the size of the largest
     assert all(float(row["error"]) < 1e-14 for row in rows)
+
+
+def test_mounts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(mounts, "COUNTS", [1, 3, 10])
+    rows = run(mounts, tmp_path, monkeypatch, "mounts")
+    assert tuple(rows[0]) == mounts.HEADER
+    for damping in ("hysteretic", "viscous"):
+        found = {row["method"] for row in rows if row["damping"] == damping}
+        assert found == {*mounts.methods(damping == "viscous")}
+    # Roundings of some hundred operations, over what cancels beside a resonance.
+    assert all(float(row["error"]) < 1e-10 for row in rows)
 
 
 def test_gas_orders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

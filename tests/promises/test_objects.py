@@ -94,6 +94,13 @@ MOUNTED = cp.Powertrain(
     ],
 )
 
+RAFT = cp.Subframe(MOUNTED.body, MOUNTED.mounts)
+PANEL = cp.Receptance(
+    [("left", "y")],
+    ([5.0, 200.0], [[[1e-6 - 1e-7j]], [[1e-8 - 1e-9j]]]),
+    {"rail": np.full((2, 3, 1), 1e-8j)},
+)
+
 OBJECTS: dict[str, Any] = {
     "Cylinder": OFFSET,
     "Cycle": cp.Cycle(np.arange(0.0, 720.0, 20.0), np.linspace(1e5, 3e6, 36)),
@@ -172,6 +179,16 @@ OBJECTS: dict[str, Any] = {
     "VectorQuantity": MOUNTED.response(3000.0).body_force,
     "PointMotion": MOUNTED.response(3000.0).at((0.0, 0.3, 0.0)),
     "WorstForce": MOUNTED.response(3000.0).worst(),
+    "Subframe": RAFT,
+    "Receptance": PANEL,
+    "Powertrain on a subframe": MOUNTED.on(RAFT),
+    "Powertrain on a receptance": MOUNTED.on(PANEL),
+    "MountResponse on a subframe": MOUNTED.on(RAFT).response([900.0, 3000.0], orders=[1, 2]),
+    "PointMotion of a receiver": MOUNTED.on(PANEL).response(3000.0, orders=[1, 2]).at("rail"),
+    "MountRobustness": MOUNTED.robustness(0.1, cg=1e-3, corners="mounts", frequency=20.0),
+    "MountDesigns": MOUNTED.designs(
+        [900.0, 3000.0], {"left": {"stiffness": [1e5, 2e5]}}, orders=[2], at=[(0.0, 0.3, 0.0)]
+    ),
 }
 every_object = pytest.mark.parametrize("name", OBJECTS)
 
@@ -248,7 +265,12 @@ def test_arrays_are_read_only(name: str) -> None:
         "Mount",
         "RigidBody",
         "Powertrain",
+        "Powertrain on a subframe",
+        "Powertrain on a receptance",
+        "Subframe",
+        "Receptance",
         "PointMotion",
+        "PointMotion of a receiver",
         "WorstForce",
         "Shaft",
         "Unbalance",
@@ -338,6 +360,7 @@ def test_completion_offers_what_is_public() -> None:
 INPUTS = (
     cp.Engine, cp.Cylinder, cp.Rod, cp.Shaft, cp.Unbalance, cp.Cycle, cp.CycleMap, cp.ValveTiming,
     cp.PortTiming, cp.types.Arrangement, cp.InertiaTrack, cp.Mount, cp.RigidBody, cp.Powertrain,
+    cp.Subframe, cp.Receptance,
 )  # fmt: skip
 
 

@@ -1,6 +1,7 @@
 """Are the promises kept where methods fail, and do the methods fail there?
 
-Conditions, promises and their reasons stand in ``benchmarks/stability_cases.py``, the other methods
+Conditions, promises and their reasons stand in ``benchmarks/stability_cases.py`` and
+``benchmarks/stability_mounts.py``, the other methods
 in ``benchmarks/methods.py``; ``docs/explanations/stability.md`` has the measured figures.
 """
 
@@ -17,6 +18,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import kinematics
 from stability_cases import CASES, HARMONICS, Case, HarmonicCase
+from stability_mounts import MOUNTS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -84,7 +86,9 @@ def test_what_vanishes_in_harmonics_is_zero(case: HarmonicCase) -> None:
 # --- everything else ----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.group}: {case.condition}")
+@pytest.mark.parametrize(
+    "case", [*CASES, *MOUNTS], ids=lambda case: f"{case.group}: {case.condition}"
+)
 def test_promises(case: Case) -> None:
     assert case.ours() <= case.promise
     assert case.plain() > case.promise

@@ -52,7 +52,8 @@ pub use readings::balance::{Balance, Orders, Request};
 pub use readings::sweep::Sweep;
 pub use readings::waveform::Waveform;
 pub use readings::{
-    balance, exact, flywheel, internal, mounted, peaks, sweep, terms, tolerances, waveform,
+    balance, exact, flywheel, internal, mount_designs, mounted, peaks, sweep, terms, tolerances,
+    waveform,
 };
 
 /// Complex numbers as ndarray and `NumPy` share them.

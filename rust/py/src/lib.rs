@@ -50,7 +50,8 @@ mod _core {
         internal::Internal,
         matching::matched,
         mounts::{
-            Powertrain, Response, check_mount, mount_stiffness, peaks_of_vectors, rigid_body,
+            Powertrain, Response, check_mount, check_support, mount_stiffness, peaks_of_vectors,
+            rigid_body,
         },
         pressure::{Cycle, places_on_axis, repeats_first},
         search::{BankAngles, Search, arrangement},

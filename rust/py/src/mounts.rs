@@ -6,8 +6,11 @@ use std::sync::Arc;
 use crate::array::frozen;
 use crankpin_core as core;
 use crankpin_core::engine::file;
+use crankpin_core::mount_designs::{DesignRequest, Figure, Variation, mount_designs};
 use crankpin_core::mounted::Derivative;
-use crankpin_core::mounts::{self, InertiaTrack, Mount, MountFigures, Products, RigidBody, Table};
+use crankpin_core::mounts::{
+    self, InertiaTrack, Mount, MountFigures, Products, Receiver, Receptance, RigidBody, Table,
+};
 use crankpin_core::peaks::largest_vectors;
 use crankpin_core::{Complex64, memory};
 use crankpin_macros::guarded;
@@ -37,6 +40,8 @@ type Figures = (
     Option<(f64, f64, f64)>,
     Option<Rows>,
 );
+/// Name, and at each frequency the displacement over the force at each coordinate.
+type Transfer = (String, Vec<Vec<[Complex64; 3]>>);
 /// Displacements by weight and torque, forces of the mounts by each, and the margin of support.
 type Static<'py> = ([[f64; 6]; 2], [Bound<'py, PyArray2<f64>>; 2], f64);
 /// Frequencies, shapes, energy and strain energy, then purity, loss factor and damped frequency, groups, and
@@ -52,6 +57,22 @@ type Modes<'py> = (
 /// angles of both to the crank, between them, distance, pitch, compliance.
 type Axes<'py> = ([[f64; 3]; 3], Bound<'py, PyArray1<f64>>, [f64; 6]);
 
+/// Frequencies, purity and least purity; least and largest frequencies by stiffness, mass and place of the
+/// CG; derivatives by that; corners of the least purity.
+type Robustness<'py> = (
+    Bound<'py, PyArray2<f64>>,
+    [Bound<'py, PyArray2<f64>>; 3],
+    Bound<'py, PyArray2<f64>>,
+    [Vec<[bool; 3]>; 6],
+);
+/// Orders, omitted ones, bounds; frequencies, largest peaks, rms.
+type Designs<'py> = (
+    (Vec<OrderNumber>, Vec<OrderNumber>, [f64; 3]),
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArrayDyn<f64>>,
+    Bound<'py, PyArrayDyn<f64>>,
+);
+
 /// Degrees about z, or directions of the axes.
 #[derive(FromPyObject, IntoPyObject)]
 pub enum Orientation {
@@ -59,6 +80,92 @@ pub enum Orientation {
     Tilt(f64),
     /// A row for each axis.
     Axes([[f64; 3]; 3]),
+}
+
+/// What carries mounts.
+#[derive(FromPyObject, IntoPyObject)]
+pub enum Support {
+    /// A rigid body on mounts of its own.
+    Subframe(Body, Vec<Figures>),
+    /// Coordinates, frequencies, a matrix at each of them, row by row, and receivers.
+    Receptance(Vec<(String, usize)>, Vec<f64>, Vec<Vec<Complex64>>, Vec<Transfer>),
+}
+
+impl Support {
+    fn core(self) -> core::Result<mounts::Support> {
+        match self {
+            Self::Subframe(body, figures) => {
+                let figures = figures.into_iter().map(mount).collect::<core::Result<_>>()?;
+                let subframe = mounts::Powertrain::new(self::body(body)?, figures)?;
+                Ok(mounts::Support::Subframe(Box::new(subframe)))
+            }
+            Self::Receptance(coordinates, frequency, values, receivers) => {
+                let receiver = |(name, transfer)| Receiver { name, transfer };
+                let receivers = receivers.into_iter().map(receiver).collect();
+                let found = Receptance { coordinates, frequency, values, receivers };
+                found.checked().map(mounts::Support::Receptance)
+            }
+        }
+    }
+
+    fn of(support: &mounts::Support) -> Self {
+        match support {
+            mounts::Support::Subframe(subframe) => {
+                Self::Subframe(body_figures(subframe), mount_figures(subframe))
+            }
+            mounts::Support::Receptance(found) => {
+                let found = found.clone();
+                let receiver = |each: Receiver| (each.name, each.transfer);
+                let receivers = found.receivers.into_iter().map(receiver).collect();
+                Self::Receptance(found.coordinates, found.frequency, found.values, receivers)
+            }
+        }
+    }
+}
+
+/// Rejects what cannot carry mounts.
+#[guarded]
+#[pyfunction]
+pub fn check_support(support: Support) -> PyResult<()> {
+    support.core().or_raise().map(drop)
+}
+
+fn body_figures(powertrain: &mounts::Powertrain) -> Body {
+    let (body, tensor) = (powertrain.body(), powertrain.body().inertia());
+    let rows = [0, 1, 2].map(|row| [0, 1, 2].map(|column| tensor[(row, column)]));
+    (body.mass(), body.cg().into(), rows)
+}
+
+fn mount_figures(powertrain: &mounts::Powertrain) -> Vec<Figures> {
+    let figures = |mount: &Mount| {
+        let each = mount.figures().clone();
+        let orientation = match each.orientation {
+            mounts::Orientation::Tilt(degrees) => Orientation::Tilt(degrees),
+            mounts::Orientation::Axes(axes) => Orientation::Axes(axes),
+        };
+        let track = each.track.map(|t| (t.stiffness, t.frequency, t.damping_ratio));
+        (
+            each.name,
+            each.at,
+            orientation,
+            each.stiffness,
+            each.dynamic_stiffness,
+            each.loss_factor,
+            each.damping,
+            track,
+            each.table.map(|table| (table.frequency, table.stiffness)),
+        )
+    };
+    powertrain.mounts().iter().map(figures).collect()
+}
+
+/// A place, m, or the name of a receiver.
+#[derive(FromPyObject)]
+pub enum Point {
+    /// x, y, z.
+    Place([f64; 3]),
+    /// Name.
+    Receiver(String),
 }
 
 /// Body of a tensor that was checked.
@@ -135,10 +242,14 @@ pub struct Powertrain(Arc<mounts::Powertrain>);
 #[pymethods]
 impl Powertrain {
     #[new]
-    fn new(body: Body, mounts: Vec<Figures>) -> PyResult<Self> {
+    fn new(body: Body, mounts: Vec<Figures>, support: Option<Support>) -> PyResult<Self> {
         let mounts = mounts.into_iter().map(mount).collect::<core::Result<_>>().or_raise()?;
-        let powertrain = mounts::Powertrain::new(self::body(body).or_raise()?, mounts);
-        powertrain.or_raise().map(|powertrain| Self(Arc::new(powertrain)))
+        let mut powertrain =
+            mounts::Powertrain::new(self::body(body).or_raise()?, mounts).or_raise()?;
+        if let Some(support) = support {
+            powertrain = support.core().and_then(|core| powertrain.on(core)).or_raise()?;
+        }
+        Ok(Self(Arc::new(powertrain)))
     }
 
     /// Engine and body on mounts of a file, or no body.
@@ -162,33 +273,17 @@ impl Powertrain {
 
     #[getter]
     fn body(&self) -> Body {
-        let (body, tensor) = (self.0.body(), self.0.body().inertia());
-        let rows = [0, 1, 2].map(|row| [0, 1, 2].map(|column| tensor[(row, column)]));
-        (body.mass(), body.cg().into(), rows)
+        body_figures(&self.0)
     }
 
     #[getter]
     fn mounts(&self) -> Vec<Figures> {
-        let figures = |mount: &Mount| {
-            let each = mount.figures().clone();
-            let orientation = match each.orientation {
-                mounts::Orientation::Tilt(degrees) => Orientation::Tilt(degrees),
-                mounts::Orientation::Axes(axes) => Orientation::Axes(axes),
-            };
-            let track = each.track.map(|t| (t.stiffness, t.frequency, t.damping_ratio));
-            (
-                each.name,
-                each.at,
-                orientation,
-                each.stiffness,
-                each.dynamic_stiffness,
-                each.loss_factor,
-                each.damping,
-                track,
-                each.table.map(|table| (table.frequency, table.stiffness)),
-            )
-        };
-        self.0.mounts().iter().map(figures).collect()
+        mount_figures(&self.0)
+    }
+
+    #[getter]
+    fn support(&self) -> Option<Support> {
+        self.0.support().map(Support::of)
     }
 
     /// At rest, under gravity and a torque on the body about z.
@@ -238,6 +333,76 @@ impl Powertrain {
                 elastic.pitch,
                 elastic.compliance,
             ],
+        ))
+    }
+
+    fn robustness<'py>(
+        &self,
+        py: Python<'py>,
+        tolerances: (Vec<f64>, f64, f64, f64, bool),
+        frequency: Option<f64>,
+    ) -> PyResult<Robustness<'py>> {
+        let (stiffness, mass, inertia, cg, by_axis) = tolerances;
+        let tolerances = mounts::MountTolerances { stiffness, mass, inertia, cg, by_axis };
+        let found = interrupt::run(py, |cancel| {
+            mounts::robustness(&self.0, &tolerances, frequency, cancel)
+        })?;
+        let rows = |rows: &[[f64; 6]]| frozen(py, Array2::from(rows.to_vec()));
+        Ok((
+            rows(&[found.frequency, found.purity, found.least_purity])?,
+            [rows(&found.by_stiffness)?, rows(&found.by_mass)?, rows(&found.by_cg)?],
+            rows(&found.cg_slope)?,
+            found.corner,
+        ))
+    }
+
+    /// Figures of designs: orders, those omitted, bounds of these, natural frequencies, (`n_designs`, 6),
+    /// largest peaks, (`n_designs`, `n_quantities`, `n_orders`, 3), and rms, (`n_designs`, `n_quantities`, 3).
+    fn designs<'py>(
+        &self,
+        py: Python<'py>,
+        engine: &Bound<'_, Engine>,
+        vary: Vec<(usize, String, PyReadonlyArray2<'_, f64>)>,
+        rpm: PyReadonlyArray1<'_, f64>,
+        orders: (Option<Vec<OrderNumber>>, f64),
+        quantities: (bool, Vec<[f64; 3]>),
+        frequency: Option<f64>,
+    ) -> PyResult<Designs<'py>> {
+        let figures = [
+            ("at", Figure::At),
+            ("tilt_deg", Figure::Tilt),
+            ("stiffness", Figure::Stiffness),
+            ("dynamic_stiffness", Figure::DynamicStiffness),
+            ("loss_factor", Figure::LossFactor),
+            ("damping", Figure::Damping),
+        ];
+        let mut variations = Vec::new();
+        for (mount, name, values) in vary {
+            let figure = choice("vary", &name, &figures)?;
+            let (rows, _) = values.as_slice()?.as_chunks::<3>();
+            let values = memory::collected(rows.iter().copied()).or_raise()?;
+            variations.push(Variation { mount, figure, values });
+        }
+        let (orders, rpm) = (balance::orders(orders.0, orders.1)?, rpm.as_slice()?);
+        let (mount_forces, points) = quantities;
+        let request =
+            DesignRequest { rpm, orders: &orders, mount_forces, points: &points, frequency };
+        let engine = &engine.get().0;
+        let found = interrupt::run(py, |cancel| {
+            mount_designs(engine, &self.0, &variations, &request, cancel)
+        })?;
+        let (count, orders) = (found.frequency.len(), found.orders.len());
+        let of_largest = [count, found.quantities, orders, 3];
+        let of_rms = [count, found.quantities, 3];
+        let largest = found.largest.into_flattened();
+        let rms = found.rms.into_flattened();
+        let largest = memory::array("designs", of_largest.as_slice(), largest).or_raise()?;
+        let rms = memory::array("designs", of_rms.as_slice(), rms).or_raise()?;
+        Ok((
+            (numbers(&found.orders), numbers(&found.omitted), found.error_bound.values()),
+            frozen(py, Array2::from(found.frequency))?,
+            frozen(py, largest)?,
+            frozen(py, rms)?,
         ))
     }
 
@@ -325,12 +490,29 @@ impl Response {
         self.shaped(py, side_by_side(&sums), &[6])
     }
 
-    /// Motion of a point: (`n_rpm`, `n_orders`, 3).
+    /// Motion of a subframe's CG and rotation: (`n_rpm`, `n_orders`, 6).
+    fn subframe_motions<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
+        self.shaped(py, side_by_side(self.core.subframe_motions().or_raise()?), &[6])
+    }
+
+    /// Force of each mount of a subframe on what carries it: (`n_rpm`, `n_orders`, `n_mounts`, 3).
+    fn ground_forces<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
+        let forces = interrupt::run(py, |cancel| self.core.ground_forces(cancel))?;
+        let points = self.speeds * self.core.orders().len();
+        let count = forces.len() / points.max(1);
+        self.shaped(py, forces.into_flattened(), &[count, 3])
+    }
+
+    /// Motion of a point of the powertrain or of its subframe, or of a receiver: (`n_rpm`, `n_orders`, 3).
     fn at<'py>(
         &self,
         py: Python<'py>,
-        point: [f64; 3],
+        point: Point,
         derivative: &str,
+        of_subframe: bool,
     ) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
         let derivatives = [
             ("displacement", Derivative::Displacement),
@@ -338,20 +520,32 @@ impl Response {
             ("acceleration", Derivative::Acceleration),
         ];
         let derivative = choice("derivative", derivative, &derivatives)?;
-        let moved = interrupt::run(py, |cancel| self.core.at(point, derivative, cancel))?;
+        let moved = interrupt::run(py, |cancel| match &point {
+            Point::Place(place) => self.core.at(*place, derivative, of_subframe, cancel),
+            Point::Receiver(name) => self.core.at_receiver(name, derivative, cancel),
+        })?;
         self.shaped(py, moved.into_flattened(), &[3])
     }
 
     /// Severity grade of a point at each speed.
-    fn grades<'py>(&self, py: Python<'py>, point: [f64; 3]) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let grades = interrupt::run(py, |cancel| self.core.grades(point, cancel))?;
+    fn grades<'py>(
+        &self,
+        py: Python<'py>,
+        point: Point,
+        of_subframe: bool,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let grades = interrupt::run(py, |cancel| match &point {
+            Point::Place(place) => self.core.grades(*place, of_subframe, cancel),
+            Point::Receiver(name) => self.core.grades_at_receiver(name, cancel),
+        })?;
         frozen(py, grades.into())
     }
 
-    /// Power put in, and dissipated by each mount: (`n_rpm`, `n_orders`, 1 + `n_mounts`).
+    /// Power put in, taken by what carries the mounts, and dissipated by each: (`n_rpm`, `n_orders`,
+    /// 2 + `n_mounts`).
     fn power<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let rows = interrupt::run(py, |cancel| self.core.power(cancel))?;
-        self.shaped(py, rows.concat(), &[1 + self.mounts])
+        self.shaped(py, rows.concat(), &[2 + self.mounts])
     }
 }
 

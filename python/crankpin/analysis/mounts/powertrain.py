@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 from crankpin import _core
 from crankpin._support import files, inputs
 from crankpin._support.record import Input
 from crankpin._support.warnings import suppressed
+from crankpin.analysis.mounts import designs as many
 from crankpin.analysis.mounts import modes as natural
 from crankpin.analysis.mounts import response as forced
 from crankpin.analysis.mounts import static_state
+from crankpin.analysis.mounts.robustness import MountRobustness
 from crankpin.analysis.request import engine_core
-from crankpin.model import checks, engine_files
+from crankpin.model import checks, engine_files, supports
 from crankpin.model.engine import Engine
 from crankpin.model.mounts import Mount, RigidBody
+from crankpin.model.supports import Receptance, Subframe, Support
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -23,6 +27,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from crankpin._support.inputs import Orders
+    from crankpin.analysis.mounts.designs import MountDesigns
     from crankpin.analysis.mounts.modes import MountModes, RollAxes
     from crankpin.analysis.mounts.response import MountResponse
     from crankpin.analysis.mounts.static_state import StaticState
@@ -32,7 +37,7 @@ class Powertrain(Input):
     """An engine on its mounts: the engine, the rigid body that moves, and what carries it.
 
     Every load of the engine counts: pistons, rods, counterweights, balance shafts, and gas pressure
-    where it has cycles. What carries the mounts does not move.
+    where it has cycles. What carries the mounts does not move, unless it is given.
 
     Parameters
     ----------
@@ -42,11 +47,15 @@ class Powertrain(Input):
         Engine, gearbox and all that moves with them.
     mounts : sequence of Mount
         One mount or more, of distinct names.
+    support : Subframe or Receptance, optional
+        What carries the mounts where it gives way: it counts in :meth:`response`. State at rest,
+        modes, axes and tolerances are those on a support that does not move.
 
     Raises
     ------
     InputError
-        If there is no mount, or two have one name.
+        If there is no mount, or two have one name, or the support's coordinates are at other
+        mounts.
 
     Examples
     --------
@@ -68,8 +77,15 @@ class Powertrain(Input):
     engine: Engine
     body: RigidBody
     mounts: tuple[Mount, ...]
+    support: Support | None
 
-    def __init__(self, engine: Engine, body: RigidBody, mounts: Iterable[Mount]) -> None:
+    def __init__(
+        self,
+        engine: Engine,
+        body: RigidBody,
+        mounts: Iterable[Mount],
+        support: Support | None = None,
+    ) -> None:
         engine_core(engine)
         if not isinstance(body, RigidBody):
             raise inputs.rejected("body", body, "give a crankpin.RigidBody")
@@ -78,8 +94,13 @@ class Powertrain(Input):
             if not isinstance(mount, Mount):
                 raise inputs.rejected(f"mounts[{k}]", mount, "give a crankpin.Mount")
         figures = [mount._figures for mount in listed]
-        core = _core.Powertrain(body._figures, figures)
-        self.__dict__.update(engine=engine, body=body, mounts=tuple(listed), _powertrain=core)
+        if support is not None and not isinstance(support, Subframe | Receptance):
+            hint = "give a crankpin.Subframe or a crankpin.Receptance"
+            raise inputs.rejected("support", support, hint)
+        below = None if support is None else support._figures
+        core = _core.Powertrain(body._figures, figures, below)
+        self.__dict__.update(engine=engine, body=body, mounts=tuple(listed), support=support)
+        self.__dict__.update(_powertrain=core)
 
     @property
     def _core(self) -> _core.Powertrain:
@@ -237,6 +258,189 @@ class Powertrain(Input):
         """
         return forced.response(self, rpm, orders=orders, rtol=rtol)
 
+    def designs(
+        self,
+        rpm: ArrayLike,
+        vary: Mapping[str, Mapping[str, ArrayLike]],
+        *,
+        orders: Orders = "auto",
+        rtol: float | None = None,
+        mount_force: bool = False,
+        at: Iterable[ArrayLike] = (),
+        frequency: float | None = None,
+    ) -> MountDesigns:
+        """Return natural frequencies and largest responses of many designs of the mounts.
+
+        Parameters
+        ----------
+        rpm : array_like
+            Crank speeds, rpm, over which the largest responses are taken.
+        vary : mapping of str to mapping of str to array_like
+            Name of a mount to its figures that differ: ``"at"``, ``"tilt_deg"``, ``"stiffness"``,
+            ``"dynamic_stiffness"``, ``"loss_factor"`` or ``"damping"``, one value, or one along
+            each axis, of each design: of shape (n_designs,) or (n_designs, 3).
+        orders : number, sequence of numbers or "auto", default "auto"
+            As in :meth:`response`.
+        rtol : float, optional
+            As in :meth:`Engine.balance`.
+        mount_force : bool, default False
+            True: with the force of each mount, besides their sum.
+        at : sequence of points, default ()
+            Places (x, y, z) in the engine's axes, m, whose velocity counts.
+        frequency : float, optional
+            Frequency at which natural frequencies take the dynamic stiffness, Hz, where it depends
+            on frequency.
+
+        Returns
+        -------
+        MountDesigns
+            Frequencies, largest peaks of each order, largest rms values of all orders.
+
+        Raises
+        ------
+        InputError
+            If a design has figures that no mount has (its index is named), an order meets a mode
+            without damping, or the powertrain has a support that gives way.
+
+        Warns
+        -----
+        UserWarning
+            If pistons are faster than in any engine, or a stiffness seems to be in N/mm.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> import numpy as np
+        >>> body = cp.RigidBody(mass=150, cg=(0, 0.06, 0.15), inertia=(7, 8, 4.5))
+        >>> mounts = [
+        ...     cp.Mount(name, at=at, stiffness=2e5, loss_factor=0.1)
+        ...     for name, at in [("a", (0.3, 0, 0)), ("b", (-0.3, 0, 0)), ("c", (0, 0, 0.7))]
+        ... ]
+        >>> p = cp.Powertrain(cp.Engine.preset("i4"), body, mounts)
+        >>> stiffness = np.linspace(1e5, 4e5, 1000)
+        >>> d = p.designs(range(700, 6001, 50), {"c": {"stiffness": stiffness}}, orders=[2])
+        >>> d.body_force.shape, d.at(999).mounts[2].stiffness
+        ((1000, 1, 3), (400000.0, 400000.0, 400000.0))
+        """
+        return many.designs(
+            self,
+            rpm,
+            vary,
+            orders=orders,
+            rtol=rtol,
+            mount_force=mount_force,
+            at=at,
+            frequency=frequency,
+        )
+
+    def robustness(
+        self,
+        stiffness: float | Mapping[str, float] = 0.1,
+        *,
+        mass: float = 0.0,
+        inertia: float = 0.0,
+        cg: float = 0.0,
+        corners: Literal["axes", "mounts"] = "axes",
+        frequency: float | None = None,
+    ) -> MountRobustness:
+        """Return how far natural frequencies and purity go within tolerances.
+
+        Bounds of frequencies by stiffness, mass and inertia are exact: each frequency is monotone
+        in each of them. Purity is evaluated at every corner of the stiffnesses. The place of the
+        centre of gravity is taken by itself.
+
+        Parameters
+        ----------
+        stiffness : float or mapping of str to float, default 0.1
+            Tolerance of the stiffness of every mount, or of mounts by name, over it: 0.1 is ±10 %.
+        mass : float, default 0.0
+            Tolerance of the mass, over it.
+        inertia : float, default 0.0
+            Tolerance of the tensor of inertia, over it.
+        cg : float, default 0.0
+            Tolerance of the centre of gravity along x, y and z, m.
+        corners : {"axes", "mounts"}, default "axes"
+            Whether in corners the axes of a mount are stiff or soft each by itself, or together;
+            there are 2 to the power of their number, at most 2¹⁸.
+        frequency : float, optional
+            As in :meth:`modes`.
+
+        Returns
+        -------
+        MountRobustness
+            Bounds of the frequencies, least purity and its corner, derivatives by the CG.
+
+        Raises
+        ------
+        InputError
+            If a tolerance is not from 0 to 1, or there are too many corners.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> body = cp.RigidBody(mass=150, cg=(0, 0.06, 0.15), inertia=(7, 8, 4.5))
+        >>> mounts = [
+        ...     cp.Mount(name, at=at, stiffness=2e5)
+        ...     for name, at in [("a", (0.3, 0, 0)), ("b", (-0.3, 0, 0)), ("c", (0, 0, 0.7))]
+        ... ]
+        >>> p = cp.Powertrain(cp.Engine.preset("i4"), body, mounts)
+        >>> r = p.robustness(stiffness=0.19)
+        >>> (r.frequency_bounds[0] / r.frequency).round(12)
+        array([0.9, 0.9, 0.9, 0.9, 0.9, 0.9])
+        """
+        if isinstance(stiffness, Mapping):
+            for name in stiffness:
+                inputs.one_of("stiffness", name, self.names)
+            shares = [stiffness.get(name, 0.0) for name in self.names]
+        else:
+            shares = [stiffness] * len(self.names)
+        inputs.one_of("corners", corners, ("axes", "mounts"))
+        given = None if frequency is None else inputs.number("frequency", frequency)
+        return MountRobustness(
+            self,
+            tuple(inputs.finite("stiffness", share) for share in shares),
+            inputs.finite("mass", mass),
+            inputs.finite("inertia", inertia),
+            inputs.finite("cg", cg),
+            corners == "axes",
+            given,
+        )
+
+    def on(self, support: Support | None) -> Self:
+        """Return the same powertrain on something that gives way.
+
+        Parameters
+        ----------
+        support : Subframe or Receptance, optional
+            What carries the mounts; None for what does not move.
+
+        Returns
+        -------
+        Powertrain
+            The same with that support.
+
+        Raises
+        ------
+        InputError
+            If it cannot carry the mounts.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> body = cp.RigidBody(mass=150, cg=(0, 0.06, 0.15), inertia=(7, 8, 4.5))
+        >>> places = [(0.3, 0, 0), (-0.3, 0, 0), (0, 0, 0.7)]
+        >>> mounts = [cp.Mount(f"{k}", at, 2e5, loss_factor=0.1) for k, at in enumerate(places)]
+        >>> p = cp.Powertrain(cp.Engine.preset("i4"), body, mounts)
+        >>> base = cp.Subframe(
+        ...     cp.RigidBody(mass=100, cg=(0, -0.1, 0.2), inertia=(9, 12, 6)),
+        ...     [mount.replace(stiffness=8e5) for mount in mounts],
+        ... )
+        >>> r = p.on(base).response(rpm=3000, orders=[2])
+        >>> bool(r.ground_force[2].peak < r.body_force[2].peak)
+        True
+        """
+        return self.replace(support=support)
+
     def without(self, cylinder: int) -> Self:
         """Return the same powertrain with a cylinder that does not fire.
 
@@ -327,4 +531,4 @@ class Powertrain(Input):
             checks.mount(name, at, stiffness)
         engine = Engine._read(core_engine)
         with suppressed():
-            return cls(engine, body, mounts)
+            return cls(engine, body, mounts, supports.of_core(core.support))

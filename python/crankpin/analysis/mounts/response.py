@@ -9,7 +9,7 @@ import numpy as np
 
 from crankpin._support import inputs, labels, optional
 from crankpin._support.frames import Frames, Tabled
-from crankpin._support.record import Record, changed, read_only
+from crankpin._support.record import AbsentError, Record, changed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.drawing import draw
@@ -17,6 +17,7 @@ from crankpin.analysis.mounts.vectors import Source, VectorQuantity
 from crankpin.analysis.quantity import ALL, Key, Keyed, order_key
 from crankpin.analysis.request import Request, check_request
 from crankpin.model.mounts import _vector
+from crankpin.model.supports import Subframe
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -33,6 +34,8 @@ LOADS = ("F_x", "F_y", "F_z", "M_x", "M_y", "M_z")
 """Components of a load about the centre of gravity."""
 MOTIONS = {"displacement": "m", "velocity": "m/s", "acceleration": "m/s²"}
 """Motion of a point → its unit."""
+SUPPORT = "support"
+"""What carries the mounts, as a place's companion."""
 SCOPE = (
     "ISO 10816-6:1995: reciprocating machines above 100 kW, not in road vehicles; rms of 2 Hz to "
     "1000 Hz."
@@ -53,21 +56,31 @@ def response(
 
 
 class PointMotion(Tabled):
-    """Motion of a point of the powertrain.
+    """Motion of a point of the powertrain, or of what carries it.
 
     Made by :meth:`MountResponse.at`.
     """
 
     result: MountResponse
     """The response that it belongs to."""
-    point: tuple[float, float, float]
-    """Place in the engine's axes, m."""
+    point: tuple[float, float, float] | str
+    """Place in the engine's axes, m, or the name of a receiver."""
+    on: str
+    """``"powertrain"`` or ``"support"``: what the place moves with."""
     order: Key = None
     """The order; ``"all"`` for all orders together, None for every order."""
 
+    @property
+    def _words(self) -> str:
+        """What it is of, in words."""
+        if isinstance(self.point, str):
+            return f"{self.point!r}"
+        on = " on the support" if self.on == SUPPORT else ""
+        return f"the point {self.point} m{on}"
+
     def _moved(self, name: str) -> VectorQuantity:
-        words = f"{name} of the point {self.point}"
-        source = ("at", self.point, name)
+        words = f"{name} of {self._words}"
+        source = ("at", self.point, self.on, name)
         return VectorQuantity(self.result, source, words, MOTIONS[name], self.order)
 
     @property
@@ -96,7 +109,7 @@ class PointMotion(Tabled):
         """
         if self.order not in (None, ALL):
             raise inputs.rejected("order", self.order, "grade is that of all orders together")
-        grades = self.result._by_speed(self.result._core.grades(list(self.point)))
+        grades = self.result._by_speed(self.result._core.grades(self.point, self.on == SUPPORT))
         return grades if grades.ndim else float(grades)
 
     @property
@@ -133,10 +146,16 @@ class PointMotion(Tabled):
                 Column("grade", (*[None] * (len(columns[0].values) - len(grades)), *grades))
             )
         which = "" if order in (None, ALL) else f", order {order}"
-        title = result._title(f"motion of the point {self.point} m{which}")
+        title = result._title(f"motion of {self._words}{which}")
         return Table(
             title, tuple(columns), f"{note} Grade: {SCOPE}".strip(), loads=self.loads_counted
         )
+
+
+def _require_subframe(powertrain: Powertrain, name: str) -> None:
+    """Raise an error where no subframe carries the mounts."""
+    if not isinstance(powertrain.support, Subframe):
+        raise AbsentError(f"{name}: no subframe carries the mounts; give one, p.on(cp.Subframe(…))")
 
 
 def _which(order: Key) -> str:
@@ -169,13 +188,25 @@ class MountQuantities:
             }
         )
 
-    def at(self, point: ArrayLike) -> PointMotion:
-        """Return the motion of a point of the powertrain.
+    @property
+    def ground_force(self) -> VectorQuantity:
+        """Sum of the forces of a subframe's mounts on what carries them, N."""
+        result, order = self._key()
+        _require_subframe(result.powertrain, "ground_force")
+        return VectorQuantity(result, ("ground",), "force on the ground", "N", order)
+
+    def at(
+        self, point: ArrayLike | str, on: Literal["powertrain", "support"] = "powertrain"
+    ) -> PointMotion:
+        """Return the motion of a point.
 
         Parameters
         ----------
-        point : sequence of float
-            Place (x, y, z) in the engine's axes, m.
+        point : sequence of float or str
+            Place (x, y, z) in the engine's axes, m, or the name of a receiver of the receptance
+            that carries the mounts, such as ``"seat rail"``.
+        on : {"powertrain", "support"}, default "powertrain"
+            What a place moves with: the powertrain, or the subframe that carries its mounts.
 
         Returns
         -------
@@ -185,10 +216,20 @@ class MountQuantities:
         Raises
         ------
         InputError
-            If it is no point.
+            If it is no point, no receiver has the name, or there is no subframe.
         """
         result, order = self._key()
-        return PointMotion(result, _vector("point", point), order)
+        inputs.one_of("on", on, ("powertrain", SUPPORT))
+        powertrain = result.powertrain
+        if isinstance(point, str):
+            names = tuple(dict(getattr(powertrain.support, "receivers", None) or ()))
+            if not names:
+                hint = "no receptance with receivers carries the mounts: give a place, m"
+                raise inputs.rejected("point", point, hint)
+            return PointMotion(result, inputs.one_of("point", point, names), SUPPORT, order)
+        if on == SUPPORT:
+            _require_subframe(powertrain, "on")
+        return PointMotion(result, _vector("point", point), on, order)
 
 
 class OrderResponse(MountQuantities, Record):
@@ -240,6 +281,11 @@ class OrderResponse(MountQuantities, Record):
     def power_lost(self) -> NDArray[np.float64]:
         """Mean power that each mount dissipates, W: (…, n_mounts)."""
         return self._of("power_lost")  # type: ignore[no-any-return]
+
+    @property
+    def power_passed(self) -> NDArray[np.float64]:
+        """Mean power that the mounts pass to what carries them, W: (…,)."""
+        return self._of("power_passed")  # type: ignore[no-any-return]
 
 
 class WorstForce(Record):
@@ -336,8 +382,11 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         """Return peak phasors of a vector: (…, n_orders, 3)."""
         kind, *rest = source
         if kind == "at":
-            point, name = rest
-            return self._read(source, lambda: self._core.at(list(point), name))
+            point, on, name = rest
+            return self._read(source, lambda: self._core.at(point, name, on == SUPPORT))
+        if kind == "ground":
+            forces = self._core.ground_forces
+            return self._read("ground", lambda: forces().sum(axis=-2))
         if kind == "mount":
             return self._read("mounts", self._core.mount_forces)[..., rest[0], :]
         return self.support_load[..., :3]
@@ -367,6 +416,12 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         return self._read("motion", self._core.motions)
 
     @property
+    def subframe_motion(self) -> NDArray[np.complex128]:
+        """Displacement of a subframe's CG, m, and rotation, rad: (…, n_orders, n_loads)."""
+        _require_subframe(self.powertrain, "subframe_motion")
+        return self._read("subframe", self._core.subframe_motions)
+
+    @property
     def support_load(self) -> NDArray[np.complex128]:
         """Sum of the mounts' forces on what carries them, N, and moments about the CG, N·m.
 
@@ -394,7 +449,15 @@ class MountResponse(MountQuantities, Keyed, Tabled):
     @property
     def power_lost(self) -> NDArray[np.float64]:
         """Mean power that each mount dissipates, W: (…, n_orders, n_mounts)."""
-        return self._read("power", self._core.power)[..., 1:]
+        return self._read("power", self._core.power)[..., 2:]
+
+    @property
+    def power_passed(self) -> NDArray[np.float64]:
+        """Mean power that the mounts pass to what carries them, W: (…, n_orders).
+
+        Zero where that does not move.
+        """
+        return self._read("power", self._core.power)[..., 1]
 
     def sel(self, *, rpm: float) -> Self:
         """Return the response at one of the speeds.

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.mounts.response import MountResponse
 
 Source: TypeAlias = tuple[Any, ...]
-"""What a vector is of: ``("support",)``, ``("mount", index)``, ``("at", point, "velocity")``."""
+"""What a vector is of: ``("support",)``, ``("mount", index)``, ``("at", point, on, name)``."""
 
 
 class VectorQuantity(Keyed, Record):

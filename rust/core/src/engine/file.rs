@@ -540,9 +540,17 @@ fn readable<'t>(format: &'static str, text: &'t str) -> Result<&'t str> {
 
 /// Rejects arrays in place of objects, which serde would read by position.
 fn check_tables(value: &serde_json::Value, place: &str) -> Result<()> {
-    const LISTS: [&str; 7] =
-        ["cranks", "placements", "counterweights", "shafts", "unbalances", "cycles", "mounts"];
-    const NUMBERS: [&str; 14] = [
+    const LISTS: [&str; 8] = [
+        "cranks",
+        "placements",
+        "counterweights",
+        "shafts",
+        "unbalances",
+        "cycles",
+        "mounts",
+        "receivers",
+    ];
+    const NUMBERS: [&str; 15] = [
         "mains",
         "theta_deg",
         "pressure",
@@ -557,6 +565,7 @@ fn check_tables(value: &serde_json::Value, place: &str) -> Result<()> {
         "frequency",
         "real",
         "imaginary",
+        "coordinates",
     ];
     let Some(table) = value.as_object() else {
         let reason = format!("{place}: give an object, {{ }}");
@@ -751,7 +760,8 @@ mod tests {
     fn bodies_on_mounts_read_back_as_equal_ones() {
         use crate::Complex64;
         use crate::mounts::{
-            InertiaTrack, Mount, MountFigures, Orientation, Products, RigidBody, Table,
+            InertiaTrack, Mount, MountFigures, Orientation, Products, Receiver, Receptance,
+            RigidBody, Support, Table,
         };
         let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
         let (tdc, bank) = (Angle::ZERO, Angle::QUARTER_TURN);
@@ -785,7 +795,7 @@ mod tests {
         let mounts = mounts.into_iter().map(|figures| Mount::new(figures).unwrap()).collect();
         let powertrain = Powertrain::new(body, mounts).unwrap();
         let text = mounted_to_toml(&engine, Some(&powertrain)).unwrap();
-        let both = (engine.clone(), Some(powertrain.clone()));
+        let (both, engine_again) = ((engine.clone(), Some(powertrain.clone())), engine.clone());
         assert_eq!(mounted_from_toml(&text).unwrap(), both, "{text}");
         let json = mounted_to_json(&engine, Some(&powertrain)).unwrap();
         assert_eq!(mounted_from_json(&json).unwrap(), both);
@@ -801,6 +811,25 @@ mod tests {
         let said = "powertrain.mounts[1].loss_factor[0] = -0.1: give zero or more";
         assert!(error("loss_factor = [0.1,", "loss_factor = [-0.1,").starts_with(said));
         let said = "powertrain.mounts[2].tilt_deg = 45.0: is given beside axes";
+        let receptance = Receptance {
+            coordinates: vec![("a".into(), 1), ("c".into(), 0)],
+            frequency: vec![1.0, 2.0],
+            values: vec![vec![Complex64::new(1e-6, -1e-7); 4]; 2],
+            receivers: vec![Receiver {
+                name: "seat rail".into(),
+                transfer: vec![vec![[Complex64::new(1e-7, 1.0 / 3e8); 3]; 2]; 2],
+            }],
+        };
+        for support in [
+            Support::Subframe(Box::new(powertrain.clone())),
+            Support::Receptance(receptance.checked().unwrap()),
+        ] {
+            let both = (engine_again.clone(), Some(powertrain.clone().on(support).unwrap()));
+            let text = mounted_to_toml(&both.0, both.1.as_ref()).unwrap();
+            assert_eq!(mounted_from_toml(&text).unwrap(), both, "{text}");
+            let json = mounted_to_json(&both.0, both.1.as_ref()).unwrap();
+            assert_eq!(mounted_from_json(&json).unwrap(), both);
+        }
         let axes = "tilt_deg = 45.0\naxes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]";
         assert!(error("tilt_deg = 45.0", axes).starts_with(said));
     }

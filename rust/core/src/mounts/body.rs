@@ -118,6 +118,18 @@ impl RigidBody {
         1.0 - (least + middle) / most
     }
 
+    /// The same body with its centre of gravity elsewhere.
+    #[must_use]
+    pub fn at(&self, cg: Vector3<f64>) -> Self {
+        Self { cg, ..*self }
+    }
+
+    /// The same body with its mass and its tensor of inertia times factors above zero.
+    #[must_use]
+    pub fn scaled(&self, mass: f64, inertia: f64) -> Self {
+        Self { mass: self.mass * mass, inertia: self.inertia * inertia, ..*self }
+    }
+
     /// The matrix of the equations of motion of (displacement of the CG, rotation).
     #[must_use]
     pub fn mass_matrix(&self) -> Matrix6<f64> {

@@ -5,24 +5,30 @@
 
 mod axes;
 mod body;
+pub(crate) mod equations;
 pub(crate) mod file;
 mod footprint;
 mod modes;
 mod mount;
+mod robustness;
 mod severity;
 mod static_state;
 mod stiffness;
+mod support;
 
 use nalgebra::{Cholesky, Matrix3x6, U6, Vector3};
 
 pub use self::axes::{Axes, ElasticAxis, axes};
 pub use self::body::{Products, RigidBody};
 pub use self::footprint::support_margin;
+pub(crate) use self::modes::natural_frequencies;
 pub use self::modes::{FreeMotion, Modes, modes};
 pub use self::mount::{Mount, MountFigures, Orientation, motion_of_point};
+pub use self::robustness::{MountTolerances, Robustness, robustness};
 pub use self::severity::{GRADES, Levels, grade};
 pub use self::static_state::{Static, at_rest};
 pub use self::stiffness::{Dynamic, InertiaTrack, Table};
+pub use self::support::{Coordinate, DIRECTIONS, Receiver, Receptance, State, Support};
 use crate::Complex64;
 use crate::numbers::error::{Error, Result};
 
@@ -58,6 +64,12 @@ pub struct Powertrain {
     mounts: Vec<Mount>,
     /// Deflection of each mount along its axes, of the motion.
     deflections: Vec<Matrix3x6<f64>>,
+    /// What carries the mounts, if it gives way.
+    support: Option<Support>,
+    /// Motion of the foot of each mount along its axes, of a subframe's motion.
+    carried: Vec<Matrix3x6<f64>>,
+    /// Places of a receptance's coordinates among the directions of all mounts.
+    coordinates: Vec<usize>,
 }
 
 impl Powertrain {
@@ -75,7 +87,8 @@ impl Powertrain {
         }
         let deflection = |mount: &Mount| mount.axes() * motion_of_point(&(mount.at() - body.cg()));
         let deflections = mounts.iter().map(deflection).collect();
-        Ok(Self { body, mounts, deflections })
+        let (carried, coordinates) = (Vec::new(), Vec::new());
+        Ok(Self { body, mounts, deflections, support: None, carried, coordinates })
     }
 
     /// The body.
@@ -131,6 +144,13 @@ impl Powertrain {
         })
     }
 
+    /// The matrix L⁻ᵀ whose columns have unit mass.
+    fn unit_mass(&self) -> Result<nalgebra::Matrix6<f64>> {
+        let inverse = self.mass_factor()?.l().try_inverse();
+        let error = || Error::value("inertia", "not positive definite", "give a tensor that is");
+        inverse.map(|inverse| inverse.transpose()).ok_or_else(error)
+    }
+
     /// Motion under a load about the CG at an angular speed; none where the matrix has no inverse, as in
     /// undamped resonance.
     #[must_use]
@@ -153,16 +173,28 @@ impl Powertrain {
         Some(scaled * factors.solve(&(scaled * load))?)
     }
 
-    /// Force of each mount on what carries it, along x, y and z, of stiffnesses along its axes.
+    /// Deflection of a mount along its axes, of a motion and the displacement of what carries it.
+    #[must_use]
+    pub fn deflection(
+        &self,
+        mount: usize,
+        motion: &ComplexVector6,
+        carrier: Option<&Vector3<Complex64>>,
+    ) -> Vector3<Complex64> {
+        let along = complex(&self.deflections[mount]) * motion;
+        carrier
+            .map_or(along, |moved| along - self.mounts[mount].axes().map(Complex64::from) * moved)
+    }
+
+    /// Force of a mount on what carries it, along x, y and z, of stiffness and deflection along its axes.
     #[must_use]
     pub fn force_on_support(
         &self,
         mount: usize,
         stiffness: &[Complex64; 3],
-        motion: &ComplexVector6,
+        deflection: &Vector3<Complex64>,
     ) -> [Complex64; 3] {
-        let along = complex(&self.deflections[mount]) * motion;
-        let forces = nalgebra::Vector3::from_fn(|axis, _| stiffness[axis] * along[axis]);
+        let forces = Vector3::from_fn(|axis, _| stiffness[axis] * deflection[axis]);
         let axes = self.mounts[mount].axes().transpose().map(Complex64::from);
         (axes * forces).into()
     }

@@ -66,13 +66,7 @@ pub struct Modes {
 
 /// Natural modes with these stiffnesses along the mounts' axes, none below zero.
 pub(crate) fn natural(powertrain: &Powertrain, stiffnesses: &[[f64; 3]]) -> Result<NaturalModes> {
-    // L⁻ᵀ, whose columns have unit mass.
-    let unit: Matrix6<f64> = powertrain
-        .mass_factor()?
-        .l()
-        .try_inverse()
-        .ok_or_else(|| Error::value("inertia", "not positive definite", "give a tensor that is"))?
-        .transpose();
+    let unit = powertrain.unit_mass()?;
     let mut factor = DMatrix::zeros(3 * stiffnesses.len(), 6);
     for (k, (deflection, along)) in powertrain.deflections().iter().zip(stiffnesses).enumerate() {
         let turned = deflection * unit;
@@ -107,6 +101,18 @@ pub(crate) fn natural(powertrain: &Powertrain, stiffnesses: &[[f64; 3]]) -> Resu
     Ok(NaturalModes { omega, shapes, free })
 }
 
+/// Natural frequencies, Hz, ascending; NaN where the stiffness depends on frequency and none is given.
+pub(crate) fn natural_frequencies(
+    powertrain: &Powertrain,
+    frequency: Option<f64>,
+) -> Result<[f64; 6]> {
+    if frequency.is_none() && powertrain.mounts().iter().any(|mount| mount.dynamic().varies()) {
+        return Ok([f64::NAN; 6]);
+    }
+    let (_, stiffnesses) = dynamic(powertrain, frequency)?;
+    Ok(natural(powertrain, &real(&stiffnesses))?.omega.map(|omega| omega / TAU))
+}
+
 /// Directions at right angles to some orthonormal ones, and to each other.
 fn complement(known: &[Vector6<f64>]) -> Vec<Vector6<f64>> {
     let mut all = known.to_vec();
@@ -127,6 +133,17 @@ fn complement(known: &[Vector6<f64>]) -> Vec<Vector6<f64>> {
 }
 
 impl NaturalModes {
+    /// Index of the first mode of the same frequency, within rounding.
+    pub fn groups(&self) -> [usize; 6] {
+        let mut group = [0; 6];
+        for mode in 1..6 {
+            let [below, here] = [self.omega[mode - 1], self.omega[mode]];
+            let is_equal = here - below <= EQUAL_FREQUENCIES * here;
+            group[mode] = if is_equal { group[mode - 1] } else { mode };
+        }
+        group
+    }
+
     /// Motions that no mount resists, in words of geometry.
     pub fn free_motions(&self, powertrain: &Powertrain) -> Vec<FreeMotion> {
         let inertia = powertrain.body().inertia();
@@ -179,8 +196,9 @@ pub fn modes(powertrain: &Powertrain, frequency: Option<f64>) -> Result<Modes> {
     let along = real(&stiffnesses);
     let natural = natural(powertrain, &along)?;
     let mass = powertrain.body().mass_matrix();
-    let group = groups(&natural);
+    let group = natural.groups();
     let mut energy = natural.shapes.component_mul(&(mass * natural.shapes)) * 100.0;
+    let purity = averaged(&mut energy, &group);
     let mut strain: Vec<[f64; 6]> = powertrain
         .deflections()
         .iter()
@@ -198,18 +216,9 @@ pub fn modes(powertrain: &Powertrain, frequency: Option<f64>) -> Result<Modes> {
             row[mode] *= factor;
         }
     }
-    let mut purity = [0.0; 6];
     for first in (0..6).filter(|&mode| group[mode] == mode) {
         let members: Vec<usize> = (0..6).filter(|&mode| group[mode] == first).collect();
         let count = members.len() as f64;
-        let mean =
-            members.iter().fold(Vector6::zeros(), |sum, &mode| sum + energy.column(mode)) / count;
-        let mut shares: [f64; 6] = mean.into();
-        shares.sort_by(|a, b| b.total_cmp(a));
-        for &mode in &members {
-            energy.set_column(mode, &mean);
-            purity[mode] = shares[..members.len()].iter().sum();
-        }
         for row in &mut strain {
             let mean = members.iter().map(|&mode| row[mode]).sum::<f64>() / count;
             for &mode in &members {
@@ -229,6 +238,30 @@ pub fn modes(powertrain: &Powertrain, frequency: Option<f64>) -> Result<Modes> {
         damped_frequency,
         group,
     })
+}
+
+/// Replaces energies of modes of one frequency by their mean; the purity of each mode.
+fn averaged(energy: &mut Matrix6<f64>, group: &[usize; 6]) -> [f64; 6] {
+    let mut purity = [0.0; 6];
+    for first in (0..6).filter(|&mode| group[mode] == mode) {
+        let last = (first..6).take_while(|&mode| group[mode] == first).count() + first;
+        let count = last - first;
+        let sum = (first..last).fold(Vector6::zeros(), |sum, mode| sum + energy.column(mode));
+        let mean = sum / count as f64;
+        let mut shares: [f64; 6] = mean.into();
+        shares.sort_by(|a, b| b.total_cmp(a));
+        for (mode, purity) in purity.iter_mut().enumerate().take(last).skip(first) {
+            energy.set_column(mode, &mean);
+            *purity = shares[..count].iter().sum();
+        }
+    }
+    purity
+}
+
+/// Largest share of a coordinate in the kinetic energy of each mode, %.
+pub(crate) fn purities(powertrain: &Powertrain, natural: &NaturalModes) -> [f64; 6] {
+    let moved = powertrain.body().mass_matrix() * natural.shapes;
+    averaged(&mut (natural.shapes.component_mul(&moved) * 100.0), &natural.groups())
 }
 
 /// Complex stiffnesses at a frequency, Hz, and its angular speed, none below zero in its real part.
@@ -258,17 +291,6 @@ pub(crate) fn dynamic(
         }
     }
     Ok((omega, stiffnesses))
-}
-
-/// Index of the first mode of the same frequency, within rounding.
-fn groups(natural: &NaturalModes) -> [usize; 6] {
-    let mut group = [0; 6];
-    for mode in 1..6 {
-        let [below, here] = [natural.omega[mode - 1], natural.omega[mode]];
-        let is_equal = here - below <= EQUAL_FREQUENCIES * here;
-        group[mode] = if is_equal { group[mode - 1] } else { mode };
-    }
-    group
 }
 
 /// Loss factor and frequency, Hz, of the complex eigenvalues of each mode.

@@ -40,8 +40,9 @@ pub fn at_rest(powertrain: &Powertrain, gravity: [f64; 3], torque: f64) -> Resul
         let forces = stiffnesses.iter().enumerate();
         forces
             .map(|(k, along)| {
-                let along = along.map(Complex64::from);
-                powertrain.force_on_support(k, &along, &motion).map(|force| force.re + 0.0)
+                let (along, deflection) =
+                    (along.map(Complex64::from), powertrain.deflection(k, &motion, None));
+                powertrain.force_on_support(k, &along, &deflection).map(|force| force.re + 0.0)
             })
             .collect()
     });

@@ -87,18 +87,7 @@ impl Table {
             self.frequency.len(),
             "frequency",
         )?;
-        if self.frequency.len() < 2 {
-            let hint = "give two or more frequencies; stiffness is interpolated between them";
-            return Err(Error::value("table", format!("{} frequency", self.frequency.len()), hint));
-        }
-        for (k, &frequency) in self.frequency.iter().enumerate() {
-            limits::distance(&format!("table: frequency[{k}]"), frequency)?;
-        }
-        if let Some(k) = self.frequency.windows(2).position(|pair| pair[0] >= pair[1]) {
-            let hint = "give frequencies in ascending order, each once";
-            let argument = format!("table: frequency[{}]", k + 1);
-            return Err(Error::figure(argument, self.frequency[k + 1], hint));
-        }
+        limits::ascending("table: frequency", &self.frequency)?;
         for (k, stiffness) in self.stiffness.iter().enumerate() {
             for (axis, value) in stiffness.iter().enumerate() {
                 let argument = format!("table: stiffness[{k}][{axis}]");
@@ -120,15 +109,8 @@ impl Table {
 
     /// Real and imaginary part between its points, or none outside.
     fn at(&self, frequency: f64) -> Option<[Complex64; 3]> {
-        let above = self.frequency.partition_point(|&point| point < frequency);
-        let next = *self.stiffness.get(above)?;
-        if self.frequency[above] == frequency {
-            return Some(next);
-        }
-        let below = above.checked_sub(1)?;
-        let [low, high] = [self.frequency[below], self.frequency[above]];
-        let share = (frequency - low) / (high - low);
-        let before = self.stiffness[below];
+        let (below, above, share) = limits::between(&self.frequency, frequency)?;
+        let [before, next] = [below, above].map(|k| self.stiffness[k]);
         Some([0, 1, 2].map(|axis| before[axis] * (1.0 - share) + next[axis] * share))
     }
 }

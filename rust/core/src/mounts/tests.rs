@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 use super::*;
+use crate::numbers::cancel::Cancel;
 use crate::numbers::draws;
 
 /// A mount without damping, upright.
@@ -322,4 +323,95 @@ fn mounts_are_counted_and_named_apart() {
     assert!(error(vec![]).starts_with("mounts = 0 mounts: give 1 to 1000"));
     let one = Mount::new(mount("a", [0.0; 3], [1e5; 3])).unwrap();
     assert!(error(vec![one.clone(), one]).starts_with("mounts[1].name = a: is the name"));
+}
+
+#[test]
+fn tolerances_of_stiffness_have_exact_bounds_and_corners_only_for_purity() {
+    let cancel = Cancel::new();
+    let mut number = draws(41);
+    for _ in 0..8 {
+        let on_mounts = random(&mut number, false);
+        let count = on_mounts.mounts().len();
+        let tolerances = |share: f64| MountTolerances {
+            stiffness: vec![share; count],
+            mass: 0.02,
+            inertia: 0.1,
+            cg: 1e-3,
+            by_axis: false,
+        };
+        let found = robustness(&on_mounts, &tolerances(0.2), None, &cancel).unwrap();
+        let plain = modes(&on_mounts, None).unwrap();
+        assert_eq!((found.frequency, found.purity), (plain.frequency, plain.purity));
+        for mode in 0..6 {
+            let frequency = plain.frequency[mode];
+            // All scale alike: the square root, to a few roundings.
+            let near = |value: f64, factor: f64| {
+                assert!((value / (frequency * f64::sqrt(factor)) - 1.0).abs() < 1e-12);
+            };
+            near(found.by_stiffness[0][mode], 0.8);
+            near(found.by_stiffness[1][mode], 1.2);
+            assert!(found.least_purity[mode] <= found.purity[mode] + 1e-9);
+            for ends in [found.by_stiffness, found.by_mass, found.by_cg] {
+                assert!(ends[0][mode] <= frequency && frequency <= ends[1][mode]);
+            }
+            // First differences of the place of the centre of gravity.
+            for axis in 0..3 {
+                let at = |step: f64| {
+                    let shift = Vector3::ith(axis, step);
+                    let body = on_mounts.body().at(on_mounts.body().cg() + shift);
+                    let other = Powertrain::new(body, on_mounts.mounts().to_vec()).unwrap();
+                    modes(&other, None).unwrap().frequency[mode]
+                };
+                let slope = (at(1e-5) - at(-1e-5)) / 2e-5;
+                let size = frequency / 0.1;
+                assert!((found.cg_slope[axis][mode] - slope).abs() < 1e-5 * size);
+            }
+        }
+        // Within the box: random stiffness, mass and inertia keep the bounds; a corner has the purity.
+        for _ in 0..20 {
+            let scaled = |factor: &mut dyn FnMut() -> f64| {
+                let mounts = on_mounts.mounts().iter().map(|mount| {
+                    let mut figures = mount.figures().clone();
+                    figures.stiffness = figures.stiffness.map(|k| k * factor());
+                    Mount::new(figures).unwrap()
+                });
+                Powertrain::new(*on_mounts.body(), mounts.collect()).unwrap()
+            };
+            let inside = modes(&scaled(&mut || 1.0 + 0.2 * number()), None).unwrap();
+            for mode in 0..6 {
+                let [low, high] = [0, 1].map(|end| found.by_stiffness[end][mode]);
+                let frequency = inside.frequency[mode];
+                assert!(low * (1.0 - 1e-12) <= frequency && frequency <= high * (1.0 + 1e-12));
+            }
+        }
+        for mode in 0..6 {
+            let mounts =
+                on_mounts.mounts().iter().zip(&found.corner[mode]).map(|(mount, upper)| {
+                    let mut figures = mount.figures().clone();
+                    for (stiffness, &upper) in figures.stiffness.iter_mut().zip(upper) {
+                        *stiffness *= if upper { 1.2 } else { 0.8 };
+                    }
+                    Mount::new(figures).unwrap()
+                });
+            let corner = Powertrain::new(*on_mounts.body(), mounts.collect()).unwrap();
+            let purity = modes(&corner, None).unwrap().purity[mode];
+            assert!((purity - found.least_purity[mode]).abs() < 1e-9);
+        }
+    }
+    let on_mounts = four_mounts(0.1);
+    let tolerances = |share: f64, by_axis| MountTolerances {
+        stiffness: vec![share; 4],
+        mass: 0.0,
+        inertia: 0.0,
+        cg: 0.0,
+        by_axis,
+    };
+    let error = robustness(&on_mounts, &tolerances(1.0, true), None, &cancel).unwrap_err();
+    assert!(error.to_string().starts_with("stiffness = 1.0: give a tolerance"), "{error}");
+    let by_axis = robustness(&on_mounts, &tolerances(0.1, true), None, &cancel).unwrap();
+    let together = robustness(&on_mounts, &tolerances(0.1, false), None, &cancel).unwrap();
+    for mode in 0..6 {
+        assert!(by_axis.least_purity[mode] <= together.least_purity[mode] + 1e-9);
+    }
+    assert!(by_axis.least_purity[1] < 92.0);
 }

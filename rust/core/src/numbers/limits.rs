@@ -103,6 +103,35 @@ pub fn same_length(
     Err(Error::Length { argument, found, reference, expected, item })
 }
 
+/// Two or more frequencies, Hz, in ascending order.
+pub fn ascending(argument: &str, frequencies: &[f64]) -> Result<()> {
+    if frequencies.len() < 2 {
+        let hint = "give two or more frequencies; values between them are interpolated";
+        return Err(Error::value(argument, format!("{} frequency", frequencies.len()), hint));
+    }
+    for (k, &frequency) in frequencies.iter().enumerate() {
+        distance(&format!("{argument}[{k}]"), frequency)?;
+    }
+    if let Some(k) = frequencies.windows(2).position(|pair| pair[0] >= pair[1]) {
+        let hint = "give frequencies in ascending order, each once";
+        return Err(Error::figure(format!("{argument}[{}]", k + 1), frequencies[k + 1], hint));
+    }
+    Ok(())
+}
+
+/// Indices of the ascending values on both sides of another one, and its share of the way from the first
+/// to the second; none outside.
+#[must_use]
+pub fn between(values: &[f64], value: f64) -> Option<(usize, usize, f64)> {
+    let above = values.partition_point(|&point| point < value);
+    let high = *values.get(above)?;
+    if high == value {
+        return Some((above, above, 0.0));
+    }
+    let below = above.checked_sub(1)?;
+    Some((below, above, (value - values[below]) / (high - values[below])))
+}
+
 /// A result of this many elements of `size` bytes fits.
 pub fn result_size(
     argument: &str,

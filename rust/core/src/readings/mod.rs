@@ -7,6 +7,7 @@ mod choice;
 pub mod exact;
 pub mod flywheel;
 pub mod internal;
+pub mod mount_designs;
 pub mod mounted;
 pub mod peaks;
 pub mod sweep;

@@ -6,15 +6,19 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use nalgebra::Vector3;
+
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::mounts::{ComplexVector6, Levels, Powertrain, grade};
+use crate::mounts::equations::{Equations, LANES, Lanes6, lanes, product, rows};
+use crate::mounts::{ComplexVector6, Levels, Powertrain, State, Support, grade};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::numbers::pool;
+use crate::numbers::simd::vectorised;
 use crate::readings::balance::{ErrorBounds, Orders, Request, angular_speed, balance};
 use crate::wrench::Wrench;
 
@@ -32,6 +36,31 @@ pub struct Response {
     omega: Vec<f64>,
     loads: Vec<ComplexVector6>,
     motions: Vec<ComplexVector6>,
+    /// Displacement of what carries each mount; empty where it does not move.
+    carriers: Vec<Vector3<Complex64>>,
+    /// Motion of a subframe; empty without one.
+    subframe: Vec<ComplexVector6>,
+}
+
+/// An engine's loads about a centre of gravity.
+pub(crate) struct Loads {
+    pub orders: Vec<Order>,
+    pub omitted: Vec<Order>,
+    pub error_bound: ErrorBounds,
+    /// Angular speed of the crank at each speed.
+    pub omega: Vec<f64>,
+    /// At each order, with parts by inertia over ω².
+    unit: Vec<Wrench>,
+}
+
+/// One order at one speed.
+struct Point<'a> {
+    /// nω.
+    omega: f64,
+    load: &'a ComplexVector6,
+    motion: &'a ComplexVector6,
+    stiffnesses: &'a [[Complex64; 3]],
+    carriers: &'a [Vector3<Complex64>],
 }
 
 /// What the motion of a point is: displacement, or its first or second derivative by time.
@@ -51,11 +80,11 @@ fn load(wrench: &Wrench) -> ComplexVector6 {
     ComplexVector6::new(force_x, force_y, Complex64::ZERO, pitch, yaw, wrench.torque().roll)
 }
 
-impl Response {
-    /// Motion at each speed, rpm, in each order of the engine's balance.
+impl Loads {
+    /// Those of an engine at some speeds.
     pub fn new(
         engine: &Engine,
-        powertrain: Arc<Powertrain>,
+        cg: Vector3<f64>,
         rpm: &[f64],
         orders: &Orders,
         cancel: &Cancel,
@@ -68,7 +97,6 @@ impl Response {
         for &rpm in rpm {
             omega.push(angular_speed(rpm)?);
         }
-        let cg = powertrain.body().cg();
         let at = |rpm: f64| {
             let request = Request { rpm, reference_z: Some(cg.z), torque: true };
             balance(engine, &request, orders, cancel)
@@ -82,58 +110,186 @@ impl Response {
         };
         let about_cg: Vec<Wrench> =
             unit.wrenches.iter().map(|wrench| wrench.moved([cg.x, cg.y, 0.0])).collect();
-        let count = unit.orders.len();
-        let hint = "give fewer speeds or orders";
-        limits::result_size("response", &[rpm.len(), count, 6], size_of::<Complex64>(), hint)?;
-        let mut loads = memory::room(rpm.len() * count)?;
-        for omega in &omega {
-            loads.extend(about_cg.iter().map(|wrench| load(&wrench.at_speed(omega * omega))));
-        }
         let roll = cg.x.hypot(cg.y) * error_bound.force;
-        let mut response = Self {
-            powertrain,
+        Ok(Self {
             orders: unit.orders,
             omitted: unit.omitted,
             error_bound: ErrorBounds { torque: error_bound.torque + roll, ..error_bound },
             omega,
+            unit: about_cg,
+        })
+    }
+
+    /// Load of each order over (nω)², and that of gas pressure.
+    pub fn amplitudes(&self) -> Vec<[ComplexVector6; 2]> {
+        let parts = |(wrench, order): (&Wrench, &Order)| {
+            let gas = Wrench { gas: wrench.gas, ..Wrench::default() };
+            let inertia = Wrench { gas: crate::wrench::Torque::default(), ..*wrench };
+            [load(&inertia) / Complex64::from(order.number().powi(2)), load(&gas)]
+        };
+        self.unit.iter().zip(&self.orders).map(parts).collect()
+    }
+}
+
+impl Response {
+    /// Motion at each speed, rpm, in each order of the engine's balance.
+    pub fn new(
+        engine: &Engine,
+        powertrain: Arc<Powertrain>,
+        rpm: &[f64],
+        orders: &Orders,
+        cancel: &Cancel,
+    ) -> Result<Self> {
+        let of_engine = Loads::new(engine, powertrain.body().cg(), rpm, orders, cancel)?;
+        let count = of_engine.orders.len();
+        let hint = "give fewer speeds or orders";
+        limits::result_size("response", &[rpm.len(), count, 6], size_of::<Complex64>(), hint)?;
+        let mut loads = memory::room(rpm.len() * count)?;
+        for omega in &of_engine.omega {
+            let wrenches = of_engine.unit.iter();
+            loads.extend(wrenches.map(|wrench| load(&wrench.at_speed(omega * omega))));
+        }
+        let Loads { orders, omitted, error_bound, omega, .. } = of_engine;
+        let mut response = Self {
+            powertrain,
+            orders,
+            omitted,
+            error_bound,
+            omega,
             loads,
             motions: Vec::new(),
+            carriers: Vec::new(),
+            subframe: Vec::new(),
         };
-        response.motions = response.solved(rpm, cancel)?;
+        response.solve(rpm, cancel)?;
         Ok(response)
     }
 
-    fn solved(&self, rpm: &[f64], cancel: &Cancel) -> Result<Vec<ComplexVector6>> {
-        let mut motions =
-            memory::collected(std::iter::repeat_n(ComplexVector6::zeros(), self.loads.len()))?;
-        let pieces = memory::collected(motions.chunks_mut(POINTS_PER_TASK).enumerate())?;
-        // A factorisation takes some two hundred times as long as a product.
-        pool::each(cancel, pieces, 256 * self.loads.len(), |(piece, motions)| {
+    /// Motion under the load of a point, a load that is not zero.
+    fn state(&self, point: usize, rpm: f64) -> Result<State> {
+        let (_, order) = self.place(point);
+        let omega = self.omega_of(point);
+        let stiffnesses = self.stiffnesses(point, rpm)?;
+        let words = || format!("order {order} at {rpm} rpm");
+        let state = self.powertrain.state(&stiffnesses, omega, &self.loads[point], words)?;
+        state.ok_or_else(|| {
+            let hint = format!(
+                "order {order} is at {:.6} Hz, where the powertrain has a mode without damping and \
+                 its motion is unbounded; give mounts a loss_factor or damping, or another speed",
+                omega / TAU
+            );
+            Error::figure("rpm", rpm, hint)
+        })
+    }
+
+    fn solve(&mut self, rpm: &[f64], cancel: &Cancel) -> Result<()> {
+        let (points, count) = (self.loads.len(), self.powertrain.mounts().len());
+        let moves = usize::from(self.powertrain.support().is_some());
+        let mut motions = memory::collected(std::iter::repeat_n(ComplexVector6::zeros(), points))?;
+        let zero = Vector3::zeros();
+        let mut carriers = memory::collected(std::iter::repeat_n(zero, points * count * moves))?;
+        let is_subframe = matches!(self.powertrain.support(), Some(Support::Subframe(_)));
+        let of_subframe = points * usize::from(is_subframe);
+        let mut subframe =
+            memory::collected(std::iter::repeat_n(ComplexVector6::zeros(), of_subframe))?;
+        let mut parts = memory::room(points.div_ceil(POINTS_PER_TASK))?;
+        let mut of_carriers = carriers.chunks_mut(POINTS_PER_TASK * count);
+        let mut of_subframe = subframe.chunks_mut(POINTS_PER_TASK);
+        for (piece, motions) in motions.chunks_mut(POINTS_PER_TASK).enumerate() {
+            let carriers = of_carriers.next().unwrap_or_default();
+            parts.push((piece, motions, carriers, of_subframe.next().unwrap_or_default()));
+        }
+        let equations = if points > 0 && moves == 0 {
+            let rates = (0..points).map(|point| self.omega_of(point));
+            Some(Equations::new(&self.powertrain, rates.fold(f64::MAX, f64::min))?)
+        } else {
+            None
+        };
+        // What takes a factorisation takes some two hundred times as long as a product.
+        let numbers = if equations.is_some() { 16 } else { 256 };
+        pool::each(cancel, parts, numbers * points, |(piece, motions, carriers, subframe)| {
             cancel.check()?;
+            let solved = match &equations {
+                Some(equations) => self.solve_in_lanes(equations, rpm, piece, motions)?,
+                None => vec![false; motions.len()],
+            };
             for (k, motion) in motions.iter_mut().enumerate() {
                 let point = piece * POINTS_PER_TASK + k;
-                let (row, order) = self.place(point);
-                let omega = self.omega_of(point);
-                if self.loads[point] == ComplexVector6::zeros() {
+                if solved[k] || self.loads[point] == ComplexVector6::zeros() {
                     continue;
                 }
-                let stiffnesses = self.stiffnesses(point, rpm[row])?;
-                *motion = self
-                    .powertrain
-                    .motion(&stiffnesses, omega, &self.loads[point])
-                    .ok_or_else(|| {
-                        let hint = format!(
-                            "order {order} is at {:.6} Hz, where the powertrain has a mode without \
-                             damping and its motion is unbounded; give mounts a loss_factor or damping, \
-                             or another speed",
-                            omega / TAU
-                        );
-                        Error::figure("rpm", rpm[row], hint)
-                    })?;
+                let state = self.state(point, rpm[self.place(point).0])?;
+                *motion = state.motion;
+                if let Some(place) = carriers.get_mut(k * count..(k + 1) * count) {
+                    place.copy_from_slice(&state.carrier);
+                }
+                if let Some(place) = subframe.get_mut(k) {
+                    *place = state.subframe;
+                }
             }
             Ok(())
         })?;
-        Ok(motions)
+        (self.motions, self.carriers, self.subframe) = (motions, carriers, subframe);
+        Ok(())
+    }
+
+    /// Motions of a piece of the points; which of them were solved.
+    fn solve_in_lanes(
+        &self,
+        equations: &Equations,
+        rpm: &[f64],
+        piece: usize,
+        motions: &mut [ComplexVector6],
+    ) -> Result<Vec<bool>> {
+        let first = piece * POINTS_PER_TASK;
+        let mut all = memory::room(motions.len())?;
+        let [to, from] = [rows(&equations.to), rows(&equations.from)];
+        let directions = 3 * self.powertrain.mounts().len() * usize::from(equations.is_factored());
+        let mut stiffnesses = vec![[[0.0; LANES]; 2]; directions];
+        for (k, motions) in motions.chunks_mut(LANES).enumerate() {
+            let points = first + k * LANES..first + k * LANES + motions.len();
+            let loads = lanes(&self.loads[points.clone()]);
+            let mut squares = [0.0; LANES];
+            for l in 0..LANES {
+                let point = (points.start + l).min(points.end - 1);
+                let omega = self.omega_of(point);
+                squares[l] = omega * omega;
+                if directions == 0 || self.loads[point] == ComplexVector6::zeros() {
+                    continue;
+                }
+                let (row, order) = self.place(point);
+                let words = || format!("order {order} at {} rpm", rpm[row]);
+                for (mount, along) in self.powertrain.mounts().iter().zip(stiffnesses.chunks_mut(3))
+                {
+                    for (value, to) in mount.stiffness_at(omega, words)?.iter().zip(along) {
+                        (to[0][l], to[1][l]) = (value.re, value.im);
+                    }
+                }
+            }
+            let (solved, moved) = vectorised(
+                #[inline(always)]
+                || {
+                    let mut solution: Lanes6 = [[[0.0; LANES]; 6]; 2];
+                    for (k, row) in to.iter().enumerate() {
+                        [solution[0][k], solution[1][k]] = product(row, &loads);
+                    }
+                    let solved = equations.solve(&squares, &stiffnesses, &mut solution);
+                    let mut moved: Lanes6 = [[[0.0; LANES]; 6]; 2];
+                    for (k, row) in from.iter().enumerate() {
+                        [moved[0][k], moved[1][k]] = product(row, &solution);
+                    }
+                    (solved, moved)
+                },
+            );
+            for (l, motion) in motions.iter_mut().enumerate() {
+                all.push(solved[l]);
+                if solved[l] && self.loads[points.start + l] != ComplexVector6::zeros() {
+                    let part = |k: usize, _| Complex64::new(moved[0][k][l], moved[1][k][l]);
+                    *motion = ComplexVector6::from_fn(part);
+                }
+            }
+        }
+        Ok(all)
     }
 
     /// Index of the speed, and the order, of a point.
@@ -184,25 +340,34 @@ impl Response {
         &self.motions
     }
 
-    /// Calls a function for each speed and order with the mounts' stiffnesses, nω and the motion.
-    fn for_each(
-        &self,
-        cancel: &Cancel,
-        mut work: impl FnMut(&[[Complex64; 3]], f64, &ComplexVector6) -> Result<()>,
-    ) -> Result<()> {
+    /// Calls a function for each speed and order.
+    fn for_each(&self, cancel: &Cancel, mut work: impl FnMut(&Point) -> Result<()>) -> Result<()> {
+        let count = self.powertrain.mounts().len();
         for (point, motion) in self.motions.iter().enumerate() {
             if point.is_multiple_of(POINTS_PER_TASK) {
                 cancel.check()?;
             }
             // Within tables: they were read for the motion. At rest of a load that is zero nothing moves.
             let stiffnesses = if *motion == ComplexVector6::zeros() {
-                vec![[Complex64::ZERO; 3]; self.powertrain.mounts().len()]
+                vec![[Complex64::ZERO; 3]; count]
             } else {
                 self.stiffnesses(point, f64::NAN)?
             };
-            work(&stiffnesses, self.omega_of(point), motion)?;
+            work(&Point {
+                omega: self.omega_of(point),
+                load: &self.loads[point],
+                motion,
+                stiffnesses: &stiffnesses,
+                carriers: self.carriers.get(point * count..(point + 1) * count).unwrap_or_default(),
+            })?;
         }
         Ok(())
+    }
+
+    /// Force of a mount on what carries it.
+    fn force(&self, mount: usize, point: &Point) -> [Complex64; 3] {
+        let deflection = self.powertrain.deflection(mount, point.motion, point.carriers.get(mount));
+        self.powertrain.force_on_support(mount, &point.stiffnesses[mount], &deflection)
     }
 
     /// Force of each mount on what carries it along x, y and z, N, at each speed and order.
@@ -211,9 +376,8 @@ impl Response {
         let lengths = [self.motions.len(), count, 3];
         limits::result_size("response", &lengths, size_of::<Complex64>(), "give fewer speeds")?;
         let mut forces = memory::room(self.motions.len() * count)?;
-        self.for_each(cancel, |stiffnesses, _, motion| {
-            let force = |k| self.powertrain.force_on_support(k, &stiffnesses[k], motion);
-            forces.extend((0..count).map(force));
+        self.for_each(cancel, |point| {
+            forces.extend((0..count).map(|k| self.force(k, point)));
             Ok(())
         })?;
         Ok(forces)
@@ -223,45 +387,58 @@ impl Response {
     /// speed and order.
     pub fn support_loads(&self, cancel: &Cancel) -> Result<Vec<ComplexVector6>> {
         let mut sums = memory::room(self.motions.len())?;
-        self.for_each(cancel, |stiffnesses, _, motion| {
-            sums.push(self.powertrain.assembled(stiffnesses) * motion);
+        self.for_each(cancel, |point| {
+            let mut sum = ComplexVector6::zeros();
+            for (k, deflection) in self.powertrain.deflections().iter().enumerate() {
+                let moved = self.powertrain.deflection(k, point.motion, point.carriers.get(k));
+                let along = Vector3::from(point.stiffnesses[k]).component_mul(&moved);
+                sum += deflection.transpose().map(Complex64::from) * along;
+            }
+            sums.push(sum);
             Ok(())
         })?;
         Ok(sums)
     }
 
-    /// Motion of a point along x, y and z at each speed and order.
+    /// Motion of a point of the powertrain, or of its subframe, along x, y and z at each speed and order.
     pub fn at(
         &self,
         point: [f64; 3],
         derivative: Derivative,
+        of_subframe: bool,
         cancel: &Cancel,
     ) -> Result<Vec<[Complex64; 3]>> {
+        let (body, motions) = if of_subframe {
+            (self.subframe()?, &self.subframe)
+        } else {
+            (&*self.powertrain, &self.motions)
+        };
         for (k, place) in point.into_iter().enumerate() {
             limits::finite(&format!("point[{k}]"), place)?;
         }
         let mut values = memory::room(self.motions.len())?;
-        for (k, motion) in self.motions.iter().enumerate() {
+        for (k, motion) in motions.iter().enumerate() {
             if k.is_multiple_of(POINTS_PER_TASK) {
                 cancel.check()?;
             }
-            let rate = Complex64::new(0.0, self.omega_of(k));
-            let factor = match derivative {
-                Derivative::Displacement => Complex64::ONE,
-                Derivative::Velocity => rate,
-                Derivative::Acceleration => rate * rate,
-            };
-            let moved = self.powertrain.motion_of(point, motion);
-            // Adding zero makes −0 0.
-            values.push(moved.map(|phasor| phasor * factor + Complex64::ZERO));
+            values.push(derivative.of(body.motion_of(point, motion), self.omega_of(k)));
         }
         Ok(values)
     }
 
     /// Severity grade (ISO 10816-6) of a point at each speed: the worst of its three directions.
-    pub fn grades(&self, point: [f64; 3], cancel: &Cancel) -> Result<Vec<f64>> {
+    pub fn grades(&self, point: [f64; 3], of_subframe: bool, cancel: &Cancel) -> Result<Vec<f64>> {
+        let moved = self.at(point, Derivative::Displacement, of_subframe, cancel)?;
+        Ok(self.grades_of(&moved))
+    }
+
+    /// Severity grade of a receiver at each speed.
+    pub fn grades_at_receiver(&self, name: &str, cancel: &Cancel) -> Result<Vec<f64>> {
+        Ok(self.grades_of(&self.at_receiver(name, Derivative::Displacement, cancel)?))
+    }
+
+    fn grades_of(&self, moved: &[[Complex64; 3]]) -> Vec<f64> {
         let count = self.orders.len();
-        let moved = self.at(point, Derivative::Displacement, cancel)?;
         let of_speed = |(row, moved): (usize, &[[Complex64; 3]])| {
             let along = |axis: usize| {
                 let peaks = moved.iter().enumerate();
@@ -270,28 +447,117 @@ impl Response {
             };
             [0, 1, 2].map(along).into_iter().fold(0.0, f64::max)
         };
-        Ok(moved.chunks(count).enumerate().map(of_speed).collect())
+        moved.chunks(count).enumerate().map(of_speed).collect()
     }
 
-    /// Mean power at each speed and order: what the engine puts in, then what each mount dissipates, W.
+    /// Mean power at each speed and order: what the engine puts in, what what carries the mounts takes,
+    /// then what each mount dissipates, W.
     pub fn power(&self, cancel: &Cancel) -> Result<Vec<Vec<f64>>> {
         let mut rows = memory::room(self.motions.len())?;
-        let mut loads = self.loads.iter();
-        self.for_each(cancel, |stiffnesses, omega, motion| {
-            let load = loads.next().copied().unwrap_or_default();
-            let velocity = motion * Complex64::new(0.0, omega);
-            let mut row = memory::room(1 + stiffnesses.len())?;
-            row.push(0.5 * load.dotc(&velocity).re);
-            for (deflection, along) in self.powertrain.deflections().iter().zip(stiffnesses) {
-                let moved = deflection.map(Complex64::from) * motion;
+        self.for_each(cancel, |point| {
+            let velocity = point.motion * Complex64::new(0.0, point.omega);
+            let mut row = memory::room(2 + point.stiffnesses.len())?;
+            row.push(0.5 * point.load.dotc(&velocity).re);
+            row.push(0.0);
+            for (mount, along) in point.stiffnesses.iter().enumerate() {
+                let carrier = point.carriers.get(mount);
+                let moved = self.powertrain.deflection(mount, point.motion, carrier);
                 let parts = moved.iter().zip(along);
                 let lost: f64 = parts.map(|(part, k)| k.im * part.norm_sqr()).sum();
-                row.push(0.5 * omega * lost);
+                row.push(0.5 * point.omega * lost);
+                if let Some(carrier) = carrier {
+                    let force = Vector3::from(self.force(mount, point));
+                    let velocity = carrier * Complex64::new(0.0, point.omega);
+                    row[1] += 0.5 * force.dotc(&velocity).re;
+                }
             }
             rows.push(row);
             Ok(())
         })?;
         Ok(rows)
+    }
+
+    /// Displacement of the CG of a subframe, m, and its rotation, rad, at each speed and order.
+    pub fn subframe_motions(&self) -> Result<&[ComplexVector6]> {
+        self.subframe().map(|_| self.subframe.as_slice())
+    }
+
+    fn subframe(&self) -> Result<&Powertrain> {
+        match self.powertrain.support() {
+            Some(Support::Subframe(subframe)) => Ok(subframe),
+            _ => Err(Error::value("support", "no subframe", "give the powertrain one: p.on(…)")),
+        }
+    }
+
+    /// Force of each mount of a subframe on what carries it along x, y and z, N, at each speed and order.
+    pub fn ground_forces(&self, cancel: &Cancel) -> Result<Vec<[Complex64; 3]>> {
+        let subframe = self.subframe()?;
+        let count = subframe.mounts().len();
+        let lengths = [self.motions.len(), count, 3];
+        limits::result_size("response", &lengths, size_of::<Complex64>(), "give fewer speeds")?;
+        let mut forces = memory::room(self.motions.len() * count)?;
+        for (point, motion) in self.subframe.iter().enumerate() {
+            if point.is_multiple_of(POINTS_PER_TASK) {
+                cancel.check()?;
+            }
+            if *motion == ComplexVector6::zeros() {
+                forces.extend(std::iter::repeat_n([Complex64::ZERO; 3], count));
+                continue;
+            }
+            let stiffnesses = subframe.stiffnesses(self.omega_of(point), String::new)?;
+            forces.extend((0..count).map(|k| {
+                let deflection = subframe.deflection(k, motion, None);
+                subframe.force_on_support(k, &stiffnesses[k], &deflection)
+            }));
+        }
+        Ok(forces)
+    }
+
+    /// Motion of a receiver of a receptance along x, y and z at each speed and order.
+    pub fn at_receiver(
+        &self,
+        name: &str,
+        derivative: Derivative,
+        cancel: &Cancel,
+    ) -> Result<Vec<[Complex64; 3]>> {
+        let Some(Support::Receptance(receptance)) = self.powertrain.support() else {
+            let hint = "a name is that of a receiver of a receptance that carries the mounts";
+            return Err(Error::value("point", format!("{name:?}"), hint));
+        };
+        let receiver = receptance.receivers.iter().find(|receiver| receiver.name == name);
+        let receiver = receiver.ok_or_else(|| {
+            let names: Vec<&str> = receptance.receivers.iter().map(|r| r.name.as_str()).collect();
+            let hint = format!("is no receiver of the receptance; there are: {}", names.join(", "));
+            Error::value("point", format!("{name:?}"), hint)
+        })?;
+        let mut values = memory::room(self.motions.len())?;
+        self.for_each(cancel, |point| {
+            if *point.motion == ComplexVector6::zeros() {
+                values.push([Complex64::ZERO; 3]);
+                return Ok(());
+            }
+            let coordinates = self.powertrain.coordinates();
+            let forces: Vec<Complex64> =
+                coordinates.iter().map(|place| self.force(place / 3, point)[place % 3]).collect();
+            let moved = receptance.moved(receiver, point.omega, &forces)?;
+            values.push(derivative.of(moved, point.omega));
+            Ok(())
+        })?;
+        Ok(values)
+    }
+}
+
+impl Derivative {
+    /// Phasors of this, of those of a displacement.
+    fn of(self, moved: [Complex64; 3], omega: f64) -> [Complex64; 3] {
+        let rate = Complex64::new(0.0, omega);
+        let factor = match self {
+            Self::Displacement => Complex64::ONE,
+            Self::Velocity => rate,
+            Self::Acceleration => rate * rate,
+        };
+        // Adding zero makes −0 0.
+        moved.map(|phasor| phasor * factor + Complex64::ZERO)
     }
 }
 

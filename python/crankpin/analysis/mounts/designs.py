@@ -1,0 +1,254 @@
+"""Many designs of mounts at once: natural frequencies, and the largest responses over speed."""
+
+from __future__ import annotations
+
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from crankpin._support import inputs, labels
+from crankpin._support.frames import Tabled
+from crankpin._support.record import read_only
+from crankpin._support.tables import Column, Table
+from crankpin.analysis.balance import mean_piston_speed
+from crankpin.analysis.request import Request, check_request
+from crankpin.model import checks
+from crankpin.model.mounts import _vector
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from crankpin._support.inputs import Order, Orders
+    from crankpin.analysis.mounts.powertrain import Powertrain
+    from crankpin.model.mounts import Mount
+
+FIGURES = ("at", "tilt_deg", "stiffness", "dynamic_stiffness", "loss_factor", "damping")
+"""Figures of a mount that can differ between designs."""
+
+
+class MountDesigns(Tabled):
+    """Natural frequencies and largest responses of many designs of a powertrain's mounts.
+
+    Responses are reduced over speed as they are computed, so that a million designs fit in memory:
+    the largest peak of each order, and the largest rms value of all orders together. Made by
+    :meth:`Powertrain.designs`.
+    """
+
+    powertrain: Powertrain
+    """The powertrain whose mounts differ."""
+    vary: Mapping[str, Mapping[str, NDArray[np.float64]]]
+    """Name of a mount → figure → its value in each design."""
+    rpm: NDArray[np.float64]
+    """Crank speeds."""
+    request: Request
+    """Orders and tolerance, checked."""
+    with_mount_force: bool
+    """True if the force of each mount is computed."""
+    points: tuple[tuple[float, float, float], ...]
+    """Places whose velocity is computed, m."""
+    at_frequency: float | None
+    """Frequency at which natural frequencies take the stiffness, Hz."""
+
+    def __post_init__(self) -> None:
+        request = check_request(self.request, "Powertrain.designs")
+        names = self.powertrain.names
+        vary = []
+        for name, figures in self.vary.items():
+            for figure, values in figures.items():
+                rows = np.zeros((len(values), 3))
+                rows[:] = values if values.ndim == 2 else values[:, None]
+                vary.append((names.index(name), figure, rows))
+        found = self.powertrain._core.designs(
+            self.powertrain.engine._core,
+            vary,
+            self.rpm,
+            (request.orders, request.rtol),
+            (self.with_mount_force, list(self.points)),
+            self.at_frequency,
+        )
+        (orders, omitted, bounds), frequency, largest, rms = found
+        self.__dict__.update(_orders=(tuple(orders), tuple(omitted)), _bounds=bounds)
+        self.__dict__.update(_frequency=frequency, _largest=largest, _rms=rms)
+        super().__post_init__()
+
+    def __len__(self) -> int:
+        return len(self.frequency)
+
+    @property
+    def orders(self) -> tuple[Order, ...]:
+        """Multiples of crank speed, of a fired engine halves too."""
+        return self.__dict__["_orders"][0]  # type: ignore[no-any-return]
+
+    @property
+    def omitted(self) -> tuple[Order, ...]:
+        """With ``orders="auto"``: orders of the engine left out that are not zero."""
+        return self.__dict__["_orders"][1]  # type: ignore[no-any-return]
+
+    @property
+    def error_bound(self) -> Mapping[str, float]:
+        """Quantity → bound of what omitted orders add to the engine's load at the highest speed."""
+        names = ("force", "moment", "torque")
+        return MappingProxyType(dict(zip(names, self.__dict__["_bounds"], strict=True)))
+
+    @property
+    def loads_counted(self) -> str:
+        """Gas pressure that counts, in words: as :attr:`Engine.loads_counted`."""
+        return self.powertrain.engine.loads_counted
+
+    @property
+    def frequency(self) -> NDArray[np.float64]:
+        """Natural frequencies, Hz, ascending: (n_designs, n_modes).
+
+        NaN where a mount's stiffness depends on frequency and none was given.
+        """
+        return self.__dict__["_frequency"]  # type: ignore[no-any-return]
+
+    @property
+    def body_force(self) -> NDArray[np.float64]:
+        """Largest peak over speed of the force on the body, N: (n_designs, n_orders, n_axes)."""
+        return self.__dict__["_largest"][:, 0]  # type: ignore[no-any-return]
+
+    @property
+    def body_force_rms(self) -> NDArray[np.float64]:
+        """Largest rms over speed of all orders of the force on the body, N: (n_designs, n_axes)."""
+        return self.__dict__["_rms"][:, 0]  # type: ignore[no-any-return]
+
+    @property
+    def mount_force(self) -> Mapping[str, NDArray[np.float64]]:
+        """Name of a mount → the same of its force: (n_designs, n_orders, n_axes)."""
+        return self._of_mounts("_largest")
+
+    @property
+    def mount_force_rms(self) -> Mapping[str, NDArray[np.float64]]:
+        """Name of a mount → the same of its force: (n_designs, n_axes)."""
+        return self._of_mounts("_rms")
+
+    def _of_mounts(self, key: str) -> Mapping[str, NDArray[np.float64]]:
+        names = self.powertrain.names if self.with_mount_force else ()
+        return MappingProxyType({n: self.__dict__[key][:, 1 + k] for k, n in enumerate(names)})
+
+    @property
+    def velocity(self) -> NDArray[np.float64]:
+        """Largest peak over speed of the velocity of each point, m/s.
+
+        Of shape (n_designs, n_points, n_orders, n_axes).
+        """
+        return self.__dict__["_largest"][:, self._first_point :]  # type: ignore[no-any-return]
+
+    @property
+    def velocity_rms(self) -> NDArray[np.float64]:
+        """Largest rms over speed of all orders, m/s: (n_designs, n_points, n_axes)."""
+        return self.__dict__["_rms"][:, self._first_point :]  # type: ignore[no-any-return]
+
+    @property
+    def _first_point(self) -> int:
+        return 1 + (len(self.powertrain.mounts) if self.with_mount_force else 0)
+
+    def at(self, design: int) -> Powertrain:
+        """Return the powertrain of one design.
+
+        Parameters
+        ----------
+        design : int
+            Its index, from 0.
+
+        Returns
+        -------
+        Powertrain
+            The powertrain with the mounts of that design.
+
+        Raises
+        ------
+        InputError
+            If there is no such design.
+        """
+        number = inputs.whole("design", design)
+        if not 0 <= number < len(self):
+            raise inputs.rejected("design", design, f"give an index from 0 to {len(self) - 1}")
+        mounts: list[Mount] = []
+        for mount in self.powertrain.mounts:
+            figures = self.vary.get(mount.name, {})
+            values = {name: values[number].tolist() for name, values in figures.items()}
+            mounts.append(mount.replace(**values))
+        return self.powertrain.replace(mounts=mounts)
+
+    @property
+    def table(self) -> Table:
+        """Natural frequencies, and the largest rms of the force on the body, of each design."""
+        columns = [Column("design", tuple(range(len(self))))]
+        for k, values in enumerate(self.frequency.T.tolist()):
+            columns.append(Column(f"f{k + 1}", tuple(values), "Hz"))
+        for axis, values in zip("xyz", self.body_force_rms.T.tolist(), strict=True):
+            columns.append(Column(f"F_{axis} rms", tuple(values), "N"))
+        name = labels.name_of(self.powertrain.engine)
+        title = f"{name} on {len(self)} designs of its mounts: largest force on the body"
+        return Table(title, tuple(columns), loads=self.loads_counted)
+
+
+def designs(
+    powertrain: Powertrain,
+    rpm: ArrayLike,
+    vary: Mapping[str, Mapping[str, ArrayLike]],
+    *,
+    orders: Orders,
+    rtol: float | None,
+    mount_force: bool,
+    at: Sequence[Sequence[float]],
+    frequency: float | None,
+) -> MountDesigns:
+    """Return designs; :meth:`Powertrain.designs` documents the arguments."""
+    request = Request.checked(orders=orders, rtol=rtol, spectrum=None, torque=True)
+    speeds = inputs.copied(inputs.vector("rpm", np.atleast_1d(inputs.array("rpm", rpm))))
+    by_name = {mount.name: mount for mount in powertrain.mounts}
+    values: dict[str, Mapping[str, NDArray[np.float64]]] = {}
+    if not hasattr(vary, "items"):
+        raise inputs.rejected("vary", vary, 'give {"name of a mount": {"stiffness": values}}')
+    for name, figures in vary.items():
+        inputs.one_of("vary", name, tuple(by_name))
+        if not hasattr(figures, "items"):
+            raise inputs.rejected(f"vary[{name!r}]", figures, 'give {"stiffness": values}')
+        values[name] = {
+            figure: _values(by_name[name], figure, given) for figure, given in figures.items()
+        }
+    counts = {len(each) for figures in values.values() for each in figures.values()}
+    if len(counts) > 1:
+        listed = ", ".join(map(str, sorted(counts)))
+        raise inputs.faulty(
+            "vary", f"has {listed} values", "give one value of each figure for each design"
+        )
+    places = tuple(_vector(f"at[{k}]", place) for k, place in enumerate(at))
+    given = None if frequency is None else inputs.number("frequency", frequency)
+    is_each = inputs.flag("mount_force", mount_force)
+    found = MountDesigns(
+        powertrain, MappingProxyType(values), speeds, request, is_each, places, given
+    )
+    inputs.warn_of_units(mean_piston_speed(powertrain.engine, float(np.max(speeds))))
+    return found
+
+
+def _values(mount: Mount, figure: str, given: ArrayLike) -> NDArray[np.float64]:
+    """Return the values of a figure, one or three of each design."""
+    name = f"vary[{mount.name!r}]"
+    inputs.one_of(name, figure, FIGURES)
+    name = f"{name}[{figure!r}]"
+    if figure == "stiffness" and mount.dynamic_stiffness is not None:
+        hint = (
+            "the mount has a dynamic_stiffness; vary that: the static one does not count in motion"
+        )
+        raise inputs.rejected(name, given, hint)
+    if figure == "tilt_deg" and mount.axes is not None:
+        raise inputs.rejected(name, given, "the mount has axes; give it a tilt_deg instead")
+    values = inputs.array(name, given)
+    is_vector = values.ndim == 2 and values.shape[1] == 3 and figure != "tilt_deg"
+    is_number = values.ndim == 1 and figure != "at"
+    if not (is_vector or is_number) or not len(values):
+        shape = "(n_designs, 3)" if figure == "at" else "(n_designs,)"
+        also = "" if figure in ("at", "tilt_deg") else ", or (n_designs, 3) along its axes"
+        hint = f"give an array of shape {shape}{also}"
+        raise inputs.faulty(name, f"has shape {values.shape}", hint)
+    if "stiffness" in figure:
+        checks.mount(mount.name, mount.at, (float(values.min()), float(values.max())))
+    return read_only(np.array(values))

@@ -1,0 +1,158 @@
+"""How far natural frequencies and the purity of modes go within tolerances."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from crankpin._support import inputs, labels
+from crankpin._support.frames import Frames, Tabled
+from crankpin._support.record import read_only
+from crankpin._support.tables import Column, Table
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from crankpin.analysis.mounts.powertrain import Powertrain
+
+
+class MountRobustness(Tabled):
+    """Bounds of natural frequencies and of purity within tolerances of a powertrain.
+
+    Every frequency grows with each stiffness, and falls with mass and inertia (Courant and
+    Fischer), so that its bounds are exactly those at the two ends, without corners between; of one
+    tolerance x of all stiffnesses they are f·√(1 ± x). Purity has no such law: it is evaluated at
+    every corner. Made by :meth:`Powertrain.robustness`.
+    """
+
+    powertrain: Powertrain
+    """The powertrain."""
+    stiffness: tuple[float, ...]
+    """Tolerance of the stiffness of each mount, over it."""
+    mass: float
+    """Tolerance of the mass, over it."""
+    inertia: float
+    """Tolerance of the tensor of inertia, over it."""
+    cg: float
+    """Tolerance of the centre of gravity along x, y and z, m."""
+    by_axis: bool
+    """True if the axes of a mount are at either end each by itself in corners."""
+    at_frequency: float | None
+    """Frequency at which dynamic stiffness is taken, Hz; None where it does not depend on it."""
+
+    def __post_init__(self) -> None:
+        given = (list(self.stiffness), self.mass, self.inertia, self.cg, self.by_axis)
+        nominal, ends, slope, corner = self.powertrain._core.robustness(given, self.at_frequency)
+        frequency, purity, least = map(read_only, nominal)
+        values: dict[str, Any] = {"_frequency": frequency, "_purity": purity, "_least": least}
+        values |= {"_ends": ends, "_slope": slope, "_corner": corner}
+        self.__dict__.update(values)
+        super().__post_init__()
+
+    @property
+    def frequency(self) -> NDArray[np.float64]:
+        """Natural frequencies without tolerances, Hz, ascending: (n_modes,)."""
+        return self.__dict__["_frequency"]  # type: ignore[no-any-return]
+
+    @property
+    def frequency_bounds(self) -> NDArray[np.float64]:
+        """Least and largest frequencies within the tolerance of stiffness, Hz: (2, n_modes)."""
+        return self.__dict__["_ends"][0]  # type: ignore[no-any-return]
+
+    @property
+    def mass_bounds(self) -> NDArray[np.float64]:
+        """Least and largest frequencies within those of mass and inertia, Hz: (2, n_modes)."""
+        return self.__dict__["_ends"][1]  # type: ignore[no-any-return]
+
+    @property
+    def cg_range(self) -> NDArray[np.float64]:
+        """Least and largest frequencies with the CG at eight corners, Hz: (2, n_modes).
+
+        The corners of the cube ± ``cg`` about its place, and that; frequencies are not monotone in
+        it, so that these are no bounds.
+        """
+        return self.__dict__["_ends"][2]  # type: ignore[no-any-return]
+
+    @property
+    def cg_slope(self) -> NDArray[np.float64]:
+        """Derivatives of the frequencies by the place of the CG, Hz/m: (n_axes, n_modes).
+
+        Of modes of one frequency the mean.
+        """
+        return self.__dict__["_slope"]  # type: ignore[no-any-return]
+
+    @property
+    def purity(self) -> NDArray[np.float64]:
+        """Purity of each mode without tolerances, %: (n_modes,)."""
+        return self.__dict__["_purity"]  # type: ignore[no-any-return]
+
+    @property
+    def least_purity(self) -> NDArray[np.float64]:
+        """Least purity of each mode, by ascending frequency, at corners of stiffness, %."""
+        return self.__dict__["_least"]  # type: ignore[no-any-return]
+
+    def corner(self, mode: int) -> Mapping[str, tuple[float, ...]]:
+        """Return the corner at which a mode is least pure.
+
+        Parameters
+        ----------
+        mode : int
+            Number of the mode, from 1.
+
+        Returns
+        -------
+        mapping of str to tuple of float
+            Name of a mount to the factors of the stiffness along its axes.
+
+        Raises
+        ------
+        InputError
+            If there is no such mode.
+        """
+        number = inputs.whole("mode", mode)
+        if not 1 <= number <= 6:
+            raise inputs.rejected("mode", mode, "give a number from 1 to 6")
+        upper = self.__dict__["_corner"][number - 1]
+        parts = zip(self.powertrain.names, upper, self.stiffness, strict=True)
+        return {
+            name: tuple(1.0 + share if is_upper else 1.0 - share for is_upper in ends)
+            for name, ends, share in parts
+        }
+
+    @property
+    def table(self) -> Table:
+        """Frequencies and their bounds, purity and its least value."""
+        columns = [Column("mode", tuple(range(1, 7)))]
+        each = [("f", self.frequency)]
+        if any(self.stiffness):
+            each += zip(("f least", "f largest"), self.frequency_bounds, strict=True)
+        if self.mass or self.inertia:
+            heads = ("f least by mass", "f largest by mass")
+            each += zip(heads, self.mass_bounds, strict=True)
+        if self.cg:
+            each += zip(("f least by CG", "f largest by CG"), self.cg_range, strict=True)
+        columns += [Column(head, tuple(values.tolist()), "Hz") for head, values in each]
+        for head, values in (("purity", self.purity), ("least purity", self.least_purity)):
+            columns.append(Column(head, tuple(values.tolist()), "%", decimals=1))
+        shares = sorted({100.0 * share for share in self.stiffness})
+        parts = [f"stiffness ± {' or '.join(f'{share:g}' for share in shares)} %"]
+        parts += [f"mass ± {100 * self.mass:g} %"] if self.mass else []
+        parts += [f"inertia ± {100 * self.inertia:g} %"] if self.inertia else []
+        parts += [f"CG ± {1e3 * self.cg:g} mm"] if self.cg else []
+        title = f"{labels.name_of(self.powertrain.engine)} on its mounts: {', '.join(parts)}"
+        return Table(title, tuple(columns))
+
+    @property
+    def frames(self) -> Frames:
+        """``table``; ``cg``: derivatives of the frequencies by the place of the CG."""
+        return self._frames(cg=self._of_cg)
+
+    def _of_cg(self) -> Table:
+        columns = [Column("mode", tuple(range(1, 7)))]
+        columns.append(Column("f", tuple(self.frequency.tolist()), "Hz"))
+        for axis, values in zip("xyz", self.cg_slope, strict=True):
+            columns.append(Column(f"df/d{axis}", tuple((1e-3 * values).tolist()), "Hz/mm"))
+        name = labels.name_of(self.powertrain.engine)
+        return Table(f"{name} on its mounts: frequencies by the place of the CG", tuple(columns))
