@@ -295,5 +295,6 @@ impl Response {
     }
 }
 
+mod driven;
 #[cfg(test)]
 mod tests;
