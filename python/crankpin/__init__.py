@@ -31,6 +31,7 @@ from crankpin.analysis.sweeps.sweep import sweep
 from crankpin.analysis.tolerances.match_parts import match_parts
 from crankpin.analysis.tolerances.tolerances import tolerances
 from crankpin.analysis.torsional_excitation import torsional_excitation
+from crankpin.model.actuators import Actuator
 from crankpin.model.cycle import Cycle
 from crankpin.model.cycle_map import CycleMap
 from crankpin.model.cylinder import Cylinder, Rod, slider_crank_harmonics
@@ -41,6 +42,7 @@ from crankpin.model.presets import presets
 from crankpin.model.shafts import Shaft, Unbalance
 
 __all__ = [
+    "Actuator",
     "Cycle",
     "CycleMap",
     "Cylinder",

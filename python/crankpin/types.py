@@ -15,6 +15,8 @@ from crankpin.analysis.design.designs import Design, Designs
 from crankpin.analysis.explain import Explanation
 from crankpin.analysis.firing import Firing
 from crankpin.analysis.flywheel import Flywheel
+from crankpin.analysis.mounts.active import Cancellation, DrivenResponse
+from crankpin.analysis.mounts.adaptive import AdaptiveLaw
 from crankpin.analysis.mounts.modes import MountModes, RollAxes
 from crankpin.analysis.mounts.response import MountResponse, OrderResponse, PointMotion, WorstForce
 from crankpin.analysis.mounts.static_state import StaticState
@@ -31,6 +33,7 @@ from crankpin.analysis.vanishing import VanishingOrders, Verdicts
 from crankpin.analysis.waveform import Waveform
 
 __all__ = [
+    "AdaptiveLaw",
     "Arrangement",
     "ArrangementSearch",
     "Balance",
@@ -39,12 +42,14 @@ __all__ = [
     "BalancerOptions",
     "BearingLoads",
     "BobWeight",
+    "Cancellation",
     "Choice",
     "ClosedForm",
     "Comparison",
     "Counterweights",
     "Design",
     "Designs",
+    "DrivenResponse",
     "Explanation",
     "Firing",
     "Flywheel",
