@@ -24,6 +24,7 @@ from crankpin.analysis.design.design import design
 from crankpin.analysis.firing import throws
 from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
+from crankpin.analysis.mounts.design_mounts import design_mounts
 from crankpin.analysis.mounts.powertrain import Powertrain
 from crankpin.analysis.ranking.rank import rank
 from crankpin.analysis.star import star_diagram
@@ -65,6 +66,7 @@ __all__ = [
     "compare",
     "counterweights",
     "design",
+    "design_mounts",
     "flywheel",
     "gas_torque_harmonics",
     "match_parts",

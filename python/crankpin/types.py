@@ -17,6 +17,7 @@ from crankpin.analysis.firing import Firing
 from crankpin.analysis.flywheel import Flywheel
 from crankpin.analysis.mounts.active import Cancellation, DrivenResponse
 from crankpin.analysis.mounts.adaptive import AdaptiveLaw
+from crankpin.analysis.mounts.design_mounts import MountDesign
 from crankpin.analysis.mounts.feedback import VelocityFeedback
 from crankpin.analysis.mounts.modes import MountModes, RollAxes
 from crankpin.analysis.mounts.response import MountResponse, OrderResponse, PointMotion, WorstForce
@@ -55,6 +56,7 @@ __all__ = [
     "Firing",
     "Flywheel",
     "Match",
+    "MountDesign",
     "MountModes",
     "MountResponse",
     "OrderBalance",
