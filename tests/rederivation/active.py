@@ -75,9 +75,7 @@ def dual_gap(
     return float((cost(phasors) - lower) / np.linalg.norm(target) ** 2)
 
 
-def largest_gain(
-    engine: tuple[float, float, float], actuator: tuple[float, float, float]
-) -> float:
+def largest_gain(engine: tuple[float, float, float], actuator: tuple[float, float, float]) -> float:
     """Return the largest stable gain of velocity fed back, by Routh's table of the quartic.
 
     Of a mass on a spring, each of (mass, frequency in Hz, damping ratio).

@@ -10,6 +10,7 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.record import Input
+from crankpin._support.warnings import warn
 from crankpin.model.mounts import _vector
 
 if TYPE_CHECKING:
@@ -89,7 +90,7 @@ class Actuator(Input):
             hint = "give zero or more, and resonance where it is above zero"
             raise inputs.rejected("damping_ratio", damping, hint)
         if self.stroke is not None and float(self.stroke) > LONGEST_STROKE:
-            inputs.warn(f"stroke = {self.stroke:g} m: was it given in millimetres?")
+            warn(f"stroke = {self.stroke:g} m: was it given in millimetres?")
         self.__dict__.update(fields, damping_ratio=damping)
 
     def stroke_of(self, force: ArrayLike, frequency: ArrayLike) -> NDArray[np.float64]:
@@ -111,7 +112,7 @@ class Actuator(Input):
         if self.mass is None:
             return np.zeros(np.broadcast_shapes(np.shape(force), np.shape(frequency)))
         omega = 2.0 * np.pi * inputs.array("frequency", frequency)
-        return np.abs(np.asarray(force)) / (self.mass * omega**2)
+        return np.asarray(np.abs(np.asarray(force)) / (self.mass * omega**2))
 
     def motor_force(self, force: ArrayLike, frequency: ArrayLike) -> NDArray[np.float64]:
         """Return the force of the motor that a force on the powertrain takes, N.
@@ -135,7 +136,7 @@ class Actuator(Input):
         if self.resonance is None:
             return np.ones(frequency.shape)
         ratio = self.resonance / frequency
-        return np.hypot(1.0 - ratio**2, 2.0 * self.damping_ratio * ratio)
+        return np.asarray(np.hypot(1.0 - ratio**2, 2.0 * self.damping_ratio * ratio))
 
     def largest_force(self, frequency: ArrayLike) -> NDArray[np.float64]:
         """Return the largest force on the powertrain that motor and stroke allow, N.

@@ -77,9 +77,10 @@ def test_one_channel_is_cancelled_perfectly_by_the_closed_form() -> None:
     # 40 000 samples at a step of a hundredth: the transient is gone.
     assert again.adapted_weight(d, s, 100.0, 0.01) == pytest.approx(c.forces[0, 0], rel=1e-9)
     assert (c.residual < 1e-12).all()
-    assert c.response.at(SEAT[0]).velocity[2].peak_xyz[1] < 1e-12 * c.before[2].at(
-        SEAT[0]
-    ).velocity.peak_xyz[1] + 1e-15
+    assert (
+        c.response.at(SEAT[0]).velocity[2].peak_xyz[1]
+        < 1e-12 * c.before[2].at(SEAT[0]).velocity.peak_xyz[1] + 1e-15
+    )
     # Perfect there and not elsewhere.
     assert c.response.body_force[2].peak > 0.1 * c.before.body_force[2].peak
 
@@ -159,7 +160,9 @@ def test_limits_are_those_of_motor_and_stroke() -> None:
         0.25 * stroke
     )
     # At its resonance the motor has but the damping to overcome.
-    shaker = cp.Actuator("s", (0, 0, 0), (0, 3, 4), force=10, mass=2, resonance=20, damping_ratio=0.1)
+    shaker = cp.Actuator(
+        "s", (0, 0, 0), (0, 3, 4), force=10, mass=2, resonance=20, damping_ratio=0.1
+    )
     assert shaker.largest_force(20.0) == pytest.approx(10 / 0.2)
     assert shaker.largest_force(2e4) == pytest.approx(10, rel=1e-5)
     assert shaker.direction == (0.0, 0.6, 0.8)
@@ -185,7 +188,9 @@ def test_a_cancelling_shaft_out_of_phase() -> None:
 
 def test_what_is_raised_elsewhere_is_said() -> None:
     rpm = np.arange(800.0, 3000.0, 200.0)
-    c = P.response(rpm, orders=[2, 4, 6]).cancel(HEAD, [SEAT], orders=[2], watch={"top": (0, 0.4, 0)})
+    c = P.response(rpm, orders=[2, 4, 6]).cancel(
+        HEAD, [SEAT], orders=[2], watch={"top": (0, 0.4, 0)}
+    )
     assert "Raised at some speed:" in c.table.note
     assert "Orders 4, 6: as before." in c.table.note
     assert {"minimised", "elsewhere"} == {*c.table["role"].values}
@@ -206,9 +211,7 @@ def test_what_is_raised_elsewhere_is_said() -> None:
 # --- a law that adapts ----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("delay", "limit"), [(0, 2.0), (1, 1.0), (2, 0.61803399), (3, 0.44504187)]
-)
+@pytest.mark.parametrize(("delay", "limit"), [(0, 2.0), (1, 1.0), (2, 0.61803399), (3, 0.44504187)])
 def test_largest_step_of_updates_that_are_late(delay: int, limit: float) -> None:
     law = one_channel().adaptive(update_delay=delay)
     assert law.largest_step == pytest.approx([limit] * 2, rel=6e-8)
@@ -284,7 +287,9 @@ def test_largest_gain_is_that_of_routh(seed: int) -> None:
     draw = np.random.default_rng(seed)
     body = (draw.uniform(50, 300), draw.uniform(4, 25), draw.uniform(0.01, 0.2))
     own = (draw.uniform(1, 9), draw.uniform(2, 15), draw.uniform(0.05, 0.6))
-    actuator = cp.Actuator("a", (0, 0, 0), (0, 1, 0), mass=own[0], resonance=own[1], damping_ratio=own[2])
+    actuator = cp.Actuator(
+        "a", (0, 0, 0), (0, 1, 0), mass=own[0], resonance=own[1], damping_ratio=own[2]
+    )
     found = bouncing(*body).velocity_feedback(actuator).largest_gain
     assert found == pytest.approx(again.largest_gain(body, own), rel=1e-6)
 
@@ -332,7 +337,11 @@ def test_impossible_cancellations_are_rejected(given: dict[str, Any], said: str)
 
 def test_impossible_laws_and_feedbacks_are_rejected() -> None:
     c = one_channel()
-    for arguments, said in [({"step": 0}, "step"), ({"delay": -1}, "delay"), ({"update_delay": -1}, "update_delay")]:
+    for arguments, said in [
+        ({"step": 0}, "step"),
+        ({"delay": -1}, "delay"),
+        ({"update_delay": -1}, "update_delay"),
+    ]:
         with pytest.raises(cp.InputError, match=said):
             c.adaptive(**arguments)  # type: ignore[arg-type]
     with pytest.raises(cp.InputError, match="actuator = head: give mass and resonance"):

@@ -375,7 +375,9 @@ class Cancellation(Tabled):
         heads += [("f", "Hz"), ("force", "N"), ("phase", "°"), ("limit", "N"), ("used", "%")]
         heads += [("stroke", "mm"), ("motor", "N"), ("force/ω²", "kg·mm")]
         columns = zip(heads, zip(*rows, strict=True), strict=True)
-        title = self.before._title("forces of actuators" + (", where most is used" if swept else ""))
+        title = self.before._title(
+            "forces of actuators" + (", where most is used" if swept else "")
+        )
         listed = tuple(Column(name, values, unit) for (name, unit), values in columns)
         return Table(title, listed, "", self.before.loads_counted)
 

@@ -267,14 +267,13 @@ class Question:
                     )
         own = _dynamics(powertrain).ravel()
         quotient = float(self._roll @ self._reaction(powertrain) @ own)
-        self.square = (
-            quotient
-            if roll_frequency is None
-            else (2.0 * np.pi * inputs.finite("roll_frequency", roll_frequency)) ** 2
-        )
-        self.keeps_roll = roll_frequency is not None
-        if self.square <= 0.0:
+        hertz = float(np.sqrt(max(quotient, 0.0)) / (2.0 * np.pi))
+        if roll_frequency is not None:
+            hertz = inputs.finite("roll_frequency", roll_frequency)
+        if hertz <= 0.0:
             raise inputs.rejected("roll_frequency", roll_frequency, "give Hz, more than zero")
+        self.square = (2.0 * np.pi * hertz) ** 2
+        self.keeps_roll = roll_frequency is not None
         self._scales: list[float] = []
 
     def _varied(self, vary: Any) -> list[tuple[int, str]]:  # noqa: ANN401 - checked here
@@ -285,7 +284,9 @@ class Question:
         found = []
         for name, kinds in vary.items():
             inputs.one_of("vary", name, names)
-            listed = [kinds] if isinstance(kinds, str) else inputs.items("vary", kinds, "give a list")
+            listed = (
+                [kinds] if isinstance(kinds, str) else inputs.items("vary", kinds, "give a list")
+            )
             for kind in listed:
                 inputs.one_of(f"vary[{name!r}]", kind, KINDS)
                 mount = self.powertrain.mounts[names.index(name)]
@@ -304,7 +305,9 @@ class Question:
             raise inputs.rejected("bounds", bounds, hint)
         for name in bounds:
             inputs.one_of("bounds", name, KINDS)
-        start, low, high = [], [], []
+        start: list[float] = []
+        low: list[float] = []
+        high: list[float] = []
         for place, kind in self.varied:
             if kind not in bounds:
                 raise inputs.rejected("bounds", [*bounds], f"it varies, so give {kind!r} too")
@@ -553,7 +556,9 @@ class Question:
 
     def _result(self, values: Real, method: str, starts: int, good: int) -> MountDesign:
         fitted = self.made(values)
-        names, limits, pairs = [], [], []
+        names: list[str] = []
+        limits: list[tuple[float, float] | None] = []
+        pairs: list[tuple[float, ...]] = []
         for name, order in self.objectives:
             if order is None:
                 names.append("decoupling")
@@ -578,16 +583,28 @@ class Question:
         if self.window is not None:
             for k, word in ((0, "lowest"), (-1, "highest")):
                 names.append(f"{word} mode Hz")
-                pairs.append(tuple(float(self._modes(each)[k]) for each in (self.powertrain, fitted)))
+                pairs.append(
+                    tuple(float(self._modes(each)[k]) for each in (self.powertrain, fitted))
+                )
                 limits.append(self.window)
         if self.ratio is not None:
             for pick, word in ((np.min, "least"), (np.max, "largest")):
                 names.append(f"{word} ratio of stiffness")
-                pairs.append(tuple(float(pick(self._shown(each))) for each in (self.powertrain, fitted)))
+                pairs.append(
+                    tuple(float(pick(self._shown(each))) for each in (self.powertrain, fitted))
+                )
                 limits.append(self.ratio)
         before, after = zip(*pairs, strict=True)
         return MountDesign(
-            self.powertrain, fitted, tuple(names), before, after, tuple(limits), method, starts, good
+            self.powertrain,
+            fitted,
+            tuple(names),
+            before,
+            after,
+            tuple(limits),
+            method,
+            starts,
+            good,
         )
 
     def _shown(self, powertrain: Powertrain) -> list[float]:
@@ -640,4 +657,3 @@ def _range(name: str, given: Any) -> tuple[float, float]:  # noqa: ANN401 - chec
     if not 0.0 < low <= high:
         raise inputs.rejected(name, given, hint)
     return low, high
-

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.mounts.powertrain import Powertrain
 
 REACH = 30.0
-"""Factor below the lowest and above the highest frequency of modes and actuator that is searched."""
+"""Factor below the lowest and above the highest frequency of modes and actuator: the range."""
 POINTS = 2000
 """Frequencies over that range, evenly on a logarithmic scale."""
 BESIDE = np.geomspace(1e-6, 0.3, 60)
@@ -50,10 +50,11 @@ class VelocityFeedback(Tabled):
     """Gain, N·s/m; None for half of the largest."""
 
     def __post_init__(self) -> None:
-        modes = self.powertrain.modes(
-            self.actuator.resonance if self.powertrain._varies else None
-        )
-        own = [*modes.frequency[modes.frequency > 0.0].tolist(), float(self.actuator.resonance or 0)]
+        modes = self.powertrain.modes(self.actuator.resonance if self.powertrain._varies else None)
+        own = [
+            *modes.frequency[modes.frequency > 0.0].tolist(),
+            float(self.actuator.resonance or 0),
+        ]
         grid = np.geomspace(min(own) / REACH, max(own) * REACH, POINTS)
         beside = np.multiply.outer(own, np.concatenate([1.0 - BESIDE, 1.0 + BESIDE]))
         grid = np.unique(np.concatenate([grid, beside.ravel()]))
@@ -148,7 +149,8 @@ class VelocityFeedback(Tabled):
         """Velocity with over without feedback, at each mode and where it is worst."""
         grid = self.__dict__["_grid"]
         if not np.isfinite(self.used_gain):
-            ratios, at = [None] * (len(self.__dict__["_modes"]) + 1), None
+            ratios: list[float | None] = [None] * (len(self.__dict__["_modes"]) + 1)
+            at = None
         else:
             whole = 1.0 / np.abs(1.0 + self.used_gain * self.__dict__["_on_grid"])
             k = int(np.argmax(whole))

@@ -9,10 +9,9 @@ from crankpin._core import InputError
 from crankpin._support import files, inputs
 from crankpin._support.record import Input
 from crankpin._support.warnings import suppressed
-from crankpin.analysis.mounts import feedback
+from crankpin.analysis.mounts import feedback, static_state
 from crankpin.analysis.mounts import modes as natural
 from crankpin.analysis.mounts import response as forced
-from crankpin.analysis.mounts import static_state
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks, engine_files
 from crankpin.model.engine import Engine

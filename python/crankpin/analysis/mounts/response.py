@@ -443,7 +443,8 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         ... ]
         >>> p = cp.Powertrain(cp.Engine.preset("i4"), body, mounts)
         >>> shaker = cp.Actuator("shaker", at=(0.22, -0.12, 0.43), direction=(0, 1, 0), force=200)
-        >>> c = p.response(3000).cancel(shaker, {"seat": ((0.22, -0.12, 0.43), (0, 1, 0))}, orders=2)
+        >>> seat = {"seat": ((0.22, -0.12, 0.43), (0, 1, 0))}
+        >>> c = p.response(3000).cancel(shaker, seat, orders=2)
         >>> c.response[2].body_force.peak < c.before[2].body_force.peak
         True
         """
