@@ -94,6 +94,12 @@ MOUNTED = cp.Powertrain(
     ],
 )
 
+SHAKER = cp.Actuator(
+    "shaker", (0.1, 0.2, 0.1), (0, 1, 0), force=50, mass=2, stroke=0.002, resonance=4,
+    damping_ratio=0.2,
+)  # fmt: skip
+CANCELLED = MOUNTED.response([900.0, 3000.0], orders=[2, 4]).cancel(SHAKER, [(0, 0.3, 0)], orders=2)
+
 OBJECTS: dict[str, Any] = {
     "Cylinder": OFFSET,
     "Cycle": cp.Cycle(np.arange(0.0, 720.0, 20.0), np.linspace(1e5, 3e6, 36)),
@@ -172,6 +178,15 @@ OBJECTS: dict[str, Any] = {
     "VectorQuantity": MOUNTED.response(3000.0).body_force,
     "PointMotion": MOUNTED.response(3000.0).at((0.0, 0.3, 0.0)),
     "WorstForce": MOUNTED.response(3000.0).worst(),
+    "Actuator": SHAKER,
+    "Cancellation": CANCELLED,
+    "Cancellation at one speed": MOUNTED.response(3000.0, orders=[2, 4]).cancel(
+        SHAKER, "body_force", watch=[(0, 0.3, 0)]
+    ),
+    "DrivenResponse": CANCELLED.response,
+    "AdaptiveLaw": CANCELLED.adaptive(delay=1e-3),
+    "VelocityFeedback": MOUNTED.velocity_feedback(SHAKER),
+    "MountDesign": cp.design_mounts(MOUNTED, vary="stiffness", bounds={"stiffness": (5e4, 4e5)}),
 }
 every_object = pytest.mark.parametrize("name", OBJECTS)
 
@@ -242,8 +257,12 @@ def test_attributes_cannot_be_set_or_deleted(name: str) -> None:
 def test_arrays_are_read_only(name: str) -> None:
     found = list(arrays(OBJECTS[name]))
     without = (
+        "Actuator",
+        "MountDesign",
+        "VelocityFeedback",
         "Cylinder",
         "Rod",
+        "Actuator",
         "InertiaTrack",
         "Mount",
         "RigidBody",
@@ -337,7 +356,7 @@ def test_completion_offers_what_is_public() -> None:
 
 INPUTS = (cp.Engine, cp.Cylinder, cp.Rod, cp.Shaft, cp.Unbalance, cp.Cycle, cp.CycleMap)
 INPUTS += (cp.ValveTiming, cp.PortTiming, cp.types.Arrangement)
-INPUTS += (cp.InertiaTrack, cp.Mount, cp.RigidBody, cp.Powertrain)
+INPUTS += (cp.Actuator, cp.InertiaTrack, cp.Mount, cp.RigidBody, cp.Powertrain)
 
 
 @every_object
@@ -747,6 +766,11 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
         "StaticState",
         "MountModes",
         "MountResponse",
+        "MountDesign",
+        "DrivenResponse",
+        "Cancellation",
+        "AdaptiveLaw",
+        "VelocityFeedback",
         "RollAxes",
         "Waveform",
         "Counterweights",
@@ -976,6 +1000,8 @@ def test_every_public_object_is_documented_and_the_main_ones_by_example() -> Non
             cp.types.Balance,
             cp.types.OrderBalance,
             cp.types.Table,
+            cp.types.VelocityFeedback,
+            cp.Actuator,
             cp.Mount,
             cp.RigidBody,
             cp.Rod,

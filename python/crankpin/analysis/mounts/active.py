@@ -170,7 +170,8 @@ class Cancellation(Tabled):
         places = [self.before.orders.index(order) for order in self.orders]
         target, effect = self.__dict__["_target"], self.__dict__["_effect"]
         left = target + (effect @ self.forces[..., None])[..., 0]
-        return _ratio(np.linalg.norm(left, axis=-1), np.linalg.norm(target, axis=-1))[..., places]
+        ratio = _ratio(np.linalg.norm(left, axis=-1), np.linalg.norm(target, axis=-1))
+        return read_only(ratio[..., places])
 
     @property
     def used(self) -> NDArray[np.float64]:

@@ -84,7 +84,7 @@ class AdaptiveLaw(Tabled):
 
     @property
     def rate(self) -> NDArray[np.float64]:
-        """Attenuation of the slowest part, dB per update, below zero if one grows: (…, n_orders)."""
+        """Attenuation of the slowest part, dB per update, below zero of growth: (…, n_orders)."""
         sizes = self._sizes()
         rate = np.full(sizes.shape[:-1], np.inf)
         errors = np.exp(1j * np.radians(self.error_deg))

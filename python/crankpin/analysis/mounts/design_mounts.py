@@ -2,8 +2,8 @@
 
 A torque of the crank excites one mode alone iff K(0, t) ∥ (0, e_z) with t = I⁻¹e_z (Jeong and
 Singh, J. Sound Vib. 235 (2000)): in units in which the mass matrix is 1, with u the direction of
-M⁻½(0, e_z), K̃u = ω²u. These are linear equations in the stiffnesses. Other questions go to a bounded
-optimiser from several starts.
+M⁻½(0, e_z), K̃u = ω²u. These are linear equations in the stiffnesses. Other questions go to a
+bounded optimiser from several starts.
 """
 
 from __future__ import annotations
@@ -21,7 +21,6 @@ from crankpin._support.frames import Frames, Tabled
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.mounts.powertrain import Powertrain
-from crankpin.model.mounts import Mount
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -30,6 +29,7 @@ if TYPE_CHECKING:
 
     from crankpin._support.inputs import Order
     from crankpin._support.progress import Progress
+    from crankpin.model.mounts import Mount
 
     Real: TypeAlias = NDArray[np.float64]
     Objective: TypeAlias = tuple[str, Order | None]
@@ -433,7 +433,8 @@ class Question:
         rows = np.vstack([rows, near])
         right = np.concatenate([right, near @ (self.start[free] / scale)])
         low = self.low[free] / scale
-        if self.ratio is None:
+        ratio = self.ratio
+        if ratio is None:
             solved = optimize.lsq_linear(rows, right, (low, 1.0), method="bvls", tol=1e-15)
             found = solved.x
         else:
@@ -443,33 +444,24 @@ class Question:
                 jac=True,
                 method="SLSQP",
                 bounds=[(least, 1.0) for least in low],
-                constraints={"type": "ineq", "fun": lambda x: self._ratios(x, scale)},
+                constraints={"type": "ineq", "fun": lambda x: _ratios(x * scale, ratio)},
                 options={"ftol": 1e-16, "maxiter": 500},
             )
             found = solved.x
         values = self.start.copy()
         values[free] = np.clip(found * scale, self.low[free], self.high[free])
-        return values
-
-    def _ratios(self, unit: Real, scale: Real) -> Real:
-        """Return what is above zero where ratios of stiffnesses are within theirs."""
-        assert self.ratio is not None
-        stiff = (unit * scale).reshape(-1, 3) / scale.max()
-        least, most = self.ratio
-        first, others = stiff[:, :1], stiff[:, 1:]
-        return np.concatenate([(first - least * others).ravel(), (most * others - first).ravel()])
+        return np.asarray(values)
 
     def designed(self, starts: int, seed: int, progress: Progress) -> MountDesign:
         """Return the best design."""
-        only_stiffness = all(kind == "stiffness" for _, kind in self.varied)
-        linear = self.linear() if any(kind == "stiffness" for _, kind in self.varied) else None
-        if only_stiffness and self.objectives == [("decoupling", None)] and self.window is None:
-            assert linear is not None
+        kinds = {kind for _, kind in self.varied}
+        alone = self.objectives == [("decoupling", None)] and self.window is None
+        if kinds == {"stiffness"} and alone:
             words = "Least squares of the linear equations of decoupling, within bounds"
-            return self._result(linear, words, 1, 1)
+            return self._result(self.linear(), words, 1, 1)
         optional.library("scipy.optimize")
         random = np.random.default_rng(seed)
-        begins = [self.start] if linear is None else [self.start, linear]
+        begins = [self.start, self.linear()] if "stiffness" in kinds else [self.start]
         while len(begins) < starts:
             begins.append(self._value(random.uniform(size=len(self.low))))
         base = self.made(self.start)
@@ -501,7 +493,7 @@ class Question:
             if kind == "stiffness":
                 ends = np.log(self.low[where]), np.log(self.high[where])
                 values[where] = np.exp(ends[0] + unit[where] * (ends[1] - ends[0]))
-        return np.clip(values, self.low, self.high)
+        return np.asarray(np.clip(values, self.low, self.high))
 
     def _unit(self, values: Real) -> Real:
         width = np.where(self.high > self.low, self.high - self.low, 1.0)
@@ -619,6 +611,14 @@ class Question:
         shares = modes.shapes[5] ** 2
         groups = [sum(shares[k - 1] for k in group) for group in modes.groups]
         return float(100.0 * max(groups) / shares.sum())
+
+
+def _ratios(values: Real, ratio: tuple[float, float]) -> Real:
+    """Return what is above zero where ratios of stiffnesses are within theirs."""
+    stiff = values.reshape(-1, 3) / values.max()
+    least, most = ratio
+    first, others = stiff[:, :1], stiff[:, 1:]
+    return np.concatenate([(first - least * others).ravel(), (most * others - first).ravel()])
 
 
 def _dynamic(mount: Mount) -> tuple[float, float, float]:
