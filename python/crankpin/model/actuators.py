@@ -108,11 +108,16 @@ class Actuator(Input):
         ndarray of float
             Displacement, m, peak; zero of an actuator without mass. That of the powertrain itself,
             which is micrometres, does not count.
+
+        Raises
+        ------
+        InputError
+            If a figure is no number, or a frequency not above zero.
         """
+        size, omega = np.abs(inputs.array("force", force)), 2.0 * np.pi * _frequency(frequency)
         if self.mass is None:
-            return np.zeros(np.broadcast_shapes(np.shape(force), np.shape(frequency)))
-        omega = 2.0 * np.pi * inputs.array("frequency", frequency)
-        return np.asarray(np.abs(np.asarray(force)) / (self.mass * omega**2))
+            return np.zeros(np.broadcast_shapes(size.shape, omega.shape))
+        return np.asarray(size / (self.mass * omega**2))
 
     def motor_force(self, force: ArrayLike, frequency: ArrayLike) -> NDArray[np.float64]:
         """Return the force of the motor that a force on the powertrain takes, N.
@@ -128,8 +133,14 @@ class Actuator(Input):
         -------
         ndarray of float
             Force, N, peak: less than that on the powertrain near the resonance, more below it.
+
+        Raises
+        ------
+        InputError
+            If a figure is no number, or a frequency not above zero.
         """
-        return np.abs(np.asarray(force)) * self._motor_share(inputs.array("frequency", frequency))
+        share = self._motor_share(_frequency(frequency))
+        return np.asarray(np.abs(inputs.array("force", force)) * share)
 
     def _motor_share(self, frequency: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the motor's force over that on the powertrain."""
@@ -150,8 +161,13 @@ class Actuator(Input):
         -------
         ndarray of float
             Force, N, peak; infinite without limits.
+
+        Raises
+        ------
+        InputError
+            If a frequency is not above zero.
         """
-        given = inputs.array("frequency", frequency)
+        given = _frequency(frequency)
         limit = np.full(given.shape, np.inf)
         if self.force is not None:
             with np.errstate(divide="ignore"):  # at an undamped resonance the stroke is the limit
@@ -159,6 +175,13 @@ class Actuator(Input):
         if self.mass is not None and self.stroke is not None:
             limit = np.minimum(limit, self.mass * self.stroke * (2.0 * np.pi * given) ** 2)
         return limit
+
+
+def _frequency(frequency: ArrayLike) -> NDArray[np.float64]:
+    given = inputs.array("frequency", frequency)
+    if not (given > 0.0).all():
+        raise inputs.rejected("frequency", frequency, "give numbers that are more than zero, Hz")
+    return given
 
 
 def _above_zero(name: str, value: object) -> float:
