@@ -25,8 +25,8 @@ LONGEST_STROKE = 0.1
 class Actuator(Input):
     """Actuator that pushes on a powertrain at a place, along a direction.
 
-    Without ``mass`` it pushes from what does not move. With it it is an inertial actuator: its
-    force on the powertrain is the reaction of a mass that it accelerates, F = mω²·stroke, so that
+    Without ``mass`` it pushes from what does not move, else it is an inertial actuator: its force
+    on the powertrain is the reaction of a mass that it accelerates, F = mω²·stroke, so that
     little is left at low frequency. A pair of counter-rotating eccentric masses whose angle to each
     other is adjusted is one too, with their radius as ``stroke``.
 

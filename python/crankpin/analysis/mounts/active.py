@@ -163,9 +163,9 @@ class Cancellation(Tabled):
 
     @property
     def residual(self) -> NDArray[np.float64]:
-        """What is left at all receivers, over what there was: (…, n_orders cancelled).
+        """What is left at all receivers, over what there was: (…, n_orders).
 
-        Of each order; NaN where there was nothing.
+        Of each order that is cancelled; NaN where there was nothing.
         """
         places = [self.before.orders.index(order) for order in self.orders]
         target, effect = self.__dict__["_target"], self.__dict__["_effect"]

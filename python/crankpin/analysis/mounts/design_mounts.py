@@ -148,7 +148,7 @@ def design_mounts(
 ) -> MountDesign:
     """Return mounts that decouple roll, place frequencies and lower forces, within bounds.
 
-    Where stiffness alone varies, and decoupling alone is asked for, the equations are linear and
+    Where stiffness alone varies, and decoupling is the only objective, the equations are linear and
     the answer is the only best one. Other questions are optimised from several starts (SciPy).
 
     Parameters
@@ -220,7 +220,7 @@ def design_mounts(
 
 
 class Question:
-    """What varies within which bounds, and what is asked of it."""
+    """What varies within which bounds, objectives and requirements."""
 
     def __init__(
         self,
@@ -570,7 +570,7 @@ class Question:
                 tuple(self._roll_frequency(each) for each in (self.powertrain, fitted)),
             ]
             target = float(np.sqrt(self.square) / (2.0 * np.pi))
-            # Reached to a thousandth: nobody builds a mount to more.
+            # Reached to a thousandth: rubber scatters by more.
             limits += [None, (0.999 * target, 1.001 * target) if self.keeps_roll else None]
         if self.window is not None:
             for k, word in ((0, "lowest"), (-1, "highest")):
