@@ -711,7 +711,12 @@ def test_examples_of_help_run(
         main([*command, "--help"])
     (example,) = re.findall(r"example:\n  crankpin (.*)\n", capsys.readouterr().out)
     monkeypatch.chdir(tmp_path)
+    body = cp.RigidBody(mass=150, cg=(0, 0, 0.15), inertia=(7, 8, 4.5))
+    places = {"left": (-0.3, 0, 0), "right": (0.3, 0, 0), "rear": (0, 0, 0.5)}
+    mounts = [cp.Mount(name, at=at, stiffness=2e5, loss_factor=0.1) for name, at in places.items()]
+    cp.Powertrain(cp.Engine.preset("i4"), body, mounts).save("car.toml")
     assert printed(capsys, *example.split())
+    Path("car.toml").unlink()
     written = re.findall(r"(?:--plot|--save|--out|-o) (\S+)", example)
     assert sorted(file.name for file in tmp_path.iterdir()) == sorted(written)
 

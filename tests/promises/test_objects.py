@@ -771,6 +771,7 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
         "Cancellation",
         "AdaptiveLaw",
         "VelocityFeedback",
+        "PointMotion",
         "RollAxes",
         "Waveform",
         "Counterweights",
