@@ -133,6 +133,10 @@ def test_superposition_limits_and_balance_of_random_powertrains(seed: int) -> No
     pushed = np.abs(r.load[..., :3] - before.load[..., :3])
     along = np.einsum("soa,ai->soi", c.forces, np.array([one.direction for one in actuators]))
     assert pushed == pytest.approx(np.abs(along), abs=1e-12 * size)
+    arms = np.array([one.at for one in actuators]) - np.array(p.body.cg)
+    directions = np.array([one.direction for one in actuators])
+    turned = np.einsum("soa,ai->soi", c.forces, np.cross(arms, directions))
+    assert np.abs(r.load[..., 3:] - before.load[..., 3:] - turned).max() < 1e-12 * size
     lost = r.power_lost.sum(axis=-1)
     reactive = rate * np.linalg.norm(r.load, axis=-1) * np.linalg.norm(r.motion, axis=-1)
     assert (np.abs(r.power_in - lost) <= 1e-12 * reactive).all()
