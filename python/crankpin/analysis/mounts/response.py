@@ -19,7 +19,7 @@ from crankpin.analysis.request import Request, check_request
 from crankpin.model.mounts import _vector
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     import xarray as xr
     from matplotlib.axes import Axes
