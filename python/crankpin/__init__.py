@@ -24,6 +24,7 @@ from crankpin.analysis.design.design import design
 from crankpin.analysis.firing import throws
 from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
+from crankpin.analysis.mounts.design_mounts import design_mounts
 from crankpin.analysis.mounts.powertrain import Powertrain
 from crankpin.analysis.ranking.rank import rank
 from crankpin.analysis.star import star_diagram
@@ -31,6 +32,7 @@ from crankpin.analysis.sweeps.sweep import sweep
 from crankpin.analysis.tolerances.match_parts import match_parts
 from crankpin.analysis.tolerances.tolerances import tolerances
 from crankpin.analysis.torsional_excitation import torsional_excitation
+from crankpin.model.actuators import Actuator
 from crankpin.model.cycle import Cycle
 from crankpin.model.cycle_map import CycleMap
 from crankpin.model.cylinder import Cylinder, Rod, slider_crank_harmonics
@@ -42,6 +44,7 @@ from crankpin.model.shafts import Shaft, Unbalance
 from crankpin.model.supports import Receptance, Subframe
 
 __all__ = [
+    "Actuator",
     "Cycle",
     "CycleMap",
     "Cylinder",
@@ -66,6 +69,7 @@ __all__ = [
     "compare",
     "counterweights",
     "design",
+    "design_mounts",
     "flywheel",
     "gas_torque_harmonics",
     "match_parts",

@@ -15,7 +15,11 @@ from crankpin.analysis.design.designs import Design, Designs
 from crankpin.analysis.explain import Explanation
 from crankpin.analysis.firing import Firing
 from crankpin.analysis.flywheel import Flywheel
+from crankpin.analysis.mounts.active import Cancellation, DrivenResponse
+from crankpin.analysis.mounts.adaptive import AdaptiveLaw
+from crankpin.analysis.mounts.design_mounts import MountDesign
 from crankpin.analysis.mounts.designs import MountDesigns
+from crankpin.analysis.mounts.feedback import VelocityFeedback
 from crankpin.analysis.mounts.modes import MountModes, RollAxes
 from crankpin.analysis.mounts.response import MountResponse, OrderResponse, PointMotion, WorstForce
 from crankpin.analysis.mounts.robustness import MountRobustness
@@ -33,6 +37,7 @@ from crankpin.analysis.vanishing import VanishingOrders, Verdicts
 from crankpin.analysis.waveform import Waveform
 
 __all__ = [
+    "AdaptiveLaw",
     "Arrangement",
     "ArrangementSearch",
     "Balance",
@@ -41,16 +46,19 @@ __all__ = [
     "BalancerOptions",
     "BearingLoads",
     "BobWeight",
+    "Cancellation",
     "Choice",
     "ClosedForm",
     "Comparison",
     "Counterweights",
     "Design",
     "Designs",
+    "DrivenResponse",
     "Explanation",
     "Firing",
     "Flywheel",
     "Match",
+    "MountDesign",
     "MountDesigns",
     "MountModes",
     "MountResponse",
@@ -71,6 +79,7 @@ __all__ = [
     "TwoPlaneCorrection",
     "VanishingOrders",
     "VectorQuantity",
+    "VelocityFeedback",
     "Verdicts",
     "Waveform",
     "WorstForce",

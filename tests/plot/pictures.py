@@ -114,7 +114,26 @@ def _of_one_panel(plot: Callable[..., Any]) -> Callable[..., Any]:
     return lambda ax=None: plot(plt.subplots(layout="constrained")[1] if ax is None else ax)
 
 
+MOUNTED = cp.Powertrain(
+    I4,
+    cp.RigidBody(150.0, (0.0, 0.06, 0.15), (7.0, 8.0, 4.5)),
+    [
+        cp.Mount(name, (x, -0.12, z), (1.5e5, 3e5, 1.2e5), tilt_deg=20, loss_factor=0.1)
+        for name, x, z in [("right", 0.22, -0.1), ("left", -0.22, -0.1), ("rear", 0.0, 0.4)]
+    ],
+)
+SHAKER = cp.Actuator("head", (0, 0.3, 0.1), (0, 1, 0), force=150, mass=2, stroke=0.004)
+SEAT = {"seat": ((0.22, -0.12, 0.4), (0, 1, 0))}
+
+
+def _cancelled(rpm: Any, **place: Any) -> Any:  # noqa: ANN401
+    response = MOUNTED.response(rpm, orders=[2, 4])
+    return response.cancel(SHAKER, SEAT, orders=2, watch={"head": (0, 0.4, 0)}).plot(**place)
+
+
 PICTURES: dict[str, Callable[..., Any]] = {
+    "cancelled": _of_one_panel(lambda ax: _cancelled(1200.0, ax=ax)),
+    "cancelled-over-speed": _of_one_panel(lambda ax: _cancelled(np.arange(800, 5001, 50.0), ax=ax)),
     "spectrum": lambda **place: V6.balance(5000).plot(**place),
     "spectrum-log": lambda **place: V6.balance(5000, orders=range(1, 11)).plot(log=True, **place),
     "spectra": _spectra,

@@ -100,6 +100,11 @@ PANEL = cp.Receptance(
     ([5.0, 200.0], [[[1e-6 - 1e-7j]], [[1e-8 - 1e-9j]]]),
     {"rail": np.full((2, 3, 1), 1e-8j)},
 )
+SHAKER = cp.Actuator(
+    "shaker", (0.1, 0.2, 0.1), (0, 1, 0), force=50, mass=2, stroke=0.002, resonance=4,
+    damping_ratio=0.2,
+)  # fmt: skip
+CANCELLED = MOUNTED.response([900.0, 3000.0], orders=[2, 4]).cancel(SHAKER, [(0, 0.3, 0)], orders=2)
 
 OBJECTS: dict[str, Any] = {
     "Cylinder": OFFSET,
@@ -189,6 +194,15 @@ OBJECTS: dict[str, Any] = {
     "MountDesigns": MOUNTED.designs(
         [900.0, 3000.0], {"left": {"stiffness": [1e5, 2e5]}}, orders=[2], at=[(0.0, 0.3, 0.0)]
     ),
+    "Actuator": SHAKER,
+    "Cancellation": CANCELLED,
+    "Cancellation at one speed": MOUNTED.response(3000.0, orders=[2, 4]).cancel(
+        SHAKER, "body_force", watch=[(0, 0.3, 0)]
+    ),
+    "DrivenResponse": CANCELLED.response,
+    "AdaptiveLaw": CANCELLED.adaptive(delay=1e-3),
+    "VelocityFeedback": MOUNTED.velocity_feedback(SHAKER),
+    "MountDesign": cp.design_mounts(MOUNTED, vary="stiffness", bounds={"stiffness": (5e4, 4e5)}),
 }
 every_object = pytest.mark.parametrize("name", OBJECTS)
 
@@ -259,8 +273,12 @@ def test_attributes_cannot_be_set_or_deleted(name: str) -> None:
 def test_arrays_are_read_only(name: str) -> None:
     found = list(arrays(OBJECTS[name]))
     without = (
+        "Actuator",
+        "MountDesign",
+        "VelocityFeedback",
         "Cylinder",
         "Rod",
+        "Actuator",
         "InertiaTrack",
         "Mount",
         "RigidBody",
@@ -359,8 +377,8 @@ def test_completion_offers_what_is_public() -> None:
 
 INPUTS = (
     cp.Engine, cp.Cylinder, cp.Rod, cp.Shaft, cp.Unbalance, cp.Cycle, cp.CycleMap, cp.ValveTiming,
-    cp.PortTiming, cp.types.Arrangement, cp.InertiaTrack, cp.Mount, cp.RigidBody, cp.Powertrain,
-    cp.Subframe, cp.Receptance,
+    cp.PortTiming, cp.types.Arrangement, cp.Actuator, cp.InertiaTrack, cp.Mount,
+    cp.RigidBody, cp.Powertrain, cp.Subframe, cp.Receptance,
 )  # fmt: skip
 
 
@@ -776,6 +794,11 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
         "StaticState",
         "MountModes",
         "MountResponse",
+        "MountDesign",
+        "DrivenResponse",
+        "Cancellation",
+        "AdaptiveLaw",
+        "VelocityFeedback",
         "PointMotion",
         "RollAxes",
         "Waveform",
@@ -1006,6 +1029,8 @@ def test_every_public_object_is_documented_and_the_main_ones_by_example() -> Non
             cp.types.Balance,
             cp.types.OrderBalance,
             cp.types.Table,
+            cp.types.VelocityFeedback,
+            cp.Actuator,
             cp.Mount,
             cp.RigidBody,
             cp.Rod,

@@ -5,6 +5,7 @@ imported when a picture is drawn, and matplotlib with it.
 """
 
 from crankpin.plot import (  # noqa: F401 - they register their pictures
+    active,
     balance,
     balancing,
     bearings,

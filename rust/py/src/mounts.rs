@@ -300,6 +300,14 @@ impl Powertrain {
         Ok((found.displacement, forces, found.support_margin))
     }
 
+    /// Deflection of each mount along its axes, of displacement of the CG and rotation: (`n_mounts`, 3, 6).
+    fn deflections<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let rows = self.0.deflections().iter().flat_map(|each| each.transpose().data.0);
+        let numbers = rows.flatten().collect();
+        let shape = [self.0.mounts().len(), 3, 6];
+        frozen(py, memory::array("deflections", shape.to_vec(), numbers).or_raise()?)
+    }
+
     fn modes<'py>(&self, py: Python<'py>, frequency: Option<f64>) -> PyResult<Modes<'py>> {
         let found = mounts::modes(&self.0, frequency).or_raise()?;
         let square = |matrix: &nalgebra::Matrix6<f64>| {
@@ -452,6 +460,14 @@ fn side_by_side<const N: usize>(rows: &[nalgebra::SVector<Complex64, N>]) -> Vec
 #[guarded]
 #[pymethods]
 impl Response {
+    /// Response to loads about the CG, a row for each speed and order, in place of the engine's.
+    fn under(&self, py: Python<'_>, loads: PyReadonlyArray2<'_, Complex64>) -> PyResult<Self> {
+        let (rows, _) = loads.as_slice()?.as_chunks::<6>();
+        let loads = rows.iter().map(|&row| row.into()).collect();
+        let core = interrupt::run(py, |cancel| self.core.under(loads, cancel))?;
+        Ok(Self { core, ..*self })
+    }
+
     #[getter]
     fn orders(&self) -> Vec<OrderNumber> {
         numbers(self.core.orders())

@@ -10,9 +10,9 @@ from crankpin._support import files, inputs
 from crankpin._support.record import Input
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.mounts import designs as many
+from crankpin.analysis.mounts import feedback, static_state
 from crankpin.analysis.mounts import modes as natural
 from crankpin.analysis.mounts import response as forced
-from crankpin.analysis.mounts import static_state
 from crankpin.analysis.mounts.robustness import MountRobustness
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks, engine_files, supports
@@ -28,9 +28,11 @@ if TYPE_CHECKING:
 
     from crankpin._support.inputs import Orders
     from crankpin.analysis.mounts.designs import MountDesigns
+    from crankpin.analysis.mounts.feedback import VelocityFeedback
     from crankpin.analysis.mounts.modes import MountModes, RollAxes
     from crankpin.analysis.mounts.response import MountResponse
     from crankpin.analysis.mounts.static_state import StaticState
+    from crankpin.model.actuators import Actuator
 
 
 class Powertrain(Input):
@@ -257,6 +259,34 @@ class Powertrain(Input):
             If pistons are faster than in any engine.
         """
         return forced.response(self, rpm, orders=orders, rtol=rtol)
+
+    def velocity_feedback(
+        self, actuator: Actuator, *, gain: float | None = None
+    ) -> VelocityFeedback:
+        """Return how far velocity can be fed back through an inertial actuator, and what it does.
+
+        The motor pushes with −gain times the velocity of its place on the powertrain, and with the
+        opposite force on its mass. Below the resonance of that mass it pushes the wrong way: it is
+        stable up to a gain only, and of use where the resonance is well below the modes.
+
+        Parameters
+        ----------
+        actuator : Actuator
+            An actuator with mass and resonance.
+        gain : float, optional
+            Gain, N·s/m; by default half of the largest that is stable.
+
+        Returns
+        -------
+        VelocityFeedback
+            Largest stable gain, margin, and velocities with over without feedback.
+
+        Raises
+        ------
+        InputError
+            If it is no inertial actuator, or a table of stiffness does not reach far enough.
+        """
+        return feedback.velocity_feedback(self, actuator, gain)
 
     def designs(
         self,

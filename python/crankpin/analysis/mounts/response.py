@@ -20,7 +20,7 @@ from crankpin.model.mounts import _vector
 from crankpin.model.supports import Subframe
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     import xarray as xr
     from matplotlib.axes import Axes
@@ -28,7 +28,9 @@ if TYPE_CHECKING:
 
     from crankpin import _core
     from crankpin._support.inputs import Order, Orders
+    from crankpin.analysis.mounts.active import Cancellation
     from crankpin.analysis.mounts.powertrain import Powertrain
+    from crankpin.model.actuators import Actuator
 
 LOADS = ("F_x", "F_y", "F_z", "M_x", "M_y", "M_z")
 """Components of a load about the centre of gravity."""
@@ -398,7 +400,8 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         kept: dict[Any, Any] = self.__dict__["_cache"]
         key = ("order", order)
         if key not in kept:
-            kept[key] = changed(self, request=self.request.at_orders((order,)))
+            request = self.request.at_orders((order,))
+            kept[key] = changed(self, request=request, **self._of_order())
         return kept[key]  # type: ignore[no-any-return]
 
     def __getitem__(self, order: Order | Literal["all"]) -> OrderResponse:
@@ -482,7 +485,73 @@ class MountResponse(MountQuantities, Keyed, Tabled):
             nearest = speeds[np.abs(speeds - speed).argmin()]
             hint = f"is not among the {len(speeds)} speeds given; the nearest is {nearest:.10g}"
             raise inputs.rejected("rpm", rpm, hint)
-        return changed(self, rpm=speed)
+        index = int(np.flatnonzero(speeds == speed)[0])
+        return changed(self, rpm=speed, **(self._of_speed(index) if self.dims else {}))
+
+    def _of_speed(self, index: int) -> dict[str, Any]:
+        """Return what else changes where one of the speeds is taken."""
+        return {}
+
+    def _of_order(self) -> dict[str, Any]:
+        """Return what else changes where another order is taken."""
+        return {}
+
+    def cancel(
+        self,
+        actuators: Actuator | Sequence[Actuator],
+        at: Any,  # noqa: ANN401 - points, pairs, a mapping or a word
+        *,
+        orders: Orders | None = None,
+        watch: Any = None,  # noqa: ANN401 - as above
+        effort: float = 0.0,
+    ) -> Cancellation:
+        """Return the forces of actuators that leave the least at receivers, order by order.
+
+        Parameters
+        ----------
+        actuators : Actuator or sequence of Actuator
+            What pushes, of distinct names.
+        at : sequence, mapping or {"body_force", "mount_force"}
+            What is minimised: the motion of points (x, y, z), or of pairs (point, direction) along
+            a direction, in a list or by name in a mapping; or the mounts' sum, or the sum of
+            squares of their forces.
+        orders : number or sequence of numbers, optional
+            Orders to cancel, of those of the response; by default all.
+        watch : sequence or mapping, optional
+            Further points, which are reported.
+        effort : float, default 0.0
+            Weight of the squares of forces, over the largest of what they do at the receivers:
+            1e-4 gives up a little for smaller forces.
+
+        Returns
+        -------
+        Cancellation
+            Forces, what is left, what is raised elsewhere, and the limits used.
+
+        Raises
+        ------
+        InputError
+            If an argument is out of range.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> body = cp.RigidBody(mass=150, cg=(0, 0.06, 0.15), inertia=(7, 8, 4.5))
+        >>> mounts = [
+        ...     cp.Mount(f"{x:+g} {z:+g}", at=(x, -0.12, z + 0.15), stiffness=2e5, loss_factor=0.1)
+        ...     for x in (0.22, -0.22) for z in (0.28, -0.28)
+        ... ]
+        >>> p = cp.Powertrain(cp.Engine.preset("i4"), body, mounts)
+        >>> shaker = cp.Actuator("shaker", at=(0.22, -0.12, 0.43), direction=(0, 1, 0), force=200)
+        >>> seat = {"seat": ((0.22, -0.12, 0.43), (0, 1, 0))}
+        >>> c = p.response(3000).cancel(shaker, seat, orders=2)
+        >>> c.response[2].body_force.peak < c.before[2].body_force.peak
+        True
+        """
+        # Here, because what it returns is made of responses.
+        from crankpin.analysis.mounts import active  # noqa: PLC0415
+
+        return active.cancel(self, actuators, at, orders=orders, watch=watch, effort=effort)
 
     def worst(self, quantity: Literal["mount_force", "body_force"] = "mount_force") -> WorstForce:
         """Return the largest force of one order: where, at which speed, near to which mode.

@@ -561,5 +561,6 @@ impl Derivative {
     }
 }
 
+mod driven;
 #[cfg(test)]
 mod tests;

@@ -1,0 +1,492 @@
+"""Actuators against an engine's orders: phasors under limits, and what they do elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs, labels
+from crankpin._support.frames import Frames, Tabled
+from crankpin._support.record import changed, read_only
+from crankpin._support.tables import Column, Table
+from crankpin.analysis.drawing import draw
+from crankpin.analysis.mounts.adaptive import AdaptiveLaw
+from crankpin.analysis.mounts.phasors import optimal
+from crankpin.analysis.mounts.response import MountResponse
+from crankpin.analysis.quantity import ALL
+from crankpin.model.actuators import Actuator
+from crankpin.model.mounts import _vector
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from crankpin._support.inputs import Order, Orders
+    from crankpin.analysis.mounts.powertrain import Powertrain
+    from crankpin.analysis.mounts.vectors import Source
+    from crankpin.analysis.request import Request
+
+Direction: TypeAlias = "tuple[float, float, float] | None"
+Place: TypeAlias = "tuple[str, Source, Direction]"
+"""Name, what moves or pushes there, and the direction that counts, or None for all three."""
+
+FORCES = ("body_force", "mount_force")
+"""What can be minimised besides the motion of points."""
+LEVEL = 1e-9
+"""Share of a limit, or of an amplitude, by which rounding may exceed it."""
+
+
+class DrivenResponse(MountResponse):
+    """Response of a powertrain to its engine and to actuators: read as a response without them.
+
+    ``load`` is that of both. Made by :meth:`Cancellation.response`.
+    """
+
+    powertrain: Powertrain
+    """The powertrain."""
+    rpm: NDArray[np.float64] | float
+    """Crank speeds: an array where several were given, else a number."""
+    request: Request
+    """Orders and tolerance, checked."""
+    actuators: tuple[Actuator, ...]
+    """The actuators."""
+    forces: NDArray[np.complex128]
+    """Peak phasors of their forces on the powertrain, N: (…, n_orders, n_actuators)."""
+    engine_runs: bool = True
+    """False for the actuators alone."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        cg = np.array(self.powertrain.body.cg)
+        units = [
+            [*one.direction, *np.cross(np.array(one.at) - cg, one.direction)]
+            for one in self.actuators
+        ]
+        loads = (np.asarray(self.forces) @ np.array(units).reshape(-1, 6)).reshape(-1, 6)
+        if self.engine_runs:
+            loads = loads + self._core.loads().reshape(-1, 6)
+        self.__dict__["_response"] = self._core.under(np.ascontiguousarray(loads))
+
+    def _of_speed(self, index: int) -> dict[str, Any]:
+        return {"forces": self.forces[index]}
+
+    def _of_order(self) -> dict[str, Any]:
+        shape = (*self.forces.shape[:-2], 1, len(self.actuators))
+        return {"forces": np.zeros(shape, dtype=complex)}
+
+    def _title(self, of: str) -> str:
+        return super()._title(of).replace("on its mounts", "on its mounts, with actuators", 1)
+
+
+class Cancellation(Tabled):
+    """Forces of actuators that leave the least at receivers, order by order, and what they do.
+
+    Limits of motor and stroke hold for each order by itself. A force of one order changes no other:
+    the powertrain is linear. Made by :meth:`MountResponse.cancel`.
+    """
+
+    before: MountResponse
+    """The response without actuators."""
+    actuators: tuple[Actuator, ...]
+    """The actuators."""
+    receivers: tuple[Any, ...]
+    """What is minimised: names, what moves or pushes there, directions."""
+    watched: tuple[Any, ...]
+    """Other points that are reported."""
+    orders: tuple[Order, ...]
+    """Orders that are cancelled."""
+    effort: float = 0.0
+    """Weight of the forces beside what is left."""
+    amplitude_error: float = 0.0
+    """Share by which all forces are too large."""
+    phase_error_deg: float = 0.0
+    """Angle by which all forces are ahead, degrees."""
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.before, MountResponse):
+            raise inputs.rejected("before", self.before, "use MountResponse.cancel")
+        places = [self.before.orders.index(order) for order in self.orders]
+        shape = np.shape(self._frequency())
+        points = int(np.prod(shape))
+        target = _stacked(self.before, self.receivers)
+        effects = [_stacked(self._alone(one), self.receivers) for one in self.actuators]
+        effect = np.stack(effects, axis=-1)
+        bounds = np.stack([one.largest_force(self._frequency()) for one in self.actuators], -1)
+        found = optimal(
+            target.reshape(points, -1),
+            effect.reshape(points, -1, len(self.actuators)),
+            bounds.reshape(points, -1),
+            self.effort,
+        ).reshape(*shape, -1)
+        error = (1.0 + self.amplitude_error) * np.exp(1j * np.radians(self.phase_error_deg))
+        forces = np.zeros_like(found)
+        forces[..., places, :] = found[..., places, :] * error
+        self.__dict__.update(_forces=read_only(forces), _effect=effect, _target=target)
+        super().__post_init__()
+
+    def _frequency(self) -> NDArray[np.float64]:
+        """Return nω over 2π, Hz: (…, n_orders) of the response."""
+        speeds, orders = np.asarray(self.before.rpm, dtype=float), np.array(self.before.orders)
+        return np.asarray(np.multiply.outer(speeds, orders.astype(float)) / 60.0)
+
+    def _driven(
+        self, actuators: tuple[Actuator, ...], forces: NDArray[Any], *, engine_runs: bool = True
+    ) -> DrivenResponse:
+        before = self.before
+        return DrivenResponse(
+            before.powertrain, before.rpm, before.request, actuators, forces, engine_runs
+        )
+
+    def _alone(self, actuator: Actuator) -> DrivenResponse:
+        """Return the response to 1 N of an actuator at every order."""
+        unit = np.ones((*np.shape(self._frequency()), 1), dtype=complex)
+        return self._driven((actuator,), unit, engine_runs=False)
+
+    @property
+    def forces(self) -> NDArray[np.complex128]:
+        """Peak phasors of the actuators' forces on the powertrain, N, of ``before.orders``.
+
+        Of shape (…, n_orders, n_actuators); zero of orders that are not cancelled.
+        """
+        return self.__dict__["_forces"]  # type: ignore[no-any-return]
+
+    @property
+    def response(self) -> DrivenResponse:
+        """Response with the actuators: forces, points, power, as one without them."""
+        if "_after" not in self.__dict__:
+            self.__dict__["_after"] = self._driven(self.actuators, self.forces)
+        return self.__dict__["_after"]  # type: ignore[no-any-return]
+
+    @property
+    def residual(self) -> NDArray[np.float64]:
+        """What is left at all receivers, over what there was: (…, n_orders).
+
+        Of each order that is cancelled; NaN where there was nothing.
+        """
+        places = [self.before.orders.index(order) for order in self.orders]
+        target, effect = self.__dict__["_target"], self.__dict__["_effect"]
+        left = target + (effect @ self.forces[..., None])[..., 0]
+        ratio = _ratio(np.linalg.norm(left, axis=-1), np.linalg.norm(target, axis=-1))
+        return read_only(ratio[..., places])
+
+    @property
+    def used(self) -> NDArray[np.float64]:
+        """Force over the largest that motor and stroke allow: (…, n_orders, n_actuators)."""
+        bounds = [one.largest_force(self._frequency()) for one in self.actuators]
+        return read_only(np.abs(self.forces) / np.stack(bounds, axis=-1))
+
+    def with_error(self, *, amplitude: float = 0.0, phase_deg: float = 0.0) -> Cancellation:
+        """Return the same forces with errors, as of shafts that follow the crank inexactly.
+
+        Of a perfect cancellation |1 − (1 + ε)·exp(iδ)| is left: 20 dB of attenuation need less than
+        5.7°.
+
+        Parameters
+        ----------
+        amplitude : float, default 0.0
+            Share ε by which the forces are too large.
+        phase_deg : float, default 0.0
+            Angle δ by which they are ahead, degrees.
+
+        Returns
+        -------
+        Cancellation
+            The same with these errors; limits are not checked again.
+
+        Raises
+        ------
+        InputError
+            If a figure is not finite.
+        """
+        share = inputs.finite("amplitude", amplitude)
+        ahead = inputs.finite("phase_deg", phase_deg)
+        return changed(self, amplitude_error=share, phase_error_deg=ahead)
+
+    def adaptive(
+        self,
+        *,
+        step: float = 0.05,
+        delay: float = 0.0,
+        phase_error_deg: float = 0.0,
+        update_delay: int = 0,
+    ) -> AdaptiveLaw:
+        """Return how a law that adapts a complex weight per order and actuator converges.
+
+        w ← w − μ·Ŝᴴe (narrowband filtered-x LMS), Ŝ the model of what actuators do at the
+        receivers.
+
+        Parameters
+        ----------
+        step : float, default 0.05
+            μ times the largest singular value of S squared: of one channel μ|S|².
+        delay : float, default 0.0
+            Delay of the loop that the model does not have, s.
+        phase_error_deg : float, default 0.0
+            Further error of the model's phase, degrees.
+        update_delay : int, default 0
+            Updates after which the effect of one is measured.
+
+        Returns
+        -------
+        AdaptiveLaw
+            Limits of stability and rate of convergence of each order.
+
+        Raises
+        ------
+        InputError
+            If an argument is out of range.
+        """
+        size = inputs.finite("step", step)
+        if size <= 0.0:
+            raise inputs.rejected("step", step, "give a number that is more than zero")
+        late = inputs.finite("delay", delay)
+        if late < 0.0:
+            raise inputs.rejected("delay", delay, "give zero or more, s")
+        error = inputs.finite("phase_error_deg", phase_error_deg)
+        return AdaptiveLaw(self, size, late, error, inputs.whole("update_delay", update_delay, 0))
+
+    # --- tables -----------------------------------------------------------------------------------
+
+    def _elsewhere(self) -> list[Place]:
+        """Return what is not minimised: points watched, the body, each mount."""
+        names = self.before.powertrain.names
+        further: list[Place] = [*self.watched, ("body", ("support",), None)]
+        further += [(f"mount {name}", ("mount", k), None) for k, name in enumerate(names)]
+        own = [source for _, source, _ in self.receivers]
+        return [each for each in further if each[1] not in own]
+
+    def _rms(self, place: Place, order: Order | None) -> tuple[NDArray[Any], NDArray[Any]]:
+        """Return the rms value before and after, of one order or of all together: (…,)."""
+        pair = []
+        for result in (self.before, self.response):
+            squares = (np.abs(_values(result, place)) ** 2).sum(axis=-1) / 2.0
+            which = slice(None) if order is None else [self.before.orders.index(order)]
+            pair.append(np.sqrt(squares[..., which].sum(axis=-1)))
+        return pair[0], pair[1]
+
+    def _rows(self) -> list[tuple[Any, ...]]:
+        """Return place, role, order, unit, and rms before and after over the speeds."""
+        roles = [(each, "minimised") for each in self.receivers]
+        roles += [(each, "elsewhere") for each in self._elsewhere()]
+        rows = []
+        for place, role in roles:
+            unit = "m/s" if place[1][0] == "at" else "N"
+            for order in (*self.orders, None):
+                before, after = self._rms(place, order)
+                rows.append((place[0], role, ALL if order is None else order, unit, before, after))
+        return rows
+
+    @property
+    def table(self) -> Table:
+        """Rms values with and without actuators: minimised, and elsewhere, by order and in all.
+
+        Of several speeds the largest values, and where a value is raised most.
+        """
+        rows = self._rows()
+        names, role, order, unit, before, after = zip(*rows, strict=True)
+        largest = [(float(np.max(a)), float(np.max(b))) for a, b in zip(before, after, strict=True)]
+        ratio = tuple(b / a if a > 0.0 else None for a, b in largest)
+        columns = [
+            Column("place", names),
+            Column("role", role),
+            Column("order", order),
+            Column("before", tuple(a for a, _ in largest)),
+            Column("after", tuple(b for _, b in largest)),
+            Column("unit", unit),
+            Column("after/before", ratio),
+        ]
+        if self.before.dims:
+            ratios = [_ratio(b, a) for a, b in zip(before, after, strict=True)]
+            worst = [None if np.isnan(each).all() else int(np.nanargmax(each)) for each in ratios]
+            speeds = np.asarray(self.before.rpm)
+            most = (
+                None if k is None else float(each[k]) for each, k in zip(ratios, worst, strict=True)
+            )
+            where = (None if k is None else float(speeds[k]) for k in worst)
+            columns += [Column("at most", tuple(most)), Column("at", tuple(where), "rpm", 10)]
+        over = ", largest over speed" if self.before.dims else ""
+        title = self.before._title(f"rms with and without actuators{over}")
+        return Table(title, tuple(columns), self._notes(rows), self.before.loads_counted)
+
+    def _notes(self, rows: list[tuple[Any, ...]]) -> str:
+        notes = []
+        raised = [
+            name
+            for name, role, order, _, before, after in rows
+            if role == "elsewhere"
+            and order == ALL
+            and np.any(np.asarray(after) > (1.0 + LEVEL) * np.asarray(before))
+        ]
+        if raised:
+            at = " at some speed" if self.before.dims else ""
+            notes.append(f"Raised{at}: {', '.join(raised)}.")
+        others = [order for order in self.before.orders if order not in self.orders]
+        if others:
+            notes.append(f"{labels.orders_text(tuple(others)).capitalize()}: as before.")
+        together = self.used.sum(axis=-2)
+        for k, one in enumerate(self.actuators):
+            share = float(np.max(together[..., k]))
+            if len(self.orders) > 1 and share > 1.0 + LEVEL:
+                notes.append(
+                    f"Limits hold order by order: all together can need {share:.3g} times what "
+                    f"{one.name} has."
+                )
+        return " ".join(notes)
+
+    @property
+    def frames(self) -> Frames:
+        """``table``; ``actuators``: force, stroke and share of the limit used, by order."""
+        return self._frames(actuators=self._of_actuators)
+
+    def _of_actuators(self) -> Table:
+        swept = bool(self.before.dims)
+        frequency, used, forces = self._frequency(), self.used, self.forces
+        speeds = np.asarray(self.before.rpm, dtype=float)
+        rows: list[list[Any]] = []
+        for j, one in enumerate(self.actuators):
+            for order in self.orders:
+                place = self.before.orders.index(order)
+                size = np.abs(forces[..., place, j])
+                key = np.where(np.isfinite(size), used[..., place, j], 0.0)
+                row = int(np.argmax(key if np.any(key) else size)) if swept else 0
+                at = (row, place, j) if swept else (place, j)
+                hertz, force = float(frequency[at[:-1]]), complex(forces[at])
+                limit = float(one.largest_force(hertz))
+                has_limit = np.isfinite(limit)
+                rows.append(
+                    [
+                        one.name,
+                        order,
+                        *([float(speeds[row])] if swept else []),
+                        hertz,
+                        abs(force),
+                        float(np.degrees(np.angle(force))) + 0.0,
+                        limit if has_limit else None,
+                        100.0 * abs(force) / limit if has_limit else None,
+                        1e3 * float(one.stroke_of(abs(force), hertz)) if one.mass else None,
+                        float(one.motor_force(abs(force), hertz)),
+                        1e6 * abs(force) / (2.0 * np.pi * hertz) ** 2,
+                    ]
+                )
+        heads = [("actuator", ""), ("order", ""), *([("at", "rpm")] if swept else [])]
+        heads += [("f", "Hz"), ("force", "N"), ("phase", "°"), ("limit", "N"), ("used", "%")]
+        heads += [("stroke", "mm"), ("motor", "N"), ("force/ω²", "kg·mm")]
+        columns = zip(heads, zip(*rows, strict=True), strict=True)
+        title = self.before._title(
+            "forces of actuators" + (", where most is used" if swept else "")
+        )
+        listed = tuple(Column(name, values, unit) for (name, unit), values in columns)
+        return Table(title, listed, "", self.before.loads_counted)
+
+    def plot(self, ax: object = None, **style: object) -> Any:  # noqa: ANN401 - axes
+        """Draw what is left of the rms values: at places, or over speed.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on; by default new ones.
+        **style : dict, optional
+            Properties of matplotlib bars or lines.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes.
+
+        Raises
+        ------
+        ImportError
+            If matplotlib is not installed.
+        """
+        return draw(self, ax, **style)
+
+
+def _values(result: MountResponse, place: Place) -> NDArray[np.complex128]:
+    """Return phasors of a place: (…, n_orders, 3), or along its direction (…, n_orders, 1)."""
+    _, source, direction = place
+    vectors = result._vectors(source)
+    return vectors if direction is None else vectors @ np.array(direction)[:, None]
+
+
+def _stacked(result: MountResponse, places: Sequence[Place]) -> NDArray[np.complex128]:
+    """Return phasors of all receivers side by side: (…, n_orders, n_receivers)."""
+    return np.concatenate([_values(result, place) for place in places], axis=-1)
+
+
+def _ratio(after: NDArray[np.float64], before: NDArray[np.float64]) -> NDArray[np.float64]:
+    ratio = np.full(np.shape(before), np.nan)
+    np.divide(after, before, out=ratio, where=before > 0.0)
+    return read_only(ratio)
+
+
+# --- arguments ------------------------------------------------------------------------------------
+
+
+def cancel(
+    response: MountResponse,
+    actuators: object,
+    at: object,
+    *,
+    orders: Orders | None,
+    watch: object,
+    effort: float,
+) -> Cancellation:
+    """Return the cancellation; :meth:`MountResponse.cancel` documents the arguments."""
+    listed = [actuators] if isinstance(actuators, Actuator) else actuators
+    hint = "give a list of crankpin.Actuator"
+    given = inputs.items("actuators", listed, hint)
+    for k, one in enumerate(given):
+        if not isinstance(one, Actuator):
+            raise inputs.rejected(f"actuators[{k}]", one, hint)
+        if any(one.name == other.name for other in given[:k]):
+            raise inputs.rejected(f"actuators[{k}].name", one.name, "give each its own name")
+    if not given:
+        raise inputs.rejected("actuators", actuators, hint)
+    weight = inputs.finite("effort", effort)
+    if weight < 0.0:
+        raise inputs.rejected("effort", effort, "give zero or more")
+    chosen = list(response.orders)
+    if orders is not None and (wanted := inputs.half_orders(orders)) is not None:
+        chosen = [order for order in response.orders if order in wanted]
+        if absent := [order for order in wanted if order not in response.orders]:
+            hint = f"is not among the orders of the response: {labels.orders_text(response.orders)}"
+            raise inputs.rejected("orders", absent[0], hint)
+    receivers = _places("at", at, response)
+    watched = () if watch is None else _places("watch", watch, response)
+    return Cancellation(response, tuple(given), receivers, watched, tuple(chosen), weight)
+
+
+def _places(name: str, given: object, response: MountResponse) -> tuple[Place, ...]:
+    """Return points, with their directions, or forces by name."""
+    if isinstance(given, str):
+        if inputs.one_of(name, given, FORCES) == "body_force":
+            return (("body", ("support",), None),)
+        names = response.powertrain.names
+        return tuple((f"mount {each}", ("mount", k), None) for k, each in enumerate(names))
+    hint = 'give points (x, y, z), or pairs of a point and a direction; or "body_force"'
+    if isinstance(given, Mapping):
+        pairs = [(inputs.text(name, key), value) for key, value in given.items()]
+    else:
+        pairs = [("", value) for value in inputs.items(name, given, hint)]
+        if pairs and all(np.ndim(value) == 0 for _, value in pairs):
+            pairs = [("", [value for _, value in pairs])]
+    places: list[Place] = []
+    for key, value in pairs:
+        parts = inputs.items(name, value, hint)
+        along = None
+        if len(parts) == 2:
+            direction = np.array(_vector(f"{name}: direction", parts[1]))
+            length = float(np.linalg.norm(direction))
+            if length == 0.0:
+                raise inputs.rejected(f"{name}: direction", parts[1], "give one above zero")
+            parts, along = parts[0], tuple((direction / length).tolist())
+        point = _vector(name, parts)
+        words = key or "({:g}, {:g}, {:g})".format(*point)
+        places.append((words, ("at", point, "velocity"), along))
+    if not places:
+        raise InputError(f"{name} = []: {hint}")
+    return tuple(places)

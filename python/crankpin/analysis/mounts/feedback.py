@@ -1,0 +1,189 @@
+"""Velocity of a powertrain fed back through an inertial actuator: the largest stable gain.
+
+A motor between the powertrain and a sprung mass pushes with −g·v on the one and +g·v on the other.
+With the receptance h at its place, κ the spring and damper of the mass m, the velocity of 1 N of
+the motor is T = iωh/(1 − κ/(mω²) + κh). Without gain all is stable; roots reach the imaginary axis
+first at the least g = −1/T where T is real and below zero (Nyquist).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs, labels
+from crankpin._support.frames import Tabled
+from crankpin._support.record import read_only
+from crankpin._support.tables import Column, Table
+from crankpin.analysis.mounts.active import DrivenResponse
+from crankpin.analysis.request import Request
+from crankpin.model.actuators import Actuator
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from crankpin.analysis.mounts.powertrain import Powertrain
+
+REACH = 30.0
+"""Factor below the lowest and above the highest frequency of modes and actuator: the range."""
+POINTS = 2000
+"""Frequencies over that range, evenly on a logarithmic scale."""
+BESIDE = np.geomspace(1e-6, 0.3, 60)
+"""Distances from each mode, over its frequency, at which more are taken."""
+HALVINGS = 60
+"""Halvings of a bracket: to the last digit."""
+
+
+class VelocityFeedback(Tabled):
+    """Stability of velocity fed back through an inertial actuator, and what it does.
+
+    Made by :meth:`Powertrain.velocity_feedback`.
+    """
+
+    powertrain: Powertrain
+    """The powertrain."""
+    actuator: Actuator
+    """The inertial actuator; the velocity is that of its place along its direction."""
+    gain: float | None = None
+    """Gain, N·s/m; None for half of the largest."""
+
+    def __post_init__(self) -> None:
+        modes = self.powertrain.modes(self.actuator.resonance if self.powertrain._varies else None)
+        own = [
+            *modes.frequency[modes.frequency > 0.0].tolist(),
+            float(self.actuator.resonance or 0),
+        ]
+        grid = np.geomspace(min(own) / REACH, max(own) * REACH, POINTS)
+        beside = np.multiply.outer(own, np.concatenate([1.0 - BESIDE, 1.0 + BESIDE]))
+        grid = np.unique(np.concatenate([grid, beside.ravel()]))
+        mobility = self._mobility(grid)
+        largest, onset = self._margin(grid, mobility)
+        values = {"_modes": own[:-1], "_grid": grid, "_on_grid": mobility}
+        self.__dict__.update(values, _largest=largest, _onset=onset)
+        super().__post_init__()
+
+    def _mobility(self, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
+        """Return the velocity of 1 N of the motor, at frequencies."""
+        one = self.actuator
+        # Order 1 at as many turns a second.
+        request = Request.checked(orders=[1], rtol=None, spectrum=None, torque=True)
+        unit = np.ones((len(frequency), 1, 1), dtype=complex)
+        alone = DrivenResponse(
+            self.powertrain, 60.0 * frequency, request, (one,), unit, engine_runs=False
+        )
+        receptance = alone._vectors(("at", one.at, "displacement"))[:, 0] @ np.array(one.direction)
+        omega, mass = 2.0 * np.pi * frequency, float(one.mass or 0.0)
+        natural = 2.0 * np.pi * float(one.resonance or 0.0)
+        spring = mass * (natural**2 + 2j * one.damping_ratio * natural * omega)
+        found = 1j * omega * receptance
+        return np.asarray(found / (1.0 - spring / (mass * omega**2) + spring * receptance))
+
+    def _margin(
+        self, grid: NDArray[np.float64], mobility: NDArray[np.complex128]
+    ) -> tuple[float, float | None]:
+        """Return the least gain at which roots reach the imaginary axis, and their frequency."""
+        turns = np.flatnonzero(np.signbit(mobility.imag[1:]) != np.signbit(mobility.imag[:-1]))
+        low, high, sign = grid[turns], grid[turns + 1], np.signbit(mobility.imag[turns])
+        for _ in range(HALVINGS if turns.size else 0):
+            middle = np.sqrt(low * high)
+            same = np.signbit(self._mobility(middle).imag) == sign
+            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        at = self._mobility(low).real if turns.size else np.empty(0)
+        wrong = np.flatnonzero(at < 0.0)
+        if not wrong.size:
+            return np.inf, None
+        first = wrong[np.argmin(at[wrong])]
+        return float(-1.0 / at[first]), float(low[first])
+
+    @property
+    def largest_gain(self) -> float:
+        """Gain from which on it is unstable, N·s/m; infinite if it is stable at any."""
+        return self.__dict__["_largest"]  # type: ignore[no-any-return]
+
+    @property
+    def onset(self) -> float | None:
+        """Frequency at which it becomes unstable, Hz; None if it does not."""
+        return self.__dict__["_onset"]  # type: ignore[no-any-return]
+
+    @property
+    def used_gain(self) -> float:
+        """The gain, N·s/m: that given, or half of the largest."""
+        if self.gain is not None:
+            return self.gain
+        return 0.5 * self.largest_gain
+
+    @property
+    def margin_db(self) -> float:
+        """Largest gain over the gain, dB; below zero it is unstable."""
+        if self.used_gain == 0.0:
+            return np.inf
+        return float(20.0 * np.log10(self.largest_gain / self.used_gain))
+
+    def ratio(self, frequency: Any) -> NDArray[np.float64]:  # noqa: ANN401 - an array
+        """Return velocity with feedback over that without it, under any load of the engine.
+
+        Parameters
+        ----------
+        frequency : array_like
+            Frequencies, Hz.
+
+        Returns
+        -------
+        ndarray of float
+            |1/(1 + gT)| at the place of the actuator; above 1 it is made worse.
+
+        Raises
+        ------
+        InputError
+            If a frequency is not above zero.
+        """
+        given = inputs.vector("frequency", frequency)
+        if not (given > 0.0).all():
+            raise inputs.rejected("frequency", frequency, "give numbers that are more than zero")
+        return read_only(1.0 / np.abs(1.0 + self.used_gain * self._mobility(given)))
+
+    @property
+    def table(self) -> Table:
+        """Velocity with over without feedback, at each mode and where it is worst."""
+        grid = self.__dict__["_grid"]
+        if not np.isfinite(self.used_gain):
+            ratios: list[float | None] = [None] * (len(self.__dict__["_modes"]) + 1)
+            at = None
+        else:
+            whole = 1.0 / np.abs(1.0 + self.used_gain * self.__dict__["_on_grid"])
+            k = int(np.argmax(whole))
+            ratios = [*self.ratio(self.__dict__["_modes"]).tolist(), float(whole[k])]
+            at = float(grid[k])
+        names = [f"mode {k + 1}" for k in range(len(self.__dict__["_modes"]))]
+        columns = (
+            Column("at", (*names, "worst")),
+            Column("f", (*self.__dict__["_modes"], at), "Hz"),
+            Column("with/without", tuple(ratios)),
+        )
+        onset = "" if self.onset is None else f", where {self.onset:.5g} Hz grows"
+        state = "stable" if self.margin_db > 0.0 else "UNSTABLE"
+        note = (
+            f"Gain {self.used_gain:.6g} N·s/m, {state}: margin {self.margin_db:.4g} dB to "
+            f"{self.largest_gain:.6g} N·s/m{onset}."
+        )
+        title = (
+            f"{labels.name_of(self.powertrain.engine)} on its mounts: velocity fed back through "
+            f"{self.actuator.name!r}"
+        )
+        return Table(title, columns, note)
+
+
+def velocity_feedback(powertrain: Powertrain, actuator: object, gain: object) -> VelocityFeedback:
+    """Return the feedback; :meth:`Powertrain.velocity_feedback` documents the arguments."""
+    if not isinstance(actuator, Actuator):
+        raise inputs.rejected("actuator", actuator, "give a crankpin.Actuator")
+    if actuator.mass is None or actuator.resonance is None:
+        raise InputError(
+            f"actuator = {actuator.name}: give mass and resonance, those of an inertial actuator"
+        )
+    number = None if gain is None else inputs.finite("gain", gain)
+    if number is not None and number < 0.0:
+        raise inputs.rejected("gain", gain, "give zero or more, N·s/m")
+    return VelocityFeedback(powertrain, actuator, number)
