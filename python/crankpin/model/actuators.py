@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.record import Input
 from crankpin._support.warnings import warn
@@ -187,5 +186,5 @@ def _frequency(frequency: ArrayLike) -> NDArray[np.float64]:
 def _above_zero(name: str, value: object) -> float:
     number = inputs.finite(name, value)
     if number <= 0.0:
-        raise InputError(f"{name} = {number}: give a number that is more than zero")
+        raise inputs.rejected(name, number, "give a number that is more than zero")
     return number

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.record import changed, read_only
@@ -488,5 +487,5 @@ def _places(name: str, given: object, response: MountResponse) -> tuple[Place, .
         words = key or "({:g}, {:g}, {:g})".format(*point)
         places.append((words, ("at", point, "velocity"), along))
     if not places:
-        raise InputError(f"{name} = []: {hint}")
+        raise inputs.rejected(name, [], hint)
     return tuple(places)

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support import progress as progress_bar
 from crankpin._support.frames import Frames, Tabled
@@ -244,7 +243,7 @@ class Question:
             raise inputs.rejected("by", by, 'give "decoupling" or a force such as "mount_force[2]"')
         self.rpm = None if rpm is None else inputs.vector("rpm", rpm)
         if self.rpm is None and any(order is not None for _, order in self.objectives):
-            raise InputError("rpm = None: give the speeds at which forces count")
+            raise inputs.rejected("rpm", None, "give the speeds at which forces count")
         self.varied = self._varied(vary)
         self.ratio = None if ratio is None else _range("ratio", ratio)
         self.window = None if modes_between is None else _range("modes_between", modes_between)
@@ -261,9 +260,9 @@ class Question:
         ):
             for mount in powertrain.mounts:
                 if mount.table is not None:
-                    raise InputError(
-                        f"table of mount {mount.name!r}: a stiffness of many frequencies cannot be "
-                        "designed; give dynamic_stiffness"
+                    hint = "cannot be designed; give dynamic_stiffness"
+                    raise inputs.faulty(
+                        f"table of mount {mount.name!r}", "has many frequencies", hint
                     )
         own = _dynamics(powertrain).ravel()
         quotient = float(self._roll @ self._reaction(powertrain) @ own)

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Tabled
 from crankpin._support.record import read_only
@@ -180,9 +179,8 @@ def velocity_feedback(powertrain: Powertrain, actuator: object, gain: object) ->
     if not isinstance(actuator, Actuator):
         raise inputs.rejected("actuator", actuator, "give a crankpin.Actuator")
     if actuator.mass is None or actuator.resonance is None:
-        raise InputError(
-            f"actuator = {actuator.name}: give mass and resonance, those of an inertial actuator"
-        )
+        hint = "give mass and resonance, those of an inertial actuator"
+        raise inputs.rejected("actuator", actuator.name, hint)
     number = None if gain is None else inputs.finite("gain", gain)
     if number is not None and number < 0.0:
         raise inputs.rejected("gain", gain, "give zero or more, N·s/m")
