@@ -14,14 +14,14 @@ __all__ = [
     "MOST_CYLINDERS",
     "Balance",
     "BankAngles",
+    "BearingLoadsModel",
     "CrankAngles",
     "Cycle",
     "CycleGrid",
     "Engine",
     "Firing",
     "InputError",
-    "Internal",
-    "Merit",
+    "Objectives",
     "Powertrain",
     "Response",
     "Search",
@@ -395,7 +395,7 @@ class Tolerances:
     ) -> tuple[_Complex, _Complex, _Complex, _Real]: ...
 
 @final
-class Merit:
+class Objectives:
     def __new__(
         cls,
         engine: Engine,
@@ -403,7 +403,7 @@ class Merit:
         objectives: Sequence[tuple[str, str, int | None]],
         orders: Sequence[float],
         removed: Sequence[int],
-    ) -> Merit: ...
+    ) -> Objectives: ...
     @property
     def weights(self) -> list[float]: ...
     @property
@@ -475,7 +475,7 @@ def vee_throws(
 ) -> tuple[_Real, _Real]: ...
 
 @final
-class Internal:
+class BearingLoadsModel:
     def __new__(cls, engine: Engine, rpm: float) -> Self: ...
     def places(self) -> list[float]: ...
     def shares(self) -> _Real: ...

@@ -121,16 +121,16 @@ class BearingLoads(Tabled):
     def __post_init__(self) -> None:
         engine, rpm = engine_core(self.engine), inputs.number("rpm", self.rpm)
         theta = inputs.copied(inputs.vector("theta_deg", self.theta_deg))
-        core = _core.Internal(engine, rpm)
+        core = _core.BearingLoadsModel(engine, rpm)
         values = dict(zip(LOADS, core.loads(theta), strict=True))
         at_any_angle = inputs.flag("at_any_angle", self.at_any_angle)
         self.__dict__.update(rpm=rpm, theta_deg=theta, at_any_angle=at_any_angle)
-        self.__dict__.update(_internal=core, _values=values)
+        self.__dict__.update(_model=core, _values=values)
         super().__post_init__()
 
     @property
-    def _core(self) -> _core.Internal:
-        return self.__dict__["_internal"]  # type: ignore[no-any-return]
+    def _core(self) -> _core.BearingLoadsModel:
+        return self.__dict__["_model"]  # type: ignore[no-any-return]
 
     @property
     def loads_counted(self) -> str:

@@ -5,9 +5,9 @@
 //! the sums of these phasors. A length is not smooth at zero, nor is the largest where two are equal:
 //! with μ > 0 they are replaced by √(u² + μ²) and μ·ln Σ exp(h/μ), which are, and tend to them with μ.
 
-mod goal;
+mod objective;
 
-use self::goal::{Goal, Rotor, TurningPhasor, dot};
+use self::objective::{ObjectiveFunction, Rotor, TurningPhasor, dot};
 use crate::Complex64;
 use crate::engine::{Engine, Origin};
 use crate::load::source::Repeats;
@@ -120,11 +120,11 @@ impl Arithmetic for Rotors<'_> {
 /// Objectives of an engine whose angles vary, over the largest values that they could have; the later
 /// ones with small weights.
 #[derive(Debug, Clone)]
-pub struct Merit {
-    goals: Vec<Goal>,
+pub struct Objectives {
+    functions: Vec<ObjectiveFunction>,
 }
 
-impl Merit {
+impl Objectives {
     /// Objectives of an engine, with all variables at 0 as it is given; totals are of `orders`. Balance
     /// shafts at the ratios of `removed` leave nothing of their part of force and moment.
     pub fn new(
@@ -174,11 +174,11 @@ impl Merit {
                 })
             })
             .collect();
-        let goal = |objective: &Objective| {
-            let of_goal =
+        let function = |objective: &Objective| {
+            let of_function =
                 |order: &Order| objective.order.map_or(orders.contains(order), |own| own == *order);
             let mut parts: Vec<TurningPhasor> = Vec::new();
-            for (_, found) in all.iter().zip(&by_order).filter(|(order, _)| of_goal(order)) {
+            for (_, found) in all.iter().zip(&by_order).filter(|(order, _)| of_function(order)) {
                 parts.extend_from_slice(&found[objective.quantity as usize]);
             }
             match objective.reading {
@@ -186,29 +186,30 @@ impl Merit {
                 Reading::Backward => parts = parts.split_off(parts.len().min(1)),
                 Reading::Peak | Reading::PeakXy => {}
             }
-            Goal::new(*objective, parts)
+            ObjectiveFunction::new(*objective, parts)
         };
-        Ok(Self { goals: objectives.iter().map(goal).collect() })
+        Ok(Self { functions: objectives.iter().map(function).collect() })
     }
 
     /// Weight of each objective.
     #[must_use]
     pub fn weights(&self) -> Vec<f64> {
         std::iter::successors(Some(1.0), |weight| Some(weight * LATER))
-            .take(self.goals.len())
+            .take(self.functions.len())
             .collect()
     }
 
     /// Largest value that each objective could have, over ω².
     #[must_use]
     pub fn scales(&self) -> Vec<f64> {
-        self.goals.iter().map(|goal| goal.scale).collect()
+        self.functions.iter().map(|function| function.scale).collect()
     }
 
     /// Upper bound on the change of the weighted sum per radian of a variable.
     #[must_use]
     pub fn steepest(&self) -> f64 {
-        let slopes: Vec<f64> = self.goals.iter().map(|goal| goal.steepest() / goal.scale).collect();
+        let slopes: Vec<f64> =
+            self.functions.iter().map(|function| function.steepest() / function.scale).collect();
         dot(&slopes, &self.weights())
     }
 
@@ -218,7 +219,7 @@ impl Merit {
         let chunks = pool::map(cancel, points.chunks(POINTS_PER_TASK).collect(), |chunk| {
             let of_point = |x: &Vec<f64>| {
                 cancel.check()?;
-                Ok(self.goals.iter().map(|goal| goal.value(x)).collect::<Vec<_>>())
+                Ok(self.functions.iter().map(|function| function.value(x)).collect::<Vec<_>>())
             };
             chunk.iter().map(of_point).collect::<Result<Vec<_>>>()
         })?;
@@ -229,8 +230,8 @@ impl Merit {
     #[must_use]
     pub fn smoothed(&self, x: &[f64], mu: f64, objectives: usize) -> Derived {
         let (mut value, mut slopes) = (0.0, vec![0.0; x.len()]);
-        for (goal, weight) in self.goals.iter().zip(self.weights()).take(objectives) {
-            let (own, own_slopes) = goal.smoothed(x, mu);
+        for (function, weight) in self.functions.iter().zip(self.weights()).take(objectives) {
+            let (own, own_slopes) = function.smoothed(x, mu);
             value += weight * own;
             for (slope, own) in slopes.iter_mut().zip(own_slopes) {
                 *slope += weight * own;

@@ -119,7 +119,7 @@ impl PartKind {
                 "give each figure a deviation of every part, and its influence in every place";
             return Err(Error::value("parts", found, hint));
         }
-        let mut added = memory::room(places * parts * dimensions)?;
+        let mut added = memory::with_capacity(places * parts * dimensions)?;
         for place in 0..places {
             for part in 0..parts {
                 added.extend((0..dimensions).map(|k| {
@@ -128,7 +128,7 @@ impl PartKind {
                 }));
             }
         }
-        let mut by_place = memory::room(places * dimensions * deviations.len())?;
+        let mut by_place = memory::with_capacity(places * dimensions * deviations.len())?;
         for (place, k) in (0..places).flat_map(|place| (0..dimensions).map(move |k| (place, k))) {
             by_place.extend(influences.iter().map(|unit| unit[place][k]));
         }

@@ -7,9 +7,9 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use common::{angle, mixed, weighted};
+use crankpin_core::bearing_loads::{Bearing, BearingLoadsModel, Part, TurningAxes};
 use crankpin_core::engine::crankpins::Bay;
 use crankpin_core::engine::{Details, Gas};
-use crankpin_core::internal::{Bearing, Internal, Part, TurningAxes};
 use crankpin_core::pressure::{Cycle, Given};
 use crankpin_core::waveform::exact;
 use crankpin_core::{
@@ -52,8 +52,8 @@ fn angles() -> Vec<f64> {
 
 /// Force, moment about z = 0 and roll torque of a set of loads on the block, at one angle.
 fn block(engine: &Engine, thetas: &[f64]) -> Vec<[Complex64; 3]> {
-    let internal = Internal::new(engine, RPM).unwrap();
-    let loads = internal.loads(thetas, &Cancel::new()).unwrap();
+    let model = BearingLoadsModel::new(engine, RPM).unwrap();
+    let loads = model.loads(thetas, &Cancel::new()).unwrap();
     let i = Complex64::i();
     let at = |k: usize| {
         let mut sums = [Complex64::default(); 3];
@@ -82,7 +82,8 @@ fn block(engine: &Engine, thetas: &[f64]) -> Vec<[Complex64; 3]> {
 fn gas_shakes_nothing_and_turns_the_block_against_its_own_crank_torque() {
     let (still, thetas) = (engine(), angles());
     let fired = fired(&still, 1.2e5, pressure);
-    let loads = Internal::new(&fired, RPM).unwrap().loads(&thetas, &Cancel::new()).unwrap();
+    let loads =
+        BearingLoadsModel::new(&fired, RPM).unwrap().loads(&thetas, &Cancel::new()).unwrap();
     let sums = block(&fired, &thetas).into_iter().zip(block(&still, &thetas));
     for (k, (with_gas, without)) in sums.enumerate() {
         // Roundings of forces of some 10⁵ N.
@@ -132,7 +133,11 @@ fn gas_keeps_a_rod_in_compression_as_far_as_it_outweighs_inertia() {
     let peak = 0.5 * 0.05 * (RPM * TAU / 60.0).powi(2);
     let tension = |crankcase: f64, pressure: f64| {
         let engine = fired(&yoke(), crankcase, |_| pressure);
-        Internal::new(&engine, RPM).unwrap().tension(720, &Cancel::new()).unwrap().remove(0)
+        BearingLoadsModel::new(&engine, RPM)
+            .unwrap()
+            .tension(720, &Cancel::new())
+            .unwrap()
+            .remove(0)
     };
     // Tension where cos θ > ½.
     let half = tension(1e5, 1e5 + 0.5 * peak / AREA);
@@ -147,14 +152,14 @@ fn gas_keeps_a_rod_in_compression_as_far_as_it_outweighs_inertia() {
 #[test]
 fn cancellation_stops_every_reading() {
     let engine = engine();
-    let (internal, thetas) = (Internal::new(&engine, RPM).unwrap(), angles());
+    let (model, thetas) = (BearingLoadsModel::new(&engine, RPM).unwrap(), angles());
     let cancel = Cancel::new();
     cancel.raise();
-    assert_eq!(internal.loads(&thetas, &cancel), Err(Error::Cancelled));
-    let turned = internal.turned(Bearing::Main, TurningAxes::Crank, &thetas, &cancel);
+    assert_eq!(model.loads(&thetas, &cancel), Err(Error::Cancelled));
+    let turned = model.turned(Bearing::Main, TurningAxes::Crank, &thetas, &cancel);
     assert_eq!(turned, Err(Error::Cancelled));
-    assert_eq!(internal.sections(Part::Crank(0), &thetas, &cancel), Err(Error::Cancelled));
-    assert_eq!(internal.tension(720, &cancel), Err(Error::Cancelled));
+    assert_eq!(model.sections(Part::Crank(0), &thetas, &cancel), Err(Error::Cancelled));
+    assert_eq!(model.tension(720, &cancel), Err(Error::Cancelled));
 }
 
 #[test]
@@ -211,7 +216,7 @@ fn assert_close(found: &[f64], expected: &[f64]) {
 
 #[test]
 fn an_engine_of_unknown_motion_has_no_loads() {
-    let refused = |engine: &Engine| Internal::new(engine, RPM).err().unwrap().to_string();
+    let refused = |engine: &Engine| BearingLoadsModel::new(engine, RPM).err().unwrap().to_string();
     let spectrum = Spectrum::new(vec![(1, Complex64::new(1.0, 0.0))]).unwrap();
     assert!(refused(&engine().with_spectrum(spectrum)).starts_with("spectrum = given: "));
 }

@@ -14,14 +14,14 @@ use crate::interrupt;
 
 /// Objectives over the largest values that they could have, the later ones with small weights.
 #[pyclass(frozen, module = "crankpin._core")]
-pub struct Merit(core::design::Merit);
+pub struct Objectives(core::design::Objectives);
 
 /// Objectives (points, objectives), and their derivatives (points, objectives, variables).
 type Evaluated<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray3<f64>>);
 
 #[guarded]
 #[pymethods]
-impl Merit {
+impl Objectives {
     /// Variables are turns of the bores and of the crankpins, by cylinder; objectives a quantity, a
     /// reading and an order, None for the total of `orders`.
     #[new]
@@ -60,7 +60,14 @@ impl Merit {
         let orders = Order::all_whole(&orders).or_raise()?;
         let engine = &engine.get().0;
         let merit = interrupt::run(py, |cancel| {
-            core::design::Merit::new(engine, &variables, &objectives, &orders, &removed, cancel)
+            core::design::Objectives::new(
+                engine,
+                &variables,
+                &objectives,
+                &orders,
+                &removed,
+                cancel,
+            )
         })?;
         Ok(Self(merit))
     }
@@ -93,10 +100,10 @@ impl Merit {
             points.as_array().rows().into_iter().map(|row| row.to_vec()).collect();
         let variables = points.first().map_or(0, Vec::len);
         let found = interrupt::run(py, |cancel| self.0.evaluated(&points, cancel))?;
-        let (count, goals) = (found.len(), self.0.scales().len());
+        let (count, functions) = (found.len(), self.0.scales().len());
         let (values, slopes): (Vec<f64>, Vec<Vec<f64>>) = found.into_iter().flatten().unzip();
-        let values = memory::array("points", (count, goals), values).or_raise()?;
-        let slopes = memory::array("points", (count, goals, variables), slopes.concat());
+        let values = memory::array("points", (count, functions), values).or_raise()?;
+        let slopes = memory::array("points", (count, functions, variables), slopes.concat());
         let slopes = slopes.or_raise()?;
         Ok((frozen(py, values)?, frozen(py, slopes)?))
     }

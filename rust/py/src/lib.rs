@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 mod array;
 mod balance;
 mod balancing;
+mod bearing_loads;
 mod boundary;
 mod closed_form;
 mod convert;
@@ -15,7 +16,6 @@ mod design;
 mod engine;
 mod firing;
 mod flywheel;
-mod internal;
 mod interrupt;
 mod matching;
 mod mounts;
@@ -41,13 +41,13 @@ mod _core {
     use crate::{
         balance::{Balance, angular_speed, balance, terms},
         balancing::{fit_shafts, least_weights, pair_heights, roll_torque, shared, turning},
+        bearing_loads::BearingLoadsModel,
         closed_form::closed_form,
         convert::{exact_angle, near_miss},
-        design::Merit,
+        design::Objectives,
         engine::Engine,
         firing::{Firing, check_timing, inline_throws, vee_throws},
         flywheel::CycleGrid,
-        internal::Internal,
         matching::matched,
         mounts::{
             Powertrain, Response, check_mount, check_support, mount_stiffness, peaks_of_vectors,

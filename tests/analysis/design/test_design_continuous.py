@@ -52,13 +52,13 @@ QUESTIONS: dict[str, Any] = {
 }
 
 
-def merit(asked: Question, by: str) -> tuple[Family, _core.Merit]:
+def merit(asked: Question, by: str) -> tuple[Family, _core.Objectives]:
     candidates, _ = families(asked)
     family = candidates[len(candidates) // 2]
     (base,) = engines_of(dataclasses.replace(asked, shafts=()), [family.base])
     turns = [each.turns(asked.banks, asked.count) for each in family.variables]
     listed: list[Any] = [(each.quantity, each.what, each.order) for each in objectives.listed(by)]
-    return family, _core.Merit(base._core, turns, listed, list(range(1, 13)), asked.shafts)
+    return family, _core.Objectives(base._core, turns, listed, list(range(1, 13)), asked.shafts)
 
 
 def points(family: Any, count: int) -> list[list[Fraction]]:  # noqa: ANN401

@@ -310,12 +310,12 @@ class Search:
         )
         return swept, np.stack([each.values(swept)[:, 0] for each in self._objectives], axis=1)
 
-    def _merit(self, family: Family) -> _core.Merit:
+    def _merit(self, family: Family) -> _core.Objectives:
         question = dataclasses.replace(self._question, shafts=())
         (engine,) = engines_of(question, [family.base])
         turns = [each.turns(question.banks, question.count) for each in family.variables]
         removed = self._question.shafts
-        return _core.Merit(engine._core, turns, self._smooth, self._totals, removed)
+        return _core.Objectives(engine._core, turns, self._smooth, self._totals, removed)
 
     def _scales(self, rows: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the largest value that each objective could have; of a function that it has."""

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from crankpin._core import Merit
+    from crankpin._core import Objectives
     from crankpin.analysis.arrangements.cranks import Symmetries
     from crankpin.analysis.design.families import Family
 
@@ -72,7 +72,7 @@ class Optimum:
 
 def of_one_angle(
     families: Sequence[Family],
-    merit_of: Callable[[Family], Merit],
+    merit_of: Callable[[Family], Objectives],
     symmetries: Symmetries,
     count: int,
     told: Told,
@@ -112,7 +112,7 @@ def of_one_angle(
     return found
 
 
-def _brackets(family: Family, merit: Merit) -> Iterator[tuple[float, float, float]]:
+def _brackets(family: Family, merit: Objectives) -> Iterator[tuple[float, float, float]]:
     """Yield lower bounds on the merit in steps of a grid with a dip, and the ends of the steps.
 
     The merit falls into such a step from both of its ends, or out of the range at its end. Steps
@@ -133,7 +133,7 @@ def _brackets(family: Family, merit: Merit) -> Iterator[tuple[float, float, floa
         yield lowest - reach, float(grid[first]), float(grid[last])
 
 
-def _between(family: Family, merit: Merit, low: float, high: float) -> Optimum:
+def _between(family: Family, merit: Objectives, low: float, high: float) -> Optimum:
     """Return the optimum between two values of a single angle, degrees."""
     first, last = (float(each[0]) for each in _limits(family))
     weights = np.array(merit.weights)
@@ -148,7 +148,7 @@ def _between(family: Family, merit: Merit, low: float, high: float) -> Optimum:
     return _optimum_at(family, merit, np.radians([angle]), isolated=isolated)
 
 
-def _lowest(merit: Merit, weights: Real, low: float, high: float) -> float:
+def _lowest(merit: Objectives, weights: Real, low: float, high: float) -> float:
     """Return the angle between two, degrees, with the lowest weighted sum of objectives."""
     while high - low > NARROW:
         angles = np.linspace(low, high, POINTS)
@@ -164,7 +164,7 @@ def _lowest(merit: Merit, weights: Real, low: float, high: float) -> float:
 
 def of_several_angles(
     families: Sequence[Family],
-    merit_of: Callable[[Family], Merit],
+    merit_of: Callable[[Family], Objectives],
     symmetries: Symmetries,
     seed: int,
     told: Told,
@@ -189,7 +189,7 @@ def of_several_angles(
     return everything
 
 
-def _optimum(family: Family, merit: Merit, start: Real) -> Optimum:
+def _optimum(family: Family, merit: Objectives, start: Real) -> Optimum:
     """Return the optimum that a start, degrees, leads to."""
     number = len(merit.scales)
     values, isolated = _settled(family, merit, np.radians(start), number)
@@ -201,18 +201,18 @@ def _optimum(family: Family, merit: Merit, start: Real) -> Optimum:
     return _optimum_at(family, merit, values, isolated=isolated)
 
 
-def _optimum_at(family: Family, merit: Merit, values: Real, *, isolated: bool) -> Optimum:
+def _optimum_at(family: Family, merit: Objectives, values: Real, *, isolated: bool) -> Optimum:
     rounded = _rounded(family, merit, values)
     found = _values(merit, np.radians([float(each) for each in rounded]))
     return Optimum(family.crank(rounded), isolated, tuple(found.tolist()))
 
 
-def _values(merit: Merit, values: Real) -> Real:
+def _values(merit: Objectives, values: Real) -> Real:
     """Return the objectives, over their scales, at some values of the variables, radians."""
     return np.asarray(merit.evaluated(values[np.newaxis])[0][0])
 
 
-def _settled(family: Family, merit: Merit, start: Real, objectives: int) -> tuple[Real, bool]:
+def _settled(family: Family, merit: Objectives, start: Real, objectives: int) -> tuple[Real, bool]:
     """Return a local optimum, radians, and whether nothing nearby is as good.
 
     From angles beside an optimum the way leads back to it, to a better one, or, if it is not the
@@ -238,7 +238,7 @@ def _settled(family: Family, merit: Merit, start: Real, objectives: int) -> tupl
     return values, True
 
 
-def _local(family: Family, merit: Merit, start: Real, objectives: int) -> Real:
+def _local(family: Family, merit: Objectives, start: Real, objectives: int) -> Real:
     """Return the values of the variables, radians, at a local optimum of the first objectives."""
     optimize = optional.library("scipy.optimize")
     limits = zip(family.variables, *(np.radians(each) for each in _limits(family)), strict=True)
@@ -270,7 +270,7 @@ def _limits(family: Family) -> tuple[Real, Real]:
     return low, np.array([float(each.high) for each in family.variables])
 
 
-def _rounded(family: Family, merit: Merit, values: Real) -> list[Exact]:
+def _rounded(family: Family, merit: Objectives, values: Real) -> list[Exact]:
     """Return the degrees with the fewest digits that are as good: 90 for 90.00000000001."""
     degrees = np.degrees(values)
     level = _values(merit, values) @ merit.weights

@@ -174,7 +174,7 @@ impl<'a> AngleColumns<'a> {
         let (amounts, all) = (places.len(), places.len() + roomy.len());
         // As much as these matrices, sums by plane and stacks of them take: nalgebra would abort.
         let rows = 2 * problem.rows.nrows() + bounded.len() + bounds.len();
-        memory::room::<f64>(4 * rows * all)?;
+        memory::with_capacity::<f64>(4 * rows * all)?;
         let made = made_by(&problem.rows, &units).resize_horizontally(all, 0.0);
         let filled = DMatrix::from_fn(bounded.len(), all, |row, j| {
             let plane = if j < amounts { places[j].0 } else { roomy[j - amounts] };

@@ -117,7 +117,7 @@ impl Firing {
             return Err(Error::value("number of cylinders", count, hint));
         }
         let choices = if strokes == Strokes::Two { 1 } else { 1_usize << (count - 1) };
-        let mut found = memory::room(choices)?;
+        let mut found = memory::with_capacity(choices)?;
         for choice in 0..choices {
             cancel.check()?;
             let bit = |i: usize| (choice << 1).checked_shr(i as u32).unwrap_or(0) & 1 == 1;

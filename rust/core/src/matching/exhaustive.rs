@@ -111,8 +111,8 @@ impl Matching {
             places: places.len(),
             kinds: parts.len(),
             dimensions: start.len(),
-            sums: memory::room(count * start.len())?,
-            parts: memory::room(count * parts.len() * places.len())?,
+            sums: memory::with_capacity(count * start.len())?,
+            parts: memory::with_capacity(count * parts.len() * places.len())?,
         };
         self.fill(&mut found, &places, parts, &mut Vec::new(), start.to_vec());
         Ok(found)

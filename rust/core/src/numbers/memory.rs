@@ -37,7 +37,7 @@ fn out_of_memory<T>(count: usize) -> Error {
 }
 
 /// An empty vector with room for `count` values.
-pub fn room<T>(count: usize) -> Result<Vec<T>> {
+pub fn with_capacity<T>(count: usize) -> Result<Vec<T>> {
     let mut values = Vec::new();
     values.try_reserve_exact(count).map_err(|_| out_of_memory::<T>(count))?;
     Ok(values)
@@ -67,7 +67,7 @@ pub fn extend<T>(to: &mut Vec<T>, values: impl ExactSizeIterator<Item = T>) -> R
 
 /// Collect values of a known number.
 pub fn collected<T>(values: impl ExactSizeIterator<Item = T>) -> Result<Vec<T>> {
-    let mut found = room(values.len())?;
+    let mut found = with_capacity(values.len())?;
     found.extend(values);
     Ok(found)
 }
@@ -86,7 +86,7 @@ pub fn array<T, S: IntoDimension>(
 
 /// A copy of values of any number, gigabytes of which take seconds.
 pub fn copied<T: Copy>(values: &[T], cancel: &Cancel) -> Result<Vec<T>> {
-    let mut copy = room(values.len())?;
+    let mut copy = with_capacity(values.len())?;
     for piece in values.chunks(NUMBERS_PER_CHECK) {
         cancel.check()?;
         copy.extend_from_slice(piece);
@@ -96,7 +96,7 @@ pub fn copied<T: Copy>(values: &[T], cancel: &Cancel) -> Result<Vec<T>> {
 
 /// Drop a large value on a background thread, because giving memory back takes 0.17 s to 0.25 s a
 /// gigabyte (pages of 4 KiB); in the calling thread if no other can be started.
-pub fn free_later<T: Send + 'static>(value: T) {
+pub fn drop_in_background<T: Send + 'static>(value: T) {
     if is_enough_for(1) {
         drop(thread::Builder::new().spawn(move || drop(value)));
     }
@@ -112,7 +112,7 @@ pub fn is_enough_for(threads: usize) -> bool {
     /// of another one.
     const RESERVED: usize = 64 << 20;
     // The compiler leaves out an allocation that nothing sees.
-    black_box(room::<u8>(threads.saturating_mul(EACH).saturating_add(RESERVED))).is_ok()
+    black_box(with_capacity::<u8>(threads.saturating_mul(EACH).saturating_add(RESERVED))).is_ok()
 }
 
 #[cfg(test)]

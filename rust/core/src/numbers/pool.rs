@@ -46,7 +46,7 @@ thread_local! {
 /// True if this number of values, each the result of some ten operations, are worth waking other threads for:
 /// that takes 30 µs, as long as one thread takes for these.
 #[must_use]
-pub const fn worth(numbers: usize) -> bool {
+pub const fn is_worth_parallel(numbers: usize) -> bool {
     numbers >= 1 << 15
 }
 
@@ -113,7 +113,7 @@ pub fn each<I: Send>(
     numbers: usize,
     work: impl Fn(I) -> Result<()> + Send + Sync,
 ) -> Result<()> {
-    map_if(worth(numbers), cancel, items, work).map(drop)
+    map_if(is_worth_parallel(numbers), cancel, items, work).map(drop)
 }
 
 /// Make the calling thread the only worker of a pool, so that rayon starts no threads for it.

@@ -32,7 +32,7 @@ pub fn between(
     let (&[first, ..], &[.., last]) = (axis, axis) else {
         return Err(Error::value(argument, "of an empty map", "give at least one cycle"));
     };
-    let mut places = memory::room(values.len())?;
+    let mut places = memory::with_capacity(values.len())?;
     for &value in values {
         cancel.check()?;
         if !(first <= value && value <= last) {

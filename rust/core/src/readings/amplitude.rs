@@ -107,7 +107,7 @@ impl Amplitudes {
             }
             Ok(wrench)
         };
-        let mut wrenches = memory::room(orders.len())?;
+        let mut wrenches = memory::with_capacity(orders.len())?;
         for each in orders.iter().enumerate() {
             wrenches.push(wrench(each)?);
         }

@@ -63,7 +63,7 @@ impl CycleGrid {
             return Err(Error::value("theta_deg", format!("{} angles", knots.len()), hint));
         }
         let cells = (period_deg / WIDEST_CELL).ceil();
-        let mut edges_deg = memory::room(knots.len() + cells as usize + 1)?;
+        let mut edges_deg = memory::with_capacity(knots.len() + cells as usize + 1)?;
         edges_deg.extend((0..cells as usize).map(|k| period_deg * (k as f64 / cells)));
         for piece in knots.chunks(PIECE) {
             cancel.check()?;
@@ -75,7 +75,7 @@ impl CycleGrid {
         // Knots beside an edge by no more than rounding.
         edges_deg.dedup_by(|next, edge| *next - *edge <= 1e-9 * WIDEST_CELL);
         edges_deg.push(period_deg);
-        let mut nodes_deg = memory::room(POINTS_IN_CELL * (edges_deg.len() - 1))?;
+        let mut nodes_deg = memory::with_capacity(POINTS_IN_CELL * (edges_deg.len() - 1))?;
         for pair in edges_deg.windows(2) {
             let (middle, half) = (f64::midpoint(pair[0], pair[1]), 0.5 * (pair[1] - pair[0]));
             nodes_deg.extend(RULE.map(|(node, _)| middle + node * half));
@@ -157,8 +157,8 @@ impl Drive<'_> {
         let work = range(motion.cells.iter().map(|cell| cell.work));
         let turning = range(motion.cells.iter().map(|cell| cell.work_with_inertia(omega)));
         let half = -0.5 * omega * omega;
-        let mut moving_inertia = memory::room(motion.cells.len() + 1)?;
-        let mut inertia_torque = memory::room(motion.cells.len() + 1)?;
+        let mut moving_inertia = memory::with_capacity(motion.cells.len() + 1)?;
+        let mut inertia_torque = memory::with_capacity(motion.cells.len() + 1)?;
         for cell in &motion.cells {
             moving_inertia.push(cell.moving.ends[0]);
             inertia_torque.push(half * cell.moving.slopes[0]);
@@ -359,7 +359,7 @@ impl WorkCurve {
             sum / period
         };
         let means = [mean(drive.torque), mean(drive.load)];
-        let (mut cells, mut work) = (memory::room(edges.len() - 1)?, 0.0);
+        let (mut cells, mut work) = (memory::with_capacity(edges.len() - 1)?, 0.0);
         for k in 0..edges.len() - 1 {
             if k % PIECE == 0 {
                 cancel.check()?;
@@ -431,7 +431,7 @@ impl WorkCurve {
 
     fn checked(&self, level: Level) -> Result<Run> {
         let square = 0.5 * self.omega * self.omega;
-        let mut speed = memory::room(self.cells.len() + 1)?;
+        let mut speed = memory::with_capacity(self.cells.len() + 1)?;
         let (mut low, mut high, mut acceleration) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
         for cell in &self.cells {
             let beyond = cell.beyond(level);

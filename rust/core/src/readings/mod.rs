@@ -3,10 +3,10 @@
 
 pub(crate) mod amplitude;
 pub mod balance;
+pub mod bearing_loads;
 mod choice;
 pub mod exact;
 pub mod flywheel;
-pub mod internal;
 pub mod mount_designs;
 pub mod mounted;
 pub mod peaks;

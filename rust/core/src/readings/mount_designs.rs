@@ -143,7 +143,7 @@ pub fn mount_designs(
     let mut largest = memory::collected(std::iter::repeat_n(zero, count * quantities * orders))?;
     let mut rms = memory::collected(std::iter::repeat_n(zero, count * quantities))?;
     let of_largest = (quantities * orders).max(1);
-    let mut tasks = memory::room(count.div_ceil(DESIGNS_PER_TASK))?;
+    let mut tasks = memory::with_capacity(count.div_ceil(DESIGNS_PER_TASK))?;
     let mut parts = largest.chunks_mut(DESIGNS_PER_TASK * of_largest);
     let both =
         frequency.chunks_mut(DESIGNS_PER_TASK).zip(rms.chunks_mut(DESIGNS_PER_TASK * quantities));
@@ -216,7 +216,7 @@ impl<'a> Shared<'a> {
         let points = shared.omega.len() * shared.amplitudes.len();
         let lengths = [points, directions, 2 * LANES];
         limits::result_size("designs", &lengths, size_of::<f64>(), "give fewer speeds or orders")?;
-        let mut stiffnesses = memory::room(points * directions)?;
+        let mut stiffnesses = memory::with_capacity(points * directions)?;
         for place in 0..points {
             cancel.check()?;
             let all = 0..base.mounts().len();

@@ -93,7 +93,7 @@ impl Loads {
         if rpm.is_empty() {
             return Err(Error::value("rpm", "[]", "give at least one speed"));
         }
-        let mut omega = memory::room(rpm.len())?;
+        let mut omega = memory::with_capacity(rpm.len())?;
         for &rpm in rpm {
             omega.push(angular_speed(rpm)?);
         }
@@ -144,7 +144,7 @@ impl Response {
         let count = of_engine.orders.len();
         let hint = "give fewer speeds or orders";
         limits::result_size("response", &[rpm.len(), count, 6], size_of::<Complex64>(), hint)?;
-        let mut loads = memory::room(rpm.len() * count)?;
+        let mut loads = memory::with_capacity(rpm.len() * count)?;
         for omega in &of_engine.omega {
             let wrenches = of_engine.unit.iter();
             loads.extend(wrenches.map(|wrench| load(&wrench.at_speed(omega * omega))));
@@ -192,7 +192,7 @@ impl Response {
         let of_subframe = points * usize::from(is_subframe);
         let mut subframe =
             memory::collected(std::iter::repeat_n(ComplexVector6::zeros(), of_subframe))?;
-        let mut parts = memory::room(points.div_ceil(POINTS_PER_TASK))?;
+        let mut parts = memory::with_capacity(points.div_ceil(POINTS_PER_TASK))?;
         let mut of_carriers = carriers.chunks_mut(POINTS_PER_TASK * count);
         let mut of_subframe = subframe.chunks_mut(POINTS_PER_TASK);
         for (piece, motions) in motions.chunks_mut(POINTS_PER_TASK).enumerate() {
@@ -242,7 +242,7 @@ impl Response {
         motions: &mut [ComplexVector6],
     ) -> Result<Vec<bool>> {
         let first = piece * POINTS_PER_TASK;
-        let mut all = memory::room(motions.len())?;
+        let mut all = memory::with_capacity(motions.len())?;
         let [to, from] = [rows(&equations.to), rows(&equations.from)];
         let directions = 3 * self.powertrain.mounts().len() * usize::from(equations.is_factored());
         let mut stiffnesses = vec![[[0.0; LANES]; 2]; directions];
@@ -375,7 +375,7 @@ impl Response {
         let count = self.powertrain.mounts().len();
         let lengths = [self.motions.len(), count, 3];
         limits::result_size("response", &lengths, size_of::<Complex64>(), "give fewer speeds")?;
-        let mut forces = memory::room(self.motions.len() * count)?;
+        let mut forces = memory::with_capacity(self.motions.len() * count)?;
         self.for_each(cancel, |point| {
             forces.extend((0..count).map(|k| self.force(k, point)));
             Ok(())
@@ -386,7 +386,7 @@ impl Response {
     /// Sum of the mounts' forces on what carries them, N, and of their moments about the CG, N·m, at each
     /// speed and order.
     pub fn support_loads(&self, cancel: &Cancel) -> Result<Vec<ComplexVector6>> {
-        let mut sums = memory::room(self.motions.len())?;
+        let mut sums = memory::with_capacity(self.motions.len())?;
         self.for_each(cancel, |point| {
             let mut sum = ComplexVector6::zeros();
             for (k, deflection) in self.powertrain.deflections().iter().enumerate() {
@@ -416,7 +416,7 @@ impl Response {
         for (k, place) in point.into_iter().enumerate() {
             limits::finite(&format!("point[{k}]"), place)?;
         }
-        let mut values = memory::room(self.motions.len())?;
+        let mut values = memory::with_capacity(self.motions.len())?;
         for (k, motion) in motions.iter().enumerate() {
             if k.is_multiple_of(POINTS_PER_TASK) {
                 cancel.check()?;
@@ -453,10 +453,10 @@ impl Response {
     /// Mean power at each speed and order: what the engine puts in, what what carries the mounts takes,
     /// then what each mount dissipates, W.
     pub fn power(&self, cancel: &Cancel) -> Result<Vec<Vec<f64>>> {
-        let mut rows = memory::room(self.motions.len())?;
+        let mut rows = memory::with_capacity(self.motions.len())?;
         self.for_each(cancel, |point| {
             let velocity = point.motion * Complex64::new(0.0, point.omega);
-            let mut row = memory::room(2 + point.stiffnesses.len())?;
+            let mut row = memory::with_capacity(2 + point.stiffnesses.len())?;
             row.push(0.5 * point.load.dotc(&velocity).re);
             row.push(0.0);
             for (mount, along) in point.stiffnesses.iter().enumerate() {
@@ -495,7 +495,7 @@ impl Response {
         let count = subframe.mounts().len();
         let lengths = [self.motions.len(), count, 3];
         limits::result_size("response", &lengths, size_of::<Complex64>(), "give fewer speeds")?;
-        let mut forces = memory::room(self.motions.len() * count)?;
+        let mut forces = memory::with_capacity(self.motions.len() * count)?;
         for (point, motion) in self.subframe.iter().enumerate() {
             if point.is_multiple_of(POINTS_PER_TASK) {
                 cancel.check()?;
@@ -530,7 +530,7 @@ impl Response {
             let hint = format!("is no receiver of the receptance; there are: {}", names.join(", "));
             Error::value("point", format!("{name:?}"), hint)
         })?;
-        let mut values = memory::room(self.motions.len())?;
+        let mut values = memory::with_capacity(self.motions.len())?;
         self.for_each(cancel, |point| {
             if *point.motion == ComplexVector6::zeros() {
                 values.push([Complex64::ZERO; 3]);

@@ -56,7 +56,7 @@ impl PeakFinder {
 
     fn with(orders: &[Order], mean: bool) -> Result<Self> {
         let common = orders.iter().map(|order| order.halves()).fold(0, divisor).max(1);
-        let mut waves = memory::room(orders.len() + 1)?;
+        let mut waves = memory::with_capacity(orders.len() + 1)?;
         waves.extend(mean.then_some(0));
         waves.extend(orders.iter().map(|order| order.halves() / common));
         let degree = 2 * waves.iter().copied().max().unwrap_or(1) as usize;
@@ -83,7 +83,7 @@ impl PeakFinder {
 
     /// max over θ of |mean + Re Σ Pₙ e^{inθ}|, of a grid about a mean.
     pub fn beside_mean(&self, mean: f64, phasors: &[Complex64], cancel: &Cancel) -> Result<f64> {
-        let mut all = memory::room(phasors.len() + 1)?;
+        let mut all = memory::with_capacity(phasors.len() + 1)?;
         all.push(Complex64::new(mean, 0.0));
         all.extend_from_slice(phasors);
         self.along_axis(&all, cancel)

@@ -152,7 +152,7 @@ impl Columns {
     }
 }
 
-/// Numbers of [`pool::worth`] that take as long as a crank angle of an engine of a few cylinders.
+/// Numbers of [`pool::is_worth_parallel`] that take as long as a crank angle of an engine of a few cylinders.
 const NUMBERS: usize = 24;
 
 /// Run over the crank angles in blocks, in parallel.
@@ -165,7 +165,7 @@ fn in_blocks(
     let hint = "split theta_deg into parts";
     limits::result_size("theta_deg", &[theta_deg.len(), 16], size_of::<f64>(), hint)?;
     check(theta_deg, cancel)?;
-    if !pool::worth(NUMBERS * theta_deg.len()) {
+    if !pool::is_worth_parallel(NUMBERS * theta_deg.len()) {
         return fill_blocks(theta_deg, shape, cancel, add);
     }
     // Results are allocated there too: an allocator that keeps an arena for each thread then reuses

@@ -178,7 +178,7 @@ impl Equals {
             }
             Ok(all)
         })?;
-        let mut all = memory::room(found.iter().map(Vec::len).sum())?;
+        let mut all = memory::with_capacity(found.iter().map(Vec::len).sum())?;
         all.extend(found.into_iter().flatten());
         Ok(Self(all))
     }

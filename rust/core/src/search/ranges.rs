@@ -30,14 +30,15 @@ impl<T: Copy + Ord + Send + Sync> Ranges<T> {
         let ranges = tasks.first().map_or(0, |task| task.0.len());
         let parts = pool::map(cancel, (0..ranges).collect(), |range| {
             let parts = || tasks.iter().map(|task| &task.0[range]);
-            let mut values = memory::room(parts().map(Vec::len).sum())?;
+            let mut values = memory::with_capacity(parts().map(Vec::len).sum())?;
             parts().for_each(|part| values.extend_from_slice(part));
             values.sort_unstable();
             cancel.step()?;
             Ok(values)
         })?;
         drop(tasks);
-        let (mut all, mut starts) = (memory::room(parts.iter().map(Vec::len).sum())?, vec![0]);
+        let (mut all, mut starts) =
+            (memory::with_capacity(parts.iter().map(Vec::len).sum())?, vec![0]);
         for part in parts {
             cancel.check()?;
             all.extend_from_slice(&part);

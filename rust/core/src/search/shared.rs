@@ -35,7 +35,7 @@ impl Search {
             return Err(Error::value("arrangements", entries.len(), hint));
         }
         cancel.expect(entries.len());
-        let mut keyed = memory::room(entries.len())?;
+        let mut keyed = memory::with_capacity(entries.len())?;
         for (place, entry) in entries.iter().enumerate() {
             cancel.step()?;
             keyed.push((self.shared_key(entry.packed), place));

@@ -18,7 +18,7 @@ impl Response {
         }
         let rpm: Vec<f64> = self.omega.iter().map(|omega| omega * 60.0 / TAU).collect();
         let mut driven = Self { loads, ..self.clone() };
-        driven.motions = driven.solved(&rpm, cancel)?;
+        driven.solve(&rpm, cancel)?;
         Ok(driven)
     }
 }

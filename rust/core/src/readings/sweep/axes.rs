@@ -42,7 +42,7 @@ impl Axes {
         if let Some(map) = &self.map {
             length("load", map.load.len())?;
         }
-        let mut squares = memory::room(self.rpm.len())?;
+        let mut squares = memory::with_capacity(self.rpm.len())?;
         each(&self.rpm, cancel, |rpm| angular_speed(rpm).map(|omega| squares.push(omega * omega)))?;
         Ok(squares)
     }

@@ -48,7 +48,7 @@ impl Waves {
         cancel: &Cancel,
     ) -> Result<Self> {
         let (mut columns, mut places) = (Vec::new(), BTreeMap::new());
-        let mut of_order = memory::room(sweep.orders.len())?;
+        let mut of_order = memory::with_capacity(sweep.orders.len())?;
         let bank_angles = &sweep.bank_angles()[angles];
         let mut degrees: Vec<f64> = memory::zeros(bank_angles.len())?;
         for &order in &sweep.orders {
@@ -102,7 +102,7 @@ impl Coefficients {
         let count = points.len();
         let sources = &loads.sources[..];
         let harmonics = PointHarmonics::new(sweep, (sources, layout), quantity, &points, cancel)?;
-        let mut by_order = memory::room(layout.len())?;
+        let mut by_order = memory::with_capacity(layout.len())?;
         for (k, sums) in layout.iter().enumerate() {
             cancel.check()?;
             let mut columns = Padded::zeros(count)?;

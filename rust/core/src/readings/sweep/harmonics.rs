@@ -66,7 +66,7 @@ impl Sweep {
         points: Range<usize>,
         cancel: &Cancel,
     ) -> Result<PointColumns> {
-        let mut columns = memory::room(self.orders.len())?;
+        let mut columns = memory::with_capacity(self.orders.len())?;
         for _ in &self.orders {
             columns.push([memory::zeros(points.len())?, memory::zeros(points.len())?]);
         }

@@ -58,7 +58,7 @@ type LoadsAndLayout = (Loads, Arc<Layout>);
 impl Job<'_> {
     /// Loads and layout sums of some engines; those of one engine with other pressures share their sums.
     fn layouts(&self, engines: &[usize]) -> Result<Vec<LoadsAndLayout>> {
-        let mut layouts: Vec<LoadsAndLayout> = memory::room(engines.len())?;
+        let mut layouts: Vec<LoadsAndLayout> = memory::with_capacity(engines.len())?;
         for &k in engines {
             self.cancel.check()?;
             let loads = self.sweep.loads(k);
@@ -91,7 +91,7 @@ impl Job<'_> {
         let numbers = out.len() * if self.slow { 256 } else { 1 };
         // Harmonics of a cycle take as long as waking another thread.
         let engines: Vec<usize> = sweep.engines_of(self.quantity).collect();
-        let many = pool::worth(numbers)
+        let many = pool::is_worth_parallel(numbers)
             || engines.len() > 3 && self.quantity.part() == Some(TorquePart::Gas);
         let layouts = self.layouts(&engines)?;
         self.cancel.expect(layouts.len() * angles * points);

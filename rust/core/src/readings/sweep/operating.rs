@@ -156,7 +156,7 @@ impl Sweep {
         for (engine, out) in self.engines_of(quantity).zip(out.chunks_mut(angles * points)) {
             let loads = self.loads(engine);
             let volumes = loads.volumes();
-            let mut means = memory::room(points)?;
+            let mut means = memory::with_capacity(points)?;
             for point in 0..points {
                 let mut mean = 0.0;
                 for (source, volume) in loads.at_point(&self.at(point))?.iter().zip(&volumes) {

@@ -206,7 +206,7 @@ impl Tolerances {
         let planar = force
             .chunks_mut(SAMPLES_AT_ONCE * orders)
             .zip(moment.chunks_mut(SAMPLES_AT_ONCE * orders));
-        let mut tasks = memory::room(count.div_ceil(SAMPLES_AT_ONCE))?;
+        let mut tasks = memory::with_capacity(count.div_ceil(SAMPLES_AT_ONCE))?;
         for (k, ((force, moment), peaks)) in
             planar.zip(peaks.chunks_mut(SAMPLES_AT_ONCE)).enumerate()
         {

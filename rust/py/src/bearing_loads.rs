@@ -1,7 +1,9 @@
 //! Loads of bearings and walls, and sections of crank and crankcase.
 
 use crate::array::frozen;
-use crankpin_core::internal::{self, Bearing, BearingLoads, Extremes, Part, Sections, TurningAxes};
+use crankpin_core::bearing_loads::{
+    self, Bearing, BearingLoads, Extremes, Part, Sections, TurningAxes,
+};
 use crankpin_macros::guarded;
 use numpy::{PyArray2, PyArray3, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -12,7 +14,7 @@ use crate::interrupt;
 
 /// An engine with main bearings at a speed.
 #[pyclass(frozen, module = "crankpin._core")]
-pub struct Internal(internal::Internal);
+pub struct BearingLoadsModel(bearing_loads::BearingLoadsModel);
 
 /// Loads of crankpins, wrist pins and main bearings along x and y, side thrust, rod force, gas force.
 type Loads<'py> = (
@@ -29,10 +31,10 @@ type LoadExtremes<'py> = [Bound<'py, PyArray2<f64>>; 6];
 
 #[guarded]
 #[pymethods]
-impl Internal {
+impl BearingLoadsModel {
     #[new]
     fn new(engine: &Bound<'_, Engine>, rpm: f64) -> PyResult<Self> {
-        internal::Internal::new(&engine.get().0, rpm).or_raise().map(Self)
+        bearing_loads::BearingLoadsModel::new(&engine.get().0, rpm).or_raise().map(Self)
     }
 
     /// Places of loads and main bearings along z.

@@ -2,7 +2,7 @@
 
 use ndarray::{Array3, Axis};
 
-use super::{Internal, check_angles, vectors};
+use super::{BearingLoadsModel, check_angles, vectors};
 use crate::load::kinematics::{BLOCK, Units};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, parts};
@@ -27,7 +27,7 @@ pub struct Sections {
     pub bending: Array3<f64>,
 }
 
-impl Internal {
+impl BearingLoadsModel {
     /// Shear and bending of a part at [`Self::places`].
     pub fn sections(&self, part: Part, theta_deg: &[f64], cancel: &Cancel) -> Result<Sections> {
         if let Part::Crank(crank) = part

@@ -8,7 +8,7 @@ use std::array;
 use ndarray::Array2;
 
 use super::rod::DrivenRod;
-use super::{Internal, scalars};
+use super::{BearingLoadsModel, scalars};
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::chebyshev::{coefficient, jet, jets, largest_of_last, node, points};
@@ -193,7 +193,7 @@ fn edges(of_loads: impl Iterator<Item = f64>, cycle: f64, cancel: &Cancel) -> Re
     Ok(edges)
 }
 
-impl Internal {
+impl BearingLoadsModel {
     /// Least and largest loads over a cycle, degrees.
     pub fn extremes(&self, cycle_deg: u32, cancel: &Cancel) -> Result<Extremes> {
         let cycle = f64::from(cycle_deg);

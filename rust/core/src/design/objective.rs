@@ -86,7 +86,7 @@ impl WithSlopes {
 
 /// An objective with its parts.
 #[derive(Debug, Clone)]
-pub(super) struct Goal {
+pub(super) struct ObjectiveFunction {
     objective: Objective,
     parts: Vec<TurningPhasor>,
     /// Largest value that it could have: that of all phasors in phase.
@@ -95,7 +95,7 @@ pub(super) struct Goal {
     units: Vec<Complex64>,
 }
 
-impl Goal {
+impl ObjectiveFunction {
     pub fn new(objective: Objective, parts: Vec<TurningPhasor>) -> Self {
         let sizes = parts.iter().flat_map(|part| &part.rotors).map(|each| each.phasor.norm());
         let scale: f64 = sizes.sum();

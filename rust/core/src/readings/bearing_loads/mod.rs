@@ -44,15 +44,15 @@ const MOST_SHARE: f64 = 1e6;
 /// #     ]",
 /// # )?;
 /// use crankpin_core::Cancel;
-/// use crankpin_core::internal::Internal;
+/// use crankpin_core::bearing_loads::BearingLoadsModel;
 ///
-/// let engine = Internal::new(&four, 6000.0)?;
+/// let engine = BearingLoadsModel::new(&four, 6000.0)?;
 /// let loads = engine.loads(&[0.0, 90.0, 180.0], &Cancel::new())?;
 /// assert_eq!(loads.main.dim(), (5, 3, 2)); // a bearing beside each throw
 /// assert!(loads.main[[2, 0, 1]].abs() > loads.main[[0, 0, 1]].abs()); // the middle one has two throws
 /// # Ok::<(), crankpin_core::Error>(())
 /// ```
-pub struct Internal {
+pub struct BearingLoadsModel {
     rods: Vec<DrivenRod>,
     /// On each crank besides the forces of rods on its pins.
     on_cranks: Vec<Vec<Turning>>,
@@ -132,7 +132,7 @@ struct Carried {
     bound: f64,
 }
 
-impl Internal {
+impl BearingLoadsModel {
     /// Of an engine, on its main bearings.
     pub fn new(engine: &Engine, rpm: f64) -> Result<Self> {
         if engine.spectrum().is_some() {
@@ -380,7 +380,7 @@ impl Internal {
                 continue;
             }
             let ranges = parts(0..theta_deg.len(), BLOCK);
-            let mut blocks = memory::room(ranges.len())?;
+            let mut blocks = memory::with_capacity(ranges.len())?;
             for range in ranges {
                 cancel.check()?;
                 let angles = CrankAngles::of_checked(&theta_deg[range.clone()]);
