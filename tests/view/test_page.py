@@ -407,7 +407,7 @@ def test_a_rejected_value_is_answered_by_the_range(open_engine: Open) -> None:
     field.fill("1.2")
     field.press("Enter")
     assert field.input_value() == own
-    assert said.text_content() == "give 0.05–0.99"
+    assert said.text_content() == "give 0.05–0.7"
     field.fill("0.25")
     field.press("Enter")
     assert said.count() == 0
