@@ -31,6 +31,8 @@ ROUNDING = 1e-13
 """Sums and coefficients below this part of what they are added to are rounding, and left out."""
 REST = 1e-12
 """Orders of which a cylinder's terms are below this part of its largest are left out."""
+MOST_ORDERS = 384
+"""Orders are no more than twice this: what rods lack that are barely long enough for their crank."""
 FEWEST_POINTS, MOST_POINTS = 16, 512
 """Rod ratios at which terms are computed: twice as many until their polynomials have converged."""
 DIGITS = 13
@@ -131,20 +133,25 @@ def terms(
     """
     ratios = RodRatios.of(engine)
     sampler = _Sampler(engine, banks, pairs, _orders(engine, ratios, pairs))
-    own = sampler.moving(engine) if ratios.common is None else None
+    own = sampler.moving(None) if ratios.common is None else None
     count = FEWEST_POINTS if pairs is None else 1
     while True:
         q, points = ratios.points(count)
-        sampled = [sampler.moving(at_rod_ratio(engine, ratio)) for ratio in points.tolist()]
-        tables = {
-            name: _factored(table, [each[name].values for each in sampled], q, own and own[name])
+        sampled = [sampler.moving(ratio) for ratio in points.tolist()]
+        fitted = {
+            name: _factored(
+                table,
+                np.stack([each[name].values for each in sampled]),
+                q,
+                own and own[name].values,
+            )
             for name, table in sampled[0].items()
         }
-        if None not in tables.values() or count == MOST_POINTS:
+        if count in (1, MOST_POINTS) or all(enough for _, enough in fitted.values()):
             break
         count *= 2
-    for name, standing in sampler.standing().items():
-        tables[name] += standing
+    standing = sampler.standing()
+    tables = {name: rows + standing.get(name, []) for name, (rows, _) in fitted.items()}
     return {
         "rod_ratios": [ratios.least, ratios.most, ratios.turning],
         "planar": tables.pop("planar"),
@@ -193,15 +200,25 @@ class _Sampler:
             min((n // each for each in _speeds(engine) if n % each == 0), default=n) for n in orders
         ]
 
-    def moving(self, engine: Engine) -> dict[str, _Table]:
-        """Return the terms of the cylinders of the engine at a rod ratio."""
-        tables = self._tables(engine, cylinders=True)
-        if self.fired:
-            orders = range(1, self.orders[-1] + 1)
-            powers = [min(n, HIGHEST_ORDER) - 1 for n in orders]
-            for place in map(self.engine.cylinders.index, kinds(self.engine)):
-                swept = _swept(engine.cylinders[place], orders)[:, None]
-                tables[f"swept {place}"] = _Table(orders, powers, swept.view(float))
+    def moving(self, ratio: float | None) -> dict[str, _Table]:
+        """Return the terms of the cylinders at a rod ratio; None leaves each its own."""
+        core = _cylinders(self.engine, ratio)
+        tables = self._tables(core, cylinders=True)
+        if not self.fired:
+            return tables
+        orders = range(1, self.orders[-1] + 1)
+        powers = [min(n, HIGHEST_ORDER) - 1 for n in orders]
+        for cylinder in kinds(self.engine):
+            place = self.engine.cylinders.index(cylinder)
+            amplitudes = _core.cylinder_harmonics(core.cylinders[place], orders)
+            area = 0.25 * math.pi * (cylinder.bore or 0.0) ** 2
+            # The volume added per radian is the integral of the piston's acceleration.
+            swept = area * cylinder.crank_radius * 1j * amplitudes / np.array(orders)
+            tables[f"swept {place}"] = _Table(orders, powers, swept[:, None, None].view(float))
+        torque, mean = tables["torque"], np.zeros((1, 3, 4))
+        mean[0, 0, 2] = _mean_inertia(core)
+        values = np.concatenate([mean, torque.values])
+        tables["torque"] = _Table([0, *torque.orders], [0, *torque.powers], values)
         return tables
 
     def standing(self) -> dict[str, list[Row]]:
@@ -212,16 +229,17 @@ class _Sampler:
                 for order, values in zip(table.orders, table.values, strict=True)
                 if values.any()
             ]
-            for name, table in self._tables(self.engine, cylinders=False).items()
+            for name, table in self._tables(
+                engine_core(self.engine).without_cycles(), cylinders=False
+            ).items()
         }
 
-    def _tables(self, engine: Engine, *, cylinders: bool) -> dict[str, _Table]:
-        core = engine_core(engine).without_cycles()
-        torque = self.pairs is None
+    def _tables(self, core: _core.Engine, *, cylinders: bool) -> dict[str, _Table]:
+        torque, plane = self.pairs is None, self.engine.reference_z
         parts = [
             (self._group(name, index), part)
             for name, index, part in _core.terms(
-                core, ONE_RADIAN_PER_SECOND, self.orders, None, self.pairs, torque, (0.0, 0.0)
+                core, ONE_RADIAN_PER_SECOND, self.orders, plane, self.pairs, torque, (0.0, 0.0)
             )
             if (name == "cylinder") == cylinders
         ]
@@ -230,12 +248,8 @@ class _Sampler:
         tables = {"planar": _Table(self.orders, powers, planar, relative=True)}
         if torque:
             read = self._both if self.fired else _roll
-            orders, powers = self.orders, [max(0, power - 1) for power in powers]
-            values = self._summed(parts, read)
-            if self.fired and cylinders:
-                orders, powers = [0, *orders], [0, *powers]
-                values = np.concatenate([_mean_inertia(engine), values])
-            tables["torque"] = _Table(orders, powers, values)
+            powers = [max(0, power - 1) for power in powers]
+            tables["torque"] = _Table(self.orders, powers, self._summed(parts, read))
         return tables
 
     def _group(self, name: str, index: int) -> int:
@@ -255,37 +269,37 @@ class _Sampler:
         self, parts: list[tuple[int, _core.Balance]], read: Callable[[_core.Balance], Complex]
     ) -> Real:
         """Return the sums of groups by order: what cancels within a group is zero."""
-        terms = [(group, read(part)) for group, part in parts]
-        width = terms[0][1].shape[1] if terms else 1
-        sums = np.zeros((len(self.orders), 3, width), complex)
-        sizes = np.zeros(sums.shape)
-        for group, term in terms:
-            sums[:, group] += term
-            sizes[:, group] += abs(term)
-        sums[abs(sums) <= ROUNDING * sizes] = 0.0
+        if not parts:
+            return np.zeros((len(self.orders), 3, 2))
+        groups = np.array([group for group, _ in parts])
+        terms = np.stack([read(part) for _, part in parts])
+        sums = np.zeros((len(self.orders), 3, terms.shape[2]), complex)
+        for group in set(groups.tolist()):
+            own = terms[groups == group]
+            total = own.sum(axis=0)
+            total[abs(total) <= ROUNDING * abs(own).sum(axis=0)] = 0.0
+            sums[:, group] = total
         return sums.view(float)
 
 
-def _factored(
-    table: _Table, sampled: list[Real], q: Real, own: _Table | None
-) -> list[Row] | None:
-    """Return rows of values at Chebyshev's points q; None if they are too few.
+def _factored(table: _Table, values: Real, q: Real, own: Real | None) -> tuple[list[Row], bool]:
+    """Return rows of values at Chebyshev's points q, and whether the points are enough.
 
     The values of an order change with the rod ratio in as few ways as there are kinds of cylinders:
     singular values tell them apart.
     """
-    values = np.stack(sampled)
     count, largest = len(q), abs(values).max()
     x = chebyshev.chebpts1(count)
     fit = chebyshev.chebvander(x, count - 1).T * (2.0 / count)
     fit[0] *= 0.5
     rows: list[Row] = []
+    enough = True
     for k, (order, power) in enumerate(zip(table.orders, table.powers, strict=True)):
         scale = q[:, None] ** power
         matrix = values[:, k].reshape(count, -1) / scale
         if own is not None:
             middle = scale[count // 2]
-            matrix = np.concatenate([matrix, own.values[k].reshape(1, -1) / middle])
+            matrix = np.concatenate([matrix, own[k].reshape(1, -1) / middle])
         ways, weights, directions = np.linalg.svd(matrix, full_matrices=False)
         if not weights[0]:
             continue
@@ -295,8 +309,7 @@ def _factored(
         allowed = ROUNDING * abs(polynomials).max()
         if not table.relative or order > HIGHEST_ORDER:
             allowed = max(allowed, ROUNDING * largest / float(scale[-1, 0]))
-        if count > 1 and (abs(polynomials[-count // 8 :]) > 10.0 * allowed).any():
-            return None
+        enough = enough and bool((abs(polynomials[-count // 8 :]) <= 10.0 * allowed).all())
         polynomials[abs(polynomials) <= allowed] = 0.0
         decimals = -math.floor(math.log10(allowed))
         digits = math.ceil(math.log10(weights[0] / allowed))
@@ -306,13 +319,14 @@ def _factored(
             factor = [] if own is None else [float(curves[-1, way] * middle[0])]
             if parts and (polynomial or own is not None):
                 rows.append([order, power, polynomial, parts, *factor])
-    return rows
+    return rows, enough
 
 
 def _parts(values: Real, digits: int) -> list[list[float]]:
     """Return group and values of the groups that have some."""
-    rounded = values.round(digits) + 0.0
-    return [[group, *own.tolist()] for group, own in enumerate(rounded) if own.any()]
+    rounded = values.round(digits)
+    listed = [[group, *own.tolist()] for group, own in enumerate(rounded) if own.any()]
+    return [[value or 0 for value in own] for own in listed]  # 0 is shorter than 0.0
 
 
 def _orders(
@@ -323,7 +337,7 @@ def _orders(
     turning = {*speeds, *(abs(shaft.ratio) for shaft in engine.shafts)}
     if pairs is not None:
         return sorted({n * speed for n, _ in pairs for speed in speeds} | turning)
-    furthest = engine_core(at_rod_ratio(engine, ratios.most)).without_cycles()
+    furthest = _cylinders(engine, ratios.most)
     count = HIGHEST_ORDER
     while True:
         tried = list(range(1, 2 * count + 1))
@@ -331,7 +345,7 @@ def _orders(
         sizes = np.array([[abs(_planar(p)[:, :2]).sum(1), abs(_roll(p)[:, 0])] for *_, p in parts])
         kept = (sizes > REST * sizes.max(axis=2, keepdims=True)).any(axis=(0, 1))
         last = int(np.flatnonzero(kept).max(initial=0)) + 1
-        if last <= count:
+        if last <= count or count >= MOST_ORDERS:
             return sorted({*range(1, max(last, HIGHEST_ORDER) + 1), *turning})
         count *= 2
 
@@ -348,21 +362,21 @@ def _roll(part: _core.Balance) -> Complex:
     return part.phasors("torque.inertia", turning=False)[:, None]
 
 
-def _mean_inertia(engine: Engine) -> Real:
-    """Return the mean moment of inertia of pistons and rods, as a row of torques of order zero."""
+def _cylinders(engine: Engine, ratio: float | None) -> _core.Engine:
+    """Return the cylinders of an engine, and nothing else of it, at a rod ratio or their own."""
+    core = engine_core(engine)
+    parts = [(r, l if ratio is None else r / ratio, *rest) for r, l, *rest in core.cylinders]
+    tdc, bank = core.exact_angles
+    z, rotating = core.z.tolist(), core.rotating_mass.tolist()
+    return _core.Engine.from_lists(parts, tdc, None, bank, None, z, rotating, core.cranks)
+
+
+def _mean_inertia(core: _core.Engine) -> float:
+    """Return the mean moment of inertia of pistons and rods as seen from the crank, kg·m²."""
     grid = _core.CycleGrid(360.0, np.array([]))
     none = np.zeros(grid.nodes_deg.shape)
-    curves, _ = grid.speed(none, none, engine_core(engine), ONE_RADIAN_PER_SECOND, 1.0, 0.0)
-    row = np.zeros((1, 3, 4))
-    row[0, 0, 2] = curves[1][:-1].mean()
-    return row
-
-
-def _swept(cylinder: Cylinder, orders: range) -> Complex:
-    """Return the volume added per radian by order, m³: the integral of the piston's acceleration."""
-    amplitudes = cylinder.harmonics(orders)
-    area = 0.25 * math.pi * (cylinder.bore or 0.0) ** 2
-    return (area * cylinder.crank_radius * 1j * amplitudes / np.array(orders))[:, None]
+    (_, moving, _), _ = grid.speed(none, none, core, ONE_RADIAN_PER_SECOND, 1.0, 0.0)
+    return float(moving[:-1].mean())
 
 
 def _sizes(engine: Engine) -> dict[str, float]:
