@@ -1,8 +1,8 @@
 """Are the page's numbers the library's?
 
 The page evaluates polynomials of what the core computes, cut at 1e-13 of their largest value, and
-sums orders up to those below 1e-12. A tolerance of 1e-9 of what the cylinders make one by one is far
-above that, and far below a digit that is shown.
+sums orders down to 1e-12 of the largest. A tolerance of 1e-9 of what the cylinders make one by
+one is far above that, and far below a digit that is shown.
 """
 
 from __future__ import annotations
@@ -167,7 +167,7 @@ def test_phasors_of_any_proportions(open_engine: Open, ratio: float, offset: flo
     page.evaluate("ratio => crankpin.set({ rod_ratio: ratio })", ratio)
     shown = [complex(*each["force"]["forward"]) for each in page.evaluate("crankpin.orders")]
     changed = moved(engine, None, "pins", ratio).balance(3000.0, orders=range(1, 25), torque=False)
-    # Relative to each order, however small: 1e-10, as polynomials are cut at 1e-13 of their largest value.
+    # Relative to each order, however small: polynomials are cut at 1e-13 of their largest value.
     np.testing.assert_allclose(shown, changed.force.forward, rtol=1e-10, atol=1e-300)
 
 

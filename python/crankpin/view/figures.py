@@ -34,7 +34,7 @@ IRREGULARITY = 0.01
 PRESSURE_STEP = 0.5
 """Degrees between the samples of a cycle, between which a page interpolates."""
 BLOCK = 50.0
-"""Mass of the block, which is not known, over that of all that reciprocates: 90 kg for two litres."""
+"""Mass of the block, which is not known, over that of the pistons: 90 kg for two litres."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -214,7 +214,7 @@ def _speeds(
 def _block(engine: Engine) -> dict[str, float] | None:
     """Return mass, kg, and inertia, kg·m², of a bar that stands for the block; None without a mass.
 
-    It is as tall as a crank with its rod and half of that longer than the cylinders reach at either end.
+    It is as tall as a crank with its rod, and half of that longer than the cylinders at either end.
     """
     mass = BLOCK * sum(cylinder.reciprocating_mass for cylinder in engine.cylinders)
     height = max(2.0 * each.crank_radius + each.rod_length for each in engine.cylinders)

@@ -14,7 +14,7 @@ from crankpin._support import inputs
 from crankpin.analysis.request import engine_core
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from numpy.typing import NDArray
 
@@ -32,7 +32,7 @@ ROUNDING = 1e-13
 REST = 1e-12
 """Orders of which a cylinder's terms are below this part of its largest are left out."""
 MOST_ORDERS = 384
-"""Orders are no more than twice this: what rods lack that are barely long enough for their crank."""
+"""Orders that are enough, but for rods hardly longer than their crank; at most twice as many."""
 FEWEST_POINTS, MOST_POINTS = 16, 512
 """Rod ratios at which terms are computed: twice as many until their polynomials have converged."""
 DIGITS = 13
@@ -44,17 +44,18 @@ PLANAR = ("force", "moment")
 Complex: TypeAlias = "NDArray[np.complex128]"
 Real: TypeAlias = "NDArray[np.float64]"
 Row: TypeAlias = "list[Any]"
-"""Order, power, polynomial, values of groups, and the factor at the engine's own rod ratios if they differ.
+"""Order, power, polynomial, values of groups, and the factor at the engine's own rod ratios.
 
-A term of a group is its values times a factor: q to the power times the polynomial, of Chebyshev's."""
+A term of a group is its values times a factor, q to the power times a sum of Chebyshev's
+polynomials."""
 
 
 @dataclasses.dataclass(frozen=True)
 class RodRatios:
     """Rod ratios that a page reaches, and the variable of its polynomials.
 
-    The variable q is the tangent of half the rod's largest swing: harmonic n of a piston is qⁿ⁻¹ times
-    a series in q² that converges wherever the crank turns.
+    The variable q is the tangent of half the rod's largest swing: harmonic n of a piston is qⁿ⁻¹
+    times a series in q² that converges wherever the crank turns.
     """
 
     least: float
@@ -105,7 +106,7 @@ def at_rod_ratio(engine: Engine, ratio: float | None) -> Engine:
 
 
 def listed_orders(engine: Engine, spectrum: Iterable[int] | None) -> list[int]:
-    """Return the orders whose phasors a page has: of the pistons, or of a spectrum, and of shafts."""
+    """Return the orders whose phasors a page has: of pistons, of a spectrum, and of shafts."""
     shafts = {abs(shaft.ratio) for shaft in engine.shafts}
     given = {order * speed for order in spectrum or () for speed in _speeds(engine)}
     return sorted({*range(1, HIGHEST_ORDER + 1), *shafts, *given})
@@ -116,18 +117,18 @@ def terms(
 ) -> dict[str, Any]:
     """Return the terms of an engine as a page has them, over the square of the crank's speed.
 
-    ``planar`` has forward and backward parts of force and moment; ``torque`` the roll torque and, of a
-    fired engine, the moment of inertia of pistons and rods as seen from the crank; ``swept``, of each
-    kind of cylinder with pressure, the volume that its piston adds per radian past its top dead centre;
-    ``sizes`` what the cylinders make one by one. Complex values are pairs.
+    ``planar`` has forward and backward parts of force and moment; ``torque`` the roll torque and,
+    of a fired engine, the moment of inertia of pistons and rods as seen from the crank; ``swept``,
+    of each kind of cylinder with pressure, the volume that its piston adds per radian past its top
+    dead centre; ``sizes`` what the cylinders make one by one. Complex values are pairs.
 
     Parameters
     ----------
     engine
         Engine at its own settings.
     banks
-        Bank of each cylinder, 0 or 1, of an engine whose bank angle changes: each is a group, and what
-        stands still is the third. None makes one group of all parts.
+        Bank of each cylinder, 0 or 1, of an engine whose bank angle changes: each is a group, and
+        what stands still is the third. None makes one group of all parts.
     pairs
         Spectrum in place of the pistons' own amplitudes; no torque follows from it.
     """
@@ -143,7 +144,7 @@ def terms(
                 table,
                 np.stack([each[name].values for each in sampled]),
                 q,
-                own and own[name].values,
+                None if own is None else own[name].values,
             )
             for name, table in sampled[0].items()
         }
@@ -332,7 +333,7 @@ def _parts(values: Real, digits: int) -> list[list[float]]:
 def _orders(
     engine: Engine, ratios: RodRatios, pairs: Sequence[tuple[int, complex]] | None
 ) -> list[int]:
-    """Return the orders of cylinders, or of a spectrum, of what turns with cranks, and of shafts."""
+    """Return the orders of cylinders or of a spectrum, of their cranks, and of shafts."""
     speeds = _speeds(engine)
     turning = {*speeds, *(abs(shaft.ratio) for shaft in engine.shafts)}
     if pairs is not None:
@@ -365,7 +366,10 @@ def _roll(part: _core.Balance) -> Complex:
 def _cylinders(engine: Engine, ratio: float | None) -> _core.Engine:
     """Return the cylinders of an engine, and nothing else of it, at a rod ratio or their own."""
     core = engine_core(engine)
-    parts = [(r, l if ratio is None else r / ratio, *rest) for r, l, *rest in core.cylinders]
+    parts = [
+        (radius, length if ratio is None else radius / ratio, mass, offset, inertia)
+        for radius, length, mass, offset, inertia in core.cylinders
+    ]
     tdc, bank = core.exact_angles
     z, rotating = core.z.tolist(), core.rotating_mass.tolist()
     return _core.Engine.from_lists(parts, tdc, None, bank, None, z, rotating, core.cranks)
@@ -380,7 +384,7 @@ def _mean_inertia(core: _core.Engine) -> float:
 
 
 def _sizes(engine: Engine) -> dict[str, float]:
-    """Return what the cylinders make one by one: of inertia over the square of speed, and of gas."""
+    """Return what the cylinders make one by one: inertia over the square of speed, and gas."""
     cranks, crank_of = engine_core(engine).cranks
     speeds = sorted(_speeds(engine))
     core = engine_core(engine).without_cycles()
