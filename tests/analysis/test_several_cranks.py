@@ -416,3 +416,118 @@ def test_a_square_four_is_proved() -> None:
     # Roll torques cancel on the block, and add up on the crank.
     assert balance.crank_torque[2].peak > 0.0
     assert str(square.closed_form(2, quantity="force"))
+
+
+# --- bearings -------------------------------------------------------------------------------------
+
+
+def as_complex(vectors: NDArray[np.float64]) -> NDArray[np.complex128]:
+    return np.asarray(vectors[..., 0] + 1j * vectors[..., 1])
+
+
+ANGLES = np.arange(-30.0, 720.0, 7.3)
+
+
+@pytest.mark.parametrize("make", [random_engine, fired_engine])
+@pytest.mark.parametrize("seed", SEEDS)
+def test_loads_of_bearings_and_walls_are_the_waveform(
+    seed: int, make: Callable[[int], cp.Engine]
+) -> None:
+    engine = make(seed).replace(reference_z=0.0)
+    loads = cp.bearing_loads(engine, RPM, ANGLES)
+    cranks, crank_of = (np.array(each) for each in engine._core.cranks)
+    sense = np.sign(cranks[crank_of, 2])[:, np.newaxis]
+    axis = (cranks[:, 0] + 1j * cranks[:, 1])[:, np.newaxis]
+    bore = np.exp(1j * np.deg2rad(engine.bank_deg))[:, np.newaxis]
+    mains = as_complex(loads.main)
+    pushed = bore * (loads.gas_force - 1j * sense * loads.side_thrust)
+    speed = np.abs(cranks[crank_of, 2])
+    height = np.array(
+        [
+            cylinder.position(ratio * (ANGLES - tdc))
+            for cylinder, ratio, tdc in zip(engine.cylinders, speed, engine.tdc_deg, strict=True)
+        ]
+    )
+    offset = np.array([each.pin_offset for each in engine.cylinders])[:, np.newaxis]
+    at = axis[crank_of] + bore * (height + 1j * sense * offset)
+    force = mains.sum(axis=0) + pushed.sum(axis=0)
+    moment = 1j * (loads.main_z @ mains + engine.z @ pushed)
+    roll = (axis[loads.main_crank].conj() * mains).imag.sum(axis=0)
+    roll = roll + (at.conj() * pushed).imag.sum(axis=0)
+    for shaft in engine.shafts:
+        for each in shaft.unbalances:
+            angle = np.deg2rad(shaft.ratio * ANGLES + float(each.angle_deg))
+            turning = each.amount * (shaft.ratio * np.pi * RPM / 30.0) ** 2 * np.exp(1j * angle)
+            force, moment = force + turning, moment + 1j * each.z * turning
+            roll = roll + (complex(shaft.x, -shaft.y) * turning).imag
+    shaken = engine.waveform(RPM, theta_deg=ANGLES)
+    whole = size(engine, RPM) + 4.0 * np.abs(loads.gas_force).max()
+    for found, expected in (
+        (force, as_complex(shaken.force)),
+        (moment, as_complex(shaken.moment)),
+        (roll, shaken.torque),
+    ):
+        assert np.abs(found - expected).max() <= ROUNDING * whole
+    radii = np.array([each.crank_radius for each in engine.cylinders])
+    turned = (speed * radii) @ loads.turned("crankpin", "crank")[..., 1]
+    assert np.abs(turned - shaken.crank_torque).max() <= ROUNDING * whole
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_each_crank_is_loaded_as_that_of_an_engine_of_its_own(seed: int) -> None:
+    """Faster by its ratio; one that turns against the main crank seen in a mirror."""
+    engine = random_engine(seed)
+    loads = cp.bearing_loads(engine, RPM)
+    rows, crank_of = (np.array(each) for each in engine._core.cranks)
+    for k in set(crank_of.tolist()):
+        own = np.flatnonzero(crank_of == k)
+        speed, is_turned = abs(rows[k, 2]), rows[k, 2] < 0
+        bank = engine.bank_deg[own]
+        alone = cp.Engine.from_lists(
+            [engine.cylinders[i] for i in own],
+            bank_deg=180.0 - bank if is_turned else bank,
+            tdc_deg=speed * engine.tdc_deg[own],
+            z=engine.z[own],
+            rotating_mass=engine.rotating_mass[own],
+            mains=loads.main_z[loads.main_crank == k],
+        ).with_counterweights(
+            each.replace(pin=own.tolist().index(each.pin - 1) + 1)
+            for each in engine.counterweights
+            if each.pin is not None and each.pin - 1 in own
+        )
+        expected = cp.bearing_loads(alone, speed * RPM, speed * loads.theta_deg)
+        mirror = np.array([-1.0 if is_turned else 1.0, 1.0])
+        allowed = ROUNDING * size(engine, RPM)
+        mains = loads.main_crank == k
+        for name, which in (("main", mains), ("crankpin", own), ("wrist_pin", own)):
+            apart = loads.read(name)[which] - mirror * expected.read(name)
+            assert np.abs(apart).max() <= allowed, name
+        for name in ("side_thrust", "rod_force"):
+            assert np.abs(loads.read(name)[own] - expected.read(name)).max() <= allowed, name
+        for name, axes in (("main", "crank"), ("crankpin", "rod"), ("wrist_pin", "crank")):
+            which = mains if name == "main" else own
+            apart = loads.turned(name, axes)[which] - expected.turned(name, axes)
+            assert np.abs(apart).max() <= allowed, (name, axes)
+        np.testing.assert_array_equal(loads.shares[np.ix_(mains, own)], expected.shares)
+        assert not loads.shares[~mains][:, own].any()
+        whole = cp.bearing_loads(alone, speed * RPM)  # of all angles
+        for name, which in (("main", mains), ("crankpin", own), ("side_thrust", own)):
+            # Peaks are found to 1e-9 of themselves.
+            np.testing.assert_allclose(
+                loads.peak(name)[which], whole.peak(name), rtol=1e-8, atol=allowed
+            )
+        for cut in ("shear", "bending"):
+            at = np.searchsorted(loads.z, expected.z)
+            found, alike = (
+                getattr(loads, cut)("crank", crank=k)[at],
+                getattr(expected, cut)("crank"),
+            )
+            apart = found - mirror[:: -1 if cut == "bending" else 1] * alike
+            assert np.abs(apart).max() <= allowed, cut
+
+
+def test_a_crank_that_is_not_there_cannot_be_cut() -> None:
+    loads = cp.bearing_loads(pair(), RPM, [0.0])
+    with pytest.raises(cp.InputError, match="crank = 2: give the index of a crank, 0 to 1"):
+        loads.shear("crank", crank=2)
+    assert loads.frames["mains"].columns[1].values == (0, 0, 1, 1)

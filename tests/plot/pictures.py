@@ -50,6 +50,19 @@ FIRED = cp.Engine.preset("v6-90-odd-fire", cylinder=CYLINDER.replace(bore=0.09))
     cp.Cycle.example()
 )
 
+MOUNTED = cp.Powertrain(
+    cp.Engine.preset("i4", cylinder=CYLINDER.replace(bore=0.09)).with_cycle(cp.Cycle.example()),
+    cp.RigidBody(mass=148, cg=(0.02, 0.07, 0.09), inertia=(8.1, 7.6, 4.9)),
+    [
+        cp.Mount(name, at=at, stiffness=stiffness, tilt_deg=tilt, loss_factor=0.1)
+        for name, at, stiffness, tilt in [
+            ("right", (0.28, 0.0, -0.09), (220e3, 80e3, 80e3), 45),
+            ("left", (-0.28, 0.0, -0.09), (220e3, 80e3, 80e3), 135),
+            ("rear", (0.0, -0.12, 0.55), (100e3, 180e3, 100e3), 0),
+        ]
+    ],
+)
+
 V10S = cp.design(
     10,
     layout="vee",
@@ -178,6 +191,14 @@ PICTURES: dict[str, Callable[..., Any]] = {
         load="crankpin", numbers=[1], axes="rod", **place
     ),
     "bending": lambda **place: LOADED.plot(kind="bending", **place),
+    "mount-modes": MOUNTED.modes().plot,
+    "mount-cuts": lambda **place: (
+        MOUNTED.without(cylinder=3).response(range(500, 6001, 20)).plot(**place)
+    ),
+    "mount-map": lambda **place: (
+        MOUNTED.without(cylinder=3).response(range(500, 6001, 20)).plot(kind="map", **place)
+    ),
+    "mount-spectrum": lambda **place: MOUNTED.response(800).plot(mount="rear", **place),
     "designs": V10S.plot,
     "tolerances": SPREAD.plot,
     "tolerance-shares": lambda **place: SPREAD.plot(kind="shares", **place),

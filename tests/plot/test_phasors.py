@@ -118,6 +118,24 @@ def test_arrows_that_would_cover_each_other_are_moved_aside() -> None:
     assert abs(second - first) > 5.0
 
 
+def test_each_name_is_measured_once_for_its_lane_and_once_for_its_place(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    measured = []
+
+    def measure(ax: object, text: str, font: object) -> float:
+        measured.append(text)
+        return 5.0 * len(text)
+
+    monkeypatch.setattr("crankpin.plot.phasors.points_of", measure)
+    n = 60
+    long = cp.Engine.from_lists(
+        I4.cylinders[0], bank_deg=[90] * n, tdc_deg=[7 * k for k in range(n)], z=range(n)
+    )
+    panels = long.balance(3000).plot(kind="phasors", quantity="force", orders=[1])
+    assert len(measured) <= panels.size * (2 * n + 1)  # one is the comma between names
+
+
 def test_they_need_a_figure() -> None:
     _, ax = plt.subplots()
     with pytest.raises(cp.InputError, match='ax: kind="phasors" has several panels; give figure='):

@@ -180,8 +180,7 @@ class Balance(ByOrder):
         if what in labels.TURNING:
             return core.phasors(quantity, True)[:, int(what == "backward")]
         if what == "peak" and KINDS[quantity].planar:
-            forward, backward = (np.abs(self.read(quantity, each)) for each in labels.TURNING)
-            return np.asarray(forward + backward)
+            return core.peak(quantity)
         if what in ("peak", "peak_xy"):
             return np.asarray(np.abs(self.read(quantity, "phasors")))
         # "zero_bound", "total_peak", "total_peak_xy" and "mean"

@@ -43,7 +43,8 @@ def bearing_loads(engine: Engine, rpm: float, theta_deg: ArrayLike | None = None
     bearing in front of it and the one behind by the lever rule, and one outside the end bearings is
     carried by the two nearest, one of which is pulled. A real crankshaft is continuous, and bends
     over its bearings. The places of the bearings are :attr:`Engine.mains`: those given, or else one
-    between all throws.
+    between all throws. Further cranks have bearings between their throws as well; each turns evenly
+    by a flywheel of its own, and the gears between cranks load no bearing.
 
     Parameters
     ----------
@@ -176,8 +177,21 @@ class BearingLoads(Tabled):
 
     @property
     def main(self) -> NDArray[np.float64]:
-        """Force of the crank on each main bearing along x and y, N: (n_mains, n_theta, 2)."""
+        """Force of the crank on each main bearing along x and y, N: (n_mains, n_theta, 2).
+
+        Where they are is in ``main_z`` and ``main_crank``.
+        """
         return self.read("main")
+
+    @property
+    def main_z(self) -> NDArray[np.float64]:
+        """Places of the main bearings, those of each crank ascending, m: (n_mains,)."""
+        return read_only(np.array([z for _, z in self._core.mains()]))
+
+    @property
+    def main_crank(self) -> NDArray[np.intp]:
+        """Index of the crank of each main bearing, 0 for the main one: (n_mains,)."""
+        return read_only(np.array([crank for crank, _ in self._core.mains()], dtype=np.intp))
 
     @property
     def side_thrust(self) -> NDArray[np.float64]:
@@ -213,9 +227,10 @@ class BearingLoads(Tabled):
             ``"crankpin"``, ``"wrist_pin"`` or ``"main"``.
         axes : {"crank", "rod", "engine"}, default "crank"
             ``"crank"``: along the throw outwards, and a quarter turn ahead in the direction of
-            rotation; of main bearings the throw is that of cylinder 1. This shows where a pin or a
-            journal is loaded. ``"rod"``: along the rod to the wrist pin, and a quarter turn ahead,
-            for the bearings in the rod. ``"engine"``: x and y, as the arrays are.
+            rotation of its crank; of main bearings the throw is that of the first cylinder on their
+            crank. This shows where a pin or a journal is loaded. ``"rod"``: along the rod to the
+            wrist pin, and a quarter turn ahead, for the bearings in the rod. ``"engine"``: x and y,
+            as the arrays are.
 
         Returns
         -------
@@ -361,7 +376,7 @@ class BearingLoads(Tabled):
         """
         return read_only(np.array(self._core.places()))
 
-    def shear(self, part: str = "crankcase") -> NDArray[np.float64]:
+    def shear(self, part: str = "crankcase", *, crank: int = 0) -> NDArray[np.float64]:
         """Return the sum of the loads on a part up to each place of ``z`` and at it, N.
 
         Along x and y, of shape (n_places, n_theta, 2).
@@ -373,6 +388,8 @@ class BearingLoads(Tabled):
             ``"crankcase"``: loaded by main bearings, walls, heads and balance shafts. What holds it
             (mounts, its own inertia) is not computed: past the last load its shear is the shaking
             force.
+        crank : int, default 0
+            Index of the crank that is cut; 0 is the main one.
 
         Returns
         -------
@@ -382,11 +399,11 @@ class BearingLoads(Tabled):
         Raises
         ------
         InputError
-            If there is no such part.
+            If there is no such part or crank.
         """
-        return self._sections(part)[0]
+        return self._sections(part, crank)[0]
 
-    def bending(self, part: str = "crankcase") -> NDArray[np.float64]:
+    def bending(self, part: str = "crankcase", *, crank: int = 0) -> NDArray[np.float64]:
         """Return the moment about each place of ``z`` of the loads on a part in front of it, N·m.
 
         About x and y, of shape (n_places, n_theta, 2). That of the crank is zero at main bearings,
@@ -397,6 +414,8 @@ class BearingLoads(Tabled):
         ----------
         part : {"crank", "crankcase"}, default "crankcase"
             ``"crank"`` or ``"crankcase"``, as of :meth:`shear`.
+        crank : int, default 0
+            Index of the crank that is cut, as of :meth:`shear`.
 
         Returns
         -------
@@ -406,7 +425,7 @@ class BearingLoads(Tabled):
         Raises
         ------
         InputError
-            If there is no such part.
+            If there is no such part or crank.
 
         Examples
         --------
@@ -423,14 +442,14 @@ class BearingLoads(Tabled):
         >>> round(couple / (0.5 * 0.05 * (2 * 3.141592653589793 * 100) ** 2 * 0.1), 6)
         1.0
         """
-        return self._sections(part)[1]
+        return self._sections(part, crank)[1]
 
-    def _sections(self, part: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        name = inputs.one_of("part", part, PARTS)
+    def _sections(self, part: str, crank: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        cut = (inputs.one_of("part", part, PARTS), inputs.whole("crank", crank, 0))
         kept = self.__dict__.setdefault("_cut", {})
-        if name not in kept:
-            kept[name] = self._core.sections(name, self.theta_deg)
-        return kept[name]  # type: ignore[no-any-return]
+        if cut not in kept:
+            kept[cut] = self._core.sections(*cut, self.theta_deg)
+        return kept[cut]  # type: ignore[no-any-return]
 
     # --- tables and pictures ---------------------------------------------------------------------
 
@@ -531,11 +550,13 @@ class BearingLoads(Tabled):
 
     def _of_mains(self) -> Table:
         loads = {"largest": self.peak("main"), "mean": self.mean("main")}
+        cranks = Column("crank", tuple(self.main_crank.tolist()))
         return Table(
             "Main bearings, which share the loads between them by the lever rule",
             (
                 _counted("main", len(self.main)),
-                Column("z", tuple(self.engine.mains.tolist()), "m"),
+                *([cranks] if self.main_crank.any() else ()),
+                Column("z", tuple(self.main_z.tolist()), "m"),
                 *(Column(name, tuple(each.tolist()), "N") for name, each in loads.items()),
             ),
             loads=self.loads_counted,

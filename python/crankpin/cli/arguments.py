@@ -201,7 +201,7 @@ OPTIONS: dict[str, dict[str, Any]] = {
 
 OPPOSITES = {"gauge": "absolute"}
 """Argument of the library that may be False → the option that says so."""
-RENAMED = {"path": "out", "to_crankpin": "rod_centre"}
+RENAMED = {"path": "out", "to_crankpin": "rod_centre", "cylinder": "misfire"}
 """Argument of the library → the option of a command that has it under another name."""
 
 

@@ -13,6 +13,7 @@ from crankpin.plot import (  # noqa: F401 - they register their pictures
     cycle,
     engine,
     firing,
+    mounts,
     phasors,
     ranking,
     sweep,

@@ -120,23 +120,26 @@ def bending(
     label: str | None = None,
     **style: object,
 ) -> Axes:
-    """Draw the largest bending moments along z, with the main bearings."""
+    """Draw the largest bending moments along z, of each crank, with the main bearings."""
     parts = PARTS if part is None else (inputs.one_of("part", part, PARTS),)
+    cranks = sorted(set(result.main_crank.tolist()))
+    cuts = [(each, k) for each in parts for k in (cranks if each == "crank" else cranks[:1])]
     reject_figure(figure, "bending")
     ax = axes_or_new(ax)
     first = not count_series(ax)
     what = f"largest bending moment at {len(result.theta_deg)} crank angles"
     set_title(ax, *_titles(result, what))
-    for each, look in zip(parts, series(ax, len(parts), style), strict=True):
-        moments = result.bending(each)
+    for (each, k), look in zip(cuts, series(ax, len(cuts), style), strict=True):
+        moments = result.bending(each, crank=k)
         largest = np.hypot(moments[..., 0], moments[..., 1]).max(axis=1, initial=0.0)
-        name = ", ".join(filter(None, [label, each if label is None or part is None else ""]))
+        cut = f"crank {k}" if each == "crank" and len(cranks) > 1 else each
+        name = ", ".join(filter(None, [label, cut if label is None or len(cuts) > 1 else ""]))
         ax.plot(result.z, largest, gid=SERIES, label=name, **look)
     ends = [float(np.max(line.get_ydata())) for line in ax.lines if line.get_gid() == SERIES]
     from_zero(ax, max(ends, default=0.0))
     if first:
         look = {"color": muted(ax, 0.5), "linewidth": 0.8, "zorder": 1, "gid": "crankpin mains"}
-        ax.vlines(result.engine.mains, 0.0, 1.0, transform=ax.get_xaxis_transform(), **look)
+        ax.vlines(result.main_z, 0.0, 1.0, transform=ax.get_xaxis_transform(), **look)
     span(ax, result.z)
     numeric(ax.xaxis)
     numeric(ax.yaxis)

@@ -163,17 +163,19 @@ def _name(ax: Axes, names: Sequence[tuple[str, complex, complex]]) -> None:
     font = FontProperties(size="small")
     # The layout will make the axes smaller than they are.
     scale = 0.8 * 72.0 * inches_of(ax) / float(np.ptp(ax.get_xlim()))
-    written: list[tuple[list[str], complex, complex]] = []
+    between = points_of(ax, ", ", font)
+    written: list[tuple[list[str], float, complex, complex]] = []
     for text, place, aside in names:
-        for texts, other, apart in written:
+        length = points_of(ax, text, font)
+        for k, (texts, before, other, apart) in enumerate(written):
+            width = before + between + length
             gap = scale * (place - other) + aside - apart
-            width = points_of(ax, ", ".join([*texts, text]), font)
             if abs(gap.real) < 0.6 * width and abs(gap.imag) < font.get_size_in_points():
-                texts.append(text)
+                written[k] = ([*texts, text], width, other, apart)
                 break
         else:
-            written.append(([text], place, aside))
-    for texts, place, aside in written:
+            written.append(([text], length, place, aside))
+    for texts, _, place, aside in written:
         write(ax, ", ".join(texts), place, aside)
 
 

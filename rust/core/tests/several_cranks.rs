@@ -83,10 +83,10 @@ fn cylinders_on_two_cranks_share_no_crankpin_nor_throw() {
     assert_eq!(pins(&engine), [(0, vec![0, 1])]);
     assert_eq!(pins(&apart), [(0, vec![0]), (1, vec![1])]);
     // Throws and bearings along the main crank are of what is on it.
-    assert_eq!(apart.throw_places().len(), 1);
-    assert_eq!(apart.throw_places()[0].cylinders, [0]);
+    assert_eq!(apart.throw_places(0).len(), 1);
+    assert_eq!(apart.throw_places(0)[0].cylinders, [0]);
     let none = engine.with_cranks(vec![Crank::MAIN, beside], vec![1, 1]).unwrap();
-    assert!(none.throw_places().is_empty() && none.bearings().is_empty());
+    assert!(none.throw_places(0).is_empty() && none.bearings(0).is_empty());
 }
 
 #[test]

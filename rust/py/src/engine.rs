@@ -380,7 +380,7 @@ impl Engine {
     /// Places of main bearings, given or by default.
     #[getter]
     fn bearings(&self) -> Vec<f64> {
-        self.0.bearings()
+        self.0.bearings(0)
     }
 
     /// Crankpins from front to flywheel, those of one throw a list.

@@ -84,14 +84,21 @@ impl Internal {
         frozen(py, found)
     }
 
-    /// Shear and bending of crank or crankcase.
+    /// Index of the crank and place of each main bearing.
+    fn mains(&self) -> Vec<(usize, f64)> {
+        self.0.mains().iter().map(|main| (main.crank, main.z)).collect()
+    }
+
+    /// Shear and bending of a crank, by its index, or of the crankcase.
     fn sections<'py>(
         &self,
         py: Python<'py>,
         part: &str,
+        crank: usize,
         theta_deg: PyReadonlyArray1<'py, f64>,
     ) -> PyResult<(Bound<'py, PyArray3<f64>>, Bound<'py, PyArray3<f64>>)> {
-        let part = choice("part", part, &[("crank", Part::Crank), ("crankcase", Part::Crankcase)])?;
+        let part =
+            choice("part", part, &[("crank", Part::Crank(crank)), ("crankcase", Part::Crankcase)])?;
         let thetas = theta_deg.as_slice()?;
         let found = interrupt::run(py, |cancel| self.0.sections(part, thetas, cancel))?;
         let Sections { shear, bending } = found;

@@ -10,8 +10,10 @@ from crankpin._support import labels
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
+from crankpin.analysis.drawing import draw
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
     from crankpin.analysis.mounts.powertrain import Powertrain
@@ -145,6 +147,30 @@ class MountModes(Tabled):
     def frames(self) -> Frames:
         """``table``; ``strain``: shares of the mounts in the elastic energy of each mode."""
         return self._frames(strain=self._of_mounts)
+
+    def plot(self, ax: Axes | None = None, **options: object) -> Axes:
+        """Draw the kinetic energy of each mode by coordinate; return the axes.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on; by default new ones.
+        **options : dict, optional
+            ``cmap`` and other properties of matplotlib images.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes: a row for each mode, its frequency beside it; entries below zero are hatched.
+
+        Raises
+        ------
+        InputError
+            If an option is unknown.
+        ImportError
+            If matplotlib is not installed.
+        """
+        return draw(self, ax, **options)  # type: ignore[no-any-return]
 
     def _of_mounts(self) -> Table:
         columns = self._by_mode()

@@ -13,6 +13,7 @@ from crankpin._support.frames import Frames, Tabled
 from crankpin._support.record import Record, changed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import mean_piston_speed
+from crankpin.analysis.drawing import draw
 from crankpin.analysis.mounts.vectors import Source, VectorQuantity
 from crankpin.analysis.quantity import ALL, Key, Keyed, order_key
 from crankpin.analysis.request import Request, check_request
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     import xarray as xr
+    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin import _core
@@ -51,7 +53,7 @@ def response(
     return found
 
 
-class PointMotion(Record):
+class PointMotion(Tabled):
     """Motion of a point of the powertrain.
 
     Made by :meth:`MountResponse.at`.
@@ -68,9 +70,6 @@ class PointMotion(Record):
         words = f"{name} of the point {self.point}"
         source = ("at", self.point, name)
         return VectorQuantity(self.result, source, words, MOTIONS[name], self.order)
-
-    def __repr__(self) -> str:
-        return f"<PointMotion of {self.point} m{_which(self.order)}, {self.result.loads_counted}>"
 
     @property
     def displacement(self) -> VectorQuantity:
@@ -100,6 +99,45 @@ class PointMotion(Record):
             raise InputError(f"order = {self.order}: grade is that of all orders together")
         grades = self.result._by_speed(self.result._core.grades(list(self.point)))
         return grades if grades.ndim else float(grades)
+
+    @property
+    def loads_counted(self) -> str:
+        """Gas pressure that counts, in words: as :attr:`Engine.loads_counted`."""
+        return self.result.loads_counted
+
+    @property
+    def table(self) -> Table:
+        """Rms values of displacement, velocity and acceleration, and the severity grade.
+
+        By order at one speed, else of all orders together at each speed.
+        """
+        result, order, note = self.result, self.order, ""
+        whole = result.dims or order is not None
+        if result.dims:
+            columns = [Column("rpm", tuple(np.asarray(result.rpm).tolist()), digits=10)]
+            order = ALL if order is None else order
+        elif whole:
+            columns = [Column("order", (order,))]
+        else:
+            places, note = result._shown()
+            columns = [Column("order", (*(result.orders[k] for k in places), ALL))]
+        for name, unit in MOTIONS.items():
+            moved: VectorQuantity = getattr(self, name)
+            if whole:
+                values = np.atleast_1d(moved[order].rms)
+            else:
+                values = np.append(np.asarray(moved.rms)[places], moved.total.rms)
+            columns.append(Column(f"{name} rms", tuple(values.tolist()), unit))
+        if self.order in (None, ALL):
+            grades = np.atleast_1d(self.grade).tolist()
+            columns.append(
+                Column("grade", (*[None] * (len(columns[0].values) - len(grades)), *grades))
+            )
+        which = "" if order in (None, ALL) else f", order {order}"
+        title = result._title(f"motion of the point {self.point} m{which}")
+        return Table(
+            title, tuple(columns), f"{note} Grade: {SCOPE}".strip(), loads=self.loads_counted
+        )
 
 
 def _which(order: Key) -> str:
@@ -341,8 +379,8 @@ class MountResponse(MountQuantities, Keyed, Tabled):
     def transmissibility(self) -> NDArray[np.float64]:
         """Load on what carries the mounts over that of the engine, of each component.
 
-        |support_load|/|load|, NaN where the engine has no load in that direction: there mounts make
-        some of loads in others. Of shape (…, n_orders, n_loads).
+        Magnitude of ``support_load`` over that of ``load``, NaN where the engine has no load in
+        that direction: there mounts make some of loads in others. Of shape (…, n_orders, n_loads).
         """
         load = np.abs(self.load)
         ratio = np.full(load.shape, np.nan)
@@ -475,6 +513,61 @@ class MountResponse(MountQuantities, Keyed, Tabled):
     def frames(self) -> Frames:
         """``table``; at one speed ``loads``: those of the engine, on the body, and their ratio."""
         return self._frames() if self.dims else self._frames(loads=self._of_loads)
+
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        kind: Literal["cuts", "map", "spectrum"] | None = None,
+        mount: str | None = None,
+        orders: Orders | None = None,
+        **options: object,
+    ) -> Axes:
+        """Draw the force on the body, or of one mount; return the axes.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on; by default new ones.
+        kind : {"cuts", "map", "spectrum"}, optional
+            ``"cuts"``, the default of several speeds: the longest vector of all orders together and
+            of the largest orders over speed; ``"map"``: a row of cells for each order over speed,
+            with the natural frequencies; ``"spectrum"``, that of one speed: peaks along x, y and z
+            over order.
+        mount : str, optional
+            Name of a mount; by default the sum of all.
+        orders : sequence of float, optional
+            Orders that are drawn; by default those given to the response, or else those that are
+            not zero, of ``"cuts"`` the largest.
+        **options : dict, optional
+            ``label``, for a legend of several results on the same axes; colour, line width and
+            other properties of what is drawn.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes.
+
+        Raises
+        ------
+        InputError
+            If there is no such picture of the speeds, or no such mount.
+        ImportError
+            If matplotlib is not installed.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> body = cp.RigidBody(mass=150, cg=(0, 0.06, 0.15), inertia=(7, 8, 4.5))
+        >>> mounts = [
+        ...     cp.Mount(name, at=at, stiffness=2e5, loss_factor=0.1)
+        ...     for name, at in [("a", (0.3, 0, 0)), ("b", (-0.3, 0, 0)), ("c", (0, 0, 0.7))]
+        ... ]
+        >>> r = cp.Powertrain(cp.Engine.preset("i4"), body, mounts).response(rpm=[800, 900, 1000])
+        >>> ax = r.plot(kind="map")
+        >>> ax = r.sel(rpm=900).plot(mount="a")
+        """
+        return draw(self, ax, kind=kind, mount=mount, orders=orders, **options)  # type: ignore[no-any-return]
 
     def _of_loads(self) -> Table:
         places, note = self._shown()

@@ -88,6 +88,26 @@ const NOTHING: f64 = 1e-200;
 const UNBOUNDED: f64 = 1e9;
 
 /// The least weights among those that come nearest to the target.
+///
+/// ```
+/// use crankpin_core::balancing::weights::{Minimise, WeightRequest, least};
+/// use crankpin_core::{Cancel, Complex64};
+///
+/// let request = WeightRequest {
+///     z: &[0.0, 0.3],
+///     reference: 0.0,
+///     length: 0.3,
+///     force: Some(Complex64::new(0.02, 0.0)), // kg·m
+///     moment: Some(Complex64::default()),
+///     bounds: &[f64::INFINITY; 2],
+///     angles: None,
+///     minimise: Minimise::Squares,
+/// };
+/// let fitted = least(&request, &Cancel::new())?;
+/// assert!(fitted.reached);
+/// assert_eq!(fitted.list.len(), 1); // all of it in the plane of reference
+/// # Ok::<(), crankpin_core::Error>(())
+/// ```
 pub fn least(request: &WeightRequest, cancel: &Cancel) -> Result<FittedWeights> {
     let moment = request.moment.map(|moment| -Complex64::i() * moment / request.length);
     let target: Vec<Complex64> = [request.force, moment].into_iter().flatten().collect();
@@ -272,7 +292,8 @@ impl Problem<'_> {
 
     pub fn not_found(&self, which: &str) -> Error {
         let hint = format!(
-            "the {which} weights were not found to nine digits; give fewer planes or angles"
+            "the {which} weights were not found to nine digits; give planes farther apart, or fewer \
+             planes or angles"
         );
         Error::value("planes", format!("{} places", self.bounds.len()), hint)
     }

@@ -21,7 +21,7 @@ pub struct Crankpin {
     pub z: f64,
 }
 
-/// Throws at one place along the main crank.
+/// Throws at one place along a crank.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ThrowPlace {
     /// Place, m.
@@ -82,16 +82,16 @@ impl Engine {
         throws.map(|on| grouped(&on, on_one_pin).into_iter().map(crankpin).collect()).collect()
     }
 
-    /// Places of the throws along the main crank, ascending; those at one place are one.
+    /// Places of the throws along a crank, by its index, ascending; those at one place are one.
     #[must_use]
-    pub fn throw_places(&self) -> Vec<ThrowPlace> {
+    pub fn throw_places(&self, crank: usize) -> Vec<ThrowPlace> {
         let most = SAME_PLACE * self.largest_crank_radius();
         let place = |throw: Vec<Crankpin>| ThrowPlace {
             z: middle(throw.iter().map(|pin| pin.z)),
             cylinders: throw.into_iter().flat_map(|pin| pin.cylinders).collect(),
         };
-        let on_main = self.throws().into_iter().filter(|throw| throw[0].crank == 0);
-        let mut places: Vec<ThrowPlace> = on_main.map(place).collect();
+        let on_crank = self.throws().into_iter().filter(|throw| throw[0].crank == crank);
+        let mut places: Vec<ThrowPlace> = on_crank.map(place).collect();
         places.sort_by(|a, b| a.z.total_cmp(&b.z));
         places.dedup_by(|next, place| {
             let is_same = next.z - place.z <= most;
@@ -103,15 +103,15 @@ impl Engine {
         places
     }
 
-    /// Places of the bearings along the main crank, ascending, m: those given, or else one midway between
-    /// neighbouring throws and one as far beyond the first and the last as the next is from them; none
-    /// where it has no throws.
+    /// Places of the bearings along a crank, by its index, ascending, m: along the main one those given,
+    /// or else one midway between neighbouring throws and one as far beyond the first and the last as the
+    /// next is from them; none where it has no throws.
     #[must_use]
-    pub fn bearings(&self) -> Vec<f64> {
-        if !self.mains().is_empty() {
+    pub fn bearings(&self, crank: usize) -> Vec<f64> {
+        if crank == 0 && !self.mains().is_empty() {
             return self.mains().to_vec();
         }
-        let places: Vec<f64> = self.throw_places().iter().map(|place| place.z).collect();
+        let places: Vec<f64> = self.throw_places(crank).iter().map(|place| place.z).collect();
         let [Some(&first), Some(&last)] = [places.first(), places.last()] else {
             return Vec::new();
         };
@@ -127,7 +127,7 @@ impl Engine {
     /// The bays of the main crank that have throws, from front to flywheel.
     #[must_use]
     pub fn bays(&self) -> Vec<Bay> {
-        let (places, bearings) = (self.throw_places(), self.bearings());
+        let (places, bearings) = (self.throw_places(0), self.bearings(0));
         let bay = |pair: &[f64]| {
             let [front, rear] = [pair[0], pair[1]];
             let between = || places.iter().filter(|place| front < place.z && place.z < rear);
@@ -165,7 +165,7 @@ impl Engine {
     pub(super) fn check_throws_between(&self, mains: &[f64]) -> Result<()> {
         let [front, .., rear] = mains else { return Ok(()) };
         let outside = |z: f64| !(*front < z && z < *rear) || mains.contains(&z);
-        match self.throw_places().into_iter().find(|place| outside(place.z)) {
+        match self.throw_places(0).into_iter().find(|place| outside(place.z)) {
             None => Ok(()),
             Some(place) => {
                 let number = place.cylinders[0] + 1;

@@ -637,7 +637,7 @@ mod tests {
                 let other = Crank { axis: [0.25, -0.125], ratio: -1 };
                 let crank_of = (0..engine.stations().len()).map(|i| i % 2).collect();
                 let engine = engine.with_cranks(vec![Crank::MAIN, other], crank_of).unwrap();
-                let engine = engine.with_mains(engine.bearings()).unwrap();
+                let engine = engine.with_mains(engine.bearings(0)).unwrap();
                 engine.with_counterweights(weights).unwrap().with_shafts(shafts).unwrap()
             },
         )

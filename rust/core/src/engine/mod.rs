@@ -60,6 +60,24 @@ impl Details {
 }
 
 /// Cylinders, in the order of their numbers, on one crankshaft, and the shafts that it drives.
+///
+/// ```
+/// use crankpin_core::layout::Inline;
+/// use crankpin_core::{Angle, Cylinder};
+///
+/// let [up, down] = [0.0, 180.0].map(Angle::from_degrees);
+/// let (up, down) = (up?, down?);
+/// let four = Inline {
+///     throws: vec![up, down, down, up],
+///     spacing: 0.096,
+///     rotating_mass: vec![],
+///     first_tdc: Angle::ZERO,
+/// }
+/// .engine(Cylinder::new(0.043, 0.145, 0.66, 0.0)?)?;
+/// assert_eq!((four.stations().len(), four.banks().is_ok()), (4, false));
+/// assert_eq!(four.throws().len(), 4); // a crankpin each
+/// # Ok::<(), crankpin_core::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Engine {
     name: String,

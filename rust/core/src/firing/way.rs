@@ -10,6 +10,28 @@ use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
 
 /// One way for an engine to fire: cylinders by index from 0.
+///
+/// ```
+/// # let four = crankpin_core::engine::file::from_toml(
+/// #     "schema = 1
+/// #     cylinder = { crank_radius = 0.043, rod_length = 0.145, reciprocating_mass = 0.66 }
+/// #     placements = [
+/// #         { tdc_deg = 0, bank_deg = 90, z = 0 }, { tdc_deg = 180, bank_deg = 90, z = 0.1 },
+/// #         { tdc_deg = 180, bank_deg = 90, z = 0.2 }, { tdc_deg = 0, bank_deg = 90, z = 0.3 },
+/// #     ]",
+/// # )?;
+/// use std::sync::Arc;
+///
+/// use crankpin_core::Firing;
+/// use crankpin_core::layout::Strokes;
+///
+/// // Cylinders 2 and 4 fire in the second turn.
+/// let later = [false, false, true, true];
+/// let firing = Firing::with_later(&Arc::new(four), Strokes::Four, &later)?;
+/// assert_eq!(firing.order(), [0, 1, 3, 2]); // 1-2-4-3, by index
+/// assert!(firing.even());
+/// # Ok::<(), crankpin_core::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Firing {
     engine: Arc<Engine>,

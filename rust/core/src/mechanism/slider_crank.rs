@@ -9,6 +9,18 @@ use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 
 /// The moving parts of one cylinder. Rotating mass belongs to the throw: see [`crate::engine`].
+///
+/// ```
+/// use crankpin_core::Cylinder;
+///
+/// let (crank_radius, rod_length, reciprocating_mass, pin_offset) = (0.043, 0.145, 0.66, 0.0);
+/// let cylinder = Cylinder::new(crank_radius, rod_length, reciprocating_mass, pin_offset)?;
+/// assert_eq!(cylinder.rod_ratio(), 0.043 / 0.145);
+/// // At the top the piston is a crank and a rod away, and accelerates by 1 + λ of r·ω².
+/// let top = cylinder.proportions().motion(0.0, 1.0);
+/// assert!((top.acceleration + 1.0 + cylinder.rod_ratio()).abs() < 1e-15);
+/// # Ok::<(), crankpin_core::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cylinder {
     crank_radius: f64,

@@ -37,6 +37,21 @@ pub type ComplexMatrix6 = nalgebra::Matrix6<Complex64>;
 pub type ComplexVector6 = nalgebra::Vector6<Complex64>;
 
 /// A body on its mounts.
+///
+/// ```
+/// use crankpin_core::mounts::{Mount, MountFigures, Powertrain, RigidBody};
+///
+/// let inertia = [[8.0, 0.0, 0.0], [0.0, 12.0, 0.0], [0.0, 0.0, 6.0]];
+/// let body = RigidBody::new(150.0, [0.0, 0.1, 0.2], inertia, None)?;
+/// let mount = |name: &str, x, z| {
+///     let (at, stiffness) = ([x, 0.0, z], [2e5, 4e5, 2e5]);
+///     Mount::new(MountFigures { name: name.into(), at, stiffness, ..MountFigures::default() })
+/// };
+/// let mounts = vec![mount("left", -0.3, 0.1)?, mount("right", 0.3, 0.1)?, mount("rear", 0.0, 0.6)?];
+/// let powertrain = Powertrain::new(body, mounts)?;
+/// assert_eq!(powertrain.mounts().len(), 3);
+/// # Ok::<(), crankpin_core::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Powertrain {
     body: RigidBody,

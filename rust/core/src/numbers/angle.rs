@@ -32,6 +32,15 @@ const NEAR_MISS: f64 = 1e-5;
 pub const LARGEST_ANGLE: f64 = 1e12;
 
 /// An angle: a reduced fraction of a turn, or a finite double of degrees.
+///
+/// ```
+/// use crankpin_core::Angle;
+///
+/// let seventh: Angle = "360/7".parse()?;
+/// assert_eq!(seventh.times(7), Angle::TURN); // exactly
+/// assert_eq!(Angle::from_degrees(51.4)? + Angle::from_degrees(0.6)?, "52".parse()?);
+/// # Ok::<(), crankpin_core::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Angle(Kind);
 
@@ -350,7 +359,7 @@ impl FromStr for Angle {
     type Err = Error;
 
     /// Degrees, exact: a fraction (`"360/7"`) or a decimal (`"51.4"`). A decimal of more digits than
-    /// [`decimal::parse`] takes stands for what its nearest double stands for, and one within the
+    /// `numbers::decimal` reads stands for what its nearest double stands for, and one within the
     /// rounding of k/N of a turn, N ≤ 1000, that no decimal is, for that: it was printed of one.
     fn from_str(text: &str) -> Result<Self> {
         let wrong = || Error::value("angle", text, "give degrees, such as 90, 51.4 or \"360/7\"");

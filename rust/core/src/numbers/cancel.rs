@@ -12,6 +12,14 @@ use crate::numbers::memory;
 pub const PERIOD: Duration = Duration::from_millis(20);
 
 /// Shared by the calling thread and all threads that compute for it.
+///
+/// ```
+/// use crankpin_core::{Cancel, Error};
+///
+/// let cancel = Cancel::new();
+/// cancel.raise(); // from another thread, or a signal handler
+/// assert_eq!(cancel.check(), Err(Error::Cancelled));
+/// ```
 #[derive(Debug, Default)]
 pub struct Cancel {
     raised: AtomicBool,

@@ -6,6 +6,14 @@ use crate::numbers::error::{Error, Result};
 use crate::numbers::limits::HIGHEST_ORDER;
 
 /// A multiple of crank speed, a whole number of halves above zero.
+///
+/// ```
+/// use crankpin_core::Order;
+///
+/// let half = Order::from_number(0.5)?;
+/// assert_eq!((half.halves(), half.as_whole(), Order::FIRST.as_whole()), (1, None, Some(1)));
+/// # Ok::<(), crankpin_core::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Order(u32);
 

@@ -28,6 +28,22 @@ pub const ATMOSPHERE: f64 = 101_325.0;
 ///
 /// Either a table, interpolated by cubics, or polynomials between edges at which pressure may jump or
 /// bend: the values at their Chebyshev points. Both are kept as they were given.
+///
+/// ```
+/// use crankpin_core::Cycle;
+/// use crankpin_core::pressure::Given;
+///
+/// let cycle = Cycle::new(Given {
+///     name: "two levels".into(),
+///     strokes: 4,
+///     theta_deg: (0..12).map(|k| 60.0 * f64::from(k)).collect(),
+///     pressure: (0..12).map(|k| if k < 3 { 2e6 } else { 1e5 }).collect(),
+///     degree: None,
+/// })?;
+/// assert_eq!(cycle.pressure_deg(60.0), 2e6);
+/// assert_eq!(cycle.pressure_deg(60.0 + 720.0), 2e6);
+/// # Ok::<(), crankpin_core::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Given", into = "Given")]
 pub struct Cycle {

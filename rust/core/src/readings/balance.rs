@@ -203,6 +203,26 @@ pub fn angular_speed(rpm: f64) -> Result<f64> {
 }
 
 /// The balance of an engine.
+///
+/// ```
+/// # let four = crankpin_core::engine::file::from_toml(
+/// #     "schema = 1
+/// #     cylinder = { crank_radius = 0.043, rod_length = 0.145, reciprocating_mass = 0.66 }
+/// #     placements = [
+/// #         { tdc_deg = 0, bank_deg = 90, z = 0 }, { tdc_deg = 180, bank_deg = 90, z = 0.1 },
+/// #         { tdc_deg = 180, bank_deg = 90, z = 0.2 }, { tdc_deg = 0, bank_deg = 90, z = 0.3 },
+/// #     ]",
+/// # )?;
+/// use crankpin_core::balance::{Orders, Request, Vector, balance};
+/// use crankpin_core::Cancel;
+///
+/// let request = Request { rpm: 6000.0, reference_z: None, torque: true };
+/// let found = balance(&four, &request, &Orders::Auto { rtol: 1e-9 }, &Cancel::new())?;
+/// let second = found.planar(Vector::Force, 0); // the first order that remains
+/// assert_eq!((found.orders[0].as_whole(), second.peak().round()), (Some(2), 13595.0)); // N
+/// assert!(found.error_bound.force < 1e-4);
+/// # Ok::<(), crankpin_core::Error>(())
+/// ```
 pub fn balance(
     engine: &Engine,
     request: &Request,

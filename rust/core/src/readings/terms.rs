@@ -18,6 +18,28 @@ use crate::wrench::Wrench;
 ///
 /// Moments are about the plane of the request, and the roll torque about the point `aside`, x and y from
 /// the axis of the main crank, m.
+///
+/// ```
+/// # let four = crankpin_core::engine::file::from_toml(
+/// #     "schema = 1
+/// #     cylinder = { crank_radius = 0.043, rod_length = 0.145, reciprocating_mass = 0.66 }
+/// #     placements = [
+/// #         { tdc_deg = 0, bank_deg = 90, z = 0 }, { tdc_deg = 180, bank_deg = 90, z = 0.1 },
+/// #         { tdc_deg = 180, bank_deg = 90, z = 0.2 }, { tdc_deg = 0, bank_deg = 90, z = 0.3 },
+/// #     ]",
+/// # )?;
+/// use crankpin_core::balance::{Request, Vector};
+/// use crankpin_core::terms::terms;
+/// use crankpin_core::{Cancel, Order};
+///
+/// let request = Request { rpm: 6000.0, reference_z: None, torque: false };
+/// let orders = Order::all_whole(&[1])?;
+/// let parts = terms(&four, &request, [0.0; 2], &orders, &Cancel::new())?;
+/// let forces: Vec<f64> = parts.iter().map(|(_, part)| part.planar(Vector::Force, 0).peak()).collect();
+/// assert_eq!(forces.len(), 4); // of each cylinder, though together they vanish
+/// assert!(forces.iter().all(|force| (force - forces[0]).abs() < 1e-9));
+/// # Ok::<(), crankpin_core::Error>(())
+/// ```
 pub fn terms(
     engine: &Engine,
     request: &Request,

@@ -33,6 +33,25 @@ pub struct Waveform {
 }
 
 /// From exact kinematics at crank angles in degrees.
+///
+/// ```
+/// # let four = crankpin_core::engine::file::from_toml(
+/// #     "schema = 1
+/// #     cylinder = { crank_radius = 0.043, rod_length = 0.145, reciprocating_mass = 0.66 }
+/// #     placements = [
+/// #         { tdc_deg = 0, bank_deg = 90, z = 0 }, { tdc_deg = 180, bank_deg = 90, z = 0.1 },
+/// #         { tdc_deg = 180, bank_deg = 90, z = 0.2 }, { tdc_deg = 0, bank_deg = 90, z = 0.3 },
+/// #     ]",
+/// # )?;
+/// use crankpin_core::balance::Request;
+/// use crankpin_core::{Cancel, waveform};
+///
+/// let request = Request { rpm: 6000.0, reference_z: None, torque: true };
+/// let found = waveform::exact(&four, &request, &[0.0, 45.0, 90.0], &Cancel::new())?;
+/// assert_eq!(found.force.dim(), (3, 2));
+/// assert!(found.force[[0, 1]] > 1e4); // N, upwards with the pistons 1 and 4 at the top
+/// # Ok::<(), crankpin_core::Error>(())
+/// ```
 pub fn exact(
     engine: &Engine,
     request: &Request,

@@ -44,6 +44,16 @@ use crate::numbers::pool;
 use crate::wrench::rounding;
 
 /// All arrangements of one bank, grouped by |Z|.
+///
+/// ```
+/// use crankpin_core::search::{Search, bank};
+/// use crankpin_core::{Cancel, Hold};
+///
+/// let cancel = Cancel::new();
+/// let search = Search::new(bank(6, true, None)?, Hold::Firing, &cancel)?;
+/// assert!(search.qualifying() <= search.candidates());
+/// # Ok::<(), crankpin_core::Error>(())
+/// ```
 #[derive(Debug)]
 pub struct Search {
     moments: Moments,

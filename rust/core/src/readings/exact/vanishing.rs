@@ -360,6 +360,25 @@ fn roots(terms: &[&SymbolTerm]) -> Result<Vec<(i128, i128, i128)>> {
 ///
 /// Half orders are those of gas, and need `firing` unless the engine has cycles; at whole ones gas
 /// does not distinguish the turns.
+///
+/// ```
+/// # let four = crankpin_core::engine::file::from_toml(
+/// #     "schema = 1
+/// #     cylinder = { crank_radius = 0.043, rod_length = 0.145, reciprocating_mass = 0.66 }
+/// #     placements = [
+/// #         { tdc_deg = 0, bank_deg = 90, z = 0 }, { tdc_deg = 180, bank_deg = 90, z = 0.1 },
+/// #         { tdc_deg = 180, bank_deg = 90, z = 0.2 }, { tdc_deg = 0, bank_deg = 90, z = 0.3 },
+/// #     ]",
+/// # )?;
+/// use crankpin_core::exact::vanishing::{ProofQuantity, QUANTITIES, Verdict, vanishing};
+/// use crankpin_core::{Cancel, Order};
+///
+/// let found = vanishing(&four, &Order::all_whole(&[1, 2])?, None, None, &Cancel::new())?;
+/// let vertical = QUANTITIES.iter().position(|&each| each == ProofQuantity::ForceY);
+/// let of = |k: usize| vertical.map(|at| found.verdicts[k][at]);
+/// assert_eq!([of(0), of(1)], [Some(Verdict::Vanishes), Some(Verdict::Remains)]);
+/// # Ok::<(), crankpin_core::Error>(())
+/// ```
 pub fn vanishing(
     engine: &Engine,
     orders: &[Order],

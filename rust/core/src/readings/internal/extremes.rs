@@ -220,7 +220,7 @@ impl Internal {
             let of_rods: Vec<_> = of_rods.collect();
             let edges = edges(of_rods.iter().flat_map(|(_, rod)| rod.edges_deg()), cycle, cancel)?;
             let of = |theta: f64, beside: f64| {
-                let mut sum = carried.turning * cis_degrees(theta);
+                let mut sum = carried.turning * cis_degrees(f64::from(carried.ratio) * theta);
                 for (share, rod) in &of_rods {
                     sum += rod.on_crankpin(&rod.forces_beside(theta, beside)) * *share;
                 }

@@ -1,9 +1,9 @@
 //! Loads inside an engine: what rods, wrist pins, cylinder walls and main bearings carry, and the
 //! shear and bending of crank and crankcase along z.
 //!
-//! A crank is statically determinate between neighbouring main bearings: each load of it is shared by
-//! the bearing in front of it and the one behind by the lever rule, and one outside the end bearings
-//! is carried by the two nearest, one of which is pulled.
+//! A crank is statically determinate between neighbouring main bearings of its own: each load of it is
+//! shared by the bearing in front of it and the one behind by the lever rule, and one outside the end
+//! bearings is carried by the two nearest, one of which is pulled. Gears between cranks load nothing.
 
 mod extremes;
 mod rod;
@@ -18,13 +18,12 @@ pub use self::rod::TurningAxes;
 use self::rod::{DrivenRod, RodColumns};
 pub use self::sections::{Part, Sections};
 use crate::Complex64;
-use crate::engine::Engine;
+use crate::engine::{Engine, Origin};
 use crate::load::kinematics::{BLOCK, Units};
 use crate::load::{Load, Loads};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, check, parts};
 use crate::numbers::error::{Error, Result};
-use crate::numbers::order::Order;
 use crate::numbers::simd::vectorised;
 use crate::numbers::{limits, memory, pool};
 use crate::readings::balance::angular_speed;
@@ -34,13 +33,43 @@ use crate::wrench::rounding;
 const MOST_SHARE: f64 = 1e6;
 
 /// An engine at a speed, for the loads inside it.
+///
+/// ```
+/// # let four = crankpin_core::engine::file::from_toml(
+/// #     "schema = 1
+/// #     cylinder = { crank_radius = 0.043, rod_length = 0.145, reciprocating_mass = 0.66 }
+/// #     placements = [
+/// #         { tdc_deg = 0, bank_deg = 90, z = 0 }, { tdc_deg = 180, bank_deg = 90, z = 0.1 },
+/// #         { tdc_deg = 180, bank_deg = 90, z = 0.2 }, { tdc_deg = 0, bank_deg = 90, z = 0.3 },
+/// #     ]",
+/// # )?;
+/// use crankpin_core::Cancel;
+/// use crankpin_core::internal::Internal;
+///
+/// let engine = Internal::new(&four, 6000.0)?;
+/// let loads = engine.loads(&[0.0, 90.0, 180.0], &Cancel::new())?;
+/// assert_eq!(loads.main.dim(), (5, 3, 2)); // a bearing beside each throw
+/// assert!(loads.main[[2, 0, 1]].abs() > loads.main[[0, 0, 1]].abs()); // the middle one has two throws
+/// # Ok::<(), crankpin_core::Error>(())
+/// ```
 pub struct Internal {
     rods: Vec<DrivenRod>,
-    /// On the crank besides the forces of rods on its pins.
-    on_crank: Vec<Turning>,
+    /// On each crank besides the forces of rods on its pins.
+    on_cranks: Vec<Vec<Turning>>,
     on_shafts: Vec<Turning>,
-    /// Places of the main bearings, ascending, m.
-    mains: Vec<f64>,
+    /// Main bearings by crank, those of one by place.
+    mains: Vec<MainBearing>,
+    /// Speed of each crank over that of the main one, negative where it turns the other way.
+    ratios: Vec<i32>,
+}
+
+/// A bearing of a crank in the crankcase.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MainBearing {
+    /// Index of its crank.
+    pub crank: usize,
+    /// Place along it, m.
+    pub z: f64,
 }
 
 /// Loads of bearings and walls at given crank angles, N; vectors along x and y, fixed in the engine.
@@ -95,8 +124,10 @@ impl Turning {
 struct Carried {
     /// Shares of the loads of crankpins, and numbers of their rods.
     rods: Vec<(f64, usize)>,
-    /// What turns with the crank, at θ = 0.
+    /// What turns with its crank, at θ = 0.
     turning: Complex64,
+    /// Speed of its crank.
+    ratio: i32,
     /// Forces up to this are rounding.
     bound: f64,
 }
@@ -104,47 +135,85 @@ struct Carried {
 impl Internal {
     /// Of an engine, on its main bearings.
     pub fn new(engine: &Engine, rpm: f64) -> Result<Self> {
-        engine.check_one_crank("bearing_loads")?;
         if engine.spectrum().is_some() {
             let hint = "bearing loads need the slider-crank; leave out the spectrum";
             return Err(Error::value("spectrum", "given", hint));
         }
         let omega = angular_speed(rpm)?;
         let square = omega * omega;
-        let loads = Loads::new(engine, 0.0);
-        let (pistons, turn) = loads.list.split_at(engine.stations().len());
-        let (of_crank, of_shafts) = turn.split_at(engine.crank_unbalances().count());
-        let all = |loads: &[Load]| {
-            let unbalances = loads.iter().filter(|load| load.is_turning());
-            unbalances.map(|load| Turning::new(load, square)).collect()
-        };
+        let cranks = 0..engine.cranks().len();
+        let of_crank =
+            |crank| engine.bearings(crank).into_iter().map(move |z| MainBearing { crank, z });
         let mut found = Self {
             rods: Vec::new(),
-            on_crank: all(of_crank),
-            on_shafts: all(of_shafts),
-            mains: engine.bearings(),
+            on_cranks: cranks.clone().map(|_| Vec::new()).collect(),
+            on_shafts: Vec::new(),
+            mains: cranks.flat_map(of_crank).collect(),
+            ratios: engine.cranks().iter().map(|crank| crank.ratio).collect(),
         };
-        for (i, load) in pistons.iter().enumerate() {
-            let rod = DrivenRod::new(engine, i, load, square)?;
+        for load in Loads::new(engine, 0.0).list.iter().filter(|load| load.is_turning()) {
+            let crank = match load.place.origin {
+                Origin::Cylinder(i) => Some(engine.crank_of(i)),
+                Origin::Counterweight(k) => {
+                    Some(engine.counterweights()[k].pin.map_or(0, |i| engine.crank_of(i)))
+                }
+                Origin::Shaft(_) => None,
+            };
+            let on = crank.map_or(&mut found.on_shafts, |crank| &mut found.on_cranks[crank]);
+            on.push(Turning::new(load, square));
+        }
+        for i in 0..engine.stations().len() {
+            let rod = DrivenRod::new(engine, i, square)?;
             // What the crankpin gets from the rod is part of the rotating mass.
-            let at_start = load.place.unit * load.place.phase.cis(-1) * -rod.rotating;
-            found.on_crank.push(Turning { z: load.place.z, ratio: 1, at_start });
+            let at_start = rod.at_start(-rod.rotating);
+            found.on_cranks[rod.crank].push(Turning { z: rod.z, ratio: rod.ratio, at_start });
             found.rods.push(rod);
         }
-        let far = |z: &f64| found.levers(*z).iter().any(|(_, share)| share.abs() > MOST_SHARE);
-        if let Some(z) = found.places().into_iter().find(far) {
-            let hint = format!("the load at z = {z:e} is too far from them for the lever rule");
-            return Err(Error::value("mains", format!("{:?}", found.mains), hint));
-        }
+        found.check_levers()?;
         Ok(found)
+    }
+
+    /// Rejects loads too far from the bearings of their crank, or on a crank without any.
+    fn check_levers(&self) -> Result<()> {
+        for (crank, turning) in self.on_cranks.iter().enumerate() {
+            let rods = self.rods.iter().filter(|rod| rod.crank == crank).map(|rod| rod.z);
+            for z in rods.chain(turning.iter().map(|load| load.z)) {
+                let levers = self.levers(crank, z);
+                if levers.is_empty() {
+                    let reason = format!("crank {} has no throws, hence no bearings", crank + 1);
+                    return Err(Error::Undefined { argument: "bearing_loads", reason });
+                }
+                if levers.iter().any(|(_, share)| share.abs() > MOST_SHARE) {
+                    let hint =
+                        format!("the load at z = {z:e} is too far from them for the lever rule");
+                    let mains: Vec<f64> =
+                        self.mains_of(crank).1.iter().map(|main| main.z).collect();
+                    return Err(Error::value("mains", format!("{mains:?}"), hint));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The main bearings, by crank and place.
+    #[must_use]
+    pub fn mains(&self) -> &[MainBearing] {
+        &self.mains
+    }
+
+    /// Number of the first main bearing of a crank, and all of them.
+    fn mains_of(&self, crank: usize) -> (usize, &[MainBearing]) {
+        let first = self.mains.partition_point(|main| main.crank < crank);
+        let behind = self.mains.partition_point(|main| main.crank <= crank);
+        (first, &self.mains[first..behind])
     }
 
     /// Places of loads and main bearings along z, ascending, m.
     #[must_use]
     pub fn places(&self) -> Vec<f64> {
-        let turning = self.on_crank.iter().chain(&self.on_shafts).map(|load| load.z);
+        let turning = self.on_cranks.iter().flatten().chain(&self.on_shafts).map(|load| load.z);
         let loads = self.rods.iter().map(|rod| rod.z).chain(turning);
-        let mut places: Vec<f64> = loads.chain(self.mains.iter().copied()).collect();
+        let mut places: Vec<f64> = loads.chain(self.mains.iter().map(|main| main.z)).collect();
         places.sort_unstable_by(f64::total_cmp);
         places.dedup();
         places
@@ -156,7 +225,7 @@ impl Internal {
     pub fn shares(&self) -> Array2<f64> {
         let mut shares = Array2::zeros((self.mains.len(), self.rods.len()));
         for (i, rod) in self.rods.iter().enumerate() {
-            for (main, share) in self.levers(rod.z) {
+            for (main, share) in self.levers(rod.crank, rod.z) {
                 shares[[main, i]] += share;
             }
         }
@@ -176,7 +245,7 @@ impl Internal {
             rod: scalars(rods, count)?,
             gas: scalars(rods, count)?,
         };
-        let blocks = blocks(theta_deg, cancel)?;
+        let blocks = self.blocks(theta_deg, cancel)?;
         let vectors = found.crankpin.outer_iter_mut().zip(found.wrist_pin.outer_iter_mut());
         let scalars = found.side_thrust.outer_iter_mut().zip(found.rod.outer_iter_mut());
         let rows = vectors.zip(scalars).zip(found.gas.outer_iter_mut()).enumerate();
@@ -185,7 +254,7 @@ impl Internal {
         });
         pool::each(cancel, rows.collect(), 2 * rods * count, |(i, mut vectors, mut scalars)| {
             let mut columns = RodColumns::ZERO;
-            for (range, units) in &blocks {
+            for (range, units) in blocks_at(&blocks, self.rods[i].ratio) {
                 cancel.check()?;
                 columns.set_gas(&self.rods[i], &theta_deg[range.clone()]);
                 vectorised(
@@ -208,11 +277,11 @@ impl Internal {
         })?;
         let rows = found.main.outer_iter_mut().map(slice).enumerate().collect();
         pool::each(cancel, rows, mains * count, |(main, row)| {
-            let Carried { rods, turning, bound } = self.carried(main);
+            let Carried { rods, turning, ratio, bound } = self.carried(main);
             let row_of = |i: usize| found.crankpin.index_axis(Axis(0), i).to_slice();
             let carried = rods.iter().filter_map(|&(share, i)| Some((share, row_of(i)?)));
             let carried: Vec<_> = carried.collect();
-            for (range, units) in &blocks {
+            for (range, units) in blocks_at(&blocks, ratio) {
                 cancel.check()?;
                 let (start, end) = (2 * range.start, 2 * range.end);
                 let row = &mut row[start..end];
@@ -223,6 +292,7 @@ impl Internal {
                 }
                 let units = units.cos.iter().zip(&units.sin[..]);
                 for (pair, (cos, sin)) in row.chunks_exact_mut(2).zip(units) {
+                    let sin = f64::from(ratio.signum()) * sin;
                     pair[0] += turning.re * cos - turning.im * sin;
                     pair[1] += turning.re * sin + turning.im * cos;
                     for part in pair {
@@ -236,7 +306,7 @@ impl Internal {
     }
 
     /// Loads of bearings in axes that turn: (n, `n_theta`, 2). Of main bearings those of the journals,
-    /// on the crank as the first cylinder's crankpin.
+    /// on each crank as its first cylinder's crankpin.
     pub fn turned(
         &self,
         bearing: Bearing,
@@ -250,19 +320,19 @@ impl Internal {
             Bearing::WristPin => (loads.wrist_pin, axes),
             Bearing::Main => (loads.main, TurningAxes::Crank),
         };
-        let (blocks, numbers) = (blocks(theta_deg, cancel)?, vectors.len());
+        let (blocks, numbers) = (self.blocks(theta_deg, cancel)?, vectors.len());
         let rows = vectors.outer_iter_mut().map(slice).enumerate().collect();
         pool::each(cancel, rows, numbers, |(row, values)| {
-            let rod = &self.rods[if bearing == Bearing::Main { 0 } else { row }];
-            for (range, units) in &blocks {
+            let of_main = || self.rods.iter().find(|rod| rod.crank == self.mains[row].crank);
+            let rod = if bearing == Bearing::Main { of_main() } else { self.rods.get(row) };
+            let Some(rod) = rod else { return Ok(()) };
+            for (range, units) in blocks_at(&blocks, rod.ratio) {
                 cancel.check()?;
                 let pairs = values[2 * range.start..2 * range.end].chunks_exact_mut(2);
                 for (k, pair) in pairs.enumerate() {
-                    let axis = rod.axis(&units.crank(rod.phase, k), axes);
-                    // Adding zero makes −0 0.
-                    let seen =
-                        Complex64::new(pair[0], pair[1]) * axis.conj() + Complex64::default();
-                    pair.copy_from_slice(&[seen.re, seen.im]);
+                    let vector = Complex64::new(pair[0], pair[1]);
+                    let seen = rod.seen(vector, &units.crank(rod.phase, k), axes);
+                    pair.copy_from_slice(&seen);
                 }
             }
             Ok(())
@@ -272,37 +342,63 @@ impl Internal {
 
     /// What a main bearing carries.
     fn carried(&self, main: usize) -> Carried {
-        let share = |z: f64| self.levers(z).iter().find(|(j, _)| *j == main).map(|at| at.1);
-        let rods = self.rods.iter().enumerate();
+        let crank = self.mains[main].crank;
+        let share = |z: f64| {
+            let levers = self.levers(crank, z);
+            levers.into_iter().find(|(j, _)| *j == main).map(|(_, share)| share)
+        };
+        let rods = self.rods.iter().enumerate().filter(|(_, rod)| rod.crank == crank);
         let rods: Vec<_> = rods.filter_map(|(i, rod)| Some((share(rod.z)?, i))).collect();
-        let turning = self.on_crank.iter().filter_map(|u| Some(u.at_start * share(u.z)?));
+        let turning = &self.on_cranks[crank];
+        let turning = turning.iter().filter_map(|load| Some(load.at_start * share(load.z)?));
         let turning: Vec<Complex64> = turning.collect();
         let sizes = rods.iter().map(|&(share, i)| share.abs() * self.rods[i].size());
         let sizes = sizes.chain(turning.iter().map(|u| u.norm()));
         // What cancels leaves its rounding.
         let bound = rounding(self.rods.len() + turning.len(), 1.0) * sizes.sum::<f64>();
-        Carried { rods, turning: turning.iter().sum(), bound }
+        Carried { rods, turning: turning.iter().sum(), ratio: self.ratios[crank], bound }
     }
 
-    /// Main bearings that carry a load at some place, and their shares of it.
-    fn levers(&self, z: f64) -> [(usize, f64); 2] {
-        let behind = self.mains.partition_point(|&main| main <= z).clamp(1, self.mains.len() - 1);
-        let [front, rear] = [self.mains[behind - 1], self.mains[behind]];
+    /// Main bearings of a crank that carry a load at some place, and their shares of it.
+    fn levers(&self, crank: usize, z: f64) -> Vec<(usize, f64)> {
+        let (first, mains) = self.mains_of(crank);
+        if mains.is_empty() {
+            return Vec::new();
+        }
+        let behind = mains.partition_point(|main| main.z <= z).clamp(1, mains.len() - 1);
+        let [front, rear] = [mains[behind - 1].z, mains[behind].z];
         let share = (z - front) / (rear - front);
-        [(behind - 1, 1.0 - share), (behind, share)]
+        vec![(first + behind - 1, 1.0 - share), (first + behind, share)]
+    }
+
+    /// `e^{iθ}` of the crank angles at each speed of a crank, in blocks, and where each is in the list.
+    fn blocks(&self, theta_deg: &[f64], cancel: &Cancel) -> Result<Vec<Blocks>> {
+        let mut of_speeds = Vec::<Blocks>::new();
+        for &ratio in &self.ratios {
+            let speed = ratio.unsigned_abs();
+            if of_speeds.iter().any(|(known, _)| *known == speed) {
+                continue;
+            }
+            let ranges = parts(0..theta_deg.len(), BLOCK);
+            let mut blocks = memory::room(ranges.len())?;
+            for range in ranges {
+                cancel.check()?;
+                let angles = CrankAngles::of_checked(&theta_deg[range.clone()]);
+                blocks.push((range, Units::at_speed(&angles, 0..angles.len(), ratio)));
+            }
+            of_speeds.push((speed, blocks));
+        }
+        Ok(of_speeds)
     }
 }
 
-/// `e^{iθ}` of crank angles, in blocks, and where each is in the list.
-fn blocks(theta_deg: &[f64], cancel: &Cancel) -> Result<Vec<(Range<usize>, Units)>> {
-    let ranges = parts(0..theta_deg.len(), BLOCK);
-    let mut blocks = memory::room(ranges.len())?;
-    for range in ranges {
-        cancel.check()?;
-        let angles = CrankAngles::of_checked(&theta_deg[range.clone()]);
-        blocks.push((range, Units::new(&angles, 0..angles.len(), Order::FIRST)));
-    }
-    Ok(blocks)
+/// A speed over that of the main crank, and blocks of crank angles.
+type Blocks = (u32, Vec<(Range<usize>, Units)>);
+
+/// The blocks of a crank's speed.
+fn blocks_at(blocks: &[Blocks], ratio: i32) -> impl Iterator<Item = &(Range<usize>, Units)> {
+    let of_speed = blocks.iter().filter(move |(speed, _)| *speed == ratio.unsigned_abs());
+    of_speed.flat_map(|(_, blocks)| blocks)
 }
 
 /// The numbers of a row.

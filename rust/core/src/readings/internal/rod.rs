@@ -10,12 +10,14 @@
 //! - the wall exerts N on the piston along w, the piston −N on the wall;
 //! - the rod exerts that force on the crankpin, and the centrifugal force of its rotating mass;
 //! - the wrist pin carries G + mₚ·a along u and −N along w.
+//!
+//! w is a quarter turn ahead of u in the sense in which the cylinder's own crank turns.
 
 use std::sync::Arc;
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::Load;
+use crate::load::Place;
 use crate::load::kinematics::{AngleColumn, BLOCK, Units};
 use crate::mechanism::rod::Swing;
 use crate::mechanism::slider_crank::{CrankPosition, Proportions};
@@ -35,10 +37,14 @@ pub enum TurningAxes {
 /// A cylinder's piston and rod at a speed.
 pub(super) struct DrivenRod {
     proportions: Proportions,
-    /// `e^{−i·tdc}`.
+    /// Index of its crank.
+    pub crank: usize,
+    /// Speed of that over the main one's, negative where it turns the other way.
+    pub ratio: i32,
+    /// `e^{−iφ}` of the angle φ of its own crank at top dead centre.
     pub phase: Complex64,
-    /// Unit vector along the bore.
-    pub bore: Complex64,
+    /// Unit vectors along the bore, u, and across it, w.
+    axes: [Complex64; 2],
     pub z: f64,
     /// m·r·ω² of the reciprocating mass, N.
     reciprocating: f64,
@@ -105,19 +111,23 @@ impl DrivenRod {
         self.reciprocating + self.rotating
     }
 
-    /// Of a cylinder of an engine, by its load, at a square of angular speed.
-    pub fn new(engine: &Engine, cylinder: usize, load: &Load, square: f64) -> Result<Self> {
+    /// Of a cylinder of an engine, at a square of angular speed of the main crank.
+    pub fn new(engine: &Engine, cylinder: usize, square: f64) -> Result<Self> {
         let (i, details) = (cylinder, &engine.details()[cylinder]);
-        let cylinder = &engine.stations()[i].cylinder;
+        let (cylinder, place) = (&engine.stations()[i].cylinder, Place::along_bore(engine, i));
         let (radius, length) = (cylinder.crank_radius(), cylinder.rod_length());
         let rotating = details.big_end(length)? * radius;
-        let piston = details.piston_mass.map_or(load.weight, |mass| mass * radius);
+        let piston = details.piston_mass.map_or(cylinder.first_order(), |mass| mass * radius);
+        let square = square * f64::from(place.speed_squared());
+        let ahead = Complex64::new(0.0, f64::from(place.ratio.signum()));
         Ok(Self {
             proportions: cylinder.proportions(),
-            phase: load.place.phase.cis(-1),
-            bore: load.place.unit,
-            z: load.place.z,
-            reciprocating: load.weight * square,
+            crank: engine.crank_of(i),
+            ratio: place.ratio,
+            phase: place.phase.cis(-i64::from(place.ratio.abs())),
+            axes: [place.unit, place.unit * ahead],
+            z: place.z,
+            reciprocating: cylinder.first_order() * square,
             piston: piston * square,
             rotating: rotating * square,
             couple: cylinder.rod_inertia_excess() * square / length,
@@ -127,22 +137,33 @@ impl DrivenRod {
 
     /// Forces at a crank angle, degrees, where pressure has the polynomial that counts at another angle.
     pub fn forces_beside(&self, theta_deg: f64, at: f64) -> RodForces {
-        let unit = cis_degrees(theta_deg) * self.phase;
+        let unit = cis_degrees(theta_deg * f64::from(self.ratio.abs())) * self.phase;
         let gas = self.gas.as_ref().map_or(0.0, |gas| gas.force(theta_deg, at));
         self.forces(&CrankPosition::new(unit.im, unit.re), gas)
     }
 
+    /// A vector along u and w, x + iy.
+    #[inline(always)]
+    pub fn vector(&self, [u, w]: [f64; 2]) -> Complex64 {
+        self.axes[0] * u + self.axes[1] * w
+    }
+
     /// Force on the crankpin, x + iy.
     pub fn on_crankpin(&self, forces: &RodForces) -> Complex64 {
-        let [u, w] = forces.crankpin;
-        self.bore * Complex64::new(u, w)
+        self.vector(forces.crankpin)
+    }
+
+    /// What turns with the crankpin, of a magnitude, along it at θ = 0, x + iy.
+    pub fn at_start(&self, magnitude: f64) -> Complex64 {
+        self.vector([self.phase.re * magnitude, self.phase.im * magnitude])
     }
 
     /// Crank angles at which its pressure may jump or bend, and those at which the rod leans most, where
     /// loads of one hardly longer than the crank have narrow peaks, degrees.
     pub fn edges_deg(&self) -> impl Iterator<Item = f64> {
-        let tdc = -self.phase.arg().to_degrees();
-        let leaning = [90.0, 270.0, 450.0, 630.0].map(|angle| tdc + angle);
+        let (tdc, speed) = (-self.phase.arg().to_degrees(), self.ratio.unsigned_abs());
+        let quarter = move |k: u32| (tdc + 90.0 + 180.0 * f64::from(k)) / f64::from(speed);
+        let leaning = (0..4 * speed).map(quarter);
         let gas = self.gas.iter();
         gas.flat_map(|gas| gas.cycle.edges_deg().iter().map(move |edge| edge + gas.phase))
             .chain(leaning)
@@ -176,9 +197,10 @@ impl DrivenRod {
         }
     }
 
-    /// Unit vector of the first of some axes.
+    /// A vector x + iy in axes of this crank or rod: along the first, and a quarter turn ahead in the
+    /// sense of the crank.
     #[inline(always)]
-    pub fn axis(&self, crank: &CrankPosition, axes: TurningAxes) -> Complex64 {
+    pub fn seen(&self, vector: Complex64, crank: &CrankPosition, axes: TurningAxes) -> [f64; 2] {
         let along = match axes {
             TurningAxes::Crank => Complex64::new(crank.cos, crank.sin),
             TurningAxes::Rod => {
@@ -186,7 +208,10 @@ impl DrivenRod {
                 Complex64::new(1.0, -motion.slope) / motion.secant
             }
         };
-        self.bore * along
+        let [u, w] = self.axes.map(|axis| (axis.conj() * vector).re);
+        // Adding zero makes −0 0.
+        let seen = Complex64::new(u, w) * along.conj() + Complex64::default();
+        [seen.re, seen.im]
     }
 }
 
@@ -215,10 +240,11 @@ impl RodColumns {
             let forces = rod.forces(&units.crank(rod.phase, k), self.gas[k]);
             let pairs =
                 [(&mut self.crankpin, forces.crankpin), (&mut self.wrist_pin, forces.wrist_pin)];
-            for ([x, y], [u, w]) in pairs {
+            for ([x, y], vector) in pairs {
+                let vector = rod.vector(vector);
                 // Adding zero makes −0 0.
-                x[k] = rod.bore.re * u - rod.bore.im * w + 0.0;
-                y[k] = rod.bore.im * u + rod.bore.re * w + 0.0;
+                x[k] = vector.re + 0.0;
+                y[k] = vector.im + 0.0;
             }
             self.across[k] = forces.across + 0.0;
             self.compression[k] = forces.compression + 0.0;

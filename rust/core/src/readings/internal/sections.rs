@@ -3,17 +3,16 @@
 use ndarray::{Array3, Axis};
 
 use super::{Internal, check_angles, vectors};
-use crate::Complex64;
 use crate::load::kinematics::{BLOCK, Units};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, parts};
-use crate::numbers::error::Result;
+use crate::numbers::error::{Error, Result};
 
 /// What is cut at some z.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
-    /// The crankshaft, which rods and unbalances load and main bearings support.
-    Crank,
+    /// The crankshaft of an index, which rods and unbalances load and main bearings support.
+    Crank(usize),
     /// The crankcase, which main bearings, walls, heads and balance shafts load.
     Crankcase,
 }
@@ -31,28 +30,39 @@ pub struct Sections {
 impl Internal {
     /// Shear and bending of a part at [`Self::places`].
     pub fn sections(&self, part: Part, theta_deg: &[f64], cancel: &Cancel) -> Result<Sections> {
+        if let Part::Crank(crank) = part
+            && crank >= self.on_cranks.len()
+        {
+            let hint = format!("give the index of a crank, 0 to {}", self.on_cranks.len() - 1);
+            return Err(Error::value("crank", crank, hint));
+        }
         let (z, count) = (self.places(), theta_deg.len());
         check_angles(theta_deg, 4 * z.len(), cancel)?;
         let loads = self.loads(theta_deg, cancel)?;
         let (mut shear, mut bending) = (vectors(z.len(), count)?, vectors(z.len(), count)?);
         let at = |place: f64| z.partition_point(|&other| other < place);
         let (sign, turning) = match part {
-            Part::Crank => (-1.0, &self.on_crank),
+            Part::Crank(crank) => (-1.0, &self.on_cranks[crank]),
             Part::Crankcase => (1.0, &self.on_shafts),
         };
-        for (&place, row) in self.mains.iter().zip(loads.main.outer_iter()) {
-            shear.index_axis_mut(Axis(0), at(place)).scaled_add(sign, &row);
+        let is_cut = |crank: usize| matches!(part, Part::Crank(cut) if cut == crank);
+        for (main, row) in self.mains.iter().zip(loads.main.outer_iter()) {
+            if part == Part::Crankcase || is_cut(main.crank) {
+                shear.index_axis_mut(Axis(0), at(main.z)).scaled_add(sign, &row);
+            }
         }
         for (i, rod) in self.rods.iter().enumerate() {
             cancel.check()?;
             let mut sum = shear.index_axis_mut(Axis(0), at(rod.z));
-            if part == Part::Crank {
-                sum += &loads.crankpin.index_axis(Axis(0), i);
+            if part != Part::Crankcase {
+                if is_cut(rod.crank) {
+                    sum += &loads.crankpin.index_axis(Axis(0), i);
+                }
                 continue;
             }
             let (gas, thrust) = (loads.gas.row(i), loads.side_thrust.row(i));
             for ((mut sum, &gas), &thrust) in sum.outer_iter_mut().zip(gas).zip(thrust) {
-                let force = rod.bore * Complex64::new(gas, -thrust);
+                let force = rod.vector([gas, -thrust]);
                 sum[0] += force.re;
                 sum[1] += force.im;
             }

@@ -64,6 +64,32 @@ pub enum Figure {
 }
 
 /// Engines and axes, checked; values are evaluated when they are read.
+///
+/// ```
+/// # let four = crankpin_core::engine::file::from_toml(
+/// #     "schema = 1
+/// #     cylinder = { crank_radius = 0.043, rod_length = 0.145, reciprocating_mass = 0.66 }
+/// #     placements = [
+/// #         { tdc_deg = 0, bank_deg = 90, z = 0 }, { tdc_deg = 180, bank_deg = 90, z = 0.1 },
+/// #         { tdc_deg = 180, bank_deg = 90, z = 0.2 }, { tdc_deg = 0, bank_deg = 90, z = 0.3 },
+/// #     ]",
+/// # )?;
+/// use std::sync::Arc;
+///
+/// use crankpin_core::sweep::{Axes, Figure, Quantity, Sweep};
+/// use crankpin_core::{Cancel, Order};
+///
+/// let rpm = vec![1000.0, 2000.0];
+/// let axes = Axes { bank_angle: None, rod_ratio: None, pin_offset: None, rpm, map: None };
+/// let orders = Order::all_whole(&[1, 2])?;
+/// let sweep = Sweep::new(vec![Arc::new(four)], axes, orders, None, &Cancel::new())?;
+/// assert_eq!(sweep.result_shape(Quantity::Force, Figure::Length), [1, 1, 1, 1, 2, 1, 2]);
+/// let mut peaks = vec![0.0; 4]; // by speed and order, N
+/// sweep.write_peaks(Quantity::Force, Figure::Length, &mut peaks, &Cancel::new())?;
+/// assert_eq!((peaks[0], peaks[2]), (0.0, 0.0));
+/// assert!((peaks[3] / peaks[1] - 4.0).abs() < 1e-12);
+/// # Ok::<(), crankpin_core::Error>(())
+/// ```
 #[derive(Debug)]
 pub struct Sweep {
     /// Each as often as a map has cycles, with one of them after the other.

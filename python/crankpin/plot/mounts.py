@@ -1,0 +1,232 @@
+"""An engine on its mounts: where the energy of its modes is, and forces over order and speed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.colors import LinearSegmentedColormap, LogNorm
+from matplotlib.patches import Rectangle
+
+from crankpin._core import InputError
+from crankpin._support import inputs, labels
+from crankpin.analysis.mounts.modes import COORDINATES, PLACES, MountModes
+from crankpin.analysis.mounts.response import MountResponse
+from crankpin.plot.dispatch import picture
+from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, note_zero, set_title
+from crankpin.plot.maps import RANGE
+from crankpin.plot.style import SERIES, background, colours, foreground, muted, series, tint
+from crankpin.plot.ticks import from_zero, numeric, span
+from crankpin.plot.words import joined, number, rounded
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+    from crankpin._support.inputs import Order, Orders
+    from crankpin.analysis.mounts.vectors import VectorQuantity
+
+MOST_CURVES = 5
+"""Number of orders drawn over speed where they were not given: those of the largest peaks."""
+DEEPEST = 0.6
+"""Strength of the colour that stands for all of the energy."""
+AT = 20.0
+"""Frequency at which a map takes stiffness that depends on it, Hz."""
+SEEN = 1e-3
+"""Part of the largest peak, or of a whole, below which an order or a share is not drawn."""
+
+
+@picture.register(MountModes)
+def _modes(result: MountModes, ax: Axes | None = None, **style: object) -> Axes:
+    """Draw a row for each mode, darker where more of its kinetic energy is."""
+    ax = axes_or_new(ax)
+    energy = result.energy[list(PLACES)].T
+    (colour,) = colours(ax, 1)
+    # From the background to what texts are still read on.
+    shades = LinearSegmentedColormap.from_list(
+        "energy", [background(ax), tint(ax, colour, DEEPEST)]
+    )
+    options: dict[str, Any] = {"cmap": shades, "vmin": 0.0, "vmax": 100.0, "aspect": "auto"}
+    ax.imshow(energy, **(options | style))
+    for (mode, place), share in np.ndenumerate(energy):
+        if share < -100.0 * SEEN:
+            cell = Rectangle((place - 0.5, mode - 0.5), 1.0, 1.0, fill=False, hatch="///")
+            cell.set(edgecolor=muted(ax, 0.5), linewidth=0.0)
+            ax.add_patch(cell)
+        look: dict[str, Any] = {"ha": "center", "va": "center", "color": foreground(ax)}
+        ax.text(place, mode, rounded(share, 2) if abs(share) >= 100.0 * SEEN else "0", **look)
+    ax.set_xticks(range(6), COORDINATES)
+    frequencies = [f"{k + 1}:  {rounded(f, 3)} Hz" for k, f in enumerate(result.frequency)]
+    ax.set_yticks(range(6), frequencies)
+    ax.tick_params(length=0.0)
+    ax.spines[:].set_visible(False)
+    hatched = "hatched: below zero" if ax.patches else ""
+    what = "kinetic energy of each mode φₖ(Mφ)ₖ, %"
+    set_title(ax, labels.name_of(result.powertrain.engine), joined(what, hatched))
+    return ax
+
+
+@picture.register(MountResponse)
+def _response(
+    result: MountResponse,
+    ax: Axes | None = None,
+    *,
+    kind: str | None = None,
+    mount: str | None = None,
+    orders: Orders | None = None,
+    label: str | None = None,
+    **style: object,
+) -> Axes:
+    kinds = {"cuts": _cuts, "map": _map, "spectrum": _spectrum}
+    several = bool(result.dims)
+    chosen = inputs.one_of("kind", kind or ("cuts" if several else "spectrum"), kinds)
+    if several == (chosen == "spectrum"):
+        hint = "give one speed, as r.sel(rpm=…)" if several else "needs several speeds"
+        raise inputs.rejected("kind", chosen, hint)
+    name = mount if mount is None else inputs.one_of("mount", mount, result.powertrain.names)
+    force = result.body_force if name is None else result.mount_force[name]
+    ax = axes_or_new(ax)
+    shown = _orders(result, force, orders)
+    notes = kinds[chosen](ax, result, force, shown, label, style)
+    speed = "" if several else f"{number(float(result.rpm))} rpm"
+    words = "force on the body" if name is None else f"force of mount {name}"
+    set_title(
+        ax,
+        labels.name_of(result.powertrain.engine),
+        joined(words, speed, result.loads_counted),
+        notes,
+    )
+    return ax
+
+
+def _orders(
+    result: MountResponse, force: VectorQuantity, orders: Orders | None
+) -> tuple[Order, ...]:
+    """Return the orders given, or those that are seen beside the largest, ascending."""
+    if orders is not None:
+        return tuple(inputs.explicit_half_orders(orders))
+    if result.request.orders is not None:
+        return result.orders
+    largest = np.reshape(force.peak, (-1, len(result.orders))).max(axis=0, initial=0.0)
+    kept = largest > SEEN * largest.max(initial=0.0)
+    return tuple(order for order, is_seen in zip(result.orders, kept, strict=True) if is_seen)
+
+
+def _cuts(
+    ax: Axes,
+    result: MountResponse,
+    force: VectorQuantity,
+    orders: tuple[Order, ...],
+    label: str | None,
+    style: dict[str, Any],
+) -> str:
+    """Draw the largest orders over speed, and all together."""
+    peaks = {order: np.asarray(force[order].peak) for order in orders}
+    by_size = sorted(orders, key=lambda order: -float(peaks[order].max()))
+    kept = sorted(by_size if result.request.orders is not None else by_size[:MOST_CURVES])
+    rpm = np.asarray(result.rpm)
+    along = np.argsort(rpm, kind="stable")
+    total = np.asarray(force.total.peak)
+    first = ", ".join(filter(None, [label, "all orders"]))
+    bold: dict[str, Any] = {"color": foreground(ax), "linewidth": 1.8}
+    (look,) = series(ax, 1, bold | style)
+    ax.plot(rpm[along], total[along], label=first, gid=SERIES, **(look | {"linestyle": "-"}))
+    for order, look in zip(kept, series(ax, len(kept), style), strict=True):
+        name = ", ".join(filter(None, [label, f"order {order}"]))
+        ax.plot(rpm[along], peaks[order][along], label=name, gid=SERIES, **look)
+    span(ax, rpm)
+    _speed_axis(ax)
+    before = max((float(np.max(line.get_ydata())) for line in ax.lines), default=0.0)
+    from_zero(ax, before)
+    label_y(ax, "peak, N")
+    if not total.any():
+        note_zero(ax)
+    add_legend(ax)
+    rest = len(result.orders) - len(kept)
+    is_cut = rest and len(kept) == MOST_CURVES and result.request.orders is None
+    return f"the {len(kept)} largest of {len(result.orders)} orders" if is_cut else ""
+
+
+def _map(
+    ax: Axes,
+    result: MountResponse,
+    force: VectorQuantity,
+    orders: tuple[Order, ...],
+    label: str | None,
+    style: dict[str, Any],
+) -> str:
+    """Draw a row of cells for each order over speed; the modes' frequencies across them."""
+    if label is not None:
+        raise inputs.rejected("label", label, "a map has no legend of several results")
+    rpm = np.asarray(result.rpm)
+    if len(np.unique(rpm)) < 2:
+        raise InputError('kind = "map": needs two different speeds or more')
+    columns = np.argsort(rpm, kind="stable")
+    peaks = np.array([np.asarray(force[order].peak)[columns] for order in orders])
+    _speed_axis(ax)
+    label_y(ax, "order")
+    if not peaks.any():
+        note_zero(ax)
+        return ""
+    step = 1.0 if all(float(order).is_integer() for order in orders) else 0.5
+    rows = np.arange(step, max(orders) + step, step)
+    cells = np.full((len(rows), len(rpm)), np.nan)
+    for order, values in zip(orders, peaks, strict=True):
+        cells[round(order / step) - 1] = np.where(values > 0.0, values, np.nan)
+    largest = float(peaks.max())
+    norm = LogNorm(RANGE * largest, largest)
+    options: dict[str, Any] = {"shading": "nearest", "norm": norm, "rasterized": True} | style
+    mesh = ax.pcolormesh(rpm[columns], rows, np.maximum(cells, RANGE * largest), **options)
+    bar = ax.get_figure(root=False).colorbar(mesh, ax=ax, aspect=25, pad=0.02)  # type: ignore[union-attr]
+    bar.set_label("peak, N")
+    bar.outline.set_visible(False)
+    modes = result.powertrain.modes(AT if result.powertrain._varies else None)
+    fine = np.linspace(max(float(rpm.min()), 1.0), float(rpm.max()), 400)
+    for frequency in modes.frequency[modes.frequency > 0.0]:
+        look: dict[str, Any] = {"color": "black", "linewidth": 0.9, "linestyle": (0, (4, 2))}
+        ax.plot(fine, 60.0 * frequency / fine, gid="crankpin modes", **look)
+    ax.set_xlim(float(rpm.min()), float(rpm.max()))
+    ax.set_ylim(0.5 * step, rows[-1] + 0.5 * step)
+    numeric(ax.yaxis, whole=True)
+    at = f", with the stiffness at {AT:g} Hz" if result.powertrain._varies else ""
+    return f"dashed: natural frequencies{at}"
+
+
+def _spectrum(
+    ax: Axes,
+    result: MountResponse,
+    force: VectorQuantity,
+    orders: tuple[Order, ...],
+    label: str | None,
+    style: dict[str, Any],
+) -> str:
+    """Draw stems along x, y and z for each order."""
+    peaks: NDArray[np.float64] = np.array([force[order].peak_xyz for order in orders])
+    peaks = peaks.reshape(-1, 3)
+    places = np.array(orders, dtype=np.float64)
+    width = 0.8 * float(np.min(np.diff(places), initial=1.0)) / 3.0
+    seen = [k for k in range(3) if peaks[:, k].any()]
+    for k, look in zip(seen, series(ax, len(seen), style), strict=True):
+        name = ", ".join(filter(None, [label, f"along {'xyz'[k]}"]))
+        bars: dict[str, Any] = {
+            "color": look["color"],
+            "linewidth": 0.0,
+            "label": name,
+            "gid": SERIES,
+        }
+        ax.bar(places + (k - 1) * width, peaks[:, k], width, **bars)
+    numeric(ax.xaxis, whole=True)
+    numeric(ax.yaxis)
+    label_x(ax, "order")
+    label_y(ax, "peak, N")
+    from_zero(ax, float(peaks.max(initial=0.0)))
+    if not seen:
+        note_zero(ax)
+    add_legend(ax)
+    return ""
+
+
+def _speed_axis(ax: Axes) -> None:
+    numeric(ax.xaxis)
+    numeric(ax.yaxis)
+    label_x(ax, "crank speed, rpm")

@@ -1,0 +1,106 @@
+"""Does the command on an engine on its mounts print the library's numbers?"""
+
+from __future__ import annotations
+
+import csv
+import io
+from typing import TYPE_CHECKING
+
+import crankpin as cp
+import numpy as np
+import pytest
+from crankpin.cli import main
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+CAPTURE = pytest.CaptureFixture[str]
+CYLINDER = cp.Cylinder(crank_radius=0.043, rod_length=0.145, reciprocating_mass=0.45, bore=0.086)
+CAR = cp.Powertrain(
+    cp.Engine.preset("i4", cylinder=CYLINDER).with_cycle(cp.Cycle.example()),
+    cp.RigidBody(mass=148, cg=(0.02, 0.07, 0.09), inertia=(8, 7.5, 5)),
+    [
+        cp.Mount("right", at=(0.28, 0, -0.09), stiffness=(2.2e5, 8e4, 8e4), tilt_deg=45),
+        cp.Mount("left", at=(-0.28, 0, -0.09), stiffness=(2.2e5, 8e4, 8e4), tilt_deg=135),
+        cp.Mount("rear", at=(0, -0.12, 0.55), stiffness=1e5, damping=(150, 200, 150)),
+    ],
+)
+
+
+@pytest.fixture
+def car(tmp_path: Path) -> Path:
+    CAR.save(path := tmp_path / "car.toml")
+    return path
+
+
+def printed(capsys: CAPTURE, *typed: object) -> str:
+    """What a run that succeeds prints."""
+    assert main(["mounts", *map(str, typed)]) == 0
+    return capsys.readouterr().out
+
+
+def failed(capsys: CAPTURE, *typed: object) -> str:
+    """What a run that fails says."""
+    assert main(["mounts", *map(str, typed)]) == 2
+    return capsys.readouterr().err
+
+
+def test_modes_axes_and_the_state_at_rest_are_printed_by_default(
+    car: Path, capsys: CAPTURE
+) -> None:
+    text = printed(capsys, car, "--torque", 300)
+    for table in (CAR.modes().table, CAR.axes().table, CAR.static(300.0).table):
+        assert table.text() in text
+    assert "elastic energy by mount" in text
+
+
+def test_free_motions_have_no_axes(tmp_path: Path, capsys: CAPTURE) -> None:
+    CAR.replace(mounts=CAR.mounts[:2]).save(path := tmp_path / "two.toml")
+    text = printed(capsys, path)
+    assert "No mount resists" in text
+    assert "axes of roll" not in text
+
+
+def test_a_run_up_is_the_response(car: Path, capsys: CAPTURE) -> None:
+    text = printed(capsys, car, "--rpm", "600:3000:300", "--orders", "2,4", "--csv")
+    head, *rows = csv.reader(io.StringIO(text))
+    response = CAR.response(np.arange(600, 3001, 300), orders=[2, 4])
+    force = [float(row[head.index("|F| N")]) for row in rows]
+    assert force == response.body_force.total.peak.tolist()
+
+
+def test_a_misfire_and_a_point(car: Path, capsys: CAPTURE) -> None:
+    text = printed(capsys, car, "--rpm", 800, "--misfire", 3, "--at", "0,300mm,0")
+    motion = CAR.without(cylinder=3).response(800).at((0, 0.3, 0))
+    assert motion.table.text() in text
+    assert "cylinder 3 does not fire" in text
+
+
+@pytest.mark.parametrize(
+    "options",
+    [[], ["--rpm", "800"], ["--rpm", "800:900:20", "--picture", "map", "--mount", "rear"]],
+)
+def test_pictures_are_written(
+    car: Path, tmp_path: Path, capsys: CAPTURE, options: list[str]
+) -> None:
+    printed(capsys, car, *options, "--plot", picture := tmp_path / "picture.png")
+    assert picture.stat().st_size > 5000
+
+
+@pytest.mark.parametrize(
+    ("typed", "hint"),
+    [
+        (["--at", "1,2,3"], "--at = 1,2,3: needs --rpm"),
+        (["--rpm", "800", "--torque", "3"], "--torque = 3: acts without --rpm alone"),
+        (["--rpm", "800", "--misfire", "9"], "--misfire = 9: give a number from 1 to 4"),
+        (["--rpm", "800", "--mount", "reer", "--plot", "x.png"], 'give "right", "left" or "rear"'),
+        (["--rpm", "800", "--picture", "map", "--plot", "x.png"], "needs several speeds"),
+    ],
+)
+def test_errors_name_the_option(car: Path, capsys: CAPTURE, typed: list[str], hint: str) -> None:
+    assert hint in failed(capsys, car, *typed)
+
+
+def test_an_engine_without_mounts_says_so(tmp_path: Path, capsys: CAPTURE) -> None:
+    cp.Engine.preset("i4").save(path := tmp_path / "bare.toml")
+    assert "the file has no [powertrain]" in failed(capsys, path)

@@ -1,0 +1,81 @@
+"""Do pictures of a mounted engine draw the result's numbers?"""
+
+from __future__ import annotations
+
+import crankpin as cp
+import numpy as np
+import pytest
+from matplotlib import pyplot as plt
+
+CYLINDER = cp.Cylinder(crank_radius=0.043, rod_length=0.145, reciprocating_mass=0.45, bore=0.086)
+MOUNTED = cp.Powertrain(
+    cp.Engine.preset("i4", cylinder=CYLINDER).with_cycle(cp.Cycle.example()),
+    cp.RigidBody(
+        mass=148,
+        cg=(0.02, 0.07, 0.09),
+        inertia=[[8.1, 1.3, -0.4], [1.3, 7.6, 0.5], [-0.4, 0.5, 4.9]],
+        products="tensor",
+    ),
+    [
+        cp.Mount("right", at=(0.28, 0, -0.09), stiffness=(2.2e5, 8e4, 8e4), loss_factor=0.1),
+        cp.Mount("left", at=(-0.28, 0, -0.09), stiffness=(2.2e5, 8e4, 8e4), loss_factor=0.1),
+        cp.Mount("rear", at=(0, -0.12, 0.55), stiffness=(1e5, 1.8e5, 1e5), loss_factor=0.1),
+    ],
+)
+RUN_UP = MOUNTED.without(cylinder=3).response(np.arange(600, 3001, 100))
+COORDINATES = (2, 0, 1, 5, 3, 4)
+
+
+def test_a_row_of_modes_is_its_energy() -> None:
+    modes = MOUNTED.modes()
+    ax = modes.plot()
+    (image,) = ax.images
+    np.testing.assert_array_equal(image.get_array(), modes.energy[list(COORDINATES)].T)
+    below = int((modes.energy < -0.1).sum())
+    assert len(ax.patches) == below > 0
+    assert [text.get_text().split()[0] for text in ax.get_yticklabels()] == [
+        f"{k}:" for k in range(1, 7)
+    ]
+
+
+def test_cuts_are_all_orders_and_the_largest() -> None:
+    ax = RUN_UP.plot(mount="rear")
+    force = RUN_UP.mount_force["rear"]
+    whole, *cuts = ax.lines
+    np.testing.assert_array_equal(whole.get_ydata(), force.total.peak)
+    assert len(cuts) == 5
+    for line in cuts:
+        order = float(str(line.get_label()).removeprefix("order "))
+        np.testing.assert_array_equal(line.get_ydata(), force[order].peak)
+    least = min(float(np.max(line.get_ydata())) for line in cuts)
+    assert (np.sort(force.peak.max(axis=0))[-5:] >= least).all()
+
+
+def test_a_map_has_a_row_of_cells_for_each_order_and_its_modes() -> None:
+    ax = RUN_UP.plot(kind="map", orders=[0.5, 1, 2])
+    (mesh,) = ax.collections
+    cells = np.ma.getdata(mesh.get_array()).reshape(4, -1)
+    for row, order in ((0, 0.5), (1, 1), (3, 2)):
+        expected = np.maximum(RUN_UP.body_force[order].peak, 0.0)
+        np.testing.assert_allclose(cells[row], expected, rtol=1e-12)
+    for line, frequency in zip(ax.lines, RUN_UP.powertrain.modes().frequency, strict=True):
+        rpm, order = line.get_data()
+        np.testing.assert_allclose(np.asarray(rpm) * np.asarray(order) / 60.0, frequency)
+
+
+def test_a_spectrum_has_bars_along_each_axis() -> None:
+    one = RUN_UP.sel(rpm=800)
+    ax = one.plot(orders=[0.5, 1, 2])
+    heights = np.array([bar.get_height() for bar in ax.patches]).reshape(3, 3)
+    expected = [one.body_force[order].peak_xyz for order in (0.5, 1, 2)]
+    np.testing.assert_array_equal(heights.T, expected)
+
+
+def test_unfit_pictures_are_rejected() -> None:
+    with pytest.raises(cp.InputError, match=r"kind = 'spectrum': give one speed"):
+        RUN_UP.plot(kind="spectrum")
+    with pytest.raises(cp.InputError, match=r"kind = 'map': needs several speeds"):
+        RUN_UP.sel(rpm=800).plot(kind="map")
+    with pytest.raises(cp.InputError, match=r"mount = 'reer'"):
+        RUN_UP.plot(mount="reer")
+    assert not plt.get_fignums()
