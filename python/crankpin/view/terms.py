@@ -287,7 +287,7 @@ def _factored(table: _Table, values: Real, q: Real, own: Real | None) -> tuple[l
     """Return rows of values at Chebyshev's points q, and whether the points are enough.
 
     The values of an order change with the rod ratio in as few ways as there are kinds of cylinders:
-    singular values tell them apart.
+    singular values separate them.
     """
     count, largest = len(q), abs(values).max()
     x = chebyshev.chebpts1(count)
