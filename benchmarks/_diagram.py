@@ -82,8 +82,9 @@ def draw(
         # the ends of the knob; one in the band would hide the others there
         for k in dict.fromkeys((0, len(curve) - 1)):
             if curve[k].label and not wrong[k]:
-                near = {"xytext": (4, 4), "textcoords": "offset points", "fontsize": 6.5}
-                ax.annotate(curve[k].label, (x[k], y[k]), color=color, **near)
+                near: dict[str, Any] = {"xytext": (4, 4), "textcoords": "offset points"}
+                near |= {"fontsize": 6.5, "color": color}
+                ax.annotate(curve[k].label, (x[k], y[k]), **near)
     ax.set(xscale="log", yscale="log", xlim=(LEAST_ERROR / 3, BAND[1]))
     ax.set(title=title, xlabel=error, ylabel=time)
     low, high = np.log10(ax.get_ylim())
@@ -95,4 +96,4 @@ def draw(
     ax.set_axisbelow(True)
 
 
-CENTRED = {"ha": "center", "va": "top", "fontsize": 7, "color": "0.35"}
+CENTRED: dict[str, Any] = {"ha": "center", "va": "top", "fontsize": 7, "color": "0.35"}

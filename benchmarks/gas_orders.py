@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
-from functools import lru_cache
+from functools import lru_cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -46,7 +46,8 @@ Phasors = NDArray[np.complex128]
 COUNTS = (60, 90, 180, 360, 720, 1440, 2880)
 """Samples of a cycle: from 12° to a quarter of a degree."""
 QUICK = 2
-AREA = np.pi / 4.0 * FIRED.bore**2
+BORE = FIRED.bore or np.nan
+AREA = np.pi / 4.0 * BORE**2
 TURN = 4.0 * np.pi
 DENSE = np.linspace(0.0, TURN, 7200, endpoint=False)
 HEADER = ("cycle", "method", "samples", "outcome", "error", "seconds")
@@ -94,9 +95,9 @@ CYCLES = (
 @lru_cache
 def exact(of: Given) -> Phasors:
     """Return the phasors by Gauss quadrature."""
-    return pressure.torque_phasors(
-        of.of, np.array(of.edges), HALF_ORDERS, FIRED.bore, CRANK, ATMOSPHERE
-    )[1]
+    return pressure.torque_phasors(of.of, np.array(of.edges), HALF_ORDERS, BORE, CRANK, ATMOSPHERE)[
+        1
+    ]
 
 
 def error(of: Given, found: Phasors) -> float:
@@ -168,6 +169,11 @@ METHODS: dict[str, Callable[[Array, Array], Phasors]] = {
 # --- the chart ------------------------------------------------------------------------------------
 
 
+def itself(cycle: Callable[[], cp.Cycle]) -> Phasors:
+    """Make the cycle of its equations, and integrate it."""
+    return cycle().torque_harmonics(FIRED, HALF_ORDERS)
+
+
 def measure(quick: bool = False) -> list[dict[str, Any]]:
     """Run all methods on all tables: a row of the CSV for each."""
     rows = []
@@ -178,9 +184,9 @@ def measure(quick: bool = False) -> list[dict[str, Any]]:
             theta = np.linspace(0.0, TURN, count, endpoint=False)
             values = of.of(theta)
             for name, method in METHODS.items():
-                runs[name, count] = lambda m=method, t=theta, v=values: m(t, v)
+                runs[name, count] = partial(method, theta, values)
         if of.cycle is not None:
-            runs[ITSELF, ""] = lambda c=of.cycle: c().torque_harmonics(FIRED, HALF_ORDERS)
+            runs[ITSELF, ""] = partial(itself, of.cycle)
         rounds, each = (1, 1) if quick else (2, 3)
         times = interleaved({str(key): run for key, run in runs.items()}, rounds, 0.0, each)
         for (name, count), run in runs.items():
@@ -216,7 +222,7 @@ def main() -> None:
     ran_on = machine("scipy", "matplotlib")
     print(ran_on)
     rows = measure(given.quick)
-    write_csv(given.out / "gas_orders.csv", ran_on, HEADER, (row.values() for row in rows))
+    write_csv(given.out / "gas_orders.csv", ran_on, HEADER, ([*row.values()] for row in rows))
     for of in CYCLES:
         print_table(
             f"Torque of 24 half orders: {of.name}",

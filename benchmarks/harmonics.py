@@ -152,8 +152,9 @@ def measure(
                 for setting in effort.of(method.knobs)
             }
             with np.errstate(all="ignore"):
-                first = {name: timed(run) for name, run in runs.items()}
-                seconds = interleaved(runs, effort.rounds, effort.seconds, effort.runs)
+                first = {name: timed(run.__call__) for name, run in runs.items()}
+                calls = {name: run.__call__ for name, run in runs.items()}
+                seconds = interleaved(calls, effort.rounds, effort.seconds, effort.runs)
                 set_up = interleaved({name: run.set_up for name, run in runs.items()}, 2, 0.0, 10)
             for name, run in runs.items():
                 relative, absolute = errors(run)

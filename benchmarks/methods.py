@@ -36,7 +36,7 @@ class Method(NamedTuple):
     """what the knob is; empty where there is none"""
     knobs: tuple[Any, ...]
     """settings from cheap to dear, (None,) where there is no knob"""
-    function: Callable[..., NDArray[Any]]
+    function: Callable[..., Any]
     takes_offsets: bool = False
 
     def __call__(
@@ -50,11 +50,11 @@ class Method(NamedTuple):
         ratios = np.atleast_1d(np.asarray(rod_ratios, dtype=float))
         with np.errstate(all="ignore"):
             if offsets is None:
-                return self.function(ratios, orders, knob)
+                return np.asarray(self.function(ratios, orders, knob))
             if not self.takes_offsets:
                 return np.full((len(ratios), len(orders)), np.nan + 0j)
             pins = np.broadcast_to(np.asarray(offsets, dtype=float), ratios.shape)
-            return self.function(ratios, orders, knob, pins)
+            return np.asarray(self.function(ratios, orders, knob, pins))
 
 
 def _columns(ratios: Array, orders: Sequence[int], even: Callable[[int], Array]) -> Array:

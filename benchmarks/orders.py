@@ -39,7 +39,7 @@ def with_rod(engine: cp.Engine, rod_ratio: float) -> cp.Engine:
     return engine.replace(cylinder=cylinders)
 
 
-def without_layout(engine: cp.Engine, rtol: float) -> tuple[int, ...]:
+def without_layout(engine: cp.Engine, rtol: float) -> tuple[float, ...]:
     """Return the orders that as many cylinders need if nothing cancels: all of one beside it."""
     one = engine.cylinders[0]
     alike = cp.Engine.from_lists(one, tdc_deg=[0.0], bank_deg=[90.0], z=[0.0])

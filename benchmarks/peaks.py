@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
-from functools import lru_cache
+from functools import lru_cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -163,7 +163,7 @@ def ours(sweep: Sweep, _setting: None = None) -> Array:
         orders=(1, 2),
         torque=False,
     )
-    return found.total.moment.peak
+    return np.asarray(found.total.moment.peak)
 
 
 class Method(NamedTuple):
@@ -267,7 +267,7 @@ def measure(sweeps: tuple[Sweep, ...] = (FULL, ONE), quick: bool = False) -> lis
     rounds, each = (2, 10) if quick else (4, 5)
     for sweep in sweeps:
         runs = {
-            (method, setting): lambda m=method, s=setting, w=sweep: m.function(w, s)
+            (method, setting): partial(method.function, sweep, setting)
             for method in METHODS
             for setting in (few(method.settings, 3) if quick else method.settings)
         }

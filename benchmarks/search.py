@@ -12,8 +12,9 @@ import argparse
 import sys
 import time
 from collections.abc import Callable, Iterable
+from functools import partial
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import crankpin as cp
 import matplotlib.pyplot as plt
@@ -135,10 +136,10 @@ def speed(engines: list[Case], out: Path) -> None:
 # --- tolerance ------------------------------------------------------------------------------------
 
 TOLERANCES = np.concatenate([[0.0], np.logspace(-17, 1, 73)])
-PRECISIONS = {"double": np.float64, "single": np.float32}
+PRECISIONS: dict[str, type[np.floating[Any]]] = {"double": np.float64, "single": np.float32}
 
 
-def squares(case: Case, precision: type) -> tuple[Array, NDArray[np.int64]]:
+def squares(case: Case, precision: type[np.floating[Any]]) -> tuple[Array, NDArray[np.int64]]:
     """|Z|² in floating point, ascending, and the pairs' weights; as a² + b², added up by phase.
 
     Once for all arrangements that are turned, mirrored or exchanged, so that they at least agree:
@@ -146,14 +147,14 @@ def squares(case: Case, precision: type) -> tuple[Array, NDArray[np.int64]]:
     """
     angles = 2 * np.pi * np.arange(case.throws) / case.throws
     cos, sin = np.cos(angles).astype(precision), np.sin(angles).astype(precision)
-    a = np.zeros(len(case.banks.multiplicity), dtype=precision)
+    a: NDArray[np.floating[Any]] = np.zeros(len(case.banks.multiplicity), dtype=precision)
     b = np.zeros_like(a)
     for k, lever in enumerate(case.banks.levers.astype(precision)):
         a += cos[k] * lever
         b += sin[k] * lever
     size = a * a + b * b
     order = np.argsort(size)
-    return size[order].astype(np.float64), case.banks.multiplicity[order]
+    return size[order].astype(np.float64), case.banks.multiplicity[order].astype(np.int64)
 
 
 def pairs(size: Array, multiplicity: NDArray[np.int64], tolerance: float) -> int:
@@ -164,19 +165,28 @@ def pairs(size: Array, multiplicity: NDArray[np.int64], tolerance: float) -> int
     return int(multiplicity @ (total[high] - total[low]))
 
 
+def qualifying(case: Case) -> int:
+    """Count the pairs exactly."""
+    return case.crankpin().qualifying
+
+
+def compared(case: Case, precision: type[np.floating[Any]]) -> int:
+    """Count the pairs from the start."""
+    return pairs(*squares(case, precision), 1e-9)
+
+
 def tolerance(engines: list[Case], out: Path) -> None:
     """Print, write and draw the pairs found against the tolerance."""
-    raw, exact_times = [], {}
+    raw: list[list[Any]] = []
+    exact_times: dict[str, float] = {}
     for case in engines:
-        exact = case.crankpin().qualifying
+        exact = qualifying(case)
         runs = 3 if case.throws > 9 else 20
-        exact_times[case.name] = least(lambda c=case: c.crankpin().qualifying, seconds=0, runs=runs)
+        exact_times[case.name] = least(partial(qualifying, case), seconds=0, runs=runs)
         raw.append([case.name, "exact", "", exact, exact, exact_times[case.name]])
         for name, precision in PRECISIONS.items():
             size, multiplicity = squares(case, precision)
-            taken = least(
-                lambda c=case, p=precision: pairs(*squares(c, p), 1e-9), seconds=0, runs=runs
-            )
+            taken = least(partial(compared, case, precision), seconds=0, runs=runs)
             for value in TOLERANCES.tolist():
                 found = pairs(size, multiplicity, value)
                 raw.append([case.name, name, value, found, exact, taken])
@@ -190,8 +200,8 @@ def tolerance(engines: list[Case], out: Path) -> None:
             plateau = f"{min(right):.0e} … {max(right):.0e}" if right else "none"
             at_zero, seconds = mine[0][3], mine[0][5]
             rows.append([case.name, name, f"{at_zero:,}", plateau, milliseconds(seconds)])
-        exact = milliseconds(exact_times[case.name])
-        rows.append([case.name, "exact: all", f"{mine[0][4]:,}", "none needed", exact])
+        time = milliseconds(exact_times[case.name])
+        rows.append([case.name, "exact: all", f"{mine[0][4]:,}", "none needed", time])
     header = ["engine", "|Z|² in", "pairs with ==", "right with a tolerance of", "time"]
     print_table("Comparing magnitudes", header, rows)
     picture(raw, [case.name for case in engines], out / "search_tolerance.png")

@@ -351,10 +351,10 @@ def scaled_force(length: float, mass: float, *, plain: bool) -> float:
     exact = reference.balance(6000, orders=TWELVE)
     if plain:
         found = methods.thresholded(plain_force(engine, rpm, TWELVE), 1e-9) / force
-        return worst_of_phasors(found, exact.force)
+        return worst_of_phasors(found, exact.force.xy)
     ours = engine.balance(rpm, orders=TWELVE)
-    forces = worst_of_phasors(ours.force / force, exact.force)
-    return max(forces, worst_of_phasors(ours.moment / mass, exact.moment))
+    forces = worst_of_phasors(ours.force.xy / force, exact.force.xy)
+    return max(forces, worst_of_phasors(ours.moment.xy / mass, exact.moment.xy))
 
 
 def worst_of_phasors(found: NDArray[np.complex128], exact: NDArray[np.complex128]) -> float:
@@ -474,10 +474,10 @@ def otto_error(found: NDArray[np.complex128]) -> float:
 
 def motored_work(*, plain: bool) -> float:
     """Work of a motored cycle without losses over that of its compression; zero is right."""
-    exponents = {"compression_exponent": 1.4, "expansion_exponent": 1.4}
+    exponents: dict[str, Any] = {"compression_exponent": 1.4, "expansion_exponent": 1.4}
     cycle = cp.Cycle.motored(FIRED, compression_ratio=17.0, **exponents)
     area = math.pi / 4.0 * 0.086**2
-    compression = ATMOSPHERE * area * 0.09 * 17.0 / 16.0 * (17.0**0.4 - 1.0) / 0.4
+    compression: float = ATMOSPHERE * area * 0.09 * 17.0 / 16.0 * (17.0**0.4 - 1.0) / 0.4
     if not plain:
         return abs(cycle.work(FIRED)) / compression
     theta = np.arange(721.0)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import sys
 from pathlib import Path
+from typing import Any
 
 import crankpin as cp
 import numpy as np
@@ -54,7 +55,8 @@ def in_numpy(engine: cp.Engine, samples: int) -> rederived.Remains:
 
 def by_crankpin(engine: cp.Engine, samples: int) -> cp.types.Tolerances:
     """Draw and evaluate all samples."""
-    return cp.tolerances(engine, rpm=RPM, orders=ORDERS, samples=samples, **SPREADS)
+    spreads: dict[str, Any] = {**SPREADS}
+    return cp.tolerances(engine, rpm=RPM, orders=ORDERS, samples=samples, **spreads)
 
 
 def main() -> None:

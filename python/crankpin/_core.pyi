@@ -84,7 +84,10 @@ _Complex: TypeAlias = NDArray[np.complex128]
 _Real: TypeAlias = NDArray[np.float64]
 _Progress: TypeAlias = Callable[[int, int], object]
 
-class InputError(ValueError): ...
+class InputError(ValueError):
+    argument: str | None
+    value: str | None
+    hint: str | None
 
 @final
 class Cycle:

@@ -99,7 +99,7 @@ def test_a_sweep_over_a_map_has_the_crankcase_of_the_engine() -> None:
         default = cp.sweep(engine, 2000, cycle=MAP, **at)
         np.testing.assert_array_equal(typed.torque, default.torque)
         point = default.sel(load=0.8)
-        assert point.engine.crankcase == crankcase  # type: ignore[union-attr]
+        assert point.engine.crankcase == crankcase
     assert not np.array_equal(own.torque, cp.sweep(I4, 2000, cycle=MAP, **at).torque)
     both = cp.sweep([FIRED, I4], 2000, cycle=MAP, **at).torque
     np.testing.assert_array_equal(np.asarray(both)[0], np.asarray(own.torque))

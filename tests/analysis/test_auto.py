@@ -61,9 +61,9 @@ def peak(turning: NDArray[Any], against: NDArray[Any], orders: tuple[int, ...]) 
     return float(np.abs(np.fft.ifft(spectrum) * samples).max())
 
 
-def left_out(engine: cp.Engine, kept: tuple[int, ...]) -> dict[str, float]:
+def left_out(engine: cp.Engine, kept: tuple[float, ...]) -> dict[str, float]:
     """What all orders but these add to force, moment and either torque at the worst crank angle."""
-    rest = tuple(n for n in range(1, max(top(engine), *kept, 1) + 1) if n not in kept)
+    rest = tuple(n for n in range(1, int(max(top(engine), *kept, 1)) + 1) if n not in kept)
     b = engine.balance(RPM, orders=rest)
     torques = (peak(t / 2, np.conj(t) / 2, rest) for t in (b.torque, b.crank_torque))
     return {
@@ -344,7 +344,8 @@ def test_sweeps_reach_the_tolerance_everywhere(
         torque=torque,
     )
     wanted = QUANTITIES if torque else QUANTITIES[:2]
-    for angle, ratio, offset in itertools.product(angles or [None], ratios, offsets or [None]):
+    swept: list[Any] = [angles or [None], ratios, offsets or [None]]
+    for angle, ratio, offset in itertools.product(*swept):
         there = engine if angle is None else engine.with_bank_angle(angle, hold=hold)
         cylinders = [
             cp.Cylinder(
@@ -357,7 +358,7 @@ def test_sweeps_reach_the_tolerance_everywhere(
         ]
         there = there.replace(cylinder=cylinders)
         # One more than all, so that something is left.
-        last = max(top(there), *s.orders) + 1
+        last = int(max(top(there), *s.orders)) + 1
         rest = tuple(n for n in range(1, last + 1) if n not in s.orders)
         b = there.balance(RPM, orders=rest)
         true = {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from typing import Literal
 
 import crankpin as cp
 import numpy as np
@@ -243,7 +244,9 @@ def test_the_pressure_of_the_crankcase_loads_nothing() -> None:
 
 @pytest.mark.parametrize("fuel", ["petrol", "diesel"])
 @pytest.mark.parametrize("rpm", [1500.0, 6000.0])
-def test_steps_of_a_degree_miss_less_than_a_thousandth_of_a_peak(fuel: str, rpm: float) -> None:
+def test_steps_of_a_degree_miss_less_than_a_thousandth_of_a_peak(
+    fuel: Literal["petrol", "diesel"], rpm: float
+) -> None:
     cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
     fired = cp.Engine.preset("i4", cylinder=cylinder).with_cycle(cp.Cycle.example(fuel))
     coarse, fine = (
@@ -417,13 +420,13 @@ def far_counterweight() -> object:
     ("call", "message"),
     [
         (far_counterweight, "mains = [-0.0001, 0.0001]: "),
-        (lambda: cp.bearing_loads("I4", RPM), "engine = 'I4': give a crankpin.Engine"),
+        (lambda: cp.bearing_loads("I4", RPM), "engine = 'I4': give a crankpin.Engine"),  # type: ignore[arg-type]
         (lambda: cp.bearing_loads(I4, -1.0), "rpm = -1.0: "),
         (lambda: cp.bearing_loads(I4, RPM, [np.nan]), "theta_deg = NaN: "),
         (lambda: cp.bearing_loads(I4, RPM).read("moment"), "load = 'moment': "),
         (lambda: cp.bearing_loads(I4, RPM).turned("side_thrust"), "load = 'side_thrust': "),
         (lambda: cp.bearing_loads(I4, RPM).turned(axes="bore"), "axes = 'bore': "),
-        (lambda: cp.bearing_loads(I4, RPM).turned("main", "rod"), 'axes = "rod": '),
+        (lambda: cp.bearing_loads(I4, RPM).turned("main", "rod"), "axes = 'rod': "),
         (lambda: cp.bearing_loads(I4, RPM).bending("block"), "part = 'block': "),
     ],
 )
@@ -536,7 +539,7 @@ def _without_thirds(theta: np.ndarray, pressure: np.ndarray) -> tuple[np.ndarray
 def fired_at_random(rng: np.random.Generator) -> tuple[cp.Engine, np.ndarray]:
     """An engine of four different cylinders, and the angles at which pressure bends or jumps."""
     cycles = [spiked(rng), cp.Cycle.example(), None, spiked(rng)]
-    rng.shuffle(cycles)  # type: ignore[arg-type] # a list of any items
+    rng.shuffle(cycles)  # a list of any items
     engine = FIRED.replace(
         cylinder=[
             each.replace(bore=rng.uniform(0.05, 0.09), crank_radius=rng.uniform(0.02, 0.05))

@@ -7,7 +7,7 @@ import pickle
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import I4, V6
+from conftest import I4, V6, html_of
 
 SHAFTS = [
     cp.Shaft(ratio, [cp.Unbalance(0.003, z=0.15, angle_deg=-90)], x=x)
@@ -69,7 +69,7 @@ def test_the_table_has_what_matters_before_and_after() -> None:
     ]
     assert loads == "Without gas pressure."
     assert repr(cp.compare(I4, V6, rpm=5000)).startswith("Inline-4 → V6 60°, shared pins at 5000")
-    assert "<td>roll torque, N·m</td>" in cp.compare(I4, V6, rpm=5000)._repr_html_()
+    assert "<td>roll torque, N·m</td>" in html_of(cp.compare(I4, V6, rpm=5000))
 
 
 def test_it_is_made_of_two_like_balances() -> None:

@@ -94,7 +94,7 @@ def test_a_waveform_keeps_what_is_more_than_rounding(heavier: float) -> None:
 def signs_of_zeros(values: np.ndarray) -> np.ndarray:
     """Signs of the parts that are zero."""
     parts = np.ascontiguousarray(values).view(np.float64)
-    return np.signbit(parts[parts == 0.0])
+    return np.asarray(np.signbit(parts[parts == 0.0]))
 
 
 @pytest.mark.parametrize("name", ["i4", "v6-60", "single"])
@@ -134,7 +134,7 @@ def test_a_result_without_orders_is_a_result(
         sweeps = [cp.sweep(engine, rpm=speeds), cp.sweep([engine, engine], rpm=speeds)]
         for result in (balance, *sweeps):
             assert result.orders == ()
-            moved = result.about(point)
+            moved: Any = result.about(point)
             shape = np.shape(result.total.torque.peak)
             assert np.array_equal(moved.total.torque.peak, np.zeros(shape))
             assert moved.torque.peak.shape[-1] == 0

@@ -20,7 +20,7 @@ import mpmath
 import numpy as np
 import pytest
 import sympy as sp
-from conftest import CYLINDER
+from conftest import CYLINDER, html_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import crossplane
@@ -176,7 +176,7 @@ def test_an_angle_that_is_no_part_of_a_turn_is_not_decided() -> None:
     assert any("cylinders 2" in text for text in v.obstacles)
     assert "?≠0" in repr(v)
     assert v.obstacles[0] in repr(v)
-    assert f"<p>{v.obstacles[0]}</p>" in v._repr_html_()
+    assert f"<p>{v.obstacles[0]}</p>" in html_of(v)
     assert v.tidy()["verdict"].values[1] == "undecided"
     close = cp.Engine.from_lists(
         CYLINDER, tdc_deg=[0, 120 + 1e-13, 240], bank_deg=[90] * 3, z=[0, 0.1, 0.2]
@@ -439,7 +439,7 @@ def test_closed_forms_are_the_numbers(name: str) -> None:
         scale = unit.reciprocating_mass * unit.crank_radius * omega**2 * len(engine)
         scale *= abs(complex(unit.harmonics(order)[0]))
         for quantity in ("force", "moment"):
-            form = engine.closed_form(order, quantity)  # type: ignore[arg-type]
+            form = engine.closed_form(order, quantity)
             values = form.evaluate(RPM)
             xy, size = getattr(b, quantity).xy, scale
             if quantity == "moment":

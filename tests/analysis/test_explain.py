@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
+from conftest import html_of
 from crankpin.analysis import sentences
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -48,7 +49,7 @@ def cylinders(draw: st.DrawFn) -> cp.Cylinder:
 @st.composite
 def engines(draw: st.DrawFn) -> cp.Engine:
     cylinder, count = draw(cylinders()), draw(st.integers(1, 6))
-    step = draw(st.sampled_from([90, 120, 60, 72, 45, "360/7", 37.3]))
+    step: Any = draw(st.sampled_from([90, 120, 60, 72, 45, "360/7", 37.3]))
     throws = [
         f"{k * 360}/7" if step == "360/7" else k * step
         for k in draw(st.lists(st.integers(0, 7), min_size=count, max_size=count))
@@ -634,14 +635,14 @@ def test_figures_have_three_digits_and_bounds_are_rounded_up(
 
 def test_a_balance_shows_the_sentences_that_matter_most_under_its_table() -> None:
     engine = cp.Engine.preset("v6-60")
-    found = engine.balance(RPM)._repr_html_()
+    found = html_of(engine.balance(RPM))
     said = engine.explain(RPM).sentences
     assert [text in found for text in said[:4]] == [True, True, False, True]  # no bob weights
     assert found.count("<li>") == 3
     # About another plane the moments are others; of a spectrum nothing is known of pistons.
-    elsewhere = engine.balance(RPM).about(2.0)._repr_html_()
+    elsewhere = html_of(engine.balance(RPM).about(2.0))
     assert engine.replace(reference_z=2.0).explain(RPM).sentences[0] in elsewhere
-    assert "<li>" not in engine.balance(RPM, orders=[1], spectrum={1: 1.0})._repr_html_()
+    assert "<li>" not in html_of(engine.balance(RPM, orders=[1], spectrum={1: 1.0}))
 
 
 def test_an_explanation_is_text_html_and_a_record() -> None:

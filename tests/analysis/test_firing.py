@@ -555,8 +555,9 @@ def test_an_inline_crank_made_for_an_order_fires_in_it(
     wanted = data.draw(interval_lists(5, 180 * strokes))
     engine = made_for(order, wanted, strokes=strokes)
     throws, _ = cp.throws(order, intervals_deg=wanted, strokes=strokes)
-    known = {"firing_order": engine.firing_order, "strokes": strokes}
-    assert engine == cp.Engine.inline(CYLINDER, throws_deg=throws, spacing=0.1, **known)
+    assert engine == cp.Engine.inline(
+        CYLINDER, throws_deg=throws, spacing=0.1, firing_order=engine.firing_order, strokes=strokes
+    )
 
 
 @pytest.mark.parametrize(
@@ -860,7 +861,7 @@ def test_command_lists_orders(capsys: CAPTURE) -> None:
             ["i4", "--firing-order", "1-2-3-4"],
             "--firing-order = 1-2-3-4: this crank cannot fire in",
         ),
-        (["i4", "--all", "--plot", "i4.png"], "--plot needs --firing-order"),
+        (["i4", "--all", "--plot", "i4.png"], "--plot = i4.png: needs --firing-order"),
         (
             ["i4", "--firing-order", "1-3-4-2", "--plot", "i4.txt"],
             "--plot = i4.txt: a picture's name",

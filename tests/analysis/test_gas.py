@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import pickle
+from typing import Any
 
 import crankpin as cp
 import numpy as np
@@ -52,7 +53,8 @@ def numbers(engine: cp.Engine) -> list[int]:
 @pytest.mark.parametrize("name", engines())
 def test_torque_is_that_of_the_forces_on_pin_wall_head_and_bearing(name: str) -> None:
     engine = engines()[name]
-    crank = tuple(engine._core.cylinders[0][k] for k in (0, 1, 3))
+    radius, rod, _, offset, _ = engine._core.cylinders[0]
+    crank = (radius, rod, offset)
     theta = np.arange(0.0, 720.0, 0.5)
     fires = again.firing_deg(engine.tdc_deg.tolist(), numbers(engine))
     fired = engine.with_cycle(cycle(), crankcase=CRANKCASE)
@@ -328,7 +330,7 @@ def test_engines_with_cycles_are_kept_compared_and_written() -> None:
 
 def test_errors_name_the_argument_and_a_hint() -> None:
     i4 = engines()["i4"]
-    for engine, argument, message in (
+    cases: list[tuple[cp.Engine, Any, str]] = [
         (i4.replace(firing_order=""), cycle(), r"firing_order = None: .*Possible orders.*1-3-4-2"),
         (
             i4.replace(cylinder=cp.Cylinder(0.043, 0.145, 0.5)),
@@ -338,7 +340,8 @@ def test_errors_name_the_argument_and_a_hint() -> None:
         (i4, [cycle()], r"cycle has 1 entries, the engine has 4"),
         (i4, [cycle(), cycle(), 3.0, cycle()], r"cycle\[2\] = 3\.0: give a crankpin\.Cycle"),
         (i4.replace(strokes=2, firing_order=""), cycle(), r"cycle\[0\]\.strokes = 4: .*strokes=4"),
-    ):
+    ]
+    for engine, argument, message in cases:
         with pytest.raises(cp.InputError, match=message):
             engine.with_cycle(argument)
     with pytest.raises(cp.InputError, match="crankcase = -1"):

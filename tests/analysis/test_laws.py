@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 import crankpin as cp
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 RPM = 3000.0
 OMEGA_SQUARED = (2 * np.pi * RPM / 60) ** 2
@@ -29,7 +34,7 @@ cylinders = st.builds(
 @st.composite
 def engines(draw: st.DrawFn) -> cp.Engine:
     count = draw(st.integers(1, 8))
-    each = {"min_size": count, "max_size": count}
+    each: dict[str, Any] = {"min_size": count, "max_size": count}
     return cp.Engine.from_lists(
         draw(st.lists(cylinders, **each)),
         tdc_deg=draw(st.lists(angles, **each)),
@@ -46,7 +51,7 @@ def size(engine: cp.Engine) -> float:
     return float((masses * radii * (1 + np.abs(engine.z))).sum() * OMEGA_SQUARED)
 
 
-def same(found: np.ndarray, expected: np.ndarray, scale: float) -> None:
+def same(found: ArrayLike, expected: ArrayLike, scale: float) -> None:
     # phases of order 6 of angles up to 1024°: 6 · 1.1e-13° is 1.2e-14 rad; eight terms, ten allowed
     assert np.abs(np.asarray(found) - np.asarray(expected)).max() <= 2e-13 * scale
 
@@ -114,8 +119,8 @@ def test_another_point_takes_the_moment_of_the_force_off() -> None:
             here.about(point)
     assert here.about(z=z) == here.about(z) == here.about((0.0, 0.0, z))
     for mistake, named in (
-        ({}, "give a point"),
-        ({"point": z, "z": z}, "or z"),
+        ({}, "z = None: give one of point, z"),
+        ({"point": z, "z": z}, "give one of point, z"),
         ({"z": "x"}, "z = 'x'"),
     ):
         with pytest.raises(cp.InputError, match=named):

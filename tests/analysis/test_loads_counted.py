@@ -13,6 +13,7 @@ from crankpin.cli import main
 from crankpin.cli.arguments import COMMANDS
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
     from matplotlib.figure import Figure
@@ -115,7 +116,7 @@ def test_results_say_what_they_count(name: str, engine: str) -> None:
 def test_force_and_moment_alone_say_nothing(name: str) -> None:
     """Gas makes neither."""
     few: dict[str, Any] = {"orders": [1, 2], "torque": False}
-    silent = {
+    silent: dict[str, Callable[[], Any]] = {
         "balance": lambda: FIRED.balance(3000, **few),
         "order": lambda: FIRED.balance(3000, **few)[2],
         "torque": lambda: FIRED.balance(3000, orders=[1, 2]).moment,

@@ -73,8 +73,8 @@ def test_points_of_a_sweep_are_balances() -> None:
                 np.testing.assert_array_equal(single, found[s.orders.index(2)])
             total = getattr(s.total, name).peak[place]
             assert total == pytest.approx(getattr(b.total, name).peak, rel=1e-12, abs=1e-12 * scale)
-    for part in (s.moment.minor, s.moment.tilt_deg):
-        assert part.shape == (2, 2, 2, 2, len(s.orders))
+    for figures in (s.moment.minor, s.moment.tilt_deg):
+        assert figures.shape == (2, 2, 2, 2, len(s.orders))
 
 
 def test_engine_at_names_what_is_wrong() -> None:
@@ -152,16 +152,17 @@ def test_an_order_says_why_it_is_zero_or_not_in_the_total() -> None:
         parts, tdc_deg=[50.3, -50.3, 180], bank_deg=[90] * 3, z=[0, 0.1, 0.2]
     ).balance(6000)
     assert odd.force[1].status == "zero within rounding"
-    for wrong in (lambda: b.force.status, lambda: b.total.force.status):
-        with pytest.raises(cp.InputError, match="status is defined for one order"):
-            wrong()
+    for quantity in (b.force, b.total.force):
+        with pytest.raises(cp.InputError, match="status is undefined for force: give one order"):
+            quantity.status  # noqa: B018
 
 
 def test_a_whole_order_is_an_int_and_a_half_order_a_float() -> None:
-    for given in (2, 2.0, np.float64(2.0), np.int64(2), Fraction(4, 2)):
-        assert repr(V6.balance(5000).moment[given].order) == "2"
-    for given in (0.5, np.float32(0.5), Fraction(1, 2)):
-        assert repr(V6.balance(5000).moment[given].order) == "0.5"
+    whole: list[Any] = [2, 2.0, np.float64(2.0), np.int64(2), Fraction(4, 2)]
+    half: list[Any] = [0.5, np.float32(0.5), Fraction(1, 2)]
+    for keys, order in ((whole, "2"), (half, "0.5")):
+        for key in keys:
+            assert repr(V6.balance(5000).moment[key].order) == order
 
 
 def test_a_torque_has_no_parts_of_a_vector() -> None:
@@ -348,7 +349,7 @@ def test_names_with_dollar_signs_are_drawn() -> None:
         engine.firing_orders()[0],
         cp.sweep([engine, V6], rpm=1000),
     ):
-        axes = result.plot()
+        axes: Any = result.plot()
         np.ravel(axes)[0].get_figure(root=True).canvas.draw()
     plt.close("all")
 
@@ -376,7 +377,7 @@ def test_engines_among_arrangements_are_refused() -> None:
     given: dict[str, Any] = {"rpm": 1000, "by": "total.moment.peak"}
     given |= {"cylinder": V6.cylinders[0], "spacing": 0.1}
     with pytest.raises(cp.InputError, match="engines = 'rubbish': give arrangements alone"):
-        cp.rank([search[0], "rubbish", None], **given)
+        cp.rank([search[0], "rubbish", None], **given)  # type: ignore[arg-type]
     with pytest.raises(cp.InputError, match="the search has no bank angle in its window"):
         cp.rank(search.within(1, 2), **given)
 

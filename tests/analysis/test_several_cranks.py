@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
 import numpy as np
@@ -296,7 +296,7 @@ def test_the_bound_about_a_point_is_one_figure_everywhere() -> None:
 def test_a_sample_of_tolerances_is_an_engine(seed: int) -> None:
     engine = random_engine(seed)
     masses = [each.reciprocating_mass for each in engine.cylinders]
-    spreads = {
+    spreads: dict[str, Any] = {
         "reciprocating_mass": 0.01 * np.array(masses),
         "rotating_mass": 0.01,
         "crank_radius": 1e-5,

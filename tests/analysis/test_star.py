@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import pickle
 from fractions import Fraction
+from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
 import numpy as np
@@ -14,12 +15,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import firing as rederived
 
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
 # Sums of at most 24 vectors of length 1, each good to 2e-16.
 ROUNDING = 1e-14
 HALVES = [0.5 * k for k in range(1, 25)]
 
 
-def inline(tdc_deg: list[float], firing_order: str, **changes: object) -> cp.Engine:
+def inline(tdc_deg: Sequence[float], firing_order: str, **changes: Any) -> cp.Engine:  # noqa: ANN401
     count = len(tdc_deg)
     engine = cp.Engine.from_lists(
         CYLINDER, tdc_deg=tdc_deg, bank_deg=[90] * count, z=[0.1 * k for k in range(count)]
@@ -31,7 +35,7 @@ def inline(tdc_deg: list[float], firing_order: str, **changes: object) -> cp.Eng
 
 
 @pytest.mark.parametrize(("angle", "order"), rederived.STAR_OF_BANKS)
-def test_sums_of_the_banks_of_a_v12(angle: float, order: float) -> None:
+def test_sums_of_the_banks_of_a_v12(angle: int, order: float) -> None:
     """The two banks are alike: the sum is that of a cylinder of each, times six."""
     true, printed = rederived.STAR_OF_BANKS[angle, order]
     pair = cp.Engine.vee(CYLINDER, bank_angle_deg=angle, throws_deg=[0], spacing=0.1)

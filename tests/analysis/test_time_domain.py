@@ -11,14 +11,14 @@ the square root loses digits).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import crankpin as cp
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from rederivation import kinematics, time_domain
 
 if TYPE_CHECKING:
@@ -309,7 +309,8 @@ def test_orders_left_out_stay_within_their_bound(case: Case, rtol: float) -> Non
 LOOP = 1e-13
 
 
-def assert_alike(found: NDArray[Any], expected: NDArray[Any] | float, scale: float) -> None:
+def assert_alike(found: ArrayLike, expected: ArrayLike, scale: float) -> None:
+    found, expected = np.asarray(found), np.asarray(expected)
     np.testing.assert_allclose(found, expected, rtol=0, atol=LOOP * scale + 1e-300)
 
 

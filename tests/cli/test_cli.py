@@ -21,8 +21,10 @@ import numpy as np
 import pytest
 from conftest import DATA
 from crankpin import cli
+from crankpin._support import inputs
+from crankpin._support.record import AbsentItemError
 from crankpin.cli import main
-from crankpin.cli.arguments import COMMANDS, Given
+from crankpin.cli.arguments import COMMANDS, Given, error_in_options
 from matplotlib import pyplot as plt
 
 IJESC = [
@@ -551,7 +553,7 @@ def test_control_characters_do_not_reach_the_terminal(capsys: CAPTURE, tmp_path:
         ("balance i4 --orders 1,x", "--orders = 1,x: give multiples of crank speed"),
         ("balance i4 --orders 1.25", "--orders = 1.25: give multiples of crank speed"),
         ("balance i4 --orders 0", "orders"),
-        ("balance i4 --orders 1,2 --rtol 1e-3", "--rtol needs --orders auto"),
+        ("balance i4 --orders 1,2 --rtol 1e-3", "--rtol = 1e-3: needs --orders auto"),
         ("balance i4 --reference-z front", "--reference-z = front"),
         ("balance i4 --spectrum 9.0", "--spectrum = 9.0: give order=amplitude"),
         ("balance i4 --spectrum 1=9.0,1=8.0", "order 1 is given twice"),
@@ -569,7 +571,7 @@ def test_control_characters_do_not_reach_the_terminal(capsys: CAPTURE, tmp_path:
         ("sweep v6-60 --bank-angle 10:190:10", "--bank-angle = 190.0"),
         ("sweep v6-60 --rod-ratio 0.5:1.5:0.5", "--rod-ratio = 1.0: give"),
         ("sweep v6-60 --hold nothing", "--hold"),
-        ("sweep v6-60 --orders 1 --rtol 1e-3", "--rtol needs --orders auto"),
+        ("sweep v6-60 --orders 1 --rtol 1e-3", "--rtol = 1e-3: needs --orders auto"),
         ("balance i4 --rpm sNaN", "--rpm = sNaN: give a finite number"),
         ("balance i4 --rpm " + "9" * 100_000, "--rpm = 999999"),
         ("sweep i4 --rpm 1:" + "x" * 100_000 + ":1", "give a number"),
@@ -597,7 +599,7 @@ def test_control_characters_do_not_reach_the_terminal(capsys: CAPTURE, tmp_path:
         ("view i4 -o i4.txt", "--out = 'i4.txt': a page ends in .html"),
         ("sweep v-twin-90 --bank-angle 45", "nothing to sweep: all options have one value; give"),
         ("bob-weight harley", 'NAME = "harley": no such preset; crankpin new makes engines'),
-        ("tolerances v6-60", "no part deviates: give a spread, --reciprocating-mass, "),
+        ("tolerances v6-60", "no part deviates; give a spread, --reciprocating-mass, "),
         ("rank v6-60 --plot picture.bmp", "a picture's name ends in"),
         ("sweep", "NAME"),
         ("presets v6-60", "unrecognized arguments: v6-60"),
@@ -619,6 +621,19 @@ def test_errors_are_one_line(
     monkeypatch.chdir(tmp_path)
     assert said in refused(capsys, *argv.split())
     assert not any(tmp_path.iterdir())
+
+
+def test_an_error_named_as_in_a_shell_keeps_its_fields() -> None:
+    hint = 'give hold="pins", or rpm=[1, 2]; see bank_angle'
+    error = error_in_options(
+        inputs.rejected("bank_angle_deg[1]", 190.0, hint, AbsentItemError),
+        {"bank_angle": "190", "hold": None, "rpm": None},
+    )
+    assert type(error) is AbsentItemError
+    assert (error.argument, error.value) == ("--bank-angle[1]", "190.0")
+    assert error.hint == "give --hold pins, or --rpm 1,2; see bank_angle"
+    assert str(error) == f"{error.argument} = {error.value}: {error.hint}"
+    assert error_in_options(cp.InputError("a sentence"), {}).args == ("a sentence",)
 
 
 @pytest.mark.filterwarnings("default")
@@ -711,7 +726,12 @@ def test_examples_of_help_run(
         main([*command, "--help"])
     (example,) = re.findall(r"example:\n  crankpin (.*)\n", capsys.readouterr().out)
     monkeypatch.chdir(tmp_path)
+    body = cp.RigidBody(mass=150, cg=(0, 0, 0.15), inertia=(7, 8, 4.5))
+    places = {"left": (-0.3, 0, 0), "right": (0.3, 0, 0), "rear": (0, 0, 0.5)}
+    mounts = [cp.Mount(name, at=at, stiffness=2e5, loss_factor=0.1) for name, at in places.items()]
+    cp.Powertrain(cp.Engine.preset("i4"), body, mounts).save("car.toml")
     assert printed(capsys, *example.split())
+    Path("car.toml").unlink()
     written = re.findall(r"(?:--plot|--save|--out|-o) (\S+)", example)
     assert sorted(file.name for file in tmp_path.iterdir()) == sorted(written)
 

@@ -113,7 +113,7 @@ def test_a_speed_of_zero_is_zero(capsys: pytest.CaptureFixture[str]) -> None:
             "--target = total.force.peak=1,total.moment.peak=5%: give all values in %, or none",
         ),
         (["i4", "--target", "total.force.peak=x"], "--target = x: give a number"),
-        (["i4", "--save", "x.toml"], "--save needs --ratios or --target"),
+        (["i4", "--save", "x.toml"], "--save = x.toml: needs --ratios or --target"),
         (["i4", "--save", "x.toml", "--target", "[4].force.peak=0"], "no set reaches the target"),
         (["ijesc-v6", "--ratios", "1"], "NAME = ijesc-v6: shafts takes one engine"),
         (["i4", "--ratios", "2", "--plot", "x.gif"], "--plot = x.gif"),

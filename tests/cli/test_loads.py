@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import crankpin as cp
 import matplotlib as mpl
@@ -33,7 +33,9 @@ def _agg() -> None:
     mpl.use("agg")
 
 
-def fired(name: str, kind: str = "petrol", bore: float | None = None) -> cp.Engine:
+def fired(
+    name: str, kind: Literal["petrol", "diesel"] = "petrol", bore: float | None = None
+) -> cp.Engine:
     """A preset with an example's pressure; bores as wide as the strokes unless given."""
     engine = cp.Engine.preset(name)
     cylinders = [each.replace(bore=bore or each.stroke) for each in engine.cylinders]

@@ -212,11 +212,11 @@ def test_a_firing_order_that_the_crank_does_not_allow_is_dropped(capsys: CAPTURE
         ),
         (
             "new v8 --cylinders 8",
-            "--cylinders does not apply to v8, which takes --bank-angle, --throws, ",
+            "--cylinders = 8: does not apply to v8, which takes --bank-angle, --throws, ",
         ),
         (
             "new vr6 --throws 0",
-            "--throws does not apply to vr6, which takes --spacing, --firing-order",
+            "--throws = 0: does not apply to vr6, which takes --spacing, --firing-order",
         ),
         ("new v6 --stroke 80mm", "a cylinder of your own needs --rod-length"),
         (
@@ -233,7 +233,7 @@ def test_a_firing_order_that_the_crank_does_not_allow_is_dropped(capsys: CAPTURE
         ),
         (
             "new v6 --stroke 80mm --rod-length 150mm --reciprocating-mass 1 --piston-mass 1",
-            "--piston-mass cannot be combined",
+            "--piston-mass = 1: cannot be combined",
         ),
         (
             "new v6 --stroke 80lb --rod-length 150mm --reciprocating-mass 1",

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import os
+import pickle
 import reprlib
 import time
 import traceback
@@ -147,6 +148,19 @@ def unsound(value: Any) -> str:
     return ""
 
 
+def unclear(error: cp.InputError) -> str:
+    """What an error lacks: an argument and a hint, in its message and in other processes too."""
+    argument, hint, message = error.argument, error.hint, str(error)
+    copy = pickle.loads(pickle.dumps(error))  # noqa: S301 - its own
+    if not (argument and hint and message.startswith(argument) and message.endswith(hint)):
+        return f"raised an error of argument {argument!r} and hint {hint!r}: {message}"
+    if error.value is not None and f"{argument} = {error.value}: {hint}" != message:
+        return f"raised an error of value {error.value!r}: {message}"
+    if (type(copy), str(copy), vars(copy)) != (type(error), message, vars(error)):
+        return f"raised an error that does not pickle: {message}"
+    return ""
+
+
 def of_operator(call: Call) -> bool:
     """Whether an operator is called, whose answer is as odd as what it was given."""
     return call.target.label.rpartition(" ")[2] in OPERATORS
@@ -183,6 +197,8 @@ def problem(call: Call) -> str:
         try:
             answer = invoke(call)
             found = "" if of_operator(call) else unsound(answer)
+        except cp.InputError as error:
+            found = unclear(error)
         except ALLOWED:
             found = ""
         except TypeError as error:

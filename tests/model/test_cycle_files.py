@@ -29,7 +29,7 @@ def written(
     ]
     if options.get("comma"):
         lines = [line.replace(".", ",") for line in lines]
-    path = folder / options.get("name", "bench.csv")
+    path = folder / str(options.get("name", "bench.csv"))
     path.write_text("\n".join([header, *lines]), options.get("encoding", "utf-8"))
     return path
 
@@ -161,14 +161,22 @@ def test_what_is_saved_reads_back_as_an_equal_cycle(
         ("angle,p\n0,1e5\n", ABSOLUTE, "theta_deg = 1 points"),
         ("", ABSOLUTE, "no line of two numbers"),
         ("angle|p\n0|1e5\n", ABSOLUTE, r"no line of two numbers.* with digits is '0\|1e5'"),
-        ("angle,p\n0,1e5\n1,high\n", ABSOLUTE, "line 2 of the numbers, '1 high', has no number"),
-        ("angle,p\n0,1e5\n1\n", ABSOLUTE, "line 2 of the numbers, '1', has no number in column 1"),
+        (
+            "angle,p\n0,1e5\n1,high\n",
+            ABSOLUTE,
+            "no number in column 1 of line 2 of the numbers, '1 high'",
+        ),
+        ("angle,p\n0,1e5\n1\n", ABSOLUTE, "no number in column 1 of line 2 of the numbers, '1'"),
         ("angle,p\n0,0,1,5\n", ABSOLUTE, "decimals written with commas"),
-        ("angle,p\n0,1e5\n", {**ABSOLUTE, "columns": ("angle", "q")}, "there is no 'q'"),
+        (
+            "angle,p\n0,1e5\n",
+            {**ABSOLUTE, "columns": ("angle", "q")},
+            "columns = 'q': there is none",
+        ),
         ("angle,p\n0,1e5\n", {**ABSOLUTE, "columns": (0,)}, "give two"),
         ("angle,p\n0,1e5\n", {**ABSOLUTE, "gauge": "yes"}, "gauge = 'yes': give True or False"),
         ("angle,p\n0,1e5\n", {**ABSOLUTE, "tdc_deg": np.nan}, "tdc_deg = nan: give a finite"),
-        ("# degree: x\nangle,p\n0,1e5\n", ABSOLUTE, "degree: 'x' is not a whole number"),
+        ("# degree: x\nangle,p\n0,1e5\n", ABSOLUTE, "path has degree = 'x': give a whole number"),
         ("# strokes: 9\nangle,p\n0,1e5\n", ABSOLUTE, "strokes = 9: give 4"),
         ("# strokes: 0\nangle,p\n0,1e5\n", ABSOLUTE, "strokes = 0: give 4"),
     ],

@@ -77,7 +77,7 @@ def test_maps_are_values_with_a_table() -> None:
         ({"rpm": [4000, 1000]}, "rpm = .*: give ascending numbers"),
         ({"load": []}, "load = .*: give ascending numbers"),
         ({"rpm": [1000]}, "cycles = .*: for 1 speeds and 3 loads give a list for each speed"),
-        ({"cycles": [[1, 2, 3]] * 2}, "cycles: 1 is not a Cycle"),
+        ({"cycles": [[1, 2, 3]] * 2}, "cycles = 1: is not a Cycle"),
         ({"cycles": 3}, "cycles = 3: give a list for each speed"),
     ],
 )

@@ -68,7 +68,7 @@ def test_errors_of_arguments_name_what_people_call() -> None:
     with pytest.raises(TypeError, match=r"^Engine\.vee\(\) got an unexpected keyword argument"):
         cp.Engine.vee(bank_angle=90)  # type: ignore[call-arg]
     with pytest.raises(TypeError, match=r"^Engine\.replace\(\) takes 1 positional argument"):
-        cp.Engine.preset("i4").replace(4)  # type: ignore[misc]
+        cp.Engine.preset("i4").replace(4)  # type: ignore[call-arg, arg-type]
 
 
 def test_right_bank_is_the_core_s() -> None:
@@ -733,7 +733,7 @@ def test_presets_are_a_mapping_to_engines() -> None:
     assert presets["i4"] == cp.Engine.preset("i4")
     assert presets.get("nothing") is None
     assert "v8-crossplane" in presets
-    assert 8 not in presets
+    assert 8 not in presets  # type: ignore[comparison-overlap]
     with pytest.raises(KeyError):
         presets["v8-crosplane"]
     with pytest.raises(cp.InputError, match=r'^name = "v8-crosplane": .* "v8-crossplane"'):
@@ -789,8 +789,8 @@ def test_unknown_presets_suggest_near_names_and_what_builds_them(
     assert str(caught.value) == expected
     built = f"build it by {command}; " if command else ""
     built = "crankpin new makes engines of your own; " if alone else built
-    assert presets_module.suggestion(name, typed=True) == (
-        f'"{name}": no such preset; {hint}{built}"crankpin presets" lists all; engine files end in '
+    assert presets_module.unknown("NAME", name, typed=True).hint == (
+        f'no such preset; {hint}{built}"crankpin presets" lists all; engine files end in '
         ".toml or .json"
     )
 

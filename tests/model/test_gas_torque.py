@@ -54,7 +54,7 @@ def test_rows_are_those_of_the_equations_solved_again(name: str) -> None:
     charge = area * stroke / (ratio - 1) * again.chamber(closes, ratio, crank)
     air = given["intake_pressure"] * charge / (287.05 * given["charge_temperature"])
     fuel = air / given["excess_air"] / given["stoichiometric_ratio"]
-    closed, *_ = again.wiebe({**given, "heat": fuel * given["heating_value"]}, crank, bore)
+    closed, *_ = again.wiebe({**given, "heat": float(fuel * given["heating_value"])}, crank, bore)
     opened = closed(np.array([opens]))[0]
     exhaust, intake = given["exhaust_pressure"], given["intake_pressure"]
 

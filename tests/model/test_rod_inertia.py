@@ -92,7 +92,7 @@ def test_the_bodies_agree_among_themselves(index: int) -> None:
 
 def test_waveforms_are_those_of_rigid_rods() -> None:
     waveform = V4.waveform(rpm=RPM, theta_deg=THETA_DEG)
-    roll, crank, force = 0.0, 0.0, 0.0
+    roll, crank, force = np.zeros(3)[:, np.newaxis]
     for index in range(4):
         theta = np.deg2rad(THETA_DEG - TDC_DEG[index])
         parts = bodies(index)
@@ -385,7 +385,7 @@ def test_a_rod_that_is_none_is_refused(name: str, value: float | str) -> None:
 @pytest.mark.parametrize("value", [np.nan, np.inf, 1e91, 1e-91, "much", None])
 def test_an_inertia_that_is_none_is_refused(value: object) -> None:
     with pytest.raises(cp.InputError, match="rod_inertia_excess"):
-        cp.Cylinder(0.05, 0.15, 0.5, rod_inertia_excess=value)
+        cp.Cylinder(0.05, 0.15, 0.5, rod_inertia_excess=value)  # type: ignore[arg-type]
 
 
 def test_an_estimated_rod_has_the_mean_inertia_of_measured_ones() -> None:

@@ -50,7 +50,7 @@ EQUIPPED = V6.replace(rotating_mass=0.3).with_counterweights(WEIGHTS).with_shaft
 
 
 def test_unbalance_and_shaft_keep_what_is_given() -> None:
-    weight = Unbalance(amount=np.float64(0.01), z=0, angle_deg="51.4", pin=np.int64(3))
+    weight = Unbalance(amount=np.float64(0.01), z=0, angle_deg="51.4", pin=np.int64(3))  # type: ignore[arg-type]
     assert (weight.amount, weight.z, weight.angle_deg, weight.pin) == (0.01, 0.0, 51.4, 3)
     assert Unbalance(0.01, 0.0, "1/3").angle_deg == "1/3"
     assert Unbalance(0.01, 0.0).angle_deg == 0.0
@@ -145,7 +145,7 @@ def test_with_counterweights_means_what_the_builders_and_replace_mean() -> None:
     given: dict[str, Any] = {"counterweights": WEIGHTS, "shafts": SHAFTS}
     assert cp.Engine.preset("v6-60", rotating_mass=0.3, **given) == EQUIPPED
     assert V6.replace(rotating_mass=0.3, **given) == EQUIPPED
-    arrays = {name: np.array(each) for name, each in given.items()}
+    arrays: dict[str, Any] = {name: np.array(each) for name, each in given.items()}
     assert cp.Engine.preset("v6-60", rotating_mass=0.3, **arrays) == EQUIPPED
     lists: dict[str, Any] = {"tdc_deg": V6.tdc_deg, "bank_deg": V6.bank_deg, "z": V6.z}
     made = cp.Engine.from_lists(V6.cylinders, rotating_mass=0.3, **lists, **given)
@@ -467,7 +467,7 @@ def test_closed_form_evaluates_to_the_balance() -> None:
     engine = I4.with_counterweights(weights).with_shafts(shafts)
     b = engine.balance(RPM, orders=[1])[1]
     for quantity in ("force", "moment"):
-        values = engine.closed_form(1, quantity).evaluate(RPM)  # type: ignore[arg-type]
+        values = engine.closed_form(1, quantity).evaluate(RPM)
         found = getattr(b, quantity)
         expected = {"x": found.x, "y": found.y, "forward": found.forward}
         expected["backward"] = found.backward

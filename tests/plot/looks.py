@@ -51,7 +51,8 @@ def compared(test: Test) -> Test:
         mpl.__version__ != pinned,
         reason=f"images are of matplotlib {pinned}; this is {mpl.__version__}",
     )
-    return image(skipped(test))
+    marked: Test = image(skipped(test))
+    return marked
 
 
 def on_dark_column(plot: Callable[..., Any]) -> Figure:
@@ -70,7 +71,8 @@ def in_a_grid(plot: Callable[..., Any]) -> Figure:
     plt.close("all")
     figure = plt.figure(figsize=(7.0, 5.0), layout="constrained")
     if isinstance(drawn, np.ndarray):
-        for part in figure.subfigures(1, 2):
+        parts: Any = figure.subfigures(1, 2)
+        for part in parts:
             assert {ax.get_figure(root=False) for ax in plot(figure=part).flat} == {part}
     else:
         for ax in figure.subplots(2, 2).ravel():

@@ -127,10 +127,10 @@ def test_titles_and_legend_name_both() -> None:
 def test_axes_given_get_the_bars() -> None:
     _, ax = plt.subplots()
     assert BANKS.plot(ax, linewidth=2.0) is ax
-    assert {bar.get_linewidth() for group in ax.containers for bar in group} == {2.0}  # type: ignore[attr-defined]
+    assert {bar.get_linewidth() for group in ax.containers for bar in group} == {2.0}
     assert len(plt.get_fignums()) == 1
     with pytest.raises(cp.InputError, match="ax and figure cannot be combined"):
-        BANKS.plot(ax, figure=plt.gcf())
+        BANKS.plot(ax, figure=plt.gcf())  # type: ignore[call-overload]
 
 
 def test_a_narrow_figure_has_its_panels_below_each_other() -> None:
@@ -146,7 +146,7 @@ def test_what_neither_has_is_said() -> None:
 
 def test_an_error_leaves_no_figure() -> None:
     given = cp.compare(I4, V6, rpm=3000, spectrum={1: 1.0})
-    for call in (lambda: BANKS.plot(quantity="power"), lambda: given.plot(quantity="torque")):
+    for comparison, quantity in ((BANKS, "power"), (given, "torque")):
         with pytest.raises(cp.InputError):
-            call()
+            comparison.plot(quantity=quantity)
     assert plt.get_fignums() == []

@@ -7,7 +7,7 @@ import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import crankpin as cp
 import numpy as np
@@ -168,7 +168,7 @@ def test_areas_of_the_star_are_proportional_to_unbalances() -> None:
     assert sorted(directions) == [-90, 90]
 
     def area(outline: np.ndarray) -> float:
-        return 0.5 * abs((outline.conj() * np.roll(outline, -1)).imag.sum())
+        return float(0.5 * abs((outline.conj() * np.roll(outline, -1)).imag.sum()))
 
     ratio = 2 * 0.012 / (2 * 0.4 * 0.043)
     # Circles of 20 corners have 1.6 % less area than round ones, sectors of 9 0.3 %.
@@ -215,10 +215,10 @@ def test_no_numbers_overlap(engine: cp.Engine, size: tuple[float, float], font: 
         figure = plt.figure(figsize=size, layout="constrained")
         axes = engine.plot(figure=figure)
         figure.canvas.draw()
-        for ax in axes:  # type: ignore[union-attr]
+        for ax in axes:
             texts = [text for text in ax.texts if text.get_text()]
             boxes = [text.get_window_extent().padded(-0.5) for text in texts]
-            texts.append(ax._left_title)  # type: ignore[attr-defined]
+            texts.append(ax._left_title)
             boxes.append(texts[-1].get_window_extent())
             for (a, one), (b, other) in itertools.combinations(zip(texts, boxes, strict=True), 2):
                 assert not one.overlaps(other), (a.get_text(), b.get_text())
@@ -257,16 +257,16 @@ def test_titles_and_legend_say_what_it_is() -> None:
     assert (
         ax.get_title(loc="left")
         == "Inline-4 with 4 counterweights and 2 balance shafts\ncrank star, θ = 0°"
-    )  # type: ignore[union-attr]
+    )
     assert not figure_of(cp.Engine.preset("i4").plot()).legends
 
 
 def test_lengths_that_are_not_to_scale_say_so() -> None:
     true = cp.Engine.preset("i4").plot(kind="side")
-    assert true.get_xlabel() == "z, m"  # type: ignore[union-attr]
-    assert true.get_aspect() == 1.0  # type: ignore[union-attr]
+    assert true.get_xlabel() == "z, m"
+    assert true.get_aspect() == 1.0
     book = cp.Engine.preset("i4-ebook").plot(kind="side")
-    assert book.get_xlabel() == "z, m (not to the scale of y)"  # type: ignore[union-attr]
+    assert book.get_xlabel() == "z, m (not to the scale of y)"
 
 
 # --- places and options -------------------------------------------------------------------------
@@ -281,11 +281,14 @@ def test_axes_given_get_the_section_and_one_kind_takes_axes() -> None:
 
 
 def test_style_is_passed_on_to_the_main_parts() -> None:
-    for kind, gid in (("section", MOVING), ("star", None), ("side", None)):
-        ax = FITTED.plot(kind=kind, color="#123456", label="parts")  # type: ignore[call-overload,arg-type]
+    kinds: list[tuple[Literal["section", "star", "side"], str | None]]
+    kinds = [("section", MOVING), ("star", None), ("side", None)]
+    for kind, gid in kinds:
+        ax = FITTED.plot(kind=kind, color="#123456", label="parts")
         (found,) = (each for each in ax.collections if each.get_label() == "parts")
         assert found.get_gid() == gid
-        np.testing.assert_allclose(found.get_facecolor()[0][:3], np.array([18, 52, 86]) / 255)
+        colour = np.asarray(found.get_facecolor())[0, :3]
+        np.testing.assert_allclose(colour, np.array([18, 52, 86]) / 255)
 
 
 @pytest.mark.parametrize(

@@ -24,7 +24,7 @@ def drawn(ax: Axes) -> Bars:
     """Every bar by the name of its colour or hatch in the legend: cylinder, start and end."""
     legend = ax.get_legend()
     assert legend is not None
-    names = {}
+    names: dict[Any, str] = {}
     for handle, text in zip(legend.legend_handles, legend.get_texts(), strict=True):
         if isinstance(handle, mpl.patches.Patch):
             name = text.get_text().rpartition(": ")[2]
@@ -34,7 +34,7 @@ def drawn(ax: Axes) -> Bars:
     for bars in ax.collections:
         assert isinstance(bars, PolyCollection)
         colour = (
-            mpl.colors.to_hex(bars.get_facecolor()[0], True)
+            mpl.colors.to_hex(np.asarray(bars.get_facecolor())[0], True)
             if len(bars.get_facecolor())
             else "#00000000"
         )
@@ -113,7 +113,8 @@ def test_it_takes_axes_timing_and_style() -> None:
     assert V8.plot(ax, timing=timing, edgecolor="red") is ax
     assert {end - start for _, start, end in drawn(ax)["exhaust open"]} >= {270.0}
     assert all(
-        mpl.colors.to_hex(bars.get_edgecolor()[0]) == "#ff0000" for bars in ax.collections[:8]
+        mpl.colors.to_hex(np.asarray(bars.get_edgecolor())[0]) == "#ff0000"
+        for bars in ax.collections[:8]
     )
     with pytest.raises(cp.InputError, match="ax = 3"):
         V8.plot(3)  # type: ignore[arg-type]
@@ -149,4 +150,4 @@ def test_strokes_alone_stand_in_the_middle_of_their_rows() -> None:
             middle = 0.5 * (heights.min() + heights.max())
             assert middle == pytest.approx(round(middle), abs=1e-9)  # rounding
     (fires,) = (line for line in ax.lines if line.get_label() == "fires")
-    np.testing.assert_allclose(fires.get_ydata(), np.arange(8), atol=1e-9)
+    np.testing.assert_allclose(np.asarray(fires.get_ydata()), np.arange(8), atol=1e-9)

@@ -54,7 +54,7 @@ def test_picture_on_plain_axes(name: str) -> None:
     else:
         ax = figure.subplots()
         assert plot(ax=ax) is ax
-    assert plt.get_fignums() == [figure.number]  # type: ignore[attr-defined]
+    assert plt.get_fignums() == [figure.number]
     assert dict(mpl.rcParams) == parameters
     legible(figure)
 

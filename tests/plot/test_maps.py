@@ -165,7 +165,7 @@ def test_map_of_orders_on_axes() -> None:
 )
 def test_map_of_orders_is_over_one_number(more: dict[str, Any], x: str | None, swept: str) -> None:
     s = cp.sweep(I4 if "rod_ratio" in more else [I4, V6], **more, orders=[2])
-    with pytest.raises(cp.InputError, match=f'"orders" needs one swept number, not {swept}; give'):
+    with pytest.raises(cp.InputError, match=f"'orders': needs one swept number, not {swept}; give"):
         s.plot(kind="orders", x=x)
 
 

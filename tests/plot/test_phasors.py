@@ -138,10 +138,13 @@ def test_each_name_is_measured_once_for_its_lane_and_once_for_its_place(
 
 def test_they_need_a_figure() -> None:
     _, ax = plt.subplots()
-    with pytest.raises(cp.InputError, match='ax: kind="phasors" has several panels; give figure='):
-        I4.balance(3000).plot(ax, kind="phasors")
+    with pytest.raises(
+        cp.InputError, match=r'ax = .*: kind="phasors" has several panels; give figure='
+    ):
+        I4.balance(3000).plot(ax, kind="phasors")  # type: ignore[call-overload]
     figure = plt.figure()
-    part = figure.subfigures(1, 2)[0]
+    parts: Any = figure.subfigures(1, 2)
+    part = parts[0]
     axes = I4.balance(3000).plot(figure=part, kind="phasors")
     assert {panel.get_figure(root=False) for panel in axes.flat} == {part}
     with pytest.raises(cp.InputError, match="quantity = 'power'"):

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from crankpin.plot import balancing
 from matplotlib import pyplot as plt
+from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
@@ -42,6 +43,7 @@ def test_fit_is_drawn_with_and_without_shafts(quantity: str) -> None:
     rows = [text.get_text() for text in ax.get_yticklabels()]
     assert rows == [f"order {each.order} {each.part}".strip() for each in parts]
     (paths,) = (each for each in ax.collections if each.get_gid() == balancing.CHANGE)
+    assert isinstance(paths, LineCollection)
     ends = [segment[:, 0].tolist() for segment in paths.get_segments()]
     assert ends == [[each.after, each.before] for each in parts]
     assert ax.get_xlim()[1] > max(each.before for each in parts)
@@ -63,7 +65,7 @@ def test_front_is_drawn_in_per_cent_of_what_there_is() -> None:
     assert names[:3] == ["nothing", "weights", "+2"]
     assert names[-1] == "weights, −1, −2, +2"
     (target,) = (line for line in ax.lines if line.get_gid() == balancing.TARGET)
-    assert target.get_xdata()[0] == pytest.approx(100.0 * 900.0 / start[1])
+    assert np.asarray(target.get_xdata())[0] == pytest.approx(100.0 * 900.0 / start[1])
     ringed = drawn["target reached"].get_ydata().tolist()
     assert ringed == [k for k, each in enumerate(OPTIONS.front) if each.reaches]
     assert 0 < len(ringed) < len(OPTIONS.front)
@@ -84,7 +86,7 @@ def test_sets_that_do_not_fit_are_counted() -> None:
     title = " ".join(ax.get_title(loc="left").split())
     assert title.endswith(f"; {len(OPTIONS.front) - rows} more")
     (size,) = {text.get_fontsize() for text in ax.get_yticklabels()}
-    assert size >= balancing.SMALLEST
+    assert float(size) >= balancing.SMALLEST
 
 
 def test_several_fits_share_rows_of_the_same_name() -> None:
@@ -134,7 +136,7 @@ def test_drawn_where_told_with_style_and_label(name: str) -> None:
     colours = {to_rgb(line.get_color()) for line in ax.lines if line.get_gid() == "crankpin series"}
     assert colours == {to_rgb("green")}
     with pytest.raises(cp.InputError, match=r"^ax = 'here': give matplotlib axes"):
-        PLOTS[name]("here")
+        PLOTS[name]("here")  # type: ignore[arg-type]
 
 
 @pytest.mark.slow

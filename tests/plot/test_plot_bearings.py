@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import crankpin as cp
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
+from matplotlib.collections import LineCollection
 
 from plot.pictures import LOADED
 from plot.reading import heights, legend_texts, series, title_of
@@ -74,7 +77,7 @@ def test_polar_diagrams_go_no_further_than_the_loads_and_the_origin() -> None:
     assert high == pytest.approx(along.max() + 0.2 * np.ptp(along), abs=0.05 * np.ptp(along))
     # Angles stand above and below a level line, and those at one point together.
     texts = {text.get_text(): text for text in ax.texts if text.get_text()}
-    offsets = [float(text.xyann[1]) for text in texts.values()]  # type: ignore[attr-defined]
+    offsets = [float(text.xyann[1]) for text in texts.values()]
     assert offsets == [11.0, -11.0] * (len(offsets) // 2) + [11.0] * (len(offsets) % 2)
     assert "180°, 360°, 540°" in texts
 
@@ -98,16 +101,17 @@ def test_bending_is_drawn_along_z_with_the_main_bearings() -> None:
     np.testing.assert_allclose(heights(ax)[2], expected[1] / 4.0, rtol=1e-14, atol=1e-9)
     assert legend_texts(ax) == ["crank", "crankcase", "slow"]
     (mains,) = ax.collections
+    assert isinstance(mains, LineCollection)
     np.testing.assert_array_equal(
         [line[0, 0] for line in mains.get_segments()], LOADED.engine.mains
     )
 
 
 def test_an_engine_at_rest_says_so() -> None:
-    for kind in ("polar", "curves", "bending"):
-        for panel in np.ravel(
-            cp.bearing_loads(LOADED.engine, 0.0, LOADED.theta_deg).plot(kind=kind)
-        ):
+    still = cp.bearing_loads(LOADED.engine, 0.0, LOADED.theta_deg)
+    drawn: list[Any] = [still.plot(), still.plot(kind="curves"), still.plot(kind="bending")]
+    for axes in drawn:
+        for panel in np.ravel(axes):
             texts = {text.get_text() for text in panel.texts}
             assert not panel.get_visible() or "zero throughout" in texts
 
@@ -129,7 +133,7 @@ def test_an_engine_at_rest_says_so() -> None:
         ({"figure": 1, "ax": 1}, "ax and figure cannot be combined"),
     ],
 )
-def test_errors_name_the_option(options: dict[str, object], message: str) -> None:
+def test_errors_name_the_option(options: dict[str, Any], message: str) -> None:
     with pytest.raises(cp.InputError, match=message):
         LOADED.plot(**options)
 
@@ -140,7 +144,7 @@ def test_angles_stand_beside_a_narrow_load() -> None:
     for panel in cp.bearing_loads(single, 6000).plot().flat:
         wide, high = np.ptp([panel.get_xlim(), panel.get_ylim()], axis=1)
         assert wide == pytest.approx(0.75 * high)  # narrower ones have no room for angles
-        places = [(text.xy, text.xyann) for text in panel.texts if text.get_text()]  # type: ignore[attr-defined]
+        places = [(text.xy, text.xyann) for text in panel.texts if text.get_text()]
         assert len(places) > 1
         for (x, _), (aside, up) in places:
             assert up == 0.0

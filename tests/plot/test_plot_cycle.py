@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from plot.reading import legend_texts, title_of
+from plot.reading import figure_of, legend_texts, title_of
 
 CYLINDER = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
 MOTORED = cp.Cycle.motored(CYLINDER, compression_ratio=10)
@@ -25,7 +25,7 @@ def test_pressure_is_drawn_over_crank_angle_and_closed() -> None:
     MOTORED.plot(ax)
     assert title_of(ax) == "Cylinder pressure"
     assert legend_texts(ax) == ["bench", MOTORED.name]
-    plt.close(ax.figure)
+    plt.close(figure_of(ax))
 
 
 def test_pressure_over_volume_encloses_the_work() -> None:

@@ -28,7 +28,7 @@ def ax() -> Axes:
 
 def vertical(ax: Axes, label: str) -> float:
     (line,) = (line for line in ax.lines if line.get_label() == label)
-    return float(line.get_xdata()[0])  # type: ignore[index]
+    return float(np.asarray(line.get_xdata())[0])
 
 
 def test_a_histogram_of_equal_values_has_one_bar(ax: Axes) -> None:
@@ -55,7 +55,7 @@ def test_an_ecdf_rises_by_a_sample_at_each_value(ax: Axes) -> None:
     T.plot(ax, kind="ecdf", by="[1].force.forward", label="2 g", color="tab:green")
     curve = next(line for line in ax.lines if line.get_label() == "2 g")
     np.testing.assert_array_equal(curve.get_xdata(), np.sort(T.values("[1].force.forward")))
-    np.testing.assert_allclose(curve.get_ydata(), 100.0 * np.arange(1, 401) / 400)
+    np.testing.assert_allclose(np.asarray(curve.get_ydata()), 100.0 * np.arange(1, 401) / 400)
     assert curve.get_color() == "tab:green"
     dots = next(line for line in ax.lines if "quantiles" in str(line.get_label()))
     assert np.array(dots.get_xdata()).tolist() == T.quantile(by="[1].force.forward").tolist()
@@ -92,7 +92,7 @@ def test_new_axes_and_errors() -> None:
     assert len(ax.patches) == len(T.shares.columns) - 2
     plt.close("all")
     with pytest.raises(cp.InputError, match=r'kind = .pie.: give "histogram", "ecdf" or "shares"'):
-        T.plot(kind="pie")
+        T.plot(kind="pie")  # type: ignore[arg-type]
     with pytest.raises(cp.InputError, match="by = "):
         T.plot(by="weight")
     assert not plt.get_fignums()

@@ -80,10 +80,11 @@ def test_values_that_are_not_finite_leave_gaps() -> None:
 
 def test_points_of_a_search_are_its_arrangements() -> None:
     found = cp.search_arrangements(10)
-    (line,) = series(found.plot())
+    ax = found.plot()
+    (line,) = series(ax)
     np.testing.assert_array_equal(line.get_xdata(), [each.bank_angle_deg for each in found])
     np.testing.assert_array_equal(line.get_ydata(), [max(each.second_order) for each in found])
-    assert title_of(line.axes) == "V10\n46 bank angles without backward moment, firing held"
+    assert title_of(ax) == "V10\n46 bank angles without backward moment, firing held"
     ax = found.plot(label="ten")
     cp.search_arrangements(12).plot(ax, label="twelve")
     assert legend_texts(ax) == ["ten", "twelve"]

@@ -199,7 +199,7 @@ def test_curves_that_coincide_are_both_seen() -> None:
     """First-order moment does not depend on the rod: the second curve is dashed over the first."""
     s = cp.sweep(V6, rpm=[1000, 2000, 3000], rod_ratio=[0.2, 0.3])
     first, second = series(s.plot(orders=[1])[0, 0])
-    np.testing.assert_allclose(first.get_ydata(), second.get_ydata())
+    np.testing.assert_allclose(np.asarray(first.get_ydata()), np.asarray(second.get_ydata()))
     assert first.get_linestyle() == "-"
     assert second.get_linestyle() == "--"
 

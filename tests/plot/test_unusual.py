@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import threading
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
@@ -18,6 +17,8 @@ from matplotlib.collections import QuadMesh
 from plot.reading import heights, legend_texts, series, title_of, xtick_texts
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from matplotlib.figure import Figure
 
 SINGLE = cp.Engine.preset("single")
@@ -135,7 +136,7 @@ def test_a_map_of_zeros_has_no_scale() -> None:
     panels = sweep.plot(kind="map", quantity="moment")
     figure = panels[0, 0].get_figure()
     assert not any(
-        mesh.get_array().any()
+        np.any(mesh.get_array())
         for ax in panels.flat
         for mesh in ax.collections
         if isinstance(mesh, QuadMesh)
@@ -206,9 +207,10 @@ def test_an_option_that_does_not_exist_is_named(draw: Callable[..., Any]) -> Non
 
 
 def test_no_orders_are_rejected() -> None:
-    for draw, kind in ((over_speed(V6).plot, "curves"), (V6.balance(3000).plot, "phasors")):
-        with pytest.raises(cp.InputError, match="at least one order"):
-            draw(orders=[], kind=kind)
+    with pytest.raises(cp.InputError, match="at least one order"):
+        over_speed(V6).plot(orders=[], kind="curves")
+    with pytest.raises(cp.InputError, match="at least one order"):
+        V6.balance(3000).plot(orders=[], kind="phasors")
 
 
 def test_pictures_in_threads_leave_settings_alone() -> None:

@@ -23,10 +23,13 @@ import harmonics
 import orders
 import peaks
 import tolerances
+from rederivation import ijesc
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from types import ModuleType
+
+    import methods
 
 pytestmark = pytest.mark.slow
 
@@ -96,7 +99,7 @@ BEST = {
 
 
 @pytest.mark.parametrize("method", harmonics.METHODS, ids=lambda method: method.name)
-def test_every_setting_of_the_harmonics(method: harmonics.methods.Method) -> None:
+def test_every_setting_of_the_harmonics(method: methods.Method) -> None:
     region = "λ = 0.15 … 0.45"
     found = []
     for setting in method.knobs:
@@ -111,7 +114,7 @@ def test_every_setting_of_the_harmonics(method: harmonics.methods.Method) -> Non
 
 
 def test_peaks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    few = peaks.Sweep("few", peaks.ijesc.FIRING_ORDERS[:2], (10.0, 60.0, 90.0, 180.0))
+    few = peaks.Sweep("few", ijesc.FIRING_ORDERS[:2], (10.0, 60.0, 90.0, 180.0))
     monkeypatch.setattr(peaks, "COARSER", few)
     rows = run(peaks, tmp_path, monkeypatch, "peaks")
     assert tuple(rows[0]) == peaks.HEADER
@@ -129,7 +132,7 @@ def test_peaks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_the_reference_of_peaks_is_no_less_than_fine_samples() -> None:
-    few = peaks.Sweep("few", peaks.ijesc.FIRING_ORDERS, (10.0, 60.0, 90.0, 120.0, 180.0))
+    few = peaks.Sweep("few", ijesc.FIRING_ORDERS, (10.0, 60.0, 90.0, 120.0, 180.0))
     exact = [float(value) for value in peaks.exact(few)]
     fine = peaks.sampled(few, 20_000).ravel().tolist()
     for true, sample in zip(exact, fine, strict=True):

@@ -5,6 +5,8 @@ from __future__ import annotations
 import doctest
 import re
 import shlex
+import subprocess
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -88,3 +90,31 @@ def run_commands(code: str) -> None:
                         assert main(arguments) == 0, line
                 case words:
                     assert not words or each.startswith(OTHERS), line
+
+
+@pytest.mark.slow
+def test_code_passes_mypy(tmp_path: Path) -> None:
+    """Each page is a script; what is shown to be rejected is left out."""
+    pytest.importorskip("mypy")
+    for page in PAGES:
+        lines = ["from typing import Any\n"]
+        for _, language, code in blocks((ROOT / page).read_text(encoding="utf-8")):
+            if ">>>" in code:
+                examples = doctest.DocTestParser().get_examples(code)
+                lines += [each.source for each in examples if each.exc_msg is None]
+            elif language in ("python", "{picture}"):
+                lines.append(code)
+        script = "".join(lines)
+        # mypy passes a mapping on to arguments of several types if it is said to hold any.
+        for mapping in re.findall(r"\*\*(\w+)", script):
+            script = re.sub(rf"(?m)^{mapping} = ", f"{mapping}: dict[str, Any] = ", script, count=1)
+        (tmp_path / f"{re.sub(r'[^a-z]', '_', page.lower())}.py").write_text(script)
+    command = [sys.executable, "-m", "mypy", "--config-file=", "--cache-dir=cache", *OPTIONS, "."]
+    found = subprocess.run(  # noqa: S603 - our own text
+        command, cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert found.returncode == 0, found.stdout + found.stderr
+
+
+OPTIONS = ("--strict", "--allow-untyped-defs", "--allow-untyped-calls", "--allow-redefinition")
+"""Options of mypy: pages are scripts without annotations, which use names again."""

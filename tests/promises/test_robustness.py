@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
+from fuzzing.calls import unclear
 from fuzzing.sound import (
     CURE,
     CYLINDER,
@@ -312,6 +313,7 @@ def test_a_bad_argument_is_named_with_its_value_and_a_cure(
     assert len(message) < 500  # a huge value is cut
     hint = max(message.rsplit(":", maxsplit=1)[-1], message.rsplit(";", maxsplit=1)[-1], key=len)
     assert sum(letter.isalpha() for letter in hint) >= CURE
+    assert not unclear(caught.value)
 
 
 @pytest.mark.parametrize("rpm", [NAN, INF, -1.0, None, 1e300])
@@ -375,8 +377,17 @@ def test_engines_of_a_sweep() -> None:
             cp.rank(engines, rpm=1000, by="total.moment.peak")  # type: ignore[arg-type]
 
 
-def test_an_input_error_is_a_value_error() -> None:
+def test_an_input_error_is_a_value_error_with_fields() -> None:
     assert issubclass(cp.InputError, ValueError)
+    with pytest.raises(cp.InputError) as caught:
+        cp.Cylinder(-1.0, 0.15, 0.5)
+    argument, value, hint = (
+        getattr(caught.value, field) for field in ("argument", "value", "hint")
+    )
+    assert (argument, value) == ("crank_radius", "-1.0")
+    assert str(caught.value) == f"{argument} = {value}: {hint}"
+    plain = cp.InputError("a sentence")
+    assert plain.argument is plain.value is plain.hint is None
 
 
 # --- too large for any memory -------------------------------------------------------------------
@@ -623,11 +634,11 @@ BARE: dict[str, tuple[Callable[[], object], str]] = {
         lambda: cp.tolerances(I4, rpm=1000, z=1e-4, samples=200).evaluate(progress=[1]),  # type: ignore[arg-type]
         r"progress = \[1\]: give True",
     ),
-    "star": (lambda: cp.star_diagram(FIRED).plot(order="x"), "order = 'x': choose from orders"),  # type: ignore[arg-type]
+    "star": (lambda: cp.star_diagram(FIRED).plot(order="x"), "order = 'x': choose from orders"),  # type: ignore[call-overload]
     "cycle": (lambda: cp.Cycle.example().plot(cylinder="x"), "cylinder = 'x': give a crankpin"),  # type: ignore[arg-type]
     "timing": (lambda: cp.PortTiming("\ud800"), "transfer_opens_deg = .*: give degrees"),
     "sentences": (lambda: FIRED.explain(1000).html(count=-1), "count = -1: give a whole number"),
-    "dimension": (lambda: SWEPT.plot(x=[1]), r"x = \[1\]: give \"rpm\""),  # type: ignore[arg-type]
+    "dimension": (lambda: SWEPT.plot(x=[1]), r"x = \[1\]: give \"rpm\""),  # type: ignore[call-overload]
     "chunks": (lambda: SWEPT.to_dask(chunks=[float("nan")]), "chunks = .*: give a number"),  # type: ignore[arg-type]
 }
 
@@ -635,8 +646,9 @@ BARE: dict[str, tuple[Callable[[], object], str]] = {
 @pytest.mark.parametrize("name", BARE)
 def test_errors_name_argument_value_and_hint(name: str) -> None:
     call, message = BARE[name]
-    with pytest.raises(cp.InputError, match=message):
+    with pytest.raises(cp.InputError, match=message) as caught:
         call()
+    assert not unclear(caught.value)
 
 
 def test_bob_weights_of_throws_that_are_almost_one_place() -> None:

@@ -21,6 +21,8 @@ from stability_cases import CASES, HARMONICS, Case, HarmonicCase
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from numpy.typing import ArrayLike
+
 # Engines of any size on purpose.
 pytestmark = [
     pytest.mark.slow,
@@ -122,7 +124,7 @@ def test_a_crank_that_cannot_turn_is_refused_and_its_neighbour_is_not(ratio: flo
 
 
 DENORMAL = [5e-324, 1e-310, 2.2e-308, 1e-31]
-SOUND = {"crank_radius": 0.05, "rod_length": 0.15, "reciprocating_mass": 0.5}
+SOUND: dict[str, Any] = {"crank_radius": 0.05, "rod_length": 0.15, "reciprocating_mass": 0.5}
 
 
 @pytest.mark.parametrize("value", DENORMAL)
@@ -157,7 +159,7 @@ def test_tiny_places_and_offsets_count_for_what_they_are(value: float) -> None:
 # --- scale --------------------------------------------------------------------------------------
 
 
-def figures(engine: cp.Engine, rpm: float) -> dict[str, tuple[np.ndarray, int, int]]:
+def figures(engine: cp.Engine, rpm: float) -> dict[str, tuple[ArrayLike, int, int]]:
     """Results with their powers of length and of mass, at the same piston speed."""
     balance = engine.balance(rpm, orders=[1, 2, 3, 4, 12])
     waveform = engine.waveform(rpm, theta_deg=np.arange(0.0, 360.0, 7.0))
@@ -197,4 +199,4 @@ def test_powers_of_two_scale_every_result_exactly(
     expected = figures(engine(1.0, 1.0), 6000)
     for name, (found, of_length, of_mass) in figures(engine(unit, weight), 6000 / unit).items():
         factor = 2.0 ** (length * of_length + mass * of_mass)
-        np.testing.assert_array_equal(found, expected[name][0] * factor, err_msg=name)
+        np.testing.assert_array_equal(found, np.asarray(expected[name][0]) * factor, err_msg=name)

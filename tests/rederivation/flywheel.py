@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -79,7 +79,7 @@ def speeds(
         return float(state[0] - theta[-1])
 
     at_end.terminal = True  # type: ignore[attr-defined]
-    limits = {"rtol": RTOL, "atol": RTOL, "method": "DOP853"}
+    limits: dict[str, Any] = {"rtol": RTOL, "atol": RTOL, "method": "DOP853"}
 
     def run(start: float, *, dense: bool = False) -> object:
         state = [float(theta[0]), start]

@@ -21,7 +21,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import mpmath as mp  # type: ignore[import-untyped]
+import mpmath as mp
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

@@ -7,10 +7,13 @@ dead centre; x is the piston pin's distance from the crank's axis.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 Array = NDArray[np.float64]
 
@@ -57,7 +60,8 @@ def chamber(theta: Array, compression_ratio: float, crank: tuple[float, float, f
     r, rod, e = crank
     highest = np.sqrt((rod + r) ** 2 - e**2)
     travel = highest - np.sqrt((rod - r) ** 2 - e**2)
-    return 1.0 + (compression_ratio - 1.0) * (highest - height(theta, *crank)) / travel
+    volumes: Array = 1.0 + (compression_ratio - 1.0) * (highest - height(theta, *crank)) / travel
+    return volumes
 
 
 def dual_work(
@@ -80,7 +84,7 @@ def dual_work(
     p2 = intake * compression_ratio**n_c
     work = (p3 * v3 - p4 * v1) / (n_e - 1.0) + p3 * (v3 - clearance)
     work -= (p2 * clearance - intake * v1) / (n_c - 1.0)
-    return work + (intake - exhaust) * displacement if strokes == 4 else work
+    return float(work + (intake - exhaust) * displacement if strokes == 4 else work)
 
 
 def wiebe(
@@ -101,12 +105,12 @@ def wiebe(
     start, duration = np.radians([f["start_deg"], f["duration_deg"]])
     gamma, p0, t0 = f["gamma"], f["intake_pressure"], f["charge_temperature"]
 
-    def volume(theta: Array) -> Array:
+    def volume(theta: Any) -> Any:  # noqa: ANN401 - an angle or an array of them
         return clearance * chamber(theta, f["compression_ratio"], crank)
 
     v0 = volume(closes)
 
-    def slopes(theta: float, state: Array) -> list[float]:
+    def slopes(theta: Any, state: Array) -> list[float]:  # noqa: ANN401 - an angle
         p = state[0]
         v, dv = volume(theta), -area * slope(theta, *crank)
         y = (theta - start) / duration
@@ -132,10 +136,16 @@ def wiebe(
 
     # Pressure bends where the burn begins and ends: a solution for each part.
     edges = [closes, start, start + duration, opens]
-    state, parts = [p0, 0.0, 0.0], []
+    state: Any = [p0, 0.0, 0.0]
+    parts: list[Any] = []
     for low, high in itertools.pairwise(edges):
         inside = (low + 1e-13, high - 1e-13)
-        options = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-9, "dense_output": True}
+        options: dict[str, Any] = {
+            "method": "DOP853",
+            "rtol": 1e-12,
+            "atol": 1e-9,
+            "dense_output": True,
+        }
         found = solve_ivp(slopes, inside, state, **options)
         state = found.y[:, -1]
         parts.append(found.sol)

@@ -36,7 +36,7 @@ class Rotor:
     def position(self, theta: Array) -> NDArray[np.complex128]:
         """Place in the cross-section, x + iy, m."""
         turned = np.deg2rad(self.angle_deg) + self.ratio * theta
-        return self.axis + self.radius * np.exp(1j * turned)
+        return np.asarray(self.axis + self.radius * np.exp(1j * turned))
 
 
 def _rate(samples: NDArray[np.complex128]) -> NDArray[np.complex128]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-import mpmath as mp  # type: ignore[import-untyped]
+import mpmath as mp
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

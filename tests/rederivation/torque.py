@@ -6,10 +6,13 @@ and y to the side to which the crankpin swings after top dead centre. Angles are
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
 
 Array = NDArray[np.float64]
 Crank = tuple[float, float, float]

@@ -9,7 +9,7 @@ from __future__ import annotations
 import csv
 from fractions import Fraction
 
-import mpmath as mp  # type: ignore[import-untyped]
+import mpmath as mp
 import numpy as np
 import pytest
 from conftest import DATA

@@ -338,7 +338,7 @@ def found_engine(search: cp.types.ArrangementSearch, bank_angle_deg: float) -> c
 def remaining(engine: cp.Engine) -> Array:
     """Second-order pitch and yaw, in units of lambda M_0."""
     b = engine.balance(RPM, orders=2, spectrum=AS_THE_PAPER)
-    return b.moment.peak_xy[0] / (ROD_RATIO * M_0)
+    return np.asarray(b.moment.peak_xy[0] / (ROD_RATIO * M_0))
 
 
 @each_case
@@ -365,7 +365,7 @@ def test_moment_balancer_and_rest_are_the_rederivations(row: Row) -> None:
     engine = engine.replace(cylinder=CYLINDER.replace(rod_length=CYLINDER.crank_radius / ROD_RATIO))
     (found,) = SEARCH.at(float(row["bank_angle_deg"]))
     one, two = (
-        np.round(np.array(bank) * 7 / 360).astype(int) + 1
+        (np.round(np.array(bank) * 7 / 360).astype(int) + 1).tolist()
         for bank in (found.first_deg, found.second_deg)
     )
     # theta counts from cylinder 1's top dead centre; the first bank may stand on either side.

@@ -98,10 +98,10 @@ def test_typed_decimals_are_exact_and_a_turn_apart_the_same(places: int, number:
     (engine,) = engines
     other = str(here % 180)
     for hold in ("pins", "firing"):
-        there = engine.with_bank_angle(other, hold=hold)  # type: ignore[arg-type]
-        assert there.with_bank_angle(60, hold=hold) == engine  # type: ignore[arg-type]
-        again = there.with_bank_angle("47.00000000000001", hold=hold)  # type: ignore[arg-type]
-        assert again.with_bank_angle(other, hold=hold) == there  # type: ignore[arg-type]
+        there = engine.with_bank_angle(other, hold=hold)
+        assert there.with_bank_angle(60, hold=hold) == engine
+        again = there.with_bank_angle("47.00000000000001", hold=hold)
+        assert again.with_bank_angle(other, hold=hold) == there
     assert cp.Engine.from_toml(engine.to_toml()) == engine
 
 
@@ -124,7 +124,7 @@ SINGLES = [
     np.array([0, 49.54], dtype=np.float32),
     np.array([0, 49.54], dtype=np.float16),
     array.array("f", [0, 49.54]),
-    memoryview(np.array([0, 49.54], dtype=np.float32)),
+    memoryview(np.array([0, 49.54], dtype=np.float32)),  # type: ignore[arg-type]
     [np.float32(0), np.float32(49.54)],
 ]
 
@@ -144,7 +144,7 @@ def test_singles_of_other_libraries_are_decimals_too() -> None:
     for values in (pandas.Series(numbers), xarray.DataArray(numbers)):
         assert inputs.angles("tdc_deg", values) == ["0", "49.54"]
         assert inputs.array("z", values).tolist() == [0.0, 49.54]
-    cylinder = cp.Cylinder(np.float32(0.04), np.float32(0.14), np.array(0.5, dtype=np.float32))
+    cylinder = cp.Cylinder(np.float32(0.04), np.float32(0.14), np.array(0.5, dtype=np.float32))  # type: ignore[arg-type]
     assert cylinder == cp.Cylinder(0.04, 0.14, 0.5)
 
 

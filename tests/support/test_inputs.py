@@ -74,7 +74,7 @@ def test_true_is_no_order_nor_a_cylinder() -> None:
         lambda: I4.balance(6000, orders=True),
         lambda: I4.balance(6000, orders=[True, 2]),
         lambda: I4.balance(6000, orders=[1], spectrum={1: True}),
-        lambda: I4.balance(6000, orders=[1], spectrum={1: "2"}),
+        lambda: I4.balance(6000, orders=[1], spectrum={1: "2"}),  # type: ignore[dict-item]
         lambda: cp.Unbalance(1.0, 0.0, pin=True),
         lambda: cp.Shaft(True, []),
     ):
@@ -85,11 +85,11 @@ def test_true_is_no_order_nor_a_cylinder() -> None:
 def test_a_huge_range_is_rejected_before_it_is_converted() -> None:
     start = time.perf_counter()
     for call in (
-        lambda: I4.balance(range(10**8)),
+        lambda: I4.balance(range(10**8)),  # type: ignore[arg-type]
         lambda: CYLINDER.replace(rod_length=range(10**8)),
-        lambda: cp.Unbalance(0.1, z=range(10**8)),
-        lambda: V6.with_bank_angle(range(10**8), hold="pins"),
-        lambda: CYLINDER.position(theta_deg=0) and CYLINDER.velocity(0, rpm=range(10**8)),
+        lambda: cp.Unbalance(0.1, z=range(10**8)),  # type: ignore[arg-type]
+        lambda: V6.with_bank_angle(range(10**8), hold="pins"),  # type: ignore[arg-type]
+        lambda: CYLINDER.position(theta_deg=0) and CYLINDER.velocity(0, rpm=range(10**8)),  # type: ignore[arg-type]
     ):
         with pytest.raises(cp.InputError, match=r"= range\(0, 100000000\): give a number"):
             call()
@@ -100,8 +100,8 @@ def test_a_huge_range_is_rejected_before_it_is_converted() -> None:
 def test_angles_may_be_arrays_without_dimensions() -> None:
     given = cp.Engine.vee(
         CYLINDER,
-        bank_angle_deg=np.array(60.0),
-        throws_deg=[np.array(0.0), np.array(120.0), np.array(240.0)],
+        bank_angle_deg=np.array(60.0),  # type: ignore[arg-type]
+        throws_deg=[np.array(0.0), np.array(120.0), np.array(240.0)],  # type: ignore[list-item]
         spacing=0.13,
         name=V6.name,
     )
@@ -159,12 +159,13 @@ def test_no_module_changes_the_warnings_of_the_process() -> None:
 
 def test_long_lists_are_read_in_pieces_as_a_whole() -> None:
     count = inputs.PIECE + 3
-    for values in (
+    lists: tuple[Any, ...] = (
         list(range(count)),
         [*range(count - 1), 0.5],  # whole numbers, then another kind
         [[k, 0.1] for k in range(count)],
         tuple(Fraction(k, 3) for k in range(count)),
-    ):
+    )
+    for values in lists:
         read = inputs.array("angles", values)
         assert read.tobytes() == np.array(values, dtype=np.float64).tobytes()
         assert read.shape == np.shape(values)

@@ -54,8 +54,8 @@ def test_records_compare_hash_pickle_and_copy_by_their_fields() -> None:
     for other in (made(), made(note="other"), copy.copy(one), copy.deepcopy(one)):
         assert other == one
         assert hash(other) == hash(one)
-    for other in (made(name="y"), made(values=np.ones(2)), made(by_name={}), 1, None):
-        assert other != one
+    for unequal in (made(name="y"), made(values=np.ones(2)), made(by_name={}), 1, None):
+        assert unequal != one
     assert copy.copy(one) is copy.deepcopy([one])[0] is one  # nothing in them changes
     assert Rows((1, 2)) != Others((1, 2))
     back = pickle.loads(pickle.dumps(made(note="kept")))  # noqa: S301 - its own
@@ -66,9 +66,9 @@ def test_records_compare_hash_pickle_and_copy_by_their_fields() -> None:
 
 def test_records_are_frozen_and_their_arrays_read_only() -> None:
     for one in (made(), pickle.loads(pickle.dumps(made()))):  # noqa: S301 - its own
-        for change in (lambda r: setattr(r, "name", "y"), lambda r: setattr(r, "new", 1)):
+        for name in ("name", "new"):
             with pytest.raises(AttributeError):
-                change(one)
+                setattr(one, name, "y")
         with pytest.raises(AttributeError):
             del one.name
         for array in (one.values, one.by_name["a"]):
@@ -86,6 +86,10 @@ TABLE = Table(
     ),
     note="A note.",
 )
+
+
+def test_numbers_that_round_to_zero_have_no_minus() -> None:
+    assert Column("share", (-0.04, -0.06, 0.04), "%", decimals=1).cells() == ["0.0", "-0.1", "0.0"]
 
 
 def test_a_table_is_text_html_csv_and_data_frame(tmp_path: Path) -> None:

@@ -119,8 +119,8 @@ def test_what_is_written_reads_back_over_any_old_file(seed: int, tmp_path: Path)
     rng = np.random.default_rng(seed)
     file = tmp_path / "a"
     if rng.integers(2):
-        file.write_bytes(rng.bytes(rng.integers(0, 10_000)))
-    data = rng.bytes(rng.integers(0, 10_000))
+        file.write_bytes(rng.bytes(int(rng.integers(0, 10_000))))
+    data = rng.bytes(int(rng.integers(0, 10_000)))
     files.write(file, data)
     assert file.read_bytes() == data
     files.write(file, "°\n\r\n")

@@ -40,8 +40,8 @@ def test_tutorial(file: Path) -> None:
     NotebookClient(notebook, timeout=600, resources=place, coalesce_streams=True).execute()
     if file.stem != TIMED:
         # What readers see is what they would get; CONTRIBUTING says how to save it again.
-        for cell, text in zip(saved, before, strict=True):
-            assert texts(cell) == text, cell.source
+        for cell, shown in zip(saved, before, strict=True):
+            assert texts(cell) == shown, cell.source
 
 
 def texts(cell: Any) -> list[str]:  # noqa: ANN401 - of a notebook

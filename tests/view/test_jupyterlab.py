@@ -42,7 +42,7 @@ CELLS = [
 @pytest.fixture
 def notebook(tmp_path: Path) -> Iterator[str]:
     """Address of a notebook with these cells, served by JupyterLab on this machine alone."""
-    cells = [
+    cells: list[dict[str, object]] = [
         {
             "cell_type": "code",
             "id": f"cell-{k}",

@@ -279,7 +279,7 @@ def test_gas_at_any_bank_angle(open_engine: Open) -> None:
         page.get_by_label("held as the bank angle changes").select_option(hold)
         page.locator("[data-name=bank-angle]").fill("75")
         # The same cylinders fire in the same turns, though the order may not be one of even names.
-        wave = engine.with_bank_angle(75, hold=hold).waveform(3000, theta_deg=[-77.7])  # type: ignore[arg-type]
+        wave = engine.with_bank_angle(75, hold=hold).waveform(3000, theta_deg=[-77.7])
         torque = float(wave.read("torque.gas")[0])
         largest = abs(engine.waveform(3000).read("torque.gas")).max()
         assert page.evaluate("crankpin.last.gas") == pytest.approx(torque, abs=OF_SAMPLES * largest)

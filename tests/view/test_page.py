@@ -16,6 +16,7 @@ from crankpin.view.page import WEB
 from view_engines import everything, radial
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
     from playwright.sync_api import Page
@@ -120,7 +121,7 @@ def test_names_stay_text(open_engine: Open) -> None:
 def test_errors_name_what_is_wrong(tmp_path: Path) -> None:
     for wrong in ({"rpm": -1}, {"rpm": float("nan")}, {"spectrum": {0: 1.0}}):
         with pytest.raises(cp.InputError, match=f"^{next(iter(wrong))}"):
-            V8.save_html(tmp_path / "v8.html", **wrong)  # type: ignore[arg-type]
+            V8.save_html(tmp_path / "v8.html", **wrong)
     for path in ("v8.txt", None):
         with pytest.raises(cp.InputError, match=r"^path = .*: .*a page ends in \.html$"):
             V8.save_html(path)  # type: ignore[arg-type]
@@ -146,7 +147,7 @@ def test_everything_follows_the_angle(open_engine: Open) -> None:
             page.mouse.move(x + reach * dx, y + reach * dy)
         page.mouse.up()
 
-    acts = {
+    acts: dict[str, Callable[[], object]] = {
         "type": lambda: field.fill("33.5"),
         "slide": lambda: slider.fill("200"),
         "step on": lambda: page.get_by_role("button", name="step on").click(),

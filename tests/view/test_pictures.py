@@ -42,7 +42,7 @@ def blocks(picture: Image.Image) -> np.ndarray:
     grey = np.asarray(picture.convert("L"), float)
     height, width = (size // BLOCK * BLOCK for size in grey.shape)
     shape = (height // BLOCK, BLOCK, width // BLOCK, BLOCK)
-    return grey[:height, :width].reshape(shape).mean(axis=(1, 3))
+    return np.asarray(grey[:height, :width].reshape(shape).mean(axis=(1, 3)))
 
 
 @pytest.mark.parametrize("name", ENGINES)

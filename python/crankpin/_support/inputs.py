@@ -23,10 +23,10 @@ from crankpin._support.warnings import warn
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-Angle: TypeAlias = float | Decimal | Fraction | str
+Angle: TypeAlias = float | Decimal | Fraction | str | np.floating[Any] | np.integer[Any]
 """Degrees: a number, a ``Decimal``, a ``Fraction``, or a string such as ``"360/7"``."""
 
-Angles: TypeAlias = "Sequence[Angle] | NDArray[np.float64]"
+Angles: TypeAlias = "Sequence[Angle] | NDArray[np.floating[Any] | np.integer[Any]]"
 Order: TypeAlias = int | float
 """Multiple of crank speed: an int where it is whole, a float such as 0.5 where it is a half."""
 Orders: TypeAlias = "Order | Iterable[Order] | Literal['auto']"
@@ -96,8 +96,7 @@ def array(name: str, values: ArrayLike) -> NDArray[np.float64]:
             # Fractions and the like, each by its own conversion.
             found = np.array([_real(value) for value in found.ravel()]).reshape(found.shape)
     except (TypeError, ValueError, OverflowError, RecursionError) as error:
-        message = f"{name} = {shorten(values)}: give numbers ({reason(error)})"
-        raise InputError(message) from None
+        raise rejected(name, values, f"give numbers ({reason(error)})") from None
     if found.size > MOST_NUMBERS:
         raise _too_many(name, found.size)
     return found if found.dtype == np.float64 and found.flags.aligned else copied(found)
@@ -122,7 +121,7 @@ def vector(name: str, values: ArrayLike) -> NDArray[np.float64]:
     """Return a contiguous one-dimensional array of floats; a scalar becomes a single value."""
     found = array(name, values)
     if found.ndim > 1:
-        raise InputError(f"{name} has shape {found.shape}: give one dimension")
+        raise faulty(name, f"has shape {found.shape}", "give one dimension")
     return contiguous(found if found.ndim else found.reshape(1))
 
 
@@ -161,9 +160,8 @@ def copied(values: NDArray[Any]) -> NDArray[np.float64]:
 
 
 def _too_many(name: str, count: int) -> InputError:
-    return InputError(
-        f"{name} has {count} numbers, more than the limit of {MOST_NUMBERS}; split it into parts"
-    )
+    fault = f"has {count} numbers, more than the limit of {MOST_NUMBERS}"
+    return faulty(name, fault, "split it into parts")
 
 
 def output(name: str, values: NDArray[np.float64], shape: tuple[int, ...]) -> NDArray[np.float64]:
@@ -173,7 +171,7 @@ def output(name: str, values: NDArray[np.float64], shape: tuple[int, ...]) -> ND
         raise rejected(name, values, hint)
     if values.dtype != np.float64 or values.shape != shape or not values.flags.carray:
         kind = "" if values.flags.carray else ", not writeable, aligned and contiguous"
-        raise InputError(f"{name} has shape {values.shape} of {values.dtype}{kind}: {hint}")
+        raise faulty(name, f"has shape {values.shape} of {values.dtype}{kind}", hint)
     return values
 
 
@@ -184,8 +182,7 @@ def number(name: str, value: object) -> float:
     try:
         return _real(value)
     except (TypeError, ValueError, OverflowError, RecursionError) as error:
-        message = f"{name} = {shorten(value)}: give a number ({reason(error)})"
-        raise InputError(message) from None
+        raise rejected(name, value, f"give a number ({reason(error)})") from None
 
 
 def _real(value: Any) -> float:  # noqa: ANN401 - anything that float() takes
@@ -205,7 +202,7 @@ def finite(name: str, value: object) -> float:
     """Return a finite float."""
     found = number(name, value)
     if not math.isfinite(found):
-        raise InputError(f"{name} = {found}: give a finite number")
+        raise rejected(name, found, "give a finite number")
     return found
 
 
@@ -218,7 +215,7 @@ def listed_numbers(name: str, values: ArrayLike) -> list[float]:
     """Return numbers that are taken one by one as a list, up to a limit."""
     array = vector(name, values)
     if array.size > MOST_ITEMS:
-        raise InputError(f"{name} has {array.size} numbers: give {MOST_ITEMS} at most")
+        raise faulty(name, f"has {array.size} numbers", f"give {MOST_ITEMS} at most")
     listed: list[float] = array.tolist()
     return listed
 
@@ -347,7 +344,7 @@ def items(name: str, values: object, hint: str) -> list[Any]:
     except (TypeError, ValueError) as error:
         raise rejected(name, values, f"{hint} ({reason(error)})") from None
     if len(listed) > MOST_ITEMS:
-        raise InputError(f"{name} has more than {MOST_ITEMS} entries: {hint}")
+        raise faulty(name, f"has more than {MOST_ITEMS} entries", hint)
     return listed
 
 
@@ -446,7 +443,7 @@ def explicit_half_orders(values: object) -> list[Order]:
 
 def _given(listed: list[Number] | None, name: str, what: str) -> list[Number]:
     if listed is None:
-        raise InputError(f'{name} = "auto": give {what} here, such as [1, 2]')
+        raise rejected(name, "auto", f"give {what} here, such as [1, 2]")
     return listed
 
 
@@ -504,10 +501,26 @@ def shorten(value: object) -> str:
 
 
 def rejected(
-    name: str, value: object, hint: str, kind: type[InputError] = InputError
+    argument: str, value: object, hint: str, kind: type[InputError] = InputError
 ) -> InputError:
     """Return the error of an argument: its name, its value and a hint."""
-    return kind(f"{name} = {shorten(value)}: {hint}")
+    return faulty(argument, f"= {shorten(value)}", hint, kind)
+
+
+def faulty(argument: str, fault: str, hint: str, kind: type[InputError] = InputError) -> InputError:
+    """Return the error of an argument with what it is or has, ``"= 3"`` or ``"has 3 entries"``."""
+    error = kind(f"{argument} {fault}: {hint}")
+    error.argument, error.hint = argument, hint
+    if fault.startswith("= "):
+        error.value = fault.removeprefix("= ")
+    return error
+
+
+def only_one_of(**values: object) -> None:
+    """Reject two arguments of which none is given, or both."""
+    if sum(value is not None for value in values.values()) != 1:
+        name, value = values.popitem()
+        raise rejected(name, value, f"give one of {', '.join([*values, name])}")
 
 
 def only_with(partner: str, **values: object) -> None:

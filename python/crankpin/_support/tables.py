@@ -60,7 +60,9 @@ class Column(Record):
             return str(value) if value else "0"
         if abs(value) < self.least:
             return TINY
-        return f"{value:.{self.digits}g}" if self.decimals is None else f"{value:.{self.decimals}f}"
+        if self.decimals is None:
+            return f"{value:.{self.digits}g}"
+        return f"{round(value, self.decimals) + 0.0:.{self.decimals}f}"  # no minus before zero
 
     def _array(self) -> NDArray[Any]:
         """Return the values as an array, NaN where a number is missing."""

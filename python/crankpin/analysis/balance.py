@@ -57,7 +57,7 @@ def mean_piston_speed(engine: Engine, rpm: float) -> float:
     return 4.0 * engine_core(engine).largest_crank_radius * rpm / 60.0
 
 
-class Balance(ByOrder):
+class Balance(ByOrder[float]):
     """Force, moment and torque of an engine at one speed, order by order.
 
     ``force``, ``moment``, ``torque`` and ``crank_torque`` are complex peak phasors, each a

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import LOADS
@@ -255,7 +254,9 @@ class BearingLoads(Tabled):
         if chosen == "engine":
             return self.read(name)
         if (name, chosen) == ("main", "rod"):
-            raise InputError('axes = "rod": main bearings have none; give "crank" or "engine"')
+            raise inputs.rejected(
+                "axes", "rod", 'main bearings have none; give "crank" or "engine"'
+            )
         return self._core.turned(name, chosen, self.theta_deg)
 
     def magnitude(self, load: str) -> NDArray[np.float64]:
@@ -467,6 +468,46 @@ class BearingLoads(Tabled):
         }
         attributes = {"engine": self.engine.name, "rpm": self.rpm}
         return optional.dataset(arrays, coords, attributes | labels.attributes(self.loads_counted))
+
+    @overload
+    def plot(
+        self,
+        ax: Axes,
+        *,
+        figure: None = None,
+        kind: Literal["polar", "curves", "bending"] = "polar",
+        **options: object,
+    ) -> Axes: ...
+
+    @overload
+    def plot(
+        self,
+        ax: None = None,
+        *,
+        figure: None = None,
+        kind: Literal["curves", "bending"],
+        **options: object,
+    ) -> Axes: ...
+
+    @overload
+    def plot(
+        self,
+        ax: None = None,
+        *,
+        figure: Figure | SubFigure,
+        kind: Literal["polar"] = "polar",
+        **options: object,
+    ) -> NDArray[Any]: ...
+
+    @overload
+    def plot(
+        self,
+        ax: None = None,
+        *,
+        figure: None = None,
+        kind: Literal["polar"] = "polar",
+        **options: object,
+    ) -> Any: ...  # noqa: ANN401 - panels, or of one bearing the axes
 
     def plot(
         self,

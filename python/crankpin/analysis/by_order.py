@@ -3,18 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal, Self
+from typing import TYPE_CHECKING, Any, Generic, Literal, Self
 
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import KINDS, QUANTITIES
 from crankpin._support.record import AbsentError, read_only
 from crankpin.analysis import export
 from crankpin.analysis.export import Labelled
-from crankpin.analysis.quantity import ALL, Keyed, OrderBalance, Quantities, Quantity, order_key
+from crankpin.analysis.quantity import (
+    ALL,
+    Keyed,
+    OrderBalance,
+    Quantities,
+    Quantity,
+    Value,
+    order_key,
+)
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks
 
@@ -26,7 +33,7 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 
-class ByOrder(Keyed, Quantities, Labelled):
+class ByOrder(Keyed, Quantities["NDArray[np.float64]", Value], Labelled, Generic[Value]):
     """Base class of balances and sweeps: arrays computed when first read, orders as keys."""
 
     @property
@@ -62,11 +69,11 @@ class ByOrder(Keyed, Quantities, Labelled):
         return self.request.spectrum
 
     @property
-    def total(self) -> OrderBalance:
+    def total(self) -> OrderBalance[Value]:
         """All orders together, as in ``total.force.peak`` and ``total.moment.peak_xy``."""
         return OrderBalance(self, ALL)
 
-    def __getitem__(self, order: Order | Literal["all"]) -> OrderBalance:
+    def __getitem__(self, order: Order | Literal["all"]) -> OrderBalance[Value]:
         """Return one order, or with ``"all"`` all of ``orders`` together.
 
         An order that is not among ``orders`` is computed when it is read: zero where the layout
@@ -80,7 +87,7 @@ class ByOrder(Keyed, Quantities, Labelled):
         """
         return OrderBalance(self, order_key(order))
 
-    def _quantity(self, name: str) -> Quantity:
+    def _quantity(self, name: str) -> Quantity[NDArray[np.float64], Value]:
         return Quantity(self, name)
 
     def about(self, point: ArrayLike | None = None, *, z: float | None = None) -> Self:
@@ -110,8 +117,7 @@ class ByOrder(Keyed, Quantities, Labelled):
         >>> b[2].moment.peak, round(b.about(z=0.0)[2].moment.peak, 1)
         (np.float64(0.0), np.float64(1390.4))
         """
-        if (point is None) == (z is None):
-            raise InputError("about: give a point, such as (0, 0.2, 0.1), or z")
+        inputs.only_one_of(point=point, z=z)
         name = "z" if point is None else "point"
         request = self.request.about(name, z if point is None else point)
         for engine in self._engines:
@@ -191,11 +197,11 @@ class ByOrder(Keyed, Quantities, Labelled):
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
         raise NotImplementedError
 
-    def _with_order(self, order: Order) -> ByOrder:
+    def _with_order(self, order: Order) -> ByOrder[Value]:
         """Return this result if it has an order, else the same of that order alone."""
         if order_key(order) in (*self.orders, ALL):
             return self
-        found: ByOrder | None = self._kept.get(order)
+        found: ByOrder[Value] | None = self._kept.get(order)
         if found is None:
             found = self._kept.setdefault(order, self._at_orders((order,)))
         return found
@@ -219,7 +225,8 @@ class ByOrder(Keyed, Quantities, Labelled):
     def _proved_zero(self, quantity: str, order: Order) -> bool:
         """Return whether a quantity of one order is proved to vanish."""
         name = inputs.one_of("quantity", quantity, QUANTITIES)
-        raise AbsentError(f"{name}: only a balance has proofs; read them at a point of the sweep")
+        hint = "only a balance has proofs; read them at a point of the sweep"
+        raise inputs.rejected("quantity", name, hint, AbsentError)
 
     # --- tables -----------------------------------------------------------------------------------
 

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Tabled
 from crankpin._support.quantities import QUANTITIES
@@ -114,11 +113,12 @@ class Comparison(Tabled):
     """Balance of the engine after the change."""
 
     def __post_init__(self) -> None:
-        for each in (self.before, self.after):
+        for name, each in (("before", self.before), ("after", self.after)):
             if not isinstance(each, Balance):
-                raise InputError(f"Comparison({inputs.shorten(each)}): use crankpin.compare")
+                raise inputs.rejected(name, each, "use crankpin.compare")
         if self.before.orders != self.after.orders or self.before.rpm != self.after.rpm:
-            raise InputError("Comparison of balances at different orders or speeds: use compare")
+            fault = "is at different orders or speeds than before"
+            raise inputs.faulty("after", fault, "use crankpin.compare")
 
     @property
     def rpm(self) -> float:

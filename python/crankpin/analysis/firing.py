@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs, labels, tables
 from crankpin._support.frames import Tabled
 from crankpin._support.record import read_only
@@ -73,8 +72,8 @@ class Firing(Tabled):
     def __post_init__(self) -> None:
         # The core checks the turns when they are first read: of thousands few are.
         if not all(map(isinstance, (self.engine, self.revolutions), (Engine, tuple))):
-            given = inputs.shorten((self.engine, self.strokes, self.revolutions))
-            raise InputError(f"Firing{given}: use Engine.firing, .firings or .firing_orders")
+            hint = "use Engine.firing, .firings or .firing_orders"
+            raise inputs.rejected("engine", self.engine, hint)
 
     @cached_property
     def _core(self) -> _core.Firing:
@@ -469,7 +468,7 @@ def _order_and_strokes(
     if engine.firing_order:
         known = f"the engine's firing order is that of a {engine.strokes}-stroke"
     hint = "give one, such as '1-3-4-2', or list them by firing_orders()"
-    raise InputError(f"firing_order = None: {known}; {hint}")
+    raise inputs.rejected("firing_order", None, f"{known}; {hint}")
 
 
 def _groups(groups: Groups | None) -> list[list[int]] | None:

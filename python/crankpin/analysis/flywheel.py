@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, overload
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.tables import Column, Table
@@ -128,15 +127,13 @@ def flywheel(
     243.17
     """
     if isinstance(drive, Waveform):
-        raise InputError(
-            "drive = a waveform: its crank torque contains the inertia torque, which would count "
-            "twice beside the inertia of pistons and rods that varies; give the torque of the gas"
+        raise inputs.faulty(
+            "drive",
+            "= a waveform",
+            "its crank torque contains the inertia torque, which would count twice beside the "
+            "inertia of pistons and rods that varies; give the torque of the gas",
         )
-    if (inertia is None) == (irregularity is None):
-        given = (
-            f"inertia = {inputs.shorten(inertia)}, irregularity = {inputs.shorten(irregularity)}"
-        )
-        raise InputError(f"{given}: give one of them")
+    inputs.only_one_of(inertia=inertia, irregularity=irregularity)
     engine = drive if isinstance(drive, Engine) else None
     if engine is not None:
         torque = _of_gas(engine, inputs.number("rpm", rpm), period_deg)
@@ -149,15 +146,12 @@ def flywheel(
     if against is not None:
         ratio = period / against.period if against.period else 0.0
         if ratio * len(against.knots) > MOST_KNOTS:
-            raise InputError(
-                f"load has {len(against.knots)} angles in {against.period:.10g}°, which is "
-                f"{ratio:.10g} times in {period:.10g}°: give a longer period, or fewer angles"
-            )
+            fault = f"has {len(against.knots)} angles in {against.period:.10g}°, which is "
+            fault += f"{ratio:.10g} times in {period:.10g}°"
+            raise inputs.faulty("load", fault, "give a longer period, or fewer angles")
         if abs(ratio - round(ratio)) > EQUAL * ratio:
-            raise InputError(
-                f"load has a period of {against.period:.10g}°: give one of which {period:.10g}°, "
-                "that of the drive, is a multiple"
-            )
+            hint = f"give one of which {period:.10g}°, that of the drive, is a multiple"
+            raise inputs.faulty("load", f"has a period of {against.period:.10g}°", hint)
         turns = np.arange(max(round(ratio), 1)) * (against.period or 0.0)
         knots = np.concatenate([knots, *(against.knots + start for start in turns)])
     grid = _core.CycleGrid(period, knots)
@@ -251,7 +245,7 @@ class Flywheel(Tabled):
         inputs.vector("approximations", self.approximations)
         curves = ("theta_deg", "speed_rpm", "torque", "load", "inertia_torque", "moving_inertia")
         if len({len(inputs.vector(name, getattr(self, name))) for name in curves}) != 1:
-            raise InputError("curves of unequal lengths: use crankpin.flywheel")
+            raise inputs.faulty("theta_deg", "and curves differ in length", "use crankpin.flywheel")
         super().__post_init__()
 
     @property
@@ -362,14 +356,11 @@ def _of_gas(engine: Engine, rpm: float, period_deg: object) -> _Diagram:
     """Return the torque of an engine's gas pressure on the crank."""
     cycles = engine.cycles
     if cycles is None:
-        name = inputs.shorten(labels.name_of(engine))
-        hint = "give it gas pressure with engine.with_cycle(…)"
-        raise InputError(f"drive = {name}: has no driving torque; {hint}")
+        hint = "has no driving torque; give it gas pressure with engine.with_cycle(…)"
+        raise inputs.rejected("drive", labels.name_of(engine), hint)
     if period_deg is not None:
-        given = inputs.shorten(period_deg)
-        raise InputError(
-            f"period_deg = {given}: the period is that of the engine's cycle; leave it out"
-        )
+        hint = "the period is that of the engine's cycle; leave it out"
+        raise inputs.rejected("period_deg", period_deg, hint)
     # Where pressure jumps or bends, at the firing of each cylinder.
     bends = [
         start + _bends(cycle)
@@ -395,14 +386,14 @@ def _bends(cycle: Cycle) -> NDArray[np.float64]:
 def _diagram(name: str, given: object, period_deg: object) -> _Diagram:
     period = inputs.optional_number("period_deg", period_deg)
     if period is not None and not 0.0 < period < np.inf:
-        raise InputError(f"period_deg = {period}: give the period of the torque, such as 720")
+        raise inputs.rejected("period_deg", period, "give the period of the torque, such as 720")
     if callable(given):
 
         def of_function(theta: NDArray[np.float64]) -> NDArray[np.float64]:
             found = inputs.array(name, given(theta.copy()))
             if found.shape not in ((), theta.shape):
-                shape = f"values of shape {found.shape} for {theta.shape}"
-                raise InputError(f"{name} returned {shape}: give one torque for each angle")
+                fault = f"returned values of shape {found.shape} for {theta.shape}"
+                raise inputs.faulty(name, fault, "give one torque for each angle")
             return np.ascontiguousarray(np.broadcast_to(found, theta.shape))
 
         return _Diagram(of_function, period, np.empty(0))
@@ -412,16 +403,16 @@ def _diagram(name: str, given: object, period_deg: object) -> _Diagram:
         raise inputs.rejected(name, given, hint)
     theta, torque = (inputs.vector(name, each) for each in pair)
     if len(theta) != len(torque) or len(theta) < 2:
-        raise InputError(f"{name} has {len(theta)} angles and {len(torque)} torques: {hint}")
+        raise inputs.faulty(name, f"has {len(theta)} angles and {len(torque)} torques", hint)
     if len(theta) > MOST_KNOTS:
-        raise InputError(f"{name} has {len(theta)} angles: give at most {MOST_KNOTS}")
+        raise inputs.faulty(name, f"has {len(theta)} angles", f"give at most {MOST_KNOTS}")
     span = float(theta[-1] - theta[0])
     period = _period(name, theta, torque) if period is None else period
     closed = _core.repeats_first(f"{name}[0]", theta, period)
     if closed is None:
-        raise InputError(
-            f"period_deg = {period:.10g}: the angles span {span:.10g}°, and no step of theirs is "
-            "as wide as what is left; give angles over one period"
+        hint = f"the angles span {span:.10g}°, and no step of theirs is as wide as what is left"
+        raise inputs.faulty(
+            "period_deg", f"= {period:.10g}", f"{hint}; give angles over one period"
         )
     start = float(theta[0])
     end = start + period
@@ -451,8 +442,7 @@ def _period(name: str, theta: NDArray[np.float64], torque: NDArray[np.float64]) 
     span = float(theta[-1] - theta[0])
     if repeated and span > 0.0:
         return span
-    last = f"{torque[-1]:.10g} N·m after {span:.10g}°"
-    raise InputError(
-        f"{name}: {last} is neither a turn, nor two, nor the first torque again; give angles over "
-        "a whole period, the first torque repeated at its end"
-    )
+    fault = f"ends in {torque[-1]:.10g} N·m after {span:.10g}°"
+    hint = "give angles over a whole period, the first torque repeated at its end"
+    hint = f"that is neither a turn, nor two, nor the first torque again; {hint}"
+    raise inputs.faulty(name, fault, hint)

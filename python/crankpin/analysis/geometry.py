@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import inputs
 
 if TYPE_CHECKING:
@@ -134,7 +133,7 @@ def crank_angle(theta_deg: object) -> float:
     """Return a crank angle that was given, degrees."""
     theta = inputs.number("theta_deg", theta_deg)
     if not np.isfinite(theta):
-        raise InputError(f"theta_deg = {theta}: give a crank angle in degrees, such as 90")
+        raise inputs.rejected("theta_deg", theta, "give a crank angle in degrees, such as 90")
     return theta
 
 

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias
+from typing import TYPE_CHECKING, Any, Generic, Literal, Self, TypeAlias
 
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Tabled
 from crankpin._support.quantities import KINDS, PARTS, Kind
@@ -18,9 +17,22 @@ from crankpin.analysis import export
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+    from typing_extensions import TypeVar
 
+    from crankpin._core import InputError
     from crankpin._support.inputs import Order
     from crankpin.analysis.by_order import ByOrder
+
+    # Defaults, which Python has from 3.13 on: annotations need not name the parameters.
+    Values = TypeVar("Values", default=Any)
+    Value = TypeVar("Value", default=Any)
+else:
+    from typing import TypeVar
+
+    Values = TypeVar("Values")
+    """What ``peak`` of a quantity is: an array of all orders, a number of one of a balance."""
+    Value = TypeVar("Value")
+    """What ``peak`` of one of its orders is: a number of a balance, an array of a sweep."""
 
 ALL: Literal["all"] = "all"
 """Key of all orders together."""
@@ -49,7 +61,7 @@ def one_order(order: object) -> Order:
     """Return the order of a key, or raise an InputError, also for all orders together."""
     found = order_key(order)
     if isinstance(found, str):
-        raise InputError(f"order = {ALL!r}: give one order, such as 2 or 0.5")
+        raise inputs.rejected("order", ALL, "give one order, such as 2 or 0.5")
     return found
 
 
@@ -88,7 +100,7 @@ class Keyed:
 # --- quantities ---------------------------------------------------------------------------------
 
 
-class Quantity(Keyed, NDArrayOperatorsMixin, Tabled):
+class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
     """Peak phasors of a quantity: of every order as an array, of one order, or of all together.
 
     Order n is ``Re(P exp(inθ))``. ``moment[2]`` is order 2, ``2 in moment`` says whether it is
@@ -111,7 +123,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled):
     'zero, proved'
     """
 
-    result: ByOrder
+    result: ByOrder[Value]
     """Balance or sweep that the quantity belongs to."""
     name: str
     """``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``, or a part: ``"torque.gas"``."""
@@ -144,12 +156,12 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled):
         return (*self.result.dims, *order, *axis)
 
     @property
-    def peak(self) -> Any:  # noqa: ANN401 - a number of one order of a balance
+    def peak(self) -> Values:
         """Largest magnitude, N or N·m: (…, n_orders); of all orders together over θ: (…).
 
         Of a vector the length of the longest.
         """
-        return self._read("peak")
+        return self._read("peak")  # type: ignore[no-any-return]
 
     @property
     def xy(self) -> NDArray[np.complex128]:
@@ -182,7 +194,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled):
         return self._planar("peak_xy")  # type: ignore[no-any-return]
 
     @property
-    def minor(self) -> Any:  # noqa: ANN401 - as above
+    def minor(self) -> Values:
         """Shortest half axis of the ellipse that a vector traces, N or N·m: (…, n_orders).
 
         Negative where it turns against the crank, 0 on a straight line. ``peak`` is the longest.
@@ -191,7 +203,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled):
         return self._of_one_order(np.abs(forward) - np.abs(backward))
 
     @property
-    def tilt_deg(self) -> Any:  # noqa: ANN401 - as above
+    def tilt_deg(self) -> Values:
         """Direction of the longest half axis from +x, degrees in (−90, 90]: (…, n_orders).
 
         0 for a circle.
@@ -204,15 +216,15 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled):
         directed = (f != 0.0) & (b != 0.0)
         return self._of_one_order(np.where(tilt <= -90.0, 90.0, np.where(directed, tilt, 0.0)))
 
-    def _of_one_order(self, values: NDArray[np.float64]) -> Any:  # noqa: ANN401 - as above
+    def _of_one_order(self, values: Any) -> Values:  # noqa: ANN401 - an array
         """Return an array read-only, the value of one order of a balance as a number."""
-        return read_only(values) if np.ndim(values) else float(values)
+        return read_only(values) if np.ndim(values) else float(values)  # type: ignore[return-value]
 
     @property
     def phasor(self) -> NDArray[np.complex128]:
         """Peak phasors of a torque, N·m: (…, n_orders)."""
         if self.kind.planar:
-            raise AbsentError(f"{self.name} has two phasors per order: use xy, x or y")
+            raise self._absent("phasor", f"{self.name} has two per order; use xy, x or y")
         return self._read("phasors")  # type: ignore[no-any-return]
 
     @property
@@ -226,22 +238,21 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled):
         return self._part("inertia")
 
     @property
-    def mean(self) -> Any:  # noqa: ANN401 - a number of a balance
+    def mean(self) -> Value:
         """Mean of a torque over the cycle, N·m: (…); zero without gas pressure."""
         if self.kind.planar or self.order not in (None, ALL):
-            raise AbsentError(
-                "mean is defined for a torque, all orders together, as in b.torque.mean"
-            )
+            raise self._absent("mean", "give a torque, all orders together, as in b.torque.mean")
         values = self.result.read(self.name, "mean")
-        return values if values.ndim else float(values)
+        found: Any = values if values.ndim else float(values)
+        return found  # type: ignore[no-any-return]
 
     @property
-    def zero_bound(self) -> Any:  # noqa: ANN401 - as above
+    def zero_bound(self) -> Values:
         """Largest rounding error of a sum that vanishes, N or N·m: (…, n_orders).
 
         Phasors below it are reported as exactly zero.
         """
-        return self._read("zero_bound")
+        return self._read("zero_bound")  # type: ignore[no-any-return]
 
     @property
     def error_bound(self) -> float:
@@ -257,7 +268,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled):
         :meth:`Engine.vanishing_orders`; ``"zero within rounding"``: below its ``zero_bound``.
         """
         if self.order is None or self.order == ALL:
-            raise AbsentError('status is defined for one order: give it, as in "moment[2].status"')
+            raise self._absent("status", 'give one order, as in "moment[2].status"')
         if np.any(self._read("phasors")):
             return "summed" if self.order in self.result.orders else "omitted"
         proved = self.result._proved_zero(self.name, self.order)
@@ -271,30 +282,30 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled):
             at = (slice(None),) * len(one.dims) + (one.orders.index(self.order),)
             return one.read(self.name, what)[at]
         if what not in ("peak", "peak_xy"):
-            raise AbsentError(
-                "all orders together have peaks alone; give an order, as in b[2], or read the "
-                f"arrays of a balance, as in b.{self.name}"
-            )
+            hint = f"as in b[2], or read the arrays of a balance, as in b.{self.name}"
+            raise self._absent(what, f"all orders together have peaks alone; give an order, {hint}")
         values = self.result.read(self.name, f"total_{what}")
         return values if values.ndim else float(values)
 
     def _part(self, part: str) -> Self:
         if (name := f"{self.name}.{part}") not in PARTS:
-            raise AbsentError(f"{part} is a part of torque and crank_torque, not of {self.name}")
+            raise self._absent(part, "give torque or crank_torque, which have it")
         return changed(self, name=name)
+
+    def _absent(self, what: str, hint: str) -> InputError:
+        return inputs.faulty(what, f"is undefined for {self.name}", hint, AbsentError)
 
     def _planar(self, what: str, name: str = "") -> Any:  # noqa: ANN401 - as above
         """Return an array of a vector; of a torque raise an error that names what is read."""
         if not self.kind.planar:
-            hint = "it has phasor and peak"
-            raise AbsentError(
-                f"{name or what} is that of a vector; {self.name} is about z alone: {hint}"
-            )
+            fault = f"is that of a vector; {self.name} is about z alone"
+            raise inputs.faulty(name or what, fault, "it has phasor and peak", AbsentError)
         return self._read(what)
 
-    def __getitem__(self, order: Order | Literal["all"]) -> Self:
+    def __getitem__(self, order: Order | Literal["all"]) -> Quantity[Value, Value]:
         """Return the quantity at one order, or at ``"all"``, of the orders that it has."""
-        return changed(self, order=order_key(order))
+        found: Quantity[Any, Any] = self
+        return changed(found, order=order_key(order))
 
     # --- an array of phasors --------------------------------------------------------------------
 
@@ -314,9 +325,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled):
         try:
             return getattr(ufunc, method)(*plain, **keywords)
         except (ValueError, OverflowError, ZeroDivisionError) as error:
-            shown = " and ".join(map(inputs.shorten, arguments))
             hint = f"give numbers, or an array that broadcasts ({inputs.reason(error)})"
-            raise InputError(f"{ufunc.__name__} of {shown}: {hint}") from None
+            raise inputs.rejected(f"operands of {ufunc.__name__}", arguments, hint) from None
 
     def __eq__(self, other: object) -> Any:  # noqa: ANN401 - an array, or a bool
         """Return where phasors are equal, as of arrays; False for what is no array of their shape.
@@ -387,7 +397,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled):
             columns = export.points(self.result.coords)
             columns += [
                 Column(
-                    ALL if key == ALL else f"order {key}", tuple(self[key].peak.ravel().tolist())
+                    ALL if key == ALL else f"order {key}",
+                    tuple(np.ravel(self[key]._read("peak")).tolist()),
                 )
                 for key in keys
             ]
@@ -438,31 +449,31 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled):
         loads = f", {self.loads_counted}" if self.loads_counted else ""
         if not self.result.dims:
             return f"<Quantity {name}{which}: peak {self.peak:.5g} {self.unit}{loads}>"
-        dims, shape = self.result.dims, self.peak.shape
+        dims, shape = self.result.dims, np.shape(self._read("peak"))
         if self.order is None:
             dims, shape, which = self.dims, self.shape, ""
         over = ", ".join(f"{d}: {n}" for d, n in zip(dims, shape, strict=True))
         return f"<Quantity {name}{which}, {self.unit}, over ({over}){loads}>"
 
 
-class Quantities:
+class Quantities(Generic[Values, Value]):
     """Mixin of what has force, moment and torques."""
 
-    def _quantity(self, name: str) -> Quantity:
+    def _quantity(self, name: str) -> Quantity[Values, Value]:
         raise NotImplementedError
 
     @property
-    def force(self) -> Quantity:
+    def force(self) -> Quantity[Values, Value]:
         """Shaking force along x and y, N."""
         return self._quantity("force")
 
     @property
-    def moment(self) -> Quantity:
+    def moment(self) -> Quantity[Values, Value]:
         """Rocking moment about x (pitch) and y (yaw), N·m."""
         return self._quantity("moment")
 
     @property
-    def torque(self) -> Quantity:
+    def torque(self) -> Quantity[Values, Value]:
         """Roll torque of inertia forces, and of gas if it counts, on the block about +z, N·m.
 
         An AttributeError where it was not requested, or a force spectrum does not determine it.
@@ -470,7 +481,7 @@ class Quantities:
         return self._quantity("torque")
 
     @property
-    def crank_torque(self) -> Quantity:
+    def crank_torque(self) -> Quantity[Values, Value]:
         """Torque of inertia forces, and of gas if it counts, on the crank about +z, N·m.
 
         An AttributeError where it was not requested, or a force spectrum does not determine it.
@@ -478,7 +489,7 @@ class Quantities:
         return self._quantity("crank_torque")
 
 
-class OrderBalance(Quantities, Tabled):
+class OrderBalance(Quantities[Value, Value], Tabled, Generic[Value]):
     """One order of a balance or sweep, or all orders together: the quantities without orders.
 
     Examples
@@ -499,12 +510,12 @@ class OrderBalance(Quantities, Tabled):
     Without gas pressure.
     """
 
-    result: ByOrder
+    result: ByOrder[Value]
     """Balance or sweep that it belongs to."""
     order: Order | Literal["all"]
     """Multiple of crank speed, or ``"all"``."""
 
-    def _quantity(self, name: str) -> Quantity:
+    def _quantity(self, name: str) -> Quantity[Value, Value]:
         return Quantity(self.result, name, self.order)
 
     @property

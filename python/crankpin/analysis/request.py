@@ -111,11 +111,10 @@ class Request(Record):
             return
         name = inputs.one_of("quantity", quantity, KINDS).replace("_", " ")
         if self.pairs is not None:
-            raise AbsentError(
-                f"{name} is not available: a force spectrum does not determine it; "
-                "leave out `spectrum`"
-            )
-        raise AbsentError(f"{name} is not available: it was not requested; give torque=True")
+            hint = "a force spectrum does not determine it; leave out `spectrum`"
+        else:
+            hint = "it was not requested; give torque=True"
+        raise inputs.faulty(name, "is not available", hint, AbsentError)
 
 
 def check_request(request: object, maker: str) -> Request:

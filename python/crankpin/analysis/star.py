@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Tabled
 from crankpin._support.record import read_only
@@ -259,7 +258,7 @@ def star_diagram(
     for order in listed:
         if 2 * order % step:
             hint = "the cycle of a two-stroke repeats in every turn; give whole orders"
-            raise InputError(f"orders = {order}: {hint}")
+            raise inputs.rejected("orders", order, hint)
     if len(set(listed)) < len(listed) or not listed:
         raise inputs.rejected("orders", listed, "give each order once, one at least")
     shape = np.ones(len(engine)) if mode_shape is None else inputs.vector("mode_shape", mode_shape)

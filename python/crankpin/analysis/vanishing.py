@@ -109,7 +109,8 @@ class Verdicts(Keyed, Tabled):
 
     def _part(self, name: str) -> Verdicts:
         if not self.parts:
-            raise AbsentError(f"{name} = of a single sum: a force or a moment has parts")
+            hint = "give a force or a moment, which have parts"
+            raise inputs.faulty(name, "is undefined for a single sum", hint, AbsentError)
         return dict(self.parts)[name]
 
     @property

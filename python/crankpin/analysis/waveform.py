@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import KINDS, QUANTITIES
 from crankpin._support.record import read_only
@@ -44,9 +43,11 @@ def waveform(
             "rtol", rtol, 'needs orders="auto"; exact kinematics has no tolerance'
         )
     if orders is None and spectrum is not None:
-        raise InputError(
-            "orders = None: exact kinematics needs the slider-crank; "
-            'give orders, or orders="auto", with a spectrum'
+        raise inputs.rejected(
+            "orders",
+            None,
+            "exact kinematics needs the slider-crank; "
+            'give orders, or orders="auto", with a spectrum',
         )
     request = Request.checked(
         orders="auto" if orders is None else orders,

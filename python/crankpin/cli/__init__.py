@@ -9,7 +9,15 @@ from typing import TYPE_CHECKING
 
 from crankpin._core import InputError, __version__
 from crankpin.cli import engines, hardware, loads, making, mounts, new, outputs, shaking  # noqa: F401 - commands
-from crankpin.cli.arguments import COMMANDS, PROG, Given, Parser, in_options
+from crankpin.cli.arguments import (
+    COMMANDS,
+    PROG,
+    Given,
+    Parser,
+    error_in_options,
+    rejected,
+    warning_in_options,
+)
 from crankpin.model import checks
 
 if TYPE_CHECKING:
@@ -48,7 +56,7 @@ def _text(argv: Sequence[str] | None) -> str:
     typed = sys.argv[1:] if argv is None else argv
     for each in typed:
         if each.startswith("--") and each.endswith("=--"):  # on which argparse fails
-            raise InputError(f"{each.removesuffix('=--')} = --: give a value")
+            raise rejected(each.removesuffix("=--"), "--", "give a value")
     try:
         arguments = _parser().parse_args(typed)
     except SystemExit:
@@ -60,7 +68,7 @@ def _text(argv: Sequence[str] | None) -> str:
         try:
             return outputs.shown(Given(arguments, typed), arguments.run)
         except InputError as error:
-            raise InputError(in_options(str(error), vars(arguments))) from None
+            raise error_in_options(error, vars(arguments)) from None
 
 
 class _Warnings:
@@ -72,7 +80,7 @@ class _Warnings:
     def __call__(self, message: Warning | str, *_: object, **__: object) -> None:
         of_units = checks.UNITS in str(message)
         if not (of_units and self._of_units):
-            outputs.say(f"warning: {in_options(str(message), self._options)}")
+            outputs.say(f"warning: {warning_in_options(str(message), self._options)}")
         self._of_units |= of_units
 
 

@@ -95,7 +95,7 @@ class Parser(argparse.ArgumentParser):
             hint = "no such command" if action.nargs == argparse.PARSER else None
             hint = hint or f"give {' or '.join(words)}"
             meant = inputs.nearest(value, words) or f"; see {self.prog} --help"
-            raise InputError(f"{name} = {labels.cut(str(value))}: {hint}{meant}")
+            raise rejected(name, str(value), f"{hint}{meant}")
 
     def error(self, message: str) -> NoReturn:  # noqa: D102 - of the base class
         flag = re.fullmatch(r"argument (?:-\w/)?(--[\w-]+): expected one argument", message)
@@ -259,41 +259,72 @@ def command(
 # --- values -------------------------------------------------------------------------------------
 
 
-def in_options(message: str, typed: Mapping[str, object]) -> str:
-    """Return a message of the library with arguments named, and units asked for, as in a shell.
+def rejected(option: str, text: str, hint: str) -> InputError:
+    """Return the error of an option: its name, what was typed and a hint."""
+    return inputs.faulty(option, f"= {labels.cut(text)}", hint)
+
+
+def error_in_options(error: InputError, typed: Mapping[str, object]) -> InputError:
+    """Return an error of the library with its argument and hint named as in a shell.
 
     Parameters
     ----------
-    message
-        The message of an error or a warning.
+    error
+        The error.
     typed
         Values of all options of the command; None for those that are left out.
     """
-    options = {name: value for name, value in typed.items() if name not in ("name", "names")}
-    known = {name for name, value in options.items() if value is not None}
+    if error.argument is None or error.hint is None:
+        return error
+    value = str(error)[len(error.argument) : -len(error.hint)]
+    # One that is left out is named only where that is the fault.
+    among = _options(typed, left_out=error.value == "None")
+    error.argument = re.sub(r"^\w+", lambda word: _option(word[0], among), error.argument)
+    error.hint = _hint_in_options(error.hint, typed)
+    error.args = (error.argument + value + error.hint,)
+    return error
 
-    def flag(name: str, among: Iterable[str]) -> str:
-        names = (name, name.removesuffix("_deg"), RENAMED.get(name, name))
-        return next((f"--{each.replace('_', '-')}" for each in names if each in among), "")
 
-    def option(found: re.Match[str]) -> str:
-        # One that is left out is named only where that is the fault.
-        left_out = found.string.startswith(" = None", found.end())
-        return flag(found[0], options if left_out else known) or found[0]
-
-    def hint(found: re.Match[str]) -> str:
-        name, value = found.groups()
-        if value in ("True", "False"):
-            return flag(name if value == "True" else OPPOSITES.get(name, ""), options) or found[0]
-        plain = re.sub(r'[\[\]()"]|(?<=,) ', "", value)
-        return f"{named} {plain}" if (named := flag(name, options)) else found[0]
-
-    said = re.sub(r"(?:(?<=^)|(?<=; ))\w+(?=(?: =| is| has|\[))", option, message)
-    said = re.sub(r'(?<![\w.(-])(\w+)=(\([^()]*\)|\[[^\[\]]*\]|"[^"]*"|[^\s,;()]+)', hint, said)
+def warning_in_options(message: str, typed: Mapping[str, object]) -> str:
+    """Return a warning of the library with arguments named, and units asked for, as in a shell."""
+    known = _options(typed, left_out=False)
+    begins = r"(?:(?<=^)|(?<=; ))\w+(?=(?: =| is| has|\[))"
+    said = re.sub(begins, lambda word: _option(word[0], known), message)
+    said = _hint_in_options(said, typed)
     if said == message and "kind" not in known:  # a figure of an engine file, which has no units
         return message
     asked = "plain numbers are metres and kilograms; type units, such as 86mm or 480g"
     return said.replace(checks.UNITS, asked)
+
+
+def _options(typed: Mapping[str, object], *, left_out: bool) -> set[str]:
+    """Return the names of options that were typed, or of all."""
+    among = {name for name, value in typed.items() if left_out or value is not None}
+    return among - {"name", "names"}
+
+
+def _option(argument: str, among: set[str]) -> str:
+    """Return the option among some that gives an argument, else the argument."""
+    names = (argument, argument.removesuffix("_deg"), RENAMED.get(argument, argument))
+    return next((f"--{each.replace('_', '-')}" for each in names if each in among), argument)
+
+
+def _hint_in_options(text: str, typed: Mapping[str, object]) -> str:
+    """Return a text with arguments, ``orders=[1, 2]``, as they are typed in a shell."""
+    options = _options(typed, left_out=True)
+
+    def hint(found: re.Match[str]) -> str:
+        name, value = found.groups()
+        if value in ("True", "False"):
+            name = name if value == "True" else OPPOSITES.get(name, "")
+            named = _option(name, options)
+            return named if named != name else found[0]
+        plain = re.sub(r'[\[\]()"]|(?<=,) ', "", value)
+        named = _option(name, options)
+        return f"{named} {plain}" if named != name else found[0]
+
+    pattern = r'(?<![\w.(-])(\w+)=(\([^()]*\)|\[[^\[\]]*\]|"[^"]*"|[^\s,;()]+)'
+    return re.sub(pattern, hint, text)
 
 
 class Given:
@@ -308,7 +339,7 @@ class Given:
         self._typed = vars(arguments)
         for name, text in self._typed.items():
             if isinstance(text, str) and "\0" in text:
-                raise InputError(f"{name} = {labels.cut(labels.printable(text))}: has a NUL byte")
+                raise rejected(name, labels.printable(text), "has a NUL byte")
         self._plain = self._units(self._typed.get("units", "kg,m"))
 
     def text(self, flag: str) -> Any:  # noqa: ANN401 - text or None, True or False of a flag
@@ -326,7 +357,7 @@ class Given:
                 length = LENGTHS[name]
             else:
                 known = ", ".join([*MASSES, *LENGTHS])
-                raise InputError(f"--units = {labels.cut(text)}: give a unit or two of {known}")
+                raise rejected("--units", text, f"give a unit or two of {known}")
         return {"kg": mass, "m": length, "kg·m": mass * length}
 
     def decimal(self, flag: str, text: str, unit: str, what: str = "a number") -> Decimal:
@@ -338,12 +369,10 @@ class Given:
         try:
             number = Decimal(typed)
         except InvalidOperation:
-            raise InputError(
-                f"{flag} = {labels.cut(text)}: give {what}{_hint(typed, unit)}"
-            ) from None
+            raise rejected(flag, text, f"give {what}{_hint(typed, unit)}") from None
         # Decimals go far beyond floats; with these the arithmetic below could not overflow.
         if not number.is_finite() or not math.isfinite(float(number)):
-            raise InputError(f"{flag} = {labels.cut(text)}: give a finite number")
+            raise rejected(flag, text, "give a finite number")
         return number * factor
 
     def number(self, flag: str, unit: str = "") -> float:
@@ -368,7 +397,7 @@ class Given:
         text = self.text(flag)
         found = self.decimal(flag, text, "count", "a whole number")
         if found != int(found):
-            raise InputError(f"{flag} = {labels.cut(text)}: give a whole number")
+            raise rejected(flag, text, "give a whole number")
         return int(found)
 
     def whole_numbers(self, flag: str, hint: str = "give whole numbers, such as 1,2") -> list[int]:
@@ -377,7 +406,7 @@ class Given:
         try:
             return [int(part) for part in text.split(",")]
         except ValueError:
-            raise InputError(f"{flag} = {labels.cut(text)}: {hint}") from None
+            raise rejected(flag, text, hint) from None
 
     def range(self, flag: str, unit: str = "") -> float | NDArray[np.float64] | None:
         """Return a number, a list of numbers, or START:STOP:STEP with the stop included."""
@@ -389,18 +418,15 @@ class Given:
             numbers = [float(self.decimal(flag, part, unit, what)) for part in text.split(",")]
             return np.array(numbers) if "," in text else numbers[0]
         parts = text.split(":")
-        shown = labels.cut(text)
         if len(parts) != 3:
-            raise InputError(f"{flag} = {shown}: give START:STOP:STEP, a,b,c or one number")
+            raise rejected(flag, text, "give START:STOP:STEP, a,b,c or one number")
         # In decimals, so that 0.2:0.4:0.1 has 0.3 and 0.4 as they would be typed.
         start, stop, step = (self.decimal(flag, part, unit) for part in parts)
         if float(step) == 0.0 or (stop - start) * step < 0:
-            raise InputError(f"{flag} = {shown}: the step does not lead from {start} to {stop}")
+            raise rejected(flag, text, f"the step does not lead from {start} to {stop}")
         steps = (stop - start) / step
         if steps >= MOST_ROWS:
-            raise InputError(
-                f"{flag} = {shown}: {float(steps):.3g} steps; give {MOST_ROWS} at most"
-            )
+            raise rejected(flag, text, f"{float(steps):.3g} steps; give {MOST_ROWS} at most")
         return np.array([float(start + k * step) for k in range(int(steps) + 1)])
 
     def engines(self) -> dict[str, Engine]:
@@ -412,7 +438,7 @@ class Given:
                 continue
             for member in presets.family(name):
                 if member not in presets.Presets():
-                    raise InputError(f"NAME = {presets.suggestion(name, typed=True)}")
+                    raise presets.unknown("NAME", name, typed=True)
                 typed[member] = Engine.preset(member)
         if (plane := self._typed.get("reference_z")) is not None:
             z = float(self.decimal("--reference-z", plane, "m"))
@@ -429,7 +455,7 @@ class Given:
         if len(found) > 1:
             name = self.text("name")
             members = ", ".join(presets.family(name))
-            raise InputError(f"NAME = {name}: {command} takes one engine of {members}")
+            raise rejected("NAME", name, f"{command} takes one engine of {members}")
         return next(iter(found.values()))
 
     def quantity(self, engines: Iterable[Engine]) -> str:
@@ -445,7 +471,7 @@ class Given:
             return [inputs.order(Decimal(part)) for part in self.text("--orders").split(",")]
         except (InvalidOperation, ValueError, OverflowError):
             hint = "give multiples of crank speed, such as 1,2,4 or 0.5,1,1.5, or auto"
-            raise InputError(f"--orders = {labels.cut(self.text('--orders'))}: {hint}") from None
+            raise rejected("--orders", self.text("--orders"), hint) from None
 
     def chosen(self) -> dict[str, Any]:
         """Return orders, or "auto", and the tolerance by which they are chosen, if it is given."""
@@ -453,22 +479,22 @@ class Given:
         if self.text("--rtol") is None:
             return {"orders": listed}
         if listed != "auto":
-            raise InputError("--rtol needs --orders auto")
+            raise rejected("--rtol", self.text("--rtol"), "needs --orders auto")
         return {"orders": listed, "rtol": self.number("--rtol")}
 
     def spectrum(self) -> Spectrum | None:
         """Return the spectrum of ``--spectrum``, order → amplitude in kg·m, if it is given."""
         if (text := self.text("--spectrum")) is None:
             return None
-        shown, amplitudes = labels.cut(text), dict[int, float]()
+        amplitudes = dict[int, float]()
         for part in text.split(","):
             typed, _, amplitude = part.partition("=")
             order = int(typed) if typed.strip().isdecimal() and len(typed) < 10 else 0
             if not amplitude or order < 1:
                 hint = "give order=amplitude, such as 1=9.0,2=3.75"
-                raise InputError(f"--spectrum = {shown}: {hint}")
+                raise rejected("--spectrum", text, hint)
             if order in amplitudes:
-                raise InputError(f"--spectrum = {shown}: order {order} is given twice")
+                raise rejected("--spectrum", text, f"order {order} is given twice")
             amplitudes[order] = float(self.decimal("--spectrum", amplitude, "kg·m"))
         return amplitudes
 
@@ -483,7 +509,7 @@ class Given:
         path = Path(text)
         if path.suffix.lower() not in PICTURES:
             hint = f"a picture's name ends in {', '.join(PICTURES)}"
-            raise InputError(f"--plot = {labels.cut(text)}: {hint}")
+            raise rejected("--plot", text, hint)
         return path
 
     def save_file(self) -> Path | None:
@@ -497,7 +523,7 @@ class Given:
         file = engine_files.checked(text, flag)
         if file.is_file() and not self.text("--force"):
             hint = "it is there already; give another name, or --force to replace it"
-            raise InputError(f"{flag} = {labels.cut(str(file))}: {hint}")
+            raise rejected(flag, str(file), hint)
         return file
 
 

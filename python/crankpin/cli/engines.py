@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import labels
 from crankpin._support.tables import Table
-from crankpin.cli.arguments import command, option
+from crankpin.cli.arguments import command, option, rejected
 from crankpin.cli.outputs import Shown, only
 from crankpin.model.presets import Presets
 from crankpin.view.page import save_gallery
@@ -46,7 +45,7 @@ def _firing(given: Given) -> Shown:
     strokes = None if given.text("--strokes") is None else int(given.text("--strokes"))
     if given.text("--all") or (given.text("--firing-order") is None and not engine.firing_order):
         if given.text("--plot") is not None:
-            raise InputError("--plot needs --firing-order")
+            raise rejected("--plot", given.text("--plot"), "needs --firing-order")
         return _firing_orders(engine, strokes, csv=given.text("--csv"))
     ways = engine.firings(given.text("--firing-order"), strokes=strokes)
     best = engine.firing(given.text("--firing-order"), strokes=strokes)

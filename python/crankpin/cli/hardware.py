@@ -6,13 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crankpin._core import InputError
-from crankpin._support import labels
+from crankpin._support import inputs
 from crankpin.analysis.balancing.balance_shafts import REMOVE, balance_shafts
 from crankpin.analysis.balancing.balancer_options import DEFAULT, balancer_options
 from crankpin.analysis.balancing.bob_weight import bob_weight
 from crankpin.analysis.balancing.counterweights import counterweights
-from crankpin.cli.arguments import command, option
+from crankpin.cli.arguments import command, option, rejected
 from crankpin.cli.outputs import Shown
 
 if TYPE_CHECKING:
@@ -88,7 +87,7 @@ def _planes(given: Given) -> Planes:
         return [float(given.decimal("--planes", each, "m", what)) for each in text.split(",")]
     if len(set(named)) < len(parts):
         hint = "give ends, webs, places, or a name of its own for each place"
-        raise InputError(f"--planes = {labels.cut(text)}: {hint}")
+        raise rejected("--planes", text, hint)
     return {name.strip(): float(given.decimal("--planes", z, "m")) for name, _, z in parts}
 
 
@@ -180,7 +179,7 @@ def _shafts(given: Given) -> Shown:
     for name in OF_OPTIONS if fits else OF_A_FIT:
         if given.text(name) is not None and not (name == "--rpm" and engine.fired):
             what = "is of the comparison without" if fits else "needs"
-            raise InputError(f"{name} {what} --ratios")
+            raise inputs.faulty(name, f"{what} --ratios", "leave it out" if fits else "give them")
     return _fit(engine, given) if fits else _compare(engine, given)
 
 
@@ -202,7 +201,7 @@ def _compare(engine: Engine, given: Given) -> Shown:
     targets, relative = _targets(given)
     saved = given.text("--save") is not None
     if saved and targets is None:
-        raise InputError("--save needs --ratios or --target")
+        raise rejected("--save", given.text("--save"), "needs --ratios or --target")
     rpm, by = given.optional("--rpm", "rpm"), given.text("--by")
     options = balancer_options(
         engine,
@@ -232,9 +231,9 @@ def _targets(given: Given) -> tuple[dict[str, float] | None, bool]:
     hint = "give OBJECTIVE=VALUE, such as total.moment.peak=300 or total.moment.peak=5%"
     pairs = [part.partition("=") for part in text.split(",")]
     if not all(value.strip() for _, _, value in pairs):
-        raise InputError(f"--target = {labels.cut(text)}: {hint}")
+        raise rejected("--target", text, hint)
     per_cent = {value.strip().endswith("%") for _, _, value in pairs}
     if len(per_cent) > 1:
-        raise InputError(f"--target = {labels.cut(text)}: give all values in %, or none")
+        raise rejected("--target", text, "give all values in %, or none")
     values = {name.strip(): float(given.decimal("--target", value, "")) for name, _, value in pairs}
     return values, per_cent == {True}

@@ -5,12 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from crankpin._core import InputError
-from crankpin._support import labels
+from crankpin._support import inputs, labels
 from crankpin._support.quantities import LOADS
 from crankpin._support.record import changed
 from crankpin.analysis.bearings import AXES, bearing_loads
-from crankpin.cli.arguments import command, option
+from crankpin.cli.arguments import command, option, rejected
 from crankpin.cli.outputs import Shown, left_out, only
 from crankpin.model.computed_cycles import EXAMPLES
 from crankpin.model.cycle import Cycle
@@ -114,7 +113,7 @@ def _fired(given: Given, name: str, otherwise: str | None = None) -> tuple[Engin
         engine = engine.replace(firing_order=order)
     of_a_file = [each.names[0] for each in OF_A_FILE if given.text(each.names[0])]
     if of_a_file and (typed is None or typed in EXAMPLES):
-        raise InputError(f"{of_a_file[0]} needs a file of --cycle")
+        raise inputs.faulty(of_a_file[0], "needs a file of --cycle", "give its path")
     bore, crankcase = given.optional("--bore", "m"), given.optional("--crankcase", "Pa")
     if typed is None and engine.fired:
         cylinders = [each if bore is None else each.replace(bore=bore) for each in engine.cylinders]
@@ -123,13 +122,13 @@ def _fired(given: Given, name: str, otherwise: str | None = None) -> tuple[Engin
         for flag, figure in (("--bore", bore), ("--crankcase", crankcase)):
             if figure is not None:
                 hint = "acts only beside gas pressure; give --cycle"
-                raise InputError(f"{flag} = {labels.cut(given.text(flag))}: {hint}")
+                raise rejected(flag, given.text(flag), hint)
         return engine, ""
     typed = otherwise if typed is None else typed
     example = typed in EXAMPLES
     if not example and not Path(typed).suffix:
         hint = f"give {' or '.join(EXAMPLES)} for an example, or a text file"
-        raise InputError(f"--cycle = {labels.cut(typed)}: {hint}")
+        raise rejected("--cycle", typed, hint)
     strokes = engine.strokes
     cycle = Cycle.example(typed, strokes=strokes) if example else _loaded(given, typed, strokes)
     unknown = bore is None and any(each.bore is None for each in engine.cylinders)
@@ -148,7 +147,7 @@ def _loaded(given: Given, path: str, strokes: int) -> Cycle:
     """Return the cycle in a file, read as options say."""
     gauge, absolute = given.text("--gauge"), given.text("--absolute")
     if gauge and absolute:
-        raise InputError("--gauge cannot be combined with --absolute")
+        raise inputs.faulty("--gauge", "cannot be combined with --absolute", "give one of them")
     columns: Any = None
     if (listed := given.text("--columns")) is not None:
         parts = (part.strip() for part in listed.split(","))

@@ -6,12 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import labels
 from crankpin.analysis.design.design import design
 from crankpin.analysis.tolerances.spreads import FIGURES, SPREADS
 from crankpin.analysis.tolerances.tolerances import tolerances
-from crankpin.cli.arguments import command, option
+from crankpin.cli.arguments import command, option, rejected
 from crankpin.cli.outputs import Shown, only
 
 if TYPE_CHECKING:
@@ -80,10 +79,10 @@ def _design(given: Given) -> Shown:
     engine = given.engine("design")
     if len(set(engine.cylinders)) > 1 or len(engine.banks) > 2:
         hint = "give an engine with one or two banks and one kind of cylinder"
-        raise InputError(f"NAME = {given.text('name')}: {hint}")
+        raise rejected("NAME", given.text("name"), hint)
     pick = given.whole("--pick")
     if not 1 <= pick <= given.whole("--count"):
-        raise InputError(f"--pick = {pick}: give the place of one of the designs, from 1")
+        raise rejected("--pick", str(pick), "give the place of one of the designs, from 1")
     layout: Any = given.text("--layout") or ("inline" if len(engine.banks) == 1 else "vee")
     angle = _angles(given, "--bank-angle")
     if angle is None and layout == "vee" and len(engine.banks) == 2:
@@ -110,7 +109,7 @@ def _design(given: Given) -> Shown:
         seed=given.whole("--seed"),
     )
     if pick > len(found) and given.text("--save") is not None:
-        raise InputError(f"--pick = {pick}: there are {len(found)} designs")
+        raise rejected("--pick", str(pick), f"there are {len(found)} designs")
     engines = dict(enumerate(found.engines, start=1))
     return Shown(found.frames, found, engine=engines.get(pick))
 
@@ -134,7 +133,7 @@ def _angles(given: Given, flag: str) -> Any:  # noqa: ANN401 - one angle or two,
         if "/" not in end:
             given.decimal(flag, end, "°", "one angle, or LOW:HIGH")
     if len(ends) > 2:
-        raise InputError(f"{flag} = {labels.cut(text)}: give one angle, or LOW:HIGH")
+        raise rejected(flag, text, "give one angle, or LOW:HIGH")
     return ends[0] if len(ends) == 1 else tuple(ends)
 
 
@@ -172,12 +171,14 @@ def _tolerances(given: Given) -> Shown:
     engine = given.engine("tolerances")
     samples = given.whole("--samples")
     if samples > MOST_SAMPLES:
-        raise InputError(f"--samples = {samples}: give {MOST_SAMPLES} at most")
+        raise rejected("--samples", str(samples), f"give {MOST_SAMPLES} at most")
     spreads: dict[str, Any] = {
         name: given.number(flag, labels.TOLERANCES[name][1]) for name, flag in FLAGS.items()
     }
     if not any(spreads.values()):
-        raise InputError(f"no part deviates: give a spread, {', '.join(FLAGS.values())}")
+        first, *_ = flags = [*FLAGS.values()]
+        hint = f"no part deviates; give a spread, {', '.join(flags)}"
+        raise rejected(first, given.text(first), hint)
     note = ""
     if engine.fired:
         engine, note = engine.with_cycle(None), "Gas pressure is not counted.\n"

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._core import InputError
+from crankpin._support import inputs
 from crankpin._support.frames import FIRST, Frames
 from crankpin.analysis.mounts.powertrain import Powertrain
-from crankpin.cli.arguments import MOST_ROWS, command, option
+from crankpin.cli.arguments import MOST_ROWS, command, option, rejected
 from crankpin.cli.outputs import Shown
 
 if TYPE_CHECKING:
@@ -55,9 +55,9 @@ def _mounts(given: Given) -> Shown:
         return _at_rest(given, powertrain)
     for flag in ("--frequency", "--torque"):
         if (typed := given.text(flag)) is not None:
-            raise InputError(f"{flag} = {typed}: acts without --rpm alone")
+            raise rejected(flag, typed, "acts without --rpm alone")
     if np.size(rpm) > MOST_ROWS:
-        raise InputError(f"{np.size(rpm)} speeds: give {MOST_ROWS} at most")
+        raise inputs.faulty("--rpm", f"has {np.size(rpm)} speeds", f"give {MOST_ROWS} at most")
     response = powertrain.response(rpm, **given.chosen())
     frames: Frames = response.frames
     if (point := given.numbers("--at", "m")) is not None:
@@ -71,7 +71,7 @@ def _at_rest(given: Given, powertrain: Powertrain) -> Shown:
     """Return modes, axes and the static state; what free motions leave undefined is left out."""
     for flag in ("--at", "--mount", "--picture"):
         if (typed := given.text(flag)) is not None:
-            raise InputError(f"{flag} = {typed}: needs --rpm")
+            raise rejected(flag, typed, "needs --rpm")
     frequency = given.optional("--frequency")
     modes = powertrain.modes(frequency)
     makers: dict[str, Any] = {FIRST: lambda: modes.table, "strain": lambda: modes.frames["strain"]}

@@ -8,9 +8,8 @@ import textwrap
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from crankpin._core import InputError
-from crankpin._support import inputs, labels
-from crankpin.cli.arguments import PROG, command, option
+from crankpin._support import inputs
+from crankpin.cli.arguments import PROG, command, option, rejected
 from crankpin.model import checks, engine_files, presets
 from crankpin.model.cylinder import Cylinder, Rod
 from crankpin.model.data import allowed
@@ -171,9 +170,9 @@ def _layout(kind: str) -> presets.Layout:
     name = presets.named(kind)
     if name not in presets.Presets():
         if meant := inputs.nearest(kind.lower(), [*presets.aliases(), *BUILDERS]):
-            raise InputError(f"KIND = {labels.cut(kind)}: no such layout{meant}")
+            raise rejected("KIND", kind, f"no such layout{meant}")
         own = f"builders are {', '.join(BUILDERS)}"
-        raise InputError(f"KIND = {presets.suggestion(kind, typed=True, own=own)}")
+        raise presets.unknown("KIND", kind, typed=True, own=own)
     return presets.layout(name)
 
 
@@ -189,7 +188,8 @@ def _changes(given: Given, kind: str, base: presets.Layout) -> dict[str, Any]:
         if given.text(flag) is None:
             continue
         if flag not in flags:
-            raise InputError(f"{flag} does not apply to {kind}, which takes {', '.join(flags)}")
+            hint = f"does not apply to {kind}, which takes {', '.join(flags)}"
+            raise rejected(flag, given.text(flag), hint)
         changes[name] = _read(given, flag, how)
     needed = [
         flag
@@ -201,7 +201,8 @@ def _changes(given: Given, kind: str, base: presets.Layout) -> dict[str, Any]:
     if "tdc_deg" in takes and not {"tdc_deg", "pin_deg", "places"} & {*base.arguments, *changes}:
         needed.append("--tdc or --pins")
     if needed:
-        raise InputError(f"new {kind} needs {', '.join(needed)}; see {PROG} new --help")
+        hint = f"new {kind} needs {', '.join(needed)}; see {PROG} new --help"
+        raise rejected("KIND", kind, hint)
     return changes
 
 
@@ -250,19 +251,20 @@ def _parts(given: Given, notes: list[str]) -> tuple[Cylinder | None, float | Non
         return None, rotating
     whole = [flag for flag in ("--stroke", "--rod-length") if lengths[flag] is None]
     if whole:
-        raise InputError(f"a cylinder of your own needs {' and '.join(whole)}")
+        hint = f"a cylinder of your own needs {' and '.join(whole)}"
+        raise inputs.faulty(whole[0], "is left out", hint)
     stroke, length = lengths["--stroke"] or 0.0, lengths["--rod-length"] or 0.0
     common: dict[str, Any] = {"bore": lengths["--bore"]}
     common["pin_offset"] = lengths["--pin-offset"] or 0.0
     if (moving := masses.pop("--reciprocating-mass")) is not None:
         if other := [flag for flag, mass in masses.items() if mass is not None]:
-            raise InputError(
-                f"{other[0]} cannot be combined with --reciprocating-mass, which includes it"
-            )
+            hint = "cannot be combined with --reciprocating-mass, which includes it"
+            raise rejected(other[0], given.text(other[0]), hint)
         return Cylinder(stroke / 2.0, length, moving, **common), rotating
     rod = _rod(length, lengths["--rod-centre"], masses, notes)
     if masses["--piston-mass"] is None:
-        raise InputError("a cylinder of your own needs --piston-mass, or --reciprocating-mass")
+        hint = "a cylinder of your own needs --piston-mass, or --reciprocating-mass"
+        raise inputs.faulty("--piston-mass", "is left out", hint)
     cylinder = Cylinder.from_rod(rod, stroke / 2.0, masses["--piston-mass"], **common)
     return cylinder, rotating
 
@@ -274,10 +276,9 @@ def _rod(
     mass, small, big = (masses[flag] for flag in ("--rod-mass", "--small-end", "--big-end"))
     ends = small is not None and big is not None
     if ends == (mass is not None) or (small is None) != (big is None):
-        raise InputError(
-            "a rod needs --rod-mass, or both --small-end and --big-end, or else give "
-            "--reciprocating-mass and --rotating-mass"
-        )
+        hint = "--small-end and --big-end, or else give --reciprocating-mass and --rotating-mass"
+        hint = f"a rod needs --rod-mass, or both {hint}"
+        raise inputs.rejected("--rod-mass", mass, hint)
     if small is not None and big is not None:
         # To the nanogram, which leaves 0.2 + 0.555 its decimals.
         mass = round(small + big, 12)

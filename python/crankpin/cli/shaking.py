@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._core import InputError
-from crankpin._support import labels, tables
+from crankpin._support import inputs, labels, tables
 from crankpin._support.frames import FIRST, Frames
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.tables import Table
@@ -100,13 +99,12 @@ def _sweep(given: Given) -> Shown:
             axes["bank_angle_deg"] = np.arange(10.0, 171.0, 10.0)
         elif len(engines) == 1:
             flags = ", ".join(flag for flag, _ in SWEPT.values() if vees or "bank" not in flag)
-            raise InputError(
-                f"nothing to sweep: all options have one value; give one of {flags} as "
-                "START:STOP:STEP or a,b,c"
-            )
+            hint = f"give one of {flags} as START:STOP:STEP or a,b,c"
+            hint = f"all options have one value; {hint}"
+            raise inputs.faulty("sweep", "has nothing to sweep", hint)
     rows = math.prod([len(engines), *map(np.size, axes.values())])
     if rows > MOST_ROWS:
-        raise InputError(f"{rows} points to sweep: give {MOST_ROWS} at most")
+        raise inputs.faulty("sweep", f"has {rows} points to sweep", f"give {MOST_ROWS} at most")
     chosen = given.chosen()
     result = sweep(
         engines if len(engines) > 1 else next(iter(engines.values())),
@@ -215,7 +213,7 @@ def _rank(given: Given) -> Shown:
         own, angles = not vees, np.arange(10.0, 171.0, 10.0) if vees else None
     points = len(engines) * (1 if angles is None else np.size(angles))
     if points > MOST_ROWS:
-        raise InputError(f"{points} points to rank: give {MOST_ROWS} at most")
+        raise inputs.faulty("rank", f"has {points} points to rank", f"give {MOST_ROWS} at most")
     ranking = rank(
         engines,
         rpm=given.number("--rpm", "rpm"),

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias
 
 from crankpin import _core
-from crankpin._core import MOST_CYLINDERS, InputError
+from crankpin._core import MOST_CYLINDERS
 from crankpin._support import inputs
 from crankpin.model import checks
 from crankpin.model import shafts as rotating
@@ -483,14 +483,14 @@ class Builders(EngineData):
         """
         count, banks = inputs.whole("cylinders", cylinders), inputs.whole("rows", rows)
         if banks not in (1, 2):
-            raise InputError(f"rows = {banks}: give 1 or 2; Engine.from_lists takes any layout")
+            raise inputs.rejected("rows", banks, "give 1 or 2; Engine.from_lists takes any layout")
         if count % banks or count < 3 * banks:
             hint = "give three or more to each row; two opposed cylinders are Engine.flat"
             raise inputs.rejected("cylinders", count, hint)
         if count > MOST_CYLINDERS:
             raise inputs.rejected("cylinders", count, f"an engine has 1 to {MOST_CYLINDERS}")
         if spacing is None and banks == 2:
-            raise InputError("spacing = None: give the distance between the two rows, m")
+            raise inputs.rejected("spacing", None, "give the distance between the two rows, m")
         distance = inputs.number("spacing", 0.0 if spacing is None else spacing)
         if distance < 0.0:
             raise inputs.rejected("spacing", spacing, "give a number that is zero or more")

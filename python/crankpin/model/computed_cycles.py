@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Final, Literal, Self, TypedDict
 
 from crankpin import _core
-from crankpin._core import ATMOSPHERE, InputError
+from crankpin._core import ATMOSPHERE
 from crankpin._support import inputs
 from crankpin.model.cylinder import Cylinder
 
@@ -345,16 +345,14 @@ class ComputedCycles:
         >>> round(cycle.imep(cylinder) / 1e5, 2)
         12.24
         """
-        if (heat is None) == (excess_air is None):
-            given = f"heat = {inputs.shorten(heat)}, excess_air = {inputs.shorten(excess_air)}"
-            raise InputError(f"{given}: give one of them")
+        inputs.only_one_of(heat=heat, excess_air=excess_air)
         if excess_air is None:
             inputs.only_with(
                 "excess_air", stoichiometric_ratio=stoichiometric_ratio, heating_value=heating_value
             )
         if (rpm is None) != (wall_temperature is None):
-            given = f"wall_temperature = {inputs.shorten(wall_temperature)}"
-            raise inputs.rejected(f"{given}, rpm", rpm, "heat loss needs both")
+            hint = "heat loss needs both it and wall_temperature"
+            raise inputs.rejected("rpm", rpm, hint)
         two = inputs.strokes(strokes) == 2
         closes, opens = (-115.0, 105.0) if two else (-140.0, 130.0)
         figures = {
@@ -434,5 +432,5 @@ def area(cylinder: Cylinder) -> float:
         raise inputs.rejected("cylinder", cylinder, "give a crankpin.Cylinder")
     if cylinder.bore is None:
         hint = "gas pressure needs it; give bore=…, m, or cylinder.replace(bore=…)"
-        raise InputError(f"bore = None: {hint}")
+        raise inputs.rejected("bore", None, hint)
     return math.pi / 4.0 * cylinder.bore**2

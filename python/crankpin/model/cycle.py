@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal, Self
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import ATMOSPHERE, InputError
+from crankpin._core import ATMOSPHERE
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Tabled
 from crankpin._support.record import Input, read_only
@@ -105,9 +105,10 @@ class Cycle(Tabled, Input, ComputedCycles):
         if degree is not None:
             degree = inputs.whole("degree", degree)
             if not 0 <= degree < len(self.theta_deg):
-                raise InputError(
-                    f"degree = {inputs.shorten(degree)}: give one below the number of points, "
-                    f"{len(self.theta_deg)}, or leave it out"
+                raise inputs.rejected(
+                    "degree",
+                    degree,
+                    f"give one below the number of points, {len(self.theta_deg)}, or leave it out",
                 )
         object.__setattr__(self, "degree", degree)
         if len(self._core):
@@ -415,8 +416,10 @@ class Cycle(Tabled, Input, ComputedCycles):
             half = self._core.thinned(from_second)
             if half is None:
                 count = len(self.theta_deg)
-                raise InputError(
-                    f"theta_deg has {count} points: give 16 or more for an estimate of the error"
+                raise inputs.faulty(
+                    "theta_deg",
+                    f"has {count} points",
+                    "give 16 or more for an estimate of the error",
                 )
             with suppressed():  # Warned of where the whole was given.
                 thinned = Cycle._of(half)

@@ -119,7 +119,7 @@ def _decoded(found: bytes) -> str:
         if found.startswith(mark):
             return found.decode(encoding, "replace")
     if b"\0" in found[:1000]:
-        raise InputError("path: the file has NUL bytes and is no text: export it as text, UTF-8")
+        raise inputs.faulty("path", "has NUL bytes and is no text", "export it as text, UTF-8")
     try:
         return found.decode()
     except UnicodeDecodeError:
@@ -169,7 +169,8 @@ def _name(text: str) -> str:
 def _fact(facts: dict[str, str], name: str) -> int | None:
     value = facts.get(name)
     if value is not None and not value.isdecimal():
-        raise InputError(f"path: {name}: {inputs.shorten(value)} is not a whole number")
+        fault = f"has {name} = {inputs.shorten(value)}"
+        raise inputs.faulty("path", fault, "give a whole number")
     return None if value is None else int(value[:9])
 
 
@@ -194,11 +195,9 @@ def _split(text: str) -> _Text:
         rows.append(_cells(stripped, *pattern))
     if pattern is None:
         shown = next((line for line in text.splitlines() if re.search(r"\d", line)), "")
-        hint = f"; the first with digits is {inputs.shorten(shown)}" if shown else ""
-        raise InputError(
-            "path: the file has no line of two numbers alone, separated by commas, semicolons, "
-            f"tabs or blanks{hint}"
-        )
+        hint = "separate them by commas, semicolons, tabs or blanks"
+        hint += f"; the first with digits is {inputs.shorten(shown)}" if shown else ""
+        raise inputs.faulty("path", "has no line of two numbers alone", hint)
     heads, names = (_cells(line, pattern[0], comma=False) for line in (header, above))
     return _Text(facts, heads, names if len(names) == len(heads) == len(rows[0]) else [], rows)
 
@@ -216,7 +215,8 @@ def _separator(line: str) -> tuple[str | None, bool] | None:
             and all(cell.lstrip("+-").isdigit() for cell in cells)
         ):
             hint = "are decimals written with commas? Separate columns by semicolons or tabs"
-            raise InputError(f"path: {inputs.shorten(line)} are four whole numbers; {hint}")
+            fault = f"has a line of four whole numbers, {inputs.shorten(line)}"
+            raise inputs.faulty("path", fault, hint)
         return separator, comma
     return None
 
@@ -232,10 +232,10 @@ def _place(split: _Text, column: object) -> int:
             if column in heads:
                 return heads.index(column)
         listed = ", ".join(map(repr, (split.names or split.header)[:10])) or "none"
-        raise InputError(f"columns: there is no {inputs.shorten(column)}; the file has {listed}")
+        raise inputs.rejected("columns", column, f"there is none; the file has {listed}")
     place = inputs.whole("columns", column)
     if not 0 <= place < 1000:
-        raise InputError(f"columns = {place}: give numbers from 0, or names")
+        raise inputs.rejected("columns", place, "give numbers from 0, or names")
     return place
 
 
@@ -246,9 +246,8 @@ def _numbers(rows: list[list[str]], place: int) -> NDArray[np.float64]:
             values[k] = float(row[place].replace("D", "e").replace("d", "e"))
         except (ValueError, IndexError):
             shown = inputs.shorten(" ".join(row))
-            raise InputError(
-                f"path: line {k + 1} of the numbers, {shown}, has no number in column {place}"
-            ) from None
+            fault = f"has no number in column {place} of line {k + 1} of the numbers, {shown}"
+            raise inputs.faulty("path", fault, "give lines of as many numbers") from None
     return values
 
 
@@ -258,9 +257,11 @@ def _pressure_unit(given: str | None, head: str) -> str:
     found = {match[1].lower() for match in _PRESSURE.finditer(head)}
     if len(found) != 1:
         listed = ", ".join(PRESSURE_UNITS)
-        raise InputError(
-            "pressure_unit = None: the file does not name one; head its column p [bar] or the "
-            f"like, or give one of {listed}"
+        raise inputs.rejected(
+            "pressure_unit",
+            None,
+            "the file does not name one; head its column p [bar] or the like, or give one of "
+            f"{listed}",
         )
     (unit,) = found
     return next(each for each in PRESSURE_UNITS if each.lower() == unit)
@@ -270,9 +271,10 @@ def _is_gauge(given: bool | None, head: str) -> bool:
     if given is not None:
         return inputs.flag("gauge", given)
     if bool(_GAUGE.search(head)) == bool(_ABSOLUTE.search(head)):
-        raise InputError(
-            "gauge = None: the file does not state whether pressure is gauge or absolute; write "
-            "one of these words into its header, or give gauge=True, or gauge=False for absolute "
-            "pressure"
+        raise inputs.rejected(
+            "gauge",
+            None,
+            "the file does not state whether pressure is gauge or absolute; write one of these "
+            "words into its header, or give gauge=True, or gauge=False for absolute pressure",
         )
     return bool(_GAUGE.search(head))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import ATMOSPHERE, InputError
+from crankpin._core import ATMOSPHERE
 from crankpin._support import inputs
 from crankpin._support.frames import Tabled
 from crankpin._support.record import Input, read_only
@@ -16,7 +16,7 @@ from crankpin._support.warnings import suppressed
 from crankpin.model.cycle import Cycle
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable
 
     from numpy.typing import ArrayLike, NDArray
 
@@ -57,10 +57,10 @@ class CycleMap(Tabled, Input):
     """Crank speeds: (n_rpm,)."""
     load: NDArray[np.float64]
     """Loads: (n_load,)."""
-    cycles: Sequence[Sequence[Cycle]]
+    cycles: tuple[tuple[Cycle, ...], ...]
     """Cycles, by speed and load."""
 
-    def __init__(self, rpm: ArrayLike, load: ArrayLike, cycles: Sequence[Sequence[Cycle]]) -> None:
+    def __init__(self, rpm: ArrayLike, load: ArrayLike, cycles: Iterable[Iterable[Cycle]]) -> None:
         for name, values in (("rpm", rpm), ("load", load)):
             axis = inputs.vector(name, values).copy()
             if not axis.size or not np.isfinite(axis).all() or (np.diff(axis) <= 0.0).any():
@@ -76,9 +76,9 @@ class CycleMap(Tabled, Input):
             raise inputs.rejected("cycles", [len(row) for row in rows], f"for {shape} {hint}")
         for each in (cycle for row in rows for cycle in row):
             if not isinstance(each, Cycle):
-                raise InputError(f"cycles: {inputs.shorten(each)} is not a Cycle; {hint}")
+                raise inputs.rejected("cycles", each, f"is not a Cycle; {hint}")
             if each.strokes != rows[0][0].strokes:
-                raise InputError("cycles have 2 and 4 strokes: give cycles of one period")
+                raise inputs.faulty("cycles", "have 2 and 4 strokes", "give cycles of one period")
         object.__setattr__(self, "cycles", rows)
 
     def at(self, *, rpm: float, load: float) -> Cycle:
@@ -162,7 +162,9 @@ class CycleMap(Tabled, Input):
             weights = by_speed[..., :, np.newaxis] * by_load[..., np.newaxis, :]
         except ValueError:
             shapes = f"{np.shape(rpm)} and load {np.shape(load)}"
-            raise InputError(f"rpm has shape {shapes}: give shapes that broadcast") from None
+            raise inputs.faulty(
+                "rpm", f"has shape {shapes}", "give shapes that broadcast"
+            ) from None
         found: NDArray[np.complex128] = np.tensordot(weights, of_nodes, 2)
         return found
 

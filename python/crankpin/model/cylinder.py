@@ -197,7 +197,7 @@ class Cylinder:
             raise inputs.rejected("rod", rod, "give a Rod")
         mass = inputs.number("piston_mass", piston_mass)
         if not mass >= 0.0:
-            raise _core.InputError(f"piston_mass = {mass!r}: give a number that is zero or more")
+            raise inputs.rejected("piston_mass", mass, "give a number that is zero or more")
         return cls(
             crank_radius=crank_radius,
             rod_length=rod.length,
@@ -218,7 +218,7 @@ class Cylinder:
         checks.cylinder(self.crank_radius, self.rod_length)
         if self.bore is not None:
             if not 0.0 < self.bore <= LARGEST_LENGTH:
-                raise _core.InputError(f"bore = {self.bore!r}: give metres above zero")
+                raise inputs.rejected("bore", self.bore, "give metres above zero")
             checks.bore(self.bore, self.stroke)
         if self.rod is not None:
             self._check_rod(self.rod)
@@ -228,7 +228,7 @@ class Cylinder:
         if not isinstance(rod, Rod):
             raise inputs.rejected("rod", rod, "give a crankpin.Rod")
         if self.piston_mass is None:
-            raise _core.InputError("piston_mass = None: give it with the rod, or leave out the rod")
+            raise inputs.rejected("piston_mass", None, "give it with the rod, or leave out the rod")
         made = {
             "rod_length": rod.length,
             "reciprocating_mass": self.piston_mass + rod.reciprocating_mass,
@@ -237,8 +237,8 @@ class Cylinder:
         for name, figure in made.items():
             if (given := getattr(self, name)) != figure:
                 hint = "change them together, as Cylinder.from_rod does, or leave out the rod"
-                raise _core.InputError(
-                    f"{name} = {given!r}: rod and piston_mass make it {figure!r}; {hint}"
+                raise inputs.rejected(
+                    name, given, f"rod and piston_mass make it {figure!r}; {hint}"
                 )
 
     @classmethod
@@ -325,7 +325,7 @@ class Cylinder:
         try:
             return dataclasses.replace(self, **changes)
         except TypeError as error:
-            raise _core.InputError(f"replace: {error}") from None
+            raise inputs.rejected("changes", list(changes), inputs.reason(error)) from None
 
     def position(self, theta_deg: ArrayLike) -> NDArray[np.float64]:
         """Return the piston pin's distance from the crank's axis along the bore, m.
@@ -650,7 +650,9 @@ def slider_crank_harmonics(
     try:
         shape = np.broadcast_shapes(ratios.shape, offsets.shape)
     except (ValueError, RuntimeError) as error:
-        raise _core.InputError(f"rod_ratio and pin_offset_ratio: {error}") from None
+        hint = f"give shapes that broadcast ({inputs.reason(error)})"
+        fault = f"has shape {offsets.shape}, rod_ratio has {ratios.shape}"
+        raise inputs.faulty("pin_offset_ratio", fault, hint) from None
     # Nothing is copied until its size is known to be small enough.
     ratios = inputs.array("rod_ratio", np.broadcast_to(ratios, shape))
     offsets = inputs.array("pin_offset_ratio", np.broadcast_to(offsets, shape))

@@ -52,9 +52,8 @@ class EngineData:
         strokes: int = 4,
     ) -> None:
         if not isinstance(core, _core.Engine):
-            raise InputError(
-                f"Engine({inputs.shorten(core)}): use Engine.from_lists, .inline, .vee, .flat, "
-                ".boxer, .from_firing_order, .preset or .load"
+            raise inputs.rejected(
+                "core", core, "use Engine.inline, .vee, .from_lists, .preset, .load or the like"
             )
         title, origin = inputs.text("name", name), inputs.text("source", source)
         count = inputs.strokes(strokes)
@@ -271,9 +270,7 @@ class EngineData:
         """
         angles = self._core.firing_deg
         if angles is None:
-            raise AbsentError(
-                "firing_deg is undefined for this engine: it has no cycles; use firing().angles_deg"
-            )
+            raise self._undefined("firing_deg", "it has no cycles; use firing().angles_deg")
         return read_only(np.array(angles))
 
     # --- banks and throws -----------------------------------------------------------------------
@@ -302,7 +299,7 @@ class EngineData:
     def bank_angle_deg(self) -> float:
         """Angle between the two banks, degrees; undefined for any other number of banks."""
         if len(self.banks) != 2:
-            raise self._undefined("bank_angle_deg", "exactly two are needed")
+            raise self._of_banks("bank_angle_deg", "exactly two are needed")
         return self._core.bank_angle_deg
 
     @property
@@ -314,7 +311,7 @@ class EngineData:
         """
         found = self._banks_of_one_crank("throws_deg")
         if len(found) > 2:
-            raise self._undefined("throws_deg", "one or two are needed; see pin_deg")
+            raise self._of_banks("throws_deg", "one or two are needed; see pin_deg")
         pins = self.pin_deg[self._along(next(iter(found.values())))]
         return read_only(_reduced(pins - pins[0]))
 
@@ -326,13 +323,11 @@ class EngineData:
         """
         found = self._banks_of_one_crank("pin_split_deg")
         if len(found) != 2:
-            raise self._undefined("pin_split_deg", "exactly two are needed")
+            raise self._of_banks("pin_split_deg", "exactly two are needed")
         right, left = (self._along(numbers) for numbers in found.values())
         if len(right) != len(left):
             sizes = f"{len(right)} cylinders in the right bank and {len(left)} in the left"
-            raise AbsentError(
-                f"pin_split_deg is undefined for this engine: it has {sizes}; as many are needed"
-            )
+            raise self._undefined("pin_split_deg", f"it has {sizes}; as many are needed")
         split = _reduced(self.pin_deg[left] - self.pin_deg[right])
         return read_only(np.where(split > 180.0, split - 360.0, split))
 
@@ -340,7 +335,7 @@ class EngineData:
         """Return the banks; directions of crankpins on several crankshafts do not compare."""
         if (count := len(set(self._core.cranks[1]))) > 1:
             reason = f"its cylinders are on {count} crankshafts; one is needed, see pin_deg"
-            raise AbsentError(f"{name} is undefined for this engine: {reason}")
+            raise self._undefined(name, reason)
         return self.banks
 
     def _along(self, numbers: tuple[int, ...]) -> NDArray[np.intp]:
@@ -348,13 +343,16 @@ class EngineData:
         places = np.array(numbers) - 1
         return np.asarray(places[np.argsort(self.z[places], kind="stable")])
 
-    def _undefined(self, name: str, needed: str) -> AbsentError:
+    def _of_banks(self, name: str, needed: str) -> InputError:
         directions = list(dict.fromkeys(self.bank_deg.tolist()))
         listed = ", ".join(f"{each:.6g}°" for each in directions[:4])
         listed += ", …" if len(directions) > 4 else ""
         count = "one bank" if len(self.banks) == 1 else f"{len(self.banks)} banks"
-        reason = f"it has {count} ({listed}); {needed}"
-        return AbsentError(f"{name} is undefined for this engine: {reason}")
+        return self._undefined(name, f"it has {count} ({listed}); {needed}")
+
+    @staticmethod
+    def _undefined(name: str, reason: str) -> InputError:
+        return inputs.faulty(name, "is undefined for this engine", reason, AbsentError)
 
     # --- changed copies -------------------------------------------------------------------------
 
@@ -818,11 +816,13 @@ class EngineData:
         Raises
         ------
         InputError
-            If the name ends otherwise.
+            If the name ends otherwise, or the file is there and has a ``[powertrain]``, which would
+            be lost.
         OSError
             If the file cannot be written.
         """
         file = engine_files.checked(path)
+        engine_files.check_keeps_mounts(file)
         toml = engine_files.is_toml(file)
         text = engine_files.commented(self.to_toml()) if toml else self.to_json()
         files.write(file, text)

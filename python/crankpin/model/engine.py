@@ -136,10 +136,8 @@ class Engine(Builders):
 
     def _own_firing(self, name: str) -> Firing:
         if not self.firing_order:
-            raise AbsentError(
-                f"{name} is undefined for this engine: its firing order is not known; give it with "
-                "replace(firing_order=…), or use firing(…)"
-            )
+            hint = "give it with replace(firing_order=…), or use firing(…)"
+            raise self._undefined(name, f"its firing order is not known; {hint}")
         return self.firing()
 
     # --- analyses -------------------------------------------------------------------------------

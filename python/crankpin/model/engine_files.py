@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import functools
 import json
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -37,6 +38,20 @@ def read(file: Path) -> str:
         return found.decode("utf-8")
     except UnicodeDecodeError as error:
         raise inputs.rejected("path", str(file), f"{error}; an engine file is UTF-8") from None
+
+
+def check_keeps_mounts(file: Path) -> None:
+    """Reject a file that has mounts, which an engine alone would replace."""
+    if not file.is_file():
+        return
+    try:
+        text = read(file)
+        there = tomllib.loads(text) if is_toml(file) else json.loads(text)
+    except ValueError:
+        return
+    if isinstance(there, dict) and "powertrain" in there:
+        hint = "its [powertrain] would be lost: save a crankpin.Powertrain, or give another name"
+        raise inputs.rejected("path", str(file), hint)
 
 
 @functools.cache

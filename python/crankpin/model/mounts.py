@@ -7,15 +7,12 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.record import Input
 from crankpin._support.warnings import suppressed
 from crankpin.model import checks
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from numpy.typing import ArrayLike, NDArray
 
 Products: TypeAlias = Literal["tensor", "positive-integrals"]
@@ -64,33 +61,35 @@ class RigidBody(Input):
     """
 
     mass: float
-    cg: Sequence[float]
-    inertia: ArrayLike
-    products: Products | None = None
+    cg: Vector
+    inertia: Rows
+    products: Products | None
 
-    def __post_init__(self) -> None:
-        mass = inputs.number("mass", self.mass)
-        cg = _vector("cg", self.cg)
-        given = inputs.array("inertia", self.inertia)
+    def __init__(
+        self, mass: float, cg: ArrayLike, inertia: ArrayLike, products: Products | None = None
+    ) -> None:
+        mass = inputs.number("mass", mass)
+        center = _vector("cg", cg)
+        given = inputs.array("inertia", inertia)
         if given.shape not in ((3,), (3, 3)):
             hint = (
                 "give three rows of three numbers, or the three moments of a body without products"
             )
-            raise InputError(f"inertia has shape {given.shape}: {hint}")
+            raise inputs.faulty("inertia", f"has shape {given.shape}", hint)
         given = np.diag(given) if given.ndim == 1 else given
-        if self.products is not None:
-            inputs.one_of("products", self.products, ("tensor", "positive-integrals"))
-        tensor, moments, missing = _core.rigid_body(mass, cg, given.tolist(), self.products)
+        if products is not None:
+            inputs.one_of("products", products, ("tensor", "positive-integrals"))
+        tensor, moments, missing = _core.rigid_body(mass, center, given.tolist(), products)
         has_products = any(tensor[i][j] for i in range(3) for j in range(i))
         fields = {
             "mass": mass,
-            "cg": cg,
+            "cg": center,
             "inertia": tuple(map(tuple, tensor)),
             "products": "tensor" if has_products else None,
             "_moments": tuple(moments),
         }
         self.__dict__.update(fields)
-        checks.body(mass, cg, moments, missing)
+        checks.body(mass, center, moments, missing)
 
     @property
     def principal_moments(self) -> Vector:
@@ -139,7 +138,7 @@ class InertiaTrack(Input):
         for name in ("stiffness", "frequency", "damping_ratio"):
             self.__dict__[name] = value = inputs.finite(name, getattr(self, name))
             if value <= 0.0:
-                raise InputError(f"{name} = {value}: give a number that is more than zero")
+                raise inputs.rejected(name, value, "give a number that is more than zero")
 
 
 class Mount(Input):
@@ -192,34 +191,52 @@ class Mount(Input):
     """
 
     name: str
-    at: Sequence[float]
-    stiffness: float | Sequence[float]
-    tilt_deg: float | None = None
-    axes: ArrayLike | None = None
-    dynamic_stiffness: float | Sequence[float] | None = None
-    loss_factor: float | Sequence[float] = 0.0
-    damping: float | Sequence[float] = 0.0
-    track: InertiaTrack | None = None
-    table: tuple[ArrayLike, ArrayLike] | None = None
+    at: Vector
+    stiffness: Vector
+    tilt_deg: float | None
+    axes: Rows | None
+    dynamic_stiffness: Vector | None
+    loss_factor: Vector
+    damping: Vector
+    track: InertiaTrack | None
+    table: tuple[tuple[float, ...], tuple[tuple[complex, ...], ...]] | None
 
-    def __post_init__(self) -> None:
-        fields: dict[str, Any] = {"name": inputs.text("name", self.name)}
-        fields["at"] = _vector("at", self.at)
-        for name in ("stiffness", "dynamic_stiffness", "loss_factor", "damping"):
-            value = getattr(self, name)
-            fields[name] = None if value is None else _along_axes(name, value)
-        fields["tilt_deg"] = inputs.optional_number("tilt_deg", self.tilt_deg)
-        if self.axes is not None:
-            if self.tilt_deg is not None:
-                raise inputs.rejected("tilt_deg", self.tilt_deg, "leave it out, or axes")
-            rows = inputs.array("axes", self.axes)
+    def __init__(
+        self,
+        name: str,
+        at: ArrayLike,
+        stiffness: ArrayLike,
+        tilt_deg: float | None = None,
+        axes: ArrayLike | None = None,
+        dynamic_stiffness: ArrayLike | None = None,
+        loss_factor: ArrayLike = 0.0,
+        damping: ArrayLike = 0.0,
+        track: InertiaTrack | None = None,
+        table: tuple[ArrayLike, ArrayLike] | None = None,
+    ) -> None:
+        fields: dict[str, Any] = {"name": inputs.text("name", name), "at": _vector("at", at)}
+        of_axes = {
+            "stiffness": stiffness,
+            "dynamic_stiffness": dynamic_stiffness,
+            "loss_factor": loss_factor,
+            "damping": damping,
+        }
+        for field, value in of_axes.items():
+            fields[field] = None if value is None else _along_axes(field, value)
+        fields["tilt_deg"] = inputs.optional_number("tilt_deg", tilt_deg)
+        fields["axes"] = None
+        if axes is not None:
+            if tilt_deg is not None:
+                raise inputs.rejected("tilt_deg", tilt_deg, "leave it out, or axes")
+            rows = inputs.array("axes", axes)
             if rows.shape != (3, 3):
                 hint = "give three rows of three numbers, the directions of the mount's axes"
-                raise InputError(f"axes has shape {rows.shape}: {hint}")
+                raise inputs.faulty("axes", f"has shape {rows.shape}", hint)
             fields["axes"] = tuple(map(tuple, rows.tolist()))
-        if self.track is not None and not isinstance(self.track, InertiaTrack):
-            raise inputs.rejected("track", self.track, "give a crankpin.InertiaTrack")
-        fields["table"] = None if self.table is None else _table(self.table)
+        if track is not None and not isinstance(track, InertiaTrack):
+            raise inputs.rejected("track", track, "give a crankpin.InertiaTrack")
+        fields["track"] = track
+        fields["table"] = None if table is None else _table(table)
         self.__dict__.update(fields)
         _core.check_mount(self._figures)
         checks.mount(self.name, fields["at"], fields["stiffness"])
@@ -311,5 +328,5 @@ def _table(given: Any) -> tuple[tuple[float, ...], tuple[Any, ...]]:  # noqa: AN
     except (TypeError, ValueError) as error:
         raise inputs.rejected("table", pair[1], f"{hint} ({inputs.reason(error)})") from None
     if stiffness.shape != (len(frequency), 3):
-        raise InputError(f"table: stiffness has shape {stiffness.shape}: {hint}")
+        raise inputs.faulty("table", f"has stiffness of shape {stiffness.shape}", hint)
     return tuple(frequency), tuple(map(tuple, stiffness.tolist()))

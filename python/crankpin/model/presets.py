@@ -13,13 +13,15 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels, tables
 from crankpin._support.record import AbsentItemError
 from crankpin.model.cylinder import Cylinder
 from crankpin.model.engine import Engine
+
+if TYPE_CHECKING:
+    from crankpin._core import InputError
 
 MISTYPED = 0.9
 """Likeness, of 1 for the same, from which a name is a preset's with a slip of the finger."""
@@ -113,13 +115,15 @@ def preset(name: str, *, cylinder: Cylinder | None = None, spacing: float | None
     is added to it.
     """
     if name not in Presets():
-        raise AbsentItemError(_unknown(name))
+        if not isinstance(name, str):
+            raise inputs.rejected("name", name, "give the name of a preset", AbsentItemError)
+        raise unknown("name", name)
     if cylinder is not None and not isinstance(cylinder, Cylinder):
         raise inputs.rejected("cylinder", cylinder, "give a crankpin.Cylinder")
     found = layout(name)
     distance = found.spacing if spacing is None else inputs.number("spacing", spacing)
     if not math.isfinite(distance):
-        raise InputError(f"spacing = {distance}: give a finite distance in metres")
+        raise inputs.rejected("spacing", distance, "give a finite distance in metres")
     return found.build(found.cylinder if cylinder is None else cylinder, distance)
 
 
@@ -198,11 +202,13 @@ def family(name: str) -> list[str]:
     return [each for each in members if not each.endswith(OWN_PARTS)] or [name]
 
 
-def suggestion(name: str, *, typed: bool = False, own: str = "") -> str:
-    """Return what to say of a name that is no preset's: the nearest ones, and what builds it.
+def unknown(argument: str, name: str, *, typed: bool = False, own: str = "") -> InputError:
+    """Return the error of a name that is no preset's: the nearest ones, and what builds it.
 
     Parameters
     ----------
+    argument
+        What the name was given as.
     name
         What was given.
     typed
@@ -233,7 +239,8 @@ def suggestion(name: str, *, typed: bool = False, own: str = "") -> str:
         else "crankpin.presets() lists all"
     )
     shown = labels.cut(labels.printable(name), 80)
-    return f'"{shown}": no such preset; {question}{built}{listing}'
+    hint = f"no such preset; {question}{built}{listing}"
+    return inputs.faulty(argument, f'= "{shown}"', hint, AbsentItemError)
 
 
 RECIPES = (
@@ -262,13 +269,6 @@ def _recipe(name: str, *, typed: bool) -> str:
         recipe = f"crankpin {command}" if typed else f"Engine.{call}"
         return f"build it by {recipe.format(*number)}; "
     return ""
-
-
-def _unknown(name: object) -> str:
-    """Return the message for what is not the name of a preset."""
-    if not isinstance(name, str):
-        return f"name = {inputs.shorten(name)}: give the name of a preset, as a string"
-    return f"name = {suggestion(name)}"
 
 
 @functools.cache

@@ -5,14 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, TypeAlias
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.record import Input
 from crankpin._support.warnings import suppressed
 from crankpin.model import checks
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable
 
     from crankpin._support.inputs import Angle
     from crankpin._support.record import Item
@@ -55,21 +54,26 @@ class Unbalance(Input):
 
     amount: float
     z: float
-    angle_deg: Angle = 0.0
-    pin: int | None = None
+    angle_deg: float | str
+    pin: int | None
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "amount", inputs.finite("amount", self.amount))
-        object.__setattr__(self, "z", inputs.finite("z", self.z))
+    def __init__(
+        self, amount: float, z: float, angle_deg: Angle = 0.0, pin: int | None = None
+    ) -> None:
+        object.__setattr__(self, "amount", inputs.finite("amount", amount))
+        object.__setattr__(self, "z", inputs.finite("z", z))
         if self.amount < 0.0:
-            raise InputError(f"amount = {self.amount}: give zero or more; angle_deg turns it round")
+            raise inputs.rejected(
+                "amount", self.amount, "give zero or more; angle_deg turns it round"
+            )
         checks.unbalance(self.amount)
-        angle = inputs.angle("angle_deg", self.angle_deg)
+        angle = inputs.angle("angle_deg", angle_deg)
         object.__setattr__(self, "angle_deg", _readable(angle))
-        if self.pin is not None:
-            object.__setattr__(self, "pin", inputs.whole("pin", self.pin))
-            if self.pin < 1:
-                raise InputError(f"pin = {self.pin}: give the number of a cylinder, from 1")
+        if pin is not None:
+            pin = inputs.whole("pin", pin)
+            if pin < 1:
+                raise inputs.rejected("pin", pin, "give the number of a cylinder, from 1")
+        object.__setattr__(self, "pin", pin)
 
 
 class Shaft(Input):
@@ -113,23 +117,30 @@ class Shaft(Input):
     """
 
     ratio: int
-    unbalances: Sequence[Unbalance]
-    x: float = 0.0
-    y: float = 0.0
-    name: str = ""
+    unbalances: tuple[Unbalance, ...]
+    x: float
+    y: float
+    name: str
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "ratio", inputs.whole("ratio", self.ratio))
+    def __init__(
+        self,
+        ratio: int,
+        unbalances: Iterable[Unbalance],
+        x: float = 0.0,
+        y: float = 0.0,
+        name: str = "",
+    ) -> None:
+        object.__setattr__(self, "ratio", inputs.whole("ratio", ratio))
         if self.ratio == 0:
-            raise InputError("ratio = 0: give a whole number other than 0, such as -1 or 2")
-        object.__setattr__(self, "x", inputs.finite("x", self.x))
-        object.__setattr__(self, "y", inputs.finite("y", self.y))
-        object.__setattr__(self, "name", inputs.text("name", self.name))
-        object.__setattr__(self, "unbalances", _listed("unbalances", self.unbalances, Unbalance))
+            raise inputs.rejected("ratio", 0, "give a whole number other than 0, such as -1 or 2")
+        object.__setattr__(self, "x", inputs.finite("x", x))
+        object.__setattr__(self, "y", inputs.finite("y", y))
+        object.__setattr__(self, "name", inputs.text("name", name))
+        object.__setattr__(self, "unbalances", _listed("unbalances", unbalances, Unbalance))
         for k, each in enumerate(self.unbalances):
             if each.pin is not None:
                 hint = "leave it out: only the crankshaft has crankpins"
-                raise InputError(f"unbalances[{k}].pin = {each.pin}: {hint}")
+                raise inputs.rejected(f"unbalances[{k}].pin", each.pin, hint)
 
 
 def with_counterweights(core: _core.Engine, weights: Iterable[Unbalance]) -> _core.Engine:

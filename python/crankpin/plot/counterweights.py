@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.lines import Line2D
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balance import over_square
@@ -82,7 +81,8 @@ def _counterweights(
 
 def _summary(result: Counterweights, figure: object, style: dict[str, Any]) -> Drawn:
     if "label" in style:
-        raise InputError('label: kind="summary" shows one result; give kind="weights" and ax')
+        hint = 'kind="summary" shows one result; give kind="weights" and ax'
+        raise inputs.rejected("label", style["label"], hint)
     before = over_square(result.engine, [1])[1]
     shown = [name for name in PLANE_VECTORS if getattr(before, name).peak > 0.0]
     shown += ["moment"] if not shown else []

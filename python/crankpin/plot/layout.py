@@ -14,7 +14,6 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.text import Text
 from matplotlib.transforms import ScaledTranslation
 
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin.plot.style import font_of, muted
 from crankpin.plot.words import plain_text
@@ -117,7 +116,7 @@ def make_panels(
 def check_one_place(ax: object, figure: object) -> None:
     """Raise an InputError if both axes and a figure are given."""
     if ax is not None and figure is not None:
-        raise InputError("ax and figure cannot be combined; give one of them")
+        raise inputs.faulty("ax and figure", "cannot be combined", "give one of them")
 
 
 def reject_figure(figure: object, kind: str) -> None:

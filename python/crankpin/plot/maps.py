@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.colors import LogNorm, Normalize
 
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.quantities import QUANTITIES
 from crankpin.plot.layout import Drawn, Panels, label_x, label_y, make_panels, note_zero
@@ -90,7 +89,8 @@ def order_map(
     dims = [dim for dim in sweep.coords if dim != "engine"]
     if len(dims) != 1 or x not in (None, *dims):
         swept = ", ".join(sweep.coords)
-        raise InputError(f'kind = "orders" needs one swept number, not {swept}; give kind="curves"')
+        hint = f'needs one swept number, not {swept}; give kind="curves"'
+        raise inputs.rejected("kind", "orders", hint)
     (along,) = dims
     orders = sweep.orders or (1,)  # zero, where nothing shakes
     rows, note = _rows(sweep, name, orders, single=ax is not None, by_order=True)
@@ -115,10 +115,11 @@ def _axes_of(sweep: Sweep, x: str | None) -> tuple[str, str]:
     dims = [dim for dim in sweep.coords if dim != "engine"]
     if len(dims) != 2:
         swept = ", ".join(sweep.coords)
-        raise InputError(f'kind = "map" needs two swept numbers, not {swept}; give kind="curves"')
+        hint = f'needs two swept numbers, not {swept}; give kind="curves"'
+        raise inputs.rejected("kind", "map", hint)
     along = along_x(sweep, x, dims)
     if along == "engine":
-        raise InputError(f'x = "engine" is not a number; choose from: {", ".join(dims)}')
+        raise inputs.rejected("x", along, f"is not a number; choose from: {', '.join(dims)}")
     return along, next(dim for dim in dims if dim != along)
 
 
@@ -142,7 +143,8 @@ def _rows(
         return rows, rows.note
     names = words_of(sweep).names
     if single and len(names) > 1:
-        raise InputError("ax: a map of several engines has a panel for each; give figure")
+        fault = "cannot hold a map of several engines"
+        raise inputs.faulty("ax", fault, "there is a panel for each; give figure")
     first = rows.rows[0]
     what = f", {first.name}" if first.name else ""
     kept = [Row(f"{n}{what}", first.peaks[k]) for k, n in enumerate(names[:MOST_ENGINES])]

@@ -8,7 +8,6 @@ import numpy as np
 from matplotlib.colors import LinearSegmentedColormap, LogNorm
 from matplotlib.patches import Rectangle
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin.analysis.mounts.modes import COORDINATES, PLACES, MountModes
 from crankpin.analysis.mounts.response import MountResponse
@@ -160,7 +159,7 @@ def _map(
         raise inputs.rejected("label", label, "a map has no legend of several results")
     rpm = np.asarray(result.rpm)
     if len(np.unique(rpm)) < 2:
-        raise InputError('kind = "map": needs two different speeds or more')
+        raise inputs.rejected("kind", "map", "needs two different speeds or more")
     columns = np.argsort(rpm, kind="stable")
     peaks = np.array([np.asarray(force[order].peak)[columns] for order in orders])
     _speed_axis(ax)

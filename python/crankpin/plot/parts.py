@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.plot.curves import ZERO, Curve, lines, mark
@@ -55,7 +54,8 @@ def parts(
     logarithmic = inputs.flag("log", log)
     along, words = along_x(sweep, x), words_of(sweep)
     if along == "engine":
-        raise InputError('kind="parts" draws over a number, such as bank_angle_deg; sweep one')
+        hint = "draws over a number, such as bank_angle_deg; sweep one"
+        raise inputs.rejected("kind", "parts", hint)
     others = [values_of(sweep, dim, words) for dim in sweep.coords if dim != along]
     names = [", ".join(texts) for texts in itertools.product(*others)]
     places, note = largest(sweep, name, MOST - 1)
@@ -65,12 +65,10 @@ def parts(
         chosen, note = given_orders(orders), ""
     vectors = [getattr(sweep[order], name) for order in chosen]
     if len(names) > DISTINCT:
-        raise InputError(
-            f'kind="parts" has a panel for each of {len(names)} engines or values: sweep up to '
-            f"{DISTINCT} beside {along}"
-        )
+        hint = f"has a panel for each of {len(names)} engines or values; sweep up to {DISTINCT}"
+        raise inputs.rejected("kind", "parts", f"{hint} beside {along}")
     if ax is not None and len(chosen) * len(names) > 1:
-        raise InputError("ax: there is a panel for each order and engine; give figure")
+        raise inputs.rejected("ax", ax, "there is a panel for each order and engine; give figure")
     made, panels = _panels(ax, figure, len(chosen), len(names))
     for (row, column), panel in np.ndenumerate(panels):
         if not made.single:

@@ -11,7 +11,6 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, FancyArrowPatch
 from matplotlib.transforms import ScaledTranslation
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis import contributions as adding
@@ -73,7 +72,7 @@ def phasors(
     moment, one row for a torque. Arrows that cover each other are moved apart.
     """
     if ax is not None:
-        raise InputError('ax: kind="phasors" has several panels; give figure=')
+        raise inputs.rejected("ax", ax, 'kind="phasors" has several panels; give figure=')
     kind = drawn_quantity(quantity, nonzero_in(result))
     result.request.check(kind)
     shown = inputs.explicit_half_orders(

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._core import InputError
+from crankpin._support import inputs
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.plot.layout import Panels, label_x, label_y, make_panels, note_zero, width_for
 from crankpin.plot.style import SERIES, count_series, foreground, muted, series, write
@@ -46,7 +46,7 @@ def plane_vector(quantity: object, result: Balance | Waveform) -> str:
     name = drawn_quantity(quantity, nonzero_in(result), among)
     if name not in PLANE_VECTORS:
         hint = 'give quantity="force" or "moment"'
-        raise InputError(f"quantity = {name!r} traces no curve; {hint}")
+        raise inputs.rejected("quantity", name, f"traces no curve; {hint}")
     return name
 
 

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.sweeps.sweep import engine_titles
@@ -31,7 +30,7 @@ def given_orders(orders: object) -> list[Order]:
     """Return orders that are to be drawn, one at least."""
     if found := inputs.explicit_half_orders(orders):
         return found
-    raise InputError("orders = []: give at least one order, such as [1, 2]")
+    raise inputs.rejected("orders", [], "give at least one order, such as [1, 2]")
 
 
 def largest(result: ByOrder, quantity: str, most: int = MOST) -> tuple[list[int], str]:

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import QUANTITIES
 from crankpin.analysis.sweeps.sweep import Sweep
@@ -54,7 +53,8 @@ def bars(
     """Draw the longest vectors of each engine, a panel for force and one for moment."""
     if list(sweep.coords) != ["engine"]:
         swept = ", ".join(sweep.coords)
-        raise InputError(f'kind = "bars" needs a sweep over engines alone, not over {swept}')
+        hint = f"needs a sweep over engines alone, not over {swept}"
+        raise inputs.rejected("kind", "bars", hint)
     both = quantity is None and ax is None
     names = ["force", "moment"] if both else [drawn_quantity(quantity, nonzero_in(sweep.total))]
     chosen = _orders(sweep, names, orders)
@@ -157,7 +157,8 @@ def _sweep(
     if options.get("quantity", "") is None:
         del options["quantity"]  # each kind has its own default
     if not result.coords:
-        raise InputError("nothing was swept: give an array, such as bank_angle_deg=[60, 75, 90]")
+        hint = "give an array, such as bank_angle_deg=[60, 75, 90]"
+        raise inputs.faulty("sweep", "is of one point", hint)
     if x is not None:
         x = inputs.one_of("x", x, result.coords)
     chosen = _chosen(result, x) if kind is None else inputs.one_of("kind", kind, KINDS)

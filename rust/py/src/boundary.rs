@@ -58,7 +58,7 @@ pub fn caught_value<T>(work: impl FnOnce() -> T) -> PyResult<T> {
 }
 
 /// Do some work; a panic is an error, and errors can be raised without further memory.
-fn unpanicked<T>(work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
+pub fn unpanicked<T>(work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
     let result = panic::catch_unwind(AssertUnwindSafe(work));
     result.unwrap_or_else(|payload| Err(error_of(&*payload))).map_err(made)
 }

@@ -12,8 +12,13 @@ pyo3::create_exception!(
     crankpin,
     InputError,
     PyValueError,
-    "An input that makes no engine, or a request that cannot be met; the message names the argument, \
-     its value and what would be right."
+    "An input that makes no engine, or a request that cannot be met.\n\n\
+     The message is \"argument = value: hint\", or \"argument has 3 entries: hint\" and the like; its \
+     parts are attributes, None where it has no such part. Pickled errors keep them.\n\n\
+     Attributes\n----------\n\
+     argument : str or None\n    Name of what was rejected: \"stroke\", \"mounts[2].at\".\n\
+     value : str or None\n    The value that was rejected, as text.\n\
+     hint : str or None\n    What would be right.\n"
 );
 
 /// The core's error as Python's.
@@ -22,8 +27,20 @@ pub fn python_error(error: core::Error) -> PyErr {
     boundary::made(match error {
         core::Error::Cancelled => PyKeyboardInterrupt::new_err(()),
         error @ core::Error::OutOfMemory { .. } => PyMemoryError::new_err(error.to_string()),
-        other => InputError::new_err(other.to_string()),
+        other => input_error(&other),
     })
+}
+
+fn input_error(error: &core::Error) -> PyErr {
+    let raised = InputError::new_err(error.to_string());
+    let Some((argument, value, hint)) = error.fields() else { return raised };
+    let set = |py: Python<'_>| {
+        let exception = raised.value(py);
+        exception.setattr("argument", argument)?;
+        exception.setattr("value", value)?;
+        exception.setattr("hint", hint)
+    };
+    boundary::unpanicked(|| Python::attach(set)).map_or_else(|failed| failed, |()| raised)
 }
 
 /// Result of the core as a Python result.

@@ -75,6 +75,10 @@ mod _core {
         module.add("MOST_CYLINDERS", limits::MOST_CYLINDERS)?;
         module.add("LONGEST_AXIS", limits::LONGEST_AXIS)?;
         module.add("LONGEST_FILE", file::LONGEST_TEXT)?;
-        module.add("InputError", module.py().get_type::<crate::convert::InputError>())
+        let error = module.py().get_type::<crate::convert::InputError>();
+        for field in ["argument", "value", "hint"] {
+            error.setattr(field, module.py().None())?;
+        }
+        module.add("InputError", error)
     }
 }

@@ -500,8 +500,8 @@ def test_objects() -> None:
         ),
         (lambda: cp.search_arrangements(6).best("beauty"), ["by", "beauty", "counterweight"]),
         (lambda: cp.search_arrangements(6).best(count=-1), ["count", "-1"]),
-        (lambda: cp.search_arrangements(6).best(count=1.9), ["count", "1.9", "whole"]),
-        (lambda: cp.search_arrangements(6).best(count=np.inf), ["count", "inf", "whole"]),
+        (lambda: cp.search_arrangements(6).best(count=1.9), ["count", "1.9", "whole"]),  # type: ignore[arg-type]
+        (lambda: cp.search_arrangements(6).best(count=np.inf), ["count", "inf", "whole"]),  # type: ignore[arg-type]
         (lambda: cp.search_arrangements(6).within(np.nan, 10), ["low", "nan"]),
         (lambda: cp.search_arrangements(6).within(10, np.nan), ["high", "nan"]),
     ],

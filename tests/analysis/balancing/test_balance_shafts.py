@@ -83,7 +83,7 @@ def halved(engine: cp.Engine) -> cp.Engine:
 
 
 def turned(vector: complex, degrees: float) -> complex:
-    return vector * np.exp(1j * np.deg2rad(degrees))
+    return complex(vector * np.exp(1j * np.deg2rad(degrees)))
 
 
 def vector(weight: Unbalance) -> complex:
@@ -648,7 +648,7 @@ def test_tables_show_the_fit() -> None:
             expected = abs(getattr(one, str(part) if part else "phasor")) / OMEGA**2
             assert value == pytest.approx(float(expected), rel=1e-9, abs=1e-15)
     assert repr(FIT).count("\n\n") == 2
-    assert FIT._repr_html_().count("<table>") == 3
+    assert conftest.html_of(FIT).count("<table>") == 3
 
 
 def test_to_pandas() -> None:

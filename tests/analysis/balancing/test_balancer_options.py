@@ -61,7 +61,9 @@ def test_least_hardware_of_known_engines() -> None:
 def test_relative_target() -> None:
     half = cp.balancer_options(I4, rpm=RPM, by="[2].force.peak", target=0.5, relative=True)
     start = I4.balance(RPM)[2].force.peak
-    assert half.targets == (("[2].force.peak", pytest.approx(start / 2)),)
+    ((by, target),) = half.targets
+    assert by == "[2].force.peak"
+    assert target == pytest.approx(start / 2)
     assert half.least is not None
     assert half.least.name == "shaft +2"
     less = cp.balancer_options(I4, rpm=RPM, by="[2].force.peak", target=0.49, relative=True)
@@ -252,7 +254,7 @@ def test_table_shows_the_front_and_whether_it_reaches_the_target() -> None:
     last = repr(OPTIONS).splitlines()[-1]
     assert last == "Target: order-1 rocking moment ≤ 0 N·m; least counterweights + shaft −1."
     assert f"{len(OPTIONS.front)} of {len(OPTIONS)} sets" in repr(OPTIONS).splitlines()[0]
-    assert OPTIONS._repr_html_().startswith("<table>")
+    assert conftest.html_of(OPTIONS).startswith("<table>")
     assert "\n" not in repr(OPTIONS[0])
     assert "no set reaches it" in repr(
         cp.balancer_options(I4, rpm=RPM, target={"[4].force.peak": 0.0})
@@ -287,7 +289,10 @@ def test_the_long_form_has_all_sets() -> None:
         ({"most_shafts": -1}, "^most_shafts = -1: give 0 or more"),
         ({"places": 3}, "^places = 3: give a mapping"),
         ({"places": {-1: (1, 2, 3)}}, r"^places\[-1\] = \(1, 2, 3\): give a mapping"),
-        ({"places": {3: (1, 2)}}, r"^places\[3\]: ratios of the shafts compared are -1, -2, 2"),
+        (
+            {"places": {3: (1, 2)}},
+            r"^places\[3\] = .*: ratios of the shafts compared are -1, -2, 2",
+        ),
         ({"places": {-1: (1, "x")}}, r"^places\[-1\] = 'x': give a number"),
         ({"planes": "x"}, r"^planes = 'x': give \"ends\" or"),
         ({"orders": [1], "by": "[2].force.peak"}, r"^orders = \[1\]"),

@@ -8,6 +8,7 @@ from typing import Any
 import crankpin as cp
 import numpy as np
 import pytest
+from conftest import html_of
 from crankpin import Unbalance
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -18,8 +19,9 @@ UNIT_SPEED = 60.0 / (2.0 * np.pi)
 
 
 def v_twin(bank_angle_deg: float, **options: Any) -> cp.Engine:  # noqa: ANN401
-    options = {"throws_deg": [0], "spacing": 1.0} | options
-    return cp.Engine.vee(UNIT, bank_angle_deg=bank_angle_deg, **options)
+    return cp.Engine.vee(
+        UNIT, bank_angle_deg=bank_angle_deg, **{"throws_deg": [0], "spacing": 1.0, **options}
+    )
 
 
 def preset(name: str, **options: Any) -> cp.Engine:  # noqa: ANN401
@@ -286,7 +288,7 @@ def test_tables_and_copies() -> None:
     assert "moment along 90°" in text
     assert "\n0.55 " in text
     assert "-0°" not in text
-    assert bob._repr_html_().count("<table>") == 2
+    assert html_of(bob).count("<table>") == 2
     table = bob.frames["factors"]
     assert len(table.columns) == 4  # without the force, of which there is none
     half = table["factor"].values.index("0.5")

@@ -10,6 +10,7 @@ from typing import Any, Literal
 import crankpin as cp
 import numpy as np
 import pytest
+from conftest import html_of
 from crankpin import Unbalance
 from crankpin.model import crankpins
 from hypothesis import given, settings
@@ -354,8 +355,8 @@ def test_one_plane_is_exact_only_where_that_is_proved() -> None:
     unequal = {"force": 0.5, "moment": 0.25}
     # In the plane of the cylinder there is no moment, of which half is as good as all.
     assert cp.counterweights(single, planes=[0.0], factor=unequal).exact
-    beside = single.replace(reference_z=1.0)
-    assert not cp.counterweights(beside, planes=[0.0], factor=unequal).exact
+    moved = single.replace(reference_z=1.0)
+    assert not cp.counterweights(moved, planes=[0.0], factor=unequal).exact
     assert cp.counterweights(I4, planes=[0.7]).exact  # nothing to do
     assert cp.counterweights(I4, planes=[0.7]).by_plane == ()
 
@@ -540,7 +541,7 @@ def test_a_bound_that_binds_leaves_the_least() -> None:
 
 @pytest.mark.parametrize("minimise", ["squares", "largest"])
 def test_weights_stand_at_drilling_places(minimise: Literal["squares", "largest"]) -> None:
-    places = ["0", "45", "90", "135", 180, 225, 270, "630/2"]
+    places: list[str | float] = ["0", "45", "90", "135", 180, 225, 270, "630/2"]
     fitted = cp.counterweights(CROSSPLANE, planes="webs", angles_deg=places, minimise=minimise)
     assert fitted.exact
     assert fitted.vanishes
@@ -589,7 +590,7 @@ def test_bounds_and_drilling_places_together() -> None:
     assert couple(fitted.fitted)[0] == 0.0
 
 
-FALLEN_SHORT = {
+FALLEN_SHORT: dict[str, Any] = {
     "planes": [0.32, 0.38, 0.39],
     "angles_deg": {
         "plane 1": [60, 75, 90, 105, 195, 225, 270, 285],
@@ -857,7 +858,7 @@ def test_planes_have_names() -> None:
     assert webs == {"throw 1 front": -0.5, "throw 1 rear": 0.5}
     webs = dict(cp.counterweights(V6_60, planes="webs").places)
     assert list(webs.values()) == [-0.25, 0.25, 0.75, 1.25, 1.75, 2.25]
-    named = {"damper": -1, "flywheel": np.float32(2.5)}
+    named: dict[str, Any] = {"damper": -1, "flywheel": np.float32(2.5)}
     external = cp.counterweights(CROSSPLANE, planes=named)
     assert external.places == (("damper", -1.0), ("flywheel", 2.5))
     assert [name for name, _ in external.by_plane] == ["damper", "flywheel"]
@@ -877,7 +878,7 @@ def test_tables_list_weights_and_what_stays() -> None:
     assert "front" in text
     assert "rocking moment, kg·m²" in text
     assert "forward moment vanishes; backward moment remains." in text
-    assert fitted._repr_html_().count("<table>") == 2
+    assert html_of(fitted).count("<table>") == 2
     frame = fitted.to_pandas()
     assert list(frame.columns) == ["plane", "z m", "amount kg·m", "angle °"]
     assert list(frame["amount kg·m"]) == [w.amount for w in fitted.hardware]
@@ -892,7 +893,7 @@ def test_results_are_frozen_and_copied() -> None:
         assert back.fitted == fitted.fitted
     assert cp.counterweights(V6_90, planes={"a": 0, "b": 1}) != fitted
     with pytest.raises(AttributeError):
-        fitted.exact = False
+        fitted.exact = False  # type: ignore[misc]
     with pytest.raises(cp.InputError, match=r"use crankpin\.counterweights"):
         cp.types.Counterweights(V6_90, (), None, (), True, 0.0)  # type: ignore[arg-type]
 
@@ -913,7 +914,7 @@ def test_results_are_frozen_and_copied() -> None:
         ({"factor": {}}, "factor = {}: give a number"),
         ({"factor": {"torque": 1}}, 'factor = \'torque\': give "force" or "moment"'),
         ({"bound": -1}, "bound = -1.0: give a mass·radius"),
-        ({"bound": {"x": 1}}, r"bound\['x'\]: is not a plane; choose from: \['front', 'rear'\]"),
+        ({"bound": {"x": 1}}, r"bound = 'x': is not a plane; choose from: \['front', 'rear'\]"),
         ({"angles_deg": []}, "angles_deg has 0 angles: give 1 to 360"),
         (
             {"planes": [0.0] * 101, "angles_deg": list(range(100))},

@@ -8,6 +8,7 @@ from typing import Any
 import crankpin as cp
 import numpy as np
 import pytest
+from conftest import html_of
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from rederivation import rotors
@@ -73,7 +74,7 @@ def test_table_and_copies() -> None:
     assert lines[0] == "Two-plane correction"
     assert found.table.header == ["plane", "z m", "unbalance g·mm", "add at °", "or drill at °"]
     assert lines[1].split() == " ".join(found.table.header).split()
-    assert "<table>" in found._repr_html_()
+    assert "<table>" in html_of(found)
     assert list(found.to_pandas().columns) == found.table.header
     back = pickle.loads(pickle.dumps(found))  # noqa: S301 - its own
     assert back == found

@@ -57,7 +57,7 @@ def merit(asked: Question, by: str) -> tuple[Family, _core.Merit]:
     family = candidates[len(candidates) // 2]
     (base,) = engines_of(dataclasses.replace(asked, shafts=()), [family.base])
     turns = [each.turns(asked.banks, asked.count) for each in family.variables]
-    listed = [(each.quantity, each.what, each.order) for each in objectives.listed(by)]
+    listed: list[Any] = [(each.quantity, each.what, each.order) for each in objectives.listed(by)]
     return family, _core.Merit(base._core, turns, listed, list(range(1, 13)), asked.shafts)
 
 
@@ -127,7 +127,7 @@ def test_the_steepest_slope_is_one(by: str) -> None:
 
 @pytest.mark.parametrize("by", ["[1].moment.peak", "[1].moment.peak_xy"])
 def test_a_bank_angle_is_that_of_a_fine_grid(by: str) -> None:
-    given = {"throws_deg": [0, 70, 200, 310], "by": by}
+    given: dict[str, Any] = {"throws_deg": [0, 70, 200, 310], "by": by}
     found = design(8, bank_angle_deg=(20, 150), **given, count=50)
     best = found[0]
     angles = np.linspace(20.0, 150.0, 13_001)
@@ -184,7 +184,7 @@ def test_free_angles_find_the_split_of_a_60_degree_v6(seed: int) -> None:
         6, bank_angle_deg=60, shared_pins=False, throws_deg="free", counterweights=True,
         by="[1].force.peak,[1].moment.peak,[2].force.peak,[2].moment.peak", seed=seed,
     )  # fmt: skip
-    assert found[0].pin_split_deg == (-60, -60, -60)
+    assert found[0].pin_split_deg == (-60.0, -60.0, -60.0)
     assert max(found[0].values[:2]) < 1e-9 * UNIT
 
 
@@ -236,7 +236,7 @@ def test_later_objectives_decide_where_the_first_leaves_a_choice() -> None:
 @pytest.mark.parametrize("given", [{"bank_angle_deg": (60, 90)}, {"throws_deg": "free"}])
 def test_progress(given: dict[str, Any]) -> None:
     steps: list[tuple[int, int]] = []
-    arguments = {"bank_angle_deg": 60, "by": "[1].moment.peak"} | given
+    arguments: dict[str, Any] = {"bank_angle_deg": 60, "by": "[1].moment.peak"} | given
     design(6, **arguments, progress=lambda done, total: steps.append((done, total)))
     done, total = np.array(steps).T
     assert (np.diff(done) > 0).all()
@@ -249,7 +249,7 @@ def test_ctrl_c_stops_it(given: dict[str, Any]) -> None:
     def stop(done: int, total: int) -> None:
         raise KeyboardInterrupt
 
-    arguments = {"bank_angle_deg": 60, "by": "[1].moment.peak"} | given
+    arguments: dict[str, Any] = {"bank_angle_deg": 60, "by": "[1].moment.peak"} | given
     with pytest.raises(KeyboardInterrupt):
         design(6, **arguments, progress=stop)
 
@@ -276,6 +276,7 @@ def test_an_angle_that_is_no_round_number_is_not_rounded() -> None:
     inside = [each for each in found if each.bank_angle_deg not in (20.0, 160.0)]
     assert inside
     for each in inside:
+        assert each.bank_angle_deg is not None
         beside = found.over_bank_angle(np.array([each.bank_angle_deg + d for d in (-1e-3, 1e-3)]))
         assert (each.value <= beside[0] * (1 + 1e-9)).all()
 
@@ -284,8 +285,8 @@ def test_an_angle_that_is_no_round_number_is_not_rounded() -> None:
 def test_the_best_few_are_the_first_of_all() -> None:
     # Between two angles of the grid, 90.25°, first-order couples vanish: only there the second
     # order, whose sequence of cranks is the reverse, decides.
-    given = {"bank_angle_deg": (80, 100), "pin_split_deg": 0.5, "counterweights": True}
-    given |= {"by": "[1].moment.backward,[2].moment.peak"}
+    given: dict[str, Any] = {"bank_angle_deg": (80, 100), "pin_split_deg": 0.5}
+    given |= {"counterweights": True, "by": "[1].moment.backward,[2].moment.peak"}
     every = design(10, **given, count=1000)
     assert len(every) == 8
     assert {each.bank_angle_deg for each in every} == {90.25}

@@ -11,7 +11,7 @@ import crankpin as cp
 import matplotlib as mpl
 import numpy as np
 import pytest
-from conftest import IJESC
+from conftest import IJESC, html_of
 from crankpin.analysis.ranking import objectives
 from matplotlib import pyplot as plt
 from rederivation import ijesc
@@ -428,12 +428,12 @@ def test_what_is_shown() -> None:
     assert head.split("  ")[0] == "place"
     assert len(rows) == 4
     assert rows[0].split() == ["1", "1-3-5-2-4-6", "90", "0", "3"]
-    html = ranking._repr_html_()
+    html = html_of(ranking)
     assert html.count("<tr>") == 5
     assert "1-6-5-4-3-2" in html
     flat = cp.rank({"<b>": SHARED}, rpm=1, bank_angle_deg=range(181), hold="pins", by=lambda _: 0)
     assert "0, 1, 2, 3, 4, 5 and 175 more" in repr(flat)
-    assert "<b>" not in flat._repr_html_()
+    assert "<b>" not in html_of(flat)
 
 
 def test_a_long_ranking_is_cut_in_text() -> None:
@@ -441,7 +441,7 @@ def test_a_long_ranking_is_cut_in_text() -> None:
     ranking = cp.rank(search, cylinder=IJESC, spacing=0.1, rpm=3000, by="total.moment.peak")
     assert "30 of 218 rows" in repr(ranking)
     assert len(repr(ranking).splitlines()) == 33
-    assert ranking._repr_html_().count("<tr>") == 61
+    assert html_of(ranking).count("<tr>") == 61
 
 
 def test_the_table_is_exported() -> None:

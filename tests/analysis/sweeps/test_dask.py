@@ -172,7 +172,7 @@ def test_units_are_warned_of_once() -> None:
         ({"rpm": [1, 2], "chunks": "much"}, "chunks = 'much'"),
         ({"rpm": [1, 2], "chunks": (3,)}, "chunks = "),
         ({"rpm": [1, 2], "chunks": {"rpm": (1, 2)}}, "chunks = "),
-        ({"rpm": 1, "chunks": 1}, "to_dask: nothing is swept"),
+        ({"rpm": 1, "chunks": 1}, "sweep is of one point"),
         ({"rpm": [1, 2], "chunks": 1, "progress": print}, "progress cannot be combined"),
     ],
 )

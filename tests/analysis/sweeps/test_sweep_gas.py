@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
 CRANKCASE = 95_000.0
@@ -53,7 +55,7 @@ def test_each_point_is_the_balance_of_its_engine(name: str, swept: str) -> None:
         s = cp.sweep(fired, orders=[0.5, 1, 1.5, 2, 4.5, 12], **SWEPT[swept])
         for place in np.ndindex(*(len(s.coords[name]) for name in s.dims)):
             at = {name: s.coords[name][k] for name, k in zip(s.dims, place, strict=True)}
-            rpm = at.get("rpm", s.fixed.get("rpm"))
+            rpm = at["rpm"] if "rpm" in at else s.fixed["rpm"]
             alone = s.engine_at(**at).balance(rpm, orders=s.orders)
             # Cylinders add up in the mean where orders cancel.
             scale = alone.read("crank_torque.gas", "peak").max() + abs(alone.crank_torque.mean)
@@ -73,6 +75,7 @@ def gas_torque(theta_deg: NDArray[np.float64], fired: cp.Engine, rod_ratio: floa
     """(p − p₀)·A·ds/dθ summed over cylinders: s is what the piston has gone from its crank."""
     total = np.zeros(len(theta_deg))
     r, e = CYLINDER.crank_radius, CYLINDER.pin_offset
+    assert CYLINDER.bore is not None
     # A cycle begins where the crankpin is aligned with the bore, a third of a degree before the
     # top.
     turns = np.round((fired.firing().angles_deg - fired.tdc_deg) / 360.0)
@@ -89,7 +92,8 @@ def test_orders_and_waveforms_are_those_of_the_pressure_times_the_piston_speed()
     """Gas torque does not depend on speed; on the block it is the opposite of that on the crank."""
     fired, theta = engine("v6-90-odd-fire"), np.arange(0.0, 720.0, 3.0)
     s = cp.sweep(fired, rpm=[600.0, 5000.0], rod_ratio=[0.28, 0.33], rtol=1e-3)
-    plain = cp.sweep(cp.Engine.preset("v6-90-odd-fire", cylinder=CYLINDER), **s.axes, rtol=1e-9)
+    axes: dict[str, Any] = {**s.axes}
+    plain = cp.sweep(cp.Engine.preset("v6-90-odd-fire", cylinder=CYLINDER), **axes, rtol=1e-9)
     exact, summed = s.waveform(theta, exact=True), s.waveform(theta)
     without = plain.waveform(theta, exact=True)
     for k, rod_ratio in enumerate((0.28, 0.33)):
@@ -164,11 +168,12 @@ def test_a_crankcase_that_nothing_reads_is_refused() -> None:
     fired, bare = engine("i2-270"), cp.Engine.preset("i2-270", cylinder=CYLINDER)
     with pytest.raises(cp.InputError, match=r"crankcase = 90000.*applies to a cycle map"):
         cp.sweep(fired, rpm=2000, crankcase=9e4)
-    for call in (
+    calls: list[Callable[[], cp.Engine]] = [
         lambda: fired.with_cycle(None, crankcase=9e4),
         lambda: bare.replace(crankcase=9e4),
         lambda: fired.replace(cycle=None, crankcase=9e4),
-    ):
+    ]
+    for call in calls:
         with pytest.raises(cp.InputError, match=r"crankcase = 90000.*acts only beside cycle"):
             call()
     assert fired.with_cycle(CYCLE).crankcase == CRANKCASE

@@ -182,7 +182,7 @@ def test_a_map_of_one_cycle_is_that_cycle() -> None:
         ({"cycle": [None] * 4, "load": 1}, "cycle = .*: has no map"),
         (
             {"cycle": [MAP, MAP, MAP, MAP.replace(load=[0, 0.5, 1])], "load": 1},
-            "maps differ in load",
+            "maps that differ in load",
         ),
         ({"cycle": MAP, "load": 1, "crankcase": -1}, "crankcase = -1"),
     ],

@@ -217,7 +217,7 @@ def test_what_is_refused() -> None:
     with pytest.raises(cp.InputError, match="theta_deg"):
         s.waveform([0.0, np.nan])
     with pytest.raises(cp.InputError, match="quantity"):
-        s.waveform([0.0]).values("heave")  # type: ignore[arg-type]
+        s.waveform([0.0]).values("heave")
     by_spectrum = cp.sweep(V6, rpm=1000, spectrum={1: 1.0, 2: 0.3}, orders=[1, 2])
     with pytest.raises(cp.InputError, match="spectrum"):
         by_spectrum.waveform(exact=True)

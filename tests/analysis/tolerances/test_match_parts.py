@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
+from conftest import html_of
+from crankpin.analysis.balance import over_square
 from crankpin.analysis.tolerances import match_parts as matching
 from crankpin.analysis.tolerances.match_parts import windows
 from hypothesis import given, settings
@@ -237,7 +239,7 @@ def test_tables() -> None:
     assert match.table.header == [
         "set", "cylinder", "piston", "piston mass kg", "rod", "small end kg", "big end kg",
     ]  # fmt: skip
-    assert "no assignment is better" in match._repr_html_()
+    assert "no assignment is better" in html_of(match)
     table = match.to_pandas()
     assert table.piston.tolist() == list(match.assignment[0].pistons)
     assert match.parts.rods is not None
@@ -260,7 +262,7 @@ def test_tables() -> None:
         ({"rods": [0.6] * 4}, r"rods has shape \(4,\): .*small end and big end of each rod"),
         ({"rods": [[0.2, 0.4]] * 3}, r"rods has 3 entries"),
         ({"by": "weight"}, r'by = \'weight\': give "balance" or "spread"'),
-        ({"orders": "auto"}, r"orders = \"auto\": give whole numbers"),
+        ({"orders": "auto"}, r"orders = 'auto': give whole numbers"),
         ({"seed": -1}, r"seed = -1"),
         ({"pistons": [0.4] * 1001}, r"pistons has 1001 entries: give 1000 at most"),
     ],
@@ -323,7 +325,7 @@ def test_the_work_for_influences_grows_as_the_number_of_cylinders(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     summed = []
-    balance = matching.over_square
+    balance = over_square
 
     def counted(engine: cp.Engine, orders: Any) -> cp.types.Balance:  # noqa: ANN401
         summed.append(len(engine))

@@ -9,10 +9,12 @@ from collections import Counter
 from fractions import Fraction
 from typing import TYPE_CHECKING, TypeAlias
 
-from crankpin._core import InputError
+from crankpin._support import inputs
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
+
+    from crankpin._core import InputError
 
 Exact: TypeAlias = Fraction | int
 """Degrees; whole ones as int, which is some ten times as fast."""
@@ -188,6 +190,5 @@ def permutations(counts: Counter[Exact]) -> Iterator[tuple[Exact, ...]]:
 
 def too_many(throws: int) -> InputError:
     """Return the error of more cranks than can be tried."""
-    return InputError(
-        f"{throws} throws have more than {MOST_CRANKS} cranks: give fewer different angles for them"
-    )
+    fault = f"makes more than {MOST_CRANKS} cranks of {throws} throws"
+    return inputs.faulty("throws_deg", fault, "give fewer different angles for them")

@@ -9,7 +9,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
 from crankpin._support.frames import Tabled
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
 
     import numpy as np
     from matplotlib.axes import Axes
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Angles
     from crankpin._support.progress import Progress
@@ -49,17 +48,33 @@ class Arrangement(Input):
     """First-order moment that a counterweight cancels, over m·r·ω²·spacing."""
     second_order: tuple[float, float]
     """Second-order moments about x and about y, over m·r·ω²·spacing·a₂ (a₂ ≈ rod ratio)."""
-    hold: Hold = "firing"
+    hold: Hold
     """``"firing"`` if phases are minus the TDCs, ``"pins"`` if they are the crankpins."""
 
-    def __post_init__(self) -> None:
-        for name in ("bank_angle_deg", "counterweight"):
-            object.__setattr__(self, name, inputs.number(name, getattr(self, name)))
-        for name in ("first_deg", "second_deg", "second_order"):
-            values = getattr(self, name)
-            if type(values) is not tuple or any(type(value) is not float for value in values):
-                object.__setattr__(self, name, tuple(inputs.listed_numbers(name, values)))
-        inputs.one_of("hold", self.hold, ("firing", "pins"))
+    def __init__(
+        self,
+        bank_angle_deg: float,
+        first_deg: ArrayLike,
+        second_deg: ArrayLike,
+        counterweight: float,
+        second_order: ArrayLike,
+        hold: Hold = "firing",
+    ) -> None:
+        numbers = {"bank_angle_deg": bank_angle_deg, "counterweight": counterweight}
+        for name, value in numbers.items():
+            object.__setattr__(self, name, inputs.number(name, value))
+        lists: dict[str, Any] = {
+            "first_deg": first_deg,
+            "second_deg": second_deg,
+            "second_order": second_order,
+        }
+        for name, values in lists.items():
+            # Searches make thousands, of tuples of floats.
+            kept = type(values) is tuple and all(type(value) is float for value in values)
+            listed = values if kept else tuple(inputs.listed_numbers(name, values))
+            object.__setattr__(self, name, listed)
+        inputs.one_of("hold", hold, ("firing", "pins"))
+        object.__setattr__(self, "hold", hold)
 
     @property
     def near_circular(self) -> bool:
@@ -178,9 +193,11 @@ def search_arrangements(
     held = inputs.text("hold", hold, 'give "firing" or "pins"')
     watched = progress_bar.checked(progress)
     if shared and (held != "pins" or rule):
-        raise InputError(
-            'shared_pins = True: give hold="pins", and leave out alternating; with top dead '
-            "centres held pins are split at all but one bank angle"
+        raise inputs.rejected(
+            "shared_pins",
+            True,
+            'give hold="pins", and leave out alternating; with top dead centres held pins are '
+            "split at all but one bank angle",
         )
     with progress_bar.shown(watched, f"V{count}") as told:
         core = _core.Search(count, rule, phases, held, shared, told)
@@ -228,8 +245,7 @@ class ArrangementSearch(Tabled):
     def __post_init__(self) -> None:
         core: object = self._search
         if not isinstance(core, _core.Search):
-            hint = "use crankpin.search_arrangements"
-            raise InputError(f"ArrangementSearch({inputs.shorten(core)}): {hint}")
+            raise inputs.rejected("search", core, "use crankpin.search_arrangements")
 
     @property
     def candidates(self) -> int:
@@ -445,7 +461,7 @@ def _again(
 def _bank_angle(name: str, value: object) -> float:
     angle = inputs.number(name, value)
     if math.isnan(angle):
-        raise InputError(f"{name} = nan: give a bank angle in degrees")
+        raise inputs.rejected(name, angle, "give a bank angle in degrees")
     return angle
 
 

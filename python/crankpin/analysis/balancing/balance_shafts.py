@@ -7,7 +7,6 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.warnings import warn
 from crankpin.analysis.balancing.fitted_shafts import BalanceShafts
@@ -18,6 +17,8 @@ from crankpin.model.shafts import Shaft, unbalance_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from numpy.typing import ArrayLike
 
     from crankpin.model.engine import Engine
 
@@ -33,10 +34,10 @@ def balance_shafts(
     engine: Engine,
     ratios: int | Sequence[int],
     *,
-    x: float | Sequence[float | None] | None = None,
-    y: float | Sequence[float | None] | None = None,
-    planes: Sequence[float] | Sequence[Sequence[float] | None] | None = None,
-    bearings: Sequence[float] | Sequence[Sequence[float] | None] | None = None,
+    x: ArrayLike | Sequence[float | None] | None = None,
+    y: ArrayLike | Sequence[float | None] | None = None,
+    planes: ArrayLike | Sequence[ArrayLike | None] | None = None,
+    bearings: ArrayLike | Sequence[ArrayLike | None] | None = None,
     remove: Remove | Sequence[Remove] = "both",
     rpm: float | None = None,
 ) -> BalanceShafts:
@@ -193,7 +194,7 @@ def _shaft_requests(
     for k, each in enumerate(found):
         if each.planes is not None and len(each.planes) < 2 and each.remove == "moment":
             message = "a couple takes two planes; give two, or remove the force"
-            raise InputError(f"planes[{k}] = {list(each.planes)}: {message}")
+            raise inputs.rejected(f"planes[{k}]", list(each.planes), message)
     return found
 
 
@@ -202,7 +203,7 @@ def _ratios(given: object) -> list[int]:
     listed = inputs.items("ratios", given, hint) if isinstance(given, Iterable) else [given]
     found = [inputs.whole("ratios", each) for each in listed]
     if not 1 <= len(found) <= MOST_SHAFTS:
-        raise InputError(f"ratios has {len(found)} shafts: give 1 to {MOST_SHAFTS}")
+        raise inputs.faulty("ratios", f"has {len(found)} shafts", f"give 1 to {MOST_SHAFTS}")
     for each in found:
         if each == 0 or abs(each) > inputs.HIGHEST_ORDER:
             raise inputs.rejected("ratios", given, hint)
@@ -224,7 +225,9 @@ def _removals(given: object, ratios: list[int]) -> list[Remove]:
 def _each(name: str, given: object, count: int) -> list[Any]:
     listed = inputs.items(name, given, f"give one for each of {count} shafts")
     if len(listed) != count:
-        raise InputError(f"{name} has {len(listed)} entries: give one for each of {count} shafts")
+        raise inputs.faulty(
+            name, f"has {len(listed)} entries", f"give one for each of {count} shafts"
+        )
     return listed
 
 
@@ -261,6 +264,6 @@ def _bearings(given: object, count: int) -> list[tuple[float, float] | None]:
     found: list[tuple[float, float] | None] = []
     for k, each in enumerate(_places("bearings", given, count)):
         if each is not None and len(each) != 2:
-            raise InputError(f"bearings[{k}] = {list(each)}: give the places of two bearings")
+            raise inputs.rejected(f"bearings[{k}]", list(each), "give the places of two bearings")
         found.append(None if each is None else (each[0], each[1]))
     return found

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.record import changed
 from crankpin.analysis.balancing import planes as correction_planes
@@ -144,7 +143,7 @@ def balancer_options(
         raise inputs.rejected("planes", planes, "acts only beside counterweights=True")
     speed, most = inputs.number("rpm", rpm), inputs.whole("most_shafts", most_shafts)
     if most < 0:
-        raise InputError(f"most_shafts = {most}: give 0 or more")
+        raise inputs.rejected("most_shafts", most, "give 0 or more")
     z = tuple(correction_planes.named(engine, planes).values())
     ratios = _ratios(
         inputs.explicit_orders(shaft_orders, "shaft_orders"), with_weights=with_weights
@@ -221,7 +220,7 @@ def balancer_sets(
     count = math.prod(1 + len(each) for each in removals.values())
     if count > MOST_SETS:
         hint = f"give fewer orders, for {MOST_SETS} at most"
-        raise InputError(f"shaft_orders make {count} sets of shafts: {hint}")
+        raise inputs.faulty("shaft_orders", f"make {count} sets of shafts", hint)
     choices: list[list[Part | None]] = [[None] for _ in removals]
     for parts, (ratio, listed) in zip(choices, removals.items(), strict=True):
         for what in listed:
@@ -292,7 +291,7 @@ def _objectives(
 def _limit(name: str, value: object) -> float:
     number = inputs.number(name, value)
     if not 0.0 <= number < math.inf:
-        raise InputError(f"{name} = {number}: give 0 or more")
+        raise inputs.rejected(name, number, "give 0 or more")
     return number
 
 
@@ -311,8 +310,7 @@ def _axes(places: object, ratios: Sequence[int]) -> Mapping[int, Axis]:
             raise inputs.rejected(name, place, hint)
         x, y = (inputs.optional_number(name, each) for each in x_and_y)
         if ratio not in ratios:
-            raise InputError(
-                f"{name}: ratios of the shafts compared are {', '.join(map(str, ratios))}"
-            )
+            hint = f"ratios of the shafts compared are {', '.join(map(str, ratios))}"
+            raise inputs.rejected(name, place, hint)
         found[ratio] = (x, y)
     return found

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crankpin._support import labels
+from crankpin._support import inputs, labels
 from crankpin._support.frames import SHOWN, Tabled
 from crankpin._support.record import AbsentError, Listed, Record
 from crankpin._support.tables import Table
@@ -119,9 +119,8 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
     def _least(self) -> BalancerOption:
         if self.least is None:
             what = "no set reaches the target" if self.targets else "no target was given"
-            raise AbsentError(
-                f"fitted is undefined: {what}; choose one of options, such as options[0]"
-            )
+            hint = f"{what}; choose one of options, such as options[0]"
+            raise inputs.faulty("fitted", "is undefined", hint, AbsentError)
         return self.least
 
     # --- tables and pictures --------------------------------------------------------------------

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
@@ -90,7 +89,7 @@ def bob_weight(engine: Engine, factor: float = 0.5, oil: float = 0.0) -> BobWeig
     part, of_oil = inputs.number("factor", factor), inputs.number("oil", oil)
     check_factor("factor", part)
     if not 0.0 <= of_oil <= 1e6:
-        raise InputError(f"oil = {of_oil}: give the oil of a crankpin in kilograms, 0 or more")
+        raise inputs.rejected("oil", of_oil, "give the oil of a crankpin in kilograms, 0 or more")
     checks.oil(of_oil, engine.cylinders[0].reciprocating_mass)
     return BobWeight(engine, part, of_oil)
 

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import QUANTITIES
@@ -183,7 +182,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
         for shaft, bearings in zip(self.hardware, self.bearings, strict=True):
             if bearings is None:
                 hint = "give bearings=(z_front, z_rear) to balance_shafts"
-                raise InputError(f"bearings = None: {hint}")
+                raise inputs.rejected("bearings", None, hint)
             forces = [
                 (each.amount * complex(direction(inputs.degrees(each.angle_deg))), each.z)
                 for each in shaft.unbalances

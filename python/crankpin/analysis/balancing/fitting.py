@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.quantities import PLANE_VECTORS
 from crankpin._support.record import read_only
@@ -55,7 +54,7 @@ class Fit:
         wanted = inputs.one_of("target", target, ["external", "internal"])
         comparing = inputs.optional_number("length", length)
         if comparing is not None and not 1e-6 <= comparing <= 1e6:
-            raise InputError(f"length = {comparing}: give a length in metres, 1e-6 to 1e6")
+            raise inputs.rejected("length", comparing, "give a length in metres, 1e-6 to 1e6")
         return cls(
             wanted,  # type: ignore[arg-type]
             tuple(_parts(factor).items()),
@@ -72,7 +71,8 @@ def _parts(given: object) -> dict[str, float | None]:
         for name in by_name:
             inputs.one_of("factor", name, PLANE_VECTORS)
         if not by_name:
-            raise InputError('factor = {}: give a number, or {"force": 0.5, "moment": 0.5}')
+            hint = 'give a number, or {"force": 0.5, "moment": 0.5}'
+            raise inputs.rejected("factor", given, hint)
     parts = {name: inputs.optional_number("factor", part) for name, part in by_name.items()}
     for part in parts.values():
         if part is not None:
@@ -218,10 +218,9 @@ def internal(
     for name, z in planes.items():
         if not any(name in each for each in inside):
             ends = f"{listed[0].bearings[0]:.6g} to {listed[-1].bearings[1]:.6g} m"
-            raise InputError(
-                f'planes["{name}"] = {z:.6g}: is beyond the main bearings ({ends}); for '
-                'target="internal" give places between those of a throw'
-            )
+            hint = 'for target="internal" give places between those of a throw'
+            hint = f"is beyond the main bearings ({ends}); {hint}"
+            raise inputs.faulty(f'planes["{name}"]', f"= {z:.6g}", hint)
     found = [
         external(
             alone,

@@ -8,16 +8,17 @@ from itertools import zip_longest
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks
 from crankpin.model.crankpins import bays
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
     from crankpin.model.engine import Engine
 
-Planes: TypeAlias = "str | Sequence[float] | Mapping[str, float]"
+Planes: TypeAlias = "ArrayLike | Mapping[str, float]"
 HINT = 'give "ends", "webs", a list of places or a mapping name → place in metres'
 MOST = 200
 """Largest number of planes."""
@@ -42,7 +43,7 @@ def named(engine: Engine, given: Planes) -> dict[str, float]:
         listed = inputs.items("planes", given, HINT)
         places = {f"plane {k}": _place(k - 1, z) for k, z in enumerate(listed, start=1)}
     if not 1 <= len(places) <= MOST:
-        raise InputError(f"planes has {len(places)} places: give 1 to {MOST}")
+        raise inputs.faulty("planes", f"has {len(places)} places", f"give 1 to {MOST}")
     checks.place(engine_core(engine), "planes", *places.values())
     return places
 
@@ -50,7 +51,9 @@ def named(engine: Engine, given: Planes) -> dict[str, float]:
 def _place(key: object, value: object) -> float:
     place = inputs.number(f"planes[{inputs.shorten(key)}]", value)
     if not abs(place) <= 1e30:
-        raise InputError(f"planes[{inputs.shorten(key)}] = {place}: give a finite place in metres")
+        raise inputs.rejected(
+            f"planes[{inputs.shorten(key)}]", place, "give a finite place in metres"
+        )
     return place
 
 
@@ -62,7 +65,7 @@ def bounds(names: Sequence[str], given: object) -> dict[str, float]:
         bound = by_name.get(name)
         found[name] = math.inf if bound is None else inputs.number("bound", bound)
         if not found[name] >= 0.0:
-            raise InputError(f"bound = {found[name]}: give a mass·radius of 0 kg·m or more")
+            raise inputs.rejected("bound", found[name], "give a mass·radius of 0 kg·m or more")
     return found
 
 
@@ -74,14 +77,18 @@ def angles(names: Sequence[str], given: object) -> dict[str, tuple[str, ...]] | 
     found = {}
     for name in names:
         if by_name.get(name) is None:
-            raise InputError(f'angles_deg has none for "{name}": give angles for every plane')
+            raise inputs.faulty(
+                "angles_deg", f'has none for "{name}"', "give angles for every plane"
+            )
         listed = inputs.angles("angles_deg", by_name[name])
         if not 1 <= len(listed) <= 360:
-            raise InputError(f"angles_deg has {len(listed)} angles: give 1 to 360")
+            raise inputs.faulty("angles_deg", f"has {len(listed)} angles", "give 1 to 360")
         found[name] = tuple(dict.fromkeys(listed))
     count = sum(map(len, found.values()))
     if count > MOST_ANGLES:
-        raise InputError(f"angles_deg has {count} angles in all: give at most {MOST_ANGLES}")
+        raise inputs.faulty(
+            "angles_deg", f"has {count} angles in all", f"give at most {MOST_ANGLES}"
+        )
     return found
 
 
@@ -92,9 +99,7 @@ def _by_name(what: str, names: Sequence[str], given: object) -> Mapping[str, Any
     for name in given:
         if name not in names:
             listed = inputs.shorten(list(names))
-            raise InputError(
-                f"{what}[{inputs.shorten(name)}]: is not a plane; choose from: {listed}"
-            )
+            raise inputs.rejected(what, name, f"is not a plane; choose from: {listed}")
     return given
 
 

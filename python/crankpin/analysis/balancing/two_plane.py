@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.frames import Tabled
 from crankpin._support.record import read_only
@@ -74,8 +73,8 @@ def two_plane_correction(
     }
     pairs = {name: _pair(name, values) for name, values in given.items()}
     if min(pairs["amount_g_mm"]) < 0.0:
-        shown = inputs.shorten(amount_g_mm)
-        raise InputError(f"amount_g_mm = {shown}: give zero or more; angle_deg turns it round")
+        hint = "give zero or more; angle_deg turns it round"
+        raise inputs.rejected("amount_g_mm", amount_g_mm, hint)
     one, other = pairs["correction_z"]
     if one == other:
         hint = "give two different places; in one plane no couple can be corrected"
@@ -86,7 +85,7 @@ def two_plane_correction(
 def _pair(name: str, values: ArrayLike) -> tuple[float, float]:
     listed = inputs.vector(name, values)
     if len(listed) != 2:
-        raise InputError(f"{name} has {len(listed)} figures: give two, one for each plane")
+        raise inputs.faulty(name, f"has {len(listed)} figures", "give two, one for each plane")
     if not (np.abs(listed) <= 1e30).all():
         raise inputs.rejected(name, values, "give finite numbers")
     return float(listed[0]), float(listed[1])

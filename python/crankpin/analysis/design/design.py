@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
 from crankpin._support.quantities import PARTS
@@ -237,7 +236,7 @@ class Search:
         for each in objectives:
             if each.quantity in PARTS or (each.order or 1) % 1:
                 hint = "give whole orders of whole quantities, or rank fired engines"
-                raise InputError(f'by = "{each.label}": designs have no gas pressure; {hint}')
+                raise inputs.rejected("by", each.label, f"designs have no gas pressure; {hint}")
         self._smooth = [
             (each.quantity, each.what, None if each.order is None else int(each.order))
             for each in objectives
@@ -245,11 +244,9 @@ class Search:
         ]
         unnamed = [each.label for each in objectives if not each.quantity]
         if unnamed and any(family.variables for family in self._families):
-            raise InputError(
-                f'by = "{unnamed[0]}": angles that vary are optimised by forces, moments and '
-                "torques; fix the angles, or design by others and rank the engines with "
-                "crankpin.rank"
-            )
+            hint = "fix the angles, or design by others and rank the engines with crankpin.rank"
+            hint = f"angles that vary are optimised by forces, moments and torques; {hint}"
+            raise inputs.rejected("by", unnamed[0], hint)
         # What an objective cannot read is an error before the search.
         self._values([self._families[0].base])
 

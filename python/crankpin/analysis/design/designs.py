@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Tabled
 from crankpin._support.record import Listed, Record
@@ -132,9 +131,10 @@ class Designs(ByObjectives, Listed[Design], Tabled):
             function.
         """
         if self.question.banks == 1:
-            raise InputError("bank_angle_deg is undefined for these designs: they have one bank")
+            fault = "is undefined for these designs"
+            raise inputs.faulty("bank_angle_deg", fault, "they have one bank")
         if not self.objectives[0].quantity:
-            raise InputError(f'by = "{self.by[0]}": give the name of a force, moment or torque')
+            raise inputs.rejected("by", self.by[0], "give the name of a force, moment or torque")
         angles = inputs.vector("bank_angle_deg", bank_angle_deg)
         designs = self.designs[:count]
         chosen: dict[str, Any] = {

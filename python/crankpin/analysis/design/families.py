@@ -11,7 +11,6 @@ from itertools import product
 from typing import TYPE_CHECKING, Any
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.arrangements.cranks import (
@@ -97,10 +96,10 @@ def families(question: Question) -> tuple[list[Family], int]:
         base = question.symmetries.first(family.base, exchange=fixed)
         found.setdefault(dataclasses.replace(family, base=base))
     if not found:
-        raise InputError(
-            "no crank fires at these intervals between these bank angles: allow other bank angles, "
-            "or pins that are split (shared_pins=False)"
-        )
+        between = "{} to {}".format(*question.bank_angle)
+        hint = "allow other bank angles, or pins that are split (shared_pins=False)"
+        hint = f"no crank fires at these intervals; {hint}"
+        raise inputs.faulty("bank_angle_deg", f"= {between}", hint)
     return list(found), len(everything)
 
 

@@ -8,7 +8,6 @@ from collections.abc import Iterable
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin.analysis.arrangements.cranks import (
     HALF,
@@ -179,7 +178,7 @@ def _cylinders(given: object, banks: int) -> int:
     number = inputs.whole("cylinders", given)
     if not banks <= number <= MOST_CYLINDERS or number % banks:
         even = "an even number, 2" if banks == 2 else "a whole number, 1"
-        raise InputError(f"cylinders = {number}: give {even} to {MOST_CYLINDERS}")
+        raise inputs.rejected("cylinders", number, f"give {even} to {MOST_CYLINDERS}")
     return number
 
 
@@ -210,20 +209,17 @@ def _bank_angles(kind: str, given: Range | None) -> tuple[Exact, Exact]:
             raise inputs.rejected("bank_angle_deg", given, f'layout="{kind}" {what}; leave it out')
         return (0, 0) if kind == "inline" else (HALF, HALF)
     if given is None:
-        raise InputError("bank_angle_deg = None: give an angle, or two to choose between: (60, 90)")
+        hint = "give an angle, or two to choose between: (60, 90)"
+        raise inputs.rejected("bank_angle_deg", given, hint)
     return _range("bank_angle_deg", given, 0, HALF)
 
 
 def _splits(kind: str, shared_pins: bool | None, given: Range | None) -> tuple[Exact, Exact]:
     shared = given is None if shared_pins is None else inputs.flag("shared_pins", shared_pins)
-    if kind == "inline" and (given is not None or shared_pins is not None):
-        raise InputError(
-            'layout="inline" has one cylinder on each pin: leave out shared_pins and pin_split_deg'
-        )
-    if kind == "boxer" and (given is not None or shared_pins is not None):
-        raise InputError(
-            'layout="boxer" has pins split by 180: leave out shared_pins and pin_split_deg'
-        )
+    if kind != "vee" and (given is not None or shared_pins is not None):
+        what = "one cylinder on each pin" if kind == "inline" else "pins split by 180"
+        hint = f"has {what}; leave out shared_pins and pin_split_deg"
+        raise inputs.rejected("layout", kind, hint)
     if kind == "boxer":
         return (HALF, HALF)
     if shared and given is not None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import files, inputs
 from crankpin._support.record import Input
 from crankpin._support.warnings import suppressed
@@ -18,7 +17,7 @@ from crankpin.model.engine import Engine
 from crankpin.model.mounts import Mount, RigidBody
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable
     from pathlib import Path
 
     from numpy.typing import ArrayLike
@@ -68,19 +67,19 @@ class Powertrain(Input):
 
     engine: Engine
     body: RigidBody
-    mounts: Sequence[Mount]
+    mounts: tuple[Mount, ...]
 
-    def __post_init__(self) -> None:
-        engine_core(self.engine)
-        if not isinstance(self.body, RigidBody):
-            raise inputs.rejected("body", self.body, "give a crankpin.RigidBody")
-        listed = inputs.items("mounts", self.mounts, "give a list of crankpin.Mount")
+    def __init__(self, engine: Engine, body: RigidBody, mounts: Iterable[Mount]) -> None:
+        engine_core(engine)
+        if not isinstance(body, RigidBody):
+            raise inputs.rejected("body", body, "give a crankpin.RigidBody")
+        listed = inputs.items("mounts", mounts, "give a list of crankpin.Mount")
         for k, mount in enumerate(listed):
             if not isinstance(mount, Mount):
                 raise inputs.rejected(f"mounts[{k}]", mount, "give a crankpin.Mount")
         figures = [mount._figures for mount in listed]
-        core = _core.Powertrain(self.body._figures, figures)
-        self.__dict__.update(mounts=tuple(listed), _powertrain=core)
+        core = _core.Powertrain(body._figures, figures)
+        self.__dict__.update(engine=engine, body=body, mounts=tuple(listed), _powertrain=core)
 
     @property
     def _core(self) -> _core.Powertrain:
@@ -103,7 +102,7 @@ class Powertrain(Input):
         torque: float | Literal["engine"] = 0.0,
         *,
         gear_ratio: float = 1.0,
-        gravity: Sequence[float] = static_state.GRAVITY,
+        gravity: ArrayLike = static_state.GRAVITY,
         rpm: float = 1000.0,
     ) -> StaticState:
         """Return sag, preloads and wind-up, with the static stiffness of the mounts.
@@ -259,7 +258,9 @@ class Powertrain(Input):
         number = inputs.whole("cylinder", cylinder)
         cycles = self.engine.cycles
         if cycles is None:
-            raise InputError(f"cylinder = {number}: no cylinder fires; give engine.with_cycle(…)")
+            raise inputs.rejected(
+                "cylinder", number, "no cylinder fires; give engine.with_cycle(…)"
+            )
         if not 1 <= number <= len(cycles):
             raise inputs.rejected("cylinder", number, f"give a number from 1 to {len(cycles)}")
         listed: list[Any] = [*cycles]

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.record import Record, changed, read_only
@@ -20,7 +19,7 @@ from crankpin.analysis.request import Request, check_request
 from crankpin.model.mounts import _vector
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Mapping
 
     import xarray as xr
     from matplotlib.axes import Axes
@@ -96,7 +95,7 @@ class PointMotion(Tabled):
         road vehicles; which zone a grade is in depends on the machine's class there.
         """
         if self.order not in (None, ALL):
-            raise InputError(f"order = {self.order}: grade is that of all orders together")
+            raise inputs.rejected("order", self.order, "grade is that of all orders together")
         grades = self.result._by_speed(self.result._core.grades(list(self.point)))
         return grades if grades.ndim else float(grades)
 
@@ -170,7 +169,7 @@ class MountQuantities:
             }
         )
 
-    def at(self, point: Sequence[float]) -> PointMotion:
+    def at(self, point: ArrayLike) -> PointMotion:
         """Return the motion of a point of the powertrain.
 
         Parameters
@@ -211,7 +210,7 @@ class OrderResponse(MountQuantities, Record):
 
     def _of(self, name: str) -> Any:  # noqa: ANN401 - a number at one speed
         if self.order == ALL:
-            raise InputError(f'order = "all": give one order, such as r[2].{name}')
+            raise inputs.rejected("order", "all", f"give one order, such as r[2].{name}")
         one = self.result._with_order(self.order)
         values = getattr(one, name)
         axis = len(one.dims)

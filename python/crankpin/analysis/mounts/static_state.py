@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Tabled
 from crankpin._support.record import read_only
@@ -14,9 +13,7 @@ from crankpin._support.tables import Column, Table
 from crankpin.model.mounts import _vector
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from crankpin.analysis.mounts.powertrain import Powertrain
 
@@ -117,7 +114,7 @@ def static(
     powertrain: Powertrain,
     torque: float | Literal["engine"],
     gear_ratio: float,
-    gravity: Sequence[float],
+    gravity: ArrayLike,
     rpm: float,
 ) -> StaticState:
     """Return the state at rest; :meth:`Powertrain.static` documents the arguments."""
@@ -128,10 +125,12 @@ def static(
             hint = (
                 "the engine has no cycle and so no mean torque: give N·m, or engine.with_cycle(…)"
             )
-            raise InputError(f'torque = "engine": {hint}')
+            raise inputs.rejected("torque", "engine", hint)
         leaving = powertrain.engine.balance(rpm, orders=[1]).crank_torque.mean
     ratio = inputs.finite("gear_ratio", gear_ratio)
     if ratio == 0.0:
-        raise InputError("gear_ratio = 0.0: give crank speed over output speed, such as 1 or 12.5")
+        raise inputs.rejected(
+            "gear_ratio", 0.0, "give crank speed over output speed, such as 1 or 12.5"
+        )
     leaving = inputs.finite("torque", leaving) * ratio
     return StaticState(powertrain, leaving, _vector("gravity", gravity))

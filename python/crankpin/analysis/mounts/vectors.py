@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import labels
+from crankpin._support import inputs, labels
 from crankpin._support.record import AbsentError, Record, changed, read_only
 from crankpin.analysis.quantity import ALL, Key, Keyed, order_key
 
@@ -56,7 +56,8 @@ class VectorQuantity(Keyed, Record):
     def xyz(self) -> NDArray[np.complex128]:
         """Peak phasors along x, y and z: (…, n_orders, n_axes), of one order (…, n_axes)."""
         if self.order == ALL:
-            raise AbsentError("all orders together have peaks and rms values; give an order")
+            hint = "all orders together have peaks and rms values; give an order"
+            raise inputs.faulty("xyz", "is undefined", hint, AbsentError)
         if self.order is None:
             return self.result._vectors(self.source)
         one = self.result._with_order(self.order)

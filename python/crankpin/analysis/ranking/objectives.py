@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.quantities import KINDS, PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balance import Balance, balance
@@ -56,8 +55,8 @@ class Objective(NamedTuple):
         """Return the value of each engine at each bank angle: (n_engines, n_angles)."""
         if self.order is not None and self.order not in swept.orders:
             if swept.request.orders is not None:
-                given = inputs.shorten(list(swept.orders))
-                raise InputError(f'orders = {given}: by = "{self.label}" needs order {self.order}')
+                hint = f'by = "{self.label}" needs order {self.order}'
+                raise inputs.rejected("orders", list(swept.orders), hint)
             # Left out as negligible, or zero.
             swept = swept._at_orders((self.order,))
         if self.of_sweep is not None:
@@ -81,7 +80,9 @@ class Objective(NamedTuple):
         assert self.of_balance is not None  # noqa: S101 - one of the two is there
         value = inputs.number("by", self.of_balance(found))
         if value == -np.inf:
-            raise InputError("by = -inf: return finite numbers, or inf for an engine to avoid")
+            raise inputs.rejected(
+                "by", value, "return finite numbers, or inf for an engine to avoid"
+            )
         return value
 
 
@@ -225,11 +226,9 @@ def _unevenness(found: Balance) -> float:
 def listed(by: object) -> list[Objective]:
     """Return the objectives that names and functions give."""
     if by is None:
-        raise InputError(
-            "by = None: give the quantity to minimise, such as "
-            + ", ".join(f'"{name}"' for name in COMMON[:6])
-            + ", or a function of a Balance"
-        )
+        some = ", ".join(f'"{name}"' for name in COMMON[:6])
+        hint = f"give the quantity to minimise, such as {some}, or a function of a Balance"
+        raise inputs.rejected("by", by, hint)
     if isinstance(by, str):
         by = [name.strip() for name in by.split(",")]
     elif callable(by):

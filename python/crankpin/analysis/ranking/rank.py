@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, cast
 
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.arrangements.search import Arrangement, ArrangementSearch
@@ -151,7 +150,7 @@ def rank(
     tolerance = tie_tolerance(tie_rtol)
     between = inputs.flag("refine", refine)
     if between and bank_angle_deg is None:
-        raise InputError("refine = True: searches between bank angles; give bank_angle_deg")
+        raise inputs.rejected("refine", True, "searches between bank angles; give bank_angle_deg")
     of_engines = _engines(engines, cylinder, spacing)
     with suppressed("mean piston speed"):
         swept = sweep(
@@ -182,9 +181,10 @@ def _engines(
 ) -> Engines:
     """Return engines, or those of arrangements."""
     if isinstance(given, ArrangementSearch) and len(given) > inputs.MOST_ITEMS:
-        raise InputError(
-            f"engines is a search with {len(given)} bank angles, more than {inputs.MOST_ITEMS}: "
-            "give some of them, such as its best(count=100) or within(60, 61)"
+        raise inputs.faulty(
+            "engines",
+            f"is a search with {len(given)} bank angles, more than {inputs.MOST_ITEMS}",
+            "give some of them, such as its best(count=100) or within(60, 61)",
         )
     if isinstance(given, Arrangement):
         given = [given]
@@ -194,7 +194,7 @@ def _engines(
     listed = [] if isinstance(given, (Engine, Mapping)) else list(given)
     if not listed and not isinstance(given, (Engine, Mapping)):
         where = "the search has no bank angle in its window" if is_search else "give at least one"
-        raise InputError(f"engines = []: {where}")
+        raise inputs.rejected("engines", [], where)
     arrangements = [one for one in listed if isinstance(one, Arrangement)]
     if not arrangements:
         for name, value in (("cylinder", cylinder), ("spacing", spacing)):
@@ -207,7 +207,7 @@ def _engines(
             raise inputs.rejected("engines", one, "give arrangements alone, or engines alone")
     for name, value in (("cylinder", cylinder), ("spacing", spacing)):
         if value is None:
-            raise InputError(f"{name} = None: arrangements need one, as Arrangement.engine does")
+            raise inputs.rejected(name, None, "arrangements need one, as Arrangement.engine does")
     return {
         f"arrangement {k}, {one.bank_angle_deg:.6g}°": one.engine(cylinder, spacing=spacing)  # type: ignore[arg-type]
         for k, one in enumerate(arrangements)

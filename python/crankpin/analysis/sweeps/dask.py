@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import inputs, optional
 from crankpin._support.record import changed
 from crankpin.analysis import export
@@ -28,7 +27,7 @@ def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Datas
     dask = optional.library("dask.array")
     lengths = {name: len(values) for name, values in whole.coords.items()}
     if not lengths:
-        raise InputError("to_dask: nothing is swept; use to_xarray")
+        raise inputs.faulty("sweep", "is of one point", "use to_xarray")
     sizes = lengths | {"order": len(whole.orders), "axis": 2}
     by_name = dict(zip(sizes, _normalized(chunks, lengths, sizes), strict=True))
     axes = {name: _axis(whole, name, by_name[name]) for name in lengths}

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.record import Record
 from crankpin.model import checks
@@ -45,10 +44,13 @@ class GasMap(Record):
             raise inputs.rejected("cycle", cycle, "has no map; leave it out")
         for axis in ("rpm", "load"):
             if any(not np.array_equal(getattr(m, axis), getattr(given[0], axis)) for m in given):
-                raise InputError(f"cycle: maps differ in {axis}; give maps of the same {axis}")
+                raise inputs.faulty(
+                    "cycle", f"has maps that differ in {axis}", f"give the same {axis}"
+                )
         for engine in engines:
             if not alone and len(maps) != len(engine):
-                raise InputError(f"cycle has {len(maps)} entries, the engine has {len(engine)}")
+                fault = f"has {len(maps)} entries, the engine has {len(engine)}"
+                raise inputs.faulty("cycle", fault, "give one for each cylinder")
         below = inputs.optional_number("crankcase", crankcase)
         if below is not None:
             checks.crankcase(below)
@@ -86,7 +88,9 @@ class GasMap(Record):
         """Return speeds and loads of the cycles, and the loads of the sweep."""
         if load is None:
             low, high = self.first.load[[0, -1]]
-            raise InputError(f"load = None: give loads from {low:g} to {high:g}, those of cycle")
+            raise inputs.rejected(
+                "load", None, f"give loads from {low:g} to {high:g}, those of cycle"
+            )
         return self.first.rpm, self.first.load, load
 
     def at(self, engine: Engine, rpm: float, load: float) -> Engine:

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias, overload
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
@@ -180,7 +179,7 @@ def sweep(
     return whole
 
 
-class Sweep(ByOrder):
+class Sweep(ByOrder[Any]):
     """Force, moment and torque of engines over swept arguments: labelled arrays.
 
     The quantities are those of :class:`Balance` over more dimensions: ``s.moment.backward``,
@@ -344,7 +343,7 @@ class Sweep(ByOrder):
 
     # --- points ---------------------------------------------------------------------------------
 
-    def sel(self, **selection: object) -> Balance | Sweep:
+    def sel(self, **selection: object) -> Any:  # noqa: ANN401 - a balance or a sweep
         """Return the balance at a point of the sweep, or the sweep of what is left to choose.
 
         The values of a balance are those of the sweep, to the last bit.
@@ -419,8 +418,10 @@ class Sweep(ByOrder):
         array = inputs.array("values", values)
         shape = tuple(len(self.coords[name]) for name in self.dims)
         if array.shape != shape or np.isnan(array).all():
-            raise InputError(
-                f"values have shape {array.shape}: give a number for each point, of shape {shape}"
+            raise inputs.faulty(
+                "values",
+                f"have shape {array.shape}",
+                f"give a number for each point, of shape {shape}",
             )
         least = np.unravel_index(int(np.nanargmin(array)), shape)
         return self._balance_at(tuple(int(place) for place in least))
@@ -475,7 +476,9 @@ class Sweep(ByOrder):
             at[name] = [values[_place(name, value, values)]]
         for name, values in at.items():
             if len(values) > 1 and (name != "rpm" or self.gas_map is not None):
-                raise InputError(f"{name} is swept: give the value at which the engine is wanted")
+                raise inputs.faulty(
+                    name, "is swept", "give the value at which the engine is wanted"
+                )
         place = list(self.coords["engine"]).index(at["engine"][0]) if "engine" in at else 0
         engine = self.engines[place]
         changes = []
@@ -531,7 +534,7 @@ class Sweep(ByOrder):
         theta = inputs.crank_angles(theta_deg)
         if inputs.flag("exact", exact) and self.request.pairs is not None:
             hint = "exact kinematics needs the slider-crank; leave out the spectrum, or exact"
-            raise InputError(f"exact = True: {hint}")
+            raise inputs.rejected("exact", True, hint)
         return SweepWaveform(self, theta, bool(exact))
 
     # --- tables and pictures --------------------------------------------------------------------
@@ -570,9 +573,8 @@ class Sweep(ByOrder):
         ((1000, 1000, 1000, 1000, 1000, 1000), (1,))
         """
         if self.progress is not False:
-            raise InputError(
-                "progress cannot be combined with to_dask; use dask.diagnostics.ProgressBar"
-            )
+            hint = "use dask.diagnostics.ProgressBar"
+            raise inputs.faulty("progress", "cannot be combined with to_dask", hint)
         return dask.dataset(self, chunks, self.request.named(quantities, fired=self.fired))
 
     @overload
@@ -711,10 +713,11 @@ def _place(name: str, value: object, values: Any) -> int:  # noqa: ANN401 - name
     swept = np.asarray(values)
     found = np.flatnonzero(swept == number)
     if not found.size:
-        raise InputError(
-            f"{name} = {inputs.shorten(value)}: is not among the {len(values)} swept values, "
-            f"{swept.min():.10g} to {swept.max():.10g}; the nearest is "
-            f"{swept[np.abs(swept - number).argmin()]:.10g}"
+        raise inputs.rejected(
+            name,
+            value,
+            f"is not among the {len(values)} swept values, {swept.min():.10g} to "
+            f"{swept.max():.10g}; the nearest is {swept[np.abs(swept - number).argmin()]:.10g}",
         )
     return int(found[0])
 

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
 from crankpin._support.quantities import KINDS
@@ -61,7 +60,7 @@ class SweepWaveform(OverAngle):
 
     def __post_init__(self) -> None:
         if not hasattr(self.sweep, "_core"):
-            raise InputError(f"SweepWaveform({inputs.shorten(self.sweep)}): use Sweep.waveform")
+            raise inputs.rejected("sweep", self.sweep, "use Sweep.waveform")
         theta = inputs.copied(inputs.vector("theta_deg", self.theta_deg))
         self.__dict__.update(theta_deg=theta, _angles=_core.CrankAngles(theta), _kept={})
         super().__post_init__()

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
 from crankpin._support.frames import Tabled
@@ -235,17 +234,19 @@ def match_parts(
     ends = None if rods is None else _masses("rods", rods, 2)
     for name, parts in (("pistons", masses), ("rods", ends)):
         if parts is not None and len(parts) < count:
-            raise InputError(
-                f"{name} has {len(parts)} entries: the engine has {count} cylinders; give one for "
-                "each, or more"
+            raise inputs.faulty(
+                name,
+                f"has {len(parts)} entries",
+                f"the engine has {count} cylinders; give one for each, or more",
             )
     several = min(len(each) for each in (masses, ends) if each is not None) // count
     wanted = several if sets is None else inputs.whole("sets", sets)
     if not 1 <= wanted <= several:
         given = f"{len(masses)} pistons" + ("" if ends is None else f" and {len(ends)} rods")
-        raise InputError(
-            f"sets = {wanted}: {given} suffice for {several} of {count} cylinders; give 1 to "
-            f"{several}"
+        raise inputs.rejected(
+            "sets",
+            wanted,
+            f"{given} suffice for {several} of {count} cylinders; give 1 to {several}",
         )
     if by == "spread" and orders is not None:
         raise inputs.rejected("orders", orders, 'acts only beside by="balance"; leave it out')
@@ -268,9 +269,9 @@ def _masses(name: str, values: ArrayLike, columns: int) -> NDArray[np.float64]:
     found = inputs.array(name, values)
     shape = "(n,)" if columns == 1 else "(n, 2): small end and big end of each rod"
     if found.ndim != (1 if columns == 1 else 2) or (columns == 2 and found.shape[1] != 2):
-        raise InputError(f"{name} has shape {found.shape}: give masses in kg of shape {shape}")
+        raise inputs.faulty(name, f"has shape {found.shape}", f"give masses in kg of shape {shape}")
     if len(found) > MOST_PARTS:
-        raise InputError(f"{name} has {len(found)} entries: give {MOST_PARTS} at most")
+        raise inputs.faulty(name, f"has {len(found)} entries", f"give {MOST_PARTS} at most")
     if not (np.isfinite(found).all() and (found > 0.0).all()):
         raise inputs.rejected(name, values, "give masses above zero, kg")
     # Records make their arrays read-only: the caller's stay as they are.

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
@@ -65,10 +64,9 @@ def _checked(name: str, request: Request) -> Objective:
     """Return an objective that has a value for each sample."""
     found = objectives.named(name)
     if found.of_sweep is None:
-        raise InputError(
-            f'by = "{name}": has no value for each sample; give names such as '
-            + ", ".join(f'"{name}"' for name in objectives.COMMON[:3])
-        )
+        named = ", ".join(f'"{each}"' for each in objectives.COMMON[:3])
+        hint = f"has no value for each sample; give names such as {named}"
+        raise inputs.rejected("by", name, hint)
     if found.order is not None and found.order not in (request.orders or ()):
         hint = f'by = "{name}" needs order {found.order}'
         raise inputs.rejected("orders", list(request.orders or ()), hint)
@@ -77,7 +75,7 @@ def _checked(name: str, request: Request) -> Objective:
     return found
 
 
-class Tolerances(ByOrder):
+class Tolerances(ByOrder["NDArray[np.float64]"]):
     """Samples of an engine whose parts deviate: force, moment and torque, order by order.
 
     The quantities are those of a balance with the dimension ``sample`` first: ``t.force.peak`` is
@@ -157,10 +155,10 @@ class Tolerances(ByOrder):
         """Raise an InputError: samples have the orders and the plane that were given."""
         orders = check_request(request, "crankpin.tolerances").orders
         if orders == self.request.orders:
-            hint = "give the tolerances of engine.replace(reference_z=…)"
-            raise InputError(f"point: moments of samples are about the engine's plane; {hint}")
+            hint = "moments of samples are; give the tolerances of engine.replace(reference_z=…)"
+            raise inputs.faulty("point", "is not in the engine's plane", hint)
         known = labels.orders_text(self.orders)
-        raise InputError(f"orders = {orders}: is not among those of the samples ({known})")
+        raise inputs.rejected("orders", orders, f"is not among those of the samples ({known})")
 
     @property
     def spreads(self) -> Mapping[str, tuple[float, ...]]:
@@ -463,7 +461,7 @@ class Tolerances(ByOrder):
         """
         k = inputs.whole("sample", sample)
         if not 0 <= k < self.samples:
-            raise InputError(f"sample = {k}: give a number from 0 to {self.samples - 1}")
+            raise inputs.rejected("sample", k, f"give a number from 0 to {self.samples - 1}")
         pin_of = self.figures.pin_of
         by_name = {name: self.draws(name)[k] for name in FIGURES}
         radius, turn = by_name["crank_radius"][pin_of], by_name["pin_deg"][pin_of]

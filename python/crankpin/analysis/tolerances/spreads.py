@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import crankpins
@@ -62,13 +61,14 @@ class Spreads:
             )
             spreads = inputs.per_item(name, given[name], count)
             if len(spreads) != count:
-                raise InputError(
-                    f"{name} has {len(spreads)} entries, the engine has {count} {items}s: give one "
-                    f"number, or one for each {items}"
+                raise inputs.faulty(
+                    name,
+                    f"has {len(spreads)} entries, the engine has {count} {items}s",
+                    f"give one number, or one for each {items}",
                 )
             for spread in spreads:
                 if not (math.isfinite(spread) and spread >= 0.0):
-                    raise InputError(f"{name} = {spread!r}: give a spread that is zero or more")
+                    raise inputs.rejected(name, spread, "give a spread that is zero or more")
             values.append(tuple(spreads) if any(spreads) else ())
         return cls(tuple(values), word, groups)  # type: ignore[arg-type] # one of the two words
 
@@ -140,9 +140,11 @@ def _pins(engine: Engine, given: Iterable[Iterable[int]]) -> tuple[tuple[int, ..
     for pin in pins:
         angles = np.array([directions[number - 1] for number in pin])
         if not pin or (angles != angles[0]).any():
-            raise InputError(
-                f"pins = {inputs.shorten(pins)}: the crankpins of cylinders {inputs.shorten(pin)} "
-                "do not point the same way; give them pins of their own"
+            raise inputs.rejected(
+                "pins",
+                pins,
+                f"the crankpins of cylinders {inputs.shorten(pin)} do not point the same way; give "
+                "them pins of their own",
             )
     return pins
 

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
 from crankpin.analysis.balance import mean_piston_speed
@@ -142,7 +141,9 @@ def tolerances(
     }
     spreads = Spreads.checked(engine, given, distribution, pins)
     if not spreads.given:
-        raise InputError(f"no part deviates: give a spread, {', '.join(given)}")
+        first, value = next(iter(given.items()))
+        hint = f"no part deviates; give a spread, {', '.join(given)}"
+        raise inputs.rejected(first, value, hint)
     count, start = inputs.whole("samples", samples), _seed(seed)
     if not 1 <= count <= MOST_SAMPLES:
         raise inputs.rejected("samples", samples, f"give 1 to {MOST_SAMPLES}")

@@ -219,7 +219,7 @@ impl Degrees {
             Self::Number(degrees) => Angle::from_degrees(*degrees),
             Self::Text(text) => text.parse(),
         };
-        angle.map_err(|error| error.within(&format!("{argument}: ")))
+        angle.map_err(|error| error.named(argument))
     }
 }
 

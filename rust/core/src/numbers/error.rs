@@ -1,5 +1,7 @@
 //! What can be wrong with an input: the argument, its value, and what would be right.
 
+use std::borrow::Cow;
+
 use thiserror::Error;
 
 /// The result of anything that takes a caller's figures.
@@ -107,6 +109,23 @@ impl Error {
         self.renamed(|argument| format!("{place}{argument}"))
     }
 
+    /// Name of the argument, the value rejected where the message shows it, and the hint.
+    #[must_use]
+    pub fn fields(&self) -> Option<(&str, Option<&str>, Cow<'_, str>)> {
+        let (argument, value, hint) = match self {
+            Self::Value { argument, value, hint } => (argument.as_str(), Some(&**value), &**hint),
+            Self::Undefined { argument, reason } => (*argument, None, &**reason),
+            Self::NoTorque(reason) => ("torque", None, *reason),
+            Self::Length { argument, item, .. } => {
+                return Some((argument, None, format!("give one for each {item}").into()));
+            }
+            Self::TooLarge { argument, hint, .. } => (argument.as_str(), None, *hint),
+            Self::File { reason, .. } => ("engine file", None, &**reason),
+            Self::OutOfMemory { .. } | Self::Cancelled => return None,
+        };
+        Some((argument, value, hint.into()))
+    }
+
     fn renamed(self, name: impl FnOnce(&str) -> String) -> Self {
         match self {
             Self::Value { argument, value, hint } => {
@@ -136,6 +155,32 @@ pub(crate) fn shorten(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn messages_begin_with_the_argument_and_end_with_the_hint() {
+        let name = || "z".to_owned();
+        let errors = [
+            Error::figure("z", -1.0, "give 0 or more").within("placements[0]."),
+            Error::Undefined { argument: "z", reason: "it has none".into() },
+            Error::NoTorque("leave it out"),
+            Error::Length {
+                argument: name(),
+                found: 1,
+                reference: name(),
+                expected: 2,
+                item: "cylinder",
+            },
+            Error::TooLarge { argument: name(), bytes: 9, limit: 8, hint: "give fewer" },
+            Error::File { format: "TOML", reason: "line 1".into() },
+        ];
+        for error in errors {
+            let (argument, value, hint) = error.fields().unwrap();
+            let message = error.to_string();
+            assert!(message.starts_with(argument) && message.ends_with(&*hint), "{message}");
+            assert!(message.contains(value.unwrap_or("")));
+        }
+        assert_eq!(Error::Cancelled.fields(), None);
+    }
 
     #[test]
     fn shown_values_are_short_and_have_no_control_characters() {
