@@ -408,10 +408,24 @@ def test_a_rejected_value_is_answered_by_the_range(open_engine: Open) -> None:
     field.fill("1.2")
     field.press("Enter")
     assert field.input_value() == own
-    assert said.text_content() == "give 0.05–0.99"
+    assert said.text_content() == "give 0.05–0.7"
     field.fill("0.25")
     field.press("Enter")
     assert said.count() == 0
+
+
+def test_scripts_cannot_leave_the_range_of_rod_ratios(open_engine: Open) -> None:
+    page = open_engine(V8)
+    own = values(page)
+    for ratio in (0.04, 0.71):
+        said = page.evaluate(
+            """rod_ratio => {
+                try { crankpin.set({ rod_ratio, rpm: 5000 }); } catch (error) { return `${error}`; }
+            }""",
+            ratio,
+        )
+        assert said == f"RangeError: rod_ratio = {ratio}: give 0.05–0.7"
+    assert values(page) == own
 
 
 def test_dials_do_not_enlarge_what_is_negligible(open_engine: Open) -> None:

@@ -116,6 +116,7 @@ def test_wrong_settings_are_rejected_by_name() -> None:
         ("rpm", -1.0, r"^rpm = -1"),
         ("bank_angle_deg", 181.0, r"^bank_angle_deg = 181"),
         ("rod_ratio", 1.5, "the crank cannot turn"),
+        ("rod_ratio", 0.8, r"^rod_ratio = 0\.8: a page reaches 0\.05 to 0\.7$"),
     ]:
         before = getattr(widget, name)
         with pytest.raises(cp.InputError, match=message):

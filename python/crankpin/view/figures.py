@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,6 +14,7 @@ from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.explain import Explanation
 from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.request import engine_core
+from crankpin.view.terms import RodRatios, at_rod_ratio, kinds, listed_orders, terms
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -25,14 +27,14 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine, Hold
     from crankpin.model.shafts import Unbalance
 
-HIGHEST_ORDER = 24
-"""Highest order of the pistons whose phasors a page has."""
 CURVE_STEP = 2.0
 """Degrees between the samples of a curve."""
 IRREGULARITY = 0.01
 """Largest less smallest speed, over the mean, of a page whose moment of inertia is not given."""
 PRESSURE_STEP = 0.5
 """Degrees between the samples of a cycle, between which a page interpolates."""
+BLOCK = 50.0
+"""Mass of the block, which is not known, over that of the pistons: 90 kg for two litres."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -51,17 +53,18 @@ class Settings:
     @classmethod
     def of(cls, engine: Engine, rpm: float) -> Settings:
         """Return the settings that leave an engine as it is."""
-        ratios = {cylinder.rod_ratio for cylinder in engine.cylinders}
         return cls(
             rpm=inputs.number("rpm", rpm),
             bank_angle_deg=_bank_angle(engine),
-            rod_ratio=ratios.pop() if len(ratios) == 1 else None,
+            rod_ratio=RodRatios.of(engine).common,
         )
 
     def check(self, engine: Engine) -> None:
         """Raise an InputError if the engine does not allow these settings."""
         inputs.angular_speed(self.rpm)
         self.applied(engine)
+        if self.rod_ratio is not None:
+            RodRatios.of(engine).check(self.rod_ratio)
 
     def applied(self, engine: Engine) -> Engine:
         """Return the engine at these settings.
@@ -75,16 +78,8 @@ class Settings:
         changed = engine
         if self.bank_angle_deg is not None:
             changed = changed.with_bank_angle(self.bank_angle_deg, hold=self.hold)
-        if self.rod_ratio is None:
-            return changed
-        ratio = inputs.number("rod_ratio", self.rod_ratio)
-        cylinders = [
-            cylinder
-            if cylinder.rod_ratio == ratio
-            else cylinder.replace(rod_length=cylinder.crank_radius / ratio)
-            for cylinder in engine.cylinders
-        ]
-        return changed.replace(cylinder=cylinders)
+        ratio = None if self.rod_ratio is None else inputs.number("rod_ratio", self.rod_ratio)
+        return at_rod_ratio(changed, ratio)
 
 
 def figures(
@@ -105,16 +100,29 @@ def figures(
     Settings.of(engine, rpm).check(engine)
     inputs.warn_of_units(mean_piston_speed(engine, float(rpm)))
     pairs = inputs.spectrum(spectrum)
-    angle = _bank_angle(engine)
-    right = engine.bank_deg[next(iter(engine.banks.values()))[0] - 1]
+    banks = None if _bank_angle(engine) is None else [each["bank"] for each in _cylinders(engine)]
+    return {
+        **places(engine, rpm),
+        "terms": terms(engine, banks, pairs),
+        "block": _block(engine),
+        "gas": _gas(engine),
+        "loads": labels.in_words(labels.SPECTRUM_GIVEN if pairs else engine.loads_counted),
+        "flywheel": None if pairs is not None else _inertia(engine, float(rpm), inertia),
+        "compact": inputs.flag("compact", compact),
+        "sentences": [] if compact or pairs else Explanation(engine, float(rpm) or None).sentences,
+    }
+
+
+def places(engine: Engine, rpm: float) -> dict[str, Any]:
+    """Return what an engine is drawn from, and its settings."""
+    settings = Settings.of(engine, rpm)
     return {
         "name": engine.name,
         "strokes": engine.strokes,
-        "rpm": float(rpm),
+        "rpm": settings.rpm,
         "reference_z": engine.reference_z,
-        "highest_order": HIGHEST_ORDER,
-        "bank_angle_deg": angle,
-        "bisector_deg": None if angle is None else float(right) + 0.5 * angle,
+        "bank_angle_deg": settings.bank_angle_deg,
+        "rod_ratio": settings.rod_ratio,
         "cranks": [
             {"x": x, "y": y, "ratio": ratio} for x, y, ratio in engine_core(engine).cranks[0]
         ],
@@ -130,12 +138,6 @@ def figures(
             for shaft in engine.shafts
         ],
         "firing_deg": engine.firing().angles_deg.tolist() if engine.firing_order else None,
-        "gas": _gas(engine),
-        "loads": labels.in_words(labels.SPECTRUM_GIVEN if pairs else engine.loads_counted),
-        "flywheel": None if pairs is not None else _inertia(engine, float(rpm), inertia),
-        "compact": inputs.flag("compact", compact),
-        "sentences": [] if compact or pairs else Explanation(engine, float(rpm) or None).sentences,
-        "spectrum": None if pairs is None else [[n, _pair(a)] for n, a in pairs],
     }
 
 
@@ -147,10 +149,7 @@ def core_numbers(
     In the form in which the page computes its own: forces in N, moments and torques in N·m.
     """
     changed = settings.applied(engine)
-    cranks = {abs(ratio) for _, _, ratio in engine_core(engine).cranks[0]}
-    shafts = {abs(shaft.ratio) for shaft in engine.shafts}
-    given = {order * ratio for order in spectrum or () for ratio in cranks}
-    orders = sorted({*range(1, HIGHEST_ORDER + 1), *shafts, *given})
+    orders = listed_orders(engine, spectrum)
     balance = changed.balance(settings.rpm, orders=orders, spectrum=spectrum, torque=False)
     turns = 180.0 * changed.strokes if changed.fired else 360.0
     waveform = changed.waveform(
@@ -212,6 +211,17 @@ def _speeds(
     return speeds
 
 
+def _block(engine: Engine) -> dict[str, float] | None:
+    """Return mass, kg, and inertia, kg·m², of a bar that stands for the block; None without a mass.
+
+    It is as tall as a crank with its rod, and half of that longer than the cylinders at either end.
+    """
+    mass = BLOCK * sum(cylinder.reciprocating_mass for cylinder in engine.cylinders)
+    height = max(2.0 * each.crank_radius + each.rod_length for each in engine.cylinders)
+    length = float(np.ptp(engine.z)) + height
+    return {"mass": mass, "inertia": mass * (length**2 + height**2) / 12.0} if mass else None
+
+
 def _gas(engine: Engine) -> dict[str, Any] | None:
     """Return the pressures of each cycle over its period, the first repeated at the end."""
     if engine.cycles is None:
@@ -229,34 +239,39 @@ def _distinct_cycles(engine: Engine) -> list[Cycle]:
 def _cylinders(engine: Engine) -> list[dict[str, Any]]:
     cycles = engine.cycles or (None,) * len(engine)
     starts = engine.firing_deg.tolist() if engine.cycles else cycles
-    places = {each: k for k, each in enumerate(_distinct_cycles(engine))}
+    numbered = {each: k for k, each in enumerate(_distinct_cycles(engine))}
+    swept = kinds(engine)
     banks = {number: k for k, bank in enumerate(engine.banks.values()) for number in bank}
-    cranks = engine_core(engine).cranks[1]
+    cranks, crank_of = engine_core(engine).cranks
     return [
         {
             "number": number,
             "bank": banks[number],
-            "crank": cranks[number - 1],
+            "crank": crank_of[number - 1],
             "crank_radius": cylinder.crank_radius,
             "rod_length": cylinder.rod_length,
-            "reciprocating_mass": cylinder.reciprocating_mass,
             "pin_offset": cylinder.pin_offset,
-            "rod_inertia_excess": cylinder.rod_inertia_excess,
-            "rotating_mass": rotating,
             "tdc_deg": tdc,
             "bank_deg": bore,
             "z": z,
-            "bore": cylinder.bore,
-            "cycle": None if cycle is None else places[cycle],
-            "pressure_deg": start,
+            "cycle": None if cycle is None else numbered[cycle],
+            **(
+                {}
+                if cycle is None
+                else {
+                    "pressure_deg": start,
+                    "swept": swept.index(cylinder),
+                    # On a crank that turns the other way the torque on the block is the mirror's.
+                    "roll": math.copysign(1.0, cranks[crank_of[number - 1]][2]),
+                }
+            ),
         }
-        for number, (cylinder, tdc, bore, z, rotating, cycle, start) in enumerate(
+        for number, (cylinder, tdc, bore, z, cycle, start) in enumerate(
             zip(
                 engine.cylinders,
                 engine.tdc_deg.tolist(),
                 engine.bank_deg.tolist(),
                 engine.z.tolist(),
-                engine.rotating_mass.tolist(),
                 cycles,
                 starts,
                 strict=True,

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from crankpin._support import files, inputs
 from crankpin.model import presets
-from crankpin.view.figures import figures
+from crankpin.view.figures import figures, places
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -61,23 +61,23 @@ def save_gallery(folder: str | Path, *, rpm: float = 3000.0) -> list[Path]:
     rpm
         Crank speed of the pages; engines of the e-book, of one metre crank radius, run at 10.
     """
-    place = Path(folder)
-    place.mkdir(parents=True, exist_ok=True)
+    root = Path(folder)
+    root.mkdir(parents=True, exist_ok=True)
     listed: list[dict[str, Any]] = []
     pages = []
     for name, engine in presets.presets().items():
         speed = speed_of(name, rpm)
-        file = place / f"{name}.html"
+        file = root / f"{name}.html"
         save_html(engine, file, rpm=speed)
         listed.append(
             {
                 "href": file.name,
-                "figures": figures(engine, speed, spectrum=None, compact=True),
+                "figures": places(engine, speed),
                 "description": presets.presets().descriptions[name],
             }
         )
         pages.append(file)
-    index = place / "index.html"
+    index = root / "index.html"
     call = f"gallery({as_json(listed)});"
     text = document("Engines", ("gallery.mjs",), call, styles=["gallery"], body=GALLERY_HEAD)
     files.write(index, text)

@@ -5,7 +5,6 @@ export const DEGREE = Math.PI / 180;
 export const add = ([a, b], [c, d]) => [a + c, b + d];
 export const multiply = ([a, b], [c, d]) => [a * c - b * d, a * d + b * c];
 export const scale = ([a, b], factor) => [a * factor, b * factor];
-export const conjugate = ([a, b]) => [a, -b];
 export const magnitude = ([a, b]) => Math.hypot(a, b);
 
 /** e^{i·angle}, exact at multiples of 90° and as accurate at large angles as at small ones. */

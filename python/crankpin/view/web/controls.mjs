@@ -1,7 +1,6 @@
 // The reader's controls: the crank angle and how it plays, and the engine's settings.
 
 import { fixed, html, numbered, show, svg } from "./dom.mjs";
-import { rodRatioLimits } from "./engine.mjs";
 import { STRINGS } from "./strings.mjs";
 
 /** Exaggerations of the rocking; the first is none. */
@@ -89,7 +88,7 @@ export class Settings {
   constructor(view) {
     this.view = view;
     const { figures } = view;
-    const [least, most] = rodRatioLimits(figures);
+    const [least, most] = figures.terms.rod_ratios;
     // Cars' engines reach 8000 rpm, slow ones half as much again as they are shown at first.
     const slow = figures.rpm > 0 && figures.rpm < 1000;
     const fastest = slow ? 1.5 * figures.rpm : Math.max(1.5 * figures.rpm, 8000);

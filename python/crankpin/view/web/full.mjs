@@ -4,12 +4,11 @@ import { scale, unit } from "./complex.mjs";
 import { choice } from "./controls.mjs";
 import { html, numbered, show } from "./dom.mjs";
 import { Ends } from "./ends.mjs";
-import { ownSettings } from "./engine.mjs";
 import { roundBelow, scaleFor, short } from "./format.mjs";
 import { frames } from "./frames.mjs";
-import { pressureAt } from "./gas.mjs";
 import { legend, panel, region, section } from "./panels.mjs";
 import { Phasors } from "./phasors.mjs";
+import { ownSettings } from "./places.mjs";
 import { displacement, largestDisplacement, rocking } from "./rocking.mjs";
 import { Scene } from "./scene.mjs";
 import { Sentences } from "./sentences.mjs";
@@ -112,9 +111,9 @@ export class Full extends View {
   }
 
   layoutRocking() {
-    const { state, engine, scenes } = this;
+    const { figures, state, scenes } = this;
     const chosen = this.shown.filter(({ order }) => !state.still.has(order));
-    this.rocking = rocking(engine, chosen);
+    this.rocking = rocking(figures, state, chosen);
     const { ends, radius } = scenes[2].dimensions;
     const largest = Math.max(...ends.map((z) => largestDisplacement(this.rocking, z)));
     if (state.exaggeration === null) {
@@ -133,7 +132,7 @@ export class Full extends View {
 
   layoutTimeline() {
     const about = (most) => [-most, most];
-    const { curve, engine, peaks: largest, readouts: { scales } } = this;
+    const { curve, numbers, peaks: largest, readouts: { scales } } = this;
     const component = (quantity, k) => ({
       name: "xy"[k], label: STRINGS.components[quantity][k],
       samples: curve[quantity].map((each) => each[k]), value: (pose) => pose[quantity][k],
@@ -144,8 +143,9 @@ export class Full extends View {
       missing: largest[quantity] ? "" : STRINGS.balanced,
     }));
     const known = curve.torque[0] !== null;
-    const span = engine.gas ? engine.cycle : 360;
-    const torques = engine.gas && known ? ["gas", "inertia", "torque"] : ["torque"];
+    const { span } = numbers;
+    const fired = this.figures.gas && known;
+    const torques = fired ? ["gas", "inertia", "torque"] : ["torque"];
     histories.push({
       title: STRINGS.torque, scale: scales.torque,
       range: about(torques.length > 1
@@ -156,22 +156,22 @@ export class Full extends View {
       })),
       missing: known ? (largest.torque ? "" : STRINGS.balanced) : STRINGS.noTorque,
     });
-    if (engine.gas && known) histories.push(this.pressures(span), this.crankSpeed(span));
+    if (fired) histories.push(this.pressures(span), this.crankSpeed(span));
     this.timeline.layout(this.engine, histories, Math.max(this.width, 300));
   }
 
   /** The history of the pressures in all cylinders. */
   pressures(span) {
-    const { cylinders } = this.engine;
-    const fired = cylinders.flatMap(({ gas }, k) => (gas ? [k] : []));
-    const largest = Math.max(...fired.flatMap((k) => cylinders[k].gas.samples));
+    const { numbers } = this;
+    const fired = numbers.gas.flatMap((cylinder, k) => (cylinder ? [k] : []));
+    const largest = Math.max(...fired.flatMap((k) => numbers.gas[k].samples));
     const angles = Array.from({ length: span / 2 + 1 }, (_, k) => 2 * k);
     return {
       title: STRINGS.pressure, range: [0, largest], missing: "",
       scale: scaleFor(largest, STRINGS.units.pressure),
       curves: fired.map((k) => ({
-        name: "pressure", span, value: (pose) => pose.cylinders[k].pressure,
-        samples: angles.map((angle) => pressureAt(cylinders[k].gas, angle)),
+        name: "pressure", span, value: (pose) => pose.pressures[k],
+        samples: angles.map((angle) => numbers.pressureAt(numbers.gas[k], angle)),
       })),
     };
   }

@@ -4,7 +4,7 @@ import { add, magnitude, multiply } from "./complex.mjs";
 import { fixed, html, numbered, show } from "./dom.mjs";
 import { scaleFor } from "./format.mjs";
 import { longest } from "./orders.mjs";
-import { turnedBy } from "./pose.mjs";
+import { turnedBy } from "./series.mjs";
 import { STRINGS } from "./strings.mjs";
 import { Dial } from "./vectors.mjs";
 

@@ -1,29 +1,20 @@
 // Motion of the engine as a free rigid body, order by order.
-//
-// A body of mass M moves against a force of order n by −F/(M·n²ω²), and tilts against a moment by
-// −M/(J·n²ω²). Neither mass nor inertia of the block is known: it is taken as a uniform bar of 50
-// times the reciprocating masses (90 kg for an inline-4 of two litres), which reaches half a height
-// beyond the outer cylinders.
 
 import { add, magnitude, multiply, scale } from "./complex.mjs";
-import { angularSpeed, turnedBy } from "./pose.mjs";
+import { angularSpeed } from "./numbers.mjs";
+import { turnedBy } from "./series.mjs";
 
-const MASS_RATIO = 50;
-
-/** Displacement phasors of the crank axis, of the orders given. */
-export function rocking({ cylinders, reference, settings }, orders) {
-  const square = angularSpeed(settings.rpm) ** 2;
-  const mass = MASS_RATIO * cylinders.reduce((sum, each) => sum + each.reciprocating_mass, 0);
-  if (!square || !mass) return { parts: [], reference };
-  const places = cylinders.map((each) => each.z);
-  const height = Math.max(...cylinders.map((each) => 2 * each.crank_radius + each.rod_length));
-  const length = Math.max(...places) - Math.min(...places) + height;
-  const inertia = (mass * (length ** 2 + height ** 2)) / 12;
+/** Displacement phasors of the crank axis, of the orders given; `block` is a body that moves against its loads. */
+export function rocking({ block, reference_z: reference }, { rpm }, orders) {
+  const square = angularSpeed(rpm) ** 2;
+  if (!square || !block) return { parts: [], reference };
   const parts = orders.map(({ order, force, moment }) => {
+    // Accelerations integrated twice over time.
+    const twice = 1 / (order ** 2 * square);
     const both = (key) => ({
-      shift: scale(force[key], -1 / (mass * order ** 2 * square)),
+      shift: scale(force[key], -twice / block.mass),
       // A tilt φ moves a place z by −i·(z − z₀)·φ.
-      tilt: multiply([0, 1], scale(moment[key], 1 / (inertia * order ** 2 * square))),
+      tilt: multiply([0, 1], scale(moment[key], twice / block.inertia)),
     });
     return { order, forward: both("forward"), backward: both("backward") };
   });

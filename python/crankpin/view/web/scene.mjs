@@ -85,13 +85,13 @@ export class Scene {
 
   // Each part is an element, how it is laid out (which returns its depth), and how it is posed.
 
-  parts({ cylinders, shafts, unbalances }) {
+  parts({ cylinders, shafts, weights }) {
     const gaps = new Set(cylinders.map((each) => each.z)).size + 1;
     return [
       ...cylinders.flatMap((_, k) => [this.bore(k), this.throw(k), this.rod(k), this.piston(k)]),
       ...Array.from({ length: gaps }, (_, k) => this.journal(k)),
       ...shafts.map((_, k) => this.shaft(k)),
-      ...unbalances.flatMap(({ kind }, k) => (kind === "pin" ? [] : [this.weight(k)])),
+      ...weights.map((_, k) => this.weight(k)),
     ];
   }
 
@@ -258,10 +258,10 @@ export class Scene {
     return {
       kind: "weight",
       element,
-      layout: ({ unbalances }) => {
-        const { kind, amount } = unbalances[k];
+      layout: ({ weights }) => {
+        const { kind, amount } = weights[k];
         const { radius, largestWeight } = this.dimensions;
-        ({ axis, z } = unbalances[k]);
+        ({ axis, z } = weights[k]);
         const size = (kind === "shaft" ? SHAFT_WEIGHT : WEIGHT) * radius;
         // The area of the picture goes with the unbalance.
         reach = size * Math.sqrt(amount / largestWeight[kind] || 0);
@@ -302,17 +302,16 @@ class Bar {
 }
 
 function dimensions(engine) {
-  const { cylinders, unbalances } = engine;
+  const { cylinders, weights } = engine;
   const radius = Math.max(...cylinders.map((each) => each.crank_radius));
   const places = [...new Set(cylinders.map((each) => each.z))].sort((a, b) => a - b);
   const stretch = stretchAlong(engine);
   const gaps = places.slice(1).map((z, k) => z - places[k]);
   const halfThrow = 0.3 * Math.min(BORE * radius / stretch, ...gaps);
   const overhang = (0.75 * BORE * radius) / stretch;
-  const others = unbalances.filter(({ kind }) => kind !== "pin");
-  const all = [...places, ...others.map((each) => each.z)];
+  const all = [...places, ...weights.map((each) => each.z)];
   const largestWeight = {};
-  for (const { kind, amount } of others) {
+  for (const { kind, amount } of weights) {
     largestWeight[kind] = Math.max(largestWeight[kind] ?? 0, amount);
   }
   const ends = [Math.min(...all) - overhang, Math.max(...all) + overhang];

@@ -1,6 +1,6 @@
 // Speed of a fired engine's crank over a cycle, with a flywheel.
 
-import { angularSpeed } from "./pose.mjs";
+import { angularSpeed } from "./numbers.mjs";
 
 /** Steps of Newton's method, which doubles the digits with each. */
 const ITERATIONS = 50;
@@ -14,8 +14,8 @@ const SLOWEST = 1e-4;
  * The first integral ½·J(θ)·ω² = E + ∫(T − mean)dθ, where T is the torque of the gas on the crank, J has
  * pistons and rods, and E makes the mean speed that of turns over time.
  */
-export function speeds({ flywheel, cycle, settings }, { driving, moving }) {
-  const mean = angularSpeed(settings.rpm);
+export function speeds({ driving, moving }, { flywheel, rpm, cycle }) {
+  const mean = angularSpeed(rpm);
   if (flywheel === null || mean === 0) return null;
   const count = driving.length - 1;
   const step = (cycle * Math.PI) / 180 / count;
@@ -44,7 +44,7 @@ export function speeds({ flywheel, cycle, settings }, { driving, moving }) {
     energy += more;
     if (Math.abs(more) <= 1e-14 * inertia[0] * mean ** 2) break;
   }
-  return work.map((done, k) => (Math.sqrt((2 * (energy + done)) / inertia[k]) * settings.rpm) / mean);
+  return work.map((done, k) => (Math.sqrt((2 * (energy + done)) / inertia[k]) * rpm) / mean);
 }
 
 /** The value at an angle between samples over a cycle, by the cubic through the four about it. */

@@ -1,6 +1,5 @@
 // One turn of the crank: the curves that are drawn, and how far they reach.
 
-import { angularSpeed, poseAt } from "./pose.mjs";
 import { speeds } from "./speed.mjs";
 
 /** Degrees between the samples of a curve. */
@@ -13,47 +12,23 @@ const NOISE = 1e-11;
 const BETWEEN = 0.03;
 
 /** Forces, moments, torques and speeds of a turn, its last sample that of the first; with gas of a cycle. */
-export function turn(engine, orders) {
-  const curve = { force: [], moment: [], torque: [], inertia: [], gas: [], driving: [], moving: [] };
-  for (let theta = 0; theta <= (engine.gas ? engine.cycle : 360); theta += STEP) {
-    const pose = poseAt(engine, orders, theta);
-    const { force, moment, torque, inertia, gas, driving, moving } = pose;
-    if (theta <= 360) {
-      curve.force.push(force);
-      curve.moment.push(moment);
-    }
-    curve.torque.push(torque);
-    curve.inertia.push(inertia);
-    curve.gas.push(gas);
-    curve.driving.push(driving);
-    curve.moving.push(moving);
-  }
-  return { ...curve, speed: speeds(engine, curve) };
-}
-
-/** Bounds of what the cylinders make one by one, at order 1. */
-export function sizes({ cylinders, reference, settings }) {
-  const square = angularSpeed(settings.rpm) ** 2;
-  const size = (lever) => cylinders.reduce((sum, each) => sum + square * each.ratio ** 2 * lever(each)
-    * (each.reciprocating_mass + each.rotating_mass) * each.crank_radius, 0);
-  return {
-    force: size(() => 1),
-    moment: size(({ z }) => Math.abs(z) + Math.abs(reference)),
-    torque: size(({ crank_radius: r, axis }) => r + Math.hypot(...axis)) + cylinders.reduce((sum, { gas, crank_radius: r }) =>
-      sum + (gas ? Math.max(...gas.samples) * gas.area * r : 0), 0),
-  };
+export function turn(numbers, flywheel, rpm) {
+  const samples = Array.from({ length: numbers.span / STEP + 1 }, (_, k) => numbers.at(k * STEP));
+  const curve = Object.fromEntries(["force", "moment", "torque", "inertia", "gas", "driving", "moving"]
+    .map((name) => [name, samples.map((each) => each[name])]));
+  for (const name of ["force", "moment"]) curve[name].length = 360 / STEP + 1;
+  return { ...curve, speed: speeds(curve, { flywheel, rpm, cycle: numbers.cycle }) };
 }
 
 /** Longest force and moment and largest torque of a turn; zero if they are rounding. */
-export function peaks(engine, orders, { force, moment, torque }) {
-  const whole = sizes(engine);
+export function peaks(numbers, { force, moment, torque }) {
   const length = ([x, y]) => Math.hypot(x, y);
-  const at = (value) => (theta) => value(poseAt(engine, orders, theta));
-  const above = (quantity, value) => (value > NOISE * whole[quantity] ? value : 0);
+  const at = (value) => (theta) => value(numbers.at(theta));
+  const above = (quantity, value) => (value > NOISE * numbers.whole[quantity] ? value : 0);
   return {
-    force: above("force", peak(force.map(length), at((pose) => length(pose.force)))),
-    moment: above("moment", peak(moment.map(length), at((pose) => length(pose.moment)))),
-    torque: above("torque", peak(torque.map(Math.abs), at((pose) => Math.abs(pose.torque)))),
+    force: above("force", peak(force.map(length), at((loads) => length(loads.force)))),
+    moment: above("moment", peak(moment.map(length), at((loads) => length(loads.moment)))),
+    torque: above("torque", peak(torque.map(Math.abs), at((loads) => Math.abs(loads.torque)))),
   };
 }
 

@@ -2,15 +2,15 @@
 
 import { reduced } from "./complex.mjs";
 import { Settings, Transport } from "./controls.mjs";
-import { configure, ownSettings, strokesAt } from "./engine.mjs";
 import { Handle } from "./handle.mjs";
 import { Header } from "./header.mjs";
-import { phasors, shown } from "./orders.mjs";
+import { Numbers } from "./numbers.mjs";
+import { shown } from "./orders.mjs";
+import { configure, ownSettings, placesAt, strokesAt } from "./places.mjs";
 import { Player } from "./player.mjs";
-import { poseAt } from "./pose.mjs";
 import { Readouts } from "./readouts.mjs";
 import { between, extremeValues } from "./speed.mjs";
-import { peaks, sizes, turn } from "./turn.mjs";
+import { peaks, turn } from "./turn.mjs";
 import { STRINGS } from "./strings.mjs";
 
 /** Orders that are shown at most. */
@@ -57,6 +57,10 @@ export class View {
 
   /** Change entries of the state; everything that is shown follows before this returns. */
   set(changes) {
+    const [least, most] = this.figures.terms.rod_ratios;
+    if (changes.rod_ratio < least || changes.rod_ratio > most) {
+      throw new RangeError(`rod_ratio = ${changes.rod_ratio}: ${STRINGS.give} ${least}–${most}`);
+    }
     const changed = Object.keys(changes).filter((key) => changes[key] !== this.state[key]);
     if (!changed.length) return;
     Object.assign(this.state, changes);
@@ -100,15 +104,16 @@ export class View {
   configure(looksTheSame = false) {
     const { state } = this;
     this.engine = configure(this.figures, state);
+    this.numbers = new Numbers(this.figures, state);
     const core = this.core && SETTINGS.every((key) => this.core.settings[key] === state[key])
       ? this.core : null;
-    this.orders = core ? core.orders : phasors(this.engine, this.figures.highest_order);
-    this.curve = core ? core.curve : turn(this.engine, this.orders);
-    this.peaks = peaks(this.engine, this.orders, this.curve);
+    this.orders = core ? core.orders : this.numbers.orders;
+    this.curve = core ? core.curve : turn(this.numbers, this.figures.flywheel, state.rpm);
+    this.peaks = peaks(this.numbers, this.curve);
     this.readouts.layout(this.peaks);
     const { speed } = this.curve;
     this.speeds = speed && extremeValues(speed);
-    this.readouts.layoutSpeed(this.speeds, state.rpm, this.engine.flywheel);
+    this.readouts.layoutSpeed(this.speeds, state.rpm, this.figures.flywheel);
     this.shown = shown(this.orders, MOST_ORDERS);
     if (!looksTheSame) {
       this.scenes.forEach((scene) => scene.layout(this.engine));
@@ -116,14 +121,14 @@ export class View {
     }
     this.transport.layout(this.engine);
     this.header.layout(this.engine, ownSettings(this.figures));
-    this.layout(sizes(this.engine));
+    this.layout(this.numbers.whole);
     this.transport.showSettings(state);
   }
 
   pose() {
-    const { curve: { speed }, engine, state } = this;
+    const { curve: { speed }, engine, numbers, state } = this;
     const { angle_deg: angle } = state;
-    const pose = poseAt(engine, this.orders, angle);
+    const pose = { ...placesAt(engine, angle), ...numbers.at(angle) };
     const within = reduced(angle, engine.cycle);
     if (speed) pose.speed = between(speed, engine.cycle, within);
     this.last = pose;

@@ -1,0 +1,405 @@
+"""Numbers of a page: the library's terms of each order, as polynomials in the rod ratio."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from crankpin import _core
+from crankpin._support import inputs
+from crankpin.analysis.request import engine_core
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+
+    from numpy.typing import NDArray
+
+    from crankpin.model.cylinder import Cylinder
+    from crankpin.model.engine import Engine
+
+HIGHEST_ORDER = 24
+"""Highest order of the pistons whose phasors a page has."""
+LEAST_ROD_RATIO, LARGEST_ROD_RATIO = 0.05, 0.7
+"""Rod ratios that a page reaches, besides the engine's own: of 20 crank radii to 1.4."""
+TURNING = 0.9
+"""Part of the largest rod ratio at which the crank turns that a page reaches at most."""
+ROUNDING = 1e-13
+"""Sums and coefficients below this part of what they are added to are rounding, and left out."""
+REST = 1e-12
+"""Orders of which a cylinder's terms are below this part of its largest are left out."""
+MOST_ORDERS = 384
+"""Orders that are enough, but for rods hardly longer than their crank; at most twice as many."""
+FEWEST_POINTS, MOST_POINTS = 16, 512
+"""Rod ratios at which terms are computed: twice as many until their polynomials have converged."""
+DIGITS = 13
+"""Decimals of values of parts that stand still."""
+ONE_RADIAN_PER_SECOND = 1.0 / _core.angular_speed(1.0)
+"""Speed, rpm, at which loads of inertia are those over the square of the speed."""
+PLANAR = ("force", "moment")
+
+Complex: TypeAlias = "NDArray[np.complex128]"
+Real: TypeAlias = "NDArray[np.float64]"
+Row: TypeAlias = "list[Any]"
+"""Order, power, polynomial, values of groups, and the factor at the engine's own rod ratios.
+
+A term of a group is its values times a factor, q to the power times a sum of Chebyshev's
+polynomials."""
+
+
+@dataclasses.dataclass(frozen=True)
+class RodRatios:
+    """Rod ratios that a page reaches, and the variable of its polynomials.
+
+    The variable q is the tangent of half the rod's largest swing: harmonic n of a piston is qⁿ⁻¹
+    times a series in q² that converges wherever the crank turns.
+    """
+
+    least: float
+    most: float
+    turning: float
+    """Rod ratio below which the crank turns."""
+    common: float | None
+    """The engine's own, of all cylinders; None while they differ."""
+
+    @classmethod
+    def of(cls, engine: Engine) -> RodRatios:
+        """Return those of an engine, whose own is among them."""
+        own = {cylinder.rod_ratio for cylinder in engine.cylinders}
+        offset = max(abs(each.pin_offset) / each.crank_radius for each in engine.cylinders)
+        turning = 1.0 / (1.0 + offset)
+        common = own.pop() if len(own) == 1 else None
+        most = math.floor(1e3 * min(LARGEST_ROD_RATIO, TURNING * turning)) / 1e3
+        if common is None:
+            return cls(min(LEAST_ROD_RATIO, 0.9 * most), most, turning, common)
+        most = max(most, common)
+        return cls(min(LEAST_ROD_RATIO, 0.9 * most, common), most, turning, common)
+
+    def check(self, ratio: float) -> None:
+        """Raise an InputError if a page does not reach a rod ratio."""
+        if not self.least <= ratio <= self.most:
+            hint = f"a page reaches {self.least:.6g} to {self.most:.6g}"
+            raise inputs.rejected("rod_ratio", ratio, hint)
+
+    def points(self, count: int) -> tuple[Real, Real]:
+        """Return Chebyshev's points in q, ascending, and the rod ratios there."""
+        low, high = np.tan(0.5 * np.arcsin(np.array([self.least, self.most]) / self.turning))
+        q = low + 0.5 * (high - low) * (1.0 + chebyshev.chebpts1(count))
+        ratios = self.turning * np.sin(2.0 * np.arctan(q))
+        return q, np.clip(ratios, self.least, self.most)
+
+
+def at_rod_ratio(engine: Engine, ratio: float | None) -> Engine:
+    """Return the engine with a rod ratio of all cylinders; None leaves it as it is."""
+    if ratio is None:
+        return engine
+    changed = {
+        cylinder: cylinder
+        if cylinder.rod_ratio == ratio
+        else cylinder.replace(rod_length=cylinder.crank_radius / ratio)
+        for cylinder in set(engine.cylinders)
+    }
+    return engine.replace(cylinder=[changed[cylinder] for cylinder in engine.cylinders])
+
+
+def listed_orders(engine: Engine, spectrum: Iterable[int] | None) -> list[int]:
+    """Return the orders whose phasors a page has: of pistons, of a spectrum, and of shafts."""
+    shafts = {abs(shaft.ratio) for shaft in engine.shafts}
+    given = {order * speed for order in spectrum or () for speed in _speeds(engine)}
+    return sorted({*range(1, HIGHEST_ORDER + 1), *shafts, *given})
+
+
+def terms(
+    engine: Engine, banks: Sequence[int] | None, pairs: Sequence[tuple[int, complex]] | None
+) -> dict[str, Any]:
+    """Return the terms of an engine as a page has them, over the square of the crank's speed.
+
+    ``planar`` has forward and backward parts of force and moment; ``torque`` the roll torque and,
+    of a fired engine, the moment of inertia of pistons and rods as seen from the crank; ``swept``,
+    of each kind of cylinder with pressure, the volume that its piston adds per radian past its top
+    dead centre; ``sizes`` what the cylinders make one by one. Complex values are pairs.
+
+    Parameters
+    ----------
+    engine
+        Engine at its own settings.
+    banks
+        Bank of each cylinder, 0 or 1, of an engine whose bank angle changes: each is a group, and
+        what stands still is the third. None makes one group of all parts.
+    pairs
+        Spectrum in place of the pistons' own amplitudes; no torque follows from it.
+    """
+    ratios = RodRatios.of(engine)
+    sampler = _Sampler(engine, banks, pairs, _orders(engine, ratios, pairs))
+    own = sampler.moving(None) if ratios.common is None else None
+    count = FEWEST_POINTS if pairs is None else 1
+    while True:
+        q, points = ratios.points(count)
+        sampled = [sampler.moving(ratio) for ratio in points.tolist()]
+        fitted = {
+            name: _factored(
+                table,
+                np.stack([each[name].values for each in sampled]),
+                q,
+                None if own is None else own[name].values,
+            )
+            for name, table in sampled[0].items()
+        }
+        if count in (1, MOST_POINTS) or all(enough for _, enough in fitted.values()):
+            break
+        count *= 2
+    standing = sampler.standing()
+    tables = {name: rows + standing.get(name, []) for name, (rows, _) in fitted.items()}
+    return {
+        "rod_ratios": [ratios.least, ratios.most, ratios.turning],
+        "planar": tables.pop("planar"),
+        "torque": tables.pop("torque", None),
+        "swept": list(tables.values()),
+        "sizes": _sizes(engine),
+        "orders": listed_orders(engine, None if pairs is None else [n for n, _ in pairs]),
+    }
+
+
+def kinds(engine: Engine) -> list[Cylinder]:
+    """Return the kinds of cylinders with pressure, in the order of ``swept``."""
+    fired = zip(engine.cylinders, engine.cycles or (), strict=bool(engine.cycles))
+    return list(dict.fromkeys(cylinder for cylinder, cycle in fired if cycle is not None))
+
+
+@dataclasses.dataclass(frozen=True)
+class _Table:
+    """Values by order, group and component at one rod ratio."""
+
+    orders: Sequence[int]
+    powers: Sequence[int]
+    """Powers of q with which orders begin."""
+    values: Real
+    relative: bool = False
+    """Whether every order is precise in itself, and not only in the sum of all."""
+
+
+class _Sampler:
+    """Terms of an engine at different rod ratios, summed over groups of parts."""
+
+    def __init__(
+        self,
+        engine: Engine,
+        banks: Sequence[int] | None,
+        pairs: Sequence[tuple[int, complex]] | None,
+        orders: list[int],
+    ) -> None:
+        self.engine = engine
+        self.banks = banks
+        self.pairs = pairs
+        self.orders = orders
+        self.fired = engine.cycles is not None and pairs is None
+        # Orders of the fastest crank that has them, whose harmonics begin with the lowest power.
+        self.multiples = [
+            min((n // each for each in _speeds(engine) if n % each == 0), default=n) for n in orders
+        ]
+
+    def moving(self, ratio: float | None) -> dict[str, _Table]:
+        """Return the terms of the cylinders at a rod ratio; None leaves each its own."""
+        core = _cylinders(self.engine, ratio)
+        tables = self._tables(core, cylinders=True)
+        if not self.fired:
+            return tables
+        orders = range(1, self.orders[-1] + 1)
+        powers = [min(n, HIGHEST_ORDER) - 1 for n in orders]
+        for cylinder in kinds(self.engine):
+            place = self.engine.cylinders.index(cylinder)
+            amplitudes = _core.cylinder_harmonics(core.cylinders[place], orders)
+            area = 0.25 * math.pi * (cylinder.bore or 0.0) ** 2
+            # The volume added per radian is the integral of the piston's acceleration.
+            swept = area * cylinder.crank_radius * 1j * amplitudes / np.array(orders)
+            tables[f"swept {place}"] = _Table(orders, powers, swept[:, None, None].view(float))
+        torque, mean = tables["torque"], np.zeros((1, 3, 4))
+        mean[0, 0, 2] = _mean_inertia(core)
+        values = np.concatenate([mean, torque.values])
+        tables["torque"] = _Table([0, *torque.orders], [0, *torque.powers], values)
+        return tables
+
+    def standing(self) -> dict[str, list[Row]]:
+        """Return the rows of counterweights and shafts, which no rod moves."""
+        return {
+            name: [
+                [order, 0, [1], _parts(values, DIGITS), 1]
+                for order, values in zip(table.orders, table.values, strict=True)
+                if values.any()
+            ]
+            for name, table in self._tables(
+                engine_core(self.engine).without_cycles(), cylinders=False
+            ).items()
+        }
+
+    def _tables(self, core: _core.Engine, *, cylinders: bool) -> dict[str, _Table]:
+        torque, plane = self.pairs is None, self.engine.reference_z
+        parts = [
+            (self._group(name, index), part)
+            for name, index, part in _core.terms(
+                core, ONE_RADIAN_PER_SECOND, self.orders, plane, self.pairs, torque, (0.0, 0.0)
+            )
+            if (name == "cylinder") == cylinders
+        ]
+        powers = [0 if self.pairs else min(n, HIGHEST_ORDER) - 1 for n in self.multiples]
+        planar = self._summed(parts, _planar)
+        tables = {"planar": _Table(self.orders, powers, planar, relative=True)}
+        if torque:
+            read = self._both if self.fired else _roll
+            powers = [max(0, power - 1) for power in powers]
+            tables["torque"] = _Table(self.orders, powers, self._summed(parts, read))
+        return tables
+
+    def _group(self, name: str, index: int) -> int:
+        if self.banks is None:
+            return 0
+        if name == "cylinder":
+            return self.banks[index]
+        pin = self.engine.counterweights[index].pin if name == "counterweight" else None
+        return 2 if pin is None else self.banks[pin - 1]
+
+    def _both(self, part: _core.Balance) -> Complex:
+        """Return roll torque and moment of inertia: the crank's torque is −½ of its slope."""
+        crank = part.phasors("crank_torque.inertia", turning=False)
+        return np.concatenate([_roll(part), 2j * crank[:, None] / np.c_[self.orders]], axis=1)
+
+    def _summed(
+        self, parts: list[tuple[int, _core.Balance]], read: Callable[[_core.Balance], Complex]
+    ) -> Real:
+        """Return the sums of groups by order: what cancels within a group is zero."""
+        if not parts:
+            return np.zeros((len(self.orders), 3, 2))
+        groups = np.array([group for group, _ in parts])
+        terms = np.stack([read(part) for _, part in parts])
+        sums = np.zeros((len(self.orders), 3, terms.shape[2]), complex)
+        for group in set(groups.tolist()):
+            own = terms[groups == group]
+            total = own.sum(axis=0)
+            total[abs(total) <= ROUNDING * abs(own).sum(axis=0)] = 0.0
+            sums[:, group] = total
+        return sums.view(float)
+
+
+def _factored(table: _Table, values: Real, q: Real, own: Real | None) -> tuple[list[Row], bool]:
+    """Return rows of values at Chebyshev's points q, and whether the points are enough.
+
+    The values of an order change with the rod ratio in as few ways as there are kinds of cylinders:
+    singular values separate them.
+    """
+    count, largest = len(q), abs(values).max()
+    x = chebyshev.chebpts1(count)
+    fit = chebyshev.chebvander(x, count - 1).T * (2.0 / count)
+    fit[0] *= 0.5
+    rows: list[Row] = []
+    enough = True
+    for k, (order, power) in enumerate(zip(table.orders, table.powers, strict=True)):
+        scale = q[:, None] ** power
+        matrix = values[:, k].reshape(count, -1) / scale
+        if own is not None:
+            middle = scale[count // 2]
+            matrix = np.concatenate([matrix, own[k].reshape(1, -1) / middle])
+        ways, weights, directions = np.linalg.svd(matrix, full_matrices=False)
+        if not weights[0]:
+            continue
+        rank = int((weights > 10.0 * ROUNDING * weights[0]).sum())
+        curves = ways[:, :rank] * weights[:rank]
+        polynomials = fit @ curves[:count]
+        allowed = ROUNDING * abs(polynomials).max()
+        if not table.relative or order > HIGHEST_ORDER:
+            allowed = max(allowed, ROUNDING * largest / float(scale[-1, 0]))
+        enough = enough and bool((abs(polynomials[-count // 8 :]) <= 10.0 * allowed).all())
+        polynomials[abs(polynomials) <= allowed] = 0.0
+        decimals = -math.floor(math.log10(allowed))
+        digits = math.ceil(math.log10(weights[0] / allowed))
+        for way in range(rank):
+            polynomial = np.trim_zeros(polynomials[:, way], "b").round(decimals).tolist()
+            parts = _parts(directions[way].reshape(values.shape[2:]), digits)
+            factor = [] if own is None else [float(curves[-1, way] * middle[0])]
+            if parts and (polynomial or own is not None):
+                rows.append([order, power, polynomial, parts, *factor])
+    return rows, enough
+
+
+def _parts(values: Real, digits: int) -> list[list[float]]:
+    """Return group and values of the groups that have some."""
+    rounded = values.round(digits)
+    listed = [[group, *own.tolist()] for group, own in enumerate(rounded) if own.any()]
+    return [[value or 0 for value in own] for own in listed]  # 0 is shorter than 0.0
+
+
+def _orders(
+    engine: Engine, ratios: RodRatios, pairs: Sequence[tuple[int, complex]] | None
+) -> list[int]:
+    """Return the orders of cylinders or of a spectrum, of their cranks, and of shafts."""
+    speeds = _speeds(engine)
+    turning = {*speeds, *(abs(shaft.ratio) for shaft in engine.shafts)}
+    if pairs is not None:
+        return sorted({n * speed for n, _ in pairs for speed in speeds} | turning)
+    furthest = _cylinders(engine, ratios.most)
+    count = HIGHEST_ORDER
+    while True:
+        tried = list(range(1, 2 * count + 1))
+        parts = _core.terms(furthest, ONE_RADIAN_PER_SECOND, tried, None, None, True, (0.0, 0.0))
+        sizes = np.array([[abs(_planar(p)[:, :2]).sum(1), abs(_roll(p)[:, 0])] for *_, p in parts])
+        kept = (sizes > REST * sizes.max(axis=2, keepdims=True)).any(axis=(0, 1))
+        last = int(np.flatnonzero(kept).max(initial=0)) + 1
+        if last <= count or count >= MOST_ORDERS:
+            return sorted({*range(1, max(last, HIGHEST_ORDER) + 1), *turning})
+        count *= 2
+
+
+def _speeds(engine: Engine) -> set[int]:
+    return {abs(ratio) for _, _, ratio in engine_core(engine).cranks[0]}
+
+
+def _planar(part: _core.Balance) -> Complex:
+    return np.concatenate([part.phasors(name, turning=True) for name in PLANAR], axis=1)
+
+
+def _roll(part: _core.Balance) -> Complex:
+    return part.phasors("torque.inertia", turning=False)[:, None]
+
+
+def _cylinders(engine: Engine, ratio: float | None) -> _core.Engine:
+    """Return the cylinders of an engine, and nothing else of it, at a rod ratio or their own."""
+    core = engine_core(engine)
+    parts = [
+        (radius, length if ratio is None else radius / ratio, mass, offset, inertia)
+        for radius, length, mass, offset, inertia in core.cylinders
+    ]
+    tdc, bank = core.exact_angles
+    z, rotating = core.z.tolist(), core.rotating_mass.tolist()
+    return _core.Engine.from_lists(parts, tdc, None, bank, None, z, rotating, core.cranks)
+
+
+def _mean_inertia(core: _core.Engine) -> float:
+    """Return the mean moment of inertia of pistons and rods as seen from the crank, kg·m²."""
+    grid = _core.CycleGrid(360.0, np.array([]))
+    none = np.zeros(grid.nodes_deg.shape)
+    (_, moving, _), _ = grid.speed(none, none, core, ONE_RADIAN_PER_SECOND, 1.0, 0.0)
+    return float(moving[:-1].mean())
+
+
+def _sizes(engine: Engine) -> dict[str, float]:
+    """Return what the cylinders make one by one: inertia over the square of speed, and gas."""
+    cranks, crank_of = engine_core(engine).cranks
+    speeds = sorted(_speeds(engine))
+    core = engine_core(engine).without_cycles()
+    found = dict.fromkeys((*PLANAR, "torque", "gas"), 0.0)
+    terms = _core.terms(core, ONE_RADIAN_PER_SECOND, speeds, None, None, False, (0.0, 0.0))
+    cycles = engine.cycles or (None,) * len(engine)
+    for (*_, part), cylinder, crank, cycle, z in zip(
+        terms, engine.cylinders, crank_of, cycles, engine.z.tolist(), strict=False
+    ):
+        x, y, ratio = cranks[crank]
+        force = float(abs(_planar(part)[speeds.index(abs(ratio)), :2]).sum())
+        found["force"] += force
+        found["moment"] += force * (abs(z) + abs(engine.reference_z))
+        found["torque"] += force * (cylinder.crank_radius + math.hypot(x, y))
+        if cycle is not None and cylinder.bore is not None:
+            area = 0.25 * math.pi * cylinder.bore**2
+            found["gas"] += float(cycle.pressure.max()) * area * cylinder.crank_radius
+    return found

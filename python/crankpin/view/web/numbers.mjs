@@ -1,0 +1,98 @@
+// Forces, moments and torques of an engine at settings: every picture and readout has them from here.
+//
+// They are the library's. A setting is what they are multiplied by (the square of the speed), what their
+// polynomials are evaluated at (the rod ratio), or by how much a bank's terms are turned (the bank angle).
+
+import { multiply, reduced, scale, unit } from "./complex.mjs";
+import { factorsAt, orderSum, realSum, summed } from "./series.mjs";
+
+export const angularSpeed = (rpm) => (rpm * 2 * Math.PI) / 60;
+
+const NONE = Array(4).fill([0, 0]);
+
+export class Numbers {
+  /** `figures` is what Python wrote of an engine. */
+  constructor(figures, settings) {
+    const { terms } = figures;
+    const factor = factorsAt(terms.rod_ratios, settings.rod_ratio);
+    const square = angularSpeed(settings.rpm) ** 2;
+    const shift = (bank) => shiftOf(figures, settings, bank);
+    const planar = summed(terms.planar, factor, (bank, n) => {
+      const { turned, delay } = shift(bank);
+      const [forward, backward] = [unit(turned - n * delay), unit(turned + n * delay)];
+      return (value, k) => multiply(value, k % 2 ? backward : forward);
+    });
+    const at = (order) => {
+      const parts = (planar.get(order) ?? NONE).map((part) => scale(part, square));
+      const [force, moment] = [parts.slice(0, 2), parts.slice(2)]
+        .map(([forward, backward]) => ({ forward, backward }));
+      return { order, force, moment };
+    };
+    const lagging = (bank, n) => {
+      const lag = unit(-n * shift(bank).delay);
+      return (value) => multiply(value, lag);
+    };
+    const torque = terms.torque && summed(terms.torque, factor, lagging);
+    /** Orders that are listed, and all; x + iy = forward·e^{inθ} + backward·e^{−inθ}, N and N·m. */
+    this.orders = terms.orders.map(at);
+    this.planar = [...planar.keys()].sort((a, b) => a - b).map(at);
+    /** Phasors by order: roll torque of inertia, N·m; moment of inertia of pistons and rods, kg·m². */
+    this.inertia = torque && new Map([...first(torque)].map(([n, roll]) => [n, scale(roll, square)]));
+    this.moving = torque && new Map([...torque].flatMap(([n, [, moving]]) => (moving ? [[n, moving]] : [])));
+    /** Gas pressure on each piston; null where there is none. */
+    this.gas = figures.cylinders.map((given) => (given.cycle === null ? null : {
+      ...given,
+      samples: figures.gas.cycles[given.cycle],
+      crankcase: figures.gas.crankcase,
+      delay: shift(given.bank).delay,
+      swept: first(summed(terms.swept[given.swept] ?? [], factor, () => (value) => value)),
+    }));
+    this.cycle = figures.strokes === 2 ? 360 : 720;
+    this.span = figures.gas ? this.cycle : 360;
+    /** What the cylinders make one by one. */
+    this.whole = { ...terms.sizes };
+    for (const name of ["force", "moment", "torque"]) this.whole[name] *= square;
+    this.whole.torque += terms.sizes.gas;
+  }
+
+  /**
+   * Force in N, moment and torque on the block in N·m, and absolute pressures in Pa, at a crank angle.
+   *
+   * Torque is null of a given spectrum. `gas` and `inertia` are its parts; `driving` is the torque of the gas
+   * on the main crank, and `moving` the moment of inertia of pistons and rods.
+   */
+  at(thetaDeg) {
+    const crank = unit(thetaDeg);
+    const { force, moment } = orderSum(this.planar, crank);
+    const pressures = this.gas.map((cylinder) => cylinder && this.pressureAt(cylinder, thetaDeg));
+    if (!this.inertia) return { force, moment, torque: null, pressures };
+    let [gas, driving] = [0, 0];
+    this.gas.forEach((cylinder, k) => {
+      if (!cylinder) return;
+      const { swept, crankcase, roll, tdc_deg: tdc, delay } = cylinder;
+      const work = (pressures[k] - crankcase) * realSum(swept, unit(thetaDeg - tdc - delay));
+      gas += roll * work;
+      driving -= work;
+    });
+    const inertia = realSum(this.inertia, crank);
+    const moving = realSum(this.moving, crank);
+    return { force, moment, torque: inertia + gas, inertia, gas, driving, moving, pressures };
+  }
+
+  /** Absolute pressure in a cylinder, Pa; between two samples of its cycle it changes evenly. */
+  pressureAt({ samples, pressure_deg: fires, delay }, thetaDeg) {
+    const { cycle } = this;
+    const at = (reduced(thetaDeg - fires - delay, cycle) * (samples.length - 1)) / cycle;
+    const before = Math.min(Math.floor(at), samples.length - 2);
+    return samples[before] + (at - before) * (samples[before + 1] - samples[before]);
+  }
+}
+
+/** The first value of each order. */
+const first = (values) => new Map([...values].map(([n, [value]]) => [n, value]));
+
+/** By how many degrees settings turn a bank, and by how many it follows the crank later. */
+export function shiftOf({ bank_angle_deg: own }, { bank_angle_deg: angle, hold }, bank) {
+  const turned = angle === null || bank > 1 ? 0 : 0.5 * (angle - own) * (bank ? 1 : -1);
+  return { turned, delay: hold === "pins" ? turned : 0 };
+}

@@ -1,0 +1,136 @@
+// Places of an engine's parts, to draw them: as it is built at settings, and at a crank angle.
+
+import { DEGREE, add, multiply, reduced, scale, unit } from "./complex.mjs";
+import { shiftOf } from "./numbers.mjs";
+import { turnedBy } from "./series.mjs";
+
+/** Settings that leave the engine as it was given. */
+export function ownSettings({ rpm, bank_angle_deg, rod_ratio }) {
+  return { rpm, bank_angle_deg, rod_ratio, hold: "pins" };
+}
+
+/**
+ * The engine that an angle is applied to: cylinders and weights with directions as unit vectors.
+ *
+ * `figures` is what Python wrote of the engine; lengths in metres, degrees.
+ */
+export function configure(figures, settings) {
+  const cylinders = figures.cylinders.map((given) => cylinderAt(figures, settings, given));
+  return {
+    cylinders,
+    weights: weights(figures, cylinders),
+    shafts: figures.shafts,
+    cycle: figures.strokes === 2 ? 360 : 720,
+    firing: figures.firing_deg && cylinders.map((each) => each.strokes),
+    settings,
+  };
+}
+
+function cylinderAt(figures, settings, given) {
+  const { crank_radius: r, pin_offset: e } = given;
+  const { x, y, ratio } = figures.cranks[given.crank];
+  const l = settings.rod_ratio === figures.rod_ratio ? given.rod_length : r / settings.rod_ratio;
+  const { turned, delay } = shiftOf(figures, settings, given.bank);
+  const bankDeg = given.bank_deg + turned;
+  const tdcDeg = given.tdc_deg + delay;
+  const pinDeg = bankDeg - ratio * tdcDeg;
+  return {
+    ...given,
+    rod_length: l,
+    tdc_deg: tdcDeg,
+    pin_deg: pinDeg,
+    ratio,
+    axis: [x, y],
+    // To which side the path of the piston pin is moved: that to which the crankpin swings.
+    shift: Math.sign(ratio) * e,
+    direction: unit(bankDeg),
+    pin: unit(pinDeg),
+    tdc: unit(tdcDeg),
+    strokes: strokes(figures, given, delay, l),
+  };
+}
+
+/**
+ * Crank angles at which the strokes of a cylinder begin, the power stroke first; null if the firing
+ * order is not known. Strokes go from one turning point of the piston to the next.
+ */
+function strokes({ firing_deg: firing, strokes: count }, given, delay, rodLength) {
+  if (!firing) return null;
+  const [highest, lowest] = turningPoints(given.crank_radius, rodLength, given.pin_offset);
+  const [before] = turningPoints(given.crank_radius, given.rod_length, given.pin_offset);
+  const cycle = count === 2 ? 360 : 720;
+  // As many degrees later as its piston is highest later.
+  const fires = reduced(firing[given.number - 1] + delay + highest - before, cycle);
+  const down = lowest - highest;
+  return count === 2
+    ? [["power", fires, fires + down], ["compression", fires + down, fires + 360]]
+    : [
+        ["power", fires, fires + down],
+        ["exhaust", fires + down, fires + 360],
+        ["intake", fires + 360, fires + 360 + down],
+        ["compression", fires + 360 + down, fires + 720],
+      ];
+}
+
+/** Degrees after TDC at which the piston is highest and lowest: crank and rod are in line. */
+function turningPoints(r, l, e) {
+  return [Math.asin(e / (l + r)) / DEGREE, 180 + Math.asin(e / (l - r)) / DEGREE];
+}
+
+/** Counterweights on their cranks, and those of balance shafts. */
+function weights(figures, cylinders) {
+  const main = { pin_deg: 0, ratio: 1, axis: [0, 0] };
+  const counterweights = figures.counterweights.map(({ amount, angle_deg: angle, pin, z }) => {
+    const { pin_deg: from, ratio, axis } = pin === null ? main : cylinders[pin];
+    // Ahead of the pin in the sense in which its crank turns.
+    const start = unit(from + Math.sign(ratio) * angle);
+    return { kind: "counterweight", ratio, axis, amount, start, z };
+  });
+  const onShafts = figures.shafts.flatMap(({ ratio, x, y, unbalances }) =>
+    unbalances.map(({ amount, angle_deg: angle, z }) =>
+      ({ kind: "shaft", ratio, axis: [x, y], amount, start: unit(angle), z })));
+  return [...counterweights, ...onShafts];
+}
+
+/** The stroke that each cylinder is in at a crank angle; null where the firing is not known. */
+export function strokesAt({ cylinders, cycle }, thetaDeg) {
+  return cylinders.map(({ strokes: periods }) => {
+    if (!periods) return null;
+    const after = reduced(thetaDeg - periods[0][1], cycle) + periods[0][1];
+    // Whatever rounding did: the first has begun.
+    return periods.findLast(([, begin]) => after >= begin)[0];
+  });
+}
+
+/** Places in metres at a crank angle in degrees, and directions of weights. */
+export function placesAt({ cylinders, weights: all }, thetaDeg) {
+  const crank = unit(thetaDeg);
+  return {
+    thetaDeg,
+    crank,
+    cylinders: cylinders.map((each) => cylinderPlaces(each, crank)),
+    weights: all.map((each) => multiply(each.start, turnedBy(crank, each.ratio))),
+  };
+}
+
+function cylinderPlaces(cylinder, crank) {
+  const { ratio, axis, crank_radius: r } = cylinder;
+  const past = multiply(crank, [cylinder.tdc[0], -cylinder.tdc[1]]);
+  // Offsets are on the side to which the crankpin swings, so that either sense moves the piston alike.
+  const height = pistonHeight(cylinder, turnedBy(past, Math.abs(ratio)));
+  const [dx, dy] = cylinder.direction;
+  const crankpin = add(axis, scale(multiply(turnedBy(crank, ratio), cylinder.pin), r));
+  // The path of the piston pin lies left of the bore's direction by the offset, on a crank that turns as
+  // the main one does.
+  const wrist = add(axis, [height * dx - cylinder.shift * dy, height * dy + cylinder.shift * dx]);
+  return { height, crankpin, wrist };
+}
+
+/** Height of the piston pin along its bore: that of the crankpin and that of the rod above it. */
+function pistonHeight({ crank_radius: r, rod_length: l, pin_offset: e }, [cos, sin]) {
+  // 1 − sin θ and 1 + sin θ, the smaller one from cos² θ: the rod may be barely long enough.
+  const [toAbove, toBelow] = sin > 0
+    ? [(cos * cos) / (1 + sin), 1 + sin]
+    : [1 - sin, (cos * cos) / (1 - sin)];
+  return r * cos + Math.sqrt((l - r + e + r * toAbove) * (l - r - e + r * toBelow));
+}

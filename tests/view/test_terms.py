@@ -1,0 +1,202 @@
+"""Are the numbers that a page evaluates those of the library, at any setting?
+
+A page has polynomials of the library's terms, cut at 1e-13 of their largest value, and orders down
+to 1e-12 of a cylinder's largest. Sums of a few dozen such errors stay below 1e-10 of what the
+cylinders make one by one.
+"""
+
+from __future__ import annotations
+
+import itertools
+import json
+from typing import TYPE_CHECKING, Any
+
+import crankpin as cp
+import numpy as np
+import pytest
+from crankpin.view.figures import Settings, figures
+from crankpin.view.page import speed_of
+from crankpin.view.terms import RodRatios
+from several_cranks import fired_engine, random_engine, size
+from view_engines import everything, radial
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Page
+
+WITHIN = 1e-10
+ANGLES = [0.0, 97.25, 181.5, 333.3333333]
+NUMBERS = """([figures, settings, angles]) => {
+    const { constructor: Numbers } = crankpin.numbers;
+    return settings.map((each) => {
+        const numbers = new Numbers(figures, each);
+        return { orders: numbers.orders, at: angles.map((angle) => numbers.at(angle)) };
+    });
+}"""
+"""What a page's one module of numbers gives of figures at settings."""
+
+
+@pytest.fixture(scope="module")
+def page(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Page:
+    """Return a page, whose modules evaluate the figures of any engine."""
+    file = tmp_path_factory.mktemp("pages") / "i4.html"
+    cp.Engine.preset("i4").save_html(file)
+    opened = browser.new_page()
+    opened.goto(file.as_uri())
+    return opened
+
+
+def numbers(
+    page: Page,
+    engine: cp.Engine,
+    rpm: float,
+    settings: list[Settings],
+    spectrum: dict[int, complex] | None = None,
+) -> list[dict[str, Any]]:
+    """Return what a page evaluates of an engine at settings."""
+    known = json.loads(json.dumps(figures(engine, rpm, spectrum=spectrum)))
+    listed = [vars(each) for each in settings]
+    found: list[dict[str, Any]] = page.evaluate(NUMBERS, [known, listed, ANGLES])
+    return found
+
+
+def all_settings(engine: cp.Engine, rpm: float) -> list[Settings]:
+    """Return the engine's own settings and others: both ends of the rod ratios, banks turned."""
+    own, ratios = Settings.of(engine, rpm), RodRatios.of(engine)
+    rods = [ratios.least, 0.237, ratios.most]
+    bank = own.bank_angle_deg
+    settings = [own, *(Settings(0.3 * rpm, bank, rod) for rod in rods)]
+    if bank is not None:
+        banks = itertools.product([0.0, 33.3, 180.0], ["pins", "firing"])
+        turned = zip(banks, itertools.cycle([own.rod_ratio, *rods]))
+        settings += (Settings(rpm, bank, rod, hold) for (bank, hold), rod in turned)
+    return settings
+
+
+def assert_agree(page: Page, engine: cp.Engine, rpm: float = 3000.0) -> None:
+    settings = all_settings(engine, rpm)
+    for each, found in zip(settings, numbers(page, engine, rpm, settings), strict=True):
+        changed = each.applied(engine)
+        whole = size(engine, each.rpm)
+        wave = changed.waveform(each.rpm, theta_deg=ANGLES)
+        for k, at in enumerate(found["at"]):
+            shown = [*at["force"], *at["moment"], at["inertia"]]
+            torque = wave.read("torque.inertia" if changed.fired else "torque")[k]
+            expected = [*wave.force[k], *wave.moment[k], torque]
+            np.testing.assert_allclose(shown, expected, rtol=0, atol=WITHIN * whole)
+        balance = changed.balance(
+            each.rpm, orders=[order["order"] for order in found["orders"]], torque=False
+        )
+        for k, order in enumerate(found["orders"]):
+            for name, part in itertools.product(("force", "moment"), ("forward", "backward")):
+                expected_part = getattr(getattr(balance, name), part)[k]
+                assert abs(complex(*order[name][part]) - expected_part) <= WITHIN * whole
+
+
+@pytest.mark.slow  # a browser
+@pytest.mark.parametrize("name", cp.presets())
+def test_presets(page: Page, name: str) -> None:
+    assert_agree(page, cp.Engine.preset(name), speed_of(name, 3000.0))
+
+
+@pytest.mark.slow  # a browser
+@pytest.mark.parametrize("seed", range(12))
+def test_random_engines_with_several_cranks(page: Page, seed: int) -> None:
+    """With dead cylinders, offsets, rods, counterweights, shafts aside and unequal rod ratios."""
+    assert_agree(page, random_engine(seed))
+
+
+def vee(seed: int) -> cp.Engine:
+    """Return a random vee: unequal cylinders, one of them dead, weights on pins, shafts aside."""
+    random = np.random.default_rng(seed)
+    count = int(random.integers(1, 4))
+
+    def cylinder(mass: float) -> cp.Cylinder:
+        offset, inertia = random.uniform(-0.006, 0.006), random.uniform(-1e-3, 1e-3)
+        return cp.Cylinder(0.043, 0.145, mass, offset, rod_inertia_excess=inertia * bool(mass))
+
+    engine = cp.Engine.vee(
+        cylinder(0.5),
+        bank_angle_deg=float(random.uniform(10, 170)),
+        throws_deg=random.uniform(0, 360, count).tolist(),
+        spacing=0.1,
+        pin_split_deg=float(random.uniform(-30, 30)),
+        rotating_mass=0.3,
+    )
+    masses = [0.0, *random.uniform(0.2, 0.8, 2 * count - 1).tolist()]
+    weights = [
+        cp.Unbalance(0.01, 0.05, float(random.uniform(0, 360)), pin=pin)
+        for pin in (None, int(random.integers(1, 2 * count + 1)))
+    ]
+    shafts = [cp.Shaft(ratio, [cp.Unbalance(0.004, 0.1, 40)], x=0.1, y=-0.2) for ratio in (-1, 2)]
+    return (
+        engine.replace(cylinder=[cylinder(mass) for mass in masses], reference_z=0.07)
+        .with_counterweights(weights)
+        .with_shafts(shafts)
+    )
+
+
+@pytest.mark.slow  # a browser
+@pytest.mark.parametrize("seed", range(8))
+def test_random_vees(page: Page, seed: int) -> None:
+    assert_agree(page, vee(seed))
+
+
+@pytest.mark.slow  # a browser
+def test_engines_that_show_everything(page: Page) -> None:
+    for engine in (everything(), radial(), everything().replace(reference_z=-0.3)):
+        assert_agree(page, engine)
+
+
+@pytest.mark.slow  # a browser
+def test_rods_that_are_barely_long_enough(page: Page) -> None:
+    """An engine's own rod ratio is reached, though it be beyond those of other pages."""
+    for ratio, offset in ((0.95, 0.0), (0.96, -1e-3), (0.02, 1e-3)):
+        cylinder = cp.Cylinder(0.045, 0.045 / ratio, 0.5, offset)
+        assert_agree(page, cp.Engine.inline(cylinder, throws_deg=[0, 200], spacing=0.1))
+
+
+@pytest.mark.slow  # a browser
+@pytest.mark.parametrize("seed", [3, 8, 24])
+def test_fired_engines(page: Page, seed: int) -> None:
+    """Gas beside inertia, and the moment of inertia of what moves, which flywheels share."""
+    engine = fired_engine(seed)
+    assert_agree(page, engine)
+    settings = all_settings(engine, 3000.0)
+    for each, found in zip(settings, numbers(page, engine, 3000.0, settings), strict=True):
+        wheel = cp.flywheel(each.applied(engine), rpm=each.rpm, inertia=50.0)
+        for angle in (0.0, 181.5):  # of which the wheel has samples
+            (k,) = np.flatnonzero(abs(wheel.theta_deg - angle) < 1e-9)
+            shown = found["at"][ANGLES.index(angle)]["moving"]
+            assert shown == pytest.approx(wheel.moving_inertia[k], rel=1e-10)
+
+
+@pytest.mark.slow  # a browser
+def test_spectra(page: Page) -> None:
+    spectrum = {1: 0.067, 2: 0.02 + 0.001j, 30: 0.004j}
+    for engine in (cp.Engine.preset("v6-60"), random_engine(26), vee(1)):
+        settings = all_settings(engine, 3000.0)
+        known = numbers(page, engine, 3000.0, settings, spectrum=spectrum)
+        for each, found in zip(settings, known, strict=True):
+            orders = [order["order"] for order in found["orders"]]
+            request: dict[str, Any] = {"orders": orders, "spectrum": spectrum, "torque": False}
+            wave = each.applied(engine).waveform(each.rpm, theta_deg=ANGLES, **request)
+            for k, at in enumerate(found["at"]):
+                assert at["torque"] is None
+                shown, expected = [*at["force"], *at["moment"]], [*wave.force[k], *wave.moment[k]]
+                atol = WITHIN * size(engine, each.rpm)
+                np.testing.assert_allclose(shown, expected, rtol=0, atol=atol)
+
+
+def test_pages_have_no_mass_to_compute_with() -> None:
+    """But that of the block, which is the page's own; forces and torques come as numbers."""
+    known = figures(fired_engine(3), 3000.0, spectrum=None)
+    text = json.dumps(
+        {key: known[key] for key in known if key not in ("block", "sentences", "loads")}
+    )
+    assert [word for word in ("mass", "inertia", "excess", "bore") if word in text] == []
+
+
+def test_rod_ratios_that_a_page_does_not_reach_are_rejected() -> None:
+    engine = cp.Engine.preset("i4")
+    with pytest.raises(cp.InputError, match=r"^rod_ratio = 0\.8: a page reaches 0\.05 to 0\.7$"):
+        Settings(3000.0, None, 0.8).check(engine)
