@@ -959,7 +959,7 @@ USE = """
 import sys
 import crankpin as cp
 engine = cp.Engine.inline(cp.Cylinder(1, 2, 7), throws_deg=[0], spacing=1)
-repr(engine.balance(10)), html_of(engine.balance(10)), cp.sweep(engine, rpm=[1, 2]).moment
+repr(engine.balance(10)), engine.balance(10)._repr_html_(), cp.sweep(engine, rpm=[1, 2]).moment
 print(*{name.partition(".")[0] for name in sys.modules})
 """
 
