@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
 import numpy as np
@@ -64,7 +64,8 @@ def test_cuts_are_all_orders_and_the_largest() -> None:
 def test_a_map_has_a_row_of_cells_for_each_order_and_its_modes() -> None:
     ax = RUN_UP.plot(kind="map", orders=[0.5, 1, 2])
     (mesh,) = ax.collections
-    cells = np.ma.filled(mesh.get_array(), np.nan).reshape(4, -1)
+    drawn: Any = mesh.get_array()
+    cells = drawn.filled(np.nan).reshape(4, -1)
     for row, order in ((0, 0.5), (1, 1), (3, 2)):
         expected = np.maximum(RUN_UP.body_force[order].peak, 0.0)
         np.testing.assert_allclose(cells[row], expected, rtol=1e-12)

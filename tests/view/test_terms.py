@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 import json
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import crankpin as cp
 import numpy as np
@@ -66,7 +66,8 @@ def all_settings(engine: cp.Engine, rpm: float) -> list[Settings]:
     bank = own.bank_angle_deg
     settings = [own, *(Settings(0.3 * rpm, bank, rod) for rod in rods)]
     if bank is not None:
-        banks = itertools.product([0.0, 33.3, 180.0], ["pins", "firing"])
+        holds: list[Literal["pins", "firing"]] = ["pins", "firing"]
+        banks = itertools.product([0.0, 33.3, 180.0], holds)
         turned = zip(banks, itertools.cycle([own.rod_ratio, *rods]))
         settings += (Settings(rpm, bank, rod, hold) for (bank, hold), rod in turned)
     return settings

@@ -104,11 +104,11 @@ def test_phasors_are_optimal_within_their_bounds(seed: int) -> None:
     if seed % 5 == 0:
         bounds[-1] *= 1e-6
     effort = (0.0, 1e-3)[seed % 2]
-    found = optimal(target[None], effect[None], bounds[None], effort)[0]
+    found = optimal(target[None].astype(complex), effect[None], bounds[None], effort)[0]
     assert (np.abs(found) <= bounds * (1 + 1e-12)).all()
-    weight = effort * np.linalg.norm(effect, 2) ** 2
+    weight = effort * float(np.linalg.norm(effect, 2)) ** 2
     # The central path ends 1e-12 from the least; the dual is near the best to its square root.
-    assert again.dual_gap(target, effect, bounds, weight, found) < 1e-10
+    assert again.dual_gap(target.astype(complex), effect, bounds, weight, found) < 1e-10
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -347,7 +347,7 @@ def test_impossible_laws_and_feedbacks_are_rejected() -> None:
         ({"update_delay": -1}, "update_delay"),
     ]:
         with pytest.raises(cp.InputError, match=said):
-            c.adaptive(**arguments)  # type: ignore[arg-type]
+            c.adaptive(**arguments)
     with pytest.raises(cp.InputError, match="actuator = head: give mass and resonance"):
         P.velocity_feedback(HEAD)
     with pytest.warns(UserWarning, match="stroke = 4 m: was it given in millimetres"):

@@ -99,9 +99,9 @@ def test_what_does_not_move_is_one_stage(kind: str) -> None:
 
 
 def test_impossible_supports_are_rejected() -> None:
-    measured = as_receptance()
+    measured: Any = as_receptance()
     frequency, values = measured.table
-    for change, said in [
+    cases: list[tuple[dict[str, Any], str]] = [
         ({"coordinates": []}, r"table: receptance has shape|coordinates = \[\]"),
         ({"coordinates": [("0", "up")] * 4}, r"coordinates\[0\]\[1\] = 'up'"),
         ({"coordinates": [("0", "y")] * 4}, r"coordinates\[1\] = 0 y: is there twice"),
@@ -110,7 +110,8 @@ def test_impossible_supports_are_rejected() -> None:
         ({"table": (frequency, np.array(values)[:, :1])}, "table: receptance has shape"),
         ({"table": (frequency, np.array(values) * np.nan)}, "give finite numbers, m/N"),
         ({"receivers": {"seat": np.zeros((9, 4, 3))}}, r"receivers\['seat'\] has shape"),
-    ]:
+    ]
+    for change, said in cases:
         with pytest.raises(cp.InputError, match=said):
             measured.replace(**change)
     other = measured.replace(coordinates=[("left", "y"), *measured.coordinates[1:]])

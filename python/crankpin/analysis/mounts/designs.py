@@ -17,7 +17,7 @@ from crankpin.model import checks
 from crankpin.model.mounts import _vector
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterable, Mapping
 
     from numpy.typing import ArrayLike, NDArray
 
@@ -196,7 +196,7 @@ def designs(
     orders: Orders,
     rtol: float | None,
     mount_force: bool,
-    at: Sequence[Sequence[float]],
+    at: Iterable[ArrayLike],
     frequency: float | None,
 ) -> MountDesigns:
     """Return designs; :meth:`Powertrain.designs` documents the arguments."""

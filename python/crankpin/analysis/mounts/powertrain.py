@@ -96,9 +96,10 @@ class Powertrain(Input):
             if not isinstance(mount, Mount):
                 raise inputs.rejected(f"mounts[{k}]", mount, "give a crankpin.Mount")
         figures = [mount._figures for mount in listed]
-        if support is not None and not isinstance(support, Subframe | Receptance):
+        given: object = support
+        if not isinstance(given, Subframe | Receptance | None):
             hint = "give a crankpin.Subframe or a crankpin.Receptance"
-            raise inputs.rejected("support", support, hint)
+            raise inputs.rejected("support", given, hint)
         below = None if support is None else support._figures
         core = _core.Powertrain(body._figures, figures, below)
         self.__dict__.update(engine=engine, body=body, mounts=tuple(listed), support=support)
