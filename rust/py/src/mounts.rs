@@ -366,6 +366,7 @@ impl Powertrain {
 
     /// Figures of designs: orders, those omitted, bounds of these, natural frequencies, (`n_designs`, 6),
     /// largest peaks, (`n_designs`, `n_quantities`, `n_orders`, 3), and rms, (`n_designs`, `n_quantities`, 3).
+    #[expect(clippy::too_many_arguments, reason = "the wrapper in Python has defaults for them")]
     fn designs<'py>(
         &self,
         py: Python<'py>,

@@ -134,13 +134,16 @@ fn slopes(powertrain: &Powertrain, modes: &NaturalModes) -> [[f64; 6]; 3] {
     })
 }
 
+/// Whether the stiffness of each mount along each axis is at its upper end.
+type Corner = Vec<[bool; 3]>;
+
 /// Least purity of each mode at the corners of stiffness, and the corner.
 fn corners(
     powertrain: &Powertrain,
     tolerances: &MountTolerances,
     along: &[[f64; 3]],
     cancel: &Cancel,
-) -> Result<([f64; 6], [Vec<[bool; 3]>; 6])> {
+) -> Result<([f64; 6], [Corner; 6])> {
     // Directions that are at one end together.
     let mut parameters: Vec<Vec<(usize, usize)>> = Vec::new();
     for (mount, _) in tolerances.stiffness.iter().enumerate().filter(|(_, share)| **share > 0.0) {

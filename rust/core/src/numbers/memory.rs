@@ -123,7 +123,7 @@ mod tests {
     fn what_does_not_fit_is_an_error_with_its_size() {
         let count = isize::MAX as usize / 8;
         let expected = Err(Error::OutOfMemory { bytes: 8 * count });
-        assert_eq!(room::<f64>(count).map(drop), expected);
+        assert_eq!(with_capacity::<f64>(count).map(drop), expected);
         assert_eq!(zeros::<f64>(count).map(drop), expected);
         assert_eq!(
             zeros::<f64>(usize::MAX).map(drop),

@@ -316,7 +316,7 @@ impl<'a> Shared<'a> {
                     },
                 );
                 if is_solved != [true; LANES] {
-                    self.repair(powertrain, &equations, place, &is_solved, &mut solution)?;
+                    self.repair(powertrain, &equations, place, is_solved, &mut solution)?;
                 }
                 let most = &mut most[order * quantities..(order + 1) * quantities];
                 vectorised(
@@ -346,7 +346,7 @@ impl<'a> Shared<'a> {
         powertrain: &Powertrain,
         equations: &Equations,
         place: usize,
-        is_solved: &[bool; LANES],
+        is_solved: [bool; LANES],
         solution: &mut Lanes6,
     ) -> Result<()> {
         let rates = self.rates(place);
@@ -377,15 +377,18 @@ impl<'a> Shared<'a> {
     }
 }
 
+/// A vector along three axes as products with a solution.
+type Rows = [[Complex64; 6]; 3];
+
 /// Quantities of a design, as products with the solution of its equations.
 struct Outputs {
     /// Constant stiffness: rows of the force of all, and of each mount that counts.
-    forces: Vec<[[Complex64; 6]; 3]>,
+    forces: Vec<Rows>,
     /// Otherwise: deflection along its axes, and the axes, of each mount.
-    deflections: Vec<([[Complex64; 6]; 3], [[f64; 3]; 3])>,
+    deflections: Vec<(Rows, [[f64; 3]; 3])>,
     mount_forces: bool,
     /// Displacement of points.
-    points: Vec<[[Complex64; 6]; 3]>,
+    points: Vec<Rows>,
 }
 
 impl Outputs {
