@@ -106,7 +106,7 @@ pub fn map_if<I: Send, T: Send>(
     items.into_iter().map(function).collect()
 }
 
-/// Do some work for each item, in parallel where the `numbers`, counted as for [`worth`], are worth it.
+/// Do some work for each item, in parallel where the `numbers`, counted as for [`is_worth_parallel`], are worth it.
 pub fn each<I: Send>(
     cancel: &Cancel,
     items: Vec<I>,
