@@ -34,6 +34,7 @@ __all__ = [
     "centred_table",
     "check_cylinder",
     "check_mount",
+    "check_support",
     "check_timing",
     "closed_form",
     "crank_radius_of_stroke",
