@@ -338,9 +338,21 @@ fn stages_balance_in_force_and_power_and_agree_with_their_receptance() {
             for (k, mount) in above.mounts().iter().enumerate() {
                 add(mount.at(), forces[point * count + k], 1.0);
             }
+            // A force of a mount is the small difference of large ones where its ends move alike.
+            let mut at_ends = 0.0;
+            for (mount, along) in
+                above.mounts().iter().zip(above.stiffnesses(omega, String::new).unwrap())
+            {
+                let stiffest = along.iter().map(|along| along.norm()).fold(0.0, f64::max);
+                let at = mount.at().into();
+                let ends =
+                    [above.motion_of(at, &response.motions()[point]), below.motion_of(at, &moved)];
+                at_ends += stiffest * ends.map(|end| Vector3::from(end).norm()).iter().sum::<f64>();
+            }
             for (k, mount) in below.mounts().iter().enumerate() {
                 add(mount.at(), ground[point * below.mounts().len() + k], -1.0);
             }
+            let size = size + at_ends;
             assert!(sum.norm() <= 1e-11 * size, "{sum} {size}");
             let row = &power[point];
             let reactive = omega * load.norm() * response.motions()[point].norm();
