@@ -335,7 +335,7 @@ impl Powertrain {
         let right = DVector::from_fn(6, |k, _| load[k]);
         let solved = scaled_solution(&matrix, &scale, &right)?;
         let displaced = receptance * carried * &solved;
-        let mut carrier = vec![Vector3::zeros(); self.mounts.len()];
+        let mut carrier = vec![Vector3::zeros(); self.mounts.len()]; // bounded: 1000 mounts
         for (&place, &value) in self.coordinates.iter().zip(displaced.iter()) {
             carrier[place / 3][place % 3] = value;
         }

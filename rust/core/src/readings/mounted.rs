@@ -211,7 +211,7 @@ impl Response {
             cancel.check()?;
             let solved = match &equations {
                 Some(equations) => self.solve_in_lanes(equations, rpm, piece, motions)?,
-                None => vec![false; motions.len()],
+                None => vec![false; motions.len()], // bounded: a piece of the points
             };
             for (k, motion) in motions.iter_mut().enumerate() {
                 let point = piece * POINTS_PER_TASK + k;
