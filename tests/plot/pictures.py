@@ -114,7 +114,7 @@ def _of_one_panel(plot: Callable[..., Any]) -> Callable[..., Any]:
     return lambda ax=None: plot(plt.subplots(layout="constrained")[1] if ax is None else ax)
 
 
-MOUNTED = cp.Powertrain(
+ON_MOUNTS = cp.Powertrain(
     I4,
     cp.RigidBody(150.0, (0.0, 0.06, 0.15), (7.0, 8.0, 4.5)),
     [
@@ -127,7 +127,7 @@ SEAT = {"seat": ((0.22, -0.12, 0.4), (0, 1, 0))}
 
 
 def _cancelled(rpm: Any, **place: Any) -> Any:  # noqa: ANN401
-    response = MOUNTED.response(rpm, orders=[2, 4])
+    response = ON_MOUNTS.response(rpm, orders=[2, 4])
     return response.cancel(SHAKER, SEAT, orders=2, watch={"head": (0, 0.4, 0)}).plot(**place)
 
 

@@ -87,7 +87,8 @@ class FieldsDocumented:
                 ) if name in names:
                     written = ast.unparse(field.annotation)
                     for pattern, words in self.TYPES:
-                        written = pattern.sub(words, written)
+                        while (plainer := pattern.sub(words, written)) != written:
+                            written = plainer  # an inner one first
                     yield name, written, inspect.cleandoc(about)
 
 

@@ -180,7 +180,8 @@ class Balance(ByOrder[float]):
         if what in labels.TURNING:
             return core.phasors(quantity, True)[:, int(what == "backward")]
         if what == "peak" and KINDS[quantity].planar:
-            return core.peak(quantity)
+            forward, backward = np.abs(core.phasors(quantity, True)).T
+            return np.asarray(forward + backward)
         if what in ("peak", "peak_xy"):
             return np.asarray(np.abs(self.read(quantity, "phasors")))
         # "zero_bound", "total_peak", "total_peak_xy" and "mean"

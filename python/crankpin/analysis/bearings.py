@@ -446,7 +446,10 @@ class BearingLoads(Tabled):
         return self._sections(part, crank)[1]
 
     def _sections(self, part: str, crank: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        cut = (inputs.one_of("part", part, PARTS), inputs.whole("crank", crank, 0))
+        index, count = inputs.whole("crank", crank, 0), len(engine_core(self.engine).cranks[0])
+        if index >= count:
+            raise inputs.rejected("crank", crank, f"give the index of a crank, 0 to {count - 1}")
+        cut = (inputs.one_of("part", part, PARTS), index)
         kept = self.__dict__.setdefault("_cut", {})
         if cut not in kept:
             kept[cut] = self._core.sections(*cut, self.theta_deg)

@@ -147,13 +147,6 @@ impl Balance {
         frozen(py, Array2::from(pairs.collect::<Vec<_>>()).into_dyn())
     }
 
-    /// Longest vector of each order, of force or moment.
-    fn peak<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let vector = vector(name)?;
-        let peaks = (0..self.0.orders.len()).map(|k| self.0.planar(vector, k).peak());
-        frozen(py, peaks.collect::<Array1<_>>())
-    }
-
     fn zero_bound<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let orders = 0..self.0.orders.len();
         let bounds: Array1<f64> = if let Some(part) = part(name) {

@@ -70,7 +70,7 @@ def random_case(seed: int) -> tuple[cp.Powertrain, list[cp.Actuator], list[Any]]
 def test_one_channel_is_cancelled_perfectly_by_the_closed_form() -> None:
     """The canceller of one sensor and one actuator: −d/S, to which a law that adapts comes."""
     c = one_channel()
-    place = ("at", SEAT[0], "velocity")
+    place = ("at", SEAT[0], "powertrain", "velocity")
     d = (c.before._vectors(place) @ np.array(SEAT[1]))[0]
     s = (c._alone(HEAD)._vectors(place) @ np.array(SEAT[1]))[0]
     assert c.forces[0, 0] == pytest.approx(-d / s, rel=1e-12)
@@ -348,7 +348,7 @@ def test_impossible_laws_and_feedbacks_are_rejected() -> None:
     ]:
         with pytest.raises(cp.InputError, match=said):
             c.adaptive(**arguments)
-    with pytest.raises(cp.InputError, match="actuator = head: give mass and resonance"):
+    with pytest.raises(cp.InputError, match="actuator = 'head': give mass and resonance"):
         P.velocity_feedback(HEAD)
     with pytest.warns(UserWarning, match="stroke = 4 m: was it given in millimetres"):
         HEAD.replace(mass=2, stroke=4)

@@ -280,6 +280,11 @@ class Cancellation(Tabled):
         return rows
 
     @property
+    def loads_counted(self) -> str:
+        """Gas pressure that counts, in words: as :attr:`Engine.loads_counted`."""
+        return self.before.loads_counted
+
+    @property
     def table(self) -> Table:
         """Rms values with and without actuators: minimised, and elsewhere, by order and in all.
 
@@ -309,7 +314,7 @@ class Cancellation(Tabled):
             columns += [Column("at most", tuple(most)), Column("at", tuple(where), "rpm", 10)]
         over = ", largest over speed" if self.before.dims else ""
         title = self.before._title(f"rms with and without actuators{over}")
-        return Table(title, tuple(columns), self._notes(rows), self.before.loads_counted)
+        return Table(title, tuple(columns), self._notes(rows), self.loads_counted)
 
     def _notes(self, rows: list[tuple[Any, ...]]) -> str:
         notes = []
@@ -379,7 +384,7 @@ class Cancellation(Tabled):
             "forces of actuators" + (", where most is used" if swept else "")
         )
         listed = tuple(Column(name, values, unit) for (name, unit), values in columns)
-        return Table(title, listed, "", self.before.loads_counted)
+        return Table(title, listed, "", self.loads_counted)
 
     def plot(self, ax: object = None, **style: object) -> Any:  # noqa: ANN401 - axes
         """Draw what is left of the rms values: at places, or over speed.
@@ -485,7 +490,7 @@ def _places(name: str, given: object, response: MountResponse) -> tuple[Place, .
             parts, along = parts[0], tuple((direction / length).tolist())
         point = _vector(name, parts)
         words = key or "({:g}, {:g}, {:g})".format(*point)
-        places.append((words, ("at", point, "velocity"), along))
+        places.append((words, ("at", point, "powertrain", "velocity"), along))
     if not places:
         raise inputs.rejected(name, [], hint)
     return tuple(places)

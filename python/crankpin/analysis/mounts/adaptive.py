@@ -174,4 +174,4 @@ class AdaptiveLaw(Tabled):
             f"It converges below the largest step, and with a phase error below {QUARTER:g}°. "
             "A rate below zero is growth."
         )
-        return Table(title, tuple(columns), note, before.loads_counted)
+        return Table(title, tuple(columns), note)

@@ -85,6 +85,11 @@ class MountDesign(Tabled):
         return [each is None or _within(value, each) for value, each in pairs]
 
     @property
+    def loads_counted(self) -> str:
+        """Gas pressure that counts, in words: as :attr:`Engine.loads_counted`."""
+        return self.powertrain.engine.loads_counted
+
+    @property
     def table(self) -> Table:
         """Objectives and requirements, before and after."""
         met = self._met()
@@ -109,7 +114,7 @@ class MountDesign(Tabled):
         if missed:
             note += f" NOT reached within these bounds: {', '.join(missed)}."
         title = f"{labels.name_of(self.powertrain.engine)}: design of its mounts"
-        return Table(title, columns, note, self.powertrain.engine.loads_counted)
+        return Table(title, columns, note, self.loads_counted)
 
     @property
     def frames(self) -> Frames:
@@ -128,7 +133,7 @@ class MountDesign(Tabled):
             change = tuple(new / old if old else None for old, new in both)
             columns.append(Column(f"k{k + 1} over before", change))
         title = f"{labels.name_of(self.powertrain.engine)}: mounts designed, dynamic stiffness"
-        return Table(title, tuple(columns), "", self.powertrain.engine.loads_counted)
+        return Table(title, tuple(columns), "", self.loads_counted)
 
 
 def design_mounts(

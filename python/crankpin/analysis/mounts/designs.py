@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -40,7 +41,7 @@ class MountDesigns(Tabled):
     powertrain: Powertrain
     """The powertrain whose mounts differ."""
     vary: Mapping[str, Mapping[str, NDArray[np.float64]]]
-    """Name of a mount → figure → its value in each design."""
+    """Name of a mount → figure → its value in each design: (n_designs,) or (n_designs, n_axes)."""
     rpm: NDArray[np.float64]
     """Crank speeds."""
     request: Request
@@ -180,7 +181,8 @@ class MountDesigns(Tabled):
         """Natural frequencies, and the largest rms of the force on the body, of each design."""
         columns = [Column("design", tuple(range(len(self))))]
         for k, values in enumerate(self.frequency.T.tolist()):
-            columns.append(Column(f"f{k + 1}", tuple(values), "Hz"))
+            known = (None if math.isnan(each) else each for each in values)
+            columns.append(Column(f"f{k + 1}", tuple(known), "Hz"))
         for axis, values in zip("xyz", self.body_force_rms.T.tolist(), strict=True):
             columns.append(Column(f"F_{axis} rms", tuple(values), "N"))
         name = labels.name_of(self.powertrain.engine)

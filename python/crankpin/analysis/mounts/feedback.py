@@ -72,7 +72,9 @@ class VelocityFeedback(Tabled):
         alone = DrivenResponse(
             self.powertrain, 60.0 * frequency, request, (one,), unit, engine_runs=False
         )
-        receptance = alone._vectors(("at", one.at, "displacement"))[:, 0] @ np.array(one.direction)
+        receptance = alone._vectors(("at", one.at, "powertrain", "displacement"))[:, 0] @ np.array(
+            one.direction
+        )
         omega, mass = 2.0 * np.pi * frequency, float(one.mass or 0.0)
         natural = 2.0 * np.pi * float(one.resonance or 0.0)
         spring = mass * (natural**2 + 2j * one.damping_ratio * natural * omega)

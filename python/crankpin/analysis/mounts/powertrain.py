@@ -442,7 +442,7 @@ class Powertrain(Input):
 
         Parameters
         ----------
-        support : Subframe or Receptance, optional
+        support : Subframe or Receptance or None
             What carries the mounts; None for what does not move.
 
         Returns

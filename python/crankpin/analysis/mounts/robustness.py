@@ -90,7 +90,7 @@ class MountRobustness(Tabled):
 
     @property
     def least_purity(self) -> NDArray[np.float64]:
-        """Least purity of each mode, by ascending frequency, at corners of stiffness, %."""
+        """Least purity of each mode at corners of stiffness, %: (n_modes,)."""
         return self.__dict__["_least"]  # type: ignore[no-any-return]
 
     def corner(self, mode: int) -> Mapping[str, tuple[float, ...]]:
