@@ -181,8 +181,8 @@ class Cancellation(Tabled):
     def with_error(self, *, amplitude: float = 0.0, phase_deg: float = 0.0) -> Cancellation:
         """Return the same forces with errors, as of shafts that follow the crank inexactly.
 
-        Of a perfect cancellation |1 − (1 + ε)·exp(iδ)| is left: 20 dB of attenuation need less than
-        5.7°.
+        Of a perfect cancellation ``abs(1 − (1 + ε)·exp(iδ))`` is left: 20 dB of attenuation need
+        less than 5.7°.
 
         Parameters
         ----------

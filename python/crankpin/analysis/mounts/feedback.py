@@ -133,7 +133,7 @@ class VelocityFeedback(Tabled):
         Returns
         -------
         ndarray of float
-            |1/(1 + gT)| at the place of the actuator; above 1 it is made worse.
+            ``abs(1/(1 + gT))`` at the place of the actuator; above 1 it is made worse.
 
         Raises
         ------
