@@ -203,7 +203,7 @@ class _Sampler:
 
     def moving(self, ratio: float | None) -> dict[str, _Table]:
         """Return the terms of the cylinders at a rod ratio; None leaves each its own."""
-        core = _cylinders(self.engine, ratio)
+        core = _core_at(self.engine, ratio)
         tables = self._tables(core, cylinders=True)
         if not self.fired:
             return tables
@@ -212,9 +212,10 @@ class _Sampler:
         for cylinder in kinds(self.engine):
             place = self.engine.cylinders.index(cylinder)
             amplitudes = _core.cylinder_harmonics(core.cylinders[place], orders)
-            area = 0.25 * math.pi * (cylinder.bore or 0.0) ** 2
             # The volume added per radian is the integral of the piston's acceleration.
-            swept = area * cylinder.crank_radius * 1j * amplitudes / np.array(orders)
+            swept = (
+                _piston_area(cylinder) * cylinder.crank_radius * 1j * amplitudes / np.array(orders)
+            )
             tables[f"swept {place}"] = _Table(orders, powers, swept[:, None, None].view(float))
         torque, mean = tables["torque"], np.zeros((1, 3, 4))
         mean[0, 0, 2] = _mean_inertia(core)
@@ -338,12 +339,13 @@ def _orders(
     turning = {*speeds, *(abs(shaft.ratio) for shaft in engine.shafts)}
     if pairs is not None:
         return sorted({n * speed for n, _ in pairs for speed in speeds} | turning)
-    furthest = _cylinders(engine, ratios.most)
+    furthest = _core_at(engine, ratios.most)
     count = HIGHEST_ORDER
     while True:
         tried = list(range(1, 2 * count + 1))
         parts = _core.terms(furthest, ONE_RADIAN_PER_SECOND, tried, None, None, True, (0.0, 0.0))
-        sizes = np.array([[abs(_planar(p)[:, :2]).sum(1), abs(_roll(p)[:, 0])] for *_, p in parts])
+        own = [part for name, _, part in parts if name == "cylinder"]
+        sizes = np.array([[abs(_planar(p)[:, :2]).sum(1), abs(_roll(p)[:, 0])] for p in own])
         kept = (sizes > REST * sizes.max(axis=2, keepdims=True)).any(axis=(0, 1))
         last = int(np.flatnonzero(kept).max(initial=0)) + 1
         if last <= count or count >= MOST_ORDERS:
@@ -363,16 +365,14 @@ def _roll(part: _core.Balance) -> Complex:
     return part.phasors("torque.inertia", turning=False)[:, None]
 
 
-def _cylinders(engine: Engine, ratio: float | None) -> _core.Engine:
-    """Return the cylinders of an engine, and nothing else of it, at a rod ratio or their own."""
-    core = engine_core(engine)
-    parts = [
-        (radius, length if ratio is None else radius / ratio, mass, offset, inertia)
-        for radius, length, mass, offset, inertia in core.cylinders
-    ]
-    tdc, bank = core.exact_angles
-    z, rotating = core.z.tolist(), core.rotating_mass.tolist()
-    return _core.Engine.from_lists(parts, tdc, None, bank, None, z, rotating, core.cranks)
+def _core_at(engine: Engine, ratio: float | None) -> _core.Engine:
+    """Return the engine without gas at a rod ratio, or at its own."""
+    return engine_core(at_rod_ratio(engine, ratio)).without_cycles()
+
+
+def _piston_area(cylinder: Cylinder) -> float:
+    """Return the area of a piston, m²; zero of a bore that is not known."""
+    return 0.25 * math.pi * (cylinder.bore or 0.0) ** 2
 
 
 def _mean_inertia(core: _core.Engine) -> float:
@@ -399,7 +399,7 @@ def _sizes(engine: Engine) -> dict[str, float]:
         found["force"] += force
         found["moment"] += force * (abs(z) + abs(engine.reference_z))
         found["torque"] += force * (cylinder.crank_radius + math.hypot(x, y))
-        if cycle is not None and cylinder.bore is not None:
-            area = 0.25 * math.pi * cylinder.bore**2
-            found["gas"] += float(cycle.pressure.max()) * area * cylinder.crank_radius
+        if cycle is not None:
+            swept = _piston_area(cylinder) * cylinder.crank_radius
+            found["gas"] += float(cycle.pressure.max()) * swept
     return found

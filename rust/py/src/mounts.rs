@@ -308,6 +308,12 @@ impl Powertrain {
         frozen(py, memory::array("deflections", shape.to_vec(), numbers).or_raise()?)
     }
 
+    /// Coordinates of unit mass: columns, of displacement of the CG and rotation.
+    fn unit_mass<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let unit = self.0.unit_mass().or_raise()?;
+        frozen(py, Array2::from_shape_fn((6, 6), |place| unit[place]))
+    }
+
     fn modes<'py>(&self, py: Python<'py>, frequency: Option<f64>) -> PyResult<Modes<'py>> {
         let found = mounts::modes(&self.0, frequency).or_raise()?;
         let square = |matrix: &nalgebra::Matrix6<f64>| {

@@ -253,13 +253,8 @@ class Question:
         self.ratio = None if ratio is None else _range("ratio", ratio)
         self.window = None if modes_between is None else _range("modes_between", modes_between)
         self._bounds(bounds)
-        mass = np.zeros((6, 6))
-        mass[:3, :3] = powertrain.body.mass * np.eye(3)
-        mass[3:, 3:] = powertrain.body.inertia
-        values, vectors = np.linalg.eigh(mass)
-        self._inverse_root = vectors @ np.diag(values**-0.5) @ vectors.T
-        roll = self._inverse_root[:, 5]
-        self._roll = roll / np.linalg.norm(roll)
+        self._unit_mass = powertrain._core.unit_mass()
+        self._roll = self._unit_mass[5] / np.linalg.norm(self._unit_mass[5])
         if "stiffness" in {kind for _, kind in self.varied} or ("decoupling", None) in (
             self.objectives
         ):
@@ -269,9 +264,7 @@ class Question:
                     raise inputs.faulty(
                         f"table of mount {mount.name!r}", "has many frequencies", hint
                     )
-        own = _dynamics(powertrain).ravel()
-        quotient = float(self._roll @ self._reaction(powertrain) @ own)
-        hertz = float(np.sqrt(max(quotient, 0.0)) / (2.0 * np.pi))
+        hertz = self._roll_frequency(powertrain)
         if roll_frequency is not None:
             hertz = inputs.finite("roll_frequency", roll_frequency)
         if hertz <= 0.0:
@@ -364,29 +357,34 @@ class Question:
             mounts[place] = mount.replace(**changes)
         return self.powertrain.replace(mounts=mounts)
 
-    def _reaction(self, powertrain: Powertrain) -> Real:
+    def _reactions(self, powertrain: Powertrain) -> Real:
         """Return K̃u of each stiffness of 1 N/m: (6, 3 × n_mounts)."""
-        rows = powertrain._core.deflections().reshape(-1, 6) @ self._inverse_root
+        rows = powertrain._core.deflections().reshape(-1, 6) @ self._unit_mass
         return np.asarray((rows * (rows @ self._roll)[:, None]).T)
 
-    def coupling(self, powertrain: Powertrain) -> Real:
-        """Return what keeps K̃u from ω²u, over its length or ω²: six numbers."""
-        reaction = self._reaction(powertrain) @ _dynamics(powertrain).ravel()
-        if self.keeps_roll:
-            return np.asarray((reaction - self.square * self._roll) / self.square)
+    def _reaction(self, powertrain: Powertrain) -> Real:
+        """Return K̃u: six numbers."""
+        return np.asarray(self._reactions(powertrain) @ _dynamics(powertrain).ravel())
+
+    def _across(self, powertrain: Powertrain) -> Real:
+        """Return the part of K̃u that is no torque of the crank, over the length of K̃u."""
+        reaction = self._reaction(powertrain)
         length = float(np.linalg.norm(reaction))
         across = reaction - (self._roll @ reaction) * self._roll
         return np.asarray(across / length if length else across)
 
+    def coupling(self, powertrain: Powertrain) -> Real:
+        """Return what keeps K̃u from ω²u, over its length or ω²: six numbers."""
+        if self.keeps_roll:
+            return np.asarray(self._reaction(powertrain) / self.square - self._roll)
+        return self._across(powertrain)
+
     def _share(self, powertrain: Powertrain) -> float:
         """Return the part of the reaction that is no torque of the crank, 0 to 1."""
-        reaction = self._reaction(powertrain) @ _dynamics(powertrain).ravel()
-        across = reaction - (self._roll @ reaction) * self._roll
-        length = float(np.linalg.norm(reaction))
-        return float(np.linalg.norm(across)) / length if length else 0.0
+        return float(np.linalg.norm(self._across(powertrain)))
 
     def _roll_frequency(self, powertrain: Powertrain) -> float:
-        quotient = float(self._roll @ self._reaction(powertrain) @ _dynamics(powertrain).ravel())
+        quotient = float(self._roll @ self._reaction(powertrain))
         return float(np.sqrt(max(quotient, 0.0)) / (2.0 * np.pi))
 
     def _force(self, powertrain: Powertrain, name: str, order: Order, *, smooth: bool) -> float:
@@ -423,7 +421,7 @@ class Question:
         optimize = optional.library("scipy.optimize")
         base, own = self.made(self.start), np.zeros(len(self.powertrain.mounts) * 3)
         own[:] = _dynamics(base).ravel()
-        reaction = self._reaction(base)
+        reaction = self._reactions(base)
         free, columns = [], []
         for place, kind, where in self._places():
             if kind == "stiffness":

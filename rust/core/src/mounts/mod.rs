@@ -145,7 +145,7 @@ impl Powertrain {
     }
 
     /// The matrix L⁻ᵀ whose columns have unit mass.
-    fn unit_mass(&self) -> Result<nalgebra::Matrix6<f64>> {
+    pub fn unit_mass(&self) -> Result<nalgebra::Matrix6<f64>> {
         let inverse = self.mass_factor()?.l().try_inverse();
         let error = || Error::value("inertia", "not positive definite", "give a tensor that is");
         inverse.map(|inverse| inverse.transpose()).ok_or_else(error)

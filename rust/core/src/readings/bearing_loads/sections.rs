@@ -6,7 +6,7 @@ use super::{BearingLoadsModel, check_angles, vectors};
 use crate::load::kinematics::{BLOCK, Units};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, parts};
-use crate::numbers::error::{Error, Result};
+use crate::numbers::error::Result;
 
 /// What is cut at some z.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,12 +30,6 @@ pub struct Sections {
 impl BearingLoadsModel {
     /// Shear and bending of a part at [`Self::places`].
     pub fn sections(&self, part: Part, theta_deg: &[f64], cancel: &Cancel) -> Result<Sections> {
-        if let Part::Crank(crank) = part
-            && crank >= self.on_cranks.len()
-        {
-            let hint = format!("give the index of a crank, 0 to {}", self.on_cranks.len() - 1);
-            return Err(Error::value("crank", crank, hint));
-        }
         let (z, count) = (self.places(), theta_deg.len());
         check_angles(theta_deg, 4 * z.len(), cancel)?;
         let loads = self.loads(theta_deg, cancel)?;
