@@ -23,6 +23,7 @@ from crankpin._support.record import FieldsDocumented
 from crankpin.model import engine_files
 from crankpin.view import page
 from docutils import nodes
+from matplotlib.text import Text
 from sphinx.ext.napoleon import NumpyDocstring
 from sphinx.util.docutils import SphinxDirective
 
@@ -250,8 +251,8 @@ def _draw_thumbnail(engine: cp.Engine, file: Path) -> None:
     """Write a small picture of an engine's cross-section."""
     file.parent.mkdir(parents=True, exist_ok=True)
     axes = engine.plot(kind="section", theta_deg=40.0)
-    axes.set_axis_off()
-    axes.set_title("")
+    for text in axes.figure.findobj(Text):
+        text.set_visible(False)  # too small to read
     axes.figure.savefig(file, dpi=60, bbox_inches="tight", transparent=True)
     plt.close("all")
 

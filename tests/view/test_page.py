@@ -755,3 +755,13 @@ def test_every_kind_turns(open_engine: Open, name: str) -> None:
             /NaN|undefined|Infinity/.test(value)).map(({ name, value }) => `${name}=${value}`)""",
     )
     assert odd == []
+
+
+def test_an_address_that_says_so_turns_the_engine_at_once(open_file: Open, tmp_path: Path) -> None:
+    file = tmp_path / "engine.html"
+    V8.save_html(file, rpm=3000.0)
+    page = open_file(file)
+    assert page.evaluate("crankpin.state.playing") is False
+    page.evaluate("location.hash = '#playing'")
+    page.reload()
+    assert page.evaluate("crankpin.state.playing") is True
