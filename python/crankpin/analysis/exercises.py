@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import math
+import textwrap
 from functools import cached_property
 from random import Random
 from typing import TYPE_CHECKING, NamedTuple
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 
 INLINES = ("i2-360", "i2-180", "i2-270", "i3", "i4", "i4-crossplane", "i5", "i6")
 FIRING = ("i3", "i4", "i5", "i6", "v6-60", "v6-90-odd-fire", "v8-crossplane", "v12-60", "v-twin-45")
+WIDTH = 88
+"""Of a question in text, characters."""
 NEAR = 0.01
 """Answers within one per cent are right: slide rules and three digits are welcome."""
 
@@ -54,9 +57,13 @@ def exercise(topic: str, seed: int = 0) -> Exercise:
     Examples
     --------
     >>> import crankpin as cp
-    >>> cp.exercise("v-angle", seed=7)  # doctest: +ELLIPSIS
+    >>> cp.exercise("v-angle", seed=7)
     A V6 whose first-order moment turns with the crank (sheet v-angle 7)
-    A V6 has the throws 0-120-240 of its right bank, 130 mm apart. ... large is the moment there?
+    A V6 has the throws 0-120-240 of its right bank, 130 mm apart. Its left pins are split
+    by -30° from them, in the direction of rotation. A piston with its part of the rod has
+    458 g, the stroke is 96 mm, the rods are 154 mm long, the speed is 2500 rpm. At which
+    bank angle does no part of the first-order rocking moment turn against the crank? How
+    large is the moment there?
     Answers: bank_angle_deg (°), moment (N·m)
     >>> cp.exercise("v-angle", seed=7).check(bank_angle_deg=75, moment=300)
     {'bank_angle_deg': True, 'moment': False}
@@ -152,12 +159,7 @@ class Exercise(Record):
         }
 
     def __str__(self) -> str:
-        answers = ", ".join(
-            f"{step.answer} ({step.unit})" if step.unit else step.answer
-            for step in self.steps
-            if step.answer
-        )
-        return f"{self._head}\n{self.question}\nAnswers: {answers}"
+        return "\n".join((self._head, textwrap.fill(self.question, WIDTH), self._asks))
 
     __repr__ = __str__
 
@@ -165,9 +167,16 @@ class Exercise(Record):
     def _head(self) -> str:
         return f"{self.title} (sheet {self.topic} {self.seed})"
 
+    @property
+    def _asks(self) -> str:
+        answers = [step for step in self.steps if step.answer]
+        return "Answers: " + ", ".join(
+            f"{step.answer} ({step.unit})" if step.unit else step.answer for step in answers
+        )
+
     def _repr_html_(self) -> str:
-        head, question, asked = (html.escape(line) for line in str(self).split("\n"))
-        return f"<h4>{head}</h4><p>{question}</p><p><i>{asked}</i></p>"
+        head, question, asks = map(html.escape, (self._head, self.question, self._asks))
+        return f"<h4>{head}</h4><p>{question}</p><p><i>{asks}</i></p>"
 
 
 # --- topics -------------------------------------------------------------------------------------
