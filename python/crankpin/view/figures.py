@@ -34,10 +34,7 @@ IRREGULARITY = 0.01
 """Largest less smallest speed, over the mean, of a page whose moment of inertia is not given."""
 PRESSURE_STEP = 0.5
 """Degrees between the samples of a cycle, between which a page interpolates."""
-EXHAUST = {
-    4: float(ValveTiming().exhaust_opens_deg),
-    2: float(PortTiming().exhaust_opens_deg),
-}
+EXHAUST = {4: float(ValveTiming().exhaust_opens_deg), 2: float(PortTiming().exhaust_opens_deg)}
 """Angle at which exhausts open, before the piston is lowest, degrees, by strokes: ordinary ones."""
 BLOCK = 50.0
 """Mass of the block, which is not known, over that of the pistons: 90 kg for two litres."""
