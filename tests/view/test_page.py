@@ -351,8 +351,10 @@ def test_sentences_are_those_of_the_engine_as_given(open_engine: Open) -> None:
     page.locator("[data-name=rpm]").fill("2000")
     assert listed.first.is_visible()
     for field, value, own in (("bank-angle", "60", "90"), ("rod-ratio", "0.25", None)):
+        top = page.locator(".dials").bounding_box()
         page.locator(f"[data-name={field}]").fill(value)
         assert not listed.first.is_visible()
+        assert page.locator(".dials").bounding_box() == top  # nothing jumps
         if own:
             page.locator(f"[data-name={field}]").fill(own)
             assert listed.first.is_visible()

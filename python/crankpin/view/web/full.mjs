@@ -48,13 +48,15 @@ export class Full extends View {
     this.sentences = new Sentences(figures);
     this.sound = figures.firing_deg ? new Sound(figures.exhaust_opens_deg) : null;
     this.element = region(title, "",
-      this.header.element, this.sentences.element, this.transport.element, this.settings.element,
-      this.sound ? this.sound.element : "",
+      this.header.element,
       html("div", { class: "views" },
         panel(STRINGS.crossSection, this.readouts.angle, this.scenes[0].element),
         panel(this.frames[0], this.scenes[1].element),
         panel(this.frames[1], this.scenes[2].element)),
       this.stretchedLine,
+      this.transport.element, this.settings.element,
+      this.sound ? this.sound.element : "",
+      this.sentences.element,
       html("div", { class: "dials" }, ...this.dials()),
       section(STRINGS.orders, legend(["forward", "backward"], STRINGS.legend), this.phasors.element),
       section(STRINGS.timeline,
