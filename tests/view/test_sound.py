@@ -37,7 +37,8 @@ def heard(page: Page, cycle: float) -> list[list[float]]:
 
 
 def gaps(angles: list[float], cycle: float) -> list[float]:
-    return np.diff([*angles, angles[0] + cycle]).tolist()
+    following = [*angles[1:], angles[0] + cycle]
+    return [after - before for before, after in zip(angles, following, strict=True)]
 
 
 @pytest.mark.parametrize(
