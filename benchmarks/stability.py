@@ -36,7 +36,7 @@ ALL = [*CASES, *MOUNTS]
 LEAST, MOST = -17.0, 0.0
 """Colours run over these powers of ten: from exact to wholly wrong."""
 COLOURS = "cividis"
-"""Dark blue for exact, yellow for wrong: read alike by those who do not distinguish red from green."""
+"""Dark blue for exact, yellow for wrong: for those who do not distinguish red from green."""
 SHARES = (0.0, 1e-12, 1 - 1e-9)
 """Offsets that the map shows, of the largest with which the crank turns; the tests have more."""
 
