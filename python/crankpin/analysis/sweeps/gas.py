@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
     from crankpin import _core
     from crankpin.model.engine import Engine
-
-Item = TypeVar("Item")
 
 
 class GasMap(Record):
@@ -79,8 +77,7 @@ class GasMap(Record):
             core
             for engine in engines
             for core in engine._core.with_cycles(
-                [self._of_each(cycles, engine) for cycles in of_cylinders],
-                engine._below_pistons(self.crankcase),
+                of_cylinders, engine._below_pistons(self.crankcase)
             )
         ]
 
@@ -96,8 +93,6 @@ class GasMap(Record):
     def at(self, engine: Engine, rpm: float, load: float) -> Engine:
         """Return an engine with its cycles at a speed and a load."""
         cycles = [None if each is None else each.at(rpm=rpm, load=load) for each in self.maps]
-        return engine.with_cycle(self._of_each(cycles, engine), crankcase=self.crankcase)
-
-    def _of_each(self, cycles: list[Item], engine: Engine) -> list[Item]:
-        """Return the cycle of each cylinder."""
-        return cycles * len(engine) if len(self.maps) == 1 else cycles
+        if len(cycles) == 1:
+            cycles *= len(engine)
+        return engine.with_cycle(cycles, crankcase=self.crankcase)
