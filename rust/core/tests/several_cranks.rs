@@ -10,7 +10,7 @@ use crankpin_core::balance::{Balance, Request, TorquePart, Vector};
 use crankpin_core::engine::{Details, Gas, Origin};
 use crankpin_core::exact::vanishing::{QUANTITIES, Verdict, vanishing};
 use crankpin_core::pressure::Given;
-use crankpin_core::sweep::{Axes, Figure, Quantity};
+use crankpin_core::sweep::{Quantity, Statistic, SweepAxes};
 use crankpin_core::{
     Cancel, Complex64, Crank, Cycle, Cylinder, Engine, Order, Orders, Station, Sweep, Unbalance,
     balance, terms,
@@ -202,7 +202,7 @@ proptest! {
     #[test]
     fn a_balance_is_a_sweep_of_one_point(engine in fired(weighted(engines())), digits in 1.0..9.0) {
         let (rtol, cancel) = (10_f64.powf(-digits), Cancel::new());
-        let axes = Axes { rpm: vec![REQUEST.rpm], ..Axes::default() };
+        let axes = SweepAxes { rpm: vec![REQUEST.rpm], ..SweepAxes::default() };
         let engines = vec![Arc::new(engine)];
         let auto = Orders::Auto { rtol };
         let balance = balance::balance(&engines[0], &REQUEST, &auto, &cancel).unwrap();
@@ -219,7 +219,7 @@ proptest! {
         for (quantity, vector) in
             [(Quantity::Force, Vector::Force), (Quantity::Moment, Vector::Moment)]
         {
-            let parts = sweep.phasors(quantity, Figure::Turning, &cancel).unwrap();
+            let parts = sweep.phasors(quantity, Statistic::Turning, &cancel).unwrap();
             let parts = parts.into_raw_vec_and_offset().0;
             for (k, parts) in parts.chunks(2).enumerate() {
                 let planar = balance.planar(vector, k);
@@ -230,7 +230,7 @@ proptest! {
             for (quantity, on_crank) in
                 [(Quantity::Torque(part), false), (Quantity::CrankTorque(part), true)]
             {
-                let phasors = sweep.phasors(quantity, Figure::Amplitude, &cancel).unwrap();
+                let phasors = sweep.phasors(quantity, Statistic::Amplitude, &cancel).unwrap();
                 for (k, phasor) in phasors.into_raw_vec_and_offset().0.into_iter().enumerate() {
                     let torque = balance.torque(part, k);
                     let expected = if on_crank { torque.crank } else { torque.roll };

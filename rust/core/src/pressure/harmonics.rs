@@ -114,7 +114,7 @@ struct Abscissae {
 }
 
 /// Pressure on a panel.
-struct Panel<'a> {
+struct PressurePanel<'a> {
     /// Of its Chebyshev series.
     coefficients: &'a [f64],
     /// Degrees.
@@ -157,7 +157,7 @@ impl Abscissae {
     fn add<const SQUARES: bool>(
         &mut self,
         (places, weights, count): (&Lanes, &Lanes, usize),
-        panel: &Panel,
+        panel: &PressurePanel,
         proportions: &Proportions,
         crankcase: f64,
     ) {
@@ -167,12 +167,15 @@ impl Abscissae {
             *degrees = panel.middle + half_deg * place;
         }
         sin_cos_degrees(&degrees, &mut sin, &mut cos);
-        let (mut pressure, mut slope, mut bend) = (*places, *places, *places);
-        if SQUARES {
-            [pressure, slope, bend] = jets(panel.coefficients, places);
+        let [pressure, mut slope, mut bend] = if SQUARES {
+            jets(panel.coefficients, places)
         } else {
-            pressure = values(panel.coefficients, places);
-        }
+            [
+                values(panel.coefficients, places),
+                [0.0; SUMMED_SIDE_BY_SIDE],
+                [0.0; SUMMED_SIDE_BY_SIDE],
+            ]
+        };
         for k in 0..SUMMED_SIDE_BY_SIDE {
             let motion = proportions.motion(sin[k], cos[k]);
             let gauge = pressure[k] - crankcase;
@@ -253,7 +256,7 @@ impl Cycle {
     ) -> Result<(GasTorque, [f64; 2])> {
         // None waits for a lock: a forked child has no thread that would release it.
         let last = self.last_torques.0[usize::from(SQUARES)].try_lock();
-        let known = last.as_ref().ok().and_then(|last| last.as_ref());
+        let known = last.as_ref().ok().and_then(|last| (**last).as_ref());
         let is_it = |known: &&Integrated| {
             known.proportions == *proportions
                 && known.crankcase == crankcase
@@ -332,7 +335,7 @@ impl Cycle {
     ) -> Result<()> {
         let (from, to) = (self.panels.edges[panel], self.panels.edges[panel + 1]);
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from).to_radians());
-        let panel = Panel { coefficients: self.panels.panel(panel), middle, half };
+        let panel = PressurePanel { coefficients: self.panels.panel(panel), middle, half };
         let centred = middle.to_radians();
         let extra = self.panels.degree.div_ceil(2) as u32;
         // Parts of the panel, as intervals of [−1, 1].

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use crate::engine::{Engine, Origin};
 use crate::load::source::{Repeats, Scale, Scaling, Source, Tail};
-use crate::load::{Load, Loads, count};
+use crate::load::{Load, LoadList, count};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -104,7 +104,7 @@ impl OrderSums {
 /// An engine whose orders are chosen: its loads, and their sources where harmonics decrease most slowly.
 pub(crate) struct Candidate<'a> {
     pub engine: &'a Engine,
-    pub loads: &'a Loads,
+    pub loads: &'a LoadList,
     pub sources: Vec<Arc<dyn Source>>,
     /// Whether it is the one before it with other pressures.
     pub repeats: bool,
@@ -180,7 +180,7 @@ impl Choice {
 pub(crate) fn within(
     rtol: f64,
     engine: &Engine,
-    loads: &Loads,
+    loads: &LoadList,
     torque: bool,
     cancel: &Cancel,
 ) -> Result<Chosen> {
@@ -207,7 +207,7 @@ pub(crate) fn within(
 pub(crate) fn within_each(
     rtol: f64,
     engine: &Engine,
-    loads: &Loads,
+    loads: &LoadList,
     torque: bool,
     cancel: &Cancel,
 ) -> Result<(Vec<Order>, OrderSums)> {
@@ -224,7 +224,7 @@ pub(crate) fn within_each(
     for cylinder in 0..engine.stations().len() {
         let mut list = others.clone();
         list.retain(|load| load.place.origin == Origin::Cylinder(cylinder));
-        let alone = Loads { list, sources: loads.sources.clone(), ..*loads };
+        let alone = LoadList { list, sources: loads.sources.clone(), ..*loads };
         let chosen = within(rtol, engine, &alone, torque, cancel)?;
         orders.extend(chosen.orders);
         let lost = chosen.left_out.values();
@@ -266,7 +266,7 @@ fn few<S: AsRef<[f64]>>(sizes: &[S], allowed: &[f64], lost: &mut [f64]) -> Vec<b
 fn candidates(
     rtol: f64,
     scales: &OrderSums,
-    loads: &Loads,
+    loads: &LoadList,
     sources: &[Arc<dyn Source>],
     torque: bool,
 ) -> Result<Vec<Order>> {
@@ -328,7 +328,7 @@ fn lowest(is_enough: impl Fn(u32) -> bool) -> Option<u32> {
 /// Bounds over ω² of what orders beyond those evaluated add to force, moment and torque, as if nothing
 /// cancelled, with these sources in place of those of the loads.
 fn tail(
-    loads: &Loads,
+    loads: &LoadList,
     evaluated: &[Order],
     torque: bool,
     sources: &[Arc<dyn Source>],
@@ -369,7 +369,7 @@ pub(crate) fn times(weight: f64, bound: f64) -> f64 {
 /// its spectrum or unbalance; for moment that times the longest lever of a load that has weight; for
 /// torque the largest m·r² or unbalance times crank radius or its shaft's distance from the crank.
 /// Where rod inertia makes more of order 1, what it makes: about J·r/l.
-fn scales(engine: &Engine, loads: &Loads) -> OrderSums {
+fn scales(engine: &Engine, loads: &LoadList) -> OrderSums {
     let [mut force, mut lever, mut torque] = [0.0_f64; 3];
     for load in &loads.list {
         let place = &load.place;
@@ -407,7 +407,7 @@ impl GasOrders {
     /// slowly.
     pub fn new(
         rtol: f64,
-        loads: &Loads,
+        loads: &LoadList,
         sources: &[Arc<dyn Source>],
         mut highest: u32,
         cancel: &Cancel,
@@ -481,7 +481,7 @@ mod tests {
                 rotating_mass: 0.0,
             };
             let engine = Engine::new("", "", vec![place]).unwrap();
-            let loads = Loads::new(&engine, 0.0);
+            let loads = LoadList::new(&engine, 0.0);
             // Against a scale of its own a heavier rod takes more orders.
             let scales = OrderSums { force: 1e9, moment: 1e9, inertia: 4.0, gas: 0.0 };
             let orders = candidates(1e-6, &scales, &loads, &loads.sources, true).unwrap();
@@ -499,14 +499,14 @@ mod tests {
     #[test]
     fn loads_that_act_the_other_way_are_bounded_alike() {
         let engine = crate::load::tests::fired([Some(0); 3]).0;
-        let ahead = Loads::new(&engine, 0.0);
-        let mut opposite = Loads::new(&engine, 0.0);
+        let ahead = LoadList::new(&engine, 0.0);
+        let mut opposite = LoadList::new(&engine, 0.0);
         opposite.list.iter_mut().for_each(|load| {
             load.weight *= -1.0;
             load.roll *= -1.0;
         });
         let last = Order::whole(4).unwrap();
-        let bounds = |loads: &Loads| {
+        let bounds = |loads: &LoadList| {
             let gas = GasOrders::new(0.1, loads, &loads.sources, FIRST_OF_GAS, &Cancel::new());
             let gas = gas.unwrap();
             let inertia = tail(loads, &[last], true, &loads.sources);

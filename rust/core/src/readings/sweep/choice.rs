@@ -28,11 +28,11 @@ use std::sync::Arc;
 use super::Quantity::{CrankTorque, Torque};
 use super::harmonics::of;
 use super::layout::{Layout, LayoutSum, Swung};
-use super::{Axes, Quantity, Sweep};
+use super::{Quantity, Sweep, SweepAxes};
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::load::source::{Column, Point, Scaling, Source};
-use crate::load::{Harmonic, Loads};
+use crate::load::{Harmonic, LoadList};
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -47,7 +47,7 @@ impl Sweep {
     pub fn within(
         rtol: f64,
         engines: Vec<Arc<Engine>>,
-        axes: Axes,
+        axes: SweepAxes,
         reference_z: Option<f64>,
         torque: bool,
         cancel: &Cancel,
@@ -68,7 +68,7 @@ impl Sweep {
         let nodes = sweep.nodes.count();
         let quantities_of =
             |k: usize| &quantities[if k.is_multiple_of(nodes) { 0 } else { of_gas }..];
-        let loads: Vec<Loads> = (0..sweep.engines.len()).map(|k| sweep.loads(k)).collect();
+        let loads: Vec<LoadList> = (0..sweep.engines.len()).map(|k| sweep.loads(k)).collect();
         let [rod_ratio, pin_offset] = sweep.extremes;
         let extreme = Point { rod_ratio, pin_offset };
         let all = sweep.engines.iter().zip(&loads).enumerate();
@@ -123,7 +123,7 @@ impl Sweep {
     }
 
     /// Bound, at any point, of the torque of pressure above the last of its orders.
-    fn gas_tail(&self, loads: &Loads, gas: &GasOrders, cancel: &Cancel) -> Result<f64> {
+    fn gas_tail(&self, loads: &LoadList, gas: &GasOrders, cancel: &Cancel) -> Result<f64> {
         let Some(&last) = gas.orders.last().filter(|_| self.points() > 1) else {
             return Ok(gas.tail);
         };
@@ -301,7 +301,7 @@ mod tests {
         let place = Station { cylinder, tdc, bank, z: 0.0, rotating_mass: 0.0 };
         let cranks = vec![Crank::MAIN, Crank { axis: [0.1, 0.0], ratio }];
         let engine = Engine::new("", "", vec![place]).unwrap().with_cranks(cranks, vec![1]);
-        let axes = Axes { rod_ratio, pin_offset, rpm: vec![1000.0], ..Axes::default() };
+        let axes = SweepAxes { rod_ratio, pin_offset, rpm: vec![1000.0], ..SweepAxes::default() };
         let orders = Order::all_whole(&(1..=24).collect::<Vec<u32>>()).unwrap();
         let engines = vec![Arc::new(engine.unwrap())];
         let sweep = Sweep::new(engines, axes, orders.clone(), None, &cancel).unwrap();

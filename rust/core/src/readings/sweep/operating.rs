@@ -4,7 +4,7 @@
 //! scale so: rows of it, one for each cycle of a map, are interpolated as the cycles are, linearly over
 //! speed and then over load, and added.
 
-use super::axes::Axes;
+use super::axes::SweepAxes;
 use super::kernel::{Number, ROWS_PER_TASK};
 use super::{Quantity, Sweep};
 use crate::Complex64;
@@ -31,7 +31,7 @@ pub(super) struct Nodes {
 }
 
 impl Nodes {
-    pub fn new(axes: &Axes, cancel: &Cancel) -> Result<Self> {
+    pub fn new(axes: &SweepAxes, cancel: &Cancel) -> Result<Self> {
         let Some(map) = &axes.map else {
             return Ok(Self {
                 loads_of_map: 1,
@@ -98,7 +98,7 @@ struct GridPoint {
 
 impl Sweep {
     /// Writes rows at every speed and load; `evaluate` writes those of a quantity over ω², times a factor.
-    pub(super) fn spread<T: Number>(
+    pub(super) fn at_each_speed<T: Number>(
         &self,
         quantity: Quantity,
         width: usize,
