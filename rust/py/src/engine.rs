@@ -453,8 +453,8 @@ impl Engine {
         (0..count).map(|i| self.0.bank_of(i)).map(|k| if right == 1 { 1 - k } else { k }).collect()
     }
 
-    /// The engine with each of some lists of a cycle of each cylinder, or one for all, or none, and a
-    /// crankcase pressure, firing in its own firing order.
+    /// The engine with each of some lists of a cycle of each cylinder, or none, and a crankcase pressure,
+    /// firing in its own firing order.
     fn with_cycles(
         &self,
         py: Python<'_>,
@@ -473,11 +473,7 @@ impl Engine {
                     known.len() - 1
                 })
             };
-            let mut cycle_of: Vec<_> =
-                cycles.into_iter().map(|cycle| cycle.map(&mut index)).collect();
-            if let [one] = cycle_of[..] {
-                cycle_of = vec![one; self.0.stations().len()];
-            }
+            let cycle_of = cycles.into_iter().map(|cycle| cycle.map(&mut index)).collect();
             let gas = Gas { cycles: known, cycle_of, crankcase, later: firing.in_second_turn() };
             self.0.with_gas(gas).or_raise().map(Self::from)
         };

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
     from crankpin import _core
     from crankpin.model.engine import Engine
+
+Item = TypeVar("Item")
 
 
 class GasMap(Record):
@@ -77,7 +79,8 @@ class GasMap(Record):
             core
             for engine in engines
             for core in engine._core.with_cycles(
-                of_cylinders, engine._below_pistons(self.crankcase)
+                [self._of_each(cycles, engine) for cycles in of_cylinders],
+                engine._below_pistons(self.crankcase),
             )
         ]
 
@@ -93,6 +96,8 @@ class GasMap(Record):
     def at(self, engine: Engine, rpm: float, load: float) -> Engine:
         """Return an engine with its cycles at a speed and a load."""
         cycles = [None if each is None else each.at(rpm=rpm, load=load) for each in self.maps]
-        if len(cycles) == 1:
-            cycles *= len(engine)
-        return engine.with_cycle(cycles, crankcase=self.crankcase)
+        return engine.with_cycle(self._of_each(cycles, engine), crankcase=self.crankcase)
+
+    def _of_each(self, cycles: list[Item], engine: Engine) -> list[Item]:
+        """Return the cycle of each cylinder."""
+        return cycles * len(engine) if len(self.maps) == 1 else cycles
