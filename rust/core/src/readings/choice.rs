@@ -505,11 +505,11 @@ mod tests {
             load.weight *= -1.0;
             load.roll *= -1.0;
         });
-        let last = Order::whole(4).unwrap();
+        let evaluated = Order::all_whole(&[1, 2, 3, 4]).unwrap();
         let bounds = |loads: &LoadList| {
             let gas = GasOrders::new(0.1, loads, &loads.sources, FIRST_OF_GAS, &Cancel::new());
             let gas = gas.unwrap();
-            let inertia = tail(loads, &[last], true, &loads.sources);
+            let inertia = tail(loads, &evaluated, true, &loads.sources);
             (inertia, scales(&engine, loads), gas.tail, gas.allowed)
         };
         let found = bounds(&opposite);
