@@ -391,7 +391,8 @@ def order(value: object) -> Order:
     """Return an order, an int or a half as a float; a TypeError or ValueError for anything else."""
     if type(value) is int:
         return value
-    halves = 2.0 * _real(value)
+    # NumPy's doubles are floats, and lists of orders are read at every call.
+    halves = 2.0 * (float(value) if isinstance(value, float) else _real(value))
     if not halves.is_integer():
         raise ValueError("it is no multiple of 0.5")
     return int(halves) // 2 if halves % 2.0 == 0.0 else halves / 2.0

@@ -224,7 +224,7 @@ class Sweep(ByOrder[Any]):
             name: values if isinstance(values, np.ndarray) else np.array([values])
             for name, values in self.axes.items()
         }
-        dims = self.dims
+        swept = [isinstance(self.axes.get(name), np.ndarray) for name in AXES]
         cores = [engine_core(engine) for engine in self.engines]
         core = _core.Sweep(
             cores if self.gas_map is None else self.gas_map.fired(self.engines),
@@ -239,7 +239,7 @@ class Sweep(ByOrder[Any]):
             request.reference_z,
             request.pairs,
             request.torque,
-            [self.names is not None, *(name in dims for name in AXES)],
+            [self.names is not None, *swept],
         )
         self.__dict__.update(_core=core, _orders=tuple(core.orders), _omitted=tuple(core.omitted))
 

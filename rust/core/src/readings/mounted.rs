@@ -54,7 +54,7 @@ pub(crate) struct Loads {
 }
 
 /// One order at one speed.
-struct Point<'a> {
+struct OrderAtSpeed<'a> {
     /// nω.
     omega: f64,
     load: &'a ComplexVector6,
@@ -341,7 +341,11 @@ impl Response {
     }
 
     /// Calls a function for each speed and order.
-    fn for_each(&self, cancel: &Cancel, mut work: impl FnMut(&Point) -> Result<()>) -> Result<()> {
+    fn for_each(
+        &self,
+        cancel: &Cancel,
+        mut work: impl FnMut(&OrderAtSpeed) -> Result<()>,
+    ) -> Result<()> {
         let count = self.powertrain.mounts().len();
         for (point, motion) in self.motions.iter().enumerate() {
             if point.is_multiple_of(POINTS_PER_TASK) {
@@ -353,7 +357,7 @@ impl Response {
             } else {
                 self.stiffnesses(point, f64::NAN)?
             };
-            work(&Point {
+            work(&OrderAtSpeed {
                 omega: self.omega_of(point),
                 load: &self.loads[point],
                 motion,
@@ -365,7 +369,7 @@ impl Response {
     }
 
     /// Force of a mount on what carries it.
-    fn force(&self, mount: usize, point: &Point) -> [Complex64; 3] {
+    fn force(&self, mount: usize, point: &OrderAtSpeed) -> [Complex64; 3] {
         let deflection = self.powertrain.deflection(mount, point.motion, point.carriers.get(mount));
         self.powertrain.force_on_support(mount, &point.stiffnesses[mount], &deflection)
     }
