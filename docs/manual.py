@@ -18,7 +18,7 @@ import matplotlib.pyplot as plt
 from crankpin import cli
 from crankpin._support.record import FieldsDocumented
 from crankpin.model import engine_files
-from crankpin.view import page
+from crankpin.view import gallery
 from docutils import nodes
 from sphinx.ext.napoleon import NumpyDocstring
 from sphinx.util.docutils import SphinxDirective
@@ -158,7 +158,7 @@ def make_gallery(app: Sphinx) -> None:
     presets = cp.presets()
     rows = []
     for name, engine in presets.items():
-        rpm = page.speed_of(name, RPM)
+        rpm = gallery.speed_of(name, RPM)
         text = PRESET.format(
             name=name,
             engine=engine,
@@ -197,11 +197,11 @@ def make_turning(app: Sphinx, failed: Exception | None) -> None:
     """Write the pages in which the presets turn."""
     if failed is None and app.builder.format == "html":
         folder = Path(app.outdir) / "gallery" / "turning"
-        page.save_gallery(folder, rpm=RPM)
+        gallery.save_gallery(folder, rpm=RPM)
         (folder / "compact").mkdir(exist_ok=True)
         for name, engine in cp.presets().items():
             engine.save_html(
-                folder / "compact" / f"{name}.html", rpm=page.speed_of(name, RPM), compact=True
+                folder / "compact" / f"{name}.html", rpm=gallery.speed_of(name, RPM), compact=True
             )
 
 

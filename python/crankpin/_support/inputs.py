@@ -8,7 +8,7 @@ import itertools
 import math
 import operator
 import reprlib
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
@@ -304,17 +304,16 @@ def flag(name: str, value: object) -> bool:
 
 
 def one_of(
-    name: str, value: object, choices: Iterable[str], kind: type[InputError] = InputError
+    name: str, value: object, choices: Collection[str], kind: type[InputError] = InputError
 ) -> str:
     """Return one of a few words."""
-    listed = list(choices)
-    if not isinstance(value, str) or value not in listed:
-        if not listed:
-            raise rejected(name, value, "there is none; leave it out", kind)
-        *before, last = map(_quoted, listed)
-        hint = f"{', '.join(before)} or {last}" if before else last
-        raise rejected(name, value, f"give {hint}{nearest(value, listed)}", kind)
-    return value
+    if isinstance(value, str) and value in choices:
+        return value
+    if not choices:
+        raise rejected(name, value, "there is none; leave it out", kind)
+    *before, last = map(_quoted, choices)
+    hint = f"{', '.join(before)} or {last}" if before else last
+    raise rejected(name, value, f"give {hint}{nearest(value, choices)}", kind)
 
 
 def nearest(value: object, words: Iterable[str]) -> str:
@@ -340,7 +339,8 @@ def items(name: str, values: object, hint: str) -> list[Any]:
     if isinstance(values, (str, bytes)) or not isinstance(values, (list, tuple, Iterable)):
         raise rejected(name, values, hint)
     try:
-        listed = list(itertools.islice(values, MOST_ITEMS + 1))
+        is_endless = type(values) not in (list, tuple)
+        listed = list(itertools.islice(values, MOST_ITEMS + 1) if is_endless else values)
     except (TypeError, ValueError) as error:
         raise rejected(name, values, f"{hint} ({reason(error)})") from None
     if len(listed) > MOST_ITEMS:

@@ -10,12 +10,12 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels, optional
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import LOADS
 from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import mean_piston_speed
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
 
 if TYPE_CHECKING:

@@ -11,12 +11,13 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels, tables
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.record import read_only
 from crankpin.analysis.gas_exchange import PortTiming, Timing, ValveTiming, angles
 from crankpin.model import checks
 from crankpin.model.builders import vee_layout_of
-from crankpin.model.engine import Engine
+from crankpin.model.data import EngineData
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 
     from crankpin._support.inputs import Angle, Angles
     from crankpin.model.builders import Numbering, Side
+    from crankpin.model.engine import Engine
 
 Groups: TypeAlias = Iterable[Iterable[int]]
 """Cylinder numbers, manifold by manifold."""
@@ -71,7 +73,7 @@ class Firing(Tabled):
 
     def __post_init__(self) -> None:
         # The core checks the turns when they are first read: of thousands few are.
-        if not all(map(isinstance, (self.engine, self.revolutions), (Engine, tuple))):
+        if not all(map(isinstance, (self.engine, self.revolutions), (EngineData, tuple))):
             hint = "use Engine.firing, .firings or .firing_orders"
             raise inputs.rejected("engine", self.engine, hint)
 
@@ -321,8 +323,6 @@ class Firing(Tabled):
         ImportError
             If matplotlib is not installed.
         """
-        from crankpin.analysis.drawing import draw  # noqa: PLC0415 - drawing is optional
-
         return draw(self, ax, timing=timing, **style)  # type: ignore[no-any-return]
 
     def _gap_in_bank(self) -> NDArray[np.float64]:

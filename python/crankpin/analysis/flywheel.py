@@ -9,13 +9,13 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.tables import Column, Table
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
 from crankpin.analysis.waveform import Waveform, waveform
 from crankpin.model import checks
-from crankpin.model.engine import Engine
+from crankpin.model.data import EngineData
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin.model.cycle import Cycle
+    from crankpin.model.engine import Engine
 
 Curve: TypeAlias = "Callable[[NDArray[np.float64]], ArrayLike] | tuple[ArrayLike, ArrayLike]"
 """Torque over crank angle: a function of degrees, or angles and torques."""
@@ -134,7 +135,7 @@ def flywheel(
             "inertia of pistons and rods that varies; give the torque of the gas",
         )
     inputs.only_one_of(inertia=inertia, irregularity=irregularity)
-    engine = drive if isinstance(drive, Engine) else None
+    engine = drive if isinstance(drive, EngineData) else None
     if engine is not None:
         torque = _of_gas(engine, inputs.number("rpm", rpm), period_deg)
         checks.flywheel(engine._core, inputs.optional_number("inertia", inertia) or 0.0)

@@ -278,9 +278,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
         if self.order is None:
             return self.result.read(self.name, what)
         if self.order != ALL:
-            one = self.result._with_order(self.order)
-            at = (slice(None),) * len(one.dims) + (one.orders.index(self.order),)
-            return one.read(self.name, what)[at]
+            return self.result._read_order(self.order, self.name, what)
         if what not in ("peak", "peak_xy"):
             hint = f"as in b[2], or read the arrays of a balance, as in b.{self.name}"
             raise self._absent(what, f"all orders together have peaks alone; give an order, {hint}")

@@ -9,15 +9,14 @@ import numpy as np
 from matplotlib.transforms import ScaledTranslation
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balance import Balance
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
     Drawn,
     Kinds,
     add_legend,
     axes_or_new,
-    check_one_place,
     label_x,
     label_y,
     note_zero,
@@ -241,5 +240,4 @@ def _balance(
     kind: str = "spectrum",
     **options: object,
 ) -> Drawn:
-    check_one_place(ax, figure)
     return KINDS[inputs.one_of("kind", kind, KINDS)](result, ax, figure, **options)

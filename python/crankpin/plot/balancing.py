@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balancing.balancers import BalancerOptions
 from crankpin.analysis.balancing.bob_weight import BobWeight
 from crankpin.analysis.balancing.fitted_shafts import SHAKEN, BalanceShafts
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, note_zero, set_title
 from crankpin.plot.style import (
     MARKERS,

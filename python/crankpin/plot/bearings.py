@@ -7,15 +7,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture
 from crankpin._support.quantities import LOADS
 from crankpin.analysis.bearings import PARTS, BearingLoads
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
     Drawn,
     Kinds,
     add_legend,
     axes_or_new,
-    check_one_place,
     label_x,
     label_y,
     note_zero,
@@ -188,5 +187,4 @@ def _bearing_loads(
     kind: str = "polar",
     **options: object,
 ) -> Drawn:
-    check_one_place(ax, figure)
     return KINDS[inputs.one_of("kind", kind, KINDS)](result, ax, figure, **options)

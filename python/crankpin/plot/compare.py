@@ -7,13 +7,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.font_manager import FontProperties
 
+from crankpin._support.drawing import picture
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.comparison import Comparison
 from crankpin.analysis.waveform import Waveform
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
     Drawn,
-    check_one_place,
     inches_of,
     label_x,
     label_y,
@@ -50,7 +49,6 @@ def _comparison(
     quantity: str | None = None,
     **style: object,
 ) -> Drawn:
-    check_one_place(ax, figure)
     name = drawn_quantity(quantity, nonzero_in(result.before, result.after))
     result.before.request.check(name)
     beside = width_for(figure) >= SIDE_BY_SIDE

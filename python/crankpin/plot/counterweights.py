@@ -8,18 +8,17 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balance import over_square
 from crankpin.analysis.balancing.counterweights import Counterweights
 from crankpin.model.crankpins import crankpins
 from crankpin.plot.balance import direction, ellipse
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
     Drawn,
     add_figure_legend,
     add_legend,
     axes_or_new,
-    check_one_place,
     inches_of,
     label_x,
     label_y,
@@ -59,7 +58,6 @@ def _counterweights(
     quantity: str | None = None,
     **style: object,
 ) -> Drawn:
-    check_one_place(ax, figure)
     chosen = inputs.one_of("kind", kind, KINDS)
     exists = nonzero_in(over_square(result.engine, [1])[1], result.residual[1])
     name = drawn_quantity(quantity, exists, PLANE_VECTORS)

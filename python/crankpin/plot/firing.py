@@ -9,9 +9,9 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Patch
 
 from crankpin._support import labels
+from crankpin._support.drawing import picture
 from crankpin.analysis.firing import Firing, Gaps
 from crankpin.plot import ticks
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, points_of, set_title
 from crankpin.plot.style import background, colours, font_of, foreground, muted, tint, write
 

@@ -113,12 +113,6 @@ def make_panels(
     return Panels(figure, figure.subplots(rows, columns, squeeze=False, **options))
 
 
-def check_one_place(ax: object, figure: object) -> None:
-    """Raise an InputError if both axes and a figure are given."""
-    if ax is not None and figure is not None:
-        raise inputs.faulty("ax and figure", "cannot be combined", "give one of them")
-
-
 def reject_figure(figure: object, kind: str) -> None:
     """Raise an InputError if a figure is given to a kind of picture with one panel."""
     if figure is not None:

@@ -12,17 +12,16 @@ from matplotlib.patches import Circle, FancyArrowPatch
 from matplotlib.transforms import ScaledTranslation
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis import contributions as adding
 from crankpin.analysis.star import StarDiagram
 from crankpin.plot import ticks
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
     Drawn,
     add_figure_legend,
     add_legend,
     axes_or_new,
-    check_one_place,
     inches_of,
     label_x,
     label_y,
@@ -272,7 +271,6 @@ def _star(
     order: Order | None = None,
     **style: object,
 ) -> Drawn:
-    check_one_place(ax, figure)
     if order is not None and figure is not None:
         raise inputs.rejected("figure", figure, "one order has one panel; give ax")
     if ax is not None or order is not None:

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture
 from crankpin.analysis.arrangements.search import ArrangementSearch
 from crankpin.analysis.design.designs import Designs, bank_angle_range
 from crankpin.analysis.design.families import turned
 from crankpin.analysis.ranking.ranking import Ranking
 from crankpin.plot.curves import FEW_POINTS, engine_looks
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, set_title
 from crankpin.plot.style import DISTINCT, SERIES, foreground, once, ring, series, write_at_mark
 from crankpin.plot.sweep import MOST_ENGINES

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture
 from crankpin._support.quantities import QUANTITIES
 from crankpin.analysis.sweeps.sweep import Sweep
 from crankpin.plot.curves import curves
-from crankpin.plot.dispatch import picture
-from crankpin.plot.layout import Drawn, Kinds, check_one_place, label_x, make_panels
+from crankpin.plot.layout import Drawn, Kinds, label_x, make_panels
 from crankpin.plot.maps import heat_map, order_map
 from crankpin.plot.parts import parts
 from crankpin.plot.rows import given_orders, largest, words_of
@@ -153,7 +153,6 @@ def _sweep(
     x: str | None = None,
     **options: object,
 ) -> Drawn:
-    check_one_place(ax, figure)
     if options.get("quantity", "") is None:
         del options["quantity"]  # each kind has its own default
     if not result.coords:

@@ -8,17 +8,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.sweeps.waveform import SweepWaveform
 from crankpin.analysis.waveform import Waveform
 from crankpin.plot.curves import bundle_of, colour_scale
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
     Drawn,
     add_legend,
     axes_or_new,
-    check_one_place,
     label_x,
     label_y,
     make_panels,
@@ -91,7 +90,6 @@ def _sweep_waveform(
     quantity: str | None = None,
     **style: object,
 ) -> Drawn:
-    check_one_place(ax, figure)
     name = drawn_quantity(quantity, nonzero_in(result))
     count = math.prod(len(values) for values in result.sweep.coords.values())
     chosen = "curves" if count <= DISTINCT else "envelope"

@@ -10,7 +10,7 @@ from crankpin._support import inputs, labels
 from crankpin._support.quantities import PARTS, PLANE_VECTORS, QUANTITIES
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Collection, Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
@@ -86,7 +86,7 @@ def nonzero_in(*results: object) -> Callable[[str], bool]:
 
 
 def drawn_quantity(
-    given: object, exists: Callable[[str], bool], among: Iterable[str] = QUANTITIES
+    given: object, exists: Callable[[str], bool], among: Collection[str] = QUANTITIES
 ) -> str:
     """Return the quantity asked for; by default the moment, or else the first that exists."""
     if given is not None:

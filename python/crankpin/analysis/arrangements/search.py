@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 from crankpin import _core
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.record import Input, changed, item_key
 from crankpin._support.tables import Table
-from crankpin.analysis.drawing import draw
 from crankpin.model.data import parts
 from crankpin.model.engine import Engine
 

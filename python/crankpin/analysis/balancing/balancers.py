@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import SHOWN, Tabled
 from crankpin._support.record import AbsentError, Listed, Record
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import balance
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking.objectives import ByObjectives
 
 if TYPE_CHECKING:

@@ -11,12 +11,12 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import Listed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import Balance, balance
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.geometry import direction
 from crankpin.model.shafts import Shaft
 

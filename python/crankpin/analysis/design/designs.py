@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.record import Listed, Record
 from crankpin._support.tables import Table
 from crankpin.analysis.arrangements.cranks import HALF, Crank
 from crankpin.analysis.design.families import engines_of, turned
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking.objectives import ByObjectives, named
 from crankpin.analysis.sweeps.sweep import sweep
 

@@ -12,10 +12,10 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.record import Listed, Record, changed
 from crankpin._support.tables import Table
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking.objectives import ByObjectives, of_table
 
 if TYPE_CHECKING:

@@ -13,13 +13,13 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
+from crankpin._support.drawing import draw
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import changed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis import export
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import Request, check_request, engine_core
 from crankpin.analysis.sweeps import dask
 from crankpin.analysis.sweeps.gas import GasMap
@@ -241,7 +241,7 @@ class Sweep(ByOrder[Any]):
             request.torque,
             [self.names is not None, *(name in dims for name in AXES)],
         )
-        self.__dict__.update(_core=core, _orders=tuple(core.orders), _omitted=tuple(core.omitted))
+        self.__dict__["_core"] = core
 
     @cached_property
     def error_bound(self) -> Mapping[str, float]:

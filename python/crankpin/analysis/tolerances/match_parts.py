@@ -227,7 +227,7 @@ def match_parts(
     >>> float(match.engines[0].balance(rpm=6000)[1].force.peak)  # 402 + 401 - 405 - 398 g
     0.0
     """
-    engine_core(engine)
+    core = engine_core(engine)
     count = len(engine)
     inputs.one_of("by", by, WORDS)
     masses = _masses("pistons", pistons, 1)
@@ -253,7 +253,7 @@ def match_parts(
     listed = inputs.explicit_orders((1, 2) if orders is None else orders)
     start = inputs.whole("seed", seed, 0)
     asked = progress_bar.checked(progress)
-    checks.masses(engine, pistons=masses.max(), rods=0.0 if ends is None else ends.max())
+    checks.masses(core, pistons=masses.max(), rods=0.0 if ends is None else ends.max())
     measured = MeasuredParts(engine, masses[:, 0], ends, tuple(listed))
     if by == "spread":
         chosen, exact = _by_spread(measured, wanted, start, asked)

@@ -10,12 +10,12 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
+from crankpin._support.drawing import draw
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import changed, read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder, total_peaks
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking import objectives
 from crankpin.analysis.request import check_request, engine_core
 from crankpin.analysis.tolerances.spreads import (
