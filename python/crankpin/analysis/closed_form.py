@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from crankpin import _core
 from crankpin._support import inputs, labels, optional
+from crankpin._support.frames import Tabled
 from crankpin._support.quantities import COMPONENTS, QUANTITIES
-from crankpin._support.record import Record
+from crankpin._support.tables import Table
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks
 
@@ -36,7 +37,7 @@ def closed_form(
     return ClosedForm(engine, single, word, plane)
 
 
-class ClosedForm(Record):
+class ClosedForm(Tabled):
     """Force or moment of one order as SymPy expressions, exact.
 
     ``F`` stands for m·r·ω²·aₙ of the cylinder ``unit_cylinder`` (in magnitudes, for its size) and
@@ -319,14 +320,25 @@ class ClosedForm(Record):
             found += f", a = {1e3 * self.spacing:.6g} mm"
         return found
 
+    @property
+    def table(self) -> Table:
+        """Expressions as text: of the components, and of the longest vector."""
+        rows = [(axis, str(getattr(self, axis))) for axis in COMPONENTS]
+        rows.append(("longest", str(self.peak)))
+        title = f"{labels.name_of(self.engine)}: {QUANTITIES[self.quantity].words}"
+        note = f"where {self.units_text}"
+        return Table.from_rows(
+            f"{title} of order {self.order}", ["part", "expression"], rows, note=note
+        )
+
     def __repr__(self) -> str:
         """Return the formulas: they are no table of numbers."""
-        name = labels.name_of(self.engine)
-        lines = [f"{name}: {QUANTITIES[self.quantity].words} of order {self.order}"]
-        lines += [f"{axis:>9} {getattr(self, axis)}" for axis in COMPONENTS]
-        lines.append(f"{'longest':>9} {self.peak}")
-        lines.append(f"{'where':>9} {self.units_text}")
-        return "\n".join(lines)
+        table = self.table
+        lines = [f"{part:>9} {text}" for part, text in table.cells()]
+        return "\n".join([table.title, *lines, f"{'where':>9} {self.units_text}"])
+
+    def _repr_html_(self) -> None:
+        """Return None, so that notebooks typeset the formulas."""
 
     def _repr_latex_(self) -> str:
         sp = optional.library("sympy")

@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin._support import inputs, labels
-from crankpin._support.record import Record
+from crankpin._support.frames import Tabled
+from crankpin._support.quantities import QUANTITIES
+from crankpin._support.tables import Table
 from crankpin.analysis.balance import Balance, mean_piston_speed
 from crankpin.analysis.findings import MATTERS, Finding, Sums
 from crankpin.analysis.request import Request, engine_core
@@ -40,7 +42,7 @@ def _of_planes(finding: Finding) -> bool:
     return bool(finding.quantity)
 
 
-class Explanation(Record):
+class Explanation(Tabled):
     """How an engine shakes: a plain sentence for each finding.
 
     What matters most stands first: what counterweights and shafts do, what shakes and what would
@@ -73,13 +75,26 @@ class Explanation(Record):
         """Sentences, what matters most first."""
         return tuple(self._said(self.findings))
 
+    @property
+    def table(self) -> Table:
+        """Sentences, and what each is about."""
+        rows = [
+            (each.kind, QUANTITIES[each.quantity].words if each.quantity else "–", text)
+            for each, text in zip(self.findings, self.sentences, strict=True)
+        ]
+        return Table.from_rows(self._title, ["finding", "quantity", "sentence"], rows)
+
+    @property
+    def _title(self) -> str:
+        speed = "" if self.rpm is None else f" at {self.rpm:g} rpm"
+        return f"{labels.name_of(self.engine)}{speed}"
+
     def __str__(self) -> str:
         return "\n".join(self.sentences)
 
     def __repr__(self) -> str:
         """Return the sentences: they are no table of numbers."""
-        speed = "" if self.rpm is None else f" at {self.rpm:g} rpm"
-        return f"{labels.name_of(self.engine)}{speed}\n{self}"
+        return f"{self._title}\n{self}"
 
     def _repr_html_(self) -> str:
         return self.html()

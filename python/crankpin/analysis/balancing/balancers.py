@@ -11,12 +11,14 @@ import numpy as np
 from crankpin._support import inputs, labels
 from crankpin._support.drawing import draw
 from crankpin._support.frames import SHOWN, Tabled
-from crankpin._support.record import AbsentError, Listed, Record
-from crankpin._support.tables import Table
+from crankpin._support.record import AbsentError, Listed
+from crankpin._support.tables import Item, Table
 from crankpin.analysis.balance import balance
 from crankpin.analysis.ranking.objectives import ByObjectives
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from matplotlib.axes import Axes
 
     from crankpin.analysis.balance import Balance
@@ -25,7 +27,7 @@ if TYPE_CHECKING:
     from crankpin.model.shafts import Shaft, Unbalance
 
 
-class BalancerOption(Record):
+class BalancerOption(Item):
     """A set of balancing hardware, and its residual."""
 
     name: str
@@ -53,6 +55,11 @@ class BalancerOption(Record):
     def hardware(self) -> tuple[Unbalance | Shaft, ...]:
         """Counterweights and shafts that were added."""
         return (*self.counterweights, *self.shafts)
+
+    def _figures(self) -> Mapping[str, object]:
+        counts = {name: len(getattr(self, name)) for name in ("counterweights", "shafts")}
+        names = ("unbalance", "values", "on_front", "reaches")
+        return {"name": self.name} | counts | {name: getattr(self, name) for name in names}
 
 
 class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):

@@ -14,8 +14,8 @@ from crankpin._core import InputError
 from crankpin._support import labels
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
-from crankpin._support.record import Listed, Record, changed
-from crankpin._support.tables import Table
+from crankpin._support.record import Listed, changed
+from crankpin._support.tables import Item, Table
 from crankpin.analysis.ranking.objectives import ByObjectives, of_table
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ MOST_ANGLES = 6
 """Bank angles shown in a cell."""
 
 
-class Choice(Record):
+class Choice(Item):
     """An engine of a :class:`Ranking` at its best bank angles."""
 
     place: int
