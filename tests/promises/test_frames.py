@@ -30,8 +30,8 @@ SWEPT = {
 }
 every_result = pytest.mark.parametrize("name", [*RESULTS, *SWEPT])
 UNTABLED = {
-    "Cylinder", "Engine", "PortTiming", "Rod", "Shaft", "Unbalance", "ValveTiming", "InertiaTrack", "Mount", "Powertrain", "RigidBody",
-    "Actuator", "Subframe", "Receptance",
+    "Cylinder", "Engine", "PortTiming", "Rod", "Shaft", "Unbalance", "ValveTiming", "InertiaTrack",
+    "Mount", "Powertrain", "RigidBody", "Actuator", "Subframe", "Receptance",
     "OrderResponse", "VectorQuantity", "WorstForce",
     # inputs, and items of results that have tables
 }  # fmt: skip
