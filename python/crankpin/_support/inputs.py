@@ -89,17 +89,17 @@ def array(name: str, values: ArrayLike) -> NDArray[np.float64]:
             raise TypeError("masked arrays are not supported; use .filled()")
         if type(values) is int or type(values) is float:
             return np.array(float(values))
-        found = _from_list(values)
-        if found.dtype.kind not in "fiu":
-            if found.dtype.kind != "O":
-                raise TypeError(f"{found.dtype} is not a real number")
+        numbers = _from_list(values)
+        if numbers.dtype.kind not in "fiu":
+            if numbers.dtype.kind != "O":
+                raise TypeError(f"{numbers.dtype} is not a real number")
             # Fractions and the like, each by its own conversion.
-            found = np.array([_real(value) for value in found.ravel()]).reshape(found.shape)
+            numbers = np.array([_real(value) for value in numbers.ravel()]).reshape(numbers.shape)
     except (TypeError, ValueError, OverflowError, RecursionError) as error:
         raise rejected(name, values, f"give numbers ({reason(error)})") from None
-    if found.size > MOST_NUMBERS:
-        raise _too_many(name, found.size)
-    return found if found.dtype == np.float64 and found.flags.aligned else copied(found)
+    if numbers.size > MOST_NUMBERS:
+        raise _too_many(name, numbers.size)
+    return numbers if numbers.dtype == np.float64 and numbers.flags.aligned else copied(numbers)
 
 
 def _length(values: object) -> int:
@@ -119,10 +119,10 @@ def contiguous(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def vector(name: str, values: ArrayLike) -> NDArray[np.float64]:
     """Return a contiguous one-dimensional array of floats; a scalar becomes a single value."""
-    found = array(name, values)
-    if found.ndim > 1:
-        raise faulty(name, f"has shape {found.shape}", "give one dimension")
-    return contiguous(found if found.ndim else found.reshape(1))
+    numbers = array(name, values)
+    if numbers.ndim > 1:
+        raise faulty(name, f"has shape {numbers.shape}", "give one dimension")
+    return contiguous(numbers if numbers.ndim else numbers.reshape(1))
 
 
 def _from_list(values: ArrayLike) -> NDArray[Any]:
@@ -200,10 +200,10 @@ def _real(value: Any) -> float:  # noqa: ANN401 - anything that float() takes
 
 def finite(name: str, value: object) -> float:
     """Return a finite float."""
-    found = number(name, value)
-    if not math.isfinite(found):
-        raise rejected(name, found, "give a finite number")
-    return found
+    real = number(name, value)
+    if not math.isfinite(real):
+        raise rejected(name, real, "give a finite number")
+    return real
 
 
 def optional_number(name: str, value: object) -> float | None:
@@ -270,14 +270,14 @@ def file_path(path: object, endings: tuple[str, ...], hint: str, name: str = "pa
 def whole(name: str, value: object, least: int | None = None) -> int:
     """Return a whole number that is at least another."""
     try:
-        found = _index(value)
+        integer = _index(value)
     except TypeError:
         raise rejected(name, value, "give a whole number") from None
-    if least is not None and found < least:
-        raise rejected(name, found, f"give a whole number, {least} or more")
-    if abs(found) > LARGEST_WHOLE:
-        raise rejected(name, found, "give a whole number of fewer digits")
-    return found
+    if least is not None and integer < least:
+        raise rejected(name, integer, f"give a whole number, {least} or more")
+    if abs(integer) > LARGEST_WHOLE:
+        raise rejected(name, integer, "give a whole number of fewer digits")
+    return integer
 
 
 def _index(value: Any) -> int:  # noqa: ANN401 - anything that operator.index() takes
@@ -321,8 +321,8 @@ def nearest(value: object, words: Iterable[str]) -> str:
     listed = list(words)
     if not isinstance(value, str) or len(listed) < MANY_WORDS:
         return ""
-    found = difflib.get_close_matches(value[:80], listed, 1)
-    return f"; did you mean {_quoted(found[0])}?" if found else ""
+    matches = difflib.get_close_matches(value[:80], listed, 1)
+    return f"; did you mean {_quoted(matches[0])}?" if matches else ""
 
 
 def _quoted(word: str) -> str:

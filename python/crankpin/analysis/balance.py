@@ -41,9 +41,9 @@ def balance(
 ) -> Balance:
     """Return the balance of an engine; :meth:`Engine.balance` documents the arguments."""
     request = Request.checked(orders=orders, rtol=rtol, spectrum=spectrum, torque=torque)
-    found = Balance(engine, inputs.number("rpm", rpm), request)
-    inputs.warn_of_units(mean_piston_speed(engine, found.rpm))
-    return found
+    whole = Balance(engine, inputs.number("rpm", rpm), request)
+    inputs.warn_of_units(mean_piston_speed(engine, whole.rpm))
+    return whole
 
 
 def over_square(engine: Engine, orders: Sequence[Order]) -> Balance:
@@ -304,6 +304,6 @@ class Balance(ByOrder[float]):
                 Column(symbol, (*means, *values), kind.unit, least=least)
                 for symbol, values in zip(kind.symbols, rows.T.tolist(), strict=True)
             ]
-        given = " of the orders given" if self.request.orders is not None else ""
-        title = f"{labels.name_of(self.engine)} {labels.at_speed(self.rpm)}: peaks{given}"
+        which = " of the orders given" if self.request.orders is not None else ""
+        title = f"{labels.name_of(self.engine)} {labels.at_speed(self.rpm)}: peaks{which}"
         return Table(title, tuple(columns), labels.not_shown(left_out), loads=self.loads_counted)

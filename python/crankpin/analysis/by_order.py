@@ -201,7 +201,7 @@ class ByOrder(Keyed, Quantities["NDArray[np.float64]", Value], Labelled, Generic
         orders = self.orders
         if order not in orders:
             return self._alone(one_order(order))._read_order(order, quantity, what)
-        at = (*(slice(None) for _ in self.dims), orders.index(order))
+        at: Any = (*(slice(None) for _ in self.dims), orders.index(order))
         return self.read(quantity, what)[at]
 
     def _alone(self, order: Order) -> ByOrder[Value]:

@@ -215,12 +215,12 @@ class ClosedForm(Tabled):
         unit = scale * complex(cylinder.harmonics(self.order)[0])
         if self.quantity == "moment":
             unit *= self.spacing
-        found = {}
+        values = {}
         for axis in COMPONENTS:
             real, imaginary = (complex(part.evalf(20)).real for part in self._parts_of(axis))
             factor = unit.conjugate() if axis == "backward" else unit
-            found[axis] = complex(real, imaginary) * factor
-        return found
+            values[axis] = complex(real, imaginary) * factor
+        return values
 
     # --- construction -------------------------------------------------------------------------
 
@@ -273,7 +273,7 @@ class ClosedForm(Tabled):
         along, sign = ("y" if axis == "x" else "x", -1) if moment else (axis, 1)
         if axis == "y":
             sign = 1
-        found = []
+        terms = []
         for weight, lever, sense, direction, phase in self._parts:
             factor = sign * sp.Rational(*weight) * sp.Rational(*lever) * self._unit
             lag = self.order * Fraction(*phase)
@@ -281,12 +281,12 @@ class ClosedForm(Tabled):
                 # What rotates is along y a quarter of a turn after x, or before.
                 start = sense * Fraction(*direction) - lag
                 quarter = Fraction(sense, 4) if along == "y" else Fraction(0)
-                found.append(factor * self._wave(start - quarter))
+                terms.append(factor * self._wave(start - quarter))
                 continue
             bore = 2 * sp.pi * sp.Rational(*direction)
             component = sp.cos(bore) if along == "x" else sp.sin(bore)
-            found.append(component * factor * self._wave(-lag))
-        return tuple(found)
+            terms.append(component * factor * self._wave(-lag))
+        return tuple(terms)
 
     def _wave(self, turns: Fraction) -> Expression:
         """Return cos(nθ + phase) unevaluated: SymPy would turn some into sines."""
@@ -313,12 +313,12 @@ class ClosedForm(Tabled):
         value = f"{factor.real:.6g}"
         if factor.imag:
             value = f"({value} {'-' if factor.imag < 0 else '+'} {abs(factor.imag):.6g}i)"
-        found = f"F = m·r·a{order}·ω² = {value} kg·m·ω² of cylinder {self.unit_cylinder}"
+        text = f"F = m·r·a{order}·ω² = {value} kg·m·ω² of cylinder {self.unit_cylinder}"
         if factor != abs(factor):
-            found += " (in lengths its size)"
+            text += " (in lengths its size)"
         if self.quantity == "moment" and self.spacing:
-            found += f", a = {1e3 * self.spacing:.6g} mm"
-        return found
+            text += f", a = {1e3 * self.spacing:.6g} mm"
+        return text
 
     @property
     def table(self) -> Table:

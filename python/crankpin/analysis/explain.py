@@ -31,10 +31,10 @@ HIGHEST = 12
 def explain(engine: Engine, rpm: float | None = None) -> Explanation:
     """Return the explanation; :meth:`Engine.explain` documents the arguments."""
     speed = inputs.optional_number("rpm", rpm)
-    found = Explanation(engine, speed)
+    explanation = Explanation(engine, speed)
     if speed is not None:
         inputs.warn_of_units(mean_piston_speed(engine, speed))
-    return found
+    return explanation
 
 
 def _of_planes(finding: Finding) -> bool:
@@ -113,8 +113,8 @@ class Explanation(Tabled):
             HTML.
         """
         count = None if count is None else min(inputs.whole("count", count, 0), sys.maxsize)
-        found = self._found() if count is None else filter(_of_planes, self._found())
-        items = (html.escape(each) for each in self._said(itertools.islice(found, count)))
+        findings = self._found() if count is None else filter(_of_planes, self._found())
+        items = (html.escape(each) for each in self._said(itertools.islice(findings, count)))
         return f"<ul>{''.join(f'<li>{item}</li>' for item in items)}</ul>"
 
     def _said(self, findings: Iterable[Finding]) -> list[str]:

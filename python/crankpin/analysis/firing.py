@@ -160,11 +160,11 @@ class Firing(Tabled):
 
         >>> import crankpin as cp
         >>> f = cp.Engine.preset("v8-crossplane").firing("1-8-4-3-6-5-7-2")
-        >>> [list(each.values()) for each in f.gaps([[1, 4, 6, 7], [8, 3, 5, 2]])]
+        >>> [list(gaps.values()) for gaps in f.gaps([[1, 4, 6, 7], [8, 3, 5, 2]])]
         [[180.0, 180.0, 180.0, 180.0], [180.0, 180.0, 180.0, 180.0]]
         """
-        found = self._core.gaps(_groups(groups))
-        return tuple({(first, then): gap for first, then, gap in group} for group in found)
+        gaps = self._core.gaps(_groups(groups))
+        return tuple({(first, then): gap for first, then, gap in group} for group in gaps)
 
     def exhaust_overlaps(
         self, groups: Groups | None = None, *, timing: Timing | None = None
@@ -200,8 +200,8 @@ class Firing(Tabled):
         {(3, 5): 60.0, (5, 7): 150.0, (7, 1): 60.0}
         """
         kind = PortTiming if self.strokes == 2 else ValveTiming
-        found = self._core.overlaps(_groups(groups), angles(timing, kind))
-        return tuple({(first, then): overlap for first, then, _, overlap in g} for g in found)
+        overlaps = self._core.overlaps(_groups(groups), angles(timing, kind))
+        return tuple({(first, then): overlap for first, then, _, overlap in g} for g in overlaps)
 
     # --- strokes and valves ---------------------------------------------------------------------
 
@@ -447,12 +447,12 @@ def throws(
     if bank_angle_deg is None:
         return _core.inline_throws(text, listed, number), read_only(np.empty(0))
     layout = {"throws": [], "spacing": 0.0, "rotating_mass": [], "first_tdc": "0"}
-    found, splits = _core.vee_throws(text, listed, number, layout | across)
+    angles, splits = _core.vee_throws(text, listed, number, layout | across)
     if intervals_deg is None:
         other = across | {"odd_bank": checks.other_bank(odd_bank)}
         _, others = _core.vee_throws(text, listed, number, layout | other)
         checks.odd_bank(odd_bank, splits, others)
-    return found, splits
+    return angles, splits
 
 
 def _order_and_strokes(

@@ -98,14 +98,14 @@ class Request(NamedTuple):
         """Return quantity → bound, of bounds on force, moment and torque about the crank's axis."""
         force, moment, torque = of_vectors_and_torque
         roll = torque + math.hypot(*self.aside) * force  # as force times distance, at most
-        found = dict(zip(QUANTITIES, (force, moment, roll, torque), strict=True))
-        return MappingProxyType({name: found[name] for name in self.quantities})
+        bounds = dict(zip(QUANTITIES, (force, moment, roll, torque), strict=True))
+        return MappingProxyType({name: bounds[name] for name in self.quantities})
 
     def named(self, quantities: tuple[str, ...], *, fired: bool) -> tuple[str, ...]:
         """Return the quantities named, all that there are if none is, with parts if fired."""
-        there = self.quantities
-        parts = [name for name in PARTS if fired and name.partition(".")[0] in there]
-        return check_quantities(quantities, (*there, *parts))
+        known = self.quantities
+        parts = [name for name in PARTS if fired and name.partition(".")[0] in known]
+        return check_quantities(quantities, (*known, *parts))
 
     def check(self, quantity: str) -> None:
         """Raise an AbsentError if a quantity is not available."""

@@ -56,9 +56,9 @@ def waveform(
         torque=torque,
         default_rtol=1e-6,
     )
-    found = Waveform(engine, inputs.number("rpm", rpm), theta, orders is not None, request)
-    inputs.warn_of_units(mean_piston_speed(engine, found.rpm))
-    return found
+    curves = Waveform(engine, inputs.number("rpm", rpm), theta, orders is not None, request)
+    inputs.warn_of_units(mean_piston_speed(engine, curves.rpm))
+    return curves
 
 
 class OverAngle(Labelled):

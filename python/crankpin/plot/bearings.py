@@ -67,14 +67,14 @@ def polar(
         add_legend(ax)
         return ax
     wide, high = np.ptp([*vectors[places].reshape(-1, 2), (0.0, 0.0)], axis=0).tolist()
-    made = make_plane_panels(figure, len(places), high / wide if wide else 1.0)
-    for panel, place, name in zip(made.axes.flat, places, names, strict=False):
+    panels = make_plane_panels(figure, len(places), high / wide if wide else 1.0)
+    for panel, place, name in zip(panels.axes.flat, places, names, strict=False):
         trace(panel, result.theta_deg, [vectors[place]], [name], style, period, centred=False)
         set_panel_title(panel, name)
-    share_scale(made)
-    label_panels(made, *ALONG[axes], "N")
-    made.set_title(*_titles(result, what))
-    return made.axes
+    share_scale(panels)
+    label_panels(panels, *ALONG[axes], "N")
+    panels.set_title(*_titles(result, what))
+    return panels.axes
 
 
 def curves(

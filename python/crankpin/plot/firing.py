@@ -155,13 +155,15 @@ def _mark_overlaps(
         "facecolor": "none", "edgecolor": foreground(ax), "hatch": "////", "linewidth": 0.6,
         "zorder": 3,
     }  # fmt: skip
-    found = [(pair, overlap) for bank in overlaps for pair, overlap in bank.items() if overlap]
-    for pair, overlap in found:
+    overlapping = [
+        (pair, overlap) for bank in overlaps for pair, overlap in bank.items() if overlap
+    ]
+    for pair, overlap in overlapping:
         start = float(exhausts[pair[1] - 1, 0])
         pieces = _pieces((start, start + overlap), cycle)
         for cylinder in set(pair):
             _bars(ax, pieces, rows.index(cylinder), EXHAUSTS, **looks)
-    return [Patch(label="exhausts overlap", **looks)] if found else []
+    return [Patch(label="exhausts overlap", **looks)] if overlapping else []
 
 
 def _mark_firings(ax: Axes, places: Sequence[tuple[int, float]], middle: float) -> list[Line2D]:

@@ -375,13 +375,13 @@ class _Legend:
     handles: Sequence[Any]
     title: str
     style: dict[str, Any]
-    made: Any = None
+    legend: Any = None
     """The legend, when it has been made."""
     how: object = None
     """Its arrangement."""
 
     def __call__(self) -> bool:
-        if self.made is not None and self.made.get_figure(root=True) is None:
+        if self.legend is not None and self.legend.get_figure(root=True) is None:
             return False  # removed
         names = [str(handle.get_label()) for handle in self.handles]
         left, down = 0.0, 0.0
@@ -402,9 +402,9 @@ class _Legend:
         if how == self.how:
             return False
         self.how = how
-        if self.made is not None:
-            self.made.remove()
-        self.made = self.place.legend(handles=self.handles, **arranged, **self._at(left, down))
+        if self.legend is not None:
+            self.legend.remove()
+        self.legend = self.place.legend(handles=self.handles, **arranged, **self._at(left, down))
         return True
 
     def _at(self, left: float, down: float) -> dict[str, Any]:

@@ -212,10 +212,10 @@ def _search(
     result: ArrangementSearch, ax: Axes | None = None, *, label: str | None = None, **style: object
 ) -> Axes:
     ax = axes_or_new(ax)
-    found = list(result)
-    angles = np.array([each.bank_angle_deg for each in found])
-    heights = np.array([max(each.second_order) for each in found])
-    without = f"{len(found)} bank angles without backward moment, {result.hold} held"
+    arrangements = list(result)
+    angles = np.array([each.bank_angle_deg for each in arrangements])
+    heights = np.array([max(each.second_order) for each in arrangements])
+    without = f"{len(arrangements)} bank angles without backward moment, {result.hold} held"
     name = f"V{result.cylinders}"
     set_title(ax, name, without)
     (look,) = series(ax, 1, style)

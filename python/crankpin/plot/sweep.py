@@ -64,14 +64,14 @@ def bars(
     note = _note(sweep, chosen)
     engines = min(len(words.names), MOST_ENGINES)
     height = max(0.45, engines * (0.04 + 0.03 * len(chosen)))
-    made = make_panels(ax, figure, 1, len(names), row_height=height, sharey=True)
-    made.name_columns([QUANTITIES[name].words for name in names])
-    for panel, name, values in zip(made.axes.flat, names, peaks, strict=True):
+    panels = make_panels(ax, figure, 1, len(names), row_height=height, sharey=True)
+    panels.name_columns([QUANTITIES[name].words for name in names])
+    for panel, name, values in zip(panels.axes.flat, names, peaks, strict=True):
         _panel(panel, words.names[:engines], values[:engines], chosen, name, style)
-    _class(made.axes[0, -1], classes[:engines])
-    made.set_title(words.title, where, note)
-    made.add_legend(made.axes[0, 0].get_legend_handles_labels()[0], words.common)
-    return made.drawn
+    _class(panels.axes[0, -1], classes[:engines])
+    panels.set_title(words.title, where, note)
+    panels.add_legend(panels.axes[0, 0].get_legend_handles_labels()[0], words.common)
+    return panels.drawn
 
 
 def _orders(sweep: Sweep, names: Sequence[str], orders: object) -> list[Order]:

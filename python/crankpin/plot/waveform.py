@@ -103,20 +103,20 @@ def _sweep_waveform(
     draw_panels = _curves if chosen == "curves" else _envelope
     words = words_of(result.sweep)
     points = f"{count} points of a sweep" if chosen == "envelope" else ""
-    made = make_panels(ax, figure, 1, len(columns), row_height=0.75, sharey=True)
-    made.name_columns(columns)
-    handles = draw_panels(made.axes, result, values, style)
-    for k, panel in enumerate(made.axes.flat):
+    panels = make_panels(ax, figure, 1, len(columns), row_height=0.75, sharey=True)
+    panels.name_columns(columns)
+    handles = draw_panels(panels.axes, result, values, style)
+    for k, panel in enumerate(panels.axes.flat):
         dress(panel, result.theta_deg)
         if not values[..., k].any():
             note_zero(panel)
-    _limit(made.axes[0, 0], values)
-    label_y(made.axes[0, 0], with_unit(name))
-    column = columns[0] if made.single else ""
+    _limit(panels.axes[0, 0], values)
+    label_y(panels.axes[0, 0], with_unit(name))
+    column = columns[0] if panels.single else ""
     how = ", ".join(filter(None, [summed(result, name), column, points]))
-    made.set_title(words.title, words.subtitle(name), how)
-    made.add_legend(handles, words.common if chosen == "curves" else "")
-    return made.drawn
+    panels.set_title(words.title, words.subtitle(name), how)
+    panels.add_legend(handles, words.common if chosen == "curves" else "")
+    return panels.drawn
 
 
 def _curves(

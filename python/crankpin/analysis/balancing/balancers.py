@@ -72,7 +72,7 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
     --------
     >>> import crankpin as cp
     >>> options = cp.balancer_options(cp.Engine.preset("i4"), rpm=6000)
-    >>> [(each.name, len(each.shafts)) for each in options.front]
+    >>> [(option.name, len(option.shafts)) for option in options.front]
     [('nothing', 0), ('shaft +2', 1), ('shaft −2', 1), ('shafts −2, +2', 2)]
     >>> float(options[-1].fitted.balance(rpm=6000, orders=[2])[2].force.peak)
     0.0
@@ -214,5 +214,5 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
             f"{by_label[label].head} ≤ {value:.5g} {by_label[label].unit}".strip()
             for label, value in self.targets
         )
-        found = "no set reaches it" if self.least is None else f"least {self.least.name}"
-        return f"Target: {wanted}; {found}."
+        outcome = "no set reaches it" if self.least is None else f"least {self.least.name}"
+        return f"Target: {wanted}; {outcome}."

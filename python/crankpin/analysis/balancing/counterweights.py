@@ -129,10 +129,10 @@ def counterweights(
     limits = correction_planes.bounds(names, bound)
     checks.bounds(core, limits.values())
     checks.place(core, "length", fit.length, middle=0.0)
-    found = (external if fit.target == "external" else internal)(
+    fitted = (external if fit.target == "external" else internal)(
         engine, places, limits, correction_planes.angles(names, angles_deg), fit
     )
-    return Counterweights(engine, tuple(places.items()), fit, *found)
+    return Counterweights(engine, tuple(places.items()), fit, *fitted)
 
 
 class Counterweights(Tabled):
@@ -204,7 +204,7 @@ class Counterweights(Tabled):
         point: more than a millionth of what the weights exert.
         """
         decided = self.engine.vanishing_orders([1])
-        found = {}
+        verdicts = {}
         for name in ("force", "moment"):
             before = getattr(decided, name)
             if self._meets(name):
@@ -221,8 +221,8 @@ class Counterweights(Tabled):
                     size *= max(abs(z - self.engine.reference_z) for _, z in self.places)
                 stays = abs(complex(getattr(self.residual[1], name).forward))
                 forward = "remains" if stays > size else "undecided"
-            found[name] = {"forward": forward, "backward": before.backward[1]}
-        return read_only(found)
+            verdicts[name] = {"forward": forward, "backward": before.backward[1]}
+        return read_only(verdicts)
 
     def _meets(self, name: str) -> bool:
         """Return whether the forward part is exactly the one wanted."""
