@@ -9,17 +9,16 @@ import numpy as np
 from matplotlib.transforms import ScaledTranslation
 
 from crankpin._support import inputs, labels
-from crankpin._support.drawing import picture
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balance import Balance
 from crankpin.plot.layout import (
     Drawn,
-    Kinds,
     add_legend,
     axes_or_new,
     label_x,
     label_y,
     note_zero,
+    register_kinds,
     reject_figure,
     set_panel_title,
     set_title,
@@ -228,16 +227,5 @@ def direction(order: OrderBalance, name: str) -> str:
 
 # --- balance -------------------------------------------------------------------------------------
 
-KINDS: Kinds = {"spectrum": spectrum, "ellipses": ellipses, "phasors": phasors}
 
-
-@picture.register(Balance)
-def _balance(
-    result: Balance,
-    ax: object = None,
-    *,
-    figure: object = None,
-    kind: str = "spectrum",
-    **options: object,
-) -> Drawn:
-    return KINDS[inputs.one_of("kind", kind, KINDS)](result, ax, figure, **options)
+register_kinds(Balance, {"spectrum": spectrum, "ellipses": ellipses, "phasors": phasors})

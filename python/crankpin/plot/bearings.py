@@ -7,17 +7,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin._support import inputs, labels
-from crankpin._support.drawing import picture
 from crankpin._support.quantities import LOADS
 from crankpin.analysis.bearings import PARTS, BearingLoads
 from crankpin.plot.layout import (
     Drawn,
-    Kinds,
     add_legend,
     axes_or_new,
     label_x,
     label_y,
     note_zero,
+    register_kinds,
     reject_figure,
     set_panel_title,
     set_title,
@@ -175,16 +174,4 @@ def _names(load: str, places: list[int], label: str | None) -> list[str]:
     return [f"{before}{LOADS[load].words} {place + 1}" for place in places]
 
 
-KINDS: Kinds = {"polar": polar, "curves": curves, "bending": bending}
-
-
-@picture.register(BearingLoads)
-def _bearing_loads(
-    result: BearingLoads,
-    ax: object = None,
-    *,
-    figure: object = None,
-    kind: str = "polar",
-    **options: object,
-) -> Drawn:
-    return KINDS[inputs.one_of("kind", kind, KINDS)](result, ax, figure, **options)
+register_kinds(BearingLoads, {"polar": polar, "curves": curves, "bending": bending})

@@ -15,6 +15,7 @@ from matplotlib.text import Text
 from matplotlib.transforms import ScaledTranslation
 
 from crankpin._support import inputs
+from crankpin._support.drawing import picture
 from crankpin.plot.style import font_of, muted
 from crankpin.plot.words import plain_text
 
@@ -77,6 +78,29 @@ class Panels(NamedTuple):
             add_legend(self.axes[0, 0], title)
         else:
             add_figure_legend(self.figure, handles, title if handles else "")
+
+
+def register_kinds(result_class: type, kinds: Kinds) -> None:
+    """Register pictures of a class, of which ``kind=`` chooses one; the first by default.
+
+    Parameters
+    ----------
+    result_class
+        The class.
+    kinds
+        Kind → the function that draws it.
+    """
+
+    @picture.register(result_class)
+    def draw_kind(
+        result: object,
+        ax: object = None,
+        *,
+        figure: object = None,
+        kind: str = next(iter(kinds)),
+        **options: object,
+    ) -> Drawn:
+        return kinds[inputs.one_of("kind", kind, kinds)](result, ax, figure, **options)
 
 
 def axes_or_new(ax: object) -> Axes:
