@@ -34,6 +34,7 @@ UNTABLED = {
     "Mount", "Powertrain", "RigidBody", "Actuator", "Subframe", "Receptance",
     "OrderResponse", "VectorQuantity", "WorstForce",
     # inputs, and items of results that have tables
+    "Exercise",  # text
 }  # fmt: skip
 CHARACTERS = "a0 \t\n\\{}$&#%_~^|<>\"'=+-°·²ω→–₂"
 """What names may have, LaTeX obeys, or fonts of text lack."""

@@ -21,7 +21,7 @@ from crankpin.plot.layout import (
     set_panel_title,
     set_title,
 )
-from crankpin.plot.plane import label_panels, make_plane_panels, share_scale, trace
+from crankpin.plot.plane import label_panels, make_plane_panels, share_scale, trace, trace_by_angle
 from crankpin.plot.style import SERIES, count_series, muted, series
 from crankpin.plot.ticks import degrees, from_zero, numeric, span
 from crankpin.plot.words import joined, loads_of, number
@@ -67,10 +67,18 @@ def polar(
         return ax
     wide, high = np.ptp([*vectors[places].reshape(-1, 2), (0.0, 0.0)], axis=0).tolist()
     panels = make_plane_panels(figure, len(places), high / wide if wide else 1.0)
+    by_angle = None
     for panel, place, name in zip(panels.axes.flat, places, names, strict=False):
-        trace(panel, result.theta_deg, [vectors[place]], [name], style, period, centred=False)
+        if style:
+            trace(panel, result.theta_deg, [vectors[place]], [name], style, period, centred=False)
+        else:
+            by_angle = trace_by_angle(panel, result.theta_deg, vectors[place], name, period)
         set_panel_title(panel, name)
     share_scale(panels)
+    if by_angle is not None:
+        bar = panels.figure.colorbar(by_angle, ax=panels.axes.ravel().tolist(), aspect=35, pad=0.02)
+        degrees(bar.ax.yaxis)
+        bar.set_label("crank angle θ")
     label_panels(panels, *ALONG[axes], "N")
     panels.set_title(*_titles(result, what))
     return panels.axes
