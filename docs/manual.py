@@ -21,7 +21,7 @@ import matplotlib.pyplot as plt
 from crankpin import cli
 from crankpin._support.record import FieldsDocumented
 from crankpin.model import engine_files
-from crankpin.view import page
+from crankpin.view import gallery
 from docutils import nodes
 from matplotlib.text import Text
 from sphinx.ext.napoleon import NumpyDocstring
@@ -206,7 +206,7 @@ def make_gallery(app: Sphinx) -> None:
     presets = cp.presets()
     cards = []
     for name, engine in presets.items():
-        rpm = page.speed_of(name, RPM)
+        rpm = gallery.speed_of(name, RPM)
         balance = engine.balance(rpm=rpm)
         explained = engine.explain()
         text = PRESET.format(
@@ -293,11 +293,11 @@ def make_turning(app: Sphinx, failed: Exception | None) -> None:
     if failed is None and app.builder.format == "html":
         shutil.copytree(THUMBNAILS, Path(app.outdir) / "gallery" / "thumbnails", dirs_exist_ok=True)
         folder = Path(app.outdir) / "gallery" / "turning"
-        page.save_gallery(folder, rpm=RPM)
+        gallery.save_gallery(folder, rpm=RPM)
         (folder / "compact").mkdir(exist_ok=True)
         for name, engine in cp.presets().items():
             engine.save_html(
-                folder / "compact" / f"{name}.html", rpm=page.speed_of(name, RPM), compact=True
+                folder / "compact" / f"{name}.html", rpm=gallery.speed_of(name, RPM), compact=True
             )
 
 

@@ -12,6 +12,7 @@ counter-clockwise. Classes of results are in :mod:`crankpin.types`.
 import crankpin._support.interrupted  # noqa: F401 - before the imports that take time
 from crankpin import types
 from crankpin._core import InputError, __version__
+from crankpin._support import drawing
 from crankpin.analysis.arrangements.search import search_arrangements
 from crankpin.analysis.balancing.balance_shafts import balance_shafts
 from crankpin.analysis.balancing.balancer_options import balancer_options
@@ -87,6 +88,13 @@ __all__ = [
     "two_plane_correction",
     "types",
 ]
+
+
+def _import_pictures() -> None:
+    import crankpin.plot  # noqa: F401, PLC0415 - matplotlib is imported when used
+
+
+drawing.importers.append(_import_pictures)
 
 
 def __dir__() -> list[str]:

@@ -121,9 +121,9 @@ class Tabled(Record):
         """
         table = self.frames[frame]
         data = {head: list(each.values) for head, each in table._distinct()}
-        found: pd.DataFrame = optional.library("pandas").DataFrame(data)
-        found.attrs.update(labels.attributes(table.loads))
-        return found
+        data_frame: pd.DataFrame = optional.library("pandas").DataFrame(data)
+        data_frame.attrs.update(labels.attributes(table.loads))
+        return data_frame
 
     def to_xarray(self, *, frame: str | None = None) -> xr.Dataset:
         """Return a Dataset with units and named dimensions (needs xarray).

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 from unicodedata import category
 
 import numpy as np
@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
     from crankpin._support.inputs import Order
-    from crankpin.model.engine import Engine
 
 UNIT_RPM = 30.0 / math.pi
 """Crank speed at which ω is 1 rad/s."""
@@ -81,7 +80,19 @@ def at_speed(rpm: float) -> str:
     return "over ω² (N stand for kg·m)" if rpm == UNIT_RPM else f"at {rpm:g} rpm"
 
 
-def name_of(engine: Engine) -> str:
+class Titled(Protocol):
+    """What tables and pictures name: an engine."""
+
+    @property
+    def title(self) -> str:
+        """Name, or what stands for it."""
+
+    @property
+    def loads_counted(self) -> str:
+        """Loads that results of it count, in words."""
+
+
+def name_of(engine: Titled) -> str:
     """Return the title of an engine in one line, without control characters."""
     return printable(engine.title)
 
@@ -149,7 +160,7 @@ def dead_text(cycles: Iterable[object]) -> str:
     return f"{verb.format(cut(', '.join(dead), 30))} not fire"
 
 
-def loads_of(engines: Sequence[Engine], titles: Sequence[str]) -> str:
+def loads_of(engines: Sequence[Titled], titles: Sequence[str]) -> str:
     """Return which gas pressure counts in results of several engines, once where it is the same."""
     texts = [engine.loads_counted for engine in engines]
     if len(set(texts)) == 1:

@@ -13,7 +13,7 @@ from crankpin._support.frames import Tabled
 from crankpin._support.record import AbsentItemError, Record
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
@@ -243,6 +243,26 @@ class Table(Tabled):
             head = f"{head} {place}".strip() if head in seen else head
             seen.add(head)
             yield head, each
+
+
+class Item(Tabled):
+    """Base class of the items of results: their table has a row for each figure of a field."""
+
+    def _figures(self) -> Mapping[str, object]:
+        """Return name → value, or several."""
+        return {each.name: getattr(self, each.name) for each in self._fields if each.repr}
+
+    @property
+    def table(self) -> Table:
+        """Fields and their values, a row each; of several values they are numbered from 1."""
+        rows = []
+        for name, value in self._figures().items():
+            several = isinstance(value, tuple)
+            values = value if isinstance(value, tuple) else (value,)
+            for k, one in enumerate(values, start=1):
+                plain = one is None or isinstance(one, (bool, int, float, str))
+                rows.append((f"{name} {k}" if several else name, one if plain else str(one)))
+        return Table.from_rows(type(self).__name__, ["field", "value"], rows)
 
 
 def _cell(text: str) -> str:

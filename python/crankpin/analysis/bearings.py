@@ -10,12 +10,12 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels, optional
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import LOADS
 from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import mean_piston_speed
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
 
 if TYPE_CHECKING:
@@ -87,9 +87,9 @@ def bearing_loads(engine: Engine, rpm: float, theta_deg: ArrayLike | None = None
     >>> (loads.peak("main") / 1e3).round(1)
     array([5. , 2.4, 9.9, 2.4, 5. ])
     """
-    found = BearingLoads(engine, rpm, inputs.crank_angles(theta_deg), theta_deg is None)
-    inputs.warn_of_units(mean_piston_speed(engine, found.rpm))
-    return found
+    loads = BearingLoads(engine, rpm, inputs.crank_angles(theta_deg), theta_deg is None)
+    inputs.warn_of_units(mean_piston_speed(engine, loads.rpm))
+    return loads
 
 
 class BearingLoads(Tabled):

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import Balance, balance
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.quantity import ALL
 from crankpin.analysis.request import engine_core
 

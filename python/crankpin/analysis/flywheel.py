@@ -9,13 +9,13 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.tables import Column, Table
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
 from crankpin.analysis.waveform import Waveform, waveform
 from crankpin.model import checks
-from crankpin.model.engine import Engine
+from crankpin.model.data import EngineData
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin.model.cycle import Cycle
+    from crankpin.model.engine import Engine
 
 Curve: TypeAlias = "Callable[[NDArray[np.float64]], ArrayLike] | tuple[ArrayLike, ArrayLike]"
 """Torque over crank angle: a function of degrees, or angles and torques."""
@@ -101,15 +102,15 @@ def flywheel(
 
     >>> import numpy as np
     >>> import crankpin as cp
-    >>> found = cp.flywheel(
+    >>> wheel = cp.flywheel(
     ...     lambda deg: 5000 + 600 * np.sin(np.radians(2 * deg)),
     ...     load=lambda deg: 5000 + 500 * np.sin(np.radians(deg)),
     ...     rpm=150,
     ...     inertia=500 * 0.4**2,
     ... )
-    >>> round(found.energy, 3), round(100 * found.irregularity, 3)
+    >>> round(wheel.energy, 3), round(100 * wheel.irregularity, 3)
     (1204.167, 6.161)
-    >>> round(100 * found.approximations[0], 3)  # the book's, 1 % too low
+    >>> round(100 * wheel.approximations[0], 3)  # the book's, 1 % too low
     6.1
 
     A flywheel for an inline-4 with a computed cycle, and how far textbooks' approximations are off:
@@ -134,7 +135,7 @@ def flywheel(
             "inertia of pistons and rods that varies; give the torque of the gas",
         )
     inputs.only_one_of(inertia=inertia, irregularity=irregularity)
-    engine = drive if isinstance(drive, Engine) else None
+    engine = drive if isinstance(drive, EngineData) else None
     if engine is not None:
         torque = _of_gas(engine, inputs.number("rpm", rpm), period_deg)
         checks.flywheel(engine._core, inputs.optional_number("inertia", inertia) or 0.0)
@@ -164,12 +165,12 @@ def flywheel(
         inputs.optional_number("inertia", inertia),
         0.0 if irregularity is None else inputs.number("irregularity", irregularity),
     )
-    found, uneven, energy, mean, acceleration, lowest, highest, *approximate = figures
+    needed, uneven, energy, mean, acceleration, lowest, highest, *approximate = figures
     of_one_rpm = _core.angular_speed(1.0)
     return Flywheel(
         engine,
         inputs.number("rpm", rpm),
-        found,
+        needed,
         uneven,
         energy,
         mean,
@@ -195,10 +196,10 @@ class Flywheel(Tabled):
     --------
     >>> import numpy as np
     >>> import crankpin as cp
-    >>> found = cp.flywheel(
+    >>> wheel = cp.flywheel(
     ...     lambda deg: 300 - 400 * np.cos(np.radians(2 * deg)), rpm=1500, inertia=2.0
     ... )
-    >>> round(found.lowest_rpm, 2), round(found.highest_rpm, 2)
+    >>> round(wheel.lowest_rpm, 2), round(wheel.highest_rpm, 2)
     (1493.93, 1506.09)
     """
 
@@ -383,14 +384,14 @@ def _bends(cycle: Cycle) -> NDArray[np.float64]:
     return twice
 
 
-def _diagram(name: str, given: object, period_deg: object) -> _Diagram:
+def _diagram(name: str, curve: object, period_deg: object) -> _Diagram:
     period = inputs.optional_number("period_deg", period_deg)
     if period is not None and not 0.0 < period < np.inf:
         raise inputs.rejected("period_deg", period, "give the period of the torque, such as 720")
-    if callable(given):
+    if callable(curve):
 
         def of_function(theta: NDArray[np.float64]) -> NDArray[np.float64]:
-            found = inputs.array(name, given(theta.copy()))
+            found = inputs.array(name, curve(theta.copy()))
             if found.shape not in ((), theta.shape):
                 fault = f"returned values of shape {found.shape} for {theta.shape}"
                 raise inputs.faulty(name, fault, "give one torque for each angle")
@@ -398,9 +399,9 @@ def _diagram(name: str, given: object, period_deg: object) -> _Diagram:
 
         return _Diagram(of_function, period, np.empty(0))
     hint = "give a function of degrees, or (angles in degrees, torques in N·m)"
-    pair = inputs.items(name, given, hint)
+    pair = inputs.items(name, curve, hint)
     if len(pair) != 2:
-        raise inputs.rejected(name, given, hint)
+        raise inputs.rejected(name, curve, hint)
     theta, torque = (inputs.vector(name, each) for each in pair)
     if len(theta) != len(torque) or len(theta) < 2:
         raise inputs.faulty(name, f"has {len(theta)} angles and {len(torque)} torques", hint)

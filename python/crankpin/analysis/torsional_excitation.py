@@ -123,8 +123,8 @@ def torsional_excitation(
     >>> import crankpin as cp
     >>> cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
     >>> i4 = cp.Engine.preset("i4", cylinder=cylinder).with_cycle(cp.Cycle.example())
-    >>> found = cp.torsional_excitation(i4, rpm=3000, orders=[0.5, 2])
-    >>> abs(found.torque[:, 0]).round(1)
+    >>> excitation = cp.torsional_excitation(i4, rpm=3000, orders=[0.5, 2])
+    >>> abs(excitation.torque[:, 0]).round(1)
     array([99.2, 99.2, 99.2, 99.2])
     """
     engine_core(engine)

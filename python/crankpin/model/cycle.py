@@ -11,6 +11,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import ATMOSPHERE
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.record import Input, read_only
 from crankpin._support.tables import Column, Table
@@ -478,7 +479,4 @@ class Cycle(Tabled, Input, ComputedCycles):
         ImportError
             If matplotlib is not installed.
         """
-        from crankpin.analysis import drawing  # noqa: PLC0415 - matplotlib is imported when used
-
-        found: Axes = drawing.draw(self, ax, cylinder=cylinder, label=label, **style)
-        return found
+        return draw(self, ax, cylinder=cylinder, label=label, **style)  # type: ignore[no-any-return]

@@ -201,15 +201,15 @@ def _stretches(engine: Engine) -> tuple[list[list[Stretch]], float]:
     Pins at one place along the crank are drawn side by side, as they are built. Also return the
     distance between throws.
     """
-    found = throws(engine)
-    middles = [float(np.mean([pin.z for pin in throw])) for throw in found]
+    throw_list = throws(engine)
+    middles = [float(np.mean([pin.z for pin in throw])) for throw in throw_list]
     apart = np.diff(np.sort(middles))
     pitch = float(apart[apart > 0.0].min(initial=np.inf))
     if not np.isfinite(pitch):
         pitch = 1.2 * float(assumed_bores(engine).max())
     width = 0.62 * pitch
     drawn = []
-    for middle, throw in zip(middles, found, strict=True):
+    for middle, throw in zip(middles, throw_list, strict=True):
         edges = middle + width * (np.linspace(0.0, 1.0, len(throw) + 1) - 0.5)
         drawn.append([Stretch(*each) for each in zip(throw, edges[:-1], edges[1:], strict=True)])
     return drawn, pitch

@@ -7,15 +7,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import labels
+from crankpin._support.drawing import picture
 from crankpin.analysis.flywheel import Flywheel
 from crankpin.model.computed_cycles import area
 from crankpin.model.cycle import Cycle
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
     Drawn,
     add_legend,
     axes_or_new,
-    check_one_place,
     label_x,
     label_y,
     make_panels,
@@ -85,7 +84,6 @@ def _flywheel(
     label: str | None = None,
     **style: object,
 ) -> Drawn:
-    check_one_place(ax, figure)
     panels = make_panels(ax, figure, 2, 1, row_height=0.55, sharex=True)
     theta = result.theta_deg
     gas = "torque" if result.engine is None else "gas"

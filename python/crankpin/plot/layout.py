@@ -15,6 +15,7 @@ from matplotlib.text import Text
 from matplotlib.transforms import ScaledTranslation
 
 from crankpin._support import inputs
+from crankpin._support.drawing import picture
 from crankpin.plot.style import font_of, muted
 from crankpin.plot.words import plain_text
 
@@ -79,6 +80,29 @@ class Panels(NamedTuple):
             add_figure_legend(self.figure, handles, title if handles else "")
 
 
+def register_kinds(result_class: type, kinds: Kinds) -> None:
+    """Register pictures of a class, of which ``kind=`` chooses one; the first by default.
+
+    Parameters
+    ----------
+    result_class
+        The class.
+    kinds
+        Kind → the function that draws it.
+    """
+
+    @picture.register(result_class)
+    def draw_kind(
+        result: object,
+        ax: object = None,
+        *,
+        figure: object = None,
+        kind: str = next(iter(kinds)),
+        **options: object,
+    ) -> Drawn:
+        return kinds[inputs.one_of("kind", kind, kinds)](result, ax, figure, **options)
+
+
 def axes_or_new(ax: object) -> Axes:
     """Return the axes given, or those of a new pyplot figure."""
     if ax is not None and not isinstance(ax, Axes):
@@ -111,12 +135,6 @@ def make_panels(
     elif not isinstance(figure, FigureBase):
         raise inputs.rejected("figure", figure, "give a matplotlib Figure or SubFigure")
     return Panels(figure, figure.subplots(rows, columns, squeeze=False, **options))
-
-
-def check_one_place(ax: object, figure: object) -> None:
-    """Raise an InputError if both axes and a figure are given."""
-    if ax is not None and figure is not None:
-        raise inputs.faulty("ax and figure", "cannot be combined", "give one of them")
 
 
 def reject_figure(figure: object, kind: str) -> None:
@@ -381,13 +399,13 @@ class _Legend:
     handles: Sequence[Any]
     title: str
     style: dict[str, Any]
-    made: Any = None
+    legend: Any = None
     """The legend, when it has been made."""
     how: object = None
     """Its arrangement."""
 
     def __call__(self) -> bool:
-        if self.made is not None and self.made.get_figure(root=True) is None:
+        if self.legend is not None and self.legend.get_figure(root=True) is None:
             return False  # removed
         names = [str(handle.get_label()) for handle in self.handles]
         left, down = 0.0, 0.0
@@ -408,9 +426,9 @@ class _Legend:
         if how == self.how:
             return False
         self.how = how
-        if self.made is not None:
-            self.made.remove()
-        self.made = self.place.legend(handles=self.handles, **arranged, **self._at(left, down))
+        if self.legend is not None:
+            self.legend.remove()
+        self.legend = self.place.legend(handles=self.handles, **arranged, **self._at(left, down))
         return True
 
     def _at(self, left: float, down: float) -> dict[str, Any]:

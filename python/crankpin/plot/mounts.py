@@ -9,9 +9,9 @@ from matplotlib.colors import LinearSegmentedColormap, LogNorm
 from matplotlib.patches import Rectangle
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture
 from crankpin.analysis.mounts.modes import COORDINATES, PLACES, MountModes
 from crankpin.analysis.mounts.response import MountResponse
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, note_zero, set_title
 from crankpin.plot.maps import RANGE
 from crankpin.plot.style import SERIES, background, colours, foreground, muted, series, tint

@@ -179,10 +179,10 @@ def make_plane_panels(figure: object, count: int, height: float = 1.0) -> Panels
     columns, row_height = (3, 0.5) if count > 4 and width_for(figure) > 6.0 else (2, 0.6)
     columns, rows = min(columns, max(1, count)), max(1, -(-count // columns))
     row_height *= min(1.0, max(0.5, height))
-    made = make_panels(None, figure, rows, columns, row_height=row_height)
-    for panel in made.axes.flat[max(1, count) :]:
+    panels = make_panels(None, figure, rows, columns, row_height=row_height)
+    for panel in panels.axes.flat[max(1, count) :]:
         panel.set_visible(False)
-    return made
+    return panels
 
 
 def share_scale(panels: Panels) -> None:

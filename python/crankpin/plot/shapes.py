@@ -148,11 +148,11 @@ def pins_in_line(engine: Engine, theta_deg: float = 0.0) -> dict[complex, list[i
     """Return the crankpins as seen from the flywheel: place from the axis, m → cylinders there."""
     places = geometry(engine, theta_deg)
     at = places.crankpin - places.axis
-    found: dict[complex, list[int]] = {}
+    pins: dict[complex, list[int]] = {}
     for pin in crankpins(engine):
         place = complex(at[pin.cylinders[0] - 1].round(9))
-        found.setdefault(place, []).extend(pin.cylinders)
-    return {complex(at[numbers[0] - 1]): sorted(numbers) for numbers in found.values()}
+        pins.setdefault(place, []).extend(pin.cylinders)
+    return {complex(at[numbers[0] - 1]): sorted(numbers) for numbers in pins.values()}
 
 
 def radius_of_amounts(engine: Engine, amounts: Sequence[float]) -> list[float]:

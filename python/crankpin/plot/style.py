@@ -127,11 +127,11 @@ def series(ax: Axes, count: int, style: Mapping[str, Any] | None = None) -> list
 
     Keywords in ``style`` apply to all of them; with a colour given, dashes distinguish them.
     """
-    given = mpl.cbook.normalize_kwargs(dict(style or {}), Line2D)
-    given.pop("label", None)
+    options = mpl.cbook.normalize_kwargs(dict(style or {}), Line2D)
+    options.pop("label", None)
     entries = cycle(ax)
-    there = count_series(ax)
-    return [entries[(there + k) % len(entries)] | given for k in range(count)]
+    drawn = count_series(ax)
+    return [entries[(drawn + k) % len(entries)] | options for k in range(count)]
 
 
 SERIES = "crankpin series"

@@ -62,10 +62,10 @@ class RoundLocator(Locator):
     def _candidates(self, low: float, high: float) -> Iterator[Sequence[float]]:
         """Yield places of ticks, ever fewer."""
         for count in range(self.most, 0, -1):
-            found = MaxNLocator(count, steps=STEPS, integer=self.whole, min_n_ticks=1).tick_values(
+            ticks = MaxNLocator(count, steps=STEPS, integer=self.whole, min_n_ticks=1).tick_values(
                 low, high
             )
-            yield [each for each in found if not self.whole or each == round(each)]
+            yield [each for each in ticks if not self.whole or each == round(each)]
 
     def _fit(self, places: Sequence[float], span: float) -> bool:
         """Return whether labels at these places do not touch."""
@@ -118,10 +118,10 @@ def numeric(axis: Axis, *, whole: bool = False) -> None:
 
 def span(ax: Axes, values: ArrayLike) -> None:
     """Limit the horizontal axis to values."""
-    found = np.asarray(values, dtype=np.float64)
-    found = found[np.isfinite(found)]
-    if found.size and found.min() < found.max():
-        ax.set_xlim(float(found.min()), float(found.max()))
+    finite = np.asarray(values, dtype=np.float64)
+    finite = finite[np.isfinite(finite)]
+    if finite.size and finite.min() < finite.max():
+        ax.set_xlim(float(finite.min()), float(finite.max()))
 
 
 def from_zero(ax: Axes, largest: float, room: float = 1.08, *, name: str = "y") -> None:

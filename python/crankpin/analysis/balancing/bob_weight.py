@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import read_only
@@ -16,7 +17,6 @@ from crankpin._support.tables import Table
 from crankpin.analysis.balance import over_square
 from crankpin.analysis.balancing.fitting import LARGEST_FACTOR, check_factor, with_bob_weights
 from crankpin.analysis.balancing.planes import Turning, turning
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks
 from crankpin.model.crankpins import Crankpin, crankpins

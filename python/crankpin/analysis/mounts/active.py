@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.record import changed, read_only
 from crankpin._support.tables import Column, Table
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.mounts.adaptive import AdaptiveLaw
 from crankpin.analysis.mounts.phasors import optimal
 from crankpin.analysis.mounts.response import MountResponse
