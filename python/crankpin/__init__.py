@@ -42,6 +42,7 @@ from crankpin.model.mounts import InertiaTrack, Mount, RigidBody
 from crankpin.model.presets import presets
 from crankpin.model.shafts import Shaft, Unbalance
 from crankpin.model.supports import Receptance, Subframe
+from crankpin.model.traces import Traces
 
 __all__ = [
     "Actuator",
@@ -59,6 +60,7 @@ __all__ = [
     "Rod",
     "Shaft",
     "Subframe",
+    "Traces",
     "Unbalance",
     "ValveTiming",
     "__version__",

@@ -110,6 +110,7 @@ OBJECTS: dict[str, Any] = {
     "Cylinder": OFFSET,
     "Cycle": cp.Cycle(np.arange(0.0, 720.0, 20.0), np.linspace(1e5, 3e6, 36)),
     "CycleMap": cp.CycleMap([1000], [0, 1], [[cp.Cycle.example(), cp.Cycle.example("diesel")]]),
+    "Traces": cp.Traces(THETA, cp.Cycle.example().pressure_at(THETA) * [[0.99], [1.0], [1.02]]),
     "Engine": V6,
     "Engine of odd angles": ODD,
     "Balance": balance(),
@@ -376,7 +377,8 @@ def test_completion_offers_what_is_public() -> None:
 # --- another question is another call -------------------------------------------------------------
 
 INPUTS = (
-    cp.Engine, cp.Cylinder, cp.Rod, cp.Shaft, cp.Unbalance, cp.Cycle, cp.CycleMap, cp.ValveTiming,
+    cp.Engine, cp.Cylinder, cp.Rod, cp.Shaft, cp.Unbalance, cp.Cycle, cp.CycleMap, cp.Traces,
+    cp.ValveTiming,
     cp.PortTiming, cp.types.Arrangement, cp.Actuator, cp.InertiaTrack, cp.Mount,
     cp.RigidBody, cp.Powertrain, cp.Subframe, cp.Receptance,
 )  # fmt: skip
@@ -1026,6 +1028,7 @@ def test_every_public_object_is_documented_and_the_main_ones_by_example() -> Non
         for kind in (
             cp.Cycle,
             cp.CycleMap,
+            cp.Traces,
             cp.Cylinder,
             cp.types.Balance,
             cp.types.OrderBalance,

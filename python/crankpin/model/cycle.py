@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 import math
-from typing import TYPE_CHECKING, Literal, Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from crankpin import _core
 from crankpin._core import ATMOSPHERE
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Tabled
-from crankpin._support.record import Input, read_only
+from crankpin._support.record import Input, Record, read_only
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
 from crankpin.model import checks, cycle_files
@@ -21,11 +22,13 @@ from crankpin.model.computed_cycles import ComputedCycles, area
 if TYPE_CHECKING:
     from collections.abc import Iterable
     from pathlib import Path
+    from typing import Unpack
 
     from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order
+    from crankpin.model.cycle_files import FileOptions
     from crankpin.model.cylinder import Cylinder
 
 EVEN = 1e-6
@@ -54,6 +57,8 @@ class Cycle(Tabled, Input, ComputedCycles):
     degree : int, optional
         None for a table. Otherwise the points are Chebyshev points of adjoining panels,
         ``degree + 1`` of each, and pressure is the polynomial through them.
+    origin : str, optional
+        How it was measured, read or computed, in words: a line under the table.
 
     Raises
     ------
@@ -89,6 +94,9 @@ class Cycle(Tabled, Input, ComputedCycles):
     """Name or origin; may be empty."""
     degree: int | None
     """Degree of the polynomials through the points; None for a table."""
+    origin: str = dataclasses.field(default="", compare=False)
+    """How it was measured, read or computed, in words; may be empty. It does not count in equality
+    and is not in files."""
 
     def __init__(
         self,
@@ -97,6 +105,7 @@ class Cycle(Tabled, Input, ComputedCycles):
         strokes: int = 4,
         name: str = "",
         degree: int | None = None,
+        origin: str = "",
     ) -> None:
         for field, values in (("theta_deg", theta_deg), ("pressure", pressure)):
             object.__setattr__(self, field, read_only(inputs.vector(field, values).copy()))
@@ -111,15 +120,16 @@ class Cycle(Tabled, Input, ComputedCycles):
                     f"give one below the number of points, {len(self.theta_deg)}, or leave it out",
                 )
         object.__setattr__(self, "degree", degree)
+        object.__setattr__(self, "origin", inputs.text("origin", origin))
         if len(self._core):
             checks.pressure(self.pressure)
             checks.peak(self.theta_deg, self.pressure, self.period_deg)
 
     @classmethod
-    def _of(cls, core: _core.Cycle) -> Self:
+    def _of(cls, core: _core.Cycle, origin: str = "") -> Self:
         """Return the cycle of what the core has."""
         theta_deg, pressure, strokes, name, degree = core.points
-        return cls(theta_deg, pressure, strokes, name, degree)
+        return cls(theta_deg, pressure, strokes, name, degree, origin)
 
     @functools.cached_property
     def _core(self) -> _core.Cycle:
@@ -127,82 +137,36 @@ class Cycle(Tabled, Input, ComputedCycles):
         return _core.Cycle(self.theta_deg, self.pressure, self.strokes, self.name, self.degree)
 
     @classmethod
-    def load(
-        cls,
-        path: str | Path,
-        *,
-        pressure_unit: str | None = None,
-        angle_unit: Literal["deg", "rad"] | None = None,
-        gauge: bool | None = None,
-        atmosphere: float = ATMOSPHERE,
-        tdc_deg: float = 0.0,
-        columns: tuple[int | str, int | str] | None = None,
-        strokes: int | None = None,
-        name: str | None = None,
-    ) -> Cycle:
-        """Return the cycle in a text file with columns of crank angle and pressure.
-
-        Columns are separated by commas, semicolons, tabs or blanks; decimal commas are recognised
-        unless columns are separated by commas too. Lines before the numbers, and lines that begin
-        with ``#``, ``%`` or ``!``, are comments; the last before the numbers is the header, with
-        the one above it if that has as many cells. Text is UTF-8, Latin-1, or UTF-16 with a byte
-        order mark.
+    def load(cls, path: str | Path, **options: Unpack[FileOptions]) -> Cycle:
+        """Return the cycle in a text file of crank angle and pressure; of several their mean.
 
         Parameters
         ----------
         path : str or pathlib.Path
-            ``.csv``, ``.tsv``, ``.txt``, ``.dat`` or ``.asc``.
-        pressure_unit : str, optional
-            ``"Pa"``, ``"hPa"``, ``"kPa"``, ``"MPa"``, ``"mbar"``, ``"bar"`` or ``"psi"``; by
-            default what the header names.
-        angle_unit : {"deg", "rad"}, optional
-            ``"deg"`` or ``"rad"``; by default what the header names, else degrees.
-        gauge : bool, optional
-            True for pressure above that of the atmosphere, False for absolute pressure; by default
-            what the header says.
-        atmosphere : float, default 101325.0
-            Pressure added to gauge pressure, Pa.
-        tdc_deg : float, default 0.0
-            Angle of the firing top dead centre as the file counts angles, degrees.
-        columns : pair of int or str, optional
-            Numbers from 0, or names, of the columns of angle and pressure; by default the first
-            two, with a warning if there are more.
-        strokes : {4, 2}, optional
-            4 or 2; by default 4, or what :meth:`save` has written.
-        name : str, optional
-            By default the name of the file, or what :meth:`save` has written.
+            As in :meth:`Traces.load`.
+        **options : dict, optional
+            As in :meth:`Traces.load`.
 
         Returns
         -------
         Cycle
-            The cycle, its angles counted from the firing top dead centre.
+            The cycle, its angles counted from the firing top dead centre; ``origin`` says what was
+            read.
 
         Raises
         ------
         InputError
-            If the file states no unit, or not whether pressure is absolute, and the arguments do
-            neither; if it has no such columns; or as for :class:`Cycle`.
+            As for :meth:`Traces.load`.
         OSError
             If the file cannot be read.
 
         Warns
         -----
         UserWarning
-            If there are more columns and ``columns`` is left out, or as for :class:`Cycle`.
+            As for :class:`Cycle`.
         """
-        return cls(
-            *cycle_files.load(
-                path,
-                pressure_unit=pressure_unit,
-                angle_unit=angle_unit,
-                gauge=gauge,
-                atmosphere=atmosphere,
-                tdc_deg=tdc_deg,
-                columns=columns,
-                strokes=strokes,
-                name=name,
-            )
-        )
+        theta, pressure, strokes, name, origin, degree = cycle_files.load(path, **options)
+        return cls(theta, pressure.mean(axis=0), strokes, name, degree, origin)
 
     def save(self, path: str | Path) -> None:
         """Write the points to a text file, ``.csv`` or the like, that reads back as an equal cycle.
@@ -443,6 +407,7 @@ class Cycle(Tabled, Input, ComputedCycles):
                 Column("crank angle", tuple(self.theta_deg.tolist()), "°", digits=10),
                 Column("pressure", tuple(self.pressure.tolist()), "Pa", digits=7),
             ),
+            note=self.origin,
         )
 
     def plot(
@@ -478,7 +443,12 @@ class Cycle(Tabled, Input, ComputedCycles):
         ImportError
             If matplotlib is not installed.
         """
-        from crankpin.analysis import drawing  # noqa: PLC0415 - matplotlib is imported when used
+        return drawn(self, ax, cylinder=cylinder, label=label, **style)
 
-        found: Axes = drawing.draw(self, ax, cylinder=cylinder, label=label, **style)
-        return found
+
+def drawn(result: Record, ax: Axes | None, **options: object) -> Axes:
+    """Draw a cycle, or several; return the axes."""
+    from crankpin.analysis import drawing  # noqa: PLC0415 - matplotlib is imported when used
+
+    found: Axes = drawing.draw(result, ax, **options)
+    return found

@@ -10,6 +10,7 @@ from crankpin._support import labels
 from crankpin.analysis.flywheel import Flywheel
 from crankpin.model.computed_cycles import area
 from crankpin.model.cycle import Cycle
+from crankpin.model.traces import Traces
 from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
     Drawn,
@@ -65,6 +66,35 @@ def _cycle(
     label_y(ax, "absolute pressure, bar")
     if not first:
         add_legend(ax)
+    return ax
+
+
+@picture.register(Traces)
+def _traces(
+    result: Traces, ax: Axes | None = None, *, label: str | None = None, **style: object
+) -> Axes:
+    ax = axes_or_new(ax)
+    first = not count_series(ax)
+    named = labels.printable(result.name)
+    set_title(ax, "Cylinder pressure", *([named] if first and named else []))
+    end = result.theta_deg[0] + result.period_deg
+    inside = result.theta_deg < end
+    theta = np.append(result.theta_deg[inside], end)
+    rows = np.column_stack([result.pressure[:, inside], result.pressure[:, :1]]) / 1e5
+    (look,) = series(ax, 1, style)
+    name = label or f"mean of {len(result)} cycles"
+    (line,) = ax.plot(theta, rows.mean(axis=0), gid=SERIES, label=name, **look)
+    if len(result) > 1:
+        least, most = rows.min(axis=0), rows.max(axis=0)
+        band: dict[str, Any] = {"color": line.get_color(), "alpha": 0.25, "linewidth": 0.0}
+        ax.fill_between(theta, least, most, label="least to largest", **band)
+    degrees(ax.xaxis)
+    span(ax, theta)
+    label_x(ax, "crank angle after the firing top dead centre")
+    numeric(ax.yaxis)
+    from_zero(ax, max(float(rows.max()), *(float(each) for each in ax.dataLim.intervaly)))
+    label_y(ax, "absolute pressure, bar")
+    add_legend(ax)
     return ax
 
 
