@@ -26,6 +26,7 @@ from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
 from crankpin.analysis.mounts.design_mounts import design_mounts
 from crankpin.analysis.mounts.powertrain import Powertrain
+from crankpin.analysis.prepared_trace import prepare_trace
 from crankpin.analysis.ranking.rank import rank
 from crankpin.analysis.star import star_diagram
 from crankpin.analysis.sweeps.sweep import sweep
@@ -75,6 +76,7 @@ __all__ = [
     "flywheel",
     "gas_torque_harmonics",
     "match_parts",
+    "prepare_trace",
     "presets",
     "rank",
     "search_arrangements",

@@ -170,6 +170,11 @@ OBJECTS: dict[str, Any] = {
     "Balance, fired": FIRED.balance(3000),
     "BearingLoads, fired": cp.bearing_loads(FIRED, 3000, THETA),
     "Waveform, fired": FIRED.waveform(3000, theta_deg=THETA),
+    "PreparedTrace": cp.prepare_trace(
+        cp.Traces(THETA, cp.Cycle.example().pressure_at(THETA) * [[0.99], [1.0], [1.02]]),
+        OFFSET.replace(bore=0.09),
+        intake_pressure=1e5,
+    ),
     "Flywheel, fired": cp.flywheel(FIRED, 3000, inertia=0.1),
     "TorsionalExcitation, fired": cp.torsional_excitation(FIRED, 3000),
     "InertiaTrack": MOUNTED.mounts[0].track,

@@ -30,7 +30,7 @@ OF_A_FILE = tuple(
         "--recorded-rpm",
         "--tdc",
         "--columns",
-    ]  # fmt: skip
+    ]
 )
 """Options that need a file of ``--cycle``."""
 WITHOUT = "none"

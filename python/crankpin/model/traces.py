@@ -12,9 +12,9 @@ import numpy as np
 from crankpin._core import ATMOSPHERE
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Tabled
-from crankpin._support.record import Input, item_key, read_only
+from crankpin._support.record import AbsentError, Input, item_key, read_only
 from crankpin._support.tables import Column, Table
-from crankpin._support.warnings import suppressed
+from crankpin._support.warnings import suppressed, warn
 from crankpin.model import checks, cycle_files
 from crankpin.model.computed_cycles import area
 from crankpin.model.cycle import Cycle, drawn
@@ -35,12 +35,18 @@ SHOWN_ORDERS: tuple[Order, ...] = (0.5, 1, 6, 12)
 """Orders whose torque is reported of measured traces: two low ones, and two that phases shift."""
 OF_WHITE_NOISE = 70.0
 """Variance of fourth differences of white noise, over its own: 1 + 16 + 36 + 16 + 1."""
+OFFSET = (
+    "no absolute pressure is below zero. If the sensor's offset is in it, crankpin.prepare_trace "
+    "removes it"
+)
 OF_A_NORMAL = 1.482602
 """Standard deviation over median magnitude of normally distributed numbers."""
 
 
 class Traces(Tabled, Input):
     """Absolute pressure in a cylinder over many cycles, as measured.
+
+    A piezoelectric sensor's offset may still be in it: :func:`crankpin.prepare_trace` removes it.
 
     Parameters
     ----------
@@ -114,10 +120,15 @@ class Traces(Tabled, Input):
         }
         for field, value in values.items():
             object.__setattr__(self, field, value)
-        checks.pressure(self.pressure)
+        least = float(rows.min())
+        raised = -least if least < -ATMOSPHERE else 0.0
+        if raised:
+            warn(f"pressure is {least:g} Pa at its least: {OFFSET}")
+        else:
+            checks.pressure(self.pressure)
         with suppressed("pressure "):
-            mean = Cycle(theta, rows.mean(axis=0), strokes, name, None, origin)
-        self.__dict__["_mean"] = mean
+            mean = Cycle(theta, rows.mean(axis=0) + raised, strokes, name, None, origin)
+        self.__dict__.update(_raised=raised, _mean=mean)
 
     @classmethod
     def load(cls, path: str | Path, **options: Unpack[FileOptions]) -> Self:
@@ -180,23 +191,48 @@ class Traces(Tabled, Input):
 
     def __getitem__(self, place: int) -> Cycle:
         """Return one of the cycles, by its index from 0."""
-        with suppressed():  # Warned of where all were given.
-            row = self.pressure[inputs.whole("index", item_key(place, len(self)))]
-            return Cycle(self.theta_deg, row, self.strokes, self.name, None, self.origin)
+        index = inputs.whole("index", item_key(place, len(self)))
+        self._check_offset()
+        return self._cycle(self.pressure[index])
 
     def __iter__(self) -> Iterator[Cycle]:
         """Return an iterator over the cycles."""
         return (self[k] for k in range(len(self)))
 
     @property
+    def _raised(self) -> float:
+        """What is added to pressure that an unknown offset makes no absolute one, and 0 else, Pa.
+
+        Torque is that of the difference to the crankcase, which is raised too.
+        """
+        return self.__dict__["_raised"]  # type: ignore[no-any-return]
+
+    def _cycle(self, row: NDArray[np.float64]) -> Cycle:
+        with suppressed():  # Warned of where all were given.
+            return Cycle(self.theta_deg, row, self.strokes, self.name, None, self.origin)
+
+    def _raised_cycles(self) -> Iterator[Cycle]:
+        return (self._cycle(row + self._raised) for row in self.pressure)
+
+    def _check_offset(self) -> None:
+        if self._raised:
+            fault = f"is {-self._raised:g} Pa at its least"
+            raise inputs.faulty("pressure", fault, OFFSET, AbsentError)
+
+    @property
     def mean(self) -> Cycle:
         """Mean of the cycles at every crank angle."""
+        self._check_offset()
+        return self._raised_mean
+
+    @property
+    def _raised_mean(self) -> Cycle:
         return self.__dict__["_mean"]  # type: ignore[no-any-return]
 
     @property
     def period_deg(self) -> float:
         """720° or 360°."""
-        return self.mean.period_deg
+        return self._raised_mean.period_deg
 
     @functools.cached_property
     def noise(self) -> float:
@@ -240,7 +276,7 @@ class Traces(Tabled, Input):
             As for :meth:`Cycle.imep`.
         """
         displacement = area(cylinder) * cylinder.travel
-        torque = np.array([each.mean_torque(cylinder) for each in self])
+        torque = np.array([each.mean_torque(cylinder) for each in self._raised_cycles()])
         return torque * math.radians(self.period_deg) / displacement
 
     def cov(self, cylinder: Cylinder) -> float:
@@ -289,7 +325,13 @@ class Traces(Tabled, Input):
             As for :meth:`Cycle.torque_harmonics`.
         """
         listed = inputs.explicit_half_orders(orders)
-        found = [each.torque_harmonics(cylinder, listed, crankcase=crankcase) for each in self]
+        below = inputs.number("crankcase", crankcase)
+        checks.crankcase(below)
+        with suppressed("crankcase ="):
+            found = [
+                each.torque_harmonics(cylinder, listed, crankcase=below + self._raised)
+                for each in self._raised_cycles()
+            ]
         return np.array(found)
 
     def spread(self, cylinder: Cylinder, orders: Order | Iterable[Order] = SHOWN_ORDERS) -> Table:
@@ -377,7 +419,7 @@ class Traces(Tabled, Input):
             If half of the points are fewer than a table has.
         """
         listed = inputs.explicit_half_orders(orders)
-        between = self.mean.resolution_error(cylinder, listed, crankcase=crankcase)
+        between = self._raised_mean.resolution_error(cylinder, listed, crankcase=crankcase)
         phasors = self.torque_harmonics(cylinder, listed, crankcase=crankcase)
         over_cycles = [_deviation(each) / math.sqrt(len(self)) for each in phasors.T]
         return np.hypot(between, over_cycles)
@@ -398,9 +440,11 @@ class Traces(Tabled, Input):
             "least": rows.min(axis=0),
             "largest": rows.max(axis=0),
         }
+        strokes = "four" if self.strokes == 4 else "two"
         return Table(
-            f"{self._title}, {'four' if self.strokes == 4 else 'two'}-stroke, "
-            f"{len(self.theta_deg)} points ({self.mean.grid}), noise {self.noise / 1e5:.2g} bar",
+            f"{self._title}, {strokes}-stroke, "
+            f"{len(self.theta_deg)} points ({self._raised_mean.grid}), "
+            f"noise {self.noise / 1e5:.2g} bar",
             (
                 Column("crank angle", tuple(self.theta_deg.tolist()), "°", digits=10),
                 *(Column(k, tuple(each.tolist()), "Pa", digits=7) for k, each in curves.items()),
