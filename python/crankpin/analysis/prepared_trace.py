@@ -126,9 +126,9 @@ def prepare_trace(
     >>> traces = cp.Traces(theta, pressure + random.normal(0, 5e3, (60, len(theta))))
     >>> prepared = cp.prepare_trace(traces, cylinder, tdc_deg=0.5, intake_pressure=0.95e5)
     >>> prepared.table.columns[0].values
-    ('as measured', 'top dead centre at 0.5° (given)', 'intake at 0.95 bar: -0.400 ± 0.011 bar')
-    >>> prepared.cycle.pressure_at([-180, 15]).round(-4)
-    array([  90000., 6500000.])
+    ('as measured', 'top dead centre at 0.5° (given)', 'intake at 0.95 bar: -0.400 ± 0.012 bar')
+    >>> bool(abs(prepared.cycle.imep(cylinder) / cp.Cycle.example().imep(cylinder) - 1) < 1e-3)
+    True
     """
     if not isinstance(traces, Traces):
         raise inputs.rejected("traces", traces, "give crankpin.Traces, such as Traces.load(path)")
@@ -267,7 +267,7 @@ class PreparedTrace(Tabled):
             ),
         ]
         note = "Orders: magnitude of the change of the torque's phasor, over that before."
-        return Table(f"{self.title}: change by each step", tuple(columns), note)
+        return Table(f"PreparedTrace of {self.title}: change by step", tuple(columns), note)
 
     @property
     def frames(self) -> Frames:
@@ -285,7 +285,7 @@ class PreparedTrace(Tabled):
             )
             for name, each, phasors in zip(self.names, self.stages, self._phasors, strict=True)
         ]
-        heads = [
+        heads: list[str | tuple[str, str]] = [
             "step", ("peak", "bar"), ("noise", "bar"), ("COV of imep", "%"),
             *((f"order {order:g}", "N·m") for order in SHOWN_ORDERS),
         ]  # fmt: skip

@@ -141,7 +141,7 @@ class Traces(Tabled, Input):
         with ``#``, ``%`` or ``!``, are comments; the last before the numbers is the header, with
         the one above it if that has as many cells. Text is UTF-8, Latin-1, or UTF-16 with a byte
         order mark; long files are read piece by piece. ``origin`` says what was read, and what of
-        it the header, the arguments or nobody states.
+        it is stated by the header or by arguments, or assumed.
 
         Parameters
         ----------
