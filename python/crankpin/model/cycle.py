@@ -34,6 +34,9 @@ if TYPE_CHECKING:
 EVEN = 1e-6
 """Difference between steps of a grid, over the largest, up to which they are equal."""
 
+PARTS = 8
+"""Parts of a step between two points over which the piston's way is summed."""
+
 
 class Cycle(Tabled, Input, ComputedCycles):
     """Absolute pressure in a cylinder over one cycle.
@@ -348,10 +351,11 @@ class Cycle(Tabled, Input, ComputedCycles):
         as large beside a jump between points: the change exceeds the error of the whole table if
         that is at most half of the thinned table's. Of peaks 4° to 40° wide at steps of 0.5° to 4°,
         two harmonics in a thousand have errors above it, up to six times, where the two errors are
-        alike by chance; the largest over orders ½ to 12 never is. It is no bound. Of a measured
-        trace it is what interpolation adds: noise, coarse digits and the sensor's own error are in
-        the points, which both tables share, and can be hundreds of times larger. The spread of
-        harmonics over several cycles shows these. Zero for polynomials.
+        alike by chance; the largest over orders ½ to 12 never is. It is no bound, which
+        :meth:`resolution_bound` is. Of a measured trace it is what interpolation adds: noise,
+        coarse digits and the sensor's own error are in the points, which both tables share, and can
+        be hundreds of times larger; :meth:`Traces.resolution_error` has them from the spread over
+        cycles. Zero for polynomials, of which it is a bound.
 
         Parameters
         ----------
@@ -390,6 +394,69 @@ class Cycle(Tabled, Input, ComputedCycles):
                 coarse = thinned.torque_harmonics(cylinder, orders, crankcase=crankcase)
             np.maximum(error, abs(coarse - whole), out=error)
         return error
+
+    def resolution_bound(self, cylinder: Cylinder) -> float:
+        """Return a bound of every harmonic's error from the table's resolution, N·m.
+
+        It is proved for any pressure that between two neighbouring points stays between their two
+        values, as it does where all its extremes are points: then it differs from the cubic there
+        by their range and the cubic's at most. It falls with the step, where the error of smooth
+        pressure falls with its fourth power: far above :meth:`resolution_error`, and certain.
+
+        Parameters
+        ----------
+        cylinder : Cylinder
+            As in :meth:`torque_harmonics`.
+
+        Returns
+        -------
+        float
+            Bound of the magnitude of the error of the phasor of any order, N·m, and of twice the
+            mean torque's; zero for polynomials.
+
+        Raises
+        ------
+        InputError
+            If the cylinder has no bore.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> import numpy as np
+        >>> cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+        >>> theta = np.arange(-360, 360)
+        >>> cycle = cp.Cycle(theta, 1e5 + 3e6 * np.exp(-(((theta - 15) / 30) ** 2)))
+        >>> round(cycle.resolution_bound(cylinder), 2)
+        2.23
+        >>> cycle.resolution_error(cylinder, [12]).round(5)  # an estimate
+        array([8.e-05])
+        """
+        scale = 2.0 * area(cylinder) / math.radians(self.period_deg)
+        if self.degree is not None:
+            return 0.0
+        start = float(self.theta_deg[0])
+        edges = np.append(self.theta_deg, start + self.period_deg)
+        steps = np.diff(edges)
+        before, steps = edges[:-1][steps > 0.0], steps[steps > 0.0]
+        shares = np.arange(PARTS + 1) / PARTS
+        angles = before[:, None] + steps[:, None] * shares
+        inside = before[:, None] + steps[:, None] * np.array([1e-9, 1.0 / 3.0, 2.0 / 3.0, 1 - 1e-9])
+        first, second, third, fourth = self.pressure_at(inside).T
+        # A cubic is between the least and largest of its control points (Bernstein).
+        controls = np.stack(
+            [
+                first,
+                (-5.0 * first + 18.0 * second - 9.0 * third + 2.0 * fourth) / 6.0,
+                (2.0 * first - 9.0 * second + 18.0 * third - 5.0 * fourth) / 6.0,
+                fourth,
+            ]
+        )
+        # The piston's way within each step, and what it may go beyond its places and back.
+        moves = np.diff(cylinder.position(angles), axis=1)
+        way = np.abs(moves).sum(axis=1)
+        turns = (moves.min(axis=1) < 0.0) & (moves.max(axis=1) > 0.0)
+        way += 2.0 * turns * np.abs(moves).max(axis=1)
+        return float(scale * (np.ptp(controls, axis=0) @ way))
 
     @property
     def table(self) -> Table:
