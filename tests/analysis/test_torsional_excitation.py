@@ -40,7 +40,8 @@ def test_a_cylinder_is_the_first_one_at_its_firing_angle() -> None:
 def test_the_table_and_the_dictionary_have_the_same_figures() -> None:
     found = cp.torsional_excitation(V6, rpm=3000, orders=[0.5, 1, 3])
     rows = list(csv.reader(io.StringIO(found.table.to_csv())))
-    assert rows[0] == ["cylinder", "order", "frequency rad/s", "amplitude N·m", "phase rad"]
+    heads = ["cylinder", "order", "frequency rad/s", "amplitude N·m", "phase rad"]
+    assert rows[0] == [*heads, "gas N·m", "inertia N·m"]
     assert len(rows) == 19
     given = found.to_dict()
     for row in rows[1:]:
@@ -50,9 +51,100 @@ def test_the_table_and_the_dictionary_have_the_same_figures() -> None:
         assert (amplitude, phase) == pytest.approx(
             (given["amplitude"][cylinder][order], given["phase"][cylinder][order])
         )
+        assert float(row[5]) == pytest.approx(given["gas_amplitude"][cylinder][order])
+        assert float(row[6]) == pytest.approx(given["inertia_amplitude"][cylinder][order])
         phasor = amplitude * np.exp(1j * phase)
         assert phasor == pytest.approx(found.torque[cylinder, order])
     assert given["angular_frequency"][0] == pytest.approx(0.5 * 100 * np.pi)
+
+
+@pytest.mark.parametrize("engine", [I4, V6, V6.with_cycle(None)], ids=["I4", "V6", "not fired"])
+def test_a_range_of_speeds_has_what_each_speed_has(engine: cp.Engine) -> None:
+    speeds = [800.0, 2500.0, 6000.0]
+    many = cp.torsional_excitation(engine, rpm=speeds)
+    for k, rpm in enumerate(speeds):
+        one = cp.torsional_excitation(engine, rpm=rpm)
+        size = abs(one.torque).max()
+        # Roundings of a square of a speed.
+        np.testing.assert_allclose(many.torque[k], one.torque, atol=1e-12 * size)
+        np.testing.assert_allclose(many.gas, one.gas, atol=1e-12 * size)
+        np.testing.assert_allclose(many.angular_frequency[k], one.angular_frequency, rtol=1e-14)
+        balance = engine.balance(rpm, orders=one.orders)
+        for of, phasors in (("gas", one.gas), ("inertia", one.inertia)):
+            part = getattr(balance.crank_torque, of)
+            np.testing.assert_allclose(phasors.sum(axis=0), part.phasor, atol=1e-12 * size)
+    assert len(many.table) == 3 * len(engine) * len(many.orders)
+    assert many.table["speed"].values[-1] == 6000.0
+    assert np.shape(many.to_dict()["amplitude"]) == many.torque.shape
+    with pytest.raises(cp.InputError, match=r"rpm = \[\]: give a crank speed"):
+        cp.torsional_excitation(engine, rpm=[])
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_reciprocating_inertia_is_the_mean_of_what_moves(seed: int) -> None:
+    """Of all cylinders, the mean of the moving inertia that a flywheel sees; near half m·r²."""
+    rng = np.random.default_rng(seed)
+    rod = cp.Rod(0.6, rng.uniform(0.001, 0.005), rng.uniform(0.13, 0.2), 0.05)
+    cylinder = cp.Cylinder.from_rod(
+        rod, crank_radius=0.043, piston_mass=rng.uniform(0.2, 0.6), bore=0.086,
+        pin_offset=rng.uniform(0.0, 0.01),
+    )  # fmt: skip
+    engine = cp.Engine.preset("i3", cylinder=cylinder).with_cycle(cp.Cycle.example())
+    found = cp.torsional_excitation(engine, rpm=3000, orders=[1])
+    wheel = cp.flywheel(engine, 3000, inertia=10.0)
+    theta, moving = wheel.theta_deg, wheel.moving_inertia
+    mean = np.trapezoid(moving, theta) / (theta[-1] - theta[0])
+    # Trapezes of half degrees.
+    np.testing.assert_allclose(found.reciprocating_inertia.sum(), mean, rtol=1e-5)
+    long = cp.Cylinder(0.043, 1e4, 0.5)
+    plain = cp.torsional_excitation(cp.Engine.preset("i3", cylinder=long), rpm=3000)
+    np.testing.assert_allclose(plain.reciprocating_inertia, 0.5 * 0.5 * 0.043**2, rtol=1e-6)
+
+
+def test_tangential_pressures_are_those_of_the_cycle() -> None:
+    """As class rules tabulate: gas alone, from the firing dead centre, over area and radius."""
+    found = cp.torsional_excitation(V6, rpm=3000)
+    scale = np.pi / 4 * 0.086**2 * 0.043
+    cycles = V6.cycles or ()
+    for number, cycle in enumerate(cycles):
+        expected = (
+            np.zeros(24)
+            if cycle is None
+            else cycle.torque_harmonics(CYLINDER, found.orders) / scale
+        )
+        pressures = found.tangential_pressure[number]
+        np.testing.assert_allclose(pressures, expected, atol=1e-9 * 1e5)
+    table = found.frames["tangential"]
+    first = found.tangential_pressure[0, 1] / 1e5
+    row = [table[name].values[1] for name in ("cosine", "sine", "amplitude")]
+    assert row == pytest.approx([first.real, -first.imag, abs(first)])
+    assert not cp.torsional_excitation(V6.with_cycle(None), 3000).tangential_pressure.any()
+
+
+def test_the_cylinder_of_open_torsions_own_example_has_its_torque() -> None:
+    """The six-cylinder diesel of doi.org/10.1243/14644193JMBD126, as openTorsion computes it.
+
+    Tangential forces of absolute pressure and of a mass whose acceleration is a series of four
+    orders of the rod ratio, by a transform of their sum: over an open grid here, theirs counts the
+    last point twice.
+    """
+    radius, rod, bore, mass, rpm = 0.137 / 2, 0.207, 0.105, 2.521, 1800.0
+    cylinder = cp.Cylinder(radius, rod, mass, bore=bore)
+    pressure = cp.Cycle.example("diesel")
+    engine = cp.Engine.preset("i6", cylinder=cylinder).with_cycle(pressure, crankcase=0.0)
+    found = cp.torsional_excitation(engine, rpm)
+    alpha = np.radians(np.arange(0.0, 720.0, 0.1))
+    ratio, omega = radius / rod, rpm * np.pi / 30
+    beta = np.arcsin(ratio * np.sin(alpha))
+    across = np.sin(alpha + beta) / np.cos(beta) * radius
+    gas = pressure.pressure_at(np.degrees(alpha)) * np.pi / 4 * bore**2 * across
+    series = np.cos(alpha) + ratio * np.cos(2 * alpha) - ratio**3 / 4 * np.cos(4 * alpha)
+    series += 9 * ratio**5 / 128 * np.cos(6 * alpha)
+    inertia = -mass * radius * series * omega**2 * across
+    for torque, phasors in ((gas, found.gas[0]), (inertia, found.inertia[0])):
+        expected = 2.0 * np.fft.rfft(torque)[1:25] / len(torque)
+        # Points 0.1° apart beside valves that open; of masses, ratio⁴ that the series leaves out.
+        np.testing.assert_allclose(phasors, expected, atol=6e-3 * abs(expected).max())
 
 
 def test_what_is_no_engine_is_named() -> None:
