@@ -141,10 +141,15 @@ def test_the_cylinder_of_open_torsions_own_example_has_its_torque() -> None:
     series = np.cos(alpha) + ratio * np.cos(2 * alpha) - ratio**3 / 4 * np.cos(4 * alpha)
     series += 9 * ratio**5 / 128 * np.cos(6 * alpha)
     inertia = -mass * radius * series * omega**2 * across
-    for torque, phasors in ((gas, found.gas[0]), (inertia, found.inertia[0])):
-        expected = 2.0 * np.fft.rfft(torque)[1:25] / len(torque)
-        # Points 0.1° apart beside valves that open; of masses, ratio⁴ that the series leaves out.
-        np.testing.assert_allclose(phasors, expected, atol=6e-3 * abs(expected).max())
+    # Points 0.1° apart beside valves that open.
+    expected = 2.0 * np.fft.rfft(gas)[1:25] / len(gas)
+    np.testing.assert_allclose(found.gas[0], expected, atol=1e-4 * abs(expected).max())
+    # The series has λ in order 2 where the exact one has λ + λ³/4 and more: 0.0095 of m·r²·ω², half
+    # of which is torque, in the orders beside 2.
+    expected = 2.0 * np.fft.rfft(inertia)[1:25] / len(inertia)
+    left_out = (ratio**3 / 4 + 15 * ratio**5 / 128) * mass * (radius * omega) ** 2 / 2
+    np.testing.assert_allclose(found.inertia[0], expected, atol=1.2 * left_out)
+    assert abs(found.inertia[0] - expected).max() > 0.5 * left_out
 
 
 def test_what_is_no_engine_is_named() -> None:
