@@ -26,6 +26,7 @@ from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
 from crankpin.analysis.mounts.design_mounts import design_mounts
 from crankpin.analysis.mounts.powertrain import Powertrain
+from crankpin.analysis.operating_map import operating_map
 from crankpin.analysis.prepared_trace import prepare_trace
 from crankpin.analysis.ranking.rank import rank
 from crankpin.analysis.star import star_diagram
@@ -76,6 +77,7 @@ __all__ = [
     "flywheel",
     "gas_torque_harmonics",
     "match_parts",
+    "operating_map",
     "prepare_trace",
     "presets",
     "rank",

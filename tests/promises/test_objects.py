@@ -170,6 +170,13 @@ OBJECTS: dict[str, Any] = {
     "Balance, fired": FIRED.balance(3000),
     "BearingLoads, fired": cp.bearing_loads(FIRED, 3000, THETA),
     "Waveform, fired": FIRED.waveform(3000, theta_deg=THETA),
+    "OperatingMap": cp.operating_map(
+        I4,
+        [1000, 3000],
+        cycle=cp.CycleMap([1000, 3000], [0, 1], [[cp.Cycle.example(load=k) for k in (0, 1)]] * 2),
+        load=[0, 0.5, 1],
+        inertia=0.2,
+    ),
     "PreparedTrace": cp.prepare_trace(
         cp.Traces(THETA, cp.Cycle.example().pressure_at(THETA) * [[0.99], [1.0], [1.02]]),
         OFFSET.replace(bore=0.09),
