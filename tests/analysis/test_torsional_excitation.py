@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import csv
 import io
+import re
+from pathlib import Path
 from typing import Any
 
 import crankpin as cp
@@ -40,19 +42,22 @@ def test_a_cylinder_is_the_first_one_at_its_firing_angle() -> None:
 def test_the_table_and_the_dictionary_have_the_same_figures() -> None:
     found = cp.torsional_excitation(V6, rpm=3000, orders=[0.5, 1, 3])
     rows = list(csv.reader(io.StringIO(found.table.to_csv())))
-    heads = ["cylinder", "order", "frequency rad/s", "amplitude N·m", "phase rad"]
-    assert rows[0] == [*heads, "gas N·m", "inertia N·m"]
+    assert rows[0] == ["cylinder", "order", "frequency rad/s", "amplitude N·m", "phase rad"]
+    parts = list(csv.reader(io.StringIO(found.parts().to_csv())))
+    heads = ["gas N·m", "gas phase rad", "inertia N·m", "inertia phase rad"]
+    assert parts[0] == ["cylinder", "order", *heads]
     assert len(rows) == 19
     given = found.to_dict()
-    for row in rows[1:]:
+    for row, part in zip(rows[1:], parts[1:], strict=True):
+        assert row[:2] == part[:2]
         cylinder, order = int(row[0]) - 1, given["orders"].index(float(row[1]))
         assert float(row[2]) == given["angular_frequency"][order]
         amplitude, phase = float(row[3]), float(row[4])
         assert (amplitude, phase) == pytest.approx(
             (given["amplitude"][cylinder][order], given["phase"][cylinder][order])
         )
-        assert float(row[5]) == pytest.approx(given["gas_amplitude"][cylinder][order])
-        assert float(row[6]) == pytest.approx(given["inertia_amplitude"][cylinder][order])
+        for k, name in enumerate(("gas_amplitude", "gas_phase", "inertia_amplitude")):
+            assert float(part[2 + k]) == pytest.approx(given[name][cylinder][order])
         phasor = amplitude * np.exp(1j * phase)
         assert phasor == pytest.approx(found.torque[cylinder, order])
     assert given["angular_frequency"][0] == pytest.approx(0.5 * 100 * np.pi)
@@ -114,7 +119,7 @@ def test_tangential_pressures_are_those_of_the_cycle() -> None:
         )
         pressures = found.tangential_pressure[number]
         np.testing.assert_allclose(pressures, expected, atol=1e-9 * 1e5)
-    table = found.frames["tangential"]
+    table = found.tangential()
     first = found.tangential_pressure[0, 1] / 1e5
     row = [table[name].values[1] for name in ("cosine", "sine", "amplitude")]
     assert row == pytest.approx([first.real, -first.imag, abs(first)])
@@ -219,3 +224,56 @@ def test_ross_takes_the_phasors_as_forces() -> None:
         expected = np.linalg.solve(dynamic, force[:, k])
         angles = slice(5, None, 6)
         np.testing.assert_allclose(found[angles, k], expected[angles], rtol=1e-6)
+
+
+PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "torsional-vibration.md"
+
+
+def blocks_of(page: Path, beginning: str, end: str = "") -> str:
+    """The code of a page between two headings that needs packages the manual's build lacks."""
+    text = page.read_text("utf-8").partition(f"## {beginning}\n")[2]
+    text = text.partition(f"## {end}\n")[0] if end else text
+    return "\n".join(re.findall(r"```text\n(.*?)```", text, re.DOTALL))
+
+
+def names_of_page() -> dict[str, Any]:
+    """What the page has before its code for other programs."""
+    code = re.findall(r">>> (.*)", PAGE.read_text("utf-8"))
+    names: dict[str, Any] = {"np": np}
+    exec("\n".join(code), names)  # noqa: S102 - our own page
+    return names
+
+
+def test_the_page_for_open_torsion_runs_and_its_damper_damps() -> None:
+    pytest.importorskip("opentorsion")
+    names = names_of_page()
+    exec(blocks_of(PAGE, "openTorsion", "ROSS"), names)  # noqa: S102 - our own page
+    count = len(names["inertias"])
+    stiffness = np.zeros((count, count))
+    for k, each in enumerate(names["stiffnesses"]):
+        stiffness[k : k + 2, k : k + 2] += each * np.array([[1, -1], [-1, 1]])
+    squares = np.linalg.eigvals(stiffness / np.array(names["inertias"])[:, np.newaxis])
+    # What modal_analysis calls undamped has the damping of the throws, which the rotation of all
+    # shares with the first mode: 4e-5 of it.
+    np.testing.assert_allclose(names["natural"], np.sqrt(np.sort(squares.real)[1:]), rtol=1e-4)
+    before, after = names["before"], names["after"]
+    assert after.max() < 0.5 * before.max()
+    speeds, worst = names["excitation"].rpm, before.argmax()
+    nearest = min(abs(speeds[worst] / each - 1.0) for each in names["critical"].values())
+    assert nearest < 0.02  # the largest swing is at a critical speed, to the step of speeds
+
+
+def test_the_page_for_ross_runs() -> None:
+    pytest.importorskip("ross")
+    names = names_of_page()
+    inertias = [0.017, *[0.030 + names["excitation"].reciprocating_inertia[0]] * 6, 2.07]
+    names |= {"inertias": inertias, "stiffnesses": [1.1e6, *[1.25e6] * 5, 2.0e6]}
+    exec(blocks_of(PAGE, "ROSS"), names)  # noqa: S102 - our own page
+    assert names["response"].forced_resp.shape[1] == 24
+    stiffness = np.zeros((8, 8))
+    for k, each in enumerate(names["stiffnesses"]):
+        stiffness[k : k + 2, k : k + 2] += each * np.array([[1, -1], [-1, 1]])
+    mass = np.diag(np.array(inertias))
+    first = np.sqrt(np.sort(np.linalg.eigvals(np.linalg.solve(mass, stiffness)).real)[1])
+    # Its shaft elements have a moment of inertia of their own, a few percent of the disks'.
+    assert abs(names["modes"].wn / first - 1.0).min() < 0.05

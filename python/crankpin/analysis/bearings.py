@@ -286,7 +286,7 @@ class BearingLoads(Tabled):
         >>> import crankpin as cp
         >>> loads = cp.bearing_loads(cp.Engine.preset("i4"), rpm=6000)
         >>> (loads.specific("main", width=0.022, diameter=0.054) / 1e6).round(1)  # MPa
-        array([4.2, 2. , 8.4, 2. , 4.2])
+        array([4.2, 2. , 8.3, 2. , 4.2])
         """
         name = inputs.one_of("load", load, _VECTORS)
         peaks = self.peak(name)

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import functools
-import math
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from crankpin._support import inputs, labels
-from crankpin._support.frames import Frames, Tabled
+from crankpin._support.frames import Tabled
 from crankpin._support.record import read_only
-from crankpin._support.tables import Table
+from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.contributions import contributions
 from crankpin.analysis.request import engine_core
@@ -101,50 +101,56 @@ class TorsionalExcitation(Tabled):
 
     @property
     def table(self) -> Table:
-        """Amplitude and phase by speed, cylinder and order, and the amplitudes of the parts."""
-        several = np.ndim(self.rpm) > 0
-        speeds = np.ravel(self.rpm).tolist()
-        count = (len(speeds), len(self.engine), len(self.orders))
-        frequency = self.angular_frequency.reshape(count[0], count[2])
-        whole, inertia = (each.reshape(count) for each in (self.torque, self.inertia))
-        rows = [
-            (
-                *([rpm] if several else []),
-                number + 1,
-                order,
-                float(frequency[j, k]),
-                float(abs(whole[j, number, k])),
-                math.atan2(whole[j, number, k].imag, whole[j, number, k].real),
-                float(abs(self.gas[number, k])),
-                float(abs(inertia[j, number, k])),
-            )
-            for j, rpm in enumerate(speeds)
-            for number in range(count[1])
-            for k, order in enumerate(self.orders)
+        """Amplitude and phase by speed, cylinder and order."""
+        at = np.ravel(self.rpm).tolist()
+        several = f"{min(at):.10g} to {max(at):.10g}" if np.ndim(self.rpm) else f"{at[0]:.10g}"
+        title = f"TorsionalExcitation of {labels.name_of(self.engine)}: torque on the crank, "
+        shape = (-1, *self.gas.shape)
+        columns = [Column("frequency", self._of_rows(self.angular_frequency), "rad/s")]
+        columns += [
+            Column("amplitude", tuple(np.abs(self.torque).ravel().tolist()), "N·m"),
+            Column("phase", tuple(np.angle(self.torque.reshape(shape)).ravel().tolist()), "rad"),
         ]
-        heads = [
-            *([("speed", "rpm")] if several else []), "cylinder", "order", ("frequency", "rad/s"),
-            ("amplitude", "N·m"), ("phase", "rad"), ("gas", "N·m"), ("inertia", "N·m"),
-        ]  # fmt: skip
-        at = f"{min(speeds):.10g} to {max(speeds):.10g} rpm" if several else f"{speeds[0]:.10g} rpm"
-        title = f"TorsionalExcitation of {labels.name_of(self.engine)}: torque on the crank, {at}"
-        return Table.from_rows(title, heads, rows, loads=self.loads_counted)
+        return self._by_row(f"{title}{several} rpm", columns)
 
-    @property
-    def frames(self) -> Frames:
-        """``table``; ``cylinders``: mean torque and inertia; ``tangential``: pressures by order."""
-        return self._frames(cylinders=self._of_cylinders, tangential=self._tangential)
+    def parts(self) -> Table:
+        """Return amplitudes and phases of gas and masses by speed, cylinder and order.
 
-    def _of_cylinders(self) -> Table:
-        pairs = zip(self.mean.tolist(), self.reciprocating_inertia.tolist(), strict=True)
-        return Table.from_rows(
-            "Mean torque, and mean moment of inertia of piston and rod",
-            ["cylinder", ("mean torque", "N·m"), ("reciprocating inertia", "kg·m²")],
-            [(number, *figures) for number, figures in enumerate(pairs, 1)],
-            loads=self.loads_counted,
-        )
+        Returns
+        -------
+        Table
+            A row for each speed, cylinder and order, as ``table``.
+        """
+        gas = np.broadcast_to(self.gas, self.torque.shape)
+        columns = [
+            Column(f"{name} {what}".strip(), tuple(of(part).ravel().tolist()), unit)
+            for name, part in (("gas", gas), ("inertia", self.inertia))
+            for what, of, unit in (("", np.abs, "N·m"), ("phase", np.angle, "rad"))
+        ]
+        return self._by_row("Torque of gas and of masses on the crank", columns)
 
-    def _tangential(self) -> Table:
+    def _of_rows(self, by_order: NDArray[np.float64]) -> tuple[float, ...]:
+        """Return values by speed and order for each cylinder."""
+        rows = by_order.reshape(-1, 1, len(self.orders))
+        count = (len(rows), len(self.engine), len(self.orders))
+        return tuple(np.broadcast_to(rows, count).ravel().tolist())
+
+    def _by_row(self, title: str, columns: list[Column]) -> Table:
+        """Return a table of columns by speed, cylinder and order."""
+        points = list(product(np.ravel(self.rpm).tolist(), range(len(self.engine)), self.orders))
+        speeds, numbers, orders = zip(*points, strict=True)
+        before = [Column("speed", speeds, "rpm")] if np.ndim(self.rpm) else []
+        before += [Column("cylinder", tuple(k + 1 for k in numbers)), Column("order", orders)]
+        return Table(title, (*before, *columns), loads=self.loads_counted)
+
+    def tangential(self) -> Table:
+        """Return the harmonics of the tangential pressure by cylinder and order.
+
+        Returns
+        -------
+        Table
+            Cosine, sine and amplitude of ``tangential_pressure``, bar.
+        """
         rows = [
             (number, order, each.real / 1e5, -each.imag / 1e5, abs(each) / 1e5)
             for number, pressures in enumerate(self.tangential_pressure.tolist(), 1)
