@@ -28,6 +28,8 @@ from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
 from crankpin.analysis.mounts.design_mounts import design_mounts
 from crankpin.analysis.mounts.powertrain import Powertrain
+from crankpin.analysis.operating_map import operating_map
+from crankpin.analysis.prepared_trace import prepare_trace
 from crankpin.analysis.ranking.rank import rank
 from crankpin.analysis.star import star_diagram
 from crankpin.analysis.sweeps.sweep import sweep
@@ -44,6 +46,7 @@ from crankpin.model.mounts import InertiaTrack, Mount, RigidBody
 from crankpin.model.presets import presets
 from crankpin.model.shafts import Shaft, Unbalance
 from crankpin.model.supports import Receptance, Subframe
+from crankpin.model.traces import Traces
 
 __all__ = [
     "Actuator",
@@ -61,6 +64,7 @@ __all__ = [
     "Rod",
     "Shaft",
     "Subframe",
+    "Traces",
     "Unbalance",
     "ValveTiming",
     "__version__",
@@ -76,6 +80,8 @@ __all__ = [
     "flywheel",
     "gas_torque_harmonics",
     "match_parts",
+    "operating_map",
+    "prepare_trace",
     "presets",
     "rank",
     "search_arrangements",

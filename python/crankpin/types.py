@@ -26,6 +26,8 @@ from crankpin.analysis.mounts.response import MountResponse, OrderResponse, Poin
 from crankpin.analysis.mounts.robustness import MountRobustness
 from crankpin.analysis.mounts.static_state import StaticState
 from crankpin.analysis.mounts.vectors import VectorQuantity
+from crankpin.analysis.operating_map import OperatingMap
+from crankpin.analysis.prepared_trace import PreparedTrace
 from crankpin.analysis.quantity import OrderBalance, Quantity
 from crankpin.analysis.ranking.ranking import Choice, Ranking
 from crankpin.analysis.star import StarDiagram
@@ -65,9 +67,11 @@ __all__ = [
     "MountModes",
     "MountResponse",
     "MountRobustness",
+    "OperatingMap",
     "OrderBalance",
     "OrderResponse",
     "PointMotion",
+    "PreparedTrace",
     "Quantity",
     "Ranking",
     "RollAxes",

@@ -110,6 +110,7 @@ OBJECTS: dict[str, Any] = {
     "Cylinder": OFFSET,
     "Cycle": cp.Cycle(np.arange(0.0, 720.0, 20.0), np.linspace(1e5, 3e6, 36)),
     "CycleMap": cp.CycleMap([1000], [0, 1], [[cp.Cycle.example(), cp.Cycle.example("diesel")]]),
+    "Traces": cp.Traces(THETA, cp.Cycle.example().pressure_at(THETA) * [[0.99], [1.0], [1.02]]),
     "Engine": V6,
     "Engine of odd angles": ODD,
     "Balance": balance(),
@@ -170,6 +171,18 @@ OBJECTS: dict[str, Any] = {
     "Balance, fired": FIRED.balance(3000),
     "BearingLoads, fired": cp.bearing_loads(FIRED, 3000, THETA),
     "Waveform, fired": FIRED.waveform(3000, theta_deg=THETA),
+    "OperatingMap": cp.operating_map(
+        I4,
+        [1000, 3000],
+        cycle=cp.CycleMap([1000, 3000], [0, 1], [[cp.Cycle.example(load=k) for k in (0, 1)]] * 2),
+        load=[0, 0.5, 1],
+        inertia=0.2,
+    ),
+    "PreparedTrace": cp.prepare_trace(
+        cp.Traces(THETA, cp.Cycle.example().pressure_at(THETA) * [[0.99], [1.0], [1.02]]),
+        OFFSET.replace(bore=0.09),
+        intake_pressure=1e5,
+    ),
     "Flywheel, fired": cp.flywheel(FIRED, 3000, inertia=0.1),
     "TorsionalExcitation, fired": cp.torsional_excitation(FIRED, 3000),
     "InertiaTrack": MOUNTED.mounts[0].track,
@@ -378,7 +391,8 @@ def test_completion_offers_what_is_public() -> None:
 # --- another question is another call -------------------------------------------------------------
 
 INPUTS = (
-    cp.Engine, cp.Cylinder, cp.Rod, cp.Shaft, cp.Unbalance, cp.Cycle, cp.CycleMap, cp.ValveTiming,
+    cp.Engine, cp.Cylinder, cp.Rod, cp.Shaft, cp.Unbalance, cp.Cycle, cp.CycleMap, cp.Traces,
+    cp.ValveTiming,
     cp.PortTiming, cp.types.Arrangement, cp.Actuator, cp.InertiaTrack, cp.Mount,
     cp.RigidBody, cp.Powertrain, cp.Subframe, cp.Receptance,
 )  # fmt: skip
@@ -1030,6 +1044,7 @@ def test_every_public_object_is_documented_and_the_main_ones_by_example() -> Non
         for kind in (
             cp.Cycle,
             cp.CycleMap,
+            cp.Traces,
             cp.Cylinder,
             cp.types.Balance,
             cp.types.OrderBalance,

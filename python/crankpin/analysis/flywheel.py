@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, overload
 
@@ -18,10 +20,13 @@ from crankpin.model import checks
 from crankpin.model.data import EngineData
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
     from numpy.typing import ArrayLike, NDArray
 
+    from crankpin._support.inputs import Order
     from crankpin.model.cycle import Cycle
     from crankpin.model.engine import Engine
 
@@ -36,6 +41,8 @@ MOST_BENDS = 7201
 take seconds; half degrees sample them."""
 EQUAL = 1e-9
 """Relative difference up to which a ratio of periods is whole."""
+NEGLIGIBLE = 1e-9
+"""Irregularity of an order, %, and its swing, degrees, below which it is rounding."""
 APPROXIMATIONS = ("gas torque alone", "gas and inertia torque")
 """Textbooks' approximations, both with the mean moment of inertia."""
 
@@ -257,6 +264,67 @@ class Flywheel(Tabled):
         first, second = (each / self.irregularity - 1.0 for each in self.approximations)
         return first, second
 
+    @functools.cached_property
+    def swing_deg(self) -> float:
+        """Largest less smallest angle by which the crank leads one that turns evenly, degrees."""
+        steps = np.diff(self.theta_deg)
+        slowness = 1.0 / self.speed_rpm
+        times = np.concatenate([[0.0], np.cumsum(steps * (slowness[1:] + slowness[:-1]) / 2.0)])
+        even = times * (self.theta_deg[-1] - self.theta_deg[0]) / times[-1]
+        return float(np.ptp(self.theta_deg - self.theta_deg[0] - even))
+
+    def electrical_swing_deg(self, poles: int) -> float:
+        """Return the swing of a generator on the crank in electrical degrees.
+
+        Parameters
+        ----------
+        poles : int
+            Number of poles, even; half of it times ``swing_deg`` is the swing. A limit of ±2.5
+            electrical degrees is one of 5.
+
+        Returns
+        -------
+        float
+            Largest less smallest lead, electrical degrees.
+
+        Raises
+        ------
+        InputError
+            If the number is odd or below 2.
+        """
+        count = inputs.whole("poles", poles)
+        if count < 2 or count % 2:
+            raise inputs.rejected("poles", poles, "give an even number of poles, such as 4")
+        return self.swing_deg * count / 2.0
+
+    def irregularity_of(self, orders: Order | Iterable[Order]) -> NDArray[np.float64]:
+        """Return the irregularity of each order of the speed alone.
+
+        Parameters
+        ----------
+        orders : number or sequence of numbers
+            Multiples of crank speed, whole or half, that come round in the period.
+
+        Returns
+        -------
+        ndarray of float, shape (n_orders,)
+            Largest less smallest speed of each order, over the mean speed.
+
+        Raises
+        ------
+        InputError
+            If an order does not come round in the period.
+        """
+        listed = np.array(inputs.explicit_half_orders(orders), dtype=np.float64)
+        period = float(self.theta_deg[-1] - self.theta_deg[0])
+        rounds = listed * period / 360.0
+        if (abs(rounds - rounds.round()) > EQUAL * rounds).any():
+            wrong = float(listed[np.argmax(abs(rounds - rounds.round()))])
+            raise inputs.rejected("orders", wrong, f"give ones that come round in {period:g}°")
+        waves = np.exp(-1j * np.radians(np.multiply.outer(listed, self.theta_deg)))
+        phasors = 2.0 * np.trapezoid(waves * self.speed_rpm, self.theta_deg, axis=-1) / period
+        return np.asarray(2.0 * np.abs(phasors) / self.rpm)
+
     @property
     def table(self) -> Table:
         """Speed, inertia, energy and torque."""
@@ -268,6 +336,7 @@ class Flywheel(Tabled):
             ("fluctuation of energy", self.energy, "J"),
             ("mean torque", self.mean_torque, "N·m"),
             ("largest acceleration", self.acceleration, "rad/s²"),
+            ("swing", self.swing_deg, "°"),
         )
         names, values, units = zip(*figures, strict=True)
         columns = (
@@ -279,8 +348,24 @@ class Flywheel(Tabled):
 
     @property
     def frames(self) -> Frames:
-        """``table``; ``approximations``: textbooks' irregularities and their errors."""
-        return self._frames(approximations=self._approximated)
+        """``table``; ``approximations``: textbooks', and their errors; ``orders``: irregularity."""
+        return self._frames(approximations=self._approximated, orders=self._by_order)
+
+    def _by_order(self) -> Table:
+        """Return irregularity and swing of orders up to 6 that come round in the period."""
+        turns = float(self.theta_deg[-1] - self.theta_deg[0]) / 360.0
+        orders = [k / 2 for k in range(1, 13) if (k / 2 * turns) % 1.0 < EQUAL]
+        uneven = self.irregularity_of(orders) if orders else np.empty(0)
+        swings = tuple(
+            math.degrees(each / order) for order, each in zip(orders, uneven.tolist(), strict=True)
+        )
+        columns = (
+            Column("order", tuple(orders)),
+            Column("irregularity", tuple((100.0 * uneven).tolist()), "%", least=NEGLIGIBLE),
+            Column("swing", swings, "°", least=NEGLIGIBLE),
+        )
+        title = "Irregularity and swing of each order alone"
+        return Table(title, columns, loads=self.loads_counted)
 
     @property
     def loads_counted(self) -> str:

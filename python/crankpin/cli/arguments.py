@@ -145,9 +145,10 @@ OPTIONS: dict[str, dict[str, Any]] = {
     },
     "--cycle": {
         "metavar": "FILE",
-        "help": "cylinder pressure over crank angle: a text file of two columns under a header "
-        "such as angle [deg], absolute pressure [bar], or petrol or diesel for an example "
-        "(default: the engine's own, or else petrol)",
+        "help": "cylinder pressure over crank angle: a text file of columns under a header such as "
+        "angle [deg], absolute pressure [bar]; petrol or diesel for an example at full load, "
+        "petrol:30%% at part load, petrol:0 idling; none for no gas pressure (default: the "
+        "engine's own, or else petrol)",
     },
     "--firing-order": {
         "help": "such as 1-3-4-2, with + for cylinders that fire together: 1+4-2+3 (default: the "
@@ -161,18 +162,27 @@ OPTIONS: dict[str, dict[str, Any]] = {
         "action": "store_true",
         "help": "pressure is above that of the atmosphere (default: what its header says)",
     },
+    "--atmosphere": {
+        "metavar": "P",
+        "help": "pressure added to gauge pressure, Pa or 1.01bar (default: 101325)",
+    },
     "--absolute": {"action": "store_true", "help": "pressure is absolute"},
     "--angle-unit": {
         "choices": tuple(ANGLE_UNITS),
-        "help": "unit of angles (default: what its header names, else deg)",
+        "help": "unit of angles, or of times (default: what its header names, else deg)",
     },
     "--tdc": {
         "metavar": "ANGLE",
         "help": "angle of the firing top dead centre as the file counts, degrees (default: 0)",
     },
     "--columns": {
-        "metavar": "A,P",
-        "help": "columns of angle and pressure, by number from 0 or name (default: 0,1)",
+        "metavar": "A,P,…",
+        "help": "columns of angle and pressure, those of further cycles after them, by number from "
+        "0 or name (default: 0,1 and all that are like 1); several cycles are averaged",
+    },
+    "--recorded-rpm": {
+        "metavar": "RPM",
+        "help": "crank speed of a record over time of less than three cycles",
     },
     "--bore": {"help": "bore of all cylinders, m (default: the engine's, or else the stroke)"},
     "--crankcase": {
