@@ -95,6 +95,28 @@ def words(finding: Finding) -> str:
     return QUANTITIES[finding.quantity].words
 
 
+def across(direction_deg: float, sides: tuple[str, str]) -> str:
+    """Return in words a line across the engine, from its direction in degrees from +x.
+
+    Parameters
+    ----------
+    direction_deg
+        Direction of the line, degrees from +x.
+    sides
+        What is on the right and on the left, seen from the flywheel.
+    """
+    sideways, upright, _ = AXES["force"]
+    lean = round((90.0 - direction_deg + 90.0) % 180.0 - 90.0, 1)  # from upright, to the right
+    if abs(lean) == 90.0:
+        return sideways
+    return f"{abs(lean):g}° towards the {sides[lean < 0.0]} side" if lean else upright
+
+
+def turns(minor: float) -> str:
+    """Return in words how a vector of constant size turns, from its half axis, signed."""
+    return f"all round, {'against' if minor < 0.0 else 'with'} the crank"
+
+
 def listed(items: Iterable[str]) -> str:
     """Return items joined by commas and "and"."""
     *before, last = items

@@ -8,7 +8,7 @@ import warnings
 from typing import TYPE_CHECKING
 
 from crankpin._core import InputError, __version__
-from crankpin.cli import engines, hardware, loads, making, mounts, new, outputs, shaking  # noqa: F401 - commands
+from crankpin.cli import engines, hardware, loads, making, mounts, new, outputs, shaking, shop  # noqa: F401 - commands
 from crankpin.cli.arguments import (
     COMMANDS,
     PROG,
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 ORDER = (
     "presets", "new", "balance", "explain", "sweep", "rank", "firing", "torque", "bearings",
     "mounts",
-    "counterweights", "bob-weight", "shafts", "design", "tolerances", "view", "gallery",
+    "counterweights", "bob-weight", "card", "shafts", "design", "tolerances", "view", "gallery",
 )  # fmt: skip
 """Commands in the order of the help."""
 
