@@ -12,6 +12,7 @@ counter-clockwise. Classes of results are in :mod:`crankpin.types`.
 import crankpin._support.interrupted  # noqa: F401 - before the imports that take time
 from crankpin import types
 from crankpin._core import InputError, __version__
+from crankpin._support.units import units
 from crankpin.analysis.arrangements.search import search_arrangements
 from crankpin.analysis.balancing.balance_shafts import balance_shafts
 from crankpin.analysis.balancing.balancer_options import balancer_options
@@ -84,6 +85,7 @@ __all__ = [
     "torsional_excitation",
     "two_plane_correction",
     "types",
+    "units",
 ]
 
 

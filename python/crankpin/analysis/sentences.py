@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from crankpin._support.labels import NEGLIGIBLE, dead_text
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
+from crankpin._support.units import convert
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -53,6 +54,10 @@ def figure(value: float, unit: str, *, up: bool = False) -> str:
     if up:
         step = 10.0 ** (math.floor(math.log10(value)) - 1)
         value = math.ceil(value / step * (1.0 - 1e-12)) * step
+    shown = convert(unit)
+    if shown.unit != unit:
+        value *= shown.factor
+        return f"{float(f'{value:.3g}'):.10g} {shown.unit}"
     prefix, scale = "", 1.0
     for name, factor in (("k", 1e3), ("M", 1e6)):
         if value >= 0.9995 * factor and unit in ("N", "N·m"):

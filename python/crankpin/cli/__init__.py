@@ -8,6 +8,7 @@ import warnings
 from typing import TYPE_CHECKING
 
 from crankpin._core import InputError, __version__
+from crankpin._support import units
 from crankpin.cli import engines, hardware, loads, making, mounts, new, outputs, shaking, shop  # noqa: F401 - commands
 from crankpin.cli.arguments import (
     COMMANDS,
@@ -66,9 +67,14 @@ def _text(argv: Sequence[str] | None) -> str:
     with warnings.catch_warnings():
         warnings.showwarning = _Warnings(vars(arguments))
         try:
-            return outputs.shown(Given(arguments, typed), arguments.run)
+            given = Given(arguments, typed)
+            with units.units(vars(arguments).get("units") or ""):
+                printed = outputs.shown(given, arguments.run)
         except InputError as error:
             raise error_in_options(error, vars(arguments)) from None
+        for each in given.said:
+            outputs.say(each)
+        return printed
 
 
 class _Warnings:

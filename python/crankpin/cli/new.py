@@ -8,7 +8,7 @@ import textwrap
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from crankpin._support import inputs
+from crankpin._support import inputs, units
 from crankpin.cli.arguments import PROG, command, option, rejected
 from crankpin.model import checks, engine_files, presets
 from crankpin.model.cylinder import Cylinder, Rod
@@ -122,7 +122,7 @@ def _new(given: Given) -> str:
     if file is None:
         return engine_files.commented(engine.to_toml())
     engine.save(file)
-    said = "".join(f"{note}\n" for note in notes)
+    said = units.in_text("".join(f"{note}\n" for note in notes))
     return f"{engine!r}\n{said}Written to {file}: try {PROG} balance {shlex.quote(str(file))}\n"
 
 

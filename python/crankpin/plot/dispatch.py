@@ -7,9 +7,11 @@ import inspect
 import re
 from typing import Any
 
+import numpy as np
 from matplotlib import pyplot as plt
 
-from crankpin._support import inputs
+from crankpin._support import inputs, units
+from crankpin.plot.ticks import in_units
 
 _UNKNOWN = re.compile(r"(?:unexpected keyword|multiple values for) argument '(\w+)'")
 
@@ -25,7 +27,7 @@ def draw(result: object, ax: object = None, **options: object) -> Any:  # noqa: 
         raise inputs.rejected("figure", options["figure"], "this picture has one panel; give ax")
     before = plt.get_fignums()
     try:
-        return picture(result, ax, **options)
+        drawn = picture(result, ax, **options)
     except Exception as error:
         for made in set(plt.get_fignums()).difference(before):
             plt.close(made)
@@ -35,6 +37,9 @@ def draw(result: object, ax: object = None, **options: object) -> Any:  # noqa: 
         name = unknown[1]
         hint = "this picture has no such option, and what it draws no such property"
         raise inputs.rejected(name, options.get(name), hint) from None
+    if units.current():
+        in_units(np.ravel(drawn)[0].get_figure(root=True))
+    return drawn
 
 
 @functools.singledispatch

@@ -379,11 +379,12 @@ class BobWeight(Tabled):
         listed = sorted(words)
         # An engine without force or moment of order 1 has no columns of it.
         quantities = [name for name in PLANE_VECTORS if any(map(any, self._parts(name)))]
-        header, columns = ["factor", ""], []
+        header: list[str | tuple[str, str]] = ["factor", ""]
+        columns = []
         for name in quantities or ["moment"]:
             longest, shortest = self.half_axes(name, listed)
             unit = QUANTITIES[name].unit_over_square
-            header += [f"{name}, longest {unit}", f"shortest {unit}"]
+            header += [(f"{name}, longest", unit), ("shortest", unit)]
             columns += [longest, abs(shortest)]
         names = [(f"{factor:.6g}", ", ".join(words[factor])) for factor in listed]
         title = "Residual of order 1, half axes over ω²"
