@@ -9,7 +9,18 @@ from typing import TYPE_CHECKING
 
 from crankpin._core import InputError, __version__
 from crankpin._support import units
-from crankpin.cli import engines, hardware, loads, making, mounts, new, outputs, shaking, shop  # noqa: F401 - commands
+from crankpin.cli import (
+    analyses,  # noqa: F401 - commands, as those below
+    engines,  # noqa: F401
+    hardware,  # noqa: F401
+    loads,  # noqa: F401
+    making,  # noqa: F401
+    mounts,  # noqa: F401
+    new,  # noqa: F401
+    outputs,
+    shaking,  # noqa: F401
+    shop,  # noqa: F401
+)
 from crankpin.cli.arguments import (
     COMMANDS,
     PROG,
@@ -25,9 +36,9 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
 ORDER = (
-    "presets", "new", "balance", "explain", "sweep", "rank", "firing", "torque", "bearings",
-    "mounts",
-    "counterweights", "bob-weight", "card", "shafts", "design", "tolerances", "view", "gallery",
+    "presets", "new", "balance", "explain", "compare", "sweep", "rank", "firing", "star", "torque",
+    "flywheel", "bearings", "mounts", "counterweights", "bob-weight", "card", "two-plane", "match",
+    "shafts", "design", "tolerances", "closed-form", "harmonics", "view", "gallery",
 )  # fmt: skip
 """Commands in the order of the help."""
 

@@ -39,6 +39,7 @@ UNITS: dict[str, units.Dimension] = {
     "kg·m": (1, 1, 0, 0),
     "N": (0, 0, 1, 0),
     "N·m": (0, 1, 1, 0),
+    "kg·m²": (1, 2, 0, 0),
     "Pa": (0, 0, 0, 1),
 }
 """Unit that the library takes → what may be typed behind a number: any unit of that dimension."""

@@ -51,7 +51,7 @@ ON = {"crank": "crank_torque", "block": "torque"}
     "at 0 in presets, in an engine file at its tdc_deg. The engine needs a firing order.",
 )
 def _torque(given: Given) -> Shown:
-    engine, note = _fired(given, "torque", otherwise="petrol")
+    engine, note = fired(given, "torque", otherwise="petrol")
     chosen, rpm = given.chosen(), given.number("--rpm", "rpm")
     balance, quantity = engine.balance(rpm, **chosen), ON[given.text("--on")]
     drawn = balance if given.text("--picture") == "spectrum" else engine.waveform(rpm)
@@ -97,7 +97,7 @@ def _torque(given: Given) -> Shown:
     note="Main bearings share the loads between them by the lever rule.",
 )
 def _bearings(given: Given) -> Shown:
-    engine, note = _fired(given, "bearings")
+    engine, note = fired(given, "bearings")
     kind = given.text("--picture")
     loads = bearing_loads(engine, given.number("--rpm", "rpm"))
     known = {"polar": ("load", "axes"), "curves": ("load",), "bending": ()}[kind]
@@ -105,7 +105,7 @@ def _bearings(given: Given) -> Shown:
     return Shown(loads.frames, loads, {"kind": kind, **options}, note=note)
 
 
-def _fired(given: Given, name: str, otherwise: str | None = None) -> tuple[Engine, str]:
+def fired(given: Given, name: str, otherwise: str | None = None) -> tuple[Engine, str]:
     """Return the engine, with gas pressure if there is any, and a note of what was assumed."""
     engine: Engine = given.engine(name)
     typed: Any = given.text("--cycle")
@@ -138,9 +138,9 @@ def _fired(given: Given, name: str, otherwise: str | None = None) -> tuple[Engin
         else each
         for each in engine.cylinders
     ]
-    fired = engine.replace(cylinder=cylinders).with_cycle(cycle, crankcase=crankcase)
+    driven = engine.replace(cylinder=cylinders).with_cycle(cycle, crankcase=crankcase)
     note = "Bores that are not known are taken to equal the stroke.\n" if unknown else ""
-    return fired, note
+    return driven, note
 
 
 def _loaded(given: Given, path: str, strokes: int) -> Cycle:
