@@ -88,7 +88,7 @@ def test_nothing_is_printed_in_other_units(
     ("typed", "metres"),
     [
         ('3.5"', 0.0889), ("88.9MM", 0.0889), ("88.9 mm", 0.0889), ("3.5inches", 0.0889),
-        ("8.89CM", 0.0889), ("88,9mm", 0.0889), ("0,0889", 0.0889),
+        ("8.89CM", 0.0889), ("88,9mm", 0.0889),
     ],
 )  # fmt: skip
 def test_lengths_as_people_type_them(capsys: CAPTURE, typed: str, metres: float) -> None:
@@ -105,8 +105,10 @@ def test_lengths_as_people_type_them(capsys: CAPTURE, typed: str, metres: float)
 
 
 def test_a_list_in_which_a_comma_may_be_a_point_is_refused(capsys: CAPTURE) -> None:
-    assert main(["card", "i4", "--piston", "470,5g"]) == 2
-    assert "write 470.5g, or the unit behind both" in capsys.readouterr().err
+    assert main(["card", "i4", "--piston", "470,500g"]) == 2
+    assert "write 470.500g, or the unit behind both" in capsys.readouterr().err
+    assert main(["card", "i4", "--piston", "470,5g"]) == 0
+    assert capsys.readouterr().err == "crankpin: --piston 470,5g is read as 470.5g\n"
     assert main(["counterweights", "i4", "--planes", "0,200mm"]) == 0  # zero needs no unit
 
 

@@ -53,6 +53,8 @@ OTHERS: dict[str, dict[str, Decimal]] = {
 NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\D.*)?", re.ASCII)
 COMMA = re.compile(r"([-+]?\d+),(\d+)(\s*[^\d\s,.:=][^,:=]*)?")
 """A number with a comma for its decimal point, as in most of Europe."""
+MOST_DECIMALS = 2
+"""Digits behind a comma up to which two numbers with one unit are one: 88,9mm, not 100,200mm."""
 
 
 # --- parsers ------------------------------------------------------------------------------------
@@ -364,8 +366,11 @@ class Given:
         """Return what was typed for one number, a decimal comma as a point, which is said."""
         text: str = self.text(flag)
         match = COMMA.fullmatch(text.strip())
-        if match is None:
-            return text
+        return text if match is None else self._point(flag, match)
+
+    def _point(self, flag: str, match: re.Match[str]) -> str:
+        """Return a number with a point for its comma, which is said."""
+        text = match[0]
         point = f"{match[1]}.{match[2]}{match[3] or ''}"
         self.said.append(f"{flag} {text} is read as {point}")
         return point
@@ -386,9 +391,12 @@ class Given:
     def listed(self, flag: str, text: str, unit: str = "") -> list[float]:
         """Return the numbers of a text, separated by commas."""
         match = COMMA.fullmatch(text.strip())
+        # Behind both numbers of a list there is a unit, or behind none; zero needs none.
         if match is not None and match[3] is not None and int(match[1]) and unit in UNITS:
-            hint = f"write {match[1]}.{match[2]}{match[3]}, or the unit behind both"
-            raise rejected(flag, text, hint)
+            if len(match[2]) > MOST_DECIMALS:
+                hint = f"write {match[1]}.{match[2]}{match[3]}, or the unit behind both"
+                raise rejected(flag, text, hint)
+            text = self._point(flag, match)
         return [float(self.decimal(flag, part, unit)) for part in text.split(",")]
 
     def whole(self, flag: str) -> int:
