@@ -195,7 +195,7 @@ def test_several_cranks_in_lists() -> None:
         {"cranks": [(0.1, 0.0)], "crank": [1]},
     ):
         with pytest.raises(cp.InputError, match="crank"):
-            cp.Engine.from_lists(PARTS, **lists, **wrong)  # type: ignore[arg-type]
+            cp.Engine.from_lists(PARTS, **lists, **wrong)
 
 
 @pytest.mark.parametrize(

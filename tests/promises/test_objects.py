@@ -310,6 +310,7 @@ def test_arrays_are_read_only(name: str) -> None:
         "Choice",
         "Ranking",
         "Waveform",
+        "Card",
         "Counterweights",
         "Design",
     )
@@ -809,6 +810,7 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
         "Counterweights",
         "BearingLoads",
         "BobWeight",
+        "Card",
         "Explanation",
         "Flywheel",
         "Match",

@@ -76,7 +76,27 @@ class Converted(NamedTuple):
     """What numbers are multiplied by."""
 
 
-class units:  # noqa: N801 - called as a function
+class Shown:
+    """Setting of units, made by :func:`crankpin.units`: its block ends it."""
+
+    def __init__(self, setting: Setting) -> None:
+        global _setting
+        self._before, _setting = _setting, setting
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        global _setting  # noqa: PLW0603 - as above
+        _setting = self._before
+
+
+def units(text: str = "") -> Shown:
     """Set the units in which tables, texts and pictures are shown.
 
     Numbers that results hold remain in SI units. The setting lasts until another one; as a context
@@ -89,6 +109,11 @@ class units:  # noqa: N801 - called as a function
         (``N``, ``kN``, ``lbf``, ``kgf``) and pressure (``Pa``, ``bar``, ``psi``), and products such
         as ``oz·in`` or ``lbf·ft``, separated by commas. A kind that is not named stays as it is;
         with ``lbf`` torques are in lbf·ft, unless a product is named. Empty for what results have.
+
+    Returns
+    -------
+    Shown
+        The setting, as a context manager that ends it with its block.
 
     Raises
     ------
@@ -105,22 +130,7 @@ class units:  # noqa: N801 - called as a function
     cylinders  crankpin °  rotating oz  reciprocating oz  oil oz  bob weight oz
     1                  90       17.637            15.873       0         25.574
     """
-
-    def __init__(self, text: str = "") -> None:
-        global _setting
-        self._before, _setting = _setting, read(text)
-
-    def __enter__(self) -> None:
-        pass
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        global _setting  # noqa: PLW0603 - as above
-        _setting = self._before
+    return Shown(read(text))
 
 
 Setting = dict[Dimension, str]

@@ -553,7 +553,7 @@ class Builders(EngineData):
         around = [Fraction(360 * place, count) for place in range(count)]
         one = one_of(cylinder)
         core = core_of_lists(
-            one,  # type: ignore[arg-type] # or rejected
+            one,
             [angle - pin for angle, pin in zip(around, pins, strict=True)],
             None,
             [90 + angle for angle in around],
@@ -777,8 +777,8 @@ class Builders(EngineData):
         one = one_of(cylinder)
         along = _along_crank(one, (), spacing, rotating_mass, first_tdc_deg)
         stagger = inputs.number("bank_stagger", bank_stagger)
-        even = 0.0 if np.ndim(spacing) else stagger
-        across = vee_layout_of(bank_angle_deg, even, numbering, odd_bank)
+        behind = 0.0 if np.ndim(spacing) else stagger
+        across = vee_layout_of(bank_angle_deg, behind, numbering, odd_bank)
         moving = parts(one)
         if bank_angle_deg is None:
             core = _core.Engine.inline_from_firing_order(moving, order, *fired, along)

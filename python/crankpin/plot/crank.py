@@ -191,9 +191,11 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     to_scale = pitch > 0.5 * crank_radius(engine)
     ax.set_aspect("equal" if to_scale else "auto")
     ax.autoscale_view()
-    ax.set_ylabel(*in_units(ax.yaxis, "y, m"))
+    (upright,) = in_units(ax.yaxis, "y, m")
+    ax.set_ylabel(upright)
     along = "z, m" if to_scale else "z, m (not to the scale of y)"
-    ax.set_xlabel(*in_units(ax.xaxis, along))
+    (along,) = in_units(ax.xaxis, along)
+    ax.set_xlabel(along)
 
 
 def _stretches(engine: Engine) -> tuple[list[list[Stretch]], float]:

@@ -98,8 +98,8 @@ def phasors(
             room, names = _polygon(panel, arms, chain, total, inks, style)
             _frame(panel, chain, room)
             _name(panel, names)
-            shown = units.convert(QUANTITIES[kind].unit)
-            length = f"{rounded(abs(total) * shown.factor, 4)} {shown.unit}" if total else "0"
+            unit, factor = units.convert(QUANTITIES[kind].unit)
+            length = f"{rounded(abs(total) * factor, 4)} {unit}" if total else "0"
             set_panel_title(panel, f"order {order} {part}".strip(), length)
             aside = aside or room > 0.0
     label_x(axes[-1, 0], _axis_label(kind, 0))

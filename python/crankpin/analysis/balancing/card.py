@@ -231,12 +231,11 @@ class Card(Tabled):
                 amount, radius = G_MM * each.amount, radii[plane]
                 share = f"{100.0 * factor:.6g} %"
                 rows.append((share, plane, each.z, amount, angle, (angle + 180.0) % 360.0, radius))
-        share, plane, z, amounts, adding, drilling, radius = (
-            zip(*rows, strict=True) if rows else [()] * 7
-        )
+        found: list[tuple[Any, ...]] = list(zip(*rows, strict=True)) if rows else [()] * 7
+        shares, names, z, amounts, adding, drilling, radius = found
         columns = [
-            Column("factor", share),
-            Column("plane", plane),
+            Column("factor", shares),
+            Column("plane", names),
             Column("z", z, "m"),
             Column("unbalance", amounts, "g·mm", decimals=0),
             Column("add at", adding, "°", decimals=1),
