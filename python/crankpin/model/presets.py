@@ -34,6 +34,8 @@ NUMBERS = {
 """Numbers of cylinders in words."""
 OWN_PARTS = "-ebook"
 """End of the names of presets that belong to no family: their moving parts are not comparable."""
+OWN_PARTS_TITLE = " (e-book)"
+"""End of the titles of those presets, while they have these parts."""
 
 
 class Presets(Mapping[str, Engine]):
@@ -146,7 +148,10 @@ class Layout(NamedTuple):
         **changes: Any,  # noqa: ANN401
     ) -> Engine:
         """Return the engine with this cylinder and spacing, and other arguments of the builder."""
-        arguments = self.arguments | changes
+        arguments = dict(self.arguments)
+        if cylinder != self.cylinder and "name" in arguments:
+            arguments["name"] = arguments["name"].removesuffix(OWN_PARTS_TITLE)
+        arguments |= changes
         one = cylinder if isinstance(cylinder, Cylinder) else cylinder[0]
         if one.rod is not None and "rotating_mass" not in changes:
             arguments.pop("rotating_mass", None)  # a rod brings its own
