@@ -13,6 +13,7 @@ import crankpin._support.interrupted  # noqa: F401 - before the imports that tak
 from crankpin import types
 from crankpin._core import InputError, __version__
 from crankpin._support import drawing
+from crankpin._support.units import units
 from crankpin.analysis.arrangements.search import search_arrangements
 from crankpin.analysis.balancing.balance_shafts import balance_shafts
 from crankpin.analysis.balancing.balancer_options import balancer_options
@@ -93,6 +94,7 @@ __all__ = [
     "torsional_excitation",
     "two_plane_correction",
     "types",
+    "units",
 ]
 
 

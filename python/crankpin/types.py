@@ -5,6 +5,7 @@ from crankpin.analysis.arrangements.search import Arrangement, ArrangementSearch
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.balancing.balancers import BalancerOption, BalancerOptions
 from crankpin.analysis.balancing.bob_weight import BobWeight
+from crankpin.analysis.balancing.card import Card
 from crankpin.analysis.balancing.counterweights import Counterweights
 from crankpin.analysis.balancing.fitted_shafts import BalanceShafts
 from crankpin.analysis.balancing.two_plane import TwoPlaneCorrection
@@ -50,6 +51,7 @@ __all__ = [
     "BearingLoads",
     "BobWeight",
     "Cancellation",
+    "Card",
     "Choice",
     "ClosedForm",
     "Comparison",

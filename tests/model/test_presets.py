@@ -406,8 +406,8 @@ def test_rows_of_a_radial() -> None:
     [
         ({"cylinders": 2}, "cylinders = 2: give three or more to each row; .* Engine.flat"),
         ({"cylinders": 7, "rows": 2, "spacing": 0.1}, "cylinders = 7: give three or more"),
-        ({"cylinders": 28, "rows": 4}, "rows = 4: give 1 or 2; Engine.from_lists"),
-        ({"cylinders": 14, "rows": 2}, "spacing = None: give the distance between the two rows"),
+        ({"cylinders": 28, "rows": 7}, "rows = 7: give 1 to 6; Engine.from_lists"),
+        ({"cylinders": 14, "rows": 2}, "spacing = None: give the distance between rows"),
         ({"cylinders": 7.5}, "cylinders = 7.5: give a whole number"),
         ({"cylinders": 10**9}, "cylinders = 1000000000: an engine has 1 to 1000"),
         ({"firing_order": "1-3-2"}, "firing_order = .*1-3-2"),

@@ -146,6 +146,9 @@ OBJECTS: dict[str, Any] = {
     ),
     "Flywheel": cp.flywheel(([0, 120, 360], [300, 500, 300]), rpm=600, inertia=2.0),
     "BobWeight": cp.bob_weight(V6, 0.52, oil=0.004),
+    "Card": cp.bob_weight(V6, parts={"piston": 0.5, "pin": 0.1}).card(
+        [0.52], rpm=5000, planes="ends", radius=0.07, balanced_to=1.0
+    ),
     "TwoPlaneCorrection": cp.two_plane_correction(
         [120, 80], [30, 200], measured_z=[0.0, 0.4], correction_z=[0.05, 0.35]
     ),
@@ -322,6 +325,7 @@ def test_arrays_are_read_only(name: str) -> None:
         "Choice",
         "Ranking",
         "Waveform",
+        "Card",
         "Counterweights",
         "Design",
     )
@@ -823,6 +827,7 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
         "Counterweights",
         "BearingLoads",
         "BobWeight",
+        "Card",
         "Exercise",
         "Explanation",
         "Flywheel",

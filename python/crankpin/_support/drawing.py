@@ -8,12 +8,16 @@ import re
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from crankpin._support import inputs, optional
 
 _UNKNOWN = re.compile(r"(?:unexpected keyword|multiple values for) argument '(\w+)'")
 
 importers: list[Callable[[], object]] = []
 """Import pictures, which register themselves, and matplotlib with them, once one is drawn."""
+finishers: list[Callable[[Any], object]] = []
+"""Change the figure of a picture that has been drawn."""
 
 
 def draw(result: object, ax: object = None, **options: object) -> Any:  # noqa: ANN401 - axes
@@ -33,7 +37,7 @@ def draw(result: object, ax: object = None, **options: object) -> Any:  # noqa: 
         raise inputs.faulty("ax and figure", "cannot be combined", "give one of them")
     before = plt.get_fignums()
     try:
-        return picture(result, ax, **options)
+        drawn = picture(result, ax, **options)
     except Exception as error:
         for number in set(plt.get_fignums()).difference(before):
             plt.close(number)
@@ -43,6 +47,9 @@ def draw(result: object, ax: object = None, **options: object) -> Any:  # noqa: 
         name = unknown[1]
         hint = "this picture has no such option, and what it draws no such property"
         raise inputs.rejected(name, options.get(name), hint) from None
+    for finisher in finishers:
+        finisher(np.ravel(drawn)[0].get_figure(root=True))
+    return drawn
 
 
 @functools.singledispatch

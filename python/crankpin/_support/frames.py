@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, overload
 
-from crankpin._support import files, inputs, labels, latex, optional
+from crankpin._support import files, inputs, labels, latex, optional, units
 from crankpin._support.record import AbsentItemError, Record, changed
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.ASCII | re.IGNOREC
 class Frames(Mapping[str, "Table"]):
     """Tables of a result by name, in the order in which they are shown.
 
-    A table is computed when it is read.
+    A table is computed when it is read, in the units that :func:`crankpin.units` has set.
     """
 
     def __init__(self, makers: Mapping[str, Callable[[], Table]]) -> None:
@@ -41,7 +41,8 @@ class Frames(Mapping[str, "Table"]):
 
     def __getitem__(self, name: str) -> Table:
         """Return the table of a name, or raise an InputError."""
-        return self._makers[inputs.one_of("frame", name, self._makers, AbsentItemError)]()
+        made = self._makers[inputs.one_of("frame", name, self._makers, AbsentItemError)]()
+        return made._in(units.current())
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._makers)

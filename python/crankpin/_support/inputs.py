@@ -7,6 +7,7 @@ import difflib
 import itertools
 import math
 import operator
+import re
 import reprlib
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from decimal import Decimal
@@ -379,12 +380,53 @@ def degrees(angle: Angle) -> float:
     return float(numerator) / float(denominator or 1)
 
 
-def firing_order(name: str, values: object) -> str:
-    """Return a firing order as text."""
+def firing_order(name: str, values: object, banks: Sequence[int] = ()) -> str:
+    """Return a firing order as text, by cylinder numbers.
+
+    Parameters
+    ----------
+    name
+        Name of the argument.
+    values
+        Numbers, or text: ``"1-3-4-2"``, ``"1342"``, or by banks, ``"A1-B1-A2"`` and ``"1L-2R"``.
+    banks
+        Bank of each cylinder, an index: where letters of banks can be read.
+    """
     hint = "give cylinder numbers, such as '1-3-4-2' or [1, 3, 4, 2]"
-    if isinstance(values, str):
-        return text(name, values, hint)
-    return "-".join(shorten(number) for number in items(name, values, hint))
+    if not isinstance(values, str):
+        return "-".join(shorten(number) for number in items(name, values, hint))
+    typed = text(name, values, hint)
+    plain = typed.strip()
+    if plain.isascii() and plain.isdigit() and sorted(plain) == list("123456789")[: len(plain)]:
+        return "-".join(plain)
+    return _by_banks(name, typed, banks) if banks and _LETTERS.search(plain) else typed
+
+
+_LETTERS = re.compile(
+    r"(?:(?P<before>[A-Za-z])(?P<number>\d+)|(?P<turned>\d+)(?P<after>[A-Za-z]))\b"
+)
+_SIDES = {"R": 0, "L": 1}
+"""Letter of a side, seen from the flywheel → index of the bank."""
+
+
+def _by_banks(name: str, typed: str, banks: Sequence[int]) -> str:
+    """Return a firing order by cylinder numbers: A is the bank of cylinder 1, 2 its second one."""
+    letters = {(m["before"] or m["after"]).upper() for m in _LETTERS.finditer(typed)}
+    order = dict.fromkeys([banks[0], *sorted(set(banks))])  # A first, then front to rear
+    of_letter = dict(zip("ABCDEFGH", order, strict=False))
+    if letters <= _SIDES.keys() and len(order) <= len(_SIDES):
+        of_letter = _SIDES
+
+    def number(match: re.Match[str]) -> str:
+        letter = (match["before"] or match["after"]).upper()
+        place = int(match["number"] or match["turned"])
+        members = [k for k, bank in enumerate(banks, start=1) if bank == of_letter.get(letter)]
+        if not 1 <= place <= len(members):
+            known = ", ".join(f"{each} ({banks.count(bank)})" for each, bank in of_letter.items())
+            raise rejected(name, typed, f"there is no {match[0]}; banks and cylinders are {known}")
+        return str(members[place - 1])
+
+    return _LETTERS.sub(number, typed)
 
 
 def order(value: object) -> Order:

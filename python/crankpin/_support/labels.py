@@ -8,6 +8,8 @@ from unicodedata import category
 
 import numpy as np
 
+from crankpin._support import units
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
@@ -77,7 +79,13 @@ def value_text(dimension: str, value: float) -> str:
 
 def at_speed(rpm: float) -> str:
     """Return a crank speed: ``at 5000 rpm``; at 1 rad/s, that forces in N are kg·m over ω²."""
-    return "over ω² (N stand for kg·m)" if rpm == UNIT_RPM else f"at {rpm:g} rpm"
+    if rpm != UNIT_RPM:
+        return f"at {rpm:g} rpm"
+    force, unbalance = units.convert("N"), units.convert("kg·m")
+    if force.factor == unbalance.factor == 1.0:
+        return "over ω² (N stand for kg·m)"
+    ratio = unbalance.factor / force.factor
+    return f"over ω² (1 {force.unit} stands for {ratio:.6g} {unbalance.unit})"
 
 
 class Titled(Protocol):

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from crankpin import _core
-from crankpin._support import inputs, labels, optional
+from crankpin._support import inputs, labels, optional, units
 from crankpin._support.frames import Tabled
 from crankpin._support.quantities import COMPONENTS, QUANTITIES
 from crankpin._support.tables import Table
@@ -310,14 +310,16 @@ class ClosedForm(Tabled):
         scale = cylinder.reciprocating_mass * cylinder.crank_radius
         factor = scale * complex(cylinder.harmonics(self.order)[0])
         order = str(self.order).translate(SUBSCRIPTS)
+        shown = units.convert("kg·m")
+        factor *= shown.factor
         value = f"{factor.real:.6g}"
         if factor.imag:
             value = f"({value} {'-' if factor.imag < 0 else '+'} {abs(factor.imag):.6g}i)"
-        text = f"F = m·r·a{order}·ω² = {value} kg·m·ω² of cylinder {self.unit_cylinder}"
+        text = f"F = m·r·a{order}·ω² = {value} {shown.unit}·ω² of cylinder {self.unit_cylinder}"
         if factor != abs(factor):
             text += " (in lengths its size)"
         if self.quantity == "moment" and self.spacing:
-            text += f", a = {1e3 * self.spacing:.6g} mm"
+            text += f", a = {units.figure(1e3 * self.spacing, 'mm', 6)}"
         return text
 
     @property

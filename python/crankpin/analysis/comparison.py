@@ -245,7 +245,14 @@ class Comparison(Tabled):
         title = f"{self.title} at {self.rpm:g} rpm: peaks"
         header = ["quantity", "order", "before", "after", "change %"]
         listed = np.array(rows).reshape(-1, 3)
-        return Table.from_rows(title, header, texts, listed, loads=self.loads_counted)
+        return Table.from_rows(
+            title,
+            [*header[:-1], ("change", "%")],
+            texts,
+            listed,
+            loads=self.loads_counted,
+            row_units=[text.rpartition(", ")[2] for text, _ in texts],
+        )
 
     @property
     def loads_counted(self) -> str:

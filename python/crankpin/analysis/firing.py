@@ -461,7 +461,7 @@ def _order_and_strokes(
     """Return the arguments, or what the engine knows in their place."""
     count = engine.strokes if strokes is None else inputs.strokes(strokes)
     if firing_order is not None:
-        return inputs.firing_order("firing_order", firing_order), count
+        return inputs.firing_order("firing_order", firing_order, engine._core.bank), count
     if engine.firing_order and count == engine.strokes:
         return engine.firing_order, count
     known = "the engine's firing order is not known"

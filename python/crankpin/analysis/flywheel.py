@@ -344,7 +344,7 @@ class Flywheel(Tabled):
             Column("value", values, digits=6),
             Column("unit", units),
         )
-        return Table(self.title, columns, loads=self.loads_counted)
+        return Table(self.title, columns, loads=self.loads_counted, row_units=units)
 
     @property
     def frames(self) -> Frames:

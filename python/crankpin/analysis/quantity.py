@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Generic, Literal, Self, TypeAlias
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Tabled
 from crankpin._support.quantities import KINDS, PARTS, Kind
 from crankpin._support.record import AbsentError, AbsentItemError, Record, changed, read_only
@@ -408,7 +408,9 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
                 Column(head, tuple(self[key]._figure(what) for key in keys))
                 for head, what in self._columns().items()
             ]
-        return Table(title, tuple(columns), note, loads=self.loads_counted)
+        whole = title == f"{self.kind.words}, {self.unit}"
+        row_units = (self.unit,) * len(columns[0].values) if whole and columns else ()
+        return Table(title, tuple(columns), note, self.loads_counted, row_units)
 
     def _figure(self, what: str) -> float | None:
         """Return a figure of one order of a balance; None where all together have none."""
@@ -446,7 +448,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
         which = f" of {'all orders' if self.order == ALL else f'order {self.order}'}"
         loads = f", {self.loads_counted}" if self.loads_counted else ""
         if not self.result.dims:
-            return f"<Quantity {name}{which}: peak {self.peak:.5g} {self.unit}{loads}>"
+            peak = units.figure(float(self.peak), self.unit, 5)
+            return f"<Quantity {name}{which}: peak {peak}{loads}>"
         dims, shape = self.result.dims, np.shape(self._read("peak"))
         if self.order is None:
             dims, shape, which = self.dims, self.shape, ""
@@ -537,7 +540,8 @@ class OrderBalance(Quantities[Value, Value], Tabled, Generic[Value]):
         heads += [] if self.order == ALL else ["status"]
         speed = labels.at_speed(self.result._attributes["rpm"])
         title = f"{labels.name_of(self.result._engines[0])} {speed}: {self._which}"
-        return Table.from_rows(title, heads, rows, loads=self.loads_counted)
+        row_units = [each.unit for each in self._each()]
+        return Table.from_rows(title, heads, rows, loads=self.loads_counted, row_units=row_units)
 
     def _table_by_point(self) -> Table:
         """Return the largest peak of each quantity of a sweep at each point."""

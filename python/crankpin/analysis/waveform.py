@@ -298,4 +298,5 @@ class Waveform(OverAngle):
             ["quantity", "component", "unit", "least", ("at", "°"), "largest", ("at", "°")],
             rows,
             loads=self.loads_counted,
+            row_units=[str(row[2]) for row in rows],
         )

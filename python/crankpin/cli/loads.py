@@ -63,7 +63,7 @@ ON = {"crank": "crank_torque", "block": "torque"}
     "at 0 in presets, in an engine file at its tdc_deg. The engine needs a firing order.",
 )
 def _torque(given: Given) -> Shown:
-    engine, note = _fired(given, "torque")
+    engine, note = fired(given, "torque")
     chosen, rpm = given.chosen(), given.number("--rpm", "rpm")
     balance, quantity = engine.balance(rpm, **chosen), ON[given.text("--on")]
     drawn = balance if given.text("--picture") == "spectrum" else engine.waveform(rpm)
@@ -103,7 +103,7 @@ def _torque(given: Given) -> Shown:
     note="Main bearings share the loads between them by the lever rule.",
 )
 def _bearings(given: Given) -> Shown:
-    engine, note = _fired(given, "bearings")
+    engine, note = fired(given, "bearings")
     kind = given.text("--picture")
     loads = bearing_loads(engine, given.number("--rpm", "rpm"))
     known = {"polar": ("load", "axes"), "curves": ("load",), "bending": ()}[kind]
@@ -111,7 +111,7 @@ def _bearings(given: Given) -> Shown:
     return Shown(loads.frames, loads, {"kind": kind, **options}, note=note)
 
 
-def _fired(given: Given, name: str) -> tuple[Engine, str]:
+def fired(given: Given, name: str) -> tuple[Engine, str]:
     """Return the engine, with gas pressure unless there is none, and a note of what was assumed."""
     engine: Engine = given.engine(name)
     typed: Any = given.text("--cycle")
@@ -152,13 +152,13 @@ def _fired(given: Given, name: str) -> tuple[Engine, str]:
         for each in engine.cylinders
     ]
     try:
-        fired = engine.replace(cylinder=cylinders).with_cycle(cycle, crankcase=crankcase)
+        driven = engine.replace(cylinder=cylinders).with_cycle(cycle, crankcase=crankcase)
     except InputError as error:
-        if typed is not None or name == "torque":  # which is of gas
+        if typed is not None or name != "bearings":  # which are of masses too
             raise
         return engine, f"It is not counted, since {error}\n"
     note = "Bores that are not known are taken to equal the stroke.\n" if unknown else ""
-    return fired, note if named else f"{note}Read: {cycle.origin}.\n"
+    return driven, note if named else f"{note}Read: {cycle.origin}.\n"
 
 
 def _loaded(given: Given, path: str, strokes: int) -> Cycle:

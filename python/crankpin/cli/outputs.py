@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TextIO
 
 import numpy as np
 
-from crankpin._support import files, labels
+from crankpin._support import files, labels, units
 from crankpin._support.frames import FIRST, Frames
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ def _printed(given: Given, found: Shown) -> tuple[str, str]:
         table = found.frames[name or FIRST]
         return table.to_csv(), table.loads
     shown = found.frames if name is None else found.frames[name]
-    return f"{shown.text()}\n{found.note}", ""
+    return f"{shown.text()}\n{units.in_text(found.note)}", ""
 
 
 def only(table: Table) -> Frames:

@@ -11,7 +11,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._core import ATMOSPHERE
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.record import Input, read_only
@@ -467,7 +467,7 @@ class Cycle(Tabled, Input, ComputedCycles):
             labels.printable(self.name) or "Cycle",
             f"{'four' if self.strokes == 4 else 'two'}-stroke",
             f"{len(self.theta_deg)} points ({self.grid})",
-            f"{self.pressure[peak] / 1e5:.4g} bar at {self.theta_deg[peak]:.4g}°",
+            f"{units.figure(self.pressure[peak] / 1e5, 'bar', 4)} at {self.theta_deg[peak]:.4g}°",
         )
         return Table(
             ", ".join(facts),

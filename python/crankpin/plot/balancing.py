@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import picture
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balancing.balancers import BalancerOptions
@@ -178,9 +178,13 @@ def _write_amounts(
 ) -> None:
     """Write the unbalance of each set on the right."""
     amounts = ax.secondary_yaxis("right")
-    amounts.set_yticks(rows, [rounded(1000.0 * each.unbalance) for each in shown], fontsize=size)
+    unit, factor = units.convert("kg·m")
+    if factor == 1.0:
+        unit, factor = "g·m", 1000.0
+    texts = [rounded(factor * each.unbalance) for each in shown]
+    amounts.set_yticks(rows, texts, fontsize=size)
     amounts.tick_params(axis="y", length=0, pad=6, labelcolor=muted(ax))
-    amounts.set_ylabel("unbalance, g·m", color=muted(ax))
+    amounts.set_ylabel(f"unbalance, {unit}", color=muted(ax))
     amounts.spines["right"].set_visible(False)
 
 

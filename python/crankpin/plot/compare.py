@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.font_manager import FontProperties
 
+from crankpin._support import units
 from crankpin._support.drawing import picture
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.comparison import Comparison
@@ -71,7 +72,9 @@ def _total(result: Comparison, name: str) -> str:
     before, after = (getattr(each.total, name).peak for each in (result.before, result.after))
     kind = QUANTITIES[name]
     what = f"{'longest' if kind.planar else 'peak'} {kind.words}"
-    values = f"{rounded(before, 4)} → {rounded(after, 4)} {kind.unit}"
+    shown = units.convert(kind.unit)
+    sizes = (rounded(each * shown.factor, 4) for each in (before, after))
+    values = f"{' → '.join(sizes)} {shown.unit}"
     return f"{what} {values} ({changed(before, after)})"
 
 

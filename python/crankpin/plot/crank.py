@@ -17,7 +17,7 @@ from crankpin.analysis.geometry import (
     weights_on_shafts,
 )
 from crankpin.model.crankpins import Crankpin, throws
-from crankpin.plot.layout import inches_of, points_of
+from crankpin.plot.layout import in_units, inches_of, points_of
 from crankpin.plot.section import shaft_text
 from crankpin.plot.shapes import (
     JOURNAL,
@@ -191,8 +191,11 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     to_scale = pitch > 0.5 * crank_radius(engine)
     ax.set_aspect("equal" if to_scale else "auto")
     ax.autoscale_view()
-    ax.set_ylabel("y, m")
-    ax.set_xlabel("z, m" if to_scale else "z, m (not to the scale of y)")
+    (upright,) = in_units(ax.yaxis, "y, m")
+    ax.set_ylabel(upright)
+    along = "z, m" if to_scale else "z, m (not to the scale of y)"
+    (along,) = in_units(ax.xaxis, along)
+    ax.set_xlabel(along)
 
 
 def _stretches(engine: Engine) -> tuple[list[list[Stretch]], float]:

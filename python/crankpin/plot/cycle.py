@@ -111,7 +111,6 @@ def _prepared(
     label: str | None = None,
     **style: object,
 ) -> Drawn:
-    check_one_place(ax, figure)
     panels = make_panels(ax, figure, 2, 1, row_height=0.55, sharex=True)
     before, after = result.stages[0], result.traces
     pressures = panels.axes[0, 0]

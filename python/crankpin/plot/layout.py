@@ -14,7 +14,7 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.text import Text
 from matplotlib.transforms import ScaledTranslation
 
-from crankpin._support import inputs
+from crankpin._support import inputs, units
 from crankpin._support.drawing import picture
 from crankpin.plot.style import font_of, muted
 from crankpin.plot.words import plain_text
@@ -22,6 +22,7 @@ from crankpin.plot.words import plain_text
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from matplotlib.colorbar import Colorbar
     from matplotlib.font_manager import FontProperties
     from matplotlib.typing import ColorType
     from numpy.typing import NDArray
@@ -345,14 +346,35 @@ def set_figure_title(figure: FigureBase, *lines: str) -> None:
 
 def label_x(ax: Axes, text: str) -> None:
     """Label the horizontal axis, on several lines where it is short."""
+    (text,) = in_units(ax.xaxis, text)
     ax.set_xlabel(plain_text(text))
     _fit(ax, ax.xaxis.label, _FittedText(ax.xaxis.label, [text], ax))
 
 
 def label_y(ax: Axes, *lines: str) -> None:
     """Label the vertical axis, on more lines where it is short."""
+    lines = tuple(in_units(ax.yaxis, *lines))
     ax.set_ylabel(plain_text("\n".join(lines)))
     _fit(ax, ax.yaxis.label, _FittedText(ax.yaxis.label, lines, ax, "height"))
+
+
+def label_bar(bar: Colorbar, text: str) -> None:
+    """Label a scale of colours."""
+    (text,) = in_units(bar.ax.yaxis, text)
+    bar.set_label(text)
+
+
+def in_units(axis: Any, *lines: str) -> list[str]:  # noqa: ANN401 - of matplotlib
+    """Return a label in the units of the setting, in which the numbers along an axis are written.
+
+    What is drawn remains in the unit of the result; ticks are where round numbers of the other are.
+    """
+    *before, last = lines
+    shown, factor = units.after_comma(last)
+    if factor == 1.0:
+        shown, factor = units.convert(last)
+    axis.crankpin_factor = factor
+    return [*before, shown if factor != 1.0 else last]
 
 
 def note_zero(ax: Axes, color: ColorType | None = None) -> None:

@@ -9,7 +9,7 @@ from matplotlib.colors import LogNorm, Normalize
 
 from crankpin._support import inputs
 from crankpin._support.quantities import QUANTITIES
-from crankpin.plot.layout import Drawn, Panels, label_x, label_y, make_panels, note_zero
+from crankpin.plot.layout import Drawn, Panels, label_bar, label_x, label_y, make_panels, note_zero
 from crankpin.plot.rows import Row, Rows, along_x, dimension, rows_of, words_of
 from crankpin.plot.style import foreground
 from crankpin.plot.ticks import degrees, numeric
@@ -236,7 +236,7 @@ def _colour_bar(
     extend = "min" if below else "neither"
     figure = panels[0].get_figure(root=False)
     bar = figure.colorbar(mesh, ax=list(panels), aspect=25, pad=0.02, extend=extend)  # type: ignore[union-attr]
-    bar.set_label(f"peak, {QUANTITIES[quantity].unit}")
+    label_bar(bar, f"peak, {QUANTITIES[quantity].unit}")
     bar.outline.set_visible(False)
     if not isinstance(mesh.norm, LogNorm):
         numeric(bar.ax.yaxis)

@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, FancyArrowPatch
 from matplotlib.transforms import ScaledTranslation
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import picture
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis import contributions as adding
@@ -97,7 +97,8 @@ def phasors(
             room, names = _polygon(panel, arms, chain, total, inks, style)
             _frame(panel, chain, room)
             _name(panel, names)
-            length = f"{rounded(abs(total), 4)} {QUANTITIES[kind].unit}" if total else "0"
+            unit, factor = units.convert(QUANTITIES[kind].unit)
+            length = f"{rounded(abs(total) * factor, 4)} {unit}" if total else "0"
             set_panel_title(panel, f"order {order} {part}".strip(), length)
             aside = aside or room > 0.0
     label_x(axes[-1, 0], _axis_label(kind, 0))

@@ -9,7 +9,15 @@ from matplotlib.collections import LineCollection
 
 from crankpin._support import inputs
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin.plot.layout import Panels, label_x, label_y, make_panels, note_zero, width_for
+from crankpin.plot.layout import (
+    Panels,
+    in_units,
+    label_x,
+    label_y,
+    make_panels,
+    note_zero,
+    width_for,
+)
 from crankpin.plot.style import SERIES, colour_map, count_series, foreground, muted, series, write
 from crankpin.plot.ticks import numeric
 from crankpin.plot.words import drawn_quantity, in_degrees, nonzero_in
@@ -204,8 +212,11 @@ def share_scale(panels: Panels) -> None:
 
 def label_panels(panels: Panels, along: str, across: str, unit: str) -> None:
     """Label the axes of all panels together."""
-    panels.figure.supxlabel(f"{along}, {unit}", fontsize="medium")
-    panels.figure.supylabel(f"{across}, {unit}", fontsize="medium")
+    for panel in panels.axes.flat:
+        (below,) = in_units(panel.xaxis, f"{along}, {unit}")
+        (beside,) = in_units(panel.yaxis, f"{across}, {unit}")
+    panels.figure.supxlabel(below, fontsize="medium")
+    panels.figure.supylabel(beside, fontsize="medium")
 
 
 def label_plane(ax: Axes, quantity: str, unit: str = "") -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.patches import Patch
 
+from crankpin._support import units
 from crankpin.analysis.geometry import (
     direction,
     geometry,
@@ -88,7 +89,7 @@ def legend_handles(engine: Engine, ink: Inks) -> list[Patch]:
             facecolor=colour,
             edgecolor=ink.line,
             linewidth=0.6,
-            label=f"{name}, up to {rounded(max(each.amount for each in weights))} kg·m each",
+            label=f"{name}, up to {_amount(max(each.amount for each in weights))} each",
         )
         for weights, colour, name in kinds
         if any(each.amount for each in weights)
@@ -211,3 +212,9 @@ def arrow_round(ax: Axes, radius: float, at_deg: float, ink: Inks) -> None:
     tip, tail = (radius * complex(direction(at_deg + turn)) for turn in (2.0, -2.0))
     look = {"arrowstyle": "-|>", "color": ink.faint, "linewidth": 1.0, "shrinkA": 0, "shrinkB": 0}
     ax.annotate("", (tip.real, tip.imag), (tail.real, tail.imag), arrowprops=look)
+
+
+def _amount(unbalance: float) -> str:
+    """Write an unbalance, kg·m."""
+    shown = units.convert("kg·m")
+    return f"{rounded(unbalance * shown.factor)} {shown.unit}"

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.quantities import PARTS, PLANE_VECTORS, QUANTITIES
 
 if TYPE_CHECKING:
@@ -144,4 +144,6 @@ def summed(result: Waveform | SweepWaveform, quantity: str) -> str:
         return "exact kinematics"
     text = labels.orders_text(result.orders)
     bound = result.error_bound[quantity]
-    return f"{text} (the rest ≤ {rounded(bound, 2)} {QUANTITIES[quantity].unit})" if bound else text
+    shown = units.convert(QUANTITIES[quantity].unit)
+    rest = f"{rounded(bound * shown.factor, 2)} {shown.unit}"
+    return f"{text} (the rest ≤ {rest})" if bound else text

@@ -155,7 +155,9 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
             "unit",
         )  # fmt: skip
         title = f"{labels.name_of(self.engine)} at {self.rpm:g} rpm: sets of hardware"
-        return Table.from_rows(title, heads, rows, loads=self.loads_counted)
+        return Table.from_rows(
+            title, heads, rows, loads=self.loads_counted, row_units=[str(row[-1]) for row in rows]
+        )
 
     def plot(self, ax: Axes | None = None, **style: object) -> Axes:
         """Draw the residuals of the front in per cent of the engine's own; return the axes.

@@ -296,7 +296,9 @@ class Counterweights(Tabled):
         if "undecided" in note and self.missing:
             note += f" Within {self.missing:.1e} of what was wanted."
         title = "Residual of order 1, half axes over ω²"
-        return Table.from_rows(title, ["quantity", "state", "longest", "shortest"], rows, note=note)
+        heads = ["quantity", "state", "longest", "shortest"]
+        units = [row[0].rpartition(", ")[2] for row in rows]
+        return Table.from_rows(title, heads, rows, note=note, row_units=units)
 
     @overload
     def plot(

@@ -259,7 +259,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
         if len(known) == len(self):
             front, rear = abs(self.bearing_loads(labels.UNIT_RPM)).T.tolist()
             columns += [
-                Column("bearings", tuple(b - a for a, b in known), "m apart"),
+                Column("bearings apart", tuple(b - a for a, b in known), "m"),
                 Column("front load", tuple(front), "kg·m"),
                 Column("rear load", tuple(rear), "kg·m"),
             ]
@@ -273,7 +273,8 @@ class BalanceShafts(Listed[Shaft], Tabled):
             quantity = f"{kind.words}, {kind.unit_over_square}"
             rows.append((str(each.order), quantity, each.part, each.before, each.after))
         heads = ["order", "quantity", "part", "before", "after"]
-        return Table.from_rows("Residual, over ω²", heads, rows)
+        units = [row[1].rpartition(", ")[2] for row in rows]
+        return Table.from_rows("Residual, over ω²", heads, rows, row_units=units)
 
     def parts(self) -> tuple[Part, ...]:
         """Return the parts of force, moment and torque of the shafts' orders, before and after.

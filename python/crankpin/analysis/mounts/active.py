@@ -314,7 +314,7 @@ class Cancellation(Tabled):
             columns += [Column("at most", tuple(most)), Column("at", tuple(where), "rpm", 10)]
         over = ", largest over speed" if self.before.dims else ""
         title = self.before._title(f"rms with and without actuators{over}")
-        return Table(title, tuple(columns), self._notes(rows), self.loads_counted)
+        return Table(title, tuple(columns), self._notes(rows), self.loads_counted, unit)
 
     def _notes(self, rows: list[tuple[Any, ...]]) -> str:
         notes = []

@@ -546,6 +546,7 @@ class Match(Tabled):
             columns.append(Column("rod", tuple(rods)))
             columns.append(Column("small end", tuple(small), "kg"))
             columns.append(Column("big end", tuple(big), "kg"))
-        known = "no assignment is better" if self.exact else f"none is below {self.bound:.4g}"
+        none = f"none is below {self.bound:.4g} {self.unit}"
+        known = "no assignment is better" if self.exact else none
         title = f"{WORDS[self.by]}: {self.value:.4g} {self.unit}, {known}"
-        return Table(f"{title}; as given {self.as_given:.4g}", tuple(columns))
+        return Table(f"{title}; as given {self.as_given:.4g} {self.unit}", tuple(columns))

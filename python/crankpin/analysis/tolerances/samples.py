@@ -535,7 +535,13 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         engine = labels.name_of(self.engine)
         title = f"{engine} at {self.rpm:g} rpm: {self.samples} samples, {self.figures.text}"
         of_torque = any("torque" in self._objective(by).quantity for by in self.by)
-        return Table.from_rows(title, header, rows, loads=self.loads_counted if of_torque else "")
+        return Table.from_rows(
+            title,
+            header,
+            rows,
+            loads=self.loads_counted if of_torque else "",
+            row_units=[self._objective(by).unit for by in self.by],
+        )
 
     def _objective(self, by: str | None) -> Objective:
         name = self.by[0] if by is None else inputs.text("by", by)
