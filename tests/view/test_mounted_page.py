@@ -302,11 +302,11 @@ def test_errors_name_what_is_wrong(open_engine: Open, tmp_path: Path) -> None:
         with pytest.raises(cp.InputError, match=said):
             CAR.save_html(**{"path": tmp_path / "car.html"} | wrong)  # type: ignore[arg-type]
     base = cp.Subframe(cp.RigidBody(100, (0, -0.1, 0.2), (9, 12, 6)), MOUNTS)
-    with pytest.raises(cp.InputError, match="^support gives way: .*powertrain.on"):
+    with pytest.raises(cp.InputError, match=r"^support gives way: .*powertrain\.on"):
         CAR.on(base).save_html(tmp_path / "car.html")
     track = cp.InertiaTrack(1.5e5, 10.0, 0.3)
     hydraulic = CAR.replace(mounts=[MOUNTS[0].replace(track=track), *MOUNTS[1:]])
-    with pytest.raises(cp.InputError, match="^frequency = None"):
+    with pytest.raises(cp.InputError, match=r"^frequency = None"):
         hydraulic.save_html(tmp_path / "car.html")
     page = open_engine(CAR)
     own = page.evaluate("JSON.stringify(crankpin.state.mounts)")
@@ -324,8 +324,8 @@ def test_errors_name_what_is_wrong(open_engine: Open, tmp_path: Path) -> None:
     assert page.evaluate("JSON.stringify(crankpin.state.mounts)") == own
 
 
-def test_is_at_most_100_kb_beside_its_figures(tmp_path: Path) -> None:
+def test_is_at_most_110_kb_beside_its_figures(tmp_path: Path) -> None:
     file = tmp_path / "car.html"
     CAR.save_html(file)
     known = as_json(mounted.figures(CAR, 800.0))
-    assert file.stat().st_size - len(known.encode()) <= 100_000
+    assert file.stat().st_size - len(known.encode()) <= 110_000

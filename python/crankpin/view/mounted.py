@@ -129,12 +129,16 @@ def core_numbers(
             "order": order,
             "mounts": [placed(mount) for mount in powertrain.mounts],
         },
-        "modes": {
-            "frequency": modes.frequency.tolist(),
-            "shapes": modes.shapes.T.tolist(),
-            "energy": modes.energy.T.tolist(),
-            "purity": modes.purity.tolist(),
-        },
+        "modes": [
+            {"frequency": frequency, "shape": shape, "energy": energy, "purity": purity}
+            for frequency, shape, energy, purity in zip(
+                modes.frequency.tolist(),
+                modes.shapes.T.tolist(),
+                modes.energy.T.tolist(),
+                modes.purity.tolist(),
+                strict=True,
+            )
+        ],
         "parts": [
             {
                 "order": response.orders[k],
