@@ -113,7 +113,7 @@ def assert_response_agrees(page: Page, p: cp.Powertrain, rpm: float) -> None:
 def assert_shown(page: Page, force: np.ndarray, displacement: np.ndarray) -> None:
     shown = values(page)
     for name, expected in (("force", force), ("displacement", displacement)):
-        length = np.linalg.norm(expected)
+        length = float(np.linalg.norm(expected))
         found = [shown[f"{name}-{part}"] for part in (*"xyz", "length")]
         np.testing.assert_allclose(found, [*expected, length], rtol=0, atol=WITHIN * length)
 
@@ -223,6 +223,24 @@ def test_where_there_is_no_answer_none_is_shown(open_engine: Open) -> None:
         assert not page.locator(".trouble").is_visible()
         one = p.response(500.0, orders=[2])[2]
         assert_shown(page, one.body_force.rms_xyz, one.at(body.cg).displacement.rms_xyz)
+
+
+def test_a_stiffness_below_zero_has_no_modes(open_engine: Open) -> None:
+    """Of a fluid below its resonance, once the rubber beside it is soft."""
+    p = powertrain("i4 fired", 1, varies=True)
+    track = cp.InertiaTrack(2e5, 10.0, 0.1)
+    first = p.mounts[0].replace(track=track, dynamic_stiffness=8e5)
+    p = p.replace(mounts=[first, *p.mounts[1:]])
+    page = open_engine(p, save={"frequency": 8.5})
+    assert_modes_agree(page, p, 8.5)
+    states = page.evaluate("crankpin.state.mounts")
+    states[0]["stiffness"] = [1e4, 1e4, 1e4]
+    page.evaluate("mounts => crankpin.set({ mounts })", states)
+    with pytest.raises(cp.InputError, match="below zero at this frequency"):
+        moved(p, page).modes(8.5)
+    assert page.get_by_text("There are no modes").is_visible()
+    assert not page.locator(".modes").is_visible()
+    assert_response_agrees(page, moved(p, page), 900.0)
 
 
 def test_linear_algebra_of_any_matrix(open_file: Open, tmp_path: Path) -> None:

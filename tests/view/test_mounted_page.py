@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
 import numpy as np
@@ -64,7 +64,8 @@ def assert_follows(page: Page, before: dict[str, str]) -> None:
     np.testing.assert_allclose(found, expected, rtol=1e-10)
     force = now.response(shown["rpm"], orders=[2])[2].body_force.rms_xyz
     found = [shown[f"force-{axis}"] for axis in "xyz"]
-    np.testing.assert_allclose(found, force, rtol=0, atol=1e-10 * np.linalg.norm(force))
+    within = 1e-10 * float(np.linalg.norm(force))
+    np.testing.assert_allclose(found, force, rtol=0, atol=within)
 
 
 @pytest.mark.parametrize(
@@ -293,14 +294,15 @@ def test_light_and_dark(open_engine: Open, scheme: str) -> None:
 
 
 def test_errors_name_what_is_wrong(open_engine: Open, tmp_path: Path) -> None:
-    for wrong, said in [
+    wrongs: list[tuple[dict[str, Any], str]] = [
         ({"rpm": 0}, "^rpm = 0: give a speed above zero"),
         ({"rpm": -1}, "^rpm = -1"),
         ({"frequency": -1.0}, "^frequency"),
         ({"path": "car.txt"}, r"a page ends in \.html$"),
-    ]:
+    ]
+    for wrong, said in wrongs:
         with pytest.raises(cp.InputError, match=said):
-            CAR.save_html(**{"path": tmp_path / "car.html"} | wrong)  # type: ignore[arg-type]
+            CAR.save_html(**{"path": tmp_path / "car.html", **wrong})
     base = cp.Subframe(cp.RigidBody(100, (0, -0.1, 0.2), (9, 12, 6)), MOUNTS)
     with pytest.raises(cp.InputError, match=r"^support gives way: .*powertrain\.on"):
         CAR.on(base).save_html(tmp_path / "car.html")

@@ -56,46 +56,59 @@ export function solveComplex(re, im, x, y) {
   let [most, least] = [0, Infinity];
   for (let k = 0; k < SIX; k++) {
     let pivot = k;
-    let size = -1;
+    let square = -1;
     for (let i = k; i < SIX; i++) {
-      const here = Math.hypot(re[i * SIX + k], im[i * SIX + k]);
-      if (here > size) [pivot, size] = [i, here];
+      const here = re[i * SIX + k] ** 2 + im[i * SIX + k] ** 2;
+      if (here > square) [pivot, square] = [i, here];
     }
-    [most, least] = [Math.max(most, size), Math.min(least, size)];
-    if (!(least > LEAST_PIVOT * most)) return false;
+    most = Math.max(most, square);
+    least = Math.min(least, square);
+    if (!(least > LEAST_PIVOT ** 2 * most)) return false;
     if (pivot !== k) {
       for (let j = k; j < SIX; j++) exchange(re, im, k * SIX + j, pivot * SIX + j);
       exchange(x, y, k, pivot);
     }
-    const [a, b] = [re[k * SIX + k] / size / size, -im[k * SIX + k] / size / size];
+    const a = re[k * SIX + k] / square;
+    const b = -im[k * SIX + k] / square;
     for (let i = k + 1; i < SIX; i++) {
-      const [p, q] = [re[i * SIX + k], im[i * SIX + k]];
-      const [c, d] = [p * a - q * b, p * b + q * a];
-      if (c === 0 && d === 0) continue;
+      const p = re[i * SIX + k];
+      const q = im[i * SIX + k];
+      const c = p * a - q * b;
+      const d = p * b + q * a;
       for (let j = k + 1; j < SIX; j++) {
-        const [u, v] = [re[k * SIX + j], im[k * SIX + j]];
+        const u = re[k * SIX + j];
+        const v = im[k * SIX + j];
         re[i * SIX + j] -= c * u - d * v;
         im[i * SIX + j] -= c * v + d * u;
       }
-      [x[i], y[i]] = [x[i] - (c * x[k] - d * y[k]), y[i] - (c * y[k] + d * x[k])];
+      x[i] -= c * x[k] - d * y[k];
+      y[i] -= c * y[k] + d * x[k];
     }
   }
   for (let k = SIX - 1; k >= 0; k--) {
-    let [sum, rest] = [x[k], y[k]];
+    let sum = x[k];
+    let rest = y[k];
     for (let j = k + 1; j < SIX; j++) {
-      const [u, v] = [re[k * SIX + j], im[k * SIX + j]];
+      const u = re[k * SIX + j];
+      const v = im[k * SIX + j];
       sum -= u * x[j] - v * y[j];
       rest -= u * y[j] + v * x[j];
     }
-    const [p, q] = [re[k * SIX + k], im[k * SIX + k]];
+    const p = re[k * SIX + k];
+    const q = im[k * SIX + k];
     const square = p * p + q * q;
-    [x[k], y[k]] = [(sum * p + rest * q) / square, (rest * p - sum * q) / square];
+    x[k] = (sum * p + rest * q) / square;
+    y[k] = (rest * p - sum * q) / square;
   }
   return true;
 }
 
 function exchange(a, b, i, j) {
-  [a[i], a[j], b[i], b[j]] = [a[j], a[i], b[j], b[i]];
+  const [c, d] = [a[i], b[i]];
+  a[i] = a[j];
+  b[i] = b[j];
+  a[j] = c;
+  b[j] = d;
 }
 
 /** Product of a matrix, of rows, and a vector. */

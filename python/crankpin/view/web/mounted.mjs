@@ -77,6 +77,8 @@ export class Mounted extends Turning {
       mode: numbered(html, "span", "drawn-mode"), factor: numbered(html, "span", "drawn-factor"),
     };
     this.drawnLine = html("p", { class: "hint drawn" });
+    this.stretched = numbered(html, "span", "stretch");
+    this.stretchedLine = html("p", { class: "hint" }, `${STRINGS.stretched} `, this.stretched);
     this.trouble = html("p", { class: "hint trouble", role: "status" }, STRINGS.resonance);
     this.modesTable = new Modes((mode) => this.set({ mode, exaggeration: null }));
     this.runUp = new RunUp((rpm) => this.set({ rpm, mode: null }));
@@ -100,7 +102,7 @@ export class Mounted extends Turning {
         panel(STRINGS.crossSection, this.scenes[0].element),
         panel(STRINGS.side.left, this.scenes[1].element),
         panel(STRINGS.side.above, this.scenes[2].element)),
-      this.drawnLine, this.trouble,
+      this.drawnLine, this.stretchedLine, this.trouble,
       html("div", { class: "halves" },
         section(html("span", {}, STRINGS.modesOf, ...at), this.modesTable.element),
         section(html("span", {}, this.quantity, ", rms, ", this.ofOrder),
@@ -197,7 +199,10 @@ export class Mounted extends Turning {
       scene.around = this.springs[k].points(this.state.mounts);
       scene.layout(this.engine);
     });
-    if (this.handle) this.handle.layout(this.engine);
+    this.handle?.layout(this.engine);
+    const { stretch } = this.scenes[0].dimensions;
+    show(this.stretched, stretch, short(stretch, 1));
+    this.stretchedLine.hidden = stretch === 1;
   }
 
   /** Values over speed: of the order chosen, or of all. */

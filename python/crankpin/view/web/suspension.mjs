@@ -23,31 +23,38 @@ export class Suspension {
         moved.reduce((sum, by, axis) => sum + by * given.slopes[axis][i][j], value)));
       return { given, stiffness, deflection, unit: deflection.map((row) => applied(columns, row)) };
     });
-    this.columns = columns;
-    this.last = { square: NaN };
+    // What is the same at all frequencies, and what goes with the angular speed.
+    this.constant = new Terms();
+    this.viscous = new Terms();
+    for (const { given, stiffness, deflection, unit } of this.mounts) {
+      if (given.table) continue;
+      stiffness.forEach((value, axis) => {
+        this.constant.add(deflection[axis], unit[axis], scale(given.unit[axis], value));
+        this.viscous.add(deflection[axis], unit[axis], given.viscous[axis]);
+      });
+    }
+    const inUnits = (loads) => loads.map((load) =>
+      [0, 1].map((part) => applied(columns, load.map((value) => value[part]))));
+    this.inertia = inUnits(figures.inertia);
+    this.gas = inUnits(figures.gas);
   }
 
-  /** Complex stiffnesses along the axes of each mount at a frequency in Hz; null outside of a table. */
+  /** Stiffnesses along the axes of each mount at a frequency in Hz, without their losses. */
   stiffnesses(hertz) {
-    const found = this.mounts.map(({ given, stiffness }) => {
-      if (given.table) return tabled(given.table, hertz);
-      const along = stiffness.map((value, axis) => {
-        const [re, im] = scale(given.unit[axis], value);
-        // At rest there is no damping.
-        return hertz > 0 ? add([re, im], scale(given.viscous[axis], 2 * Math.PI * hertz)) : [re, 0];
-      });
-      if (given.track) along[0] = add(along[0], fluid(given.track, hertz / given.track.frequency));
+    return this.mounts.map(({ given, stiffness }) => {
+      if (given.table) return tabled(given.table, hertz).map(([re]) => re);
+      const along = stiffness.map((value, axis) => value * given.unit[axis][0]);
+      if (given.track) along[0] += fluid(given.track, hertz / given.track.frequency)[0];
       return along;
     });
-    return found.includes(null) ? null : found;
   }
 
   /** Modes, ascending: frequency in Hz, shape, shares of energy in % and the largest; null where there are none. */
   modes() {
     const along = this.stiffnesses(this.figures.frequency ?? 0);
-    if (!along || along.flat().some(([re]) => re < 0)) return null;
+    if (along.flat().some((value) => value < 0)) return null;
     const rows = this.mounts.flatMap(({ unit }, k) =>
-      unit.map((row, axis) => row.map((value) => value * Math.sqrt(along[k][axis][0]))));
+      unit.map((row, axis) => row.map((value) => value * Math.sqrt(along[k][axis]))));
     const { unit, momentum } = this.figures;
     const weights = momentum.map((row) => Math.sqrt(row.reduce((sum, value) => sum + value * value, 0)));
     const modes = singular(rows).map(({ value, vector }) => {
@@ -65,43 +72,81 @@ export class Suspension {
     return inGroups(modes);
   }
 
-  /** Motion of the CG and rotation and force on the body of an order, phasors; null where there is no answer. */
-  at(index, rpm) {
-    const { inertia, gas, orders } = this.figures;
-    const speed = angularSpeed(rpm);
-    const load = inertia[index].map((part, k) => add(scale(part, speed ** 2), gas[index][k]));
-    const square = (orders[index] * speed) ** 2;
-    const along = this.stiffnesses((orders[index] * rpm) / 60);
-    if (!along) return null;
-    const [re, im] = [new Float64Array(SIX * SIX), new Float64Array(SIX * SIX)];
-    this.mounts.forEach(({ unit }, m) => unit.forEach((row, axis) => {
-      const [k, loss] = along[m][axis];
-      for (let i = 0; i < SIX; i++) {
-        for (let j = 0; j < SIX; j++) {
-          const product = row[i] * row[j];
-          re[i * SIX + j] += k * product;
-          im[i * SIX + j] += loss * product;
-        }
-      }
-    }));
-    for (let i = 0; i < SIX; i++) re[i * SIX + i] -= square;
-    const [x, y] = [0, 1].map((part) =>
-      Float64Array.from(applied(this.columns, load.map((value) => value[part]))));
-    if (!solveComplex(re, im, x, y)) return null;
-    const [real, imaginary] = [x, y].map((values) => applied(this.figures.unit, [...values]));
-    const motion = real.map((value, k) => [value, imaginary[k]]);
-    return { order: orders[index], motion, force: this.force(along, motion) };
+  /** Terms of stiffness at a frequency in Hz, of which the real parts of the matrix lack the mass; null outside a table. */
+  terms(hertz) {
+    const sum = new Terms();
+    const omega = 2 * Math.PI * hertz;
+    for (const key of ["re", "im", "forceRe", "forceIm"]) {
+      const [constant, viscous, to] = [this.constant[key], this.viscous[key], sum[key]];
+      for (let k = 0; k < to.length; k++) to[k] = constant[k] + omega * viscous[k];
+    }
+    for (const { given, deflection, unit } of this.mounts) {
+      if (given.track) sum.add(deflection[0], unit[0], fluid(given.track, hertz / given.track.frequency));
+      if (!given.table) continue;
+      const along = tabled(given.table, hertz);
+      if (!along) return null;
+      along.forEach((value, axis) => sum.add(deflection[axis], unit[axis], value));
+    }
+    return sum;
   }
 
-  /** Sum of the mounts' forces on what carries them. */
-  force(along, motion) {
-    const sum = [[0, 0], [0, 0], [0, 0]];
-    this.mounts.forEach(({ deflection }, m) => deflection.forEach((row, axis) => {
-      const deflected = row.reduce((total, value, k) => add(total, scale(motion[k], value)), [0, 0]);
-      const force = multiply(along[m][axis], deflected);
-      for (let k = 0; k < 3; k++) sum[k] = add(sum[k], scale(force, row[k]));
-    }));
-    return sum;
+  /** Motion of the CG and rotation and force on the body of an order, phasors; null where there is no answer. */
+  at(index, rpm) {
+    const { orders, unit } = this.figures;
+    const terms = this.terms((orders[index] * rpm) / 60);
+    if (!terms) return null;
+    const square = angularSpeed(rpm) ** 2;
+    const [x, y] = [0, 1].map((part) =>
+      Float64Array.from(this.inertia[index][part], (value, k) => square * value + this.gas[index][part][k]));
+    for (let i = 0; i < SIX; i++) terms.re[i * SIX + i] -= orders[index] ** 2 * square;
+    if (!solveComplex(terms.re, terms.im, x, y)) return null;
+    const motion = unit.map((row) => {
+      let [re, im] = [0, 0];
+      for (let k = 0; k < SIX; k++) {
+        re += row[k] * x[k];
+        im += row[k] * y[k];
+      }
+      return [re, im];
+    });
+    return { order: orders[index], motion, force: terms.force(x, y) };
+  }
+}
+
+/** Sums over the directions of mounts: of the equations' matrix, and of the forces on what carries the mounts. */
+class Terms {
+  constructor() {
+    this.re = new Float64Array(SIX * SIX);
+    this.im = new Float64Array(SIX * SIX);
+    this.forceRe = new Float64Array(3 * SIX);
+    this.forceIm = new Float64Array(3 * SIX);
+  }
+
+  /** Add a direction of a complex stiffness: its deflection by the motion, and by coordinates of unit mass. */
+  add(deflection, unit, [k, loss]) {
+    for (let j = 0; j < SIX; j++) {
+      const [stiff, lossy] = [k * unit[j], loss * unit[j]];
+      for (let i = 0; i < SIX; i++) {
+        this.re[i * SIX + j] += unit[i] * stiff;
+        this.im[i * SIX + j] += unit[i] * lossy;
+      }
+      for (let i = 0; i < 3; i++) {
+        this.forceRe[i * SIX + j] += deflection[i] * stiff;
+        this.forceIm[i * SIX + j] += deflection[i] * lossy;
+      }
+    }
+  }
+
+  /** The force of a motion in coordinates of unit mass, along x, y and z. */
+  force(x, y) {
+    return [0, 1, 2].map((axis) => {
+      let [re, im] = [0, 0];
+      for (let k = 0; k < SIX; k++) {
+        const [stiff, lossy] = [this.forceRe[axis * SIX + k], this.forceIm[axis * SIX + k]];
+        re += stiff * x[k] - lossy * y[k];
+        im += stiff * y[k] + lossy * x[k];
+      }
+      return [re, im];
+    });
   }
 }
 
