@@ -71,10 +71,10 @@ def open_file(browser: Browser) -> Iterator[Open]:
 
 @pytest.fixture
 def open_engine(open_file: Open, tmp_path: Path) -> Open:
-    """Open the page of an engine."""
+    """Open the page of an engine, or of one on its mounts."""
 
     def opened(
-        engine: cp.Engine,
+        engine: cp.Engine | cp.Powertrain,
         *,
         rpm: float = 3000.0,
         save: dict[str, Any] | None = None,

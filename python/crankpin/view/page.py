@@ -10,12 +10,14 @@ from string import Template
 from typing import TYPE_CHECKING
 
 from crankpin._support import files, inputs
+from crankpin.view import mounted
 from crankpin.view.figures import figures
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from crankpin._support.inputs import Spectrum
+    from crankpin.analysis.mounts.powertrain import Powertrain
     from crankpin.model.engine import Engine
 
 WEB = Path(__file__).parent / "web"
@@ -43,6 +45,21 @@ def save_html(
         (f"{view.lower()}.mjs", "page.mjs"),
         f"page({view}, {as_json(known)});",
         styles=["compact"] if compact else [],
+    )
+    files.write(file, text)
+
+
+def save_mounted_html(
+    powertrain: Powertrain, path: str | Path, *, rpm: float = 800.0, frequency: float | None = None
+) -> None:
+    """Write a page of a powertrain; :meth:`Powertrain.save_html` documents the arguments."""
+    file = inputs.file_path(path, (".html", ".htm"), "a page ends in .html")
+    known = mounted.figures(powertrain, rpm, frequency=frequency)
+    text = document(
+        known["name"],
+        ("mounted.mjs", "page.mjs"),
+        f"page(Mounted, {as_json(known)});",
+        styles=["mounted"],
     )
     files.write(file, text)
 

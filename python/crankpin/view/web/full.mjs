@@ -10,7 +10,7 @@ import { legend, panel, region, section } from "./panels.mjs";
 import { Phasors } from "./phasors.mjs";
 import { ownSettings } from "./places.mjs";
 import { displacement, largestDisplacement, rocking } from "./rocking.mjs";
-import { Scene } from "./scene.mjs";
+import { STILL, Scene } from "./scene.mjs";
 import { Sentences } from "./sentences.mjs";
 import { Sound } from "./sound.mjs";
 import { STRINGS } from "./strings.mjs";
@@ -21,6 +21,7 @@ import { View } from "./view.mjs";
 
 export class Full extends View {
   build(title) {
+    super.build();
     const { figures } = this;
     this.width = 900;
     Object.assign(this.state, { exaggeration: null, still: new Set(), ...frames(figures) });
@@ -195,10 +196,9 @@ export class Full extends View {
   }
 
   draw(pose, strokes) {
-    const still = () => [0, 0];
     const moved = displacement(this.rocking, pose.crank);
-    const rocks = (z) => scale(moved(z), this.state.exaggeration);
-    this.scenes.forEach((scene, k) => scene.pose(pose, strokes, k ? rocks : still));
+    const rocks = { ...STILL, at: ([, , z]) => [...scale(moved(z), this.state.exaggeration), 0] };
+    this.scenes.forEach((scene, k) => scene.pose(pose, strokes, k ? rocks : STILL));
     this.ends.pose(rocks);
     this.force.pose(pose.force);
     this.moment.pose(pose.moment);
