@@ -35,8 +35,8 @@ def refused(capsys: CAPTURE, line: str) -> str:
 
 
 def test_compare(capsys: CAPTURE, tmp_path: Path) -> None:
-    engines = [cp.Engine.preset(name) for name in ("i4", "i4-crossplane")]
-    comparison = cp.compare(*engines, rpm=6000)
+    before, after = (cp.Engine.preset(name) for name in ("i4", "i4-crossplane"))
+    comparison = cp.compare(before, after, rpm=6000)
     picture = tmp_path / "both.png"
     line = f"compare i4 i4-crossplane --rpm 6000 --plot {picture}"
     assert printed(capsys, line) == f"{comparison.frames.text()}\n"

@@ -159,7 +159,7 @@ def test_no_picture_has_other_units_than_those_set(name: str) -> None:
         figure = plt.gcf()
         figure.canvas.draw()
         for text in figure.findobj(Text):
-            words = re.sub(r"m·r[^ ]*", "", text.get_text())  # type: ignore[attr-defined]
+            words = re.sub(r"m·r[^ ]*", "", text.get_text())
             assert not SI.search(words), words
 
 

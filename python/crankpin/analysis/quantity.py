@@ -448,7 +448,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
         which = f" of {'all orders' if self.order == ALL else f'order {self.order}'}"
         loads = f", {self.loads_counted}" if self.loads_counted else ""
         if not self.result.dims:
-            peak = units.figure(float(self.peak), self.unit, 5)
+            highest: Any = self.peak
+            peak = units.figure(highest, self.unit, 5)
             return f"<Quantity {name}{which}: peak {peak}{loads}>"
         dims, shape = self.result.dims, np.shape(self._read("peak"))
         if self.order is None:

@@ -34,8 +34,9 @@ def _compare(given: Given) -> Shown:
     engines = [*given.engines().values()]
     if len(engines) != 2:
         raise inputs.faulty("NAME", f"stands for {len(engines)} engines", "give two")
-    rpm, chosen = given.number("--rpm", "rpm"), given.chosen()
-    comparison = compare(*engines, rpm=rpm, spectrum=given.spectrum(), **chosen)
+    before, after = engines
+    rpm = given.number("--rpm", "rpm")
+    comparison = compare(before, after, rpm, spectrum=given.spectrum(), **given.chosen())
     return Shown(comparison.frames, comparison, {"quantity": given.quantity(engines)})
 
 

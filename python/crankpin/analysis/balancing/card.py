@@ -232,7 +232,7 @@ class Card(Tabled):
                 share = f"{100.0 * factor:.6g} %"
                 rows.append((share, plane, each.z, amount, angle, (angle + 180.0) % 360.0, radius))
         found: list[tuple[Any, ...]] = list(zip(*rows, strict=True)) if rows else [()] * 7
-        shares, names, z, amounts, adding, drilling, radius = found
+        shares, names, z, amounts, adding, drilling, at = found
         columns = [
             Column("factor", shares),
             Column("plane", names),
@@ -242,10 +242,10 @@ class Card(Tabled):
             Column("or drill at", drilling, "°", decimals=1),
         ]
         if any(radii.values()):
-            net = [a / (1e3 * r) for a, r in zip(amounts, radius, strict=True)]
+            net = [a / (1e3 * r) for a, r in zip(amounts, at, strict=True)]
             slugs = [each * HEAVY_METAL / (HEAVY_METAL - STEEL) for each in net]
             columns += [
-                Column("radius", tuple(1e3 * r for r in radius), "mm"),
+                Column("radius", tuple(1e3 * r for r in at), "mm"),
                 Column("weight", tuple(net), "g", decimals=1),
                 Column("as heavy metal", tuple(slugs), "g", decimals=1),
             ]
