@@ -20,7 +20,7 @@ from crankpin.analysis.flywheel import Flywheel
 from crankpin.analysis.mounts.active import Cancellation, DrivenResponse
 from crankpin.analysis.mounts.adaptive import AdaptiveLaw
 from crankpin.analysis.mounts.design_mounts import MountDesign
-from crankpin.analysis.mounts.designs import MountDesigns
+from crankpin.analysis.mounts.design_responses import DesignResponses
 from crankpin.analysis.mounts.feedback import VelocityFeedback
 from crankpin.analysis.mounts.modes import MountModes, RollAxes
 from crankpin.analysis.mounts.response import MountResponse, OrderResponse, PointMotion, WorstForce
@@ -57,6 +57,7 @@ __all__ = [
     "Comparison",
     "Counterweights",
     "Design",
+    "DesignResponses",
     "Designs",
     "DrivenResponse",
     "Exercise",
@@ -65,7 +66,6 @@ __all__ = [
     "Flywheel",
     "Match",
     "MountDesign",
-    "MountDesigns",
     "MountModes",
     "MountResponse",
     "MountRobustness",

@@ -119,3 +119,58 @@ def test_a_page_is_that_of_the_library(
 def test_an_engine_without_mounts_says_so(tmp_path: Path, capsys: CAPTURE) -> None:
     cp.Engine.preset("i4").save(path := tmp_path / "bare.toml")
     assert "the file has no [powertrain]" in failed(capsys, path)
+
+
+def fitted(capsys: CAPTURE, *typed: object) -> str:
+    """What a run of the design prints."""
+    assert main(["mounts-fit", *map(str, typed)]) == 0
+    return capsys.readouterr().out
+
+
+def test_mounts_are_fitted_and_written(car: Path, tmp_path: Path, capsys: CAPTURE) -> None:
+    expected = cp.design_mounts(CAR, vary="stiffness", bounds={"stiffness": (3e4, 6e5)})
+    typed = (car, "--stiffness", "30000,600000")
+    text = fitted(capsys, *typed, "--save", tmp_path / "new.toml")
+    assert expected.frames.text() in text
+    assert cp.Powertrain.load(tmp_path / "new.toml") == expected.fitted
+    assert main(["mounts", "fit", *map(str, typed)]) == 0
+    assert capsys.readouterr().out == text
+
+
+def test_windows_and_limits_are_those_of_the_library(car: Path, capsys: CAPTURE) -> None:
+    expected = cp.design_mounts(
+        CAR,
+        ["decoupling", "mount_force[2]"],
+        vary={"rear": ["stiffness", "y"], "left": ["tilt_deg"]},
+        bounds={"stiffness": (3e4, 6e5), "y": 0.02, "tilt_deg": 10.0},
+        ratio=(0.5, 4.0),
+        roll_frequency=12.0,
+        modes_between=(4.0, 40.0),
+        rpm=[800.0, 1000.0],
+        starts=2,
+        seed=3,
+    )
+    options = ["--by", "decoupling,mount_force[2]", "--vary", "rear=stiffness+y,left=tilt_deg"]
+    options += ["--stiffness", "30000,600000", "--y", "20mm", "--tilt", "10", "--ratio", "0.5,4"]
+    options += ["--roll-frequency", "12", "--modes-between", "4,40", "--rpm", "800,1000"]
+    text = fitted(capsys, car, *options, "--starts", "2", "--seed", "3", "--csv")
+    assert text == expected.table.to_csv()
+
+
+@pytest.mark.parametrize(
+    ("typed", "hint"),
+    [
+        ([], "has no bounds: give bounds of what varies"),
+        (["--stiffness", "3e4"], "give two numbers above zero"),
+        (["--stiffness", "3e4,3e5", "--vary", "weight"], "--vary"),
+        (["--stiffness", "3e4,3e5", "--vary", "reer=stiffness"], "right"),
+        (["--y", "0.1", "--modes-between", "30,5"], "--modes-between = "),
+        (["--y", "0.1", "--by", "noise"], "--by = "),
+        (["--y", "0.1", "--by", "body_force[2]"], "--rpm = "),
+    ],
+)
+def test_errors_of_a_fit_name_the_option(
+    car: Path, capsys: CAPTURE, typed: list[str], hint: str
+) -> None:
+    assert main(["mounts-fit", str(car), *typed]) == 2
+    assert hint in capsys.readouterr().err

@@ -137,6 +137,15 @@ def _cancelled(rpm: Any, **place: Any) -> Any:  # noqa: ANN401
     return response.cancel(SHAKER, SEAT, orders=2, watch={"head": (0, 0.4, 0)}).plot(**place)
 
 
+def _scattered() -> Any:  # noqa: ANN401
+    draw = np.random.default_rng(4)
+    vary = {
+        m.name: {"stiffness": draw.uniform(0.5, 1.6, (40, 1)) * m.stiffness}
+        for m in ON_MOUNTS.mounts
+    }
+    return ON_MOUNTS.designs(np.arange(600, 4001, 100.0), vary, orders=[2, 4])
+
+
 PICTURES: dict[str, Callable[..., Any]] = {
     "cancelled": _of_one_panel(lambda ax: _cancelled(1200.0, ax=ax)),
     "cancelled-over-speed": _of_one_panel(lambda ax: _cancelled(np.arange(800, 5001, 50.0), ax=ax)),
@@ -228,6 +237,15 @@ PICTURES: dict[str, Callable[..., Any]] = {
         MOUNTED.without(cylinder=3).response(range(500, 6001, 20)).plot(kind="map", **place)
     ),
     "mount-spectrum": lambda **place: MOUNTED.response(800).plot(mount="rear", **place),
+    "mount-design": cp.design_mounts(
+        MOUNTED,
+        vary=["stiffness", "y"],
+        bounds={"stiffness": (3e4, 6e5), "y": 0.05},
+        modes_between=(5, 25),
+        starts=1,
+    ).plot,
+    "mount-designs": lambda **place: _scattered().plot(order=2, **place),
+    "mount-robustness": MOUNTED.robustness(0.15, mass=0.02, cg=0.01).plot,
     "designs": V10S.plot,
     "tolerances": SPREAD.plot,
     "tolerance-shares": lambda **place: SPREAD.plot(kind="shares", **place),

@@ -90,3 +90,55 @@ def test_unfit_pictures_are_rejected() -> None:
     with pytest.raises(cp.InputError, match=r"mount = 'reer'"):
         RUN_UP.plot(mount="reer")
     assert not plt.get_fignums()
+
+
+DESIGNED = cp.design_mounts(
+    MOUNTED, vary="stiffness", bounds={"stiffness": (3e4, 6e5)}, modes_between=(4, 30), starts=1
+)
+
+
+def test_a_design_is_its_frequencies_before_and_after() -> None:
+    ax = DESIGNED.plot()
+    before, after = ax.lines
+    np.testing.assert_array_equal(before.get_xdata(), MOUNTED.modes().frequency)
+    np.testing.assert_array_equal(after.get_xdata(), DESIGNED.fitted.modes().frequency)
+    (window,) = bars_of(ax)
+    assert window.get_bbox().intervalx.tolist() == [4.0, 30.0]
+    assert "decoupling" in ax.get_title(loc="left")
+
+
+def scattered() -> cp.types.DesignResponses:
+    draw = np.random.default_rng(2)
+    vary = {"right": {"stiffness": draw.uniform(1e5, 4e5, (9, 3))}}
+    return MOUNTED.designs([700.0, 1500.0, 1100.0], vary, orders=[1, 2])
+
+
+def test_designs_are_their_forces_over_speed_and_one_bold() -> None:
+    designs = scattered()
+    ax = designs.plot(design=4, order=2, count=5)
+    *thin, bold = ax.lines
+    assert len(thin) == 5
+    speeds = [700.0, 1100.0, 1500.0]
+    for k, line in zip([0, 2, 4, 6, 8], thin, strict=True):
+        force = designs.at(k).response(speeds, orders=[1, 2]).body_force[2]
+        np.testing.assert_array_equal(line.get_data(), (speeds, force.peak))
+    np.testing.assert_array_equal(bold.get_ydata(), thin[2].get_ydata())
+    assert bold.get_linewidth() > 3 * thin[0].get_linewidth()
+    least = int(np.linalg.norm(designs.body_force_rms, axis=1).argmin())
+    of_mount = designs.plot(mount="right")
+    response = designs.at(least).response(speeds, orders=[1, 2])
+    drawn = of_mount.lines[-1].get_ydata()
+    np.testing.assert_array_equal(drawn, response.mount_force["right"].total.peak)
+    for wrong in ({"order": 3}, {"mount": "reer"}, {"design": 9}, {"count": 0}):
+        with pytest.raises(cp.InputError, match=next(iter(wrong))):
+            designs.plot(**wrong)
+
+
+def test_robustness_is_a_bar_for_each_mode_and_cause() -> None:
+    result = MOUNTED.robustness(0.2, mass=0.02, cg=0.01)
+    ax = result.plot()
+    ends = [bar.get_bbox().intervalx for bar in bars_of(ax)]
+    expected = [result.frequency_bounds.T, result.mass_bounds.T, result.cg_range.T]
+    np.testing.assert_allclose(ends, np.concatenate(expected), rtol=1e-14)
+    labels = [text.get_text() for text in ax.get_yticklabels()]
+    assert labels[0].endswith(f"{result.purity[0]:.0f} → {result.least_purity[0]:.0f} %")

@@ -208,7 +208,7 @@ OBJECTS: dict[str, Any] = {
     "MountResponse on a subframe": MOUNTED.on(RAFT).response([900.0, 3000.0], orders=[1, 2]),
     "PointMotion of a receiver": MOUNTED.on(PANEL).response(3000.0, orders=[1, 2]).at("rail"),
     "MountRobustness": MOUNTED.robustness(0.1, cg=1e-3, corners="mounts", frequency=20.0),
-    "MountDesigns": MOUNTED.designs(
+    "DesignResponses": MOUNTED.designs(
         [900.0, 3000.0], {"left": {"stiffness": [1e5, 2e5]}}, orders=[2], at=[(0.0, 0.3, 0.0)]
     ),
     "Actuator": SHAKER,

@@ -37,8 +37,8 @@ if TYPE_CHECKING:
 
 ORDER = (
     "presets", "new", "balance", "explain", "compare", "sweep", "rank", "firing", "star", "torque",
-    "flywheel", "bearings", "mounts", "counterweights", "bob-weight", "card", "two-plane", "match",
-    "shafts", "design", "tolerances", "closed-form", "harmonics", "view", "gallery",
+    "flywheel", "bearings", "mounts", "mounts-fit", "counterweights", "bob-weight", "card", "two-plane",
+    "match", "shafts", "design", "tolerances", "closed-form", "harmonics", "view", "gallery",
 )  # fmt: skip
 """Commands in the order of the help."""
 
@@ -65,7 +65,9 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _text(argv: Sequence[str] | None) -> str:
     """Return what a command prints."""
-    typed = sys.argv[1:] if argv is None else argv
+    typed = [*(sys.argv[1:] if argv is None else argv)]
+    if typed[:2] == ["mounts", "fit"]:
+        typed[:2] = ["mounts-fit"]
     for each in typed:
         if each.startswith("--") and each.endswith("=--"):  # on which argparse fails
             raise rejected(each.removesuffix("=--"), "--", "give a value")

@@ -1,4 +1,4 @@
-"""The command on an engine on its mounts: modes, axes, forces over orders and speeds, a page."""
+"""Commands on an engine on its mounts: modes, axes, forces, a page; and design."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ import numpy as np
 
 from crankpin._support import inputs
 from crankpin._support.frames import FIRST, Frames
+from crankpin.analysis.mounts.design_mounts import KINDS, design_mounts
 from crankpin.analysis.mounts.powertrain import Powertrain
-from crankpin.cli.arguments import MOST_ROWS, command, option, rejected
+from crankpin.cli.arguments import MOST_ROWS, PROG, command, option, rejected
 from crankpin.cli.outputs import Shown
 
 if TYPE_CHECKING:
@@ -92,3 +93,106 @@ def _at_rest(given: Given, powertrain: Powertrain) -> Shown:
         static = powertrain.static(given.optional("--torque") or 0.0)
         makers |= {"axes": lambda: axes.table, "static": lambda: static.table}
     return Shown(Frames(makers), modes)
+
+
+@command(
+    "mounts-fit",
+    "mounts that decouple roll, place natural frequencies and lower forces, within bounds",
+    option("name", metavar="FILE", help="an engine file with [powertrain] (.toml, .json)"),
+    option(
+        "--by",
+        default="decoupling",
+        help="what is minimised: decoupling, mount_force[N] or body_force[N] of an order N "
+        "(default: %(default)s)",
+    ),
+    option(
+        "--rpm",
+        metavar="RANGE",
+        default=None,
+        help="crank speeds at which the forces of --by count",
+    ),
+    option(
+        "--vary",
+        metavar="KIND,…",
+        help=f"what varies of every mount, of {', '.join(KINDS)}, or NAME=KIND+KIND,… of some "
+        "mounts (default: all that have bounds)",
+    ),
+    option(
+        "--stiffness",
+        metavar="LOW,HIGH",
+        help="bounds of the dynamic stiffness, N/m",
+        group="bounds",
+    ),
+    option("--tilt", metavar="ANGLE", help="how far mounts turn about z, degrees", group="bounds"),
+    *(
+        option(
+            f"--{axis}",
+            metavar="LENGTH",
+            help=f"how far mounts move along {axis}, m",
+            group="bounds",
+        )
+        for axis in "xyz"
+    ),
+    option(
+        "--ratio",
+        metavar="LOW,HIGH",
+        help="stiffness of the first axis over that of the others, such as 3,10",
+        group="requirements",
+    ),
+    option(
+        "--modes-between",
+        metavar="LOW,HIGH",
+        help="frequencies between which all six modes are, Hz",
+        group="requirements",
+    ),
+    option(
+        "--roll-frequency",
+        metavar="HZ",
+        help="frequency of roll about the torque roll axis (default: as it is)",
+        group="requirements",
+    ),
+    option("--starts", default="8", help="starts of the optimiser (default: %(default)s)"),
+    "--seed --units",
+    option("--frame", choices=(FIRST, "mounts")),
+    "--csv",
+    option("--save", help="write engine, body and the mounts designed, an engine file"),
+    "--force",
+    example="mounts-fit car.toml --stiffness 50000,500000 --modes-between 5,30 --save new.toml",
+    note=f"Also {PROG} mounts fit FILE …",
+)
+def _fit(given: Given) -> Shown:
+    powertrain = Powertrain.load(given.text("name"))
+    bounds: dict[str, Any] = {}
+    for kind in KINDS:
+        flag = "--tilt" if kind == "tilt_deg" else f"--{kind}"
+        unit = {"stiffness": "", "tilt_deg": "°"}.get(kind, "m")
+        if given.text(flag) is not None:
+            pair = kind == "stiffness"
+            bounds[kind] = given.numbers(flag, unit) if pair else given.number(flag, unit)
+    if not bounds:
+        hint = "give bounds of what varies: --stiffness, --tilt, --x, --y or --z"
+        raise inputs.faulty("mounts-fit", "has no bounds", hint)
+    found = design_mounts(
+        powertrain,
+        given.text("--by").split(","),
+        vary=_varied(given.text("--vary"), list(bounds)),
+        bounds=bounds,
+        ratio=given.numbers("--ratio"),
+        roll_frequency=given.optional("--roll-frequency"),
+        modes_between=given.numbers("--modes-between"),
+        rpm=given.range("--rpm", "rpm"),
+        starts=given.whole("--starts"),
+        seed=given.whole("--seed"),
+    )
+    return Shown(found.frames, found, engine=found.fitted)
+
+
+def _varied(text: str | None, kinds: list[str]) -> Any:  # noqa: ANN401 - as the library takes it
+    """Return kinds, or the kinds of some mounts by name; by default those that have bounds."""
+    if text is None:
+        return kinds
+    parts = text.split(",")
+    if not any("=" in part for part in parts):
+        return parts
+    named = (part.partition("=") for part in parts)
+    return {name: which.split("+") for name, _, which in named}

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from crankpin._support.tables import Table
     from crankpin.analysis.balance import Balance
+    from crankpin.analysis.mounts.powertrain import Powertrain
     from crankpin.analysis.sweeps.sweep import Sweep
     from crankpin.cli.arguments import Given, Run
     from crankpin.model.engine import Engine
@@ -35,8 +36,8 @@ class Shown(NamedTuple):
     """Result of which ``--plot`` is a picture."""
     options: Mapping[str, str] = MappingProxyType({})
     """Options of its plot."""
-    engine: Engine | None = None
-    """Engine that ``--save`` writes."""
+    engine: Engine | Powertrain | None = None
+    """What ``--save`` writes."""
     note: str = ""
     """Text below the tables, of which CSV has none."""
 

@@ -95,3 +95,53 @@ def test_points_orders_and_speeds_agree_however_they_are_read(seed: int) -> None
     peaks_of_mounts = [vector.peak.max() for vector in r.mount_force.values()]
     assert worst.force == max(peaks_of_mounts)
     assert r.mount_force[worst.mount][worst.order].peak.max() == worst.force
+
+
+def lever(at: np.ndarray, cg: np.ndarray) -> np.ndarray:
+    """Return the motion of a point, of displacement of the CG and rotation: (3, 6)."""
+    x, y, z = at - cg
+    return np.hstack([np.eye(3), -np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])])
+
+
+def moved_by_force(
+    p: cp.Powertrain, rpm: np.ndarray, at: np.ndarray, along: np.ndarray
+) -> cp.types.DrivenResponse:
+    """Return the response to 1 N of order 1 alone."""
+    pusher = cp.Actuator("pusher", tuple(at), tuple(along))
+    request = p.response(rpm, orders=[1]).request
+    forces = np.ones((len(rpm), 1, 1), complex)
+    return cp.types.DrivenResponse(p, rpm, request, (pusher,), forces, engine_runs=False)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_motion_is_reciprocal_across_two_stages(seed: int) -> None:
+    """Push on the block, look at the rail; push on the rail, look at the block.
+
+    Of the second experiment the subframe is the body that stands on all mounts, and the block,
+    free, is the receptance that carries the upper ones.
+    """
+    upper, rpm = random_case(seed)
+    below, _ = random_case(seed + 100)
+    lower = [mount.replace(name=f"ground {mount.name}") for mount in below.mounts]
+    draw = np.random.default_rng(1000 + seed)
+    block_at, rail_at = draw.uniform(-0.5, 0.5, (2, 3))
+    # Actuators make their direction one of length 1.
+    block_along, rail_along = (v / np.linalg.norm(v) for v in draw.normal(size=(2, 3)))
+    rpm = np.sort(rpm)
+    one = moved_by_force(upper.on(cp.Subframe(below.body, lower)), rpm, block_at, block_along)
+    there = one.at(rail_at, on="support").displacement.xyz[:, 0] @ rail_along
+
+    cg, mass = np.array(upper.body.cg), upper.body.mass * np.eye(6)
+    mass[3:, 3:] = upper.body.inertia
+    # Beyond the speeds at both ends, which are inside but for rounding.
+    frequency = np.array([0.9 * rpm[0], *rpm, 1.1 * rpm[-1]]) / 60.0
+    free = -np.linalg.inv(mass) / (2.0 * np.pi * frequency[:, None, None]) ** 2
+    levers = np.vstack([lever(np.array(mount.at), cg) for mount in upper.mounts])
+    transfer = {"block": (lever(block_at, cg) @ free @ levers.T).astype(complex)}
+    pairs = [(name, axis) for name in upper.names for axis in "xyz"]
+    table = (frequency, (levers @ free @ levers.T).astype(complex))
+    hung = cp.Powertrain(upper.engine, below.body, [*upper.mounts, *lower])
+    other = moved_by_force(hung.on(cp.Receptance(pairs, table, transfer)), rpm, rail_at, rail_along)
+    back = other.at("block").displacement.xyz[:, 0] @ block_along
+    # Two factorisations of the same dozen of equations, the second one after a subtraction.
+    assert back == pytest.approx(there, rel=1e-9)

@@ -19,11 +19,13 @@ from crankpin._support import progress as progress_bar
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
+from crankpin.analysis.drawing import draw
 from crankpin.analysis.mounts.powertrain import Powertrain
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order
@@ -74,6 +76,8 @@ class MountDesign(Tabled):
     """Number of starts of the optimiser."""
     equally_good: int
     """Number of starts that came to a design as good."""
+    modes_between: tuple[float, float] | None = None
+    """Lowest and highest frequency for all six modes, Hz, of the requirement; None without it."""
 
     @property
     def reached(self) -> bool:
@@ -122,6 +126,31 @@ class MountDesign(Tabled):
         """``table``; ``mounts``: places, tilt and dynamic stiffness of the design."""
         return self._frames(mounts=self._of_mounts)
 
+    def plot(self, ax: Axes | None = None, **style: object) -> Axes:
+        """Draw the natural frequencies before and after; return the axes.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on; by default new ones.
+        **style : dict, optional
+            Properties of matplotlib lines.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes: a row for each mode, the required window shaded. Stiffness that depends on
+            frequency is taken at 20 Hz.
+
+        Raises
+        ------
+        InputError
+            If an option is unknown.
+        ImportError
+            If matplotlib is not installed.
+        """
+        return draw(self, ax, **style)  # type: ignore[no-any-return]
+
     def _of_mounts(self) -> Table:
         pairs = list(zip(self.powertrain.mounts, self.fitted.mounts, strict=True))
         columns = [Column("mount", self.fitted.names)]
@@ -143,9 +172,9 @@ def design_mounts(
     *,
     vary: Mapping[str, Sequence[str]] | Sequence[str] | str,
     bounds: Mapping[str, Any],
-    ratio: tuple[float, float] | None = None,
+    ratio: Sequence[float] | None = None,
     roll_frequency: float | None = None,
-    modes_between: tuple[float, float] | None = None,
+    modes_between: Sequence[float] | None = None,
     rpm: ArrayLike | None = None,
     starts: int = 8,
     seed: int = 0,
@@ -600,6 +629,7 @@ class Question:
             method,
             starts,
             good,
+            self.window,
         )
 
     def _shown(self, powertrain: Powertrain) -> list[float]:

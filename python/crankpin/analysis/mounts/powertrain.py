@@ -9,7 +9,7 @@ from crankpin import _core
 from crankpin._support import files, inputs
 from crankpin._support.record import Input
 from crankpin._support.warnings import suppressed
-from crankpin.analysis.mounts import designs as many
+from crankpin.analysis.mounts import design_responses as many
 from crankpin.analysis.mounts import feedback, static_state
 from crankpin.analysis.mounts import modes as natural
 from crankpin.analysis.mounts import response as forced
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from crankpin._support.inputs import Orders
-    from crankpin.analysis.mounts.designs import MountDesigns
+    from crankpin.analysis.mounts.design_responses import DesignResponses
     from crankpin.analysis.mounts.feedback import VelocityFeedback
     from crankpin.analysis.mounts.modes import MountModes, RollAxes
     from crankpin.analysis.mounts.response import MountResponse
@@ -300,7 +300,7 @@ class Powertrain(Input):
         mount_force: bool = False,
         at: Iterable[ArrayLike] = (),
         frequency: float | None = None,
-    ) -> MountDesigns:
+    ) -> DesignResponses:
         """Return natural frequencies and largest responses of many designs of the mounts.
 
         Parameters
@@ -325,7 +325,7 @@ class Powertrain(Input):
 
         Returns
         -------
-        MountDesigns
+        DesignResponses
             Frequencies, largest peaks of each order, largest rms values of all orders.
 
         Raises

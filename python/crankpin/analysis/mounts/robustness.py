@@ -8,11 +8,13 @@ from crankpin._support import inputs, labels
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
+from crankpin.analysis.drawing import draw
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     import numpy as np
+    from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
     from crankpin.analysis.mounts.powertrain import Powertrain
@@ -143,6 +145,30 @@ class MountRobustness(Tabled):
         parts += [f"CG ± {1e3 * self.cg:g} mm"] if self.cg else []
         title = f"{labels.name_of(self.powertrain.engine)} on its mounts: {', '.join(parts)}"
         return Table(title, tuple(columns))
+
+    def plot(self, ax: Axes | None = None, **style: object) -> Axes:
+        """Draw the range of each natural frequency, by cause; return the axes.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on; by default new ones.
+        **style : dict, optional
+            Properties of matplotlib bars.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes: bars for each mode, its purity and least purity beside it.
+
+        Raises
+        ------
+        InputError
+            If an option is unknown.
+        ImportError
+            If matplotlib is not installed.
+        """
+        return draw(self, ax, **style)  # type: ignore[no-any-return]
 
     @property
     def frames(self) -> Frames:

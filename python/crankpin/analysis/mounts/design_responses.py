@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from crankpin._support.frames import Tabled
 from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import mean_piston_speed
+from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import Request, check_request
 from crankpin.model import checks
 from crankpin.model.mounts import _vector
@@ -20,6 +21,7 @@ from crankpin.model.mounts import _vector
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order, Orders
@@ -30,7 +32,7 @@ FIGURES = ("at", "tilt_deg", "stiffness", "dynamic_stiffness", "loss_factor", "d
 """Figures of a mount that can differ between designs."""
 
 
-class MountDesigns(Tabled):
+class DesignResponses(Tabled):
     """Natural frequencies and largest responses of many designs of a powertrain's mounts.
 
     Responses are reduced over speed as they are computed, so that a million designs fit in memory:
@@ -176,6 +178,49 @@ class MountDesigns(Tabled):
             mounts.append(mount.replace(**values))
         return self.powertrain.replace(mounts=mounts)
 
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        design: int | None = None,
+        order: Order | None = None,
+        mount: str | None = None,
+        count: int = 60,
+        **style: object,
+    ) -> Axes:
+        """Draw a force over speed of many designs, and of one of them bold; return the axes.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on; by default new ones.
+        design : int, optional
+            Index of the design that is drawn bold; by default that of the least rms force on the
+            body.
+        order : float, optional
+            Order of which peaks are drawn; by default all orders together.
+        mount : str, optional
+            Name of a mount; by default the sum of all.
+        count : int, default 60
+            Most designs that are drawn, evenly spread over all.
+        **style : dict, optional
+            Properties of the bold line.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes.
+
+        Raises
+        ------
+        InputError
+            If there is no such design, order or mount.
+        ImportError
+            If matplotlib is not installed.
+        """
+        options: dict[str, Any] = {"design": design, "order": order, "mount": mount}
+        return draw(self, ax, count=count, **(options | style))  # type: ignore[no-any-return]
+
     @property
     def table(self) -> Table:
         """Natural frequencies, and the largest rms of the force on the body, of each design."""
@@ -200,7 +245,7 @@ def designs(
     mount_force: bool,
     at: Iterable[ArrayLike],
     frequency: float | None,
-) -> MountDesigns:
+) -> DesignResponses:
     """Return designs; :meth:`Powertrain.designs` documents the arguments."""
     request = Request.checked(orders=orders, rtol=rtol, spectrum=None, torque=True)
     speeds = inputs.copied(inputs.vector("rpm", np.atleast_1d(inputs.array("rpm", rpm))))
@@ -224,7 +269,7 @@ def designs(
     places = tuple(_vector(f"at[{k}]", place) for k, place in enumerate(at))
     given = None if frequency is None else inputs.number("frequency", frequency)
     is_each = inputs.flag("mount_force", mount_force)
-    found = MountDesigns(
+    found = DesignResponses(
         powertrain, MappingProxyType(values), speeds, request, is_each, places, given
     )
     inputs.warn_of_units(mean_piston_speed(powertrain.engine, float(np.max(speeds))))

@@ -1,0 +1,155 @@
+"""Mounts that were designed, many designs of them, their tolerances."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from crankpin._support import inputs, labels
+from crankpin.analysis.mounts.design_mounts import MountDesign
+from crankpin.analysis.mounts.design_responses import DesignResponses
+from crankpin.analysis.mounts.robustness import MountRobustness
+from crankpin.plot.dispatch import picture
+from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, set_title
+from crankpin.plot.mounts import AT
+from crankpin.plot.style import SERIES, foreground, muted, series
+from crankpin.plot.ticks import from_zero, numeric, span
+from crankpin.plot.words import joined, rounded
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+    from crankpin._support.inputs import Order
+
+THIN = 0.45
+"""Strength of the lines of many designs."""
+
+
+@picture.register(MountDesign)
+def _design(result: MountDesign, ax: Axes | None = None, **style: object) -> Axes:
+    """Draw the six natural frequencies before and after, a row each, and their window."""
+    ax = axes_or_new(ax)
+    at = AT if result.powertrain._varies else None
+    pair = [each.modes(at).frequency for each in (result.powertrain, result.fitted)]
+    rows = np.arange(1, 7)
+    looks = series(ax, 2, {"marker": "o", "linestyle": "", "markersize": 6.0} | style)
+    link: dict[str, Any] = {"color": muted(ax, 0.4), "linewidth": 1.2, "zorder": 1}
+    ax.hlines(rows, pair[0], pair[1], **link)
+    for frequency, look, label in zip(pair, looks, ("before", "designed"), strict=True):
+        hollow = {"markerfacecolor": "none"} if label == "before" else {}
+        ax.plot(frequency, rows, gid=SERIES, label=label, **(look | hollow))
+    largest = float(np.max(pair))
+    if result.modes_between is not None:
+        low, high = result.modes_between
+        band: dict[str, Any] = {"color": muted(ax, 0.12), "linewidth": 0.0, "zorder": 0}
+        ax.axvspan(low, high, label="modes between", **band)
+        largest = max(largest, high)
+    ax.set_yticks(rows, [f"mode {k}" for k in rows])
+    ax.set_ylim(6.6, 0.4)
+    numeric(ax.xaxis)
+    from_zero(ax, largest, name="x")
+    label_x(ax, "natural frequency, Hz")
+    merits = zip(result.names, result.before, result.after, result.limits, strict=True)
+    said = [f"{n} {rounded(a)} → {rounded(b)}" for n, a, b, each in merits if each is None]
+    missed = "" if result.reached else "requirements not reached"
+    set_title(
+        ax, labels.name_of(result.powertrain.engine), joined("mounts designed", missed), *said
+    )
+    add_legend(ax, last="modes between")
+    return ax
+
+
+@picture.register(DesignResponses)
+def _designs(
+    result: DesignResponses,
+    ax: Axes | None = None,
+    *,
+    design: int | None = None,
+    order: Order | None = None,
+    mount: str | None = None,
+    count: int = 60,
+    **style: object,
+) -> Axes:
+    """Draw the force over speed of many designs, thin, and of one of them."""
+    name = mount if mount is None else inputs.one_of("mount", mount, result.powertrain.names)
+    wanted = None if order is None else inputs.order(order)
+    if wanted is not None and wanted not in result.orders:
+        hint = f"is not among its orders: {labels.orders_text(result.orders)}"
+        raise inputs.rejected("order", order, hint)
+    most = inputs.whole("count", count, 1)
+    least = int(np.linalg.norm(result.body_force_rms, axis=1).argmin())
+    chosen = least if design is None else inputs.whole("design", design)
+    bold = result.at(chosen)
+    ax = axes_or_new(ax)
+    speeds = np.sort(np.unique(result.rpm))
+    picked = np.unique(np.linspace(0, len(result) - 1, min(most, len(result))).round().astype(int))
+
+    def peaks(k: int) -> NDArray[np.float64]:
+        powertrain = bold if k == chosen else result.at(k)
+        response = powertrain.response(speeds, orders=result.orders)
+        force = response.body_force if name is None else response.mount_force[name]
+        return np.asarray(force.total.peak if wanted is None else force[wanted].peak)
+
+    thin: dict[str, Any] = {"color": muted(ax, THIN), "linewidth": 0.6, "zorder": 1.5}
+    largest = 0.0
+    for place, k in enumerate(picked):
+        values = peaks(int(k))
+        largest = max(largest, float(values.max()))
+        of_all = f"{len(picked)} of {len(result)} designs" if len(picked) < len(result) else ""
+        label = of_all or f"{len(result)} designs"
+        ax.plot(speeds, values, label="" if place else label, **thin)
+    own = peaks(chosen)
+    (look,) = series(ax, 1, {"linewidth": 2.2, "linestyle": "-"} | style)
+    ax.plot(speeds, own, gid=SERIES, label=f"design {chosen}", **look)
+    span(ax, speeds)
+    numeric(ax.xaxis)
+    numeric(ax.yaxis)
+    from_zero(ax, max(largest, float(own.max())))
+    label_x(ax, "crank speed, rpm")
+    label_y(ax, "peak, N")
+    words = "force on the body" if name is None else f"force of mount {name}"
+    which = "all orders" if wanted is None else f"order {wanted}"
+    set_title(
+        ax,
+        labels.name_of(result.powertrain.engine),
+        joined(words, which, result.loads_counted),
+        "" if design is not None else f"design {chosen} has the least rms force on the body",
+    )
+    add_legend(ax)
+    return ax
+
+
+@picture.register(MountRobustness)
+def _robustness(result: MountRobustness, ax: Axes | None = None, **style: object) -> Axes:
+    """Draw a bar for each mode and cause, from its least to its largest frequency."""
+    ax = axes_or_new(ax)
+    causes = [("stiffness", result.frequency_bounds)] if any(result.stiffness) else []
+    if result.mass or result.inertia:
+        causes.append(("mass and inertia", result.mass_bounds))
+    if result.cg:
+        causes.append(("centre of gravity", result.cg_range))
+    rows = np.arange(1, 7)
+    height = 0.8 / max(len(causes), 1)
+    for k, ((name, (low, high)), look) in enumerate(
+        zip(causes, series(ax, len(causes), style), strict=True)
+    ):
+        places = rows + (k - (len(causes) - 1) / 2.0) * height
+        bars: dict[str, Any] = {"color": look["color"], "linewidth": 0.0, "gid": SERIES}
+        ax.barh(places, high - low, 0.85 * height, low, label=name, **bars)
+    mark: dict[str, Any] = {"color": foreground(ax), "linewidth": 1.0, "zorder": 3}
+    ax.vlines(result.frequency, rows - 0.45, rows + 0.45, label="nominal", **mark)
+    pure = zip(result.purity, result.least_purity, strict=True)
+    ax.set_yticks(rows, [f"{k + 1}:  {a:.0f} → {b:.0f} %" for k, (a, b) in enumerate(pure)])
+    ax.set_ylim(6.6, 0.4)
+    ax.tick_params(axis="y", length=0)
+    numeric(ax.xaxis)
+    ends = [high for _, (_, high) in causes] or [result.frequency]
+    from_zero(ax, float(np.max(ends)), name="x")
+    label_x(ax, "natural frequency, Hz")
+    label_y(ax, "purity → least purity")
+    title = result.table.title.partition(": ")[2]
+    set_title(ax, labels.name_of(result.powertrain.engine), joined("on its mounts", title))
+    add_legend(ax, last="nominal")
+    return ax
