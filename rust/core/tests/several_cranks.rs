@@ -201,7 +201,10 @@ proptest! {
     }
 
     #[test]
-    fn a_balance_is_a_sweep_of_one_point(engine in fired(weighted(engines())), digits in 1.0..9.0_f64) {
+    fn a_balance_is_a_sweep_of_one_point(
+        engine in fired(weighted(engines())),
+        digits in 1.0..9.0_f64,
+    ) {
         let (rtol, cancel) = (10_f64.powf(-digits), Cancel::new());
         let axes = SweepAxes { rpm: vec![REQUEST.rpm], ..SweepAxes::default() };
         let engines = vec![Arc::new(engine)];
@@ -213,10 +216,10 @@ proptest! {
         prop_assert_eq!(sweep.orders(), &balance.orders);
         prop_assert_eq!(sweep.omitted(), &balance.omitted);
         prop_assert_eq!(sweep.error_bound(), balance.error_bound);
-        let orders: Vec<Order> = (1..=9).map(|halves| Order::from_halves(halves).unwrap()).collect();
+        let orders: Vec<Order> = (1..=9).map(|h| Order::from_halves(h).unwrap()).collect();
         let given = Orders::Given(orders.clone());
         let balance = balance::balance(&engines[0], &REQUEST, &given, &cancel).unwrap();
-        let sweep = Sweep::new(engines, axes, orders.clone(), reference, &cancel).unwrap();
+        let sweep = Sweep::new(engines, axes, orders, reference, &cancel).unwrap();
         for (quantity, vector) in
             [(Quantity::Force, Vector::Force), (Quantity::Moment, Vector::Moment)]
         {
@@ -239,7 +242,8 @@ proptest! {
                     let rounding = balance.torque_zero_bound(TorquePart::Whole, k);
                     let is_near = (phasor - expected).norm() <= rounding;
                     let is_rounding = part == TorquePart::Whole || expected == Complex64::default();
-                    prop_assert!(phasor == expected || is_near && is_rounding, "{part:?} {k} {phasor}");
+                    let is_same = phasor == expected || is_near && is_rounding;
+                    prop_assert!(is_same, "{part:?} {k} {phasor} {expected}");
                 }
             }
         }
