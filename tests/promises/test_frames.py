@@ -13,6 +13,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from crankpin._support.frames import Tabled
+from crankpin._support.tables import Item
 from crankpin.cli import main
 from promises.test_objects import OBJECTS
 
@@ -70,6 +71,10 @@ def test_text_and_html_show_every_frame_or_a_line(name: str) -> None:
     text, html, frames = repr(result), result._repr_html_(), list(result.frames.values())
     if isinstance(result, (cp.types.ClosedForm, cp.types.Explanation)):  # formulas, sentences
         assert text.startswith(result.table.title)
+        return
+    if isinstance(result, Item):  # one of many
+        assert "\n" not in text
+        assert html == result.table.html()
         return
     if html is None or text.startswith("<Firing"):
         assert text.startswith("<")

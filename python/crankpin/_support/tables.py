@@ -335,6 +335,10 @@ class Table(Tabled):
 class Item(Tabled):
     """Base class of the items of results: their table has a row for each figure of a field."""
 
+    def __repr__(self) -> str:
+        """Return a line, as there may be many in a list."""
+        return Record.__repr__(self)
+
     def _figures(self) -> Mapping[str, object]:
         """Return name → value, or several."""
         return {each.name: getattr(self, each.name) for each in self._fields if each.repr}
