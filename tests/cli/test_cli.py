@@ -591,7 +591,7 @@ def test_control_characters_do_not_reach_the_terminal(capsys: CAPTURE, tmp_path:
         ("balance i4 --rpm=--", "--rpm = --: give a value"),
         ("balance i4 --rpm 60mm", "--rpm = 60mm: give a number"),
         ("balance i4 --reference-z 3kg", "give a number, such as 12 or with a unit (mm, in)"),
-        ("balance i4 --reference-z 3 --units g,cubit", "--units = g,cubit: give units of mass"),
+        ("balance i4 --reference-z 3 --units g,cubit", "--units = 'g,cubit': give units of mass"),
         ("sweep v6-60 --bank-angle 10-170", "such as 10:170:10"),
         ("sweep v6-60 --rod-ratio 0.25..0.3", "such as 0.25:0.3:0.01"),
         ("sweep v6-60 --rpm 1000-6000", "such as 1000:6000:1000"),
