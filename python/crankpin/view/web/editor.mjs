@@ -3,6 +3,7 @@
 import { pair } from "./controls.mjs";
 import { html, numbered, show } from "./dom.mjs";
 import { short } from "./format.mjs";
+import { MOUNT_STRINGS } from "./mount_strings.mjs";
 import { STRINGS } from "./strings.mjs";
 
 const MILLIMETRES = { shown: (metres) => metres * 1e3, taken: (typed) => typed / 1e3 };
@@ -30,17 +31,17 @@ export class Editor {
         numbered(html, "td", `mount-${k + 1}-${part}`));
       return { button, numbers, element: html("tr", {}, html("th", { scope: "row" }, button), ...numbers) };
     });
-    this.reset = html("button", { type: "button" }, STRINGS.asBefore);
+    this.reset = html("button", { type: "button" }, MOUNT_STRINGS.asBefore);
     this.reset.addEventListener("click", reset);
     this.controls = html("div", { class: "settings" });
     this.code = numbered(html, "code", "python");
     this.element = html("div", {},
       html("div", { class: "scrolls" }, html("table", { class: "mounts" },
         html("thead", {}, html("tr", {},
-          ...STRINGS.mountHeads.map((text) => html("th", { scope: "col" }, text)))),
+          ...MOUNT_STRINGS.mountHeads.map((text) => html("th", { scope: "col" }, text)))),
         html("tbody", {}, ...this.rows.map(({ element }) => element)))),
       this.controls, this.reset,
-      html("details", {}, html("summary", {}, STRINGS.asPython), html("pre", {}, this.code)));
+      html("details", {}, html("summary", {}, MOUNT_STRINGS.asPython), html("pre", {}, this.code)));
   }
 
   /** Follow the mounts; `chosen` is the number of one, `changed` whether they are others than at first. */
@@ -54,7 +55,7 @@ export class Editor {
       at.forEach((value, axis) => show(numbers[axis], value, short(MILLIMETRES.shown(value), 1)));
       [0, 1, 2].forEach((axis) => (stiffness
         ? show(numbers[3 + axis], stiffness[axis], short(PER_MILLIMETRE.shown(stiffness[axis]), 1))
-        : show(numbers[3 + axis], "", STRINGS.ofTable)));
+        : show(numbers[3 + axis], "", MOUNT_STRINGS.ofTable)));
     });
     this.settle(mounts);
     show(this.code, JSON.stringify(mounts), this.python(mounts));
@@ -90,13 +91,13 @@ export class Editor {
     const most = Math.ceil((MULTIPLE * largest) / 1e3);
     this.stiffnesses = (stiffness ?? []).map((value, axis) => {
       const act = along(() => this.mounts[chosen].stiffness, axis);
-      return pair(STRINGS.axes[axis], `${name}: ${STRINGS.axes[axis]}, N/mm`, `mount-k${axis + 1}`, 0, most, 1, "N/mm",
+      return pair(MOUNT_STRINGS.axes[axis], `${name}: ${MOUNT_STRINGS.axes[axis]}, N/mm`, `mount-k${axis + 1}`, 0, most, 1, "N/mm",
         (typed) => this.change(chosen, { stiffness: act(typed) }), settle, [0, STIFFEST], PER_MILLIMETRE);
     });
     const title = numbered(html, "b", "mount-name");
     show(title, name, name);
     this.controls.replaceChildren(title, ...[...this.places, ...this.stiffnesses].map(({ element }) => element),
-      ...(stiffness ? [] : [html("p", { class: "hint" }, STRINGS.tableIsFixed)]));
+      ...(stiffness ? [] : [html("p", { class: "hint" }, MOUNT_STRINGS.tableIsFixed)]));
   }
 
   settle(mounts) {

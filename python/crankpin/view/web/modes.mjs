@@ -2,7 +2,7 @@
 
 import { html, numbered, show } from "./dom.mjs";
 import { short } from "./format.mjs";
-import { STRINGS } from "./strings.mjs";
+import { MOUNT_STRINGS } from "./mount_strings.mjs";
 
 /** Coordinates in the order of the library's tables, as places in (x, y, z, about x, y, z). */
 const COORDINATES = [["fore-aft", 2], ["lateral", 0], ["bounce", 1], ["roll", 5], ["pitch", 3], ["yaw", 4]];
@@ -22,11 +22,11 @@ export class Modes {
         ...cells.shares);
       return { button, cells, element };
     });
-    const heads = [STRINGS.mode, STRINGS.frequencyHead, STRINGS.mainMotion, STRINGS.share];
+    const heads = [MOUNT_STRINGS.mode, MOUNT_STRINGS.frequencyHead, MOUNT_STRINGS.mainMotion, MOUNT_STRINGS.share];
     const head = (text, name = "") => html("th", { scope: "col", class: name }, text);
     this.table = html("table", { class: "modes" },
       html("thead", {}, html("tr", {}, ...heads.map((text) => head(text)),
-        ...COORDINATES.map(([name]) => head(STRINGS.coordinates[name], "of-coordinate")))),
+        ...COORDINATES.map(([name]) => head(MOUNT_STRINGS.coordinates[name], "of-coordinate")))),
       html("tbody", {}, ...this.rows.map(({ element }) => element)));
     this.note = html("p", { class: "hint" });
     this.element = html("div", {}, this.table, this.note);
@@ -36,19 +36,19 @@ export class Modes {
   layout(modes, chosen) {
     this.table.hidden = !modes;
     const free = modes?.some(({ frequency }) => frequency === 0);
-    this.note.textContent = modes ? (free ? STRINGS.freeMotion : "") : STRINGS.noModes;
+    this.note.textContent = modes ? (free ? MOUNT_STRINGS.freeMotion : "") : MOUNT_STRINGS.noModes;
     this.note.hidden = !this.note.textContent;
     if (!modes) return;
     this.rows.forEach(({ button, cells, element }, k) => {
       const { frequency, energy, purity } = modes[k];
       element.classList.toggle("chosen", k === chosen);
       button.setAttribute("aria-pressed", k === chosen);
-      button.setAttribute("aria-label", `${STRINGS.mode} ${k + 1}`);
+      button.setAttribute("aria-label", `${MOUNT_STRINGS.mode} ${k + 1}`);
       show(cells.frequency, frequency, frequency ? frequency.toFixed(2) : "0");
       show(cells.purity, purity, `${purity.toFixed(0)} %`);
       const shares = COORDINATES.map(([, place]) => energy[place]);
       const main = shares.indexOf(Math.max(...shares));
-      cells.main.textContent = STRINGS.coordinates[COORDINATES[main][0]];
+      cells.main.textContent = MOUNT_STRINGS.coordinates[COORDINATES[main][0]];
       shares.forEach((share, at) => {
         show(cells.shares[at], share, short(share, 0));
         cells.shares[at].style.setProperty("--share", `${Math.min(Math.max(share, 0), 100).toFixed(0)}%`);

@@ -6,6 +6,7 @@ import { fixed, html, numbered, show } from "./dom.mjs";
 import { Editor } from "./editor.mjs";
 import { roundBelow, scaleFor, short } from "./format.mjs";
 import { Modes } from "./modes.mjs";
+import { MOUNT_STRINGS } from "./mount_strings.mjs";
 import { legend, panel, region, section } from "./panels.mjs";
 import { configure, ownSettings, placesAt, strokesAt } from "./places.mjs";
 import { RunUp } from "./runup.mjs";
@@ -66,12 +67,12 @@ export class Mounted extends Turning {
     const step = figures.rpm < 100 ? 0.1 : 1;
     this.rpm = pair(STRINGS.speed, STRINGS.speedField, "rpm", Math.ceil(this.range[0] / step) * step, this.range[1], step,
       STRINGS.rpm, (rpm) => this.set({ rpm }), () => this.rpm.show(this.state.rpm), [step, FASTEST]);
-    this.order = html("select", { "aria-label": STRINGS.shownOrder },
-      html("option", { value: ALL }, STRINGS.allOrders),
+    this.order = html("select", { "aria-label": MOUNT_STRINGS.shownOrder },
+      html("option", { value: ALL }, MOUNT_STRINGS.allOrders),
       ...mounted.orders.map((order) => fixed(html, "option", "order", order, `${STRINGS.order} ${order}`, { value: order })));
     this.order.addEventListener("change", () =>
       this.set({ order: this.order.value === ALL ? ALL : Number(this.order.value), mode: null, exaggeration: null }));
-    this.exaggeration = new Exaggeration(STRINGS.magnified, this);
+    this.exaggeration = new Exaggeration(MOUNT_STRINGS.magnified, this);
     this.drawn = {
       order: numbered(html, "span", "drawn-order"), rpm: numbered(html, "span", "drawn-rpm"),
       mode: numbered(html, "span", "drawn-mode"), factor: numbered(html, "span", "drawn-factor"),
@@ -79,10 +80,10 @@ export class Mounted extends Turning {
     this.drawnLine = html("p", { class: "hint drawn" });
     this.stretched = numbered(html, "span", "stretch");
     this.stretchedLine = html("p", { class: "hint" }, `${STRINGS.stretched} `, this.stretched);
-    this.trouble = html("p", { class: "hint trouble", role: "status" }, STRINGS.resonance);
+    this.trouble = html("p", { class: "hint trouble", role: "status" }, MOUNT_STRINGS.resonance);
     this.modesTable = new Modes((mode) => this.set({ mode, exaggeration: null }));
     this.runUp = new RunUp((rpm) => this.set({ rpm, mode: null }));
-    this.quantity = choice("quantity", STRINGS.quantity, this);
+    this.quantity = choice("quantity", MOUNT_STRINGS.quantity, this);
     this.ofOrder = numbered(html, "span", "run-up-order");
     this.runUpHint = html("p", { class: "hint" });
     this.runUpBox = html("div", { class: "run-up-box" }, this.runUp.element);
@@ -92,25 +93,25 @@ export class Mounted extends Turning {
     this.values = Object.fromEntries(["force", "displacement", "rotation"].map((name) =>
       [name, ["x", "y", "z", "length"].map((part) => numbered(html, "output", `${name}-${part}`))]));
     const listed = mounted.orders.map((order, k) => [k ? ", " : " ", fixed(html, "span", "order", order, `${order}`)]).flat();
-    const at = mounted.frequency === null ? [] : [`, ${STRINGS.at_frequency} `,
+    const at = mounted.frequency === null ? [] : [`, ${MOUNT_STRINGS.at_frequency} `,
       fixed(html, "span", "modes-at", mounted.frequency, `${short(mounted.frequency, 3)} Hz`)];
     this.element = region(title, "mounted",
-      this.header.element, this.transport.element,
-      html("div", { class: "settings" }, this.rpm.element,
-        html("div", { class: "setting" }, html("span", {}, STRINGS.order), this.order), this.exaggeration.element),
+      this.header.element,
       html("div", { class: "views" },
         panel(STRINGS.crossSection, this.scenes[0].element),
         panel(STRINGS.side.left, this.scenes[1].element),
         panel(STRINGS.side.above, this.scenes[2].element)),
-      this.drawnLine, this.stretchedLine, this.trouble,
+      this.drawnLine, this.stretchedLine, this.trouble, this.transport.element,
+      html("div", { class: "settings" }, this.rpm.element,
+        html("div", { class: "setting" }, html("span", {}, STRINGS.order), this.order), this.exaggeration.element),
       html("div", { class: "halves" },
-        section(html("span", {}, STRINGS.modesOf, ...at), this.modesTable.element),
+        section(html("span", {}, MOUNT_STRINGS.modesOf, ...at), this.modesTable.element),
         section(html("span", {}, this.quantity, ", rms, ", this.ofOrder),
-          legend(["x", "y", "z", "length"], STRINGS.lines), this.runUpBox, this.runUpHint)),
+          legend(["x", "y", "z", "length"], MOUNT_STRINGS.lines), this.runUpBox, this.runUpHint)),
       html("div", { class: "dials values" }, ...Object.keys(this.values).map((name) =>
-        panel(STRINGS.effectiveValues[name], this.listOf(name)))),
-      section(STRINGS.mountsTitle, this.editor.element),
-      html("p", { class: "hint" }, `${STRINGS.counted}`, ...listed, `, ${STRINGS.countedRest}`),
+        panel(MOUNT_STRINGS.effectiveValues[name], this.listOf(name)))),
+      section(MOUNT_STRINGS.mountsTitle, this.editor.element),
+      html("p", { class: "hint" }, `${MOUNT_STRINGS.counted}`, ...listed, `, ${MOUNT_STRINGS.countedRest}`),
       html("p", { class: "hint" }, STRINGS.keys));
     this.resized = new ResizeObserver(([entry]) => {
       this.width = entry.contentRect.width;
@@ -120,9 +121,9 @@ export class Mounted extends Turning {
   }
 
   listOf(name) {
-    const heads = name === "rotation" ? STRINGS.about3 : ["x", "y", "z"];
+    const heads = name === "rotation" ? MOUNT_STRINGS.about3 : ["x", "y", "z"];
     return html("dl", {}, ...this.values[name].flatMap((output, k) => [
-      html("dt", { class: k < 3 ? "xyz"[k] : "" }, heads[k] ?? STRINGS.lines.length), html("dd", {}, output)]));
+      html("dt", { class: k < 3 ? "xyz"[k] : "" }, heads[k] ?? MOUNT_STRINGS.lines.length), html("dd", {}, output)]));
   }
 
   destroy() {
@@ -230,8 +231,8 @@ export class Mounted extends Turning {
     this.curves = { speeds, values };
     this.runUp.layout({ speeds, values, crossings, unit: unitName, range: this.range, width: Math.max(this.width, 260) });
     this.runUp.at(state.rpm);
-    show(this.ofOrder, one ?? "", `${STRINGS.ofOrder(one)}${one ?? ""}`);
-    this.runUpHint.textContent = one === null ? STRINGS.chooseOrder : STRINGS.perSpeed;
+    show(this.ofOrder, one ?? "", `${MOUNT_STRINGS.ofOrder(one)}${one ?? ""}`);
+    this.runUpHint.textContent = one === null ? MOUNT_STRINGS.chooseOrder : MOUNT_STRINGS.perSpeed;
   }
 
   /** The motion that is drawn, and how much it is magnified. */
@@ -252,12 +253,12 @@ export class Mounted extends Turning {
     this.trouble.hidden = parts !== null;
     const one = state.order === ALL ? null : state.order;
     const { drawn } = this;
-    show(drawn.order, one ?? "", `${STRINGS.drawnOrder(one)}${one ?? ""}`);
+    show(drawn.order, one ?? "", `${MOUNT_STRINGS.drawnOrder(one)}${one ?? ""}`);
     show(drawn.rpm, state.rpm, `${short(state.rpm, 3)} ${STRINGS.rpm}`);
     show(drawn.factor, state.exaggeration, `${state.exaggeration}`);
     show(drawn.mode, mode ? state.mode + 1 : "", mode ? `${state.mode + 1}, ${mode.frequency.toFixed(2)} Hz,` : "");
-    this.drawnLine.replaceChildren(...(mode ? [STRINGS.drawnMode, drawn.mode, STRINGS.drawnShape]
-      : [drawn.order, STRINGS.drawnAt, drawn.rpm, STRINGS.drawnTimes, drawn.factor]));
+    this.drawnLine.replaceChildren(...(mode ? [MOUNT_STRINGS.drawnMode, drawn.mode, MOUNT_STRINGS.drawnShape]
+      : [drawn.order, MOUNT_STRINGS.drawnAt, drawn.rpm, MOUNT_STRINGS.drawnTimes, drawn.factor]));
     this.write("force", parts && effective(parts, "force"), "N");
     this.write("displacement", parts && effective(parts, "motion"), "m");
     this.write("rotation", parts && effective(parts.map(({ motion }) => ({ motion: motion.slice(3) })), "motion"), "rad");
@@ -267,7 +268,7 @@ export class Mounted extends Turning {
     const values = along && [...along, Math.hypot(...along)];
     const { unit: prefixed, text } = scaleFor(values ? values[3] : 0, unitName);
     this.values[name].forEach((output, k) =>
-      show(output, values ? values[k] : "", values ? `${text(values[k])} ${prefixed}` : STRINGS.noAnswer));
+      show(output, values ? values[k] : "", values ? `${text(values[k])} ${prefixed}` : MOUNT_STRINGS.noAnswer));
   }
 
   pose() {

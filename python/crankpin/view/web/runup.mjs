@@ -2,6 +2,7 @@
 
 import { fixed, path, place, show, numbered, svg } from "./dom.mjs";
 import { scaleFor } from "./format.mjs";
+import { MOUNT_STRINGS } from "./mount_strings.mjs";
 import { STRINGS } from "./strings.mjs";
 
 const HIGH = 250; // pixels
@@ -22,7 +23,7 @@ export class RunUp {
     this.lines = ["x", "y", "z", "length"].map((name) => svg("path", { class: `curve ${name}` }));
     this.cursor = svg("path", { class: "cursor" });
     this.note = svg("text", { class: "note" });
-    this.element = svg("svg", { class: "run-up", role: "img", "aria-label": STRINGS.runUpDescribed, height: HIGH },
+    this.element = svg("svg", { class: "run-up", role: "img", "aria-label": MOUNT_STRINGS.runUpDescribed, height: HIGH },
       this.grid, this.frame, this.marks, ...this.lines, this.cursor, this.note);
     let held = false;
     const point = (event) => {
@@ -52,7 +53,7 @@ export class RunUp {
     this.x = (rpm) => MARGIN.left + (this.right - MARGIN.left) * (Math.log(rpm / low) / Math.log(high / low));
     const lengths = values.map((each) => each && Math.hypot(...each));
     const known = lengths.filter((each) => each > 0 && Number.isFinite(each));
-    show(this.note, "", known.length ? "" : STRINGS.nothingMoves);
+    show(this.note, "", known.length ? "" : MOUNT_STRINGS.nothingMoves);
     place(this.note, [MARGIN.left + 8, (MARGIN.top + bottom) / 2]);
     this.frame.setAttribute("d", `M${MARGIN.left} ${MARGIN.top}V${bottom}H${this.right}`);
     const top = known.length ? Math.ceil(Math.log10(Math.max(...known))) : 0;

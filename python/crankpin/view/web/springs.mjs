@@ -1,7 +1,7 @@
 // Mounts in a picture of the engine: springs at their places, which the reader can move, and the body's box.
 
 import { numbered, path, place, show, svg } from "./dom.mjs";
-import { STRINGS } from "./strings.mjs";
+import { MOUNT_STRINGS } from "./mount_strings.mjs";
 
 /** Length of a spring, over the largest extent of the body's box. */
 export const SPRING = 0.16;
@@ -53,7 +53,7 @@ export class Springs {
     const knob = svg("circle", { class: "knob", r: 6 });
     const label = numbered(svg, "text", "mount-name", { class: "mount-name" });
     show(label, name, name);
-    const element = svg("g", { class: "mount", tabindex: 0, role: "slider", "aria-label": `${STRINGS.mount} ${name}` },
+    const element = svg("g", { class: "mount", tabindex: 0, role: "slider", "aria-label": `${MOUNT_STRINGS.mount} ${name}` },
       ends, ...springs, knob, label);
     element.addEventListener("focus", () => choose(k));
     element.addEventListener("keydown", (event) => {
@@ -121,7 +121,7 @@ export class Springs {
     this.mounts.forEach(({ element, springs, label }, k) => {
       element.classList.toggle("chosen", k === chosen);
       const [x, y, z] = this.places[k].map((part) => (part * 1000).toFixed(0));
-      element.setAttribute("aria-valuetext", STRINGS.placeText(x, y, z));
+      element.setAttribute("aria-valuetext", MOUNT_STRINGS.placeText(x, y, z));
       element.setAttribute("aria-valuenow", x);
       const { stiffness } = mounts[k];
       springs.forEach((spring, axis) => {
