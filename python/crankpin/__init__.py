@@ -21,6 +21,7 @@ from crankpin.analysis.balancing.two_plane import two_plane_correction
 from crankpin.analysis.bearings import bearing_loads
 from crankpin.analysis.comparison import compare
 from crankpin.analysis.design.design import design
+from crankpin.analysis.exercises import exercise
 from crankpin.analysis.firing import throws
 from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
@@ -70,6 +71,7 @@ __all__ = [
     "counterweights",
     "design",
     "design_mounts",
+    "exercise",
     "flywheel",
     "gas_torque_harmonics",
     "match_parts",

@@ -12,6 +12,7 @@ from crankpin.analysis.bearings import BearingLoads
 from crankpin.analysis.closed_form import ClosedForm
 from crankpin.analysis.comparison import Comparison
 from crankpin.analysis.design.designs import Design, Designs
+from crankpin.analysis.exercises import Exercise
 from crankpin.analysis.explain import Explanation
 from crankpin.analysis.firing import Firing
 from crankpin.analysis.flywheel import Flywheel
@@ -55,6 +56,7 @@ __all__ = [
     "DesignResponses",
     "Designs",
     "DrivenResponse",
+    "Exercise",
     "Explanation",
     "Firing",
     "Flywheel",

@@ -109,6 +109,14 @@ def test_no_two_have_the_same_name_or_title() -> None:
     assert len({cp.Engine.preset(name).name for name in NAMES}) == len(NAMES)
 
 
+def test_a_title_names_the_source_of_parts_only_while_they_are_its() -> None:
+    own = cp.Engine.preset("i4-ebook")
+    assert own.name == "Inline-4 (e-book)"
+    other = cp.Engine.preset("i4-ebook", cylinder=own.cylinders[0].replace(rod_length=3.0))
+    assert other.name == "Inline-4"
+    assert cp.Engine.preset("i4-ebook", cylinder=own.cylinders[0]).name == own.name
+
+
 def test_the_engines_of_the_sources_are_there() -> None:
     wanted = {"single", "i3", "i4", "i6", "boxer-4", "flat-4", "v-twin-90", "v6-60-ebook"}
     wanted |= {"v8-flatplane", "v8-crossplane", "v8-crossplane-ebook"}

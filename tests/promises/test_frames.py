@@ -35,7 +35,7 @@ UNTABLED = {
     "Actuator", "Subframe", "Receptance",
     "OrderResponse", "VectorQuantity", "WorstForce",
     # inputs, and items of results that have tables
-    "ClosedForm", "Explanation",  # formulas and sentences
+    "ClosedForm", "Exercise", "Explanation",  # formulas and sentences
 }  # fmt: skip
 CHARACTERS = "a0 \t\n\\{}$&#%_~^|<>\"'=+-°·²ω→–₂"
 """What names may have, LaTeX obeys, or fonts of text lack."""

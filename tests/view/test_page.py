@@ -351,8 +351,10 @@ def test_sentences_are_those_of_the_engine_as_given(open_engine: Open) -> None:
     page.locator("[data-name=rpm]").fill("2000")
     assert listed.first.is_visible()
     for field, value, own in (("bank-angle", "60", "90"), ("rod-ratio", "0.25", None)):
+        top = page.locator(".dials").bounding_box()
         page.locator(f"[data-name={field}]").fill(value)
         assert not listed.first.is_visible()
+        assert page.locator(".dials").bounding_box() == top  # nothing jumps
         if own:
             page.locator(f"[data-name={field}]").fill(own)
             assert listed.first.is_visible()
@@ -755,3 +757,13 @@ def test_every_kind_turns(open_engine: Open, name: str) -> None:
             /NaN|undefined|Infinity/.test(value)).map(({ name, value }) => `${name}=${value}`)""",
     )
     assert odd == []
+
+
+def test_an_address_that_says_so_turns_the_engine_at_once(open_file: Open, tmp_path: Path) -> None:
+    file = tmp_path / "engine.html"
+    V8.save_html(file, rpm=3000.0)
+    page = open_file(file)
+    assert page.evaluate("crankpin.state.playing") is False
+    page.evaluate("location.hash = '#playing'")
+    page.reload()
+    assert page.evaluate("crankpin.state.playing") is True

@@ -529,9 +529,9 @@ class BearingLoads(Tabled):
         figure : Figure or SubFigure, optional
             Figure or SubFigure for the panels of ``"polar"``; by default a new one.
         kind : {"polar", "curves", "bending"}, default "polar"
-            ``"polar"``: the tip of a load, with crank angles, a panel for each bearing, or with
-            ``ax`` all of them there. ``"curves"``: magnitudes over crank angle. ``"bending"``:
-            largest bending moment along z.
+            ``"polar"``: the tip of a load, a panel for each bearing in colours of the crank angle,
+            or with ``ax`` or a colour of yours with crank angles beside it. ``"curves"``:
+            magnitudes over crank angle. ``"bending"``: largest bending moment along z.
         **options : dict, optional
             Of ``"polar"`` and ``"curves"``: ``load``, as in :meth:`read`, by default the main
             bearings, and ``numbers`` of bearings or cylinders, from 1, by default all; of

@@ -32,6 +32,8 @@ NUMBERS = {
 """Numbers of cylinders in words."""
 OWN_PARTS = "-ebook"
 """End of the names of presets that belong to no family: their moving parts are not comparable."""
+OWN_PARTS_TITLE = " (e-book)"
+"""End of the titles of those presets, while they have these parts."""
 
 
 class Presets(Mapping[str, Engine]):
@@ -139,7 +141,10 @@ class Layout(NamedTuple):
 
     def build(self, cylinder: Cylinder, spacing: float, **changes: Any) -> Engine:  # noqa: ANN401
         """Return the engine with this cylinder and spacing, and other arguments of the builder."""
-        arguments = self.arguments | changes
+        arguments = dict(self.arguments)
+        if cylinder != self.cylinder and "name" in arguments:
+            arguments["name"] = arguments["name"].removesuffix(OWN_PARTS_TITLE)
+        arguments |= changes
         if cylinder.rod is not None and "rotating_mass" not in changes:
             arguments.pop("rotating_mass", None)  # a rod brings its own
         if "places" in arguments:  # in spacings, and a pin offset for each cylinder

@@ -23,7 +23,7 @@ from crankpin.plot.layout import (
     set_panel_title,
     set_title,
 )
-from crankpin.plot.plane import label_panels, make_plane_panels, share_scale, trace
+from crankpin.plot.plane import label_panels, make_plane_panels, share_scale, trace, trace_by_angle
 from crankpin.plot.style import SERIES, count_series, muted, series
 from crankpin.plot.ticks import degrees, from_zero, numeric, span
 from crankpin.plot.words import joined, loads_of, number
@@ -69,10 +69,18 @@ def polar(
         return ax
     wide, high = np.ptp([*vectors[places].reshape(-1, 2), (0.0, 0.0)], axis=0).tolist()
     made = make_plane_panels(figure, len(places), high / wide if wide else 1.0)
+    by_angle = None
     for panel, place, name in zip(made.axes.flat, places, names, strict=False):
-        trace(panel, result.theta_deg, [vectors[place]], [name], style, period, centred=False)
+        if style:
+            trace(panel, result.theta_deg, [vectors[place]], [name], style, period, centred=False)
+        else:
+            by_angle = trace_by_angle(panel, result.theta_deg, vectors[place], name, period)
         set_panel_title(panel, name)
     share_scale(made)
+    if by_angle is not None:
+        bar = made.figure.colorbar(by_angle, ax=made.axes.ravel().tolist(), aspect=35, pad=0.02)
+        degrees(bar.ax.yaxis)
+        bar.set_label("crank angle θ")
     label_panels(made, *ALONG[axes], "N")
     made.set_title(*_titles(result, what))
     return made.axes

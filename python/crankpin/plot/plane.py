@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.collections import LineCollection
 
 from crankpin._support import inputs
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.plot.layout import Panels, label_x, label_y, make_panels, note_zero, width_for
-from crankpin.plot.style import SERIES, count_series, foreground, muted, series, write
+from crankpin.plot.style import SERIES, colour_map, count_series, foreground, muted, series, write
 from crankpin.plot.ticks import numeric
 from crankpin.plot.words import drawn_quantity, in_degrees, nonzero_in
 
@@ -99,6 +100,32 @@ def trace(
     if alone:  # of several curves, numbers would not say whose they are
         for where_to, angles, outward in _beside(_labelled(theta, curves[0], period), curves[0]):
             _annotate(ax, where_to, angles, outward)
+
+
+def trace_by_angle(
+    ax: Axes, theta: NDArray[np.float64], values: NDArray[np.float64], name: str, period: float
+) -> LineCollection:
+    """Draw the tip of a vector, (n_theta, 2), in colours of the crank angle; return the curve.
+
+    A dot is where the angles begin. There are no others, so that narrow panels can be read.
+    """
+    once = theta <= theta.min(initial=np.inf) + period
+    theta, points = theta[once], values[once]
+    ax.plot(*points.T, gid=SERIES, label=name, color=muted(ax, 0.35), linewidth=0.8)
+    curve = LineCollection(
+        list(np.stack([points[:-1], points[1:]], axis=1)),
+        array=0.5 * (theta[:-1] + theta[1:]),
+        cmap=colour_map(ax),
+        clim=(theta.min(initial=0.0), theta.min(initial=0.0) + period),
+        linewidth=1.8,
+        capstyle="round",
+        zorder=2.5,
+    )
+    ax.add_collection(curve, autolim=False)
+    if points.any():
+        ax.plot(*points[0], "o", color=curve.cmap(0.0), markersize=4.5)
+    scale_plane(ax, 1.15, centred=False)
+    return curve
 
 
 def _beside(

@@ -12,6 +12,7 @@ import { ownSettings } from "./places.mjs";
 import { displacement, largestDisplacement, rocking } from "./rocking.mjs";
 import { Scene } from "./scene.mjs";
 import { Sentences } from "./sentences.mjs";
+import { Sound } from "./sound.mjs";
 import { STRINGS } from "./strings.mjs";
 import { STROKES } from "./strokes.mjs";
 import { Timeline } from "./timeline.mjs";
@@ -45,13 +46,17 @@ export class Full extends View {
     this.stretched = numbered(html, "span", "stretch");
     this.stretchedLine = html("p", { class: "hint" }, `${STRINGS.stretched} `, this.stretched);
     this.sentences = new Sentences(figures);
+    this.sound = figures.firing_deg ? new Sound(figures.exhaust_opens_deg) : null;
     this.element = region(title, "",
-      this.header.element, this.sentences.element, this.transport.element, this.settings.element,
+      this.header.element,
       html("div", { class: "views" },
         panel(STRINGS.crossSection, this.readouts.angle, this.scenes[0].element),
         panel(this.frames[0], this.scenes[1].element),
         panel(this.frames[1], this.scenes[2].element)),
       this.stretchedLine,
+      this.transport.element, this.settings.element,
+      this.sound ? this.sound.element : "",
+      this.sentences.element,
       html("div", { class: "dials" }, ...this.dials()),
       section(STRINGS.orders, legend(["forward", "backward"], STRINGS.legend), this.phasors.element),
       section(STRINGS.timeline,
@@ -84,6 +89,7 @@ export class Full extends View {
 
   destroy() {
     this.resized.disconnect();
+    this.sound?.destroy();
     super.destroy();
   }
 
@@ -101,6 +107,7 @@ export class Full extends View {
     show(this.stretched, stretch, short(stretch, 1));
     this.stretchedLine.hidden = stretch === 1;
     this.settings.layout(this.shown);
+    this.sound?.layout(this.engine);
     this.sentences.layout(this.state, ownSettings(this.figures));
     this.phasors.layout(this.shown, whole);
     this.force.layout(this.curve.force, this.peaks.force, whole.force);

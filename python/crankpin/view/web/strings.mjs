@@ -75,6 +75,8 @@ export const STRINGS = {
     power: "power", exhaust: "exhaust", intake: "intake", compression: "compression",
   },
   marks: { fires: "fires", tdc: "top dead centre" },
+  sound: "sound",
+  soundSaid: "pulses as exhausts open, a bank in each ear; without pipes, silencers, intake and parts",
   firingOrder: "fires",
   every: (degrees) => `(every ${degrees}°)`,
   intervals: (degrees) => `(intervals ${degrees}°)`,
