@@ -817,6 +817,7 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
         "MountResponse",
         "MountRobustness",
         "MountDesign",
+        "DesignResponses",
         "DrivenResponse",
         "Cancellation",
         "AdaptiveLaw",
