@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, overload
 
 from crankpin._support import files, inputs, labels, latex, optional, units
 from crankpin._support.record import AbsentItemError, Record, changed
+from crankpin._support.warnings import without_controls
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -233,7 +234,7 @@ def _inert(value: object) -> object:
     """Return a text that no terminal obeys and no spreadsheet runs; numbers as they are."""
     if not isinstance(value, str):
         return value
-    text = labels.without_controls(value)
+    text = without_controls(value)
     return f"'{text}" if FORMULA.match(text) and not NUMBER.fullmatch(text) else text
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from typing import TYPE_CHECKING, Any, Protocol
-from unicodedata import category
 
 import numpy as np
 
 from crankpin._support import units
+from crankpin._support.warnings import without_controls
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -56,8 +56,6 @@ TOLERANCES = {
 }
 """Figure that may spread → its name and unit."""
 
-KEPT = "\n\t"
-"""Control characters that texts of several lines have."""
 
 NEGLIGIBLE = 1e-6
 """Orders whose peaks are all below this part of a quantity's largest peak are not shown."""
@@ -108,17 +106,6 @@ def name_of(engine: Titled) -> str:
 def printable(text: str) -> str:
     """Return a text in one line, control characters as spaces."""
     return " ".join(without_controls(text).split())
-
-
-def without_controls(text: str) -> str:
-    """Return a text with spaces for control characters, which a terminal would obey.
-
-    So are other characters that end a line, turn the direction of writing or cannot be seen; lines
-    and tabs stay.
-    """
-    if text.isprintable():
-        return text
-    return "".join(c if c.isprintable() or c in KEPT or category(c) == "Zs" else " " for c in text)
 
 
 def orders_text(orders: Sequence[Order]) -> str:

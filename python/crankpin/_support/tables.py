@@ -11,6 +11,7 @@ import numpy as np
 from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Tabled
 from crankpin._support.record import AbsentItemError, Record, changed
+from crankpin._support.warnings import without_controls
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -284,7 +285,7 @@ class Table(Tabled):
             ).rstrip()
             for line in lines
         )
-        title, notes = labels.without_controls(self.title), self._notes(rows)
+        title, notes = without_controls(self.title), self._notes(rows)
         return "\n".join(filter(None, [title, *body, *notes]))
 
     def html(self, rows: int | None = None) -> str:
@@ -306,7 +307,7 @@ class Table(Tabled):
             "<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>"
             for row in self.cells()[:rows]
         )
-        title = "; ".join(labels.without_controls(self.title).split("\n"))
+        title = "; ".join(without_controls(self.title).split("\n"))
         caption = f"<caption>{html.escape(title)}</caption>"
         notes = "".join(f"<p>{html.escape(note)}</p>" for note in self._notes(rows))
         return f"<table>{caption}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{notes}"
@@ -316,7 +317,7 @@ class Table(Tabled):
         if rows is not None and rows < len(self):
             yield f"{rows} of {len(self)} rows"
         if self.note:
-            yield labels.without_controls(self.note)
+            yield without_controls(self.note)
         if any(each.least and TINY in each.cells()[:rows] for each in self.columns):
             yield f"{TINY}: not zero, but too small to matter."
         if self.loads:
@@ -365,7 +366,7 @@ def _times(value: Any, factor: float) -> Any:  # noqa: ANN401 - a cell
 
 def _cell(text: str) -> str:
     """Return a text as a cell of one line."""
-    return labels.without_controls(text).translate({10: " ", 9: " "})
+    return without_controls(text).translate({10: " ", 9: " "})
 
 
 def common_decimals(values: ArrayLike) -> int | None:

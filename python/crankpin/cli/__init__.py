@@ -37,8 +37,9 @@ if TYPE_CHECKING:
 
 ORDER = (
     "presets", "new", "balance", "explain", "compare", "sweep", "rank", "firing", "star", "torque",
-    "flywheel", "bearings", "mounts", "mounts-fit", "counterweights", "bob-weight", "card", "two-plane",
-    "match", "shafts", "design", "tolerances", "closed-form", "harmonics", "view", "gallery",
+    "flywheel", "bearings", "mounts", "mounts-fit", "counterweights", "bob-weight", "card",
+    "two-plane", "match", "shafts", "design", "tolerances", "closed-form", "harmonics", "view",
+    "gallery",
 )  # fmt: skip
 """Commands in the order of the help."""
 
