@@ -145,7 +145,7 @@ class OperatingMap(Tabled):
     """Largest less smallest speed over the mean speed: (n_rpm, n_load); None without inertia."""
     swing_deg: NDArray[np.float64] | None
     """Largest less smallest lead over an even rotation, degrees: (n_rpm, n_load); or None."""
-    loads_counted: str
+    gas: str
     """Gas pressure that counts, in words."""
 
     def __post_init__(self) -> None:
@@ -154,6 +154,11 @@ class OperatingMap(Tabled):
         if not isinstance(self.peaks, Mapping) or list(self.peaks) != list(LOADS):
             raise inputs.rejected("peaks", self.peaks, "use crankpin.operating_map")
         super().__post_init__()
+
+    @property
+    def loads_counted(self) -> str:
+        """Gas pressure that counts, in words: as :attr:`Engine.loads_counted`."""
+        return self.gas
 
     def peak(self, load: str) -> NDArray[np.float64]:
         """Return the largest magnitude of a load at each point, N: (n_rpm, n_load, n).
