@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture
 from crankpin.analysis.mounts.design_mounts import MountDesign
 from crankpin.analysis.mounts.design_responses import DesignResponses
 from crankpin.analysis.mounts.robustness import MountRobustness
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, set_title
 from crankpin.plot.mounts import AT
 from crankpin.plot.style import SERIES, foreground, muted, series
