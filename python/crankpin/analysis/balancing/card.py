@@ -195,7 +195,7 @@ class Card(Tabled):
         ]
         omega_squared = (self.rpm / labels.UNIT_RPM) ** 2
         for name in PLANE_VECTORS:
-            if not any(map(any, bob._parts(name))):
+            if not any(part.exists for part in bob._parts(name)):
                 continue
             longest, shortest = (omega_squared * each for each in bob.half_axes(name, factors))
             shortest[abs(shortest) < ROUNDING * longest.max()] = 0.0
