@@ -340,6 +340,8 @@ def _rod(
     if ends == (mass is not None) or (small is None) != (big is None):
         hint = "--small-end and --big-end, or else give --reciprocating-mass and --rotating-mass"
         hint = f"a rod needs --rod-mass, or both {hint}"
+        if mass is None:
+            raise inputs.faulty("--rod-mass", "is left out", hint)
         raise inputs.rejected("--rod-mass", mass, hint)
     if small is not None and big is not None:
         # To the nanogram, which leaves 0.2 + 0.555 its decimals.
