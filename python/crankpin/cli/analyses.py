@@ -115,7 +115,7 @@ def _closed_form(given: Given) -> str:
     "exercise",
     "a sheet for a pupil, with figures of its own, and its solution",
     option("topic", metavar="TOPIC", help=f"{', '.join(TOPICS)}"),
-    option("--seed", metavar="N", default="0", help="number of the sheet (default: %(default)s)"),
+    "--seed",
     option("--solution", action="store_true", help="print the solution too"),
     example="exercise v-angle --seed 7 --solution",
 )
