@@ -221,7 +221,7 @@ def test_a_trace_is_read_prepared_and_saved(capsys: CAPTURE, tmp_path: Path) -> 
     prepared = cp.prepare_trace(
         cp.Traces.load(file, strokes=4), cylinder, intake_pressure=0.95e5, lowpass_order=60
     )
-    typed = f"trace i4 {file} --bore 90mm --intake 0.95bar --lowpass 60 --save {out}"
+    typed = f"trace i4 {file} --bore 90mm --intake-pressure 0.95bar --lowpass-order 60 --save {out}"
     text = printed(capsys, typed)
     assert prepared.table.text() in text
     assert prepared.traces.spread(cylinder).text() in text

@@ -174,12 +174,14 @@ def fired(given: Given, name: str) -> tuple[Engine, str]:
     *(each._replace(group="the files") for each in OF_A_FILE),
     option("--motored", metavar="FILE", help="the same without combustion, which finds the TDC"),
     option("--loss-angle", metavar="ANGLE", help="from the motored peak to the TDC (default: 0.7)"),
-    option("--lowpass", metavar="ORDER", help="order at which a low-pass halves the amplitude"),
-    option("--intake", metavar="P", help="absolute pressure of the intake, Pa or 0.95bar"),
+    option(
+        "--lowpass-order", metavar="ORDER", help="order at which a low-pass halves the amplitude"
+    ),
+    option("--intake-pressure", metavar="P", help="absolute pressure of the intake, Pa or 0.95bar"),
     option("--exponent", metavar="N", help="of a polytropic compression, such as 1.3, or fit"),
     option("--compression-ratio", metavar="R", help="largest over smallest volume"),
     "--units --csv --plot --save --force",
-    example="trace i4 run7.csv --bore 86mm --intake 0.95bar --lowpass 60 --save run7.toml",
+    example="trace i4 run7.csv --bore 86mm --intake-pressure 0.95bar --save run7.toml",
     note="--save writes the engine with the mean of the prepared cycles.",
 )
 def _trace(given: Given) -> Shown:
@@ -196,8 +198,8 @@ def _trace(given: Given) -> Shown:
         cylinder,
         motored=None if motored is None else Traces.load(motored, **_read_as(given, strokes)),
         loss_angle_deg=given.optional("--loss-angle", "°"),
-        lowpass_order=given.optional("--lowpass"),
-        intake_pressure=given.optional("--intake", "Pa"),
+        lowpass_order=given.optional("--lowpass-order"),
+        intake_pressure=given.optional("--intake-pressure", "Pa"),
         exponent=exponent if exponent in (None, "fit") else given.number("--exponent"),
         compression_ratio=given.optional("--compression-ratio"),
     )
