@@ -9,6 +9,7 @@ import numpy as np
 from crankpin._support import inputs
 from crankpin._support.tables import Table
 from crankpin.analysis.comparison import compare
+from crankpin.analysis.exercises import TOPICS, exercise
 from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.star import star_diagram
 from crankpin.cli.arguments import command, option, rejected
@@ -54,7 +55,7 @@ def _compare(given: Given) -> Shown:
     "--cycle --firing-order --bore --crankcase",
     *OF_A_FILE,
     "--units",
-    option("--frame", choices=("table", "approximations")),
+    option("--frame", choices=("table", "approximations", "orders")),
     "--csv --plot",
     example="flywheel i4 --rpm 800 --irregularity 2% --bore 86mm",
 )
@@ -109,6 +110,21 @@ def _closed_form(given: Given) -> str:
     engine = given.engine("closed-form")
     quantity: Any = given.quantity([engine])
     return f"{engine.closed_form(given.whole('--order'), quantity)!r}\n"
+
+
+@command(
+    "exercise",
+    "a sheet for a pupil, with figures of its own, and its solution",
+    option("topic", metavar="TOPIC", help=f"{', '.join(TOPICS)}"),
+    "--seed",
+    option("--solution", action="store_true", help="print the solution too"),
+    example="exercise v-angle --seed 7 --solution",
+)
+def _exercise(given: Given) -> str:
+    topic = inputs.one_of("TOPIC", given.text("topic"), TOPICS)
+    sheet = exercise(topic, given.whole("--seed"))
+    solution = f"\n{sheet.solution}\n" if given.text("--solution") else ""
+    return f"{sheet}\n{solution}"
 
 
 @command(

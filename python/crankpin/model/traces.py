@@ -388,6 +388,7 @@ class Traces(Tabled, Input):
                 *shown[2:],
                 Column("unit", units),
             ),
+            row_units=units,
         )
 
     def resolution_error(
