@@ -428,7 +428,7 @@ def _by_banks(name: str, typed: str, banks: Sequence[int]) -> str:
 
     by_numbers = _LETTERS.sub(number, typed)
     if sorted(map(int, re.findall(r"\d+", by_numbers))) != [*range(1, len(banks) + 1)]:
-        # Rejected here: what follows would name numbers that nobody typed.
+        # Rejected here: what follows would name numbers that were not typed.
         raise rejected(name, typed, f"name each of the engine's {len(banks)} cylinders once")
     return by_numbers
 

@@ -280,7 +280,7 @@ def error_in_options(error: InputError, typed: Mapping[str, object]) -> InputErr
     # One that is left out is named only where that is the fault.
     among = _options(typed, left_out=error.value == "None")
     error.argument = re.sub(r"^\w+", lambda word: _option(word[0], among), error.argument)
-    if error.value == "None" and error.argument.startswith("--"):  # nobody typed None
+    if error.value == "None" and error.argument.startswith("--"):  # None was not typed
         value = " is left out: "
     error.hint = _hint_in_options(error.hint, typed)
     error.args = (error.argument + value + error.hint,)

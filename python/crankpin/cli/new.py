@@ -328,7 +328,8 @@ def _parts_of_one(
         hint = "a cylinder of your own needs --piston-mass, or --reciprocating-mass"
         raise inputs.faulty("--piston-mass", "is left out", hint)
     cylinder = Cylinder.from_rod(rod, stroke / 2.0, masses["--piston-mass"], **common)
-    return cylinder, rotating
+    # As weighed: that of the rod has the rounding of its centre.
+    return cylinder, masses["--big-end"] if rotating is None else rotating
 
 
 def _rod(
