@@ -119,6 +119,13 @@ class Exercise(Tabled):
     steps: tuple[Step, ...]
     """Steps of the solution."""
 
+    def __post_init__(self) -> None:
+        steps: object = self.steps
+        sound = isinstance(steps, tuple) and all(isinstance(each, Step) for each in steps)
+        if not (sound and steps):
+            raise inputs.rejected("steps", steps, "use cp.exercise")
+        super().__post_init__()
+
     @property
     def table(self) -> Table:
         """Answers that the sheet asks for, with their units, and the question."""
