@@ -461,8 +461,8 @@ def test_inertia_torque_is_not_counted_twice() -> None:
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"inertia": None}, "irregularity = None: give one of inertia, irr"),
-        ({"irregularity": 0.01}, "give one of inertia, irregularity"),
+        ({"inertia": None}, "irregularity = None: give one of inertia=…, irr"),
+        ({"irregularity": 0.01}, "give one of inertia=…, irregularity=…"),
         ({"inertia": 0.0}, "above 0"),
         ({"inertia": -1.0}, "zero or more"),
         ({"inertia": 1e-3}, "stops"),

@@ -159,8 +159,11 @@ def test_files_of_cycles_are_read_as_options_say(capsys: CAPTURE, tmp_path: Path
     mean = engine.with_cycle(cp.Cycle(theta, pressure)).balance(3000, orders=[2]).crank_torque.mean
     assert f"{mean:.2f}" in out
     for typed, hints in (
-        (f"bearings i4 {read}", ["--pressure-unit = None: ", "give one of Pa"]),
-        (f"torque i4 {read} --pressure-unit bar", ["--gauge = None: ", "give --gauge, or --abso"]),
+        (f"bearings i4 {read}", ["--pressure-unit is left out: ", "give one of Pa"]),
+        (
+            f"torque i4 {read} --pressure-unit bar",
+            ["--gauge is left out: ", "give --gauge, or --abso"],
+        ),
         ("torque i4 --tdc 3", ["--tdc needs a file of --cycle"]),
         ("torque i4 --cycle petrol --gauge", ["--gauge needs a file of --cycle"]),
         (f"torque i4 {read} --gauge --absolute", ["--gauge cannot be combined with --absolute"]),
@@ -179,12 +182,12 @@ def test_hints_can_be_followed(capsys: CAPTURE, tmp_path: Path) -> None:
         capsys, f"tolerances {file} --pin 0.1 --samples 50"
     )
     assert main(f"shafts {file} --ratios 2,-2".split()) == 2
-    assert "--rpm = None: " in capsys.readouterr().err
+    assert "--rpm is left out: " in capsys.readouterr().err
     assert "at 2000 rpm" in printed(capsys, f"shafts {file} --ratios 2,-2 --rpm 2000")
     bare = tmp_path / "bare.toml"
     cp.Engine.preset("i4").replace(firing_order="").save(bare)
     assert main(f"torque {bare}".split()) == 2
-    assert "--firing-order = None: " in capsys.readouterr().err
+    assert "--firing-order is left out: " in capsys.readouterr().err
     table = printed(capsys, "torque i4 --firing-order 1-3-4-2").splitlines()[1:]
     assert printed(capsys, f"torque {bare} --firing-order 1-3-4-2").splitlines()[1:] == table
 

@@ -58,7 +58,7 @@ class Column(Record):
         ]
 
     def _rounded(self, value: float | None) -> str:
-        if value is None:
+        if value is None or value != value:  # noqa: PLR0124 - NaN, of any size of number
             return "–"
         if isinstance(value, bool):
             return str(value)

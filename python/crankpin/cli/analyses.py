@@ -34,7 +34,8 @@ HIGHEST = 12
 def _compare(given: Given) -> Shown:
     engines = [*given.engines().values()]
     if len(engines) != 2:
-        raise inputs.faulty("NAME", f"stands for {len(engines)} engines", "give two")
+        several = "engine" if len(engines) == 1 else "engines"
+        raise inputs.faulty("NAME", f"stands for {len(engines)} {several}", "give two")
     before, after = engines
     rpm = given.number("--rpm", "rpm")
     comparison = compare(before, after, rpm, spectrum=given.spectrum(), **given.chosen())
@@ -100,15 +101,15 @@ def _star(given: Given) -> Shown:
     option(
         "--quantity",
         choices=("force", "moment"),
-        default="moment",
-        help="what the formula is of (default: %(default)s)",
+        help="what the formula is of (default: moment, or force if all cylinders are at one z)",
     ),
     "--reference-z --units",
     example="closed-form i3 --order 1",
 )
 def _closed_form(given: Given) -> str:
-    quantity: Any = given.text("--quantity")
-    return f"{given.engine('closed-form').closed_form(given.whole('--order'), quantity)!r}\n"
+    engine = given.engine("closed-form")
+    quantity: Any = given.quantity([engine])
+    return f"{engine.closed_form(given.whole('--order'), quantity)!r}\n"
 
 
 @command(
@@ -166,7 +167,7 @@ def _ratio(given: Given) -> tuple[float, float | None]:
     typed = given.text("ratio")
     stroke, length = given.optional("--stroke", "m"), given.optional("--rod-length", "m")
     if (typed is None) == (stroke is None or length is None):
-        raise inputs.faulty("RATIO", "= None", "give it, or --stroke and --rod-length")
+        raise inputs.faulty("RATIO", "is left out", "give it, or --stroke and --rod-length")
     if stroke is not None and length is not None:
         if not length > 0.0:
             raise rejected("--rod-length", given.text("--rod-length"), "give a length above 0")

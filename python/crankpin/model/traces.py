@@ -481,4 +481,8 @@ class Traces(Tabled, Input):
 
 def _deviation(values: NDArray[np.float64] | NDArray[np.complex128]) -> float:
     """Return the standard deviation of numbers or phasors; NaN of one."""
-    return float(np.std(values, ddof=1)) if len(values) > 1 else math.nan
+    if len(values) < 2:
+        return math.nan
+    if (values == values[0]).all():  # whose mean may be beside them by its rounding
+        return 0.0
+    return float(np.std(values, ddof=1))
