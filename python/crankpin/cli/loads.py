@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs, labels
-from crankpin._support.frames import Frames
 from crankpin._support.quantities import LOADS
 from crankpin._support.record import changed
 from crankpin.analysis.bearings import AXES, bearing_loads
@@ -203,11 +202,11 @@ def _trace(given: Given) -> Shown:
         exponent=exponent if exponent in (None, "fit") else given.number("--exponent"),
         compression_ratio=given.optional("--compression-ratio"),
     )
-    spread = prepared.traces.spread(cylinder)
-    frames = Frames({"table": lambda: prepared.table, "spread": lambda: spread})
     cylinders = [each.replace(bore=bore or each.bore or each.stroke) for each in engine.cylinders]
     with_mean = engine.replace(cylinder=cylinders).with_cycle(prepared.cycle)
-    return Shown(frames, prepared, engine=with_mean, note=f"{note}Read: {traces.origin}.\n")
+    return Shown(
+        prepared.frames, prepared, engine=with_mean, note=f"{note}Read: {traces.origin}.\n"
+    )
 
 
 def _loaded(given: Given, path: str, strokes: int) -> Cycle:
