@@ -183,7 +183,7 @@ class Table(Tabled):
         >>> import crankpin as cp
         >>> weights = cp.counterweights(cp.Engine.preset("single"), planes=[0])
         >>> weights.table.to("oz*in, in")["amount"].cells()
-        ['13.435']
+        ['13.436']
         """
         return self._in(units.read(units_shown, "units_shown"))
 
