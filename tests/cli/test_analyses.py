@@ -106,3 +106,14 @@ def test_exercise(capsys: CAPTURE) -> None:
     assert both == f"{sheet}\n\n{sheet.solution}\n"
     assert refused(capsys, "exercise v-angel").startswith("TOPIC = 'v-angel': give \"single\"")
     assert "--seed" in refused(capsys, "exercise single --seed 1.5")
+
+
+def test_a_plain_inertia_is_in_the_unit_of_the_help_whatever_the_others(capsys: CAPTURE) -> None:
+    line = "flywheel i4 --rpm 800 --bore 86mm --frame table --csv --inertia"
+    main(f"{line} 0.15 --units g,mm".split())
+    plain = capsys.readouterr().out
+    main(f"{line} 150000kg·mm² --units g,mm".split())
+    assert capsys.readouterr().out == plain
+    main(f"{line} 0.15".split())
+    irregularity = [text for text in capsys.readouterr().out.splitlines() if "irregul" in text]
+    assert irregularity[0] in plain

@@ -366,8 +366,11 @@ class Given:
         return number * factor
 
     def _plain(self, unit: str) -> Decimal:
-        """Return what a plain number of a unit stands for: in those of ``--units``."""
-        if unit not in UNITS:
+        """Return what a plain number of a unit stands for: in those of ``--units``.
+
+        Moments of inertia stay in kg·m², as the help has it: nobody's flywheel is in g·mm².
+        """
+        if unit not in UNITS or unit == "kg·m²":
             return Decimal(1)
         return units.exact(units.convert(unit, self._setting).unit) or Decimal(1)
 
