@@ -35,6 +35,8 @@ ALL = [*CASES, *MOUNTS]
 """Cases besides harmonics."""
 LEAST, MOST = -17.0, 0.0
 """Colours run over these powers of ten: from exact to wholly wrong."""
+COLOURS = "cividis"
+"""Dark blue for exact, yellow for wrong: for those who do not distinguish red from green."""
 SHARES = (0.0, 1e-12, 1 - 1e-9)
 """Offsets that the map shows, of the largest with which the crank turns; the tests have more."""
 
@@ -85,7 +87,7 @@ def draw(ax: Axes, found: Map) -> None:
     with np.errstate(divide="ignore"):
         powers = np.clip(np.log10(found.errors), LEAST, MOST)
     mesh = ax.pcolormesh(
-        np.ma.masked_invalid(powers), cmap="RdYlGn_r", vmin=LEAST, vmax=MOST, edgecolor="white"
+        np.ma.masked_invalid(powers), cmap=COLOURS, vmin=LEAST, vmax=MOST, edgecolor="white"
     )
     mesh.set_linewidth(0.5)
     for (row, column), error in np.ndenumerate(found.errors):
@@ -96,8 +98,7 @@ def draw(ax: Axes, found: Map) -> None:
         kept = math.isnan(error) or error <= found.promises[row]
         text = shown(error) if kept else f"✗ {shown(error)}"
         text = "\n".join(filter(None, [found.labels[row][column], text]))
-        dark = power < 0.85 * LEAST or power > 0.15 * LEAST
-        colour = "white" if dark else "black"
+        colour = "white" if power < 0.5 * LEAST else "black"
         place = {"ha": "center", "va": "center", "fontsize": 6.5}
         ax.text(column + 0.5, row + 0.5, text, color=colour, **place)
     ax.set_xticks(np.arange(len(found.methods)) + 0.5, found.methods, fontsize=7)
@@ -119,7 +120,7 @@ def picture(maps: list[Map], path: Path) -> None:
     axes = figure.subplots(2, 1, height_ratios=[0.22 * rows[0], 0.34 * rows[1]])
     for ax, found in zip(axes, maps, strict=True):
         draw(ax, found)
-    colours = ScalarMappable(Normalize(LEAST, MOST), mpl.colormaps["RdYlGn_r"])
+    colours = ScalarMappable(Normalize(LEAST, MOST), mpl.colormaps[COLOURS])
     bar = figure.colorbar(colours, ax=axes, location="bottom", shrink=0.5, aspect=60, pad=0.01)
     bar.set_label(
         "log₁₀ of the worst relative error; ✗: beyond what crankpin promises; hatched: refuses",

@@ -5,8 +5,11 @@ from __future__ import annotations
 import argparse
 import contextlib
 import hashlib
+import html
+import math
 import os
 import re
+import shutil
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
@@ -18,12 +21,15 @@ import matplotlib.pyplot as plt
 from crankpin import cli
 from crankpin._support.record import FieldsDocumented
 from crankpin.model import engine_files
-from crankpin.view import page
+from crankpin.view import gallery
 from docutils import nodes
+from matplotlib.text import Text
 from sphinx.ext.napoleon import NumpyDocstring
 from sphinx.util.docutils import SphinxDirective
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from sphinx.application import Sphinx
     from sphinx.writers.html5 import HTML5Translator
 
@@ -32,6 +38,17 @@ GALLERY = Path(__file__).parent / "gallery"
 TUTORIALS = Path(__file__).parent / "tutorials"
 """Folder of the notebooks' copies: Sphinx reads nothing outside its own."""
 NOTEBOOKS = Path(__file__).parents[1] / "notebooks"
+THUMBNAILS = GALLERY / "thumbnails"
+FLAT = 180.0
+LAYOUTS = ("inline", "vee", "flat", "W", "radial")
+REMAINS = {
+    "force-1": "a force of order 1",
+    "force-2": "a force of order 2",
+    "moment-1": "a moment of order 1",
+    "moment-2": "a moment of order 2",
+    "nothing": "none of these",
+}
+"""What may remain of an engine, by the keys of the gallery's filter."""
 RPM = 3000.0
 PRESET = """\
 # {engine.name}
@@ -60,6 +77,37 @@ title="{engine.name}, turning"></iframe>
 
 `engine.save_html("{name}.html")` writes the whole page, `engine.view()` shows it in a notebook;
 `compact=True` makes the small one.
+"""
+
+CARD = """\
+<li data-cylinders="{cylinders}" data-layout="{layout}" data-remains="{remains}">
+<a href="{name}.html"><img src="thumbnails/{name}.png" alt="" loading="lazy">
+<b>{title}</b> <span>{sentence}</span>
+<small>{force:.3g} F, {moment:.3g} mm · F</small></a></li>
+"""
+WALL = """\
+Every preset, `cp.Engine.preset(name)`: drawn, explained and turning. Below each, what is left of
+all orders together without gas pressure: the largest shaking force and, by its lever, the largest
+rocking moment, in first-order forces F of one piston.
+
+```{{raw}} html
+<form class="filters">
+<label>Cylinders <select name="cylinders"><option value="">any</option>{cylinders}</select></label>
+<label>Layout <select name="layout"><option value="">any</option>{layouts}</select></label>
+<label>What remains
+<select name="remains"><option value="">anything</option>{remains}</select></label>
+<output></output>
+<a href="turning/index.html">All of them, turning</a>
+</form>
+<ul class="wall">
+{cards}</ul>
+```
+
+```{{toctree}}
+:hidden:
+
+{listed}
+```
 """
 
 
@@ -153,33 +201,80 @@ def link_copies(app: Sphinx, page: str, text: list[str]) -> None:
 
 
 def make_gallery(app: Sphinx) -> None:
-    """Write a source page for each preset, and one that lists them."""
+    """Write a source page for each preset, and one on which all hang as on a wall."""
     GALLERY.mkdir(exist_ok=True)
     presets = cp.presets()
-    rows = []
+    cards = []
     for name, engine in presets.items():
-        rpm = page.speed_of(name, RPM)
+        rpm = gallery.speed_of(name, RPM)
+        balance = engine.balance(rpm=rpm)
+        explained = engine.explain()
         text = PRESET.format(
             name=name,
             engine=engine,
             description=_sentence(presets.descriptions[name]),
             rpm=rpm,
-            balance=engine.balance(rpm=rpm),
-            sentences="\n".join(f"* {each}" for each in engine.explain().sentences),
+            balance=balance,
+            sentences="\n".join(f"* {each}" for each in explained.sentences),
         )
         _write(GALLERY / f"{name}.md", text)
-        rows.append(
-            f"* [{engine.name}]({name}.md) (`{name}`): {_sentence(presets.descriptions[name])}"
+        if not (THUMBNAILS / f"{name}.png").exists():
+            _draw_thumbnail(engine, THUMBNAILS / f"{name}.png")
+        force = explained.unit * (rpm * math.pi / 30) ** 2
+        card = CARD.format(
+            name=name,
+            title=html.escape(engine.name),
+            cylinders=len(engine),
+            layout=_layout(name, engine),
+            remains=" ".join(_remaining(engine)) or "nothing",
+            sentence=html.escape(_sentence(presets.descriptions[name])),
+            force=balance.total.force.peak / force,
+            moment=balance.total.moment.peak / force * 1000,
         )
-    listed = "\n".join(rows)
-    names = "\n".join(presets)
-    _write(
-        GALLERY / "index.md",
-        "# Gallery\n\nEvery preset, `cp.Engine.preset(name)`: drawn, explained and turning.\n\n"
-        "```{raw} html\n<p><a href='turning/index.html'>All of them, turning</a></p>\n```\n\n"
-        f"{listed}\n\n"
-        f"```{{toctree}}\n:hidden:\n\n{names}\n```\n",
+        cards.append(card)
+    wall = WALL.format(
+        cylinders=_options(sorted({len(engine) for engine in presets.values()})),
+        layouts=_options(LAYOUTS),
+        remains="".join(f"<option value='{key}'>{name}</option>" for key, name in REMAINS.items()),
+        cards="".join(cards),
+        listed="\n".join(presets),
     )
+    _write(GALLERY / "index.md", f"# Gallery\n\n{wall}")
+
+
+def _options(values: Iterable[object]) -> str:
+    """Return the options of a list to choose from."""
+    return "".join(f"<option>{value}</option>" for value in values)
+
+
+def _draw_thumbnail(engine: cp.Engine, file: Path) -> None:
+    """Write a small picture of an engine's cross-section."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    axes = engine.plot(kind="section", theta_deg=40.0)
+    for text in axes.figure.findobj(Text):
+        text.set_visible(False)  # too small to read
+    axes.figure.savefig(file, dpi=60, bbox_inches="tight", transparent=True)
+    plt.close("all")
+
+
+def _layout(name: str, engine: cp.Engine) -> str:
+    """Return the kind of layout that the gallery's filter has."""
+    if name.startswith("radial"):
+        return "radial"
+    banks = sorted(set(engine.bank_deg.tolist()))
+    if len(banks) == 2:
+        return "flat" if banks[1] - banks[0] == FLAT else "vee"
+    return "inline" if len(banks) == 1 else "W"
+
+
+def _remaining(engine: cp.Engine) -> list[str]:
+    """Return which of the first two orders' forces and moments an engine has."""
+    vanishing = engine.vanishing_orders()
+    return [
+        key
+        for key in REMAINS
+        if key != "nothing" and int(key[-1]) not in getattr(vanishing, key.split("-")[0]).vanishing
+    ]
 
 
 def _sentence(text: str) -> str:
@@ -194,14 +289,15 @@ def _write(file: Path, text: str) -> None:
 
 
 def make_turning(app: Sphinx, failed: Exception | None) -> None:
-    """Write the pages in which the presets turn."""
+    """Write the pages in which the presets turn, and copy what hangs on the wall."""
     if failed is None and app.builder.format == "html":
+        shutil.copytree(THUMBNAILS, Path(app.outdir) / "gallery" / "thumbnails", dirs_exist_ok=True)
         folder = Path(app.outdir) / "gallery" / "turning"
-        page.save_gallery(folder, rpm=RPM)
+        gallery.save_gallery(folder, rpm=RPM)
         (folder / "compact").mkdir(exist_ok=True)
         for name, engine in cp.presets().items():
             engine.save_html(
-                folder / "compact" / f"{name}.html", rpm=page.speed_of(name, RPM), compact=True
+                folder / "compact" / f"{name}.html", rpm=gallery.speed_of(name, RPM), compact=True
             )
 
 

@@ -12,6 +12,8 @@ counter-clockwise. Classes of results are in :mod:`crankpin.types`.
 import crankpin._support.interrupted  # noqa: F401 - before the imports that take time
 from crankpin import types
 from crankpin._core import InputError, __version__
+from crankpin._support import drawing
+from crankpin._support.units import units
 from crankpin.analysis.arrangements.search import search_arrangements
 from crankpin.analysis.balancing.balance_shafts import balance_shafts
 from crankpin.analysis.balancing.balancer_options import balancer_options
@@ -21,11 +23,14 @@ from crankpin.analysis.balancing.two_plane import two_plane_correction
 from crankpin.analysis.bearings import bearing_loads
 from crankpin.analysis.comparison import compare
 from crankpin.analysis.design.design import design
+from crankpin.analysis.exercises import exercise
 from crankpin.analysis.firing import throws
 from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
 from crankpin.analysis.mounts.design_mounts import design_mounts
 from crankpin.analysis.mounts.powertrain import Powertrain
+from crankpin.analysis.operating_map import operating_map
+from crankpin.analysis.prepared_trace import prepare_trace
 from crankpin.analysis.ranking.rank import rank
 from crankpin.analysis.star import star_diagram
 from crankpin.analysis.sweeps.sweep import sweep
@@ -42,6 +47,7 @@ from crankpin.model.mounts import InertiaTrack, Mount, RigidBody
 from crankpin.model.presets import presets
 from crankpin.model.shafts import Shaft, Unbalance
 from crankpin.model.supports import Receptance, Subframe
+from crankpin.model.traces import Traces
 
 __all__ = [
     "Actuator",
@@ -59,6 +65,7 @@ __all__ = [
     "Rod",
     "Shaft",
     "Subframe",
+    "Traces",
     "Unbalance",
     "ValveTiming",
     "__version__",
@@ -70,9 +77,12 @@ __all__ = [
     "counterweights",
     "design",
     "design_mounts",
+    "exercise",
     "flywheel",
     "gas_torque_harmonics",
     "match_parts",
+    "operating_map",
+    "prepare_trace",
     "presets",
     "rank",
     "search_arrangements",
@@ -84,7 +94,15 @@ __all__ = [
     "torsional_excitation",
     "two_plane_correction",
     "types",
+    "units",
 ]
+
+
+def _import_pictures() -> None:
+    import crankpin.plot  # noqa: F401, PLC0415 - matplotlib is imported when used
+
+
+drawing.importers.append(_import_pictures)
 
 
 def __dir__() -> list[str]:

@@ -5,6 +5,7 @@ from crankpin.analysis.arrangements.search import Arrangement, ArrangementSearch
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.balancing.balancers import BalancerOption, BalancerOptions
 from crankpin.analysis.balancing.bob_weight import BobWeight
+from crankpin.analysis.balancing.card import Card
 from crankpin.analysis.balancing.counterweights import Counterweights
 from crankpin.analysis.balancing.fitted_shafts import BalanceShafts
 from crankpin.analysis.balancing.two_plane import TwoPlaneCorrection
@@ -12,6 +13,7 @@ from crankpin.analysis.bearings import BearingLoads
 from crankpin.analysis.closed_form import ClosedForm
 from crankpin.analysis.comparison import Comparison
 from crankpin.analysis.design.designs import Design, Designs
+from crankpin.analysis.exercises import Exercise
 from crankpin.analysis.explain import Explanation
 from crankpin.analysis.firing import Firing
 from crankpin.analysis.flywheel import Flywheel
@@ -25,6 +27,8 @@ from crankpin.analysis.mounts.response import MountResponse, OrderResponse, Poin
 from crankpin.analysis.mounts.robustness import MountRobustness
 from crankpin.analysis.mounts.static_state import StaticState
 from crankpin.analysis.mounts.vectors import VectorQuantity
+from crankpin.analysis.operating_map import OperatingMap
+from crankpin.analysis.prepared_trace import PreparedTrace
 from crankpin.analysis.quantity import OrderBalance, Quantity
 from crankpin.analysis.ranking.ranking import Choice, Ranking
 from crankpin.analysis.star import StarDiagram
@@ -47,6 +51,7 @@ __all__ = [
     "BearingLoads",
     "BobWeight",
     "Cancellation",
+    "Card",
     "Choice",
     "ClosedForm",
     "Comparison",
@@ -55,6 +60,7 @@ __all__ = [
     "DesignResponses",
     "Designs",
     "DrivenResponse",
+    "Exercise",
     "Explanation",
     "Firing",
     "Flywheel",
@@ -63,9 +69,11 @@ __all__ = [
     "MountModes",
     "MountResponse",
     "MountRobustness",
+    "OperatingMap",
     "OrderBalance",
     "OrderResponse",
     "PointMotion",
+    "PreparedTrace",
     "Quantity",
     "Ranking",
     "RollAxes",

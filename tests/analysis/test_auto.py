@@ -379,6 +379,17 @@ def test_a_sweep_of_one_point_is_a_balance() -> None:
         assert s.orders == i4.balance(RPM, orders="auto", rtol=rtol, torque=False).orders
 
 
+@pytest.mark.parametrize("rtol", [0.2, 1e-2, 1e-4])
+def test_orders_below_that_of_a_fast_shaft_are_bounded(rtol: float) -> None:
+    """All orders of one upright cylinder peak together."""
+    single = cp.Engine.inline(cp.Cylinder(0.05, 0.15, 0.5), throws_deg=[0], spacing=0.1)
+    engine = single.with_shafts([cp.Shaft(20, [cp.Unbalance(1e-6, 0.0)])])
+    b = engine.balance(RPM, rtol=rtol, torque=False)
+    s = cp.sweep(engine, rpm=[RPM, 0.5 * RPM], rtol=rtol, torque=False)
+    assert (s.orders, s.error_bound) == (b.orders, b.error_bound)
+    assert left_out(engine, b.orders)["force"] <= b.error_bound["force"] * (1.0 + 1e-12)
+
+
 def test_the_largest_rod_ratio_is_the_worst() -> None:
     """Sizes of all orders of force grow with the rod ratio; the series says so for every order."""
     ratios = np.linspace(0.01, 0.99, 99)

@@ -627,3 +627,67 @@ def test_rods_are_in_tension_between_narrow_peaks(seed: int) -> None:
                 for end in (low + turn, high + turn):
                     beside |= abs(grid - end) < 2e-9  # sides of knots; rounding of the ends
         np.testing.assert_array_equal(inside[~beside], (force < 0.0)[~beside])
+
+
+@pytest.mark.parametrize("name", ["v8-crossplane", "v6-60", "boxer-4", "radial-9", "i4"])
+def test_a_shared_crankpin_carries_all_of_its_rods(name: str) -> None:
+    """And a pin of one rod what that carries."""
+    cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+    engine = cp.Engine.preset(name, cylinder=cylinder).with_cycle(cp.Cycle.example())
+    loads = cp.bearing_loads(engine, 4000)
+    numbers = sorted(each for pin in loads.crankpins for each in pin)
+    assert numbers == [*range(1, len(engine) + 1)]
+    np.testing.assert_allclose(
+        loads.whole_crankpin.sum(axis=0), loads.crankpin.sum(axis=0), rtol=1e-12, atol=1e-8
+    )
+    peaks = loads.whole_crankpin_peak()
+    fine = cp.bearing_loads(engine, 4000, np.arange(0.0, 720.0, 0.01))
+    # Steps of 0.01° beside the peak of a curve, twice.
+    np.testing.assert_allclose(peaks, fine.whole_crankpin_peak(), rtol=1e-6)
+    alone = [k for k, pin in enumerate(loads.crankpins) if len(pin) == 1]
+    of_rods = loads.peak("crankpin")[[loads.crankpins[k][0] - 1 for k in alone]]
+    np.testing.assert_allclose(peaks[alone], of_rods, rtol=1e-6)
+    assert ("crankpins" in loads.frames) == (len(alone) < len(loads.crankpins))
+
+
+def test_specific_loads_are_over_width_and_diameter() -> None:
+    loads = cp.bearing_loads(I4, 6000)
+    expected = loads.peak("main") / (0.02 * 0.05)
+    np.testing.assert_allclose(loads.specific("main", width=0.02, diameter=0.05), expected)
+    widths = [0.02, 0.02, 0.04, 0.02, 0.02]
+    of_each = loads.specific("main", width=widths, diameter=0.05)
+    np.testing.assert_allclose(of_each[2], expected[2] / 2)
+    with pytest.raises(cp.InputError, match="load = 'side_thrust': give"):
+        loads.specific("side_thrust", width=0.02, diameter=0.05)
+    with pytest.raises(cp.InputError, match=r"width = \[0\.02, 0\.02\]: give metres above"):
+        loads.specific("main", width=[0.02, 0.02], diameter=0.05)
+    with pytest.raises(cp.InputError, match=r"diameter = 0: give metres above zero"):
+        loads.specific("main", width=0.02, diameter=0)
+    with pytest.warns(UserWarning, match="diameter = 50 m: was it given in millimetres"):
+        loads.specific("main", width=0.02, diameter=50)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_bearings_of_balance_shafts_carry_their_unbalances(seed: int) -> None:
+    """Forces and moments of both bearings are those of the unbalances, which turn together."""
+    rng = np.random.default_rng(seed)
+    weights = [
+        cp.Unbalance(amount, z=place, angle_deg=angle)
+        for amount, place, angle in zip(
+            rng.uniform(0, 0.01, 3), rng.uniform(-0.1, 0.4, 3), rng.uniform(0, 360, 3), strict=True
+        )
+    ]
+    ratio = int(rng.choice([-2, -1, 1, 2]))
+    engine = I4.with_shafts([cp.Shaft(ratio, weights, x=0.1), cp.Shaft(1, [], x=-0.1)])
+    front, rear = 0.02, 0.33
+    found = cp.bearing_loads(engine, 3000).shaft_bearings([front, rear])
+    force = sum(w.amount * np.exp(1j * np.radians(float(w.angle_deg))) for w in weights)
+    moment = sum(
+        (w.z - front) * w.amount * np.exp(1j * np.radians(float(w.angle_deg))) for w in weights
+    )
+    behind = moment / (rear - front)
+    speed = (ratio * 100 * np.pi) ** 2
+    np.testing.assert_allclose(found[0], [abs(force - behind) * speed, abs(behind) * speed])
+    assert not found[1].any()
+    with pytest.raises(cp.InputError, match=r"z = \[0\.1, 0\.1\]: give the places of two"):
+        cp.bearing_loads(engine, 3000).shaft_bearings([0.1, 0.1])

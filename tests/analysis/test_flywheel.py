@@ -519,3 +519,38 @@ def test_the_table_has_the_figures() -> None:
     )
     below = found.frames["approximations"]
     assert below["error"].values == (100 * (found.approximations[0] / found.irregularity - 1),)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_orders_and_swing_are_those_of_a_small_fluctuation(seed: int) -> None:
+    """Of T = Σ Tₖ cos(kθ + φₖ): δₖ = 2·Tₖ/(k·J·ω²), ψₖ = δₖ/k, to the size of the fluctuation."""
+    rng = np.random.default_rng(seed)
+    orders = [0.5, 1.0, 2.5, 4.0]
+    amplitudes, phases = rng.uniform(10, 100, 4), rng.uniform(0, 6.28, 4)
+    rpm, inertia = rng.uniform(500, 3000), 100.0
+
+    def torque(deg: NDArray[np.float64]) -> NDArray[np.float64]:
+        waves = np.cos(np.multiply.outer(np.radians(deg), orders) + phases)
+        return np.asarray(500.0 + waves @ amplitudes)
+
+    wheel = cp.flywheel(torque, rpm, inertia=inertia)
+    omega = rpm * np.pi / 30
+    expected = 2.0 * amplitudes / (np.array(orders) * inertia * omega**2)
+    # Squares of a fluctuation of up to 2e-3, and trapezes.
+    np.testing.assert_allclose(wheel.irregularity_of(orders), expected, rtol=5e-3)
+    fine = np.linspace(0.0, 4.0 * np.pi, 100_001)
+    lead = sum(
+        d / (2 * k) * -np.cos(k * fine + p)
+        for k, d, p in zip(orders, expected, phases, strict=True)
+    )
+    swing = float(np.degrees(np.ptp(lead)))
+    np.testing.assert_allclose(wheel.swing_deg, swing, rtol=5e-3)
+    assert wheel.electrical_swing_deg(4) == 2.0 * wheel.swing_deg
+    table = wheel.frames["orders"]
+    k = table["order"].values.index(2.5)
+    assert table["irregularity"].values[k] == 100.0 * wheel.irregularity_of(2.5)[0]
+    with pytest.raises(cp.InputError, match="poles = 3: give an even number"):
+        wheel.electrical_swing_deg(3)
+    turn = cp.flywheel(([0, 90, 360], [1, 2, 1]), 600, inertia=1.0)
+    with pytest.raises(cp.InputError, match=r"orders = 0\.5: give ones that come round in 360"):
+        turn.irregularity_of([0.5, 1])

@@ -56,6 +56,7 @@ RESULTS: dict[str, Any] = {
     "comparison": lambda e: cp.compare(e, e, 3000, orders=[1, 2]),
     "ranking": lambda e: cp.rank([e, e], rpm=3000, by="total.torque.peak", orders=[1, 2]),
     "bearings": lambda e: cp.bearing_loads(e, 3000, np.arange(0.0, 720.0, 10.0)),
+    "operating map": lambda e: cp.operating_map(e, [1000, 3000]),
     "options": lambda e: cp.balancer_options(e, 3000, by="total.torque.peak", most_shafts=1),
     "excitation": lambda e: cp.torsional_excitation(e, 3000, orders=[1, 2]),
 }
@@ -82,6 +83,7 @@ NOTHING_OF_GAS = {
     "Table",  # has its loads itself
     "ArrangementSearch", "BalanceShafts", "BobWeight", "Counterweights", "Match",
     "TwoPlaneCorrection",  # force and moment
+    "PreparedTrace",  # the pressure itself
     "VanishingOrders", "Verdicts",  # which orders of either there are
     "Firing",  # angles; those that do not fire are named
     "MountModes", "MountRobustness", "RollAxes", "StaticState",
@@ -241,7 +243,7 @@ def test_commands_say_what_they_count(
     name: str, engine: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     made, words = WORDS[engine]
-    if engine == "bare" and name == "torque":
+    if engine == "bare" and name in ("torque", "bearings"):
         words = "gas: example petrol, full load"  # without another cycle
     if engine != "bare" and name == "tolerances":
         return  # which do not count gas

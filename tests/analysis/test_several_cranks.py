@@ -247,6 +247,27 @@ def test_a_crank_without_cylinders_changes_nothing(seed: int) -> None:
     assert cp.bob_weight(after).table == cp.bob_weight(before).table
 
 
+@pytest.mark.parametrize("make", [random_engine, fired_engine])
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_balance_is_a_sweep_of_one_point(seed: int, make: Callable[[int], cp.Engine]) -> None:
+    """Its orders and bounds, and its parts to the last bit; along x and y to that of their sum."""
+    engine = make(seed)
+    for rtol in (1e-2, 1e-5, 1e-9):
+        b, s = engine.balance(RPM, rtol=rtol), cp.sweep(engine, rpm=RPM, rtol=rtol)
+        assert (s.orders, s.omitted, s.error_bound) == (b.orders, b.omitted, b.error_bound)
+    orders = (*ORDERS, 0.5, 1.5) if engine.fired else ORDERS
+    b, s = engine.balance(RPM, orders=orders), cp.sweep(engine, rpm=RPM, orders=orders)
+    for name in ("force", "moment"):
+        vectors, swept = getattr(b, name), getattr(s, name)
+        np.testing.assert_array_equal(swept.forward, vectors.forward)
+        np.testing.assert_array_equal(swept.backward, vectors.backward)
+        # ω² before or after the sum: two roundings.
+        size = np.abs(vectors.forward) + np.abs(vectors.backward)
+        assert (np.abs(swept.xy - vectors.xy) <= 5e-16 * size[:, None]).all()
+    for name in ("torque", "crank_torque"):
+        np.testing.assert_array_equal(getattr(s, name).phasor, getattr(b, name).phasor)
+
+
 # --- bounds about another point -------------------------------------------------------------------
 
 

@@ -503,9 +503,10 @@ def test_plain_numbers_are_in_the_units_asked_for(capsys: CAPTURE) -> None:
     ]  # fmt: skip
     typed = ["bob-weight", "v8-crossplane", "--oil"]
     in_grams = printed(capsys, *typed, "4", "--units", "g")
-    assert in_grams == printed(capsys, *typed, "4g") == printed(capsys, *typed, "0.004")
-    planes = ["counterweights", "v6-90", "--planes"]
-    assert printed(capsys, *planes, "0,200", "--units", "mm") == printed(capsys, *planes, "0,0.2")
+    assert in_grams == printed(capsys, *typed, "0.004kg", "--units", "g")
+    assert printed(capsys, *typed, "4g") == printed(capsys, *typed, "0.004")
+    planes, in_mm = ["counterweights", "v6-90", "--planes"], ["--units", "mm"]
+    assert printed(capsys, *planes, "0,200", *in_mm) == printed(capsys, *planes, "0,0.2m", *in_mm)
 
 
 def test_rank_of_engines_with_and_without_banks(capsys: CAPTURE) -> None:
@@ -590,7 +591,7 @@ def test_control_characters_do_not_reach_the_terminal(capsys: CAPTURE, tmp_path:
         ("balance i4 --rpm=--", "--rpm = --: give a value"),
         ("balance i4 --rpm 60mm", "--rpm = 60mm: give a number"),
         ("balance i4 --reference-z 3kg", "give a number, such as 12 or with a unit (mm, in)"),
-        ("balance i4 --reference-z 3 --units g,inch", "--units = g,inch: give a unit or two of kg"),
+        ("balance i4 --reference-z 3 --units g,cubit", "--units = 'g,cubit': give units of mass"),
         ("sweep v6-60 --bank-angle 10-170", "such as 10:170:10"),
         ("sweep v6-60 --rod-ratio 0.25..0.3", "such as 0.25:0.3:0.01"),
         ("sweep v6-60 --rpm 1000-6000", "such as 1000:6000:1000"),

@@ -92,6 +92,8 @@ def test_pictures_are_written(
     [
         (["--at", "1,2,3"], "--at = 1,2,3: needs --rpm"),
         (["--rpm", "800", "--torque", "3"], "--torque = 3: acts without --rpm alone"),
+        (["--rpm", "800:900:20", "--html", "x.html"], "begins at one speed: give --rpm one"),
+        (["--html", "x.txt"], "a page ends in .html"),
         (["--rpm", "800", "--misfire", "9"], "--misfire = 9: give a number from 1 to 4"),
         (["--rpm", "800", "--mount", "reer", "--plot", "x.png"], 'give "right", "left" or "rear"'),
         (["--rpm", "800", "--picture", "map", "--plot", "x.png"], "needs several speeds"),
@@ -99,6 +101,19 @@ def test_pictures_are_written(
 )
 def test_errors_name_the_option(car: Path, capsys: CAPTURE, typed: list[str], hint: str) -> None:
     assert hint in failed(capsys, car, *typed)
+
+
+@pytest.mark.parametrize("rpm", [None, 1200.0])
+def test_a_page_is_that_of_the_library(
+    car: Path, tmp_path: Path, capsys: CAPTURE, rpm: float | None
+) -> None:
+    ours, theirs = tmp_path / "ours.html", tmp_path / "theirs.html"
+    typed = [] if rpm is None else ["--rpm", rpm]
+    text = printed(capsys, car, "--html", theirs, *typed)
+    CAR.save_html(ours, **({} if rpm is None else {"rpm": rpm}))
+    assert theirs.read_bytes() == ours.read_bytes()
+    table = CAR.modes().table if rpm is None else CAR.response(rpm).table
+    assert table.text().splitlines()[2] in text
 
 
 def test_an_engine_without_mounts_says_so(tmp_path: Path, capsys: CAPTURE) -> None:

@@ -53,10 +53,11 @@ def test_two_strokes_take_the_example_of_a_two_stroke(capsys: CAPTURE) -> None:
 
 def test_bearings_are_those_of_the_library(capsys: CAPTURE) -> None:
     loads = cp.bearing_loads(cp.Engine.preset("v6-60"), rpm=4000)
-    assert printed(capsys, "bearings v6-60 --rpm 4000") == f"{loads.frames.text()}\n"
+    typed = "bearings v6-60 --rpm 4000 --cycle none"
+    assert printed(capsys, typed) == f"{loads.frames.text()}\n"
     for load, frame in (("main", "mains"), ("crankpin", "table")):
-        typed = f"bearings v6-60 --rpm 4000 --frame {frame} --csv"
-        head, *rows = csv.reader(io.StringIO(printed(capsys, typed)))
+        framed = f"{typed} --frame {frame} --csv"
+        head, *rows = csv.reader(io.StringIO(printed(capsys, framed)))
         column = head.index("largest N" if load == "main" else "crankpin N")
         assert [float(row[column]) for row in rows] == loads.peak(load).tolist()
 
@@ -71,6 +72,37 @@ def test_bearings_count_gas_where_a_cycle_is_given(capsys: CAPTURE, tmp_path: Pa
     cp.Engine.preset("i4", cylinder=cp.Cylinder(0.043, 0.145, 0.45)).save(without)
     out = printed(capsys, f"bearings {without} --cycle petrol")
     assert "taken to equal the stroke" in out
+
+
+def test_torque_and_bearings_have_one_default_and_say_it(capsys: CAPTURE, tmp_path: Path) -> None:
+    says = "Gas: example petrol, full load."
+    for command in ("torque", "bearings"):
+        for strokes in ("i4", "i3-two-stroke"):
+            out = printed(capsys, f"{command} {strokes}")
+            assert says in out
+            assert out == printed(capsys, f"{command} {strokes} --cycle petrol")
+            assert says not in printed(capsys, f"{command} {strokes} --cycle none")
+        assert "Gas: example diesel, idling." in printed(capsys, f"{command} i4 --cycle diesel:0")
+        part = printed(capsys, f"{command} i4 --cycle petrol:30%")
+        assert part == printed(capsys, f"{command} i4 --cycle petrol:0.3")
+        assert "Gas: example petrol, 30 % load." in part
+    bare = tmp_path / "bare.toml"
+    cp.Engine.preset("i4").replace(firing_order="").save(bare)
+    out = printed(capsys, f"bearings {bare}")
+    assert "Without gas pressure." in out
+    assert "It is not counted, since firing_order = None: " in out
+
+
+def test_what_was_read_of_a_file_is_printed(capsys: CAPTURE, tmp_path: Path) -> None:
+    theta = np.arange(0.0, 720.0, 2.0)
+    pressure = cp.Cycle.example().pressure_at(theta)
+    file = tmp_path / "bench.csv"
+    rows = np.c_[np.tile(theta / 9000.0, 1), pressure / 1e5 - 0.98]
+    np.savetxt(file, rows, delimiter=",", header="t [s],gauge bar")
+    out = printed(capsys, f"torque i4 --cycle {file} --atmosphere 0.98bar --recorded-rpm 1500")
+    assert "Read: 1 cycle, bar (header), gauge (header), 98000 Pa added, over time (header)" in out
+    engine = fired("i4", bore=0.086)
+    assert f"{engine.balance(3000).crank_torque.mean:.1f}" in out
 
 
 @pytest.mark.parametrize("on", ["crank", "block"])
@@ -162,6 +194,7 @@ def test_hints_can_be_followed(capsys: CAPTURE, tmp_path: Path) -> None:
     [
         ("torque i4 --cycle nowhere.csv", "nowhere.csv"),
         ("torque i4 --cycle gasoline", "--cycle = gasoline: give petrol or diesel for an example"),
+        ("torque i4 --cycle petrol:2", "--cycle = petrol:2: give a part of full load, 0"),
         ("torque i4 --crankcase 1.2bars", "--crankcase = 1.2bars: give a number"),
         ("torque i4 --orders 0.25", "--orders = 0.25: give multiples of crank speed"),
         ("bearings i4 --load piston", "--load"),

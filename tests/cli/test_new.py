@@ -9,6 +9,7 @@ from typing import Any
 
 import crankpin as cp
 import matplotlib as mpl
+import numpy as np
 import pytest
 from crankpin.cli import main
 from crankpin.cli.new import BUILDERS
@@ -139,6 +140,10 @@ LAYOUTS: dict[str, tuple[str, dict[str, Any]]] = {
     "firing-order": ("--firing-order 1-3-4-2", {"firing_order": "1-3-4-2"}),
     "lists": ("--tdc 0,120 --banks 90,100 --z 0,80mm",
               {"tdc_deg": [0, 120], "bank_deg": [90, 100], "z": [0, 0.08]}),
+    "banks": ("--banks 60,120,180 --throws 0,90",
+              {"bank_deg": [60, 120, 180], "throws_deg": [0, 90]}),
+    "w": ("--throws 0,180", {"bank_deg": "W", "throws_deg": [0, 180]}),
+    "x": ("--throws 0,180", {"bank_deg": "X", "throws_deg": [0, 180]}),
 }  # fmt: skip
 
 
@@ -150,6 +155,39 @@ def test_a_builder_is_a_kind(capsys: CAPTURE, kind: str) -> None:
     build = getattr(cp.Engine, BUILDERS[kind])
     expected = build(CYLINDER, **arguments, rotating_mass=0.4)
     assert made(capsys, f"{kind} {typed} {PARTS}") == expected
+
+
+def test_lists_have_a_figure_for_each_cylinder(capsys: CAPTURE) -> None:
+    common = "--bore 100mm --stroke 90mm --rod-length 150mm --spacing 0.1"
+    rods = "--small-end 165g --big-end 410g,411g,410g,410g"
+    engine = made(capsys, f"i4 {common} {rods} --piston-mass 590g,591g,589g,590g")
+    assert [each.piston_mass for each in engine.cylinders] == [0.590, 0.591, 0.589, 0.590]
+    np.testing.assert_allclose(engine.rotating_mass, [0.410, 0.411, 0.410, 0.410], rtol=1e-15)
+    vr6 = made(capsys, f"vr6 {common} --reciprocating-mass 500g,501g,500g,500g,500g,500g")
+    assert [each.reciprocating_mass for each in vr6.cylinders] == [0.5, 0.501] + [0.5] * 4
+    for line, flag in (
+        (f"i4 {common} --reciprocating-mass 1,1,1", "cylinder"),
+        (f"i4 {common} --piston-mass 1,1 {rods}", "--piston-mass"),
+    ):
+        assert main(["new", *line.split()]) == 2
+        assert flag in capsys.readouterr().err
+
+
+def test_layouts_as_wide_as_lists(capsys: CAPTURE) -> None:
+    v5 = made(capsys, "vee --bank-angle 75.5 --throws 0,104.5,0 --absent 6 --spacing 100mm,110mm")
+    assert v5.banks == {"right": (1, 3, 5), "left": (2, 4)}
+    np.testing.assert_allclose(v5.z, [0, 0, 0.1, 0.1, 0.21], rtol=1e-15)
+    four = made(
+        capsys,
+        "lists --tdc 0,180,180,0 --banks 90,90,90,90 --z 0,0.1,0,0.1 --cranks=100mm:0:-1 "
+        "--crank 0,0,1,1",
+    )
+    assert "ratio = -1" in four.to_toml()
+    assert made(capsys, "v8 --firing-order A1-B4-B2-A2-B3-A3-A4-B1").firing_order == (
+        "1-8-4-3-6-5-7-2"
+    )
+    assert main(["new", "lists", "--tdc", "0", "--banks", "90", "--z", "0", "--cranks", "1"]) == 2
+    assert "--cranks" in capsys.readouterr().err
 
 
 def test_angles_may_have_their_sign(capsys: CAPTURE) -> None:

@@ -226,6 +226,7 @@ RESULTS_MADE_ELSEWHERE = {
     "Comparison",
     "Counterweights",
     "Designs",
+    "Exercise",
     "Explanation",
     "Firing",
     "Flywheel",

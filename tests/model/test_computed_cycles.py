@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 import crankpin as cp
 import numpy as np
@@ -207,3 +207,30 @@ def test_examples_are_engines_of_their_kind() -> None:
     assert petrol.name == "example petrol, full load"
     with pytest.raises(cp.InputError, match='kind = \'gas\': give "petrol" or "diesel"'):
         cp.Cycle.example("gas")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("kind", ["petrol", "diesel"])
+@pytest.mark.parametrize("strokes", [4, 2])
+def test_examples_at_part_load_have_the_pressure_that_load_says(
+    kind: Literal["petrol", "diesel"], strokes: int
+) -> None:
+    """Imep is linear in load, from that of friction; peak, and nothing else, tells them apart."""
+    cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+    full = cp.Cycle.example(kind, strokes=strokes)
+    loads = [0.0, 0.1, 0.37, 0.999]
+    cycles = [cp.Cycle.example(kind, load=load, strokes=strokes) for load in loads]
+    expected = [1.2e5 + load * (full.imep(cylinder) - 1.2e5) for load in loads]
+    # The search ends at 1e-10.
+    np.testing.assert_allclose([each.imep(cylinder) for each in cycles], expected, rtol=1e-9)
+    peaks = [float(each.pressure.max()) for each in (*cycles, full)]
+    assert peaks == sorted(peaks)
+    assert [each.name.partition(", ")[2] for each in (*cycles, full)] == [
+        "idling", "10 % load", "37 % load", "99.9 % load", "full load"
+    ]  # fmt: skip
+    for each in (*cycles, full):
+        assert each.origin.startswith("Computed, not measured: Wiebe cycle, in SI units bore 0.086")
+        assert each.origin in repr(each)
+    assert len({each.origin for each in (*cycles, full)}) == 5
+    for wrong in (-0.1, 1.01, float("nan")):
+        with pytest.raises(cp.InputError, match=r"load = .*: give a part of full load"):
+            cp.Cycle.example(kind, load=wrong)

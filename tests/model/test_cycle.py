@@ -169,6 +169,45 @@ def test_error_estimates_of_random_tables_hold() -> None:
         assert error.max() <= cycle.resolution_error(CYLINDER, ORDERS).max()
 
 
+@pytest.mark.parametrize("seed", range(12))
+def test_bounds_of_random_tables_hold_whatever_is_between_points(seed: int) -> None:
+    """Pressure between two points that goes from one value to the other in any manner."""
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(40, 300))
+    theta = np.sort(rng.choice(np.arange(720.0), count, replace=False))
+    values = rng.uniform(2e6, 3.9e6, count)  # far from smooth, without a peak
+    powers = 10.0 ** rng.uniform(-1.0, 1.0, count)
+    edges = np.append(theta, theta[0] + 720.0)
+    closed = np.append(values, values[0])
+
+    def pressure(angle: Any) -> Any:
+        place = (np.degrees(angle) - theta[0]) % 720.0 + theta[0]
+        k = np.clip(np.searchsorted(edges, place, side="right") - 1, 0, count - 1)
+        share = (place - edges[k]) / (edges[k + 1] - edges[k])
+        return closed[k] + (closed[k + 1] - closed[k]) * share ** powers[k]
+
+    mean, phasors = again.torque_phasors(
+        pressure, np.radians(edges), np.array(ORDERS), CYLINDER.bore or 0.0,
+        (CYLINDER.crank_radius, CYLINDER.rod_length, CYLINDER.pin_offset), 101325.0,
+    )  # fmt: skip
+    cycle = cp.Cycle(theta, values)
+    bound = cycle.resolution_bound(CYLINDER)
+    assert (abs(cycle.torque_harmonics(CYLINDER, ORDERS) - phasors) < bound).all()
+    assert 2.0 * abs(cycle.mean_torque(CYLINDER) - mean) < bound
+
+
+def test_bounds_fall_with_the_step_and_are_none_of_polynomials() -> None:
+    bounds = [sampled(np.arange(0, 720, step)).resolution_bound(CYLINDER) for step in (4, 2, 1)]
+    np.testing.assert_allclose(np.divide(bounds[:2], bounds[1:]), 2.0, rtol=0.02)
+    assert cp.Cycle.example().resolution_bound(CYLINDER) == 0.0
+    # Closed or open, and with a jump, whose step is none.
+    closed = sampled(np.linspace(0, 720, 721)).resolution_bound(CYLINDER)
+    np.testing.assert_allclose(closed, bounds[2], rtol=1e-12)
+    corners = [0, 90, 180, 180, 360, 540, 540, 630]
+    square = cp.Cycle(corners, [2e6] * 3 + [1e6] * 3 + [2e6] * 2)
+    assert square.resolution_bound(CYLINDER) < 1e-6  # rounding of pressures that are equal
+
+
 def test_too_few_points_have_no_error_estimate() -> None:
     with pytest.raises(cp.InputError, match="has 12 points: give 16 or more for an estimate"):
         sampled(np.arange(0, 720, 60)).resolution_error(CYLINDER, 1)

@@ -98,24 +98,115 @@ def test_quoted_numbers_utf_16_and_names_above_units_are_read(tmp_path: Path) ->
         cp.Cycle.load(path)
 
 
-def test_several_cycles_in_columns_are_warned_of(tmp_path: Path) -> None:
-    random = np.random.default_rng(4)
-    cycles = PRESSURE * (1.0 + 0.05 * random.standard_normal((5, 1)))
-    volume = 5e-4 * (1.05 - np.cos(np.radians(THETA)))
-    columns = [THETA, *cycles, volume]
+RANDOM = np.random.default_rng(4)
+CYCLES = PRESSURE * (1.0 + 0.05 * RANDOM.standard_normal((5, 1)))
+VOLUME = 5e-4 * (1.05 - np.cos(np.radians(THETA)))
+
+
+def test_cycles_in_columns_are_all_that_are_alike(tmp_path: Path) -> None:
     path = tmp_path / "five.csv"
+    columns = [THETA, *CYCLES, VOLUME]
     np.savetxt(path, np.transpose(columns), delimiter=",", header="angle,abs Pa,Pa,Pa,Pa,Pa,m3")
-    with pytest.warns(UserWarning, match=r"4 more look like further cycles: .* columns=\(0, 2\)"):
-        cycle = cp.Cycle.load(path, **ABSOLUTE)
-    np.testing.assert_allclose(cycle.pressure, cycles[0])
+    traces = cp.Traces.load(path)
+    np.testing.assert_allclose(traces.pressure, CYCLES)
+    assert traces.origin.startswith(
+        "5 cycles in columns, 5 of 6 columns beside the first, Pa (header)"
+    )
+    cycle = cp.Cycle.load(path)
+    np.testing.assert_allclose(cycle.pressure, CYCLES.mean(axis=0))
+    assert cycle.origin == traces.origin
+    assert cycle.origin in repr(cycle)
     third = cp.Cycle.load(path, columns=(0, 3), **ABSOLUTE)
-    np.testing.assert_allclose(third.pressure, cycles[2])
-    np.savetxt(path, np.transpose([THETA, cycles[0], volume]), header="angle,abs Pa,m3")
+    np.testing.assert_allclose(third.pressure, CYCLES[2])
+    two = cp.Traces.load(path, columns=(0, 3, 5), **ABSOLUTE)
+    np.testing.assert_allclose(two.pressure, CYCLES[[2, 4]])
+    np.savetxt(path, np.transpose([THETA, CYCLES[0], VOLUME]), header="angle,abs Pa,m3")
     assert cp.Cycle.load(path, **ABSOLUTE).pressure.size == 360
-    below = [np.tile(THETA, 3), np.tile(PRESSURE, 3)]
-    np.savetxt(path, np.transpose(below), header="angle, absolute pressure Pa")
-    with pytest.raises(cp.InputError, match="several cycles below each other"):
+
+
+@pytest.mark.parametrize("title", ["", "Cycle {}", "angle;abs Pa"])
+@pytest.mark.parametrize("origin", [0.0, -360.0, 117.0])
+def test_cycles_in_blocks_of_rows_are_read(tmp_path: Path, title: str, origin: float) -> None:
+    path = tmp_path / "blocks.csv"
+    lines = ["angle deg;abs Pa"]
+    for k, cycle in enumerate(CYCLES):
+        lines += [title.format(k)] if k else []
+        lines += [f"{a + origin:.10g};{p:.12g}" for a, p in zip(THETA, cycle, strict=True)]
+    for cut in (1, 151):  # with the last block broken off
+        path.write_text("\n".join(lines[: len(lines) - cut + 1]), "utf-8")
+        traces = cp.Traces.load(path, tdc_deg=origin)
+        np.testing.assert_allclose(traces.theta_deg, THETA, atol=1e-9)
+        np.testing.assert_allclose(traces.pressure, CYCLES[: 5 - (cut > 1)], rtol=1e-10)
+        assert ("an incomplete one left out" in traces.origin) == (cut > 1)
+
+
+def test_blocks_on_other_grids_are_read_at_the_angles_of_the_first(tmp_path: Path) -> None:
+    path = tmp_path / "blocks.txt"
+    shifted = THETA + 0.7
+    values = 1e5 + 3.9e6 * np.exp(20 * (np.cos(np.radians((shifted - 12) / 2)) - 1))
+    rows = np.concatenate([np.c_[THETA, PRESSURE], np.c_[shifted, values]])
+    np.savetxt(path, rows, header="angle deg, absolute pressure Pa")
+    traces = cp.Traces.load(path)
+    # Cubics through four points 2° apart of a peak 26° wide; straight lines miss by 1e-3.
+    np.testing.assert_allclose(traces.pressure[1], PRESSURE, atol=2e-5 * PRESSURE.max())
+
+
+def test_cycles_in_a_row_are_read_over_angle_and_over_time(tmp_path: Path) -> None:
+    path = tmp_path / "row.csv"
+    angles = np.arange(0.0, 5 * 720.0, 2.0)
+    np.savetxt(path, np.c_[angles - 360.0, CYCLES.ravel()], header="angle deg, abs pressure Pa")
+    traces = cp.Traces.load(path, tdc_deg=-360)
+    np.testing.assert_allclose(traces.pressure, CYCLES, rtol=1e-12)
+    np.testing.assert_array_equal(traces.theta_deg, THETA)
+    assert traces.origin.startswith("5 cycles in a row")
+    # Sampled by a clock that knows nothing of the crank, at a speed that nobody states.
+    rpm, start = 1234.5, 0.013
+    times = np.arange(0.0, 5 * 120.0 / rpm, 2e-4)
+    at = np.radians(6.0 * rpm * times - 12.0) / 2.0
+    pressure = 1e5 + 3.9e6 * np.exp(20 * (np.cos(at) - 1))
+    for unit, scale in (("s", 1.0), ("ms", 1e3)):
+        rows = np.c_[(times + start) * scale, pressure / 1e5]
+        np.savetxt(path, rows, delimiter="\t", header=f"time [{unit}]\tp abs [bar]")
+        traces = cp.Traces.load(path, tdc_deg=6 * rpm * start)
+        assert f"over time (header) at {rpm:g} rpm" in traces.origin
+        at = np.radians(traces.theta_deg - 12.0) / 2.0
+        expected = 1e5 + 3.9e6 * np.exp(20 * (np.cos(at) - 1))
+        # The speed is that of compressions, whose times are interpolated linearly: 1e-6 of it.
+        assert abs(traces.pressure - expected).max() < 1e-3 * expected.max()
+
+
+def test_the_speed_of_a_short_record_over_time_is_asked_for(tmp_path: Path) -> None:
+    path = tmp_path / "one.csv"
+    seconds = THETA / (6.0 * 1500.0)
+    np.savetxt(path, np.c_[seconds, PRESSURE], delimiter=",", header="t [s],abs Pa")
+    with pytest.raises(cp.InputError, match=r"fewer than three cycles over time: .*recorded_rpm="):
         cp.Cycle.load(path)
+    cycle = cp.Cycle.load(path, recorded_rpm=1500)
+    np.testing.assert_allclose(cycle.theta_deg, THETA, atol=1e-9)
+    with pytest.raises(cp.InputError, match=r"recorded_rpm = 0\.0: give the crank speed"):
+        cp.Cycle.load(path, recorded_rpm=0)
+    many = np.c_[np.arange(5 * 360) * 2 / 9000, np.tile(PRESSURE, 5)]
+    np.savetxt(path, many, delimiter=",", header="t [s],abs Pa")
+    with pytest.warns(UserWarning, match="recorded_rpm = 3000: compressions .* 1500 rpm"):
+        cp.Cycle.load(path, recorded_rpm=3000)
+    with pytest.raises(cp.InputError, match="recorded_rpm = 3000: acts only beside a record"):
+        cp.Cycle.load(written(tmp_path, "angle,abs Pa"), recorded_rpm=3000)
+
+
+def test_long_files_are_read_in_pieces(tmp_path: Path) -> None:
+    """More than the 16 MiB that other files are bounded by, in either of the ways of reading."""
+    theta = np.arange(-360.0, 360.0, 0.1)
+    pressure = cp.Cycle.example().pressure_at(theta) / 1e5
+    block = "".join(f"{a:.1f};{p:.4f};\n" for a, p in zip(theta, pressure, strict=True))
+    plain = block.replace(";\n", "\n")
+    path = tmp_path / "long.csv"
+    for text, count in ((block, 20), (plain, 180)):
+        path.write_text("deg;bar abs\n" + text * count, "utf-8")
+        traces = cp.Traces.load(path)
+        assert traces.pressure.shape == (count, 7200)
+        # Four decimals of a bar are written.
+        assert abs(traces.pressure / 1e5 - pressure).max() < 1e-4
+    assert path.stat().st_size > 2**24
 
 
 def test_pressure_in_pa_under_another_heading_is_warned_of(tmp_path: Path) -> None:
@@ -197,5 +288,9 @@ def test_paths_are_checked_and_files_bounded(tmp_path: Path) -> None:
         cp.Cycle.load(tmp_path / "none.csv")
     endless = tmp_path / "endless.csv"
     endless.symlink_to("/dev/zero")
-    with pytest.raises(cp.InputError, match="more than 16777216 bytes"):
+    with pytest.raises(cp.InputError, match="NUL bytes and is no text"):
+        cp.Cycle.load(endless)
+    endless = tmp_path / "line.csv"
+    endless.write_text("1," * 2**20, "utf-8")
+    with pytest.raises(cp.InputError, match="line of more than 1048576 characters"):
         cp.Cycle.load(endless)

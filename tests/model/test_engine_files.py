@@ -5,19 +5,18 @@ from __future__ import annotations
 import json
 import re
 import tomllib
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
 import numpy as np
 import pytest
 from crankpin.model import engine_files
-from jsonschema import Draft202012Validator
 
 if TYPE_CHECKING:
     from pathlib import Path
 
 SCHEMA = engine_files.schema()
-VALIDATOR = Draft202012Validator(SCHEMA)
 ROD = cp.Rod(mass=0.6, inertia=0.0025, length=0.15, to_crankpin=0.05)
 PISTON_AND_ROD = cp.Cylinder.from_rod(ROD, crank_radius=0.045, piston_mass=0.4, bore=0.088)
 EVERYTHING = (
@@ -49,13 +48,21 @@ ENGINES = {
 }
 
 
+@cache
+def validator() -> Any:  # noqa: ANN401 - of a package without types
+    """What checks files; its package takes seconds to import, for which other tests do not wait."""
+    from jsonschema import Draft202012Validator  # noqa: PLC0415
+
+    return Draft202012Validator(SCHEMA)
+
+
 def mistakes(data: object) -> list[str]:
     """What the schema says of a file."""
-    return [each.message for each in VALIDATOR.iter_errors(data)]
+    return [each.message for each in validator().iter_errors(data)]
 
 
 def test_the_schema_is_one() -> None:
-    Draft202012Validator.check_schema(SCHEMA)
+    validator().check_schema(SCHEMA)
 
 
 @pytest.mark.parametrize("name", ENGINES)

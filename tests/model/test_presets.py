@@ -109,6 +109,14 @@ def test_no_two_have_the_same_name_or_title() -> None:
     assert len({cp.Engine.preset(name).name for name in NAMES}) == len(NAMES)
 
 
+def test_a_title_names_the_source_of_parts_only_while_they_are_its() -> None:
+    own = cp.Engine.preset("i4-ebook")
+    assert own.name == "Inline-4 (e-book)"
+    other = cp.Engine.preset("i4-ebook", cylinder=own.cylinders[0].replace(rod_length=3.0))
+    assert other.name == "Inline-4"
+    assert cp.Engine.preset("i4-ebook", cylinder=own.cylinders[0]).name == own.name
+
+
 def test_the_engines_of_the_sources_are_there() -> None:
     wanted = {"single", "i3", "i4", "i6", "boxer-4", "flat-4", "v-twin-90", "v6-60-ebook"}
     wanted |= {"v8-flatplane", "v8-crossplane", "v8-crossplane-ebook"}
@@ -398,8 +406,8 @@ def test_rows_of_a_radial() -> None:
     [
         ({"cylinders": 2}, "cylinders = 2: give three or more to each row; .* Engine.flat"),
         ({"cylinders": 7, "rows": 2, "spacing": 0.1}, "cylinders = 7: give three or more"),
-        ({"cylinders": 28, "rows": 4}, "rows = 4: give 1 or 2; Engine.from_lists"),
-        ({"cylinders": 14, "rows": 2}, "spacing = None: give the distance between the two rows"),
+        ({"cylinders": 28, "rows": 7}, "rows = 7: give 1 to 6; Engine.from_lists"),
+        ({"cylinders": 14, "rows": 2}, "spacing = None: give the distance between rows"),
         ({"cylinders": 7.5}, "cylinders = 7.5: give a whole number"),
         ({"cylinders": 10**9}, "cylinders = 1000000000: an engine has 1 to 1000"),
         ({"firing_order": "1-3-2"}, "firing_order = .*1-3-2"),

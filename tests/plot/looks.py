@@ -66,7 +66,10 @@ def on_dark_column(plot: Callable[..., Any]) -> Figure:
 
 
 def in_a_grid(plot: Callable[..., Any]) -> Figure:
-    """Draw a picture on four axes of a figure, or, if it has several panels, in two parts of it."""
+    """Draw a picture on two of four axes of a figure, or in two parts if it has several panels.
+
+    The two have neighbours, and an edge of the figure, on every side between them.
+    """
     drawn = plot()
     plt.close("all")
     figure = plt.figure(figsize=(7.0, 5.0), layout="constrained")
@@ -75,6 +78,6 @@ def in_a_grid(plot: Callable[..., Any]) -> Figure:
         for part in parts:
             assert {ax.get_figure(root=False) for ax in plot(figure=part).flat} == {part}
     else:
-        for ax in figure.subplots(2, 2).ravel():
+        for ax in figure.subplots(2, 2).diagonal():
             plot(ax=ax)
     return figure

@@ -63,6 +63,12 @@ MOUNTED = cp.Powertrain(
     ],
 )
 
+THETA = np.arange(-360.0, 360.0, 0.5)
+TRACES = cp.Traces(
+    THETA,
+    cp.Cycle.example().pressure_at(THETA - 0.5) * np.linspace(0.9, 1.1, 20)[:, np.newaxis] + 4e4,
+    name="run 7",
+)
 V10S = cp.design(
     10,
     layout="vee",
@@ -219,6 +225,10 @@ PICTURES: dict[str, Callable[..., Any]] = {
     "cycle-volume": lambda **place: cp.Cycle.example().plot(
         cylinder=cp.Cylinder(0.043, 0.145, 0.5, bore=0.086), **place
     ),
+    "traces": TRACES.plot,
+    "prepared-trace": lambda **place: cp.prepare_trace(
+        TRACES, cp.Cylinder(0.043, 0.145, 0.5, bore=0.086), tdc_deg=0.5, intake_pressure=0.95e5
+    ).plot(**place),
     "bearing-loads": LOADED.plot,
     "bearing-loads-curves": lambda **place: LOADED.plot(kind="curves", **place),
     "bearing-loads-crankpin": lambda **place: LOADED.plot(

@@ -214,7 +214,7 @@ def test_no_numbers_overlap(engine: cp.Engine, size: tuple[float, float], font: 
     with plt.rc_context({"font.size": font}):
         figure = plt.figure(figsize=size, layout="constrained")
         axes = engine.plot(figure=figure)
-        figure.canvas.draw()
+        figure.draw_without_rendering()
         for ax in axes:
             texts = [text for text in ax.texts if text.get_text()]
             boxes = [text.get_window_extent().padded(-0.5) for text in texts]

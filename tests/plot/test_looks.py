@@ -61,7 +61,7 @@ def test_picture_on_plain_axes(name: str) -> None:
 
 def legible(figure: Figure) -> Figure:
     """Return a figure whose texts are inside it, apart from each other, and seen."""
-    figure.canvas.draw()
+    figure.draw_without_rendering()
     panels = [ax for ax in figure.axes if ax.get_visible()]
     assert_legends_are_off_the_data(figure, panels)
     for ax in panels:

@@ -141,7 +141,7 @@ def test_errors_name_the_option(options: dict[str, Any], message: str) -> None:
 def test_angles_stand_beside_a_narrow_load() -> None:
     """A single's loads are a fifth as wide as high: away from the origin is along the curve."""
     single = cp.Engine.preset("single").with_cycle(cp.Cycle.example())
-    for panel in cp.bearing_loads(single, 6000).plot().flat:
+    for panel in cp.bearing_loads(single, 6000).plot(color="tab:blue").flat:
         wide, high = np.ptp([panel.get_xlim(), panel.get_ylim()], axis=1)
         assert wide == pytest.approx(0.75 * high)  # narrower ones have no room for angles
         places = [(text.xy, text.xyann) for text in panel.texts if text.get_text()]
@@ -150,3 +150,18 @@ def test_angles_stand_beside_a_narrow_load() -> None:
             assert up == 0.0
             # Of a point within rounding of the axis either side will do.
             assert aside * x > 0.0 or (aside != 0.0 and abs(x) < 1e-9 * high)
+
+
+def test_panels_are_coloured_by_crank_angle_with_one_bar() -> None:
+    v12 = cp.Engine.preset("v12-60").with_cycle(cp.Cycle.example())
+    loads = cp.bearing_loads(v12, 5000)
+    drawn = loads.plot()
+    figure = drawn.flat[0].figure
+    panels = [panel for panel in drawn.flat if panel.get_visible()]
+    assert len(figure.axes) == drawn.size + 1  # one bar
+    assert figure.axes[-1].get_ylim() == (0.0, 720.0)
+    for panel, vectors in zip(panels, loads.main, strict=True):
+        (curve,) = (each for each in panel.collections if isinstance(each, LineCollection))
+        np.testing.assert_array_equal([each[0] for each in curve.get_segments()], vectors[:-1])
+        np.testing.assert_allclose(np.diff(np.asarray(curve.get_array())), 1.0, rtol=1e-12)
+        assert not any(text.get_text() for text in panel.texts)

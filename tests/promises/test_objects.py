@@ -110,6 +110,7 @@ OBJECTS: dict[str, Any] = {
     "Cylinder": OFFSET,
     "Cycle": cp.Cycle(np.arange(0.0, 720.0, 20.0), np.linspace(1e5, 3e6, 36)),
     "CycleMap": cp.CycleMap([1000], [0, 1], [[cp.Cycle.example(), cp.Cycle.example("diesel")]]),
+    "Traces": cp.Traces(THETA, cp.Cycle.example().pressure_at(THETA) * [[0.99], [1.0], [1.02]]),
     "Engine": V6,
     "Engine of odd angles": ODD,
     "Balance": balance(),
@@ -117,6 +118,7 @@ OBJECTS: dict[str, Any] = {
     "Balance of a spectrum": balance(spectrum=SPECTRUM),
     "Comparison": cp.compare(V6, ODD, rpm=5000, orders=[1, 2]),
     "OrderBalance": balance()[1],
+    "Exercise": cp.exercise("v-twin", seed=3),
     "Explanation": V6.explain(5000),
     "VanishingOrders": V6.vanishing_orders(),
     "VanishingOrders of odd angles": ODD.vanishing_orders([1, 2], reference_z=0.3),
@@ -144,6 +146,9 @@ OBJECTS: dict[str, Any] = {
     ),
     "Flywheel": cp.flywheel(([0, 120, 360], [300, 500, 300]), rpm=600, inertia=2.0),
     "BobWeight": cp.bob_weight(V6, 0.52, oil=0.004),
+    "Card": cp.bob_weight(V6, parts={"piston": 0.5, "pin": 0.1}).card(
+        [0.52], rpm=5000, planes="ends", radius=0.07, balanced_to=1.0
+    ),
     "TwoPlaneCorrection": cp.two_plane_correction(
         [120, 80], [30, 200], measured_z=[0.0, 0.4], correction_z=[0.05, 0.35]
     ),
@@ -169,6 +174,18 @@ OBJECTS: dict[str, Any] = {
     "Balance, fired": FIRED.balance(3000),
     "BearingLoads, fired": cp.bearing_loads(FIRED, 3000, THETA),
     "Waveform, fired": FIRED.waveform(3000, theta_deg=THETA),
+    "OperatingMap": cp.operating_map(
+        I4,
+        [1000, 3000],
+        cycle=cp.CycleMap([1000, 3000], [0, 1], [[cp.Cycle.example(load=k) for k in (0, 1)]] * 2),
+        load=[0, 0.5, 1],
+        inertia=0.2,
+    ),
+    "PreparedTrace": cp.prepare_trace(
+        cp.Traces(THETA, cp.Cycle.example().pressure_at(THETA) * [[0.99], [1.0], [1.02]]),
+        OFFSET.replace(bore=0.09),
+        intake_pressure=1e5,
+    ),
     "Flywheel, fired": cp.flywheel(FIRED, 3000, inertia=0.1),
     "TorsionalExcitation, fired": cp.torsional_excitation(FIRED, 3000),
     "InertiaTrack": MOUNTED.mounts[0].track,
@@ -301,12 +318,14 @@ def test_arrays_are_read_only(name: str) -> None:
         "Sweep of one",
         "Balance",
         "OrderBalance",
+        "Exercise",
         "Explanation",
         "ClosedForm",
         "Comparison",
         "Choice",
         "Ranking",
         "Waveform",
+        "Card",
         "Counterweights",
         "Design",
     )
@@ -376,7 +395,8 @@ def test_completion_offers_what_is_public() -> None:
 # --- another question is another call -------------------------------------------------------------
 
 INPUTS = (
-    cp.Engine, cp.Cylinder, cp.Rod, cp.Shaft, cp.Unbalance, cp.Cycle, cp.CycleMap, cp.ValveTiming,
+    cp.Engine, cp.Cylinder, cp.Rod, cp.Shaft, cp.Unbalance, cp.Cycle, cp.CycleMap, cp.Traces,
+    cp.ValveTiming,
     cp.PortTiming, cp.types.Arrangement, cp.Actuator, cp.InertiaTrack, cp.Mount,
     cp.RigidBody, cp.Powertrain, cp.Subframe, cp.Receptance,
 )  # fmt: skip
@@ -401,6 +421,7 @@ FRESH: dict[str, Callable[[Any], Any]] = {
     "BalanceShafts": lambda s: cp.balance_shafts(s.engine, [2, -2]),
     "BearingLoads": lambda b: cp.bearing_loads(b.engine, b.rpm, b.theta_deg),
     "Comparison": lambda c: cp.compare(c.before.engine, c.after.engine, c.rpm, orders=[1, 2]),
+    "Exercise": lambda e: cp.exercise(e.topic, e.seed),
     "Explanation": lambda e: e.engine.explain(e.rpm),
     "Firing": lambda f: f.engine.firing(f.order, strokes=f.strokes),
     "StarDiagram": lambda d: cp.star_diagram(d.engine, d.orders, mode_shape=d.mode_shape),
@@ -807,6 +828,8 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
         "Counterweights",
         "BearingLoads",
         "BobWeight",
+        "Card",
+        "Exercise",
         "Explanation",
         "Flywheel",
         "Match",
@@ -1027,6 +1050,7 @@ def test_every_public_object_is_documented_and_the_main_ones_by_example() -> Non
         for kind in (
             cp.Cycle,
             cp.CycleMap,
+            cp.Traces,
             cp.Cylinder,
             cp.types.Balance,
             cp.types.OrderBalance,

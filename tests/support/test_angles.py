@@ -150,9 +150,12 @@ def test_singles_of_other_libraries_are_decimals_too() -> None:
 
 @pytest.mark.slow
 def test_a_vee_has_the_banks_that_are_typed() -> None:
-    """Each bank angle of whole hundredths, computed by the builder and typed in a list."""
+    """Bank angles of whole hundredths, computed by the builder and typed in a list.
+
+    Every seventh: banks computed in floats differ from those typed at 930 of these 2 572.
+    """
     different = []
-    for k in range(1, 18_000):
+    for k in range(1, 18_000, 7):
         vee = cp.Engine.vee(CYLINDER, bank_angle_deg=k / 100, throws_deg=[0], spacing=0.1)
         right, left = (float(Decimal(90) - side * Decimal(k) / 200) for side in (1, -1))
         typed = cp.Engine.from_lists(

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import crankpin as cp
 import pytest
-from crankpin.view.page import save_gallery
+from crankpin.view.gallery import save_gallery
 
 if TYPE_CHECKING:
     from pathlib import Path

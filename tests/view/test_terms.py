@@ -15,7 +15,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from crankpin.view.figures import Settings, figures
-from crankpin.view.page import speed_of
+from crankpin.view.gallery import speed_of
 from crankpin.view.terms import RodRatios
 from several_cranks import fired_engine, random_engine, size
 from view_engines import everything, radial

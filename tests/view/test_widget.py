@@ -247,6 +247,94 @@ def test_compact_widget(shown: Any) -> None:  # noqa: ANN401 - a fixture
     assert focused == "true"
 
 
+# --- mounts -------------------------------------------------------------------------------------
+
+POWERTRAIN = cp.Powertrain(
+    cp.Engine.preset("i4"),
+    cp.RigidBody(148.0, (0.02, 0.07, 0.09), (8.1, 7.6, 4.9)),
+    [
+        cp.Mount("right", (0.28, 0, -0.09), (22e4, 8e4, 8e4), tilt_deg=45, loss_factor=0.1),
+        cp.Mount("left", (-0.28, 0, -0.09), (22e4, 8e4, 8e4), tilt_deg=135, loss_factor=0.1),
+        cp.Mount("rear", (0, -0.12, 0.55), (10e4, 18e4, 10e4), loss_factor=0.1),
+    ],
+)
+
+
+def other_mounts(widget: Any) -> list[dict[str, Any]]:  # noqa: ANN401 - of a library that may lack
+    """Return the mounts of a widget, with another place and stiffness of the first."""
+    return [{"at": [0.3, 0.02, -0.1], "stiffness": [1e5, 2e5, 3e5]}, *widget.mounts[1:]]
+
+
+def frequencies(widget: Any) -> list[float]:  # noqa: ANN401 - as above
+    return [mode["frequency"] for mode in widget.core["modes"]]
+
+
+def test_mounts_move_the_library_s_numbers() -> None:
+    widget = POWERTRAIN.view(rpm=900)
+    assert widget.powertrain == POWERTRAIN
+    assert (widget.rpm, widget.order, widget.mode) == (900.0, 2, None)
+    widget.mounts = other_mounts(widget)
+    first = POWERTRAIN.mounts[0].replace(at=(0.3, 0.02, -0.1), dynamic_stiffness=(1e5, 2e5, 3e5))
+    moved = POWERTRAIN.replace(mounts=[first, *POWERTRAIN.mounts[1:]])
+    assert widget.powertrain == moved
+    assert frequencies(widget) == moved.modes().frequency.tolist()
+    motion = np.array(widget.core["parts"][0]["motion"]).view(complex)[:, 0]
+    np.testing.assert_array_equal(motion, moved.response(900, orders=[2]).motion[0])
+    widget.order = "all"
+    assert [part["order"] for part in widget.core["parts"]] == list(moved.response(900).orders)
+    for name, value, message in [
+        ("rpm", 0.0, r"^rpm = 0\.0: give a speed above zero"),
+        ("order", 3, "^order = 3"),
+        ("mode", 6, "^mode = 6"),
+        ("mounts", widget.mounts[:1], "^mounts has 1 entries"),
+        ("mounts", [{"at": (0, 0, 0)}] * 3, "^mounts = "),
+        ("mounts", [{"at": (0, 0, 0), "stiffness": (1, -1, 1)}] * 3, "^dynamic_stiffness"),
+    ]:
+        before = getattr(widget, name)
+        with pytest.raises(cp.InputError, match=message):
+            setattr(widget, name, value)
+        assert getattr(widget, name) == before
+
+
+def test_a_resonance_without_damping_has_no_numbers() -> None:
+    bare = POWERTRAIN.replace(mounts=[m.replace(loss_factor=0) for m in POWERTRAIN.mounts])
+    widget = bare.view(rpm=900)
+    known = []
+    for rpm in (900.0, 30.0 * float(bare.modes().frequency[3]), 1000.0):
+        widget.rpm = rpm
+        known.append(widget.core is not None)
+    assert known == [True, False, True]
+
+
+def test_page_of_mounts_and_python_move_each_other(shown: Any) -> None:  # noqa: ANN401 - a fixture
+    widget = POWERTRAIN.view(rpm=900)
+    page = shown(widget)
+    names = [f"mode-{k}-frequency" for k in range(1, 7)]
+    assert [values(page)[name] for name in names] == frequencies(widget)
+    widget.mounts = other_mounts(widget)
+    page.evaluate("mounts => host.receive({ mounts })", widget.mounts)
+    page.evaluate("core => host.receive({ core })", widget.core)
+    assert [values(page)[name] for name in names] == frequencies(widget)
+    assert page.evaluate("host.saved") == []
+    # They are the core's, and not the page's own beside them.
+    altered = json.loads(json.dumps(widget.core))
+    altered["modes"][0]["frequency"] = 1.25
+    page.evaluate("core => host.receive({ core })", altered)
+    assert values(page)["mode-1-frequency"] == 1.25
+    # Until Python has followed the page has its own.
+    page.get_by_label("right: x, mm", exact=True).fill("280")
+    [(name, mounts)] = page.evaluate("host.saved")
+    widget.mounts = mounts
+    assert (name, mounts[0]["at"]) == ("mounts", [0.28, 0.02, -0.1])
+    frequency = widget.powertrain.modes().frequency
+    own = [values(page)[name] for name in names]
+    np.testing.assert_allclose(own, frequency, rtol=1e-10)
+    page.get_by_role("button", name="mode 3").click()
+    assert page.evaluate("host.saved").pop() == ["mode", 2]
+    page.evaluate("host.cleanUp()")
+    assert page.evaluate("host.listening()") == 0
+
+
 def test_nothing_is_left_when_the_output_is_cleared(shown: Any) -> None:  # noqa: ANN401 - a fixture
     page = shown(V8.view())
     page.get_by_role("button", name="play").click()

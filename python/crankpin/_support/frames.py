@@ -8,8 +8,9 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, overload
 
-from crankpin._support import files, inputs, labels, latex, optional
+from crankpin._support import files, inputs, labels, latex, optional, units
 from crankpin._support.record import AbsentItemError, Record, changed
+from crankpin._support.warnings import without_controls
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -33,7 +34,7 @@ NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.ASCII | re.IGNOREC
 class Frames(Mapping[str, "Table"]):
     """Tables of a result by name, in the order in which they are shown.
 
-    A table is computed when it is read.
+    A table is computed when it is read, in the units that :func:`crankpin.units` has set.
     """
 
     def __init__(self, makers: Mapping[str, Callable[[], Table]]) -> None:
@@ -41,7 +42,8 @@ class Frames(Mapping[str, "Table"]):
 
     def __getitem__(self, name: str) -> Table:
         """Return the table of a name, or raise an InputError."""
-        return self._makers[inputs.one_of("frame", name, self._makers, AbsentItemError)]()
+        made = self._makers[inputs.one_of("frame", name, self._makers, AbsentItemError)]()
+        return made._in(units.current())
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._makers)
@@ -121,9 +123,9 @@ class Tabled(Record):
         """
         table = self.frames[frame]
         data = {head: list(each.values) for head, each in table._distinct()}
-        found: pd.DataFrame = optional.library("pandas").DataFrame(data)
-        found.attrs.update(labels.attributes(table.loads))
-        return found
+        data_frame: pd.DataFrame = optional.library("pandas").DataFrame(data)
+        data_frame.attrs.update(labels.attributes(table.loads))
+        return data_frame
 
     def to_xarray(self, *, frame: str | None = None) -> xr.Dataset:
         """Return a Dataset with units and named dimensions (needs xarray).
@@ -232,7 +234,7 @@ def _inert(value: object) -> object:
     """Return a text that no terminal obeys and no spreadsheet runs; numbers as they are."""
     if not isinstance(value, str):
         return value
-    text = labels.without_controls(value)
+    text = without_controls(value)
     return f"'{text}" if FORMULA.match(text) and not NUMBER.fullmatch(text) else text
 
 

@@ -7,8 +7,9 @@ import difflib
 import itertools
 import math
 import operator
+import re
 import reprlib
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
@@ -89,17 +90,17 @@ def array(name: str, values: ArrayLike) -> NDArray[np.float64]:
             raise TypeError("masked arrays are not supported; use .filled()")
         if type(values) is int or type(values) is float:
             return np.array(float(values))
-        found = _from_list(values)
-        if found.dtype.kind not in "fiu":
-            if found.dtype.kind != "O":
-                raise TypeError(f"{found.dtype} is not a real number")
+        numbers = _from_list(values)
+        if numbers.dtype.kind not in "fiu":
+            if numbers.dtype.kind != "O":
+                raise TypeError(f"{numbers.dtype} is not a real number")
             # Fractions and the like, each by its own conversion.
-            found = np.array([_real(value) for value in found.ravel()]).reshape(found.shape)
+            numbers = np.array([_real(value) for value in numbers.ravel()]).reshape(numbers.shape)
     except (TypeError, ValueError, OverflowError, RecursionError) as error:
         raise rejected(name, values, f"give numbers ({reason(error)})") from None
-    if found.size > MOST_NUMBERS:
-        raise _too_many(name, found.size)
-    return found if found.dtype == np.float64 and found.flags.aligned else copied(found)
+    if numbers.size > MOST_NUMBERS:
+        raise _too_many(name, numbers.size)
+    return numbers if numbers.dtype == np.float64 and numbers.flags.aligned else copied(numbers)
 
 
 def _length(values: object) -> int:
@@ -119,10 +120,10 @@ def contiguous(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def vector(name: str, values: ArrayLike) -> NDArray[np.float64]:
     """Return a contiguous one-dimensional array of floats; a scalar becomes a single value."""
-    found = array(name, values)
-    if found.ndim > 1:
-        raise faulty(name, f"has shape {found.shape}", "give one dimension")
-    return contiguous(found if found.ndim else found.reshape(1))
+    numbers = array(name, values)
+    if numbers.ndim > 1:
+        raise faulty(name, f"has shape {numbers.shape}", "give one dimension")
+    return contiguous(numbers if numbers.ndim else numbers.reshape(1))
 
 
 def _from_list(values: ArrayLike) -> NDArray[Any]:
@@ -200,10 +201,10 @@ def _real(value: Any) -> float:  # noqa: ANN401 - anything that float() takes
 
 def finite(name: str, value: object) -> float:
     """Return a finite float."""
-    found = number(name, value)
-    if not math.isfinite(found):
-        raise rejected(name, found, "give a finite number")
-    return found
+    real = number(name, value)
+    if not math.isfinite(real):
+        raise rejected(name, real, "give a finite number")
+    return real
 
 
 def optional_number(name: str, value: object) -> float | None:
@@ -270,14 +271,14 @@ def file_path(path: object, endings: tuple[str, ...], hint: str, name: str = "pa
 def whole(name: str, value: object, least: int | None = None) -> int:
     """Return a whole number that is at least another."""
     try:
-        found = _index(value)
+        integer = _index(value)
     except TypeError:
         raise rejected(name, value, "give a whole number") from None
-    if least is not None and found < least:
-        raise rejected(name, found, f"give a whole number, {least} or more")
-    if abs(found) > LARGEST_WHOLE:
-        raise rejected(name, found, "give a whole number of fewer digits")
-    return found
+    if least is not None and integer < least:
+        raise rejected(name, integer, f"give a whole number, {least} or more")
+    if abs(integer) > LARGEST_WHOLE:
+        raise rejected(name, integer, "give a whole number of fewer digits")
+    return integer
 
 
 def _index(value: Any) -> int:  # noqa: ANN401 - anything that operator.index() takes
@@ -304,17 +305,16 @@ def flag(name: str, value: object) -> bool:
 
 
 def one_of(
-    name: str, value: object, choices: Iterable[str], kind: type[InputError] = InputError
+    name: str, value: object, choices: Collection[str], kind: type[InputError] = InputError
 ) -> str:
     """Return one of a few words."""
-    listed = list(choices)
-    if not isinstance(value, str) or value not in listed:
-        if not listed:
-            raise rejected(name, value, "there is none; leave it out", kind)
-        *before, last = map(_quoted, listed)
-        hint = f"{', '.join(before)} or {last}" if before else last
-        raise rejected(name, value, f"give {hint}{nearest(value, listed)}", kind)
-    return value
+    if isinstance(value, str) and value in choices:
+        return value
+    if not choices:
+        raise rejected(name, value, "there is none; leave it out", kind)
+    *before, last = map(_quoted, choices)
+    hint = f"{', '.join(before)} or {last}" if before else last
+    raise rejected(name, value, f"give {hint}{nearest(value, choices)}", kind)
 
 
 def nearest(value: object, words: Iterable[str]) -> str:
@@ -322,8 +322,8 @@ def nearest(value: object, words: Iterable[str]) -> str:
     listed = list(words)
     if not isinstance(value, str) or len(listed) < MANY_WORDS:
         return ""
-    found = difflib.get_close_matches(value[:80], listed, 1)
-    return f"; did you mean {_quoted(found[0])}?" if found else ""
+    matches = difflib.get_close_matches(value[:80], listed, 1)
+    return f"; did you mean {_quoted(matches[0])}?" if matches else ""
 
 
 def _quoted(word: str) -> str:
@@ -340,7 +340,8 @@ def items(name: str, values: object, hint: str) -> list[Any]:
     if isinstance(values, (str, bytes)) or not isinstance(values, (list, tuple, Iterable)):
         raise rejected(name, values, hint)
     try:
-        listed = list(itertools.islice(values, MOST_ITEMS + 1))
+        is_endless = type(values) not in (list, tuple)
+        listed = list(itertools.islice(values, MOST_ITEMS + 1) if is_endless else values)
     except (TypeError, ValueError) as error:
         raise rejected(name, values, f"{hint} ({reason(error)})") from None
     if len(listed) > MOST_ITEMS:
@@ -379,19 +380,61 @@ def degrees(angle: Angle) -> float:
     return float(numerator) / float(denominator or 1)
 
 
-def firing_order(name: str, values: object) -> str:
-    """Return a firing order as text."""
+def firing_order(name: str, values: object, banks: Sequence[int] = ()) -> str:
+    """Return a firing order as text, by cylinder numbers.
+
+    Parameters
+    ----------
+    name
+        Name of the argument.
+    values
+        Numbers, or text: ``"1-3-4-2"``, ``"1342"``, or by banks, ``"A1-B1-A2"`` and ``"1L-2R"``.
+    banks
+        Bank of each cylinder, an index: where letters of banks can be read.
+    """
     hint = "give cylinder numbers, such as '1-3-4-2' or [1, 3, 4, 2]"
-    if isinstance(values, str):
-        return text(name, values, hint)
-    return "-".join(shorten(number) for number in items(name, values, hint))
+    if not isinstance(values, str):
+        return "-".join(shorten(number) for number in items(name, values, hint))
+    typed = text(name, values, hint)
+    plain = typed.strip()
+    if plain.isascii() and plain.isdigit() and sorted(plain) == list("123456789")[: len(plain)]:
+        return "-".join(plain)
+    return _by_banks(name, typed, banks) if banks and _LETTERS.search(plain) else typed
+
+
+_LETTERS = re.compile(
+    r"(?:(?P<before>[A-Za-z])(?P<number>\d+)|(?P<turned>\d+)(?P<after>[A-Za-z]))\b"
+)
+_SIDES = {"R": 0, "L": 1}
+"""Letter of a side, seen from the flywheel → index of the bank."""
+
+
+def _by_banks(name: str, typed: str, banks: Sequence[int]) -> str:
+    """Return a firing order by cylinder numbers: A is the bank of cylinder 1, 2 its second one."""
+    letters = {(m["before"] or m["after"]).upper() for m in _LETTERS.finditer(typed)}
+    order = dict.fromkeys([banks[0], *sorted(set(banks))])  # A first, then front to rear
+    of_letter = dict(zip("ABCDEFGH", order, strict=False))
+    if letters <= _SIDES.keys() and len(order) <= len(_SIDES):
+        of_letter = _SIDES
+
+    def number(match: re.Match[str]) -> str:
+        letter = (match["before"] or match["after"]).upper()
+        place = int(match["number"] or match["turned"])
+        members = [k for k, bank in enumerate(banks, start=1) if bank == of_letter.get(letter)]
+        if not 1 <= place <= len(members):
+            known = ", ".join(f"{each} ({banks.count(bank)})" for each, bank in of_letter.items())
+            raise rejected(name, typed, f"there is no {match[0]}; banks and cylinders are {known}")
+        return str(members[place - 1])
+
+    return _LETTERS.sub(number, typed)
 
 
 def order(value: object) -> Order:
     """Return an order, an int or a half as a float; a TypeError or ValueError for anything else."""
     if type(value) is int:
         return value
-    halves = 2.0 * _real(value)
+    # NumPy's doubles are floats, and lists of orders are read at every call.
+    halves = 2.0 * (float(value) if isinstance(value, float) else _real(value))
     if not halves.is_integer():
         raise ValueError("it is no multiple of 0.5")
     return int(halves) // 2 if halves % 2.0 == 0.0 else halves / 2.0

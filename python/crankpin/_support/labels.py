@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
-from unicodedata import category
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
+
+from crankpin._support import units
+from crankpin._support.warnings import without_controls
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
     from crankpin._support.inputs import Order
-    from crankpin.model.engine import Engine
 
 UNIT_RPM = 30.0 / math.pi
 """Crank speed at which ω is 1 rad/s."""
@@ -55,8 +56,6 @@ TOLERANCES = {
 }
 """Figure that may spread → its name and unit."""
 
-KEPT = "\n\t"
-"""Control characters that texts of several lines have."""
 
 NEGLIGIBLE = 1e-6
 """Orders whose peaks are all below this part of a quantity's largest peak are not shown."""
@@ -78,10 +77,28 @@ def value_text(dimension: str, value: float) -> str:
 
 def at_speed(rpm: float) -> str:
     """Return a crank speed: ``at 5000 rpm``; at 1 rad/s, that forces in N are kg·m over ω²."""
-    return "over ω² (N stand for kg·m)" if rpm == UNIT_RPM else f"at {rpm:g} rpm"
+    if rpm != UNIT_RPM:
+        return f"at {rpm:g} rpm"
+    force, unbalance = units.convert("N"), units.convert("kg·m")
+    if force.factor == unbalance.factor == 1.0:
+        return "over ω² (N stand for kg·m)"
+    ratio = unbalance.factor / force.factor
+    return f"over ω² (1 {force.unit} stands for {ratio:.6g} {unbalance.unit})"
 
 
-def name_of(engine: Engine) -> str:
+class Titled(Protocol):
+    """What tables and pictures name: an engine."""
+
+    @property
+    def title(self) -> str:
+        """Name, or what stands for it."""
+
+    @property
+    def loads_counted(self) -> str:
+        """Loads that results of it count, in words."""
+
+
+def name_of(engine: Titled) -> str:
     """Return the title of an engine in one line, without control characters."""
     return printable(engine.title)
 
@@ -89,17 +106,6 @@ def name_of(engine: Engine) -> str:
 def printable(text: str) -> str:
     """Return a text in one line, control characters as spaces."""
     return " ".join(without_controls(text).split())
-
-
-def without_controls(text: str) -> str:
-    """Return a text with spaces for control characters, which a terminal would obey.
-
-    So are other characters that end a line, turn the direction of writing or cannot be seen; lines
-    and tabs stay.
-    """
-    if text.isprintable():
-        return text
-    return "".join(c if c.isprintable() or c in KEPT or category(c) == "Zs" else " " for c in text)
 
 
 def orders_text(orders: Sequence[Order]) -> str:
@@ -149,7 +155,7 @@ def dead_text(cycles: Iterable[object]) -> str:
     return f"{verb.format(cut(', '.join(dead), 30))} not fire"
 
 
-def loads_of(engines: Sequence[Engine], titles: Sequence[str]) -> str:
+def loads_of(engines: Sequence[Titled], titles: Sequence[str]) -> str:
     """Return which gas pressure counts in results of several engines, once where it is the same."""
     texts = [engine.loads_counted for engine in engines]
     if len(set(texts)) == 1:

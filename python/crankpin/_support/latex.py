@@ -38,10 +38,10 @@ def escaped(text: str) -> str:
 
 def _cell(text: str) -> str:
     """Return a cell; a number with a sign or an exponent in mathematics."""
-    found = NUMBER.fullmatch(text)
-    if found is None:
+    match = NUMBER.fullmatch(text)
+    if match is None:
         return escaped(text)
-    figure, exponent = found.groups()
+    figure, exponent = match.groups()
     if exponent is None:
         return f"${text}$" if text.startswith("-") else text
     return rf"${figure} \times 10^{{{int(exponent)}}}$"

@@ -249,14 +249,14 @@ def read_only(values: Item) -> Item:
 
     Arrays are made read-only in place; lists become tuples, mappings read-only views of copies.
     """
-    found: Any = values
+    frozen: Any = values
     if isinstance(values, np.ndarray):
         values.setflags(write=False)
     elif type(values) in (tuple, list):
-        found = tuple(map(read_only, values))  # type: ignore[call-overload]
+        frozen = tuple(map(read_only, values))  # type: ignore[call-overload]
     elif isinstance(values, Mapping):
-        found = MappingProxyType({key: read_only(each) for key, each in values.items()})
-    return found  # type: ignore[no-any-return]
+        frozen = MappingProxyType({key: read_only(each) for key, each in values.items()})
+    return frozen  # type: ignore[no-any-return]
 
 
 def _plain(value: object) -> object:

@@ -8,18 +8,24 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Tabled
-from crankpin._support.record import AbsentItemError, Record
+from crankpin._support.record import AbsentItemError, Record, changed
+from crankpin._support.warnings import without_controls
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
 Label: TypeAlias = "str | Sequence[object]"
 """Text before a row's numbers, or several texts and numbers, a column each."""
 
+COUNTED = (
+    "order", "cylinder", "n_shafts", "n_cylinders", "rpm", "bank_angle_deg", "rod_ratio",
+    "pin_offset", "load", "theta_deg", "after/before", "at most",
+)  # fmt: skip
+"""Columns without unit in tables whose rows have units."""
 TINY = "~0"
 """What stands for a number that is not zero, but too small to matter."""
 
@@ -64,6 +70,19 @@ class Column(Record):
             return f"{value:.{self.digits}g}"
         return f"{round(value, self.decimals) + 0.0:.{self.decimals}f}"  # no minus before zero
 
+    def _in(self, setting: units.Setting) -> Column:
+        """Return the column in the units of a setting."""
+        shown = units.convert(self.unit, setting)
+        if shown.unit == self.unit:
+            return self
+        values = tuple(_times(each, shown.factor) for each in self.values)
+        decimals = self.decimals
+        if decimals is not None:
+            decimals = max(0, decimals - round(math.log10(shown.factor)))
+        return changed(
+            self, values=values, unit=shown.unit, decimals=decimals, least=self.least * shown.factor
+        )
+
     def _array(self) -> NDArray[Any]:
         """Return the values as an array, NaN where a number is missing."""
         return np.array([math.nan if each is None else each for each in self.values])
@@ -85,6 +104,8 @@ class Table(Tabled):
     """Line under the table in text and HTML."""
     loads: str = ""
     """Loads that its numbers count, where more could: the last line under the table."""
+    row_units: tuple[str, ...] = ()
+    """Unit of the numbers of each row in columns without unit; empty for none."""
 
     @classmethod
     def from_rows(
@@ -96,6 +117,7 @@ class Table(Tabled):
         decimals: int | None = None,
         note: str = "",
         loads: str = "",
+        row_units: Sequence[str] = (),
     ) -> Table:
         """Return a table of rows: labels before numbers; heads are names or (name, unit).
 
@@ -115,6 +137,8 @@ class Table(Tabled):
             Text below the table.
         loads : str, optional
             Loads that count, in words.
+        row_units : sequence of str, optional
+            Unit of the numbers of each row, in columns without unit.
 
         Returns
         -------
@@ -134,7 +158,69 @@ class Table(Tabled):
             Column(name, tuple(values), unit, decimals=decimals)
             for (name, unit), values in zip(heads[before:], numbers, strict=True)
         ]
-        return cls(title, tuple(columns), note, loads)
+        return cls(title, tuple(columns), note, loads, tuple(row_units))
+
+    def to(self, units_shown: str) -> Table:
+        """Return the table in other units, which ``cp.units`` lists.
+
+        Parameters
+        ----------
+        units_shown : str
+            Units separated by commas, such as ``"g, mm, lbf"`` or ``"oz·in"``.
+
+        Returns
+        -------
+        Table
+            The table, its numbers in these units; kinds that are not named stay as they are.
+
+        Raises
+        ------
+        InputError
+            If there is no such unit.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> weights = cp.counterweights(cp.Engine.preset("single"), planes=[0])
+        >>> weights.table.to("oz*in, in")["amount"].cells()
+        ['13.435']
+        """
+        return self._in(units.read(units_shown, "units_shown"))
+
+    def _in(self, setting: units.Setting) -> Table:
+        """Return the table in the units of a setting."""
+        if not setting:
+            return self
+        columns = tuple(each._in(setting) for each in self.columns)
+        shown = [units.convert(unit, setting) for unit in self.row_units]
+        if shown:
+            columns = tuple(self._by_row(each, shown) for each in columns)
+        first, *others = self.title.split("\n")
+        if set(self.row_units) == {first.rpartition(", ")[2]}:
+            first, _ = units.after_comma(first, setting)
+        name, colon, rest = first.partition(": ")  # of engines, which stay
+        title = "\n".join(
+            [name + colon + units.in_text(rest, setting)]
+            + [units.in_text(each, setting) for each in others]
+        )
+        return changed(
+            self, title=title, columns=columns, note=units.in_text(self.note, setting),
+            row_units=tuple(each.unit for each in shown),
+        )  # fmt: skip
+
+    def _by_row(self, column: Column, shown: Sequence[units.Converted]) -> Column:
+        """Return a column without unit, its numbers and units those of each row."""
+        if column.unit or column.name in COUNTED:
+            return column
+        values = []
+        for value, unit, new in zip(column.values, self.row_units, shown, strict=True):
+            each = value
+            if not isinstance(value, str):
+                each = _times(value, new.factor)
+            elif value == unit or (unit and value.endswith(f" {unit}")):
+                each = value.removesuffix(unit) + new.unit
+            values.append(each)
+        return changed(column, values=tuple(values))
 
     @property
     def table(self) -> Table:
@@ -188,6 +274,7 @@ class Table(Tabled):
         str
             The lines, joined.
         """
+        self = self._in(units.current())  # noqa: PLW0642
         lines = [[*map(_cell, self.header)], *self.cells()[:rows]]
         widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
         leftwards = [column.is_text and len(self) > 0 for column in self.columns]
@@ -198,7 +285,7 @@ class Table(Tabled):
             ).rstrip()
             for line in lines
         )
-        title, notes = labels.without_controls(self.title), self._notes(rows)
+        title, notes = without_controls(self.title), self._notes(rows)
         return "\n".join(filter(None, [title, *body, *notes]))
 
     def html(self, rows: int | None = None) -> str:
@@ -214,12 +301,13 @@ class Table(Tabled):
         str
             HTML.
         """
+        self = self._in(units.current())  # noqa: PLW0642
         head = "".join(f"<th>{html.escape(_cell(name))}</th>" for name in self.header)
         body = "".join(
             "<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>"
             for row in self.cells()[:rows]
         )
-        title = "; ".join(labels.without_controls(self.title).split("\n"))
+        title = "; ".join(without_controls(self.title).split("\n"))
         caption = f"<caption>{html.escape(title)}</caption>"
         notes = "".join(f"<p>{html.escape(note)}</p>" for note in self._notes(rows))
         return f"<table>{caption}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{notes}"
@@ -229,7 +317,7 @@ class Table(Tabled):
         if rows is not None and rows < len(self):
             yield f"{rows} of {len(self)} rows"
         if self.note:
-            yield labels.without_controls(self.note)
+            yield without_controls(self.note)
         if any(each.least and TINY in each.cells()[:rows] for each in self.columns):
             yield f"{TINY}: not zero, but too small to matter."
         if self.loads:
@@ -245,9 +333,40 @@ class Table(Tabled):
             yield head, each
 
 
+class Item(Tabled):
+    """Base class of the items of results: their table has a row for each figure of a field."""
+
+    def __repr__(self) -> str:
+        """Return a line, as there may be many in a list."""
+        return Record.__repr__(self)
+
+    def _figures(self) -> Mapping[str, object]:
+        """Return name → value, or several."""
+        return {each.name: getattr(self, each.name) for each in self._fields if each.repr}
+
+    @property
+    def table(self) -> Table:
+        """Fields and their values, a row each; of several values they are numbered from 1."""
+        rows = []
+        for name, value in self._figures().items():
+            several = isinstance(value, tuple)
+            values = value if isinstance(value, tuple) else (value,)
+            for k, one in enumerate(values, start=1):
+                plain = one is None or isinstance(one, (bool, int, float, str))
+                rows.append((f"{name} {k}" if several else name, one if plain else str(one)))
+        return Table.from_rows(type(self).__name__, ["field", "value"], rows)
+
+
+def _times(value: Any, factor: float) -> Any:  # noqa: ANN401 - a cell
+    """Return a number times a factor; what is no number as it is."""
+    if value is None or isinstance(value, (str, bool)):
+        return value
+    return value * factor
+
+
 def _cell(text: str) -> str:
     """Return a text as a cell of one line."""
-    return labels.without_controls(text).translate({10: " ", 9: " "})
+    return without_controls(text).translate({10: " ", 9: " "})
 
 
 def common_decimals(values: ArrayLike) -> int | None:

@@ -7,11 +7,13 @@ import sys
 import warnings
 from contextvars import ContextVar
 from typing import TYPE_CHECKING
-
-from crankpin._support import labels
+from unicodedata import category
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+KEPT = "\n\t"
+"""Control characters that texts of several lines have."""
 
 # Not the context manager of ``warnings``: that replaces the filters of all threads.
 _suppressed: ContextVar[tuple[str, ...]] = ContextVar("suppressed", default=())
@@ -38,8 +40,19 @@ def warn(message: str) -> None:
     # By module, since constructors that dataclasses make have no file.
     while frame.f_back is not None and _ours(frame.f_globals.get("__name__", "")):
         level, frame = level + 1, frame.f_back
-    warnings.warn(labels.without_controls(message), UserWarning, stacklevel=level)
+    warnings.warn(without_controls(message), UserWarning, stacklevel=level)
 
 
 def _ours(module: str) -> bool:
     return module.partition(".")[0] == "crankpin"
+
+
+def without_controls(text: str) -> str:
+    """Return a text with spaces for control characters, which a terminal would obey.
+
+    So are other characters that end a line, turn the direction of writing or cannot be seen; lines
+    and tabs stay.
+    """
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() or c in KEPT or category(c) == "Zs" else " " for c in text)

@@ -8,11 +8,10 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.quantities import KINDS, QUANTITIES
-from crankpin._support.record import changed
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.by_order import ByOrder
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.quantity import ALL, one_order
 from crankpin.analysis.request import Request, check_request, engine_core
 
@@ -42,9 +41,9 @@ def balance(
 ) -> Balance:
     """Return the balance of an engine; :meth:`Engine.balance` documents the arguments."""
     request = Request.checked(orders=orders, rtol=rtol, spectrum=spectrum, torque=torque)
-    found = Balance(engine, inputs.number("rpm", rpm), request)
-    inputs.warn_of_units(mean_piston_speed(engine, found.rpm))
-    return found
+    whole = Balance(engine, inputs.number("rpm", rpm), request)
+    inputs.warn_of_units(mean_piston_speed(engine, whole.rpm))
+    return whole
 
 
 def over_square(engine: Engine, orders: Sequence[Order]) -> Balance:
@@ -92,22 +91,19 @@ class Balance(ByOrder[float]):
     """Sweep, and place in it, whose arrays it reads; None where it was computed for itself."""
 
     def __post_init__(self) -> None:
-        check_request(self.request, "Engine.balance")
-        source: Any = self.within[0] if self.within is not None else self._compute_core()
-        self.__dict__.update(
-            _orders=tuple(source.orders), _omitted=tuple(source.omitted), _source=source
-        )
-
-    def _compute_core(self) -> _core.Balance:
-        request = self.request
-        return _core.balance(
-            engine_core(self.engine),
-            self.rpm,
-            request.orders,
-            request.rtol,
-            request.reference_z,
-            request.pairs,
-            request.torque,
+        request = check_request(self.request, "Engine.balance")
+        self.__dict__["_core"] = (
+            _core.balance(
+                engine_core(self.engine),
+                self.rpm,
+                request.orders,
+                request.rtol,
+                request.reference_z,
+                request.pairs,
+                request.torque,
+            )
+            if self.within is None
+            else self.within[0]
         )
 
     @property
@@ -124,7 +120,7 @@ class Balance(ByOrder[float]):
         """
         if self.within is not None:
             return self.within[0].error_bound
-        return self.request.bounds(self.__dict__["_source"].error_bound)
+        return self.request.bounds(self.__dict__["_core"].error_bound)
 
     @property
     def reference_z(self) -> float:
@@ -143,11 +139,10 @@ class Balance(ByOrder[float]):
 
     def _with_request(self, request: Request) -> Self:
         """Return the same balance by another request."""
-        check_request(request, "Engine.balance")
         within = self.within
         if within is not None:
             within = (within[0]._with_request(request), within[1])
-        return changed(self, request=request, within=within)
+        return type(self)(self.engine, self.rpm, request, within)
 
     def _proved_zero(self, quantity: str, order: Order) -> bool:
         """Return whether a quantity of one order is proved to vanish."""
@@ -174,7 +169,7 @@ class Balance(ByOrder[float]):
         return part
 
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
-        core: _core.Balance = self.__dict__["_source"]
+        core: _core.Balance = self.__dict__["_core"]
         if what == "phasors":
             return core.phasors(quantity, False)
         if what in labels.TURNING:
@@ -309,6 +304,6 @@ class Balance(ByOrder[float]):
                 Column(symbol, (*means, *values), kind.unit, least=least)
                 for symbol, values in zip(kind.symbols, rows.T.tolist(), strict=True)
             ]
-        given = " of the orders given" if self.request.orders is not None else ""
-        title = f"{labels.name_of(self.engine)} {labels.at_speed(self.rpm)}: peaks{given}"
+        which = " of the orders given" if self.request.orders is not None else ""
+        title = f"{labels.name_of(self.engine)} {labels.at_speed(self.rpm)}: peaks{which}"
         return Table(title, tuple(columns), labels.not_shown(left_out), loads=self.loads_counted)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, overload
 
@@ -10,13 +10,15 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels, optional
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import LOADS
 from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
+from crankpin._support.warnings import warn
 from crankpin.analysis.balance import mean_piston_speed
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
+from crankpin.model.crankpins import crankpins
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -28,6 +30,8 @@ if TYPE_CHECKING:
 
 AXES = ("engine", "crank", "rod")
 """Axes in which vectors are given: fixed in the engine, or turning with crank or rod."""
+LARGEST_BEARING = 10.0
+"""Width or diameter of a bearing, in crank radii, above which it is not in metres: pins have 1."""
 PARTS = ("crank", "crankcase")
 """Parts that are cut along z."""
 
@@ -87,9 +91,9 @@ def bearing_loads(engine: Engine, rpm: float, theta_deg: ArrayLike | None = None
     >>> (loads.peak("main") / 1e3).round(1)
     array([5. , 2.4, 9.9, 2.4, 5. ])
     """
-    found = BearingLoads(engine, rpm, inputs.crank_angles(theta_deg), theta_deg is None)
-    inputs.warn_of_units(mean_piston_speed(engine, found.rpm))
-    return found
+    loads = BearingLoads(engine, rpm, inputs.crank_angles(theta_deg), theta_deg is None)
+    inputs.warn_of_units(mean_piston_speed(engine, loads.rpm))
+    return loads
 
 
 class BearingLoads(Tabled):
@@ -99,7 +103,7 @@ class BearingLoads(Tabled):
     crank or the rod. Made by :func:`crankpin.bearing_loads`.
 
     Main bearings, walls and heads push the engine block as a whole as the shaking force of
-    :meth:`Engine.waveform` does (with that of the balance shafts, whose bearings are not computed).
+    :meth:`Engine.waveform` does (with that of the balance shafts, in :meth:`shaft_bearings`).
 
     Examples
     --------
@@ -216,6 +220,126 @@ class BearingLoads(Tabled):
         The same force acts on the cylinder head away from the crank.
         """
         return self.read("gas_force")
+
+    @cached_property
+    def crankpins(self) -> tuple[tuple[int, ...], ...]:
+        """Numbers of the cylinders whose rods share each crankpin, from front to flywheel."""
+        return tuple(each.cylinders for each in crankpins(self.engine))
+
+    @cached_property
+    def whole_crankpin(self) -> NDArray[np.float64]:
+        """Force of all rods together on each crankpin along x and y, N: (n_crankpins, n_theta, 2).
+
+        What the pin itself carries, in the order of ``crankpins``; each rod's bearing carries its
+        own part, ``crankpin``.
+        """
+        return read_only(self._of_pins(self.crankpin))
+
+    def _of_pins(self, loads: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.array(
+            [sum(loads[number - 1] for number in numbers) for numbers in self.crankpins]
+        )
+
+    def whole_crankpin_peak(self) -> NDArray[np.float64]:
+        """Return the largest magnitude of the force on each crankpin as a whole, N.
+
+        Of the whole cycle, at any angle: that of the crank angles, and between their neighbours
+        at steps a hundred times smaller; where crank angles were given, at these.
+
+        Returns
+        -------
+        ndarray of float, shape (n_crankpins,)
+            Largest magnitudes, N.
+        """
+        sizes = np.hypot(self.whole_crankpin[..., 0], self.whole_crankpin[..., 1])
+        largest = sizes.max(axis=1, initial=0.0)
+        if self.at_any_angle:
+            for pin, at in enumerate(self.theta_deg[sizes.argmax(axis=1)]):
+                fine = at + np.linspace(-1.0, 1.0, 201)
+                loads = dict(zip(LOADS, self._core.loads(fine), strict=True))["crankpin"]
+                x, y = self._of_pins(loads)[pin].T
+                largest[pin] = max(largest[pin], float(np.hypot(x, y).max()))
+        return np.asarray(largest)
+
+    def specific(self, load: str, *, width: ArrayLike, diameter: ArrayLike) -> NDArray[np.float64]:
+        """Return the largest load of each bearing over its projected area, Pa: (n,).
+
+        Parameters
+        ----------
+        load : str
+            ``"crankpin"``, ``"wrist_pin"`` or ``"main"``.
+        width, diameter : float or array_like, shape (n,)
+            Width and diameter of the bearings, m; of all, or of each.
+
+        Returns
+        -------
+        ndarray of float, shape (n,)
+            Specific loads, Pa: the largest load over width times diameter.
+
+        Raises
+        ------
+        InputError
+            If the load is of no bearing, or there is not one figure above zero for each.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> loads = cp.bearing_loads(cp.Engine.preset("i4"), rpm=6000)
+        >>> (loads.specific("main", width=0.022, diameter=0.054) / 1e6).round(1)  # MPa
+        array([4.2, 2. , 8.3, 2. , 4.2])
+        """
+        name = inputs.one_of("load", load, _VECTORS)
+        peaks = self.peak(name)
+        area = np.ones(len(peaks))
+        for argument, given in (("width", width), ("diameter", diameter)):
+            sizes = np.array(inputs.per_item(argument, given, len(peaks)))
+            if len(sizes) != len(peaks) or not (np.isfinite(sizes) & (sizes > 0.0)).all():
+                hint = f"give metres above zero, one or one for each of {len(peaks)} bearings"
+                raise inputs.rejected(argument, given, hint)
+            if sizes.max() > LARGEST_BEARING * self.engine.cylinders[0].crank_radius:
+                warn(f"{argument} = {sizes.max():g} m: was it given in millimetres?")
+            area *= sizes
+        return np.asarray(peaks / area)
+
+    def shaft_bearings(self, z: Sequence[float]) -> NDArray[np.float64]:
+        """Return the load of the two bearings of each balance shaft, N: (n_shafts, 2).
+
+        Each unbalance is carried by both in inverse proportion to its distances, as that of a
+        straight stiff shaft is; one outside them lifts the farther. The loads turn with the shaft
+        and have a constant magnitude.
+
+        Parameters
+        ----------
+        z : pair of float
+            Places of the bearings along the crank, of all shafts, m.
+
+        Returns
+        -------
+        ndarray of float, shape (n_shafts, 2)
+            Magnitudes, N, in the order of :attr:`Engine.shafts`.
+
+        Raises
+        ------
+        InputError
+            If there are not two different places.
+        """
+        places = inputs.listed_numbers("z", z)
+        if len(places) != 2 or not np.isfinite(places).all() or places[0] == places[1]:
+            raise inputs.rejected("z", z, "give the places of two bearings, m")
+        front, rear = places
+        omega = inputs.angular_speed(self.rpm)
+        found = np.zeros((len(self.engine.shafts), 2))
+        for k, shaft in enumerate(self.engine.shafts):
+            force = np.array(
+                [
+                    each.amount * np.exp(1j * np.radians(inputs.degrees(each.angle_deg)))
+                    for each in shaft.unbalances
+                ]
+            )
+            behind = np.array([(each.z - front) / (rear - front) for each in shaft.unbalances])
+            for side, share in enumerate((1.0 - behind, behind)):
+                found[k, side] = abs((force * share).sum()) * (shaft.ratio * omega) ** 2
+        return found
 
     def turned(self, load: str = "crankpin", axes: str = "crank") -> NDArray[np.float64]:
         """Return the loads of bearings in axes that turn, N: (n, n_theta, 2).
@@ -529,9 +653,9 @@ class BearingLoads(Tabled):
         figure : Figure or SubFigure, optional
             Figure or SubFigure for the panels of ``"polar"``; by default a new one.
         kind : {"polar", "curves", "bending"}, default "polar"
-            ``"polar"``: the tip of a load, with crank angles, a panel for each bearing, or with
-            ``ax`` all of them there. ``"curves"``: magnitudes over crank angle. ``"bending"``:
-            largest bending moment along z.
+            ``"polar"``: the tip of a load, a panel for each bearing in colours of the crank angle,
+            or with ``ax`` or a colour of yours with crank angles beside it. ``"curves"``:
+            magnitudes over crank angle. ``"bending"``: largest bending moment along z.
         **options : dict, optional
             Of ``"polar"`` and ``"curves"``: ``load``, as in :meth:`read`, by default the main
             bearings, and ``numbers`` of bearings or cylinders, from 1, by default all; of
@@ -589,8 +713,24 @@ class BearingLoads(Tabled):
 
     @property
     def frames(self) -> Frames:
-        """``table``; ``mains``: largest and mean load of each main bearing."""
-        return self._frames(mains=self._of_mains)
+        """``table``; ``mains``: largest and mean load of each main bearing; ``crankpins``."""
+        pins = {"crankpins": self._of_crankpins} if self._shares_pins else {}
+        return self._frames(mains=self._of_mains, **pins)
+
+    @property
+    def _shares_pins(self) -> bool:
+        return any(len(numbers) > 1 for numbers in self.crankpins)
+
+    def _of_crankpins(self) -> Table:
+        shared = ["+".join(map(str, numbers)) for numbers in self.crankpins]
+        return Table(
+            "Crankpins as a whole, with the rods of all cylinders on them",
+            (
+                Column("cylinders", tuple(shared)),
+                Column("largest", tuple(self.whole_crankpin_peak().tolist()), "N"),
+            ),
+            loads=self.loads_counted,
+        )
 
     def _of_mains(self) -> Table:
         loads = {"largest": self.peak("main"), "mean": self.mean("main")}

@@ -20,6 +20,7 @@ from crankpin.analysis.quantity import (
     Quantities,
     Quantity,
     Value,
+    one_order,
     order_key,
 )
 from crankpin.analysis.request import engine_core
@@ -39,7 +40,7 @@ class ByOrder(Keyed, Quantities["NDArray[np.float64]", Value], Labelled, Generic
     @property
     def orders(self) -> tuple[Order, ...]:
         """Multiples of crank speed, ascending where they were chosen."""
-        return self.__dict__["_orders"]  # type: ignore[no-any-return]
+        return tuple(self.__dict__["_core"].orders)
 
     @property
     def omitted(self) -> tuple[Order, ...]:
@@ -48,7 +49,7 @@ class ByOrder(Keyed, Quantities["NDArray[np.float64]", Value], Labelled, Generic
         Orders above the last candidate add less than a hundredth of ``rtol``; ``error_bound``
         includes them.
         """
-        return self.__dict__["_omitted"]  # type: ignore[no-any-return]
+        return tuple(self.__dict__["_core"].omitted)
 
     @property
     def loads_counted(self) -> str:
@@ -157,14 +158,12 @@ class ByOrder(Keyed, Quantities["NDArray[np.float64]", Value], Labelled, Generic
             If there is no such quantity or array.
         """
         self.request.check(quantity)
-        if not isinstance(what, str):
-            raise inputs.rejected("what", what, "give the name of an array")
-        found: NDArray[Any] | None = self._kept.get((quantity, what))
-        if found is None:
-            inputs.one_of("what", what, export.arrays(quantity))
-            found = read_only(np.asarray(self._of_part(quantity, what)))
-            found = self._kept.setdefault((quantity, what), found)
-        return found
+        inputs.one_of("what", what, export.arrays(quantity))
+        array: NDArray[Any] | None = self._kept.get((quantity, what))
+        if array is None:
+            array = read_only(np.asarray(self._of_part(quantity, what)))
+            array = self._kept.setdefault((quantity, what), array)
+        return array
 
     def _of_part(self, quantity: str, what: str) -> NDArray[Any]:
         """Compute an array; without gas pressure inertia is the whole."""
@@ -197,14 +196,21 @@ class ByOrder(Keyed, Quantities["NDArray[np.float64]", Value], Labelled, Generic
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
         raise NotImplementedError
 
-    def _with_order(self, order: Order) -> ByOrder[Value]:
-        """Return this result if it has an order, else the same of that order alone."""
-        if order_key(order) in (*self.orders, ALL):
-            return self
-        found: ByOrder[Value] | None = self._kept.get(order)
-        if found is None:
-            found = self._kept.setdefault(order, self._at_orders((order,)))
-        return found
+    def _read_order(self, order: Order, quantity: str, what: str) -> Any:  # noqa: ANN401 - as read
+        """Return a part of an array: that of one order, which may not be among ``orders``."""
+        orders = self.orders
+        if order not in orders:
+            return self._alone(one_order(order))._read_order(order, quantity, what)
+        at: Any = (*(slice(None) for _ in self.dims), orders.index(order))
+        return self.read(quantity, what)[at]
+
+    def _alone(self, order: Order) -> ByOrder[Value]:
+        """Return the same result of one order."""
+        result: ByOrder[Value] | None = self._kept.get(order)
+        if result is None:
+            result = self._with_request(self.request.at_orders((order,)))
+            result = self._kept.setdefault(order, result)
+        return result
 
     @property
     def _engines(self) -> tuple[Engine, ...]:

@@ -8,9 +8,10 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from crankpin import _core
-from crankpin._support import inputs, labels, optional
+from crankpin._support import inputs, labels, optional, units
+from crankpin._support.frames import Tabled
 from crankpin._support.quantities import COMPONENTS, QUANTITIES
-from crankpin._support.record import Record
+from crankpin._support.tables import Table
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks
 
@@ -36,7 +37,7 @@ def closed_form(
     return ClosedForm(engine, single, word, plane)
 
 
-class ClosedForm(Record):
+class ClosedForm(Tabled):
     """Force or moment of one order as SymPy expressions, exact.
 
     ``F`` stands for m·r·ω²·aₙ of the cylinder ``unit_cylinder`` (in magnitudes, for its size) and
@@ -214,12 +215,12 @@ class ClosedForm(Record):
         unit = scale * complex(cylinder.harmonics(self.order)[0])
         if self.quantity == "moment":
             unit *= self.spacing
-        found = {}
+        values = {}
         for axis in COMPONENTS:
             real, imaginary = (complex(part.evalf(20)).real for part in self._parts_of(axis))
             factor = unit.conjugate() if axis == "backward" else unit
-            found[axis] = complex(real, imaginary) * factor
-        return found
+            values[axis] = complex(real, imaginary) * factor
+        return values
 
     # --- construction -------------------------------------------------------------------------
 
@@ -272,7 +273,7 @@ class ClosedForm(Record):
         along, sign = ("y" if axis == "x" else "x", -1) if moment else (axis, 1)
         if axis == "y":
             sign = 1
-        found = []
+        terms = []
         for weight, lever, sense, direction, phase in self._parts:
             factor = sign * sp.Rational(*weight) * sp.Rational(*lever) * self._unit
             lag = self.order * Fraction(*phase)
@@ -280,12 +281,12 @@ class ClosedForm(Record):
                 # What rotates is along y a quarter of a turn after x, or before.
                 start = sense * Fraction(*direction) - lag
                 quarter = Fraction(sense, 4) if along == "y" else Fraction(0)
-                found.append(factor * self._wave(start - quarter))
+                terms.append(factor * self._wave(start - quarter))
                 continue
             bore = 2 * sp.pi * sp.Rational(*direction)
             component = sp.cos(bore) if along == "x" else sp.sin(bore)
-            found.append(component * factor * self._wave(-lag))
-        return tuple(found)
+            terms.append(component * factor * self._wave(-lag))
+        return tuple(terms)
 
     def _wave(self, turns: Fraction) -> Expression:
         """Return cos(nθ + phase) unevaluated: SymPy would turn some into sines."""
@@ -309,24 +310,37 @@ class ClosedForm(Record):
         scale = cylinder.reciprocating_mass * cylinder.crank_radius
         factor = scale * complex(cylinder.harmonics(self.order)[0])
         order = str(self.order).translate(SUBSCRIPTS)
+        shown = units.convert("kg·m")
+        factor *= shown.factor
         value = f"{factor.real:.6g}"
         if factor.imag:
             value = f"({value} {'-' if factor.imag < 0 else '+'} {abs(factor.imag):.6g}i)"
-        found = f"F = m·r·a{order}·ω² = {value} kg·m·ω² of cylinder {self.unit_cylinder}"
+        text = f"F = m·r·a{order}·ω² = {value} {shown.unit}·ω² of cylinder {self.unit_cylinder}"
         if factor != abs(factor):
-            found += " (in lengths its size)"
+            text += " (in lengths its size)"
         if self.quantity == "moment" and self.spacing:
-            found += f", a = {1e3 * self.spacing:.6g} mm"
-        return found
+            text += f", a = {units.figure(1e3 * self.spacing, 'mm', 6)}"
+        return text
+
+    @property
+    def table(self) -> Table:
+        """Expressions as text: of the components, and of the longest vector."""
+        rows = [(axis, str(getattr(self, axis))) for axis in COMPONENTS]
+        rows.append(("longest", str(self.peak)))
+        title = f"{labels.name_of(self.engine)}: {QUANTITIES[self.quantity].words}"
+        note = f"where {self.units_text}"
+        return Table.from_rows(
+            f"{title} of order {self.order}", ["part", "expression"], rows, note=note
+        )
 
     def __repr__(self) -> str:
         """Return the formulas: they are no table of numbers."""
-        name = labels.name_of(self.engine)
-        lines = [f"{name}: {QUANTITIES[self.quantity].words} of order {self.order}"]
-        lines += [f"{axis:>9} {getattr(self, axis)}" for axis in COMPONENTS]
-        lines.append(f"{'longest':>9} {self.peak}")
-        lines.append(f"{'where':>9} {self.units_text}")
-        return "\n".join(lines)
+        table = self.table
+        lines = [f"{part:>9} {text}" for part, text in table.cells()]
+        return "\n".join([table.title, *lines, f"{'where':>9} {self.units_text}"])
+
+    def _repr_html_(self) -> None:
+        """Return None, so that notebooks typeset the formulas."""
 
     def _repr_latex_(self) -> str:
         sp = optional.library("sympy")

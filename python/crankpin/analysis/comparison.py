@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import Balance, balance
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.quantity import ALL
 from crankpin.analysis.request import engine_core
 
@@ -245,7 +245,14 @@ class Comparison(Tabled):
         title = f"{self.title} at {self.rpm:g} rpm: peaks"
         header = ["quantity", "order", "before", "after", "change %"]
         listed = np.array(rows).reshape(-1, 3)
-        return Table.from_rows(title, header, texts, listed, loads=self.loads_counted)
+        return Table.from_rows(
+            title,
+            [*header[:-1], ("change", "%")],
+            texts,
+            listed,
+            loads=self.loads_counted,
+            row_units=[text.rpartition(", ")[2] for text, _ in texts],
+        )
 
     @property
     def loads_counted(self) -> str:

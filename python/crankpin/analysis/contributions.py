@@ -47,7 +47,7 @@ def contributions(whole: Balance, quantity: str) -> list[Contribution]:
         request.aside,
     )
     banks = {number: name for name, numbers in engine.banks.items() for number in numbers}
-    found = []
+    listed = []
     for kind, index, part in terms:
         name, group = str(index + 1), banks.get(index + 1, "")
         if kind == "counterweight":
@@ -56,13 +56,13 @@ def contributions(whole: Balance, quantity: str) -> list[Contribution]:
             name, group = f"S{name}", "balance shafts"
         vectors = part.phasors(quantity, quantity in PLANE_VECTORS)
         by_order = vectors.T if vectors.ndim == 2 else vectors[np.newaxis]
-        found.append(Contribution(name, group, by_order, part.zero_bound(quantity)))
-    return found
+        listed.append(Contribution(name, group, by_order, part.zero_bound(quantity)))
+    return listed
 
 
 def phasors(result: Balance, quantity: str) -> NDArray[np.complex128]:
     """Return the parts of a balance's quantity, as of a :class:`Contribution`."""
-    found = getattr(result, quantity)
+    values = getattr(result, quantity)
     if quantity in PLANE_VECTORS:
-        return np.stack([found.forward, found.backward])
-    return np.asarray(found)[np.newaxis]
+        return np.stack([values.forward, values.backward])
+    return np.asarray(values)[np.newaxis]

@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin._support import inputs, labels
-from crankpin._support.record import Record
+from crankpin._support.frames import Tabled
+from crankpin._support.quantities import QUANTITIES
+from crankpin._support.tables import Table
 from crankpin.analysis.balance import Balance, mean_piston_speed
 from crankpin.analysis.findings import MATTERS, Finding, Sums
 from crankpin.analysis.request import Request, engine_core
@@ -29,10 +31,10 @@ HIGHEST = 12
 def explain(engine: Engine, rpm: float | None = None) -> Explanation:
     """Return the explanation; :meth:`Engine.explain` documents the arguments."""
     speed = inputs.optional_number("rpm", rpm)
-    found = Explanation(engine, speed)
+    explanation = Explanation(engine, speed)
     if speed is not None:
         inputs.warn_of_units(mean_piston_speed(engine, speed))
-    return found
+    return explanation
 
 
 def _of_planes(finding: Finding) -> bool:
@@ -40,7 +42,7 @@ def _of_planes(finding: Finding) -> bool:
     return bool(finding.quantity)
 
 
-class Explanation(Record):
+class Explanation(Tabled):
     """How an engine shakes: a plain sentence for each finding.
 
     What matters most stands first: what counterweights and shafts do, what shakes and what would
@@ -73,13 +75,26 @@ class Explanation(Record):
         """Sentences, what matters most first."""
         return tuple(self._said(self.findings))
 
+    @property
+    def table(self) -> Table:
+        """Sentences, and what each is about."""
+        rows = [
+            (each.kind, QUANTITIES[each.quantity].words if each.quantity else "–", text)
+            for each, text in zip(self.findings, self.sentences, strict=True)
+        ]
+        return Table.from_rows(self._title, ["finding", "quantity", "sentence"], rows)
+
+    @property
+    def _title(self) -> str:
+        speed = "" if self.rpm is None else f" at {self.rpm:g} rpm"
+        return f"{labels.name_of(self.engine)}{speed}"
+
     def __str__(self) -> str:
         return "\n".join(self.sentences)
 
     def __repr__(self) -> str:
         """Return the sentences: they are no table of numbers."""
-        speed = "" if self.rpm is None else f" at {self.rpm:g} rpm"
-        return f"{labels.name_of(self.engine)}{speed}\n{self}"
+        return f"{self._title}\n{self}"
 
     def _repr_html_(self) -> str:
         return self.html()
@@ -98,8 +113,8 @@ class Explanation(Record):
             HTML.
         """
         count = None if count is None else min(inputs.whole("count", count, 0), sys.maxsize)
-        found = self._found() if count is None else filter(_of_planes, self._found())
-        items = (html.escape(each) for each in self._said(itertools.islice(found, count)))
+        findings = self._found() if count is None else filter(_of_planes, self._found())
+        items = (html.escape(each) for each in self._said(itertools.islice(findings, count)))
         return f"<ul>{''.join(f'<li>{item}</li>' for item in items)}</ul>"
 
     def _said(self, findings: Iterable[Finding]) -> list[str]:

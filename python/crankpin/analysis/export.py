@@ -251,5 +251,6 @@ def _long(
     for head in parts[0][2]:
         values = (figures[head].ravel().tolist() for *_, figures in parts)
         columns.append(Column(head, tuple(itertools.chain.from_iterable(values))))
-    columns.append(Column("unit", repeated(KINDS[quantity].unit for quantity, _, _ in parts)))
-    return Table("Long form", tuple(columns), loads=loads)
+    units = repeated(KINDS[quantity].unit for quantity, _, _ in parts)
+    columns.append(Column("unit", units))
+    return Table("Long form", tuple(columns), loads=loads, row_units=units)

@@ -132,13 +132,13 @@ class Sums:
 
     def cancelling(self, noticed: NDArray[np.bool_]) -> Iterator[Finding]:
         """Yield why orders are zero that the pistons make, those of one reason together."""
-        found: dict[tuple[str, tuple[tuple[int, ...], ...], bool], list[Order]] = {}
+        cancelled: dict[tuple[str, tuple[tuple[int, ...], ...], bool], list[Order]] = {}
         for k, order in enumerate(self.orders):
             whole = np.abs(self.cylinders[:, :, k].sum(axis=0)).max()
             if noticed[k] and not self.peaks[k] and whole <= ROUNDING * self._largest(k):
                 key = (*self._reason(k), self.verdicts[order] == "vanishes")
-                found.setdefault(key, []).append(order)
-        for (reason, groups, proved), orders in found.items():
+                cancelled.setdefault(key, []).append(order)
+        for (reason, groups, proved), orders in cancelled.items():
             yield Finding("cancels", self.name, tuple(orders), (), reason, groups, proved)
 
     def _largest(self, k: int) -> float:

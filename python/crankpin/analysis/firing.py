@@ -11,12 +11,13 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels, tables
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.record import read_only
 from crankpin.analysis.gas_exchange import PortTiming, Timing, ValveTiming, angles
 from crankpin.model import checks
 from crankpin.model.builders import vee_layout_of
-from crankpin.model.engine import Engine
+from crankpin.model.data import EngineData
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 
     from crankpin._support.inputs import Angle, Angles
     from crankpin.model.builders import Numbering, Side
+    from crankpin.model.engine import Engine
 
 Groups: TypeAlias = Iterable[Iterable[int]]
 """Cylinder numbers, manifold by manifold."""
@@ -71,7 +73,7 @@ class Firing(Tabled):
 
     def __post_init__(self) -> None:
         # The core checks the turns when they are first read: of thousands few are.
-        if not all(map(isinstance, (self.engine, self.revolutions), (Engine, tuple))):
+        if not all(map(isinstance, (self.engine, self.revolutions), (EngineData, tuple))):
             hint = "use Engine.firing, .firings or .firing_orders"
             raise inputs.rejected("engine", self.engine, hint)
 
@@ -158,11 +160,11 @@ class Firing(Tabled):
 
         >>> import crankpin as cp
         >>> f = cp.Engine.preset("v8-crossplane").firing("1-8-4-3-6-5-7-2")
-        >>> [list(each.values()) for each in f.gaps([[1, 4, 6, 7], [8, 3, 5, 2]])]
+        >>> [list(gaps.values()) for gaps in f.gaps([[1, 4, 6, 7], [8, 3, 5, 2]])]
         [[180.0, 180.0, 180.0, 180.0], [180.0, 180.0, 180.0, 180.0]]
         """
-        found = self._core.gaps(_groups(groups))
-        return tuple({(first, then): gap for first, then, gap in group} for group in found)
+        gaps = self._core.gaps(_groups(groups))
+        return tuple({(first, then): gap for first, then, gap in group} for group in gaps)
 
     def exhaust_overlaps(
         self, groups: Groups | None = None, *, timing: Timing | None = None
@@ -198,8 +200,8 @@ class Firing(Tabled):
         {(3, 5): 60.0, (5, 7): 150.0, (7, 1): 60.0}
         """
         kind = PortTiming if self.strokes == 2 else ValveTiming
-        found = self._core.overlaps(_groups(groups), angles(timing, kind))
-        return tuple({(first, then): overlap for first, then, _, overlap in g} for g in found)
+        overlaps = self._core.overlaps(_groups(groups), angles(timing, kind))
+        return tuple({(first, then): overlap for first, then, _, overlap in g} for g in overlaps)
 
     # --- strokes and valves ---------------------------------------------------------------------
 
@@ -321,8 +323,6 @@ class Firing(Tabled):
         ImportError
             If matplotlib is not installed.
         """
-        from crankpin.analysis.drawing import draw  # noqa: PLC0415 - drawing is optional
-
         return draw(self, ax, timing=timing, **style)  # type: ignore[no-any-return]
 
     def _gap_in_bank(self) -> NDArray[np.float64]:
@@ -447,12 +447,12 @@ def throws(
     if bank_angle_deg is None:
         return _core.inline_throws(text, listed, number), read_only(np.empty(0))
     layout = {"throws": [], "spacing": 0.0, "rotating_mass": [], "first_tdc": "0"}
-    found, splits = _core.vee_throws(text, listed, number, layout | across)
+    angles, splits = _core.vee_throws(text, listed, number, layout | across)
     if intervals_deg is None:
         other = across | {"odd_bank": checks.other_bank(odd_bank)}
         _, others = _core.vee_throws(text, listed, number, layout | other)
         checks.odd_bank(odd_bank, splits, others)
-    return found, splits
+    return angles, splits
 
 
 def _order_and_strokes(
@@ -461,7 +461,7 @@ def _order_and_strokes(
     """Return the arguments, or what the engine knows in their place."""
     count = engine.strokes if strokes is None else inputs.strokes(strokes)
     if firing_order is not None:
-        return inputs.firing_order("firing_order", firing_order), count
+        return inputs.firing_order("firing_order", firing_order, engine._core.bank), count
     if engine.firing_order and count == engine.strokes:
         return engine.firing_order, count
     known = "the engine's firing order is not known"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, overload
 
@@ -9,20 +11,24 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.tables import Column, Table
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
 from crankpin.analysis.waveform import Waveform, waveform
 from crankpin.model import checks
-from crankpin.model.engine import Engine
+from crankpin.model.data import EngineData
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
     from numpy.typing import ArrayLike, NDArray
 
+    from crankpin._support.inputs import Order
     from crankpin.model.cycle import Cycle
+    from crankpin.model.engine import Engine
 
 Curve: TypeAlias = "Callable[[NDArray[np.float64]], ArrayLike] | tuple[ArrayLike, ArrayLike]"
 """Torque over crank angle: a function of degrees, or angles and torques."""
@@ -35,6 +41,8 @@ MOST_BENDS = 7201
 take seconds; half degrees sample them."""
 EQUAL = 1e-9
 """Relative difference up to which a ratio of periods is whole."""
+NEGLIGIBLE = 1e-9
+"""Irregularity of an order, %, and its swing, degrees, below which it is rounding."""
 APPROXIMATIONS = ("gas torque alone", "gas and inertia torque")
 """Textbooks' approximations, both with the mean moment of inertia."""
 
@@ -101,15 +109,15 @@ def flywheel(
 
     >>> import numpy as np
     >>> import crankpin as cp
-    >>> found = cp.flywheel(
+    >>> wheel = cp.flywheel(
     ...     lambda deg: 5000 + 600 * np.sin(np.radians(2 * deg)),
     ...     load=lambda deg: 5000 + 500 * np.sin(np.radians(deg)),
     ...     rpm=150,
     ...     inertia=500 * 0.4**2,
     ... )
-    >>> round(found.energy, 3), round(100 * found.irregularity, 3)
+    >>> round(wheel.energy, 3), round(100 * wheel.irregularity, 3)
     (1204.167, 6.161)
-    >>> round(100 * found.approximations[0], 3)  # the book's, 1 % too low
+    >>> round(100 * wheel.approximations[0], 3)  # the book's, 1 % too low
     6.1
 
     A flywheel for an inline-4 with a computed cycle, and how far textbooks' approximations are off:
@@ -134,7 +142,7 @@ def flywheel(
             "inertia of pistons and rods that varies; give the torque of the gas",
         )
     inputs.only_one_of(inertia=inertia, irregularity=irregularity)
-    engine = drive if isinstance(drive, Engine) else None
+    engine = drive if isinstance(drive, EngineData) else None
     if engine is not None:
         torque = _of_gas(engine, inputs.number("rpm", rpm), period_deg)
         checks.flywheel(engine._core, inputs.optional_number("inertia", inertia) or 0.0)
@@ -164,12 +172,12 @@ def flywheel(
         inputs.optional_number("inertia", inertia),
         0.0 if irregularity is None else inputs.number("irregularity", irregularity),
     )
-    found, uneven, energy, mean, acceleration, lowest, highest, *approximate = figures
+    needed, uneven, energy, mean, acceleration, lowest, highest, *approximate = figures
     of_one_rpm = _core.angular_speed(1.0)
     return Flywheel(
         engine,
         inputs.number("rpm", rpm),
-        found,
+        needed,
         uneven,
         energy,
         mean,
@@ -195,10 +203,10 @@ class Flywheel(Tabled):
     --------
     >>> import numpy as np
     >>> import crankpin as cp
-    >>> found = cp.flywheel(
+    >>> wheel = cp.flywheel(
     ...     lambda deg: 300 - 400 * np.cos(np.radians(2 * deg)), rpm=1500, inertia=2.0
     ... )
-    >>> round(found.lowest_rpm, 2), round(found.highest_rpm, 2)
+    >>> round(wheel.lowest_rpm, 2), round(wheel.highest_rpm, 2)
     (1493.93, 1506.09)
     """
 
@@ -256,6 +264,67 @@ class Flywheel(Tabled):
         first, second = (each / self.irregularity - 1.0 for each in self.approximations)
         return first, second
 
+    @functools.cached_property
+    def swing_deg(self) -> float:
+        """Largest less smallest angle by which the crank leads one that turns evenly, degrees."""
+        steps = np.diff(self.theta_deg)
+        slowness = 1.0 / self.speed_rpm
+        times = np.concatenate([[0.0], np.cumsum(steps * (slowness[1:] + slowness[:-1]) / 2.0)])
+        even = times * (self.theta_deg[-1] - self.theta_deg[0]) / times[-1]
+        return float(np.ptp(self.theta_deg - self.theta_deg[0] - even))
+
+    def electrical_swing_deg(self, poles: int) -> float:
+        """Return the swing of a generator on the crank in electrical degrees.
+
+        Parameters
+        ----------
+        poles : int
+            Number of poles, even; half of it times ``swing_deg`` is the swing. A limit of ±2.5
+            electrical degrees is one of 5.
+
+        Returns
+        -------
+        float
+            Largest less smallest lead, electrical degrees.
+
+        Raises
+        ------
+        InputError
+            If the number is odd or below 2.
+        """
+        count = inputs.whole("poles", poles)
+        if count < 2 or count % 2:
+            raise inputs.rejected("poles", poles, "give an even number of poles, such as 4")
+        return self.swing_deg * count / 2.0
+
+    def irregularity_of(self, orders: Order | Iterable[Order]) -> NDArray[np.float64]:
+        """Return the irregularity of each order of the speed alone.
+
+        Parameters
+        ----------
+        orders : number or sequence of numbers
+            Multiples of crank speed, whole or half, that come round in the period.
+
+        Returns
+        -------
+        ndarray of float, shape (n_orders,)
+            Largest less smallest speed of each order, over the mean speed.
+
+        Raises
+        ------
+        InputError
+            If an order does not come round in the period.
+        """
+        listed = np.array(inputs.explicit_half_orders(orders), dtype=np.float64)
+        period = float(self.theta_deg[-1] - self.theta_deg[0])
+        rounds = listed * period / 360.0
+        if (abs(rounds - rounds.round()) > EQUAL * rounds).any():
+            wrong = float(listed[np.argmax(abs(rounds - rounds.round()))])
+            raise inputs.rejected("orders", wrong, f"give ones that come round in {period:g}°")
+        waves = np.exp(-1j * np.radians(np.multiply.outer(listed, self.theta_deg)))
+        phasors = 2.0 * np.trapezoid(waves * self.speed_rpm, self.theta_deg, axis=-1) / period
+        return np.asarray(2.0 * np.abs(phasors) / self.rpm)
+
     @property
     def table(self) -> Table:
         """Speed, inertia, energy and torque."""
@@ -267,6 +336,7 @@ class Flywheel(Tabled):
             ("fluctuation of energy", self.energy, "J"),
             ("mean torque", self.mean_torque, "N·m"),
             ("largest acceleration", self.acceleration, "rad/s²"),
+            ("swing", self.swing_deg, "°"),
         )
         names, values, units = zip(*figures, strict=True)
         columns = (
@@ -274,12 +344,28 @@ class Flywheel(Tabled):
             Column("value", values, digits=6),
             Column("unit", units),
         )
-        return Table(self.title, columns, loads=self.loads_counted)
+        return Table(self.title, columns, loads=self.loads_counted, row_units=units)
 
     @property
     def frames(self) -> Frames:
-        """``table``; ``approximations``: textbooks' irregularities and their errors."""
-        return self._frames(approximations=self._approximated)
+        """``table``; ``approximations``: textbooks', and their errors; ``orders``: irregularity."""
+        return self._frames(approximations=self._approximated, orders=self._by_order)
+
+    def _by_order(self) -> Table:
+        """Return irregularity and swing of orders up to 6 that come round in the period."""
+        turns = float(self.theta_deg[-1] - self.theta_deg[0]) / 360.0
+        orders = [k / 2 for k in range(1, 13) if (k / 2 * turns) % 1.0 < EQUAL]
+        uneven = self.irregularity_of(orders) if orders else np.empty(0)
+        swings = tuple(
+            math.degrees(each / order) for order, each in zip(orders, uneven.tolist(), strict=True)
+        )
+        columns = (
+            Column("order", tuple(orders)),
+            Column("irregularity", tuple((100.0 * uneven).tolist()), "%", least=NEGLIGIBLE),
+            Column("swing", swings, "°", least=NEGLIGIBLE),
+        )
+        title = "Irregularity and swing of each order alone"
+        return Table(title, columns, loads=self.loads_counted)
 
     @property
     def loads_counted(self) -> str:
@@ -383,14 +469,14 @@ def _bends(cycle: Cycle) -> NDArray[np.float64]:
     return twice
 
 
-def _diagram(name: str, given: object, period_deg: object) -> _Diagram:
+def _diagram(name: str, curve: object, period_deg: object) -> _Diagram:
     period = inputs.optional_number("period_deg", period_deg)
     if period is not None and not 0.0 < period < np.inf:
         raise inputs.rejected("period_deg", period, "give the period of the torque, such as 720")
-    if callable(given):
+    if callable(curve):
 
         def of_function(theta: NDArray[np.float64]) -> NDArray[np.float64]:
-            found = inputs.array(name, given(theta.copy()))
+            found = inputs.array(name, curve(theta.copy()))
             if found.shape not in ((), theta.shape):
                 fault = f"returned values of shape {found.shape} for {theta.shape}"
                 raise inputs.faulty(name, fault, "give one torque for each angle")
@@ -398,9 +484,9 @@ def _diagram(name: str, given: object, period_deg: object) -> _Diagram:
 
         return _Diagram(of_function, period, np.empty(0))
     hint = "give a function of degrees, or (angles in degrees, torques in N·m)"
-    pair = inputs.items(name, given, hint)
+    pair = inputs.items(name, curve, hint)
     if len(pair) != 2:
-        raise inputs.rejected(name, given, hint)
+        raise inputs.rejected(name, curve, hint)
     theta, torque = (inputs.vector(name, each) for each in pair)
     if len(theta) != len(torque) or len(theta) < 2:
         raise inputs.faulty(name, f"has {len(theta)} angles and {len(torque)} torques", hint)

@@ -107,10 +107,10 @@ Timing: TypeAlias = ValveTiming | PortTiming
 
 def angles(timing: Timing | None, kind: type[ValveTiming | PortTiming]) -> list[str]:
     """Return the angles of a timing of this kind, by default the ordinary one."""
-    found = kind() if timing is None else timing
-    if not isinstance(found, kind):
+    chosen = kind() if timing is None else timing
+    if not isinstance(chosen, kind):
         other = "four-stroke a crankpin.ValveTiming"
         if kind is ValveTiming:
             other = "two-stroke a crankpin.PortTiming"
         raise inputs.rejected("timing", timing, f"give a crankpin.{kind.__name__}, of a {other}")
-    return found._texts
+    return chosen._texts

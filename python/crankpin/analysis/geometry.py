@@ -94,17 +94,17 @@ class Weight(NamedTuple):
 def weights_on_crank(engine: Engine, theta_deg: float = 0.0) -> list[Weight]:
     """Return the counterweights, turned to a crank angle."""
     pins, (axes, ratios) = engine.pin_deg, _cranks(engine)
-    found = []
+    weights = []
     for each in engine.counterweights:
         if each.pin is None:
-            found.append(_turned(each, theta_deg))
+            weights.append(_turned(each, theta_deg))
             continue
         k = each.pin - 1
         # Ahead of the pin in the sense in which its crank turns.
         ahead = np.sign(ratios[k]) * inputs.degrees(each.angle_deg)
         angle = float(pins[k] + ratios[k] * theta_deg + ahead)
-        found.append(Weight(each.z, each.amount, angle % 360.0, complex(axes[k])))
-    return found
+        weights.append(Weight(each.z, each.amount, angle % 360.0, complex(axes[k])))
+    return weights
 
 
 def rotating_masses(engine: Engine, theta_deg: float = 0.0) -> list[Weight]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Generic, Literal, Self, TypeAlias
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Tabled
 from crankpin._support.quantities import KINDS, PARTS, Kind
 from crankpin._support.record import AbsentError, AbsentItemError, Record, changed, read_only
@@ -45,8 +45,8 @@ def order_key(order: object) -> Order | Literal["all"]:
     if isinstance(order, str) and order == ALL:
         return ALL
     try:
-        if 0 < (found := inputs.order(order)) <= inputs.HIGHEST_ORDER:
-            return found
+        if 0 < (number := inputs.order(order)) <= inputs.HIGHEST_ORDER:
+            return number
     except (TypeError, ValueError, OverflowError):
         pass
     hint = 'the key is an order, a multiple of crank speed such as 2 or 0.5, or "all"'
@@ -59,10 +59,10 @@ def order_key(order: object) -> Order | Literal["all"]:
 
 def one_order(order: object) -> Order:
     """Return the order of a key, or raise an InputError, also for all orders together."""
-    found = order_key(order)
-    if isinstance(found, str):
+    key = order_key(order)
+    if isinstance(key, str):
         raise inputs.rejected("order", ALL, "give one order, such as 2 or 0.5")
-    return found
+    return key
 
 
 class Keyed:
@@ -243,8 +243,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
         if self.kind.planar or self.order not in (None, ALL):
             raise self._absent("mean", "give a torque, all orders together, as in b.torque.mean")
         values = self.result.read(self.name, "mean")
-        found: Any = values if values.ndim else float(values)
-        return found  # type: ignore[no-any-return]
+        mean: Any = values if values.ndim else float(values)
+        return mean  # type: ignore[no-any-return]
 
     @property
     def zero_bound(self) -> Values:
@@ -278,9 +278,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
         if self.order is None:
             return self.result.read(self.name, what)
         if self.order != ALL:
-            one = self.result._with_order(self.order)
-            at = (slice(None),) * len(one.dims) + (one.orders.index(self.order),)
-            return one.read(self.name, what)[at]
+            return self.result._read_order(self.order, self.name, what)
         if what not in ("peak", "peak_xy"):
             hint = f"as in b[2], or read the arrays of a balance, as in b.{self.name}"
             raise self._absent(what, f"all orders together have peaks alone; give an order, {hint}")
@@ -304,8 +302,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
 
     def __getitem__(self, order: Order | Literal["all"]) -> Quantity[Value, Value]:
         """Return the quantity at one order, or at ``"all"``, of the orders that it has."""
-        found: Quantity[Any, Any] = self
-        return changed(found, order=order_key(order))
+        whole: Quantity[Any, Any] = self
+        return changed(whole, order=order_key(order))
 
     # --- an array of phasors --------------------------------------------------------------------
 
@@ -410,7 +408,9 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
                 Column(head, tuple(self[key]._figure(what) for key in keys))
                 for head, what in self._columns().items()
             ]
-        return Table(title, tuple(columns), note, loads=self.loads_counted)
+        whole = title == f"{self.kind.words}, {self.unit}"
+        row_units = (self.unit,) * len(columns[0].values) if whole and columns else ()
+        return Table(title, tuple(columns), note, self.loads_counted, row_units)
 
     def _figure(self, what: str) -> float | None:
         """Return a figure of one order of a balance; None where all together have none."""
@@ -448,7 +448,9 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
         which = f" of {'all orders' if self.order == ALL else f'order {self.order}'}"
         loads = f", {self.loads_counted}" if self.loads_counted else ""
         if not self.result.dims:
-            return f"<Quantity {name}{which}: peak {self.peak:.5g} {self.unit}{loads}>"
+            highest: Any = self.peak
+            peak = units.figure(highest, self.unit, 5)
+            return f"<Quantity {name}{which}: peak {peak}{loads}>"
         dims, shape = self.result.dims, np.shape(self._read("peak"))
         if self.order is None:
             dims, shape, which = self.dims, self.shape, ""
@@ -539,7 +541,8 @@ class OrderBalance(Quantities[Value, Value], Tabled, Generic[Value]):
         heads += [] if self.order == ALL else ["status"]
         speed = labels.at_speed(self.result._attributes["rpm"])
         title = f"{labels.name_of(self.result._engines[0])} {speed}: {self._which}"
-        return Table.from_rows(title, heads, rows, loads=self.loads_counted)
+        row_units = [each.unit for each in self._each()]
+        return Table.from_rows(title, heads, rows, loads=self.loads_counted, row_units=row_units)
 
     def _table_by_point(self) -> Table:
         """Return the largest peak of each quantity of a sweep at each point."""

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from crankpin import _core
 from crankpin._support import inputs, labels
-from crankpin._support.quantities import KINDS, PARTS, QUANTITIES
-from crankpin._support.record import AbsentError, Record, changed
+from crankpin._support.quantities import KINDS, PARTS, PLANE_VECTORS, QUANTITIES
+from crankpin._support.record import AbsentError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 ENGINE_HINT = 'give a crankpin.Engine, such as Engine.preset("i4")'
 
 
-class Request(Record):
+class Request(NamedTuple):
     """Orders, tolerance, reference plane, spectrum and whether torque is computed; checked."""
 
     orders: tuple[Order, ...] | None
@@ -62,17 +62,17 @@ class Request(Record):
     def about(self, name: str, point: object) -> Request:
         """Return the same request with moments about the point of a name: z, or (x, y, z), m."""
         if name == "z" or not isinstance(point, Iterable) or getattr(point, "ndim", 1) == 0:
-            return changed(self, reference_z=inputs.finite(name, point), aside=(0.0, 0.0))
+            return self._replace(reference_z=inputs.finite(name, point), aside=(0.0, 0.0))
         hint = "point is a position z along the crank, or (x, y, z), m"
         listed = [inputs.finite(name, each) for each in inputs.items(name, point, hint)]
         if len(listed) != 3:
             raise inputs.rejected(name, point, hint)
         x, y, z = listed
-        return changed(self, reference_z=z, aside=(x, y))
+        return self._replace(reference_z=z, aside=(x, y))
 
     def at_orders(self, orders: tuple[Order, ...]) -> Request:
         """Return the same request of the orders given."""
-        return changed(self, orders=orders)
+        return self._replace(orders=orders)
 
     def loads_counted(self, gas: str) -> str:
         """Return the loads that a result counts, where more could: in torque gas pressure does."""
@@ -88,32 +88,35 @@ class Request(Record):
     @property
     def quantities(self) -> tuple[str, ...]:
         """Names of the quantities that there are."""
-        torques = ("torque", "crank_torque") if self.torque and self.pairs is None else ()
-        return ("force", "moment", *torques)
+        return tuple(QUANTITIES) if self._has_torque else PLANE_VECTORS
+
+    @property
+    def _has_torque(self) -> bool:
+        return self.torque and self.pairs is None
 
     def bounds(self, of_vectors_and_torque: Iterable[float]) -> Mapping[str, float]:
         """Return quantity → bound, of bounds on force, moment and torque about the crank's axis."""
         force, moment, torque = of_vectors_and_torque
         roll = torque + math.hypot(*self.aside) * force  # as force times distance, at most
-        found = dict(zip(QUANTITIES, (force, moment, roll, torque), strict=True))
-        return MappingProxyType({name: found[name] for name in self.quantities})
+        bounds = dict(zip(QUANTITIES, (force, moment, roll, torque), strict=True))
+        return MappingProxyType({name: bounds[name] for name in self.quantities})
 
     def named(self, quantities: tuple[str, ...], *, fired: bool) -> tuple[str, ...]:
         """Return the quantities named, all that there are if none is, with parts if fired."""
-        there = self.quantities
-        parts = [name for name in PARTS if fired and name.partition(".")[0] in there]
-        return check_quantities(quantities, (*there, *parts))
+        known = self.quantities
+        parts = [name for name in PARTS if fired and name.partition(".")[0] in known]
+        return check_quantities(quantities, (*known, *parts))
 
     def check(self, quantity: str) -> None:
         """Raise an AbsentError if a quantity is not available."""
-        if isinstance(quantity, str) and quantity.partition(".")[0] in self.quantities:
-            inputs.one_of("quantity", quantity, KINDS)
+        kind = KINDS[inputs.one_of("quantity", quantity, KINDS)]
+        if self._has_torque or kind.planar:
             return
-        name = inputs.one_of("quantity", quantity, KINDS).replace("_", " ")
         if self.pairs is not None:
             hint = "a force spectrum does not determine it; leave out `spectrum`"
         else:
             hint = "it was not requested; give torque=True"
+        name = quantity.replace("_", " ")
         raise inputs.faulty(name, "is not available", hint, AbsentError)
 
 

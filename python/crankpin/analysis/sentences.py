@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from crankpin._support.labels import NEGLIGIBLE, dead_text
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
+from crankpin._support.units import convert
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -53,6 +54,10 @@ def figure(value: float, unit: str, *, up: bool = False) -> str:
     if up:
         step = 10.0 ** (math.floor(math.log10(value)) - 1)
         value = math.ceil(value / step * (1.0 - 1e-12)) * step
+    shown = convert(unit)
+    if shown.unit != unit:
+        value *= shown.factor
+        return f"{float(f'{value:.3g}'):.10g} {shown.unit}"
     prefix, scale = "", 1.0
     for name, factor in (("k", 1e3), ("M", 1e6)):
         if value >= 0.9995 * factor and unit in ("N", "N·m"):
@@ -93,6 +98,28 @@ def abbreviated(sentences: Iterable[str], phrase: str, symbol: str) -> list[str]
 def words(finding: Finding) -> str:
     """Return ``shaking force`` or ``rocking moment``."""
     return QUANTITIES[finding.quantity].words
+
+
+def across(direction_deg: float, sides: tuple[str, str]) -> str:
+    """Return in words a line across the engine, from its direction in degrees from +x.
+
+    Parameters
+    ----------
+    direction_deg
+        Direction of the line, degrees from +x.
+    sides
+        What is on the right and on the left, seen from the flywheel.
+    """
+    sideways, upright, _ = AXES["force"]
+    lean = round((90.0 - direction_deg + 90.0) % 180.0 - 90.0, 1)  # from upright, to the right
+    if abs(lean) == 90.0:
+        return sideways
+    return f"{abs(lean):g}° towards the {sides[lean < 0.0]} side" if lean else upright
+
+
+def turns(minor: float) -> str:
+    """Return in words how a vector of constant size turns, from its half axis, signed."""
+    return f"all round, {'against' if minor < 0.0 else 'with'} the crank"
 
 
 def listed(items: Iterable[str]) -> str:

@@ -9,11 +9,11 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis import firing as fires
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.firing import Firing  # noqa: TC001 - a field
 from crankpin.analysis.quantity import Keyed
 from crankpin.analysis.request import engine_core

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-import math
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,59 +11,157 @@ import numpy as np
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Tabled
 from crankpin._support.record import read_only
-from crankpin._support.tables import Table
+from crankpin._support.tables import Column, Table
+from crankpin._support.warnings import suppressed
 from crankpin.analysis.contributions import contributions
 from crankpin.analysis.request import engine_core
+from crankpin.model.computed_cycles import area
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order
+    from crankpin.model.cylinder import Cylinder
     from crankpin.model.engine import Engine
 
 HIGHEST = 12
 """Highest order by default, as in the tables of classification societies."""
+TURN = np.arange(720) / 2.0
+"""Crank angles, degrees, over which a mean of a smooth function of a turn is exact to rounding."""
 
 
 class TorsionalExcitation(Tabled):
-    """Torque of each cylinder's gas and masses on the crank, per order.
+    """Torque of each cylinder's gas and masses on the crank, per order, at a speed or several.
 
     Made by :func:`crankpin.torsional_excitation`.
     """
 
     engine: Engine
     """The engine."""
-    rpm: float
-    """Crank speed."""
+    rpm: float | NDArray[np.float64]
+    """Crank speed, or speeds: (n_rpm,)."""
     orders: tuple[Order, ...]
     """Multiples of crank speed."""
-    torque: NDArray[np.complex128]
-    """Peak phasors of ``Re(P exp(ikθ))``, θ the engine's crank angle, N·m: (n_cylinders, n_orders).
-    Positive torque drives the crank."""
+    gas: NDArray[np.complex128]
+    """Peak phasors of the torque of gas pressure, as of ``torque``, at any speed, N·m:
+    (n_cylinders, n_orders)."""
+    inertia: NDArray[np.complex128]
+    """Peak phasors of the torque of masses, N·m: (n_cylinders, n_orders), of several speeds
+    (n_rpm, n_cylinders, n_orders)."""
     mean: NDArray[np.float64]
     """Mean torque of each cylinder, N·m: (n_cylinders,)."""
 
     @functools.cached_property
+    def torque(self) -> NDArray[np.complex128]:
+        """Peak phasors of ``Re(P exp(ikθ))``, θ the engine's crank angle, N·m.
+
+        Of shape (n_cylinders, n_orders), of several speeds (n_rpm, n_cylinders, n_orders). Positive
+        torque drives the crank. It is the sum of ``gas`` and ``inertia``.
+        """
+        return read_only(self.gas + self.inertia)
+
+    @functools.cached_property
     def angular_frequency(self) -> NDArray[np.float64]:
-        """Angular frequencies of the orders, rad/s: (n_orders,)."""
-        omega = inputs.angular_speed(self.rpm)
-        return read_only(np.array(self.orders, dtype=np.float64) * omega)
+        """Angular frequencies of the orders, rad/s: (n_orders,), of speeds (n_rpm, n_orders)."""
+        omega = np.array([inputs.angular_speed(rpm) for rpm in np.ravel(self.rpm)])
+        found = np.multiply.outer(omega, np.array(self.orders, dtype=np.float64))
+        return read_only(found if np.ndim(self.rpm) else found[0])
+
+    @functools.cached_property
+    def reciprocating_inertia(self) -> NDArray[np.float64]:
+        """Mean moment of inertia of each cylinder's piston and rod, kg·m²: (n_cylinders,).
+
+        Its kinetic energy is, on average over a turn, that of a disk of this inertia on the crank:
+        near ½·m·r² of the reciprocating mass. The rotating mass of the rod comes on top.
+        """
+        return read_only(np.array([_mean_inertia(each) for each in self.engine.cylinders]))
+
+    @property
+    def tangential_pressure(self) -> NDArray[np.complex128]:
+        """Torque of gas over piston area and crank radius, Pa: (n_cylinders, n_orders).
+
+        Phasors about each cylinder's own firing top dead centre, as class rules tabulate harmonics
+        of the tangential pressure: ``a cos kθ + b sin kθ`` with a the real part and b minus the
+        imaginary one. Zero for cylinders without gas pressure.
+        """
+        scale = [
+            1.0 / (area(each) * each.crank_radius) if fired else 0.0
+            for each, fired in zip(self.engine.cylinders, self._fired, strict=True)
+        ]
+        angles = np.radians(self.engine.firing_deg) if any(self._fired) else np.zeros(len(scale))
+        turned = np.exp(1j * np.multiply.outer(angles, np.array(self.orders, dtype=np.float64)))
+        return read_only(self.gas * turned * np.array(scale)[:, np.newaxis])
+
+    @property
+    def _fired(self) -> list[bool]:
+        cycles = self.engine.cycles
+        return [each is not None for each in cycles or [None] * len(self.engine)]
 
     @property
     def table(self) -> Table:
-        """Amplitude and phase by cylinder and order."""
-        frequency = self.angular_frequency.tolist()
-        rows = [
-            (number + 1, order, frequency[k], abs(phasor), math.atan2(phasor.imag, phasor.real))
-            for number, phasors in enumerate(self.torque.tolist())
-            for k, (order, phasor) in enumerate(zip(self.orders, phasors, strict=True))
+        """Amplitude and phase by speed, cylinder and order."""
+        at = np.ravel(self.rpm).tolist()
+        several = f"{min(at):.10g} to {max(at):.10g}" if np.ndim(self.rpm) else f"{at[0]:.10g}"
+        title = f"TorsionalExcitation of {labels.name_of(self.engine)}: torque on the crank, "
+        shape = (-1, *self.gas.shape)
+        columns = [Column("frequency", self._of_rows(self.angular_frequency), "rad/s")]
+        columns += [
+            Column("amplitude", tuple(np.abs(self.torque).ravel().tolist()), "N·m"),
+            Column("phase", tuple(np.angle(self.torque.reshape(shape)).ravel().tolist()), "rad"),
         ]
-        heads = ("cylinder", "order", ("frequency", "rad/s"), ("amplitude", "N·m"))
-        name = labels.name_of(self.engine)
-        title = f"TorsionalExcitation of {name}: torque on the crank, {self.rpm:.10g} rpm"
-        return Table.from_rows(title, (*heads, ("phase", "rad")), rows, loads=self.loads_counted)
+        return self._by_row(f"{title}{several} rpm", columns)
+
+    def parts(self) -> Table:
+        """Return amplitudes and phases of gas and masses by speed, cylinder and order.
+
+        Returns
+        -------
+        Table
+            A row for each speed, cylinder and order, as ``table``.
+        """
+        gas = np.broadcast_to(self.gas, self.torque.shape)
+        columns = [
+            Column(f"{name} {what}".strip(), tuple(of(part).ravel().tolist()), unit)
+            for name, part in (("gas", gas), ("inertia", self.inertia))
+            for what, of, unit in (("", np.abs, "N·m"), ("phase", np.angle, "rad"))
+        ]
+        return self._by_row("Torque of gas and of masses on the crank", columns)
+
+    def _of_rows(self, by_order: NDArray[np.float64]) -> tuple[float, ...]:
+        """Return values by speed and order for each cylinder."""
+        rows = by_order.reshape(-1, 1, len(self.orders))
+        count = (len(rows), len(self.engine), len(self.orders))
+        return tuple(np.broadcast_to(rows, count).ravel().tolist())
+
+    def _by_row(self, title: str, columns: list[Column]) -> Table:
+        """Return a table of columns by speed, cylinder and order."""
+        points = list(product(np.ravel(self.rpm).tolist(), range(len(self.engine)), self.orders))
+        speeds, numbers, orders = zip(*points, strict=True)
+        before = [Column("speed", speeds, "rpm")] if np.ndim(self.rpm) else []
+        before += [Column("cylinder", tuple(k + 1 for k in numbers)), Column("order", orders)]
+        return Table(title, (*before, *columns), loads=self.loads_counted)
+
+    def tangential(self) -> Table:
+        """Return the harmonics of the tangential pressure by cylinder and order.
+
+        Returns
+        -------
+        Table
+            Cosine, sine and amplitude of ``tangential_pressure``, bar.
+        """
+        rows = [
+            (number, order, each.real / 1e5, -each.imag / 1e5, abs(each) / 1e5)
+            for number, pressures in enumerate(self.tangential_pressure.tolist(), 1)
+            for order, each in zip(self.orders, pressures, strict=True)
+        ]
+        return Table.from_rows(
+            "Tangential pressure of gas, from each cylinder's firing top dead centre",
+            ["cylinder", "order", ("cosine", "bar"), ("sine", "bar"), ("amplitude", "bar")],
+            rows,
+            loads=self.loads_counted,
+        )
 
     @property
     def loads_counted(self) -> str:
@@ -74,27 +172,31 @@ class TorsionalExcitation(Tabled):
         """Return the excitation as plain lists.
 
         ``rpm``, ``loads`` in words, ``orders``, ``angular_frequency`` in rad/s; by cylinder
-        ``mean`` in N·m and, with a list over orders in each, ``amplitude`` in N·m and ``phase`` in
-        rad. openTorsion's ``PeriodicExcitation.add_sines`` takes them with the node of a cylinder.
+        ``mean`` in N·m, ``reciprocating_inertia`` in kg·m² and, with a list over orders in each,
+        ``amplitude`` in N·m and ``phase`` in rad, the same of ``gas`` and ``inertia``. Of several
+        speeds the lists that depend on speed have one for each. openTorsion's
+        ``PeriodicExcitation.add_sines`` takes amplitudes and phases with the node of a cylinder.
 
         Returns
         -------
         dict
             Lists by name, as above.
         """
+        parts = {"": self.torque, "gas_": self.gas, "inertia_": self.inertia}
         return {
-            "rpm": self.rpm,
+            "rpm": self.rpm.tolist() if isinstance(self.rpm, np.ndarray) else self.rpm,
             "loads": self.loads_counted,
             "orders": list(self.orders),
             "angular_frequency": self.angular_frequency.tolist(),
             "mean": self.mean.tolist(),
-            "amplitude": np.abs(self.torque).tolist(),
-            "phase": np.angle(self.torque).tolist(),
+            "reciprocating_inertia": self.reciprocating_inertia.tolist(),
+            **{f"{name}amplitude": np.abs(each).tolist() for name, each in parts.items()},
+            **{f"{name}phase": np.angle(each).tolist() for name, each in parts.items()},
         }
 
 
 def torsional_excitation(
-    engine: Engine, rpm: float, *, orders: Order | Iterable[Order] | None = None
+    engine: Engine, rpm: ArrayLike, *, orders: Order | Iterable[Order] | None = None
 ) -> TorsionalExcitation:
     """Return the torque of each cylinder on the crank per order, of gas and masses.
 
@@ -102,8 +204,8 @@ def torsional_excitation(
     ----------
     engine : Engine
         The engine, with or without cycles.
-    rpm : float
-        Crank speed, rpm.
+    rpm : float or array_like, shape (n_rpm,)
+        Crank speed, rpm, or several. The torque of gas is the same at all of them.
     orders : number or sequence of numbers, optional
         Multiples of crank speed; by default up to 12, halves among them for a fired four-stroke.
 
@@ -123,9 +225,12 @@ def torsional_excitation(
     >>> import crankpin as cp
     >>> cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
     >>> i4 = cp.Engine.preset("i4", cylinder=cylinder).with_cycle(cp.Cycle.example())
-    >>> found = cp.torsional_excitation(i4, rpm=3000, orders=[0.5, 2])
-    >>> abs(found.torque[:, 0]).round(1)
+    >>> excitation = cp.torsional_excitation(i4, rpm=3000, orders=[0.5, 2])
+    >>> abs(excitation.torque[:, 0]).round(1)
     array([99.2, 99.2, 99.2, 99.2])
+    >>> over_speed = cp.torsional_excitation(i4, rpm=[1000, 3000, 5000], orders=[2])
+    >>> abs(over_speed.torque[:, 0, 0]).round(1)  # of cylinder 1
+    array([73.1, 32.6, 48.7])
     """
     engine_core(engine)
     cycles = engine.cycles
@@ -133,14 +238,40 @@ def torsional_excitation(
     if listed is None:
         step = 1 if cycles is None or engine.strokes == 2 else 0.5
         listed = [step * k for k in range(1, round(HIGHEST / step) + 1)]
-    balance = engine.balance(rpm, orders=inputs.explicit_half_orders(listed))
-    parts = contributions(balance, "crank_torque")[: len(engine)]
+    speeds = inputs.vector("rpm", rpm) if np.ndim(rpm) else np.array([inputs.number("rpm", rpm)])
+    if not len(speeds):
+        raise inputs.rejected("rpm", rpm, "give a crank speed, or several")
+    explicit = inputs.explicit_half_orders(listed)
+    fastest = float(speeds[np.abs(speeds).argmax()])
+    balance = engine.balance(fastest, orders=explicit)
+    for each in speeds.tolist():
+        with suppressed():  # Warned of at the highest of them.
+            inputs.angular_speed(each)
+    gas, inertia = (
+        np.concatenate(
+            [part.phasors for part in contributions(balance, f"crank_torque.{of}")[: len(engine)]]
+        )
+        for of in ("gas", "inertia")
+    )
+    # Torque of masses has the square of the speed as a factor.
+    scales = (speeds / fastest) ** 2 if fastest else np.ones(len(speeds))
     of_cylinders = zip(cycles or (), engine.cylinders, strict=False)
     means = [cycle.mean_torque(cylinder) if cycle else 0.0 for cycle, cylinder in of_cylinders]
     return TorsionalExcitation(
         engine,
-        balance.rpm,
+        speeds.copy() if np.ndim(rpm) else balance.rpm,
         balance.orders,
-        np.concatenate([part.phasors for part in parts]),
-        np.array(means or [0.0] * len(parts)),
+        gas,
+        np.multiply.outer(scales, inertia) if np.ndim(rpm) else inertia,
+        np.array(means or [0.0] * len(engine)),
     )
+
+
+def _mean_inertia(cylinder: Cylinder) -> float:
+    """Return the mean over a turn of (m·x′² + I·φ′²), kg·m², φ the angle of the rod."""
+    of_one = 1.0 / inputs.angular_speed(1.0)  # rpm of 1 rad/s
+    velocity = cylinder.velocity(TURN, of_one)
+    across = cylinder.crank_radius * np.cos(np.radians(TURN))
+    swing = across / (cylinder.position(TURN) - across)  # the rod's height is l·cos φ
+    energy = cylinder.reciprocating_mass * velocity**2
+    return float((energy + cylinder.rod_inertia_excess * swing**2).mean())

@@ -9,12 +9,12 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.quantities import KINDS, QUANTITIES
 from crankpin._support.record import read_only
 from crankpin._support.tables import Table
 from crankpin.analysis import export
 from crankpin.analysis.balance import mean_piston_speed
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.export import Labelled
 from crankpin.analysis.request import Request, check_request, engine_core
 
@@ -56,9 +56,9 @@ def waveform(
         torque=torque,
         default_rtol=1e-6,
     )
-    found = Waveform(engine, inputs.number("rpm", rpm), theta, orders is not None, request)
-    inputs.warn_of_units(mean_piston_speed(engine, found.rpm))
-    return found
+    curves = Waveform(engine, inputs.number("rpm", rpm), theta, orders is not None, request)
+    inputs.warn_of_units(mean_piston_speed(engine, curves.rpm))
+    return curves
 
 
 class OverAngle(Labelled):
@@ -298,4 +298,5 @@ class Waveform(OverAngle):
             ["quantity", "component", "unit", "least", ("at", "°"), "largest", ("at", "°")],
             rows,
             loads=self.loads_counted,
+            row_units=[str(row[2]) for row in rows],
         )

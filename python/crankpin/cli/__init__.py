@@ -8,7 +8,19 @@ import warnings
 from typing import TYPE_CHECKING
 
 from crankpin._core import InputError, __version__
-from crankpin.cli import engines, hardware, loads, making, mounts, new, outputs, shaking  # noqa: F401 - commands
+from crankpin._support import units
+from crankpin.cli import (
+    analyses,  # noqa: F401 - commands, as those below
+    engines,  # noqa: F401
+    hardware,  # noqa: F401
+    loads,  # noqa: F401
+    making,  # noqa: F401
+    mounts,  # noqa: F401
+    new,  # noqa: F401
+    outputs,
+    shaking,  # noqa: F401
+    shop,  # noqa: F401
+)
 from crankpin.cli.arguments import (
     COMMANDS,
     PROG,
@@ -24,9 +36,10 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
 ORDER = (
-    "presets", "new", "balance", "explain", "sweep", "rank", "firing", "torque", "bearings",
-    "mounts", "mounts-fit",
-    "counterweights", "bob-weight", "shafts", "design", "tolerances", "view", "gallery",
+    "presets", "new", "balance", "explain", "compare", "sweep", "rank", "firing", "star", "torque",
+    "flywheel", "bearings", "mounts", "mounts-fit", "counterweights", "bob-weight", "card",
+    "two-plane", "match", "shafts", "design", "tolerances", "closed-form", "harmonics", "view",
+    "gallery",
 )  # fmt: skip
 """Commands in the order of the help."""
 
@@ -68,9 +81,14 @@ def _text(argv: Sequence[str] | None) -> str:
     with warnings.catch_warnings():
         warnings.showwarning = _Warnings(vars(arguments))
         try:
-            return outputs.shown(Given(arguments, typed), arguments.run)
+            given = Given(arguments, typed)
+            with units.units(vars(arguments).get("units") or ""):
+                printed = outputs.shown(given, arguments.run)
         except InputError as error:
             raise error_in_options(error, vars(arguments)) from None
+        for each in given.said:
+            outputs.say(each)
+        return printed
 
 
 class _Warnings:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, TypeAlias
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.quantities import QUANTITIES
 from crankpin.model import checks, engine_files, presets
 from crankpin.model.cycle_files import ANGLE_UNITS, PRESSURE_UNITS
@@ -33,41 +33,28 @@ PICTURES = (".pdf", ".png", ".svg")
 
 # --- units --------------------------------------------------------------------------------------
 
-MASSES = {
-    "kg": Decimal(1), "g": Decimal("1e-3"), "mg": Decimal("1e-6"),
-    "lb": Decimal("0.45359237"), "oz": Decimal("0.028349523125"),
-}  # fmt: skip
-"""Unit of mass → kg."""
-LENGTHS = {
-    "m": Decimal(1), "cm": Decimal("1e-2"), "mm": Decimal("1e-3"), "µm": Decimal("1e-6"),
-    "in": Decimal("0.0254"), "ft": Decimal("0.3048"),
-}  # fmt: skip
-"""Unit of length → m."""
-UNBALANCES = {
-    f"{mass}{between}{length}": kilograms * metres
-    for mass, kilograms in MASSES.items()
-    for length, metres in LENGTHS.items()
-    for between in ("·", "*", "")
+UNITS: dict[str, units.Dimension] = {
+    "kg": (1, 0, 0, 0),
+    "m": (0, 1, 0, 0),
+    "kg·m": (1, 1, 0, 0),
+    "N": (0, 0, 1, 0),
+    "N·m": (0, 1, 1, 0),
+    "kg·m²": (1, 2, 0, 0),
+    "Pa": (0, 0, 0, 1),
 }
-"""Unit of mass times radius → kg·m."""
-UNITS: dict[str, dict[str, Decimal]] = {
-    "kg": MASSES,
-    "m": LENGTHS,
-    "kg·m": UNBALANCES,
-    "°": {"°": Decimal(1), "deg": Decimal(1)},
-    "rpm": {"rpm": Decimal(1)},
-    "Pa": {
-        "Pa": Decimal(1),
-        "kPa": Decimal(1000),
-        "MPa": Decimal(10**6),
-        "bar": Decimal(10**5),
-        "psi": Decimal("6894.757293168"),
-    },
+"""Unit that the library takes → what may be typed behind a number: any unit of that dimension."""
+OTHERS: dict[str, dict[str, Decimal]] = {
+    "°": {"°": Decimal(1), "deg": Decimal(1), "º": Decimal(1), "degrees": Decimal(1)},
+    "rpm": {"rpm": Decimal(1), "/min": Decimal(1), "1/min": Decimal(1)},
     "": {"%": Decimal("0.01")},
 }
-"""Unit that the library takes, empty for ratios → the units that may be typed behind a number."""
+"""Unit that the library takes, empty for ratios → units that are no mass, length or force."""
 
 NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\D.*)?", re.ASCII)
+COMMA = re.compile(r"([-+]?\d+),(\d+)(\s*[^\d\s,.:=][^,:=]*)?")
+"""A number with a comma for its decimal point, as in most of Europe."""
+MOST_DECIMALS = 2
+"""Digits behind a comma up to which two numbers with one unit are one: 88,9mm, not 100,200mm."""
 
 
 # --- parsers ------------------------------------------------------------------------------------
@@ -145,9 +132,10 @@ OPTIONS: dict[str, dict[str, Any]] = {
     },
     "--cycle": {
         "metavar": "FILE",
-        "help": "cylinder pressure over crank angle: a text file of two columns under a header "
-        "such as angle [deg], absolute pressure [bar], or petrol or diesel for an example "
-        "(default: the engine's own, or else petrol)",
+        "help": "cylinder pressure over crank angle: a text file of columns under a header such as "
+        "angle [deg], absolute pressure [bar]; petrol or diesel for an example at full load, "
+        "petrol:30%% at part load, petrol:0 idling; none for no gas pressure (default: the "
+        "engine's own, or else petrol)",
     },
     "--firing-order": {
         "help": "such as 1-3-4-2, with + for cylinders that fire together: 1+4-2+3 (default: the "
@@ -161,18 +149,27 @@ OPTIONS: dict[str, dict[str, Any]] = {
         "action": "store_true",
         "help": "pressure is above that of the atmosphere (default: what its header says)",
     },
+    "--atmosphere": {
+        "metavar": "P",
+        "help": "pressure added to gauge pressure, Pa or 1.01bar (default: 101325)",
+    },
     "--absolute": {"action": "store_true", "help": "pressure is absolute"},
     "--angle-unit": {
         "choices": tuple(ANGLE_UNITS),
-        "help": "unit of angles (default: what its header names, else deg)",
+        "help": "unit of angles, or of times (default: what its header names, else deg)",
     },
     "--tdc": {
         "metavar": "ANGLE",
         "help": "angle of the firing top dead centre as the file counts, degrees (default: 0)",
     },
     "--columns": {
-        "metavar": "A,P",
-        "help": "columns of angle and pressure, by number from 0 or name (default: 0,1)",
+        "metavar": "A,P,…",
+        "help": "columns of angle and pressure, those of further cycles after them, by number from "
+        "0 or name (default: 0,1 and all that are like 1); several cycles are averaged",
+    },
+    "--recorded-rpm": {
+        "metavar": "RPM",
+        "help": "crank speed of a record over time of less than three cycles",
     },
     "--bore": {"help": "bore of all cylinders, m (default: the engine's, or else the stroke)"},
     "--crankcase": {
@@ -182,10 +179,10 @@ OPTIONS: dict[str, dict[str, Any]] = {
     },
     "--seed": {"default": "0", "help": "seed of the random numbers (default: %(default)s)"},
     "--units": {
-        "metavar": "MASS,LENGTH",
-        "default": "kg,m",
-        "help": "units of numbers without one: g,mm or lb,in; a number may also have its own, such "
-        "as 86mm, 480g, 3.4in, 2oz, 180g·mm (default: %(default)s)",
+        "metavar": "UNIT,…",
+        "help": "units of numbers typed without one, and of all that is printed: g,mm or "
+        "lb,in,lbf; kg, g, lb, oz, m, mm, in, ft, N, kN, lbf, bar, psi, and products such as oz·in "
+        "or lbf·ft; a number may have its own: 86mm, 480g, 3.4in, 2oz, 180g·mm (default: kg,m)",
     },
     "--frame": {"help": "print this table alone (default: all; with --csv the first)"},
     "--csv": {"action": "store_true", "help": "print CSV in place of the table"},
@@ -340,32 +337,20 @@ class Given:
         for name, text in self._typed.items():
             if isinstance(text, str) and "\0" in text:
                 raise rejected(name, labels.printable(text), "has a NUL byte")
-        self._plain = self._units(self._typed.get("units", "kg,m"))
+        self.said = list[str]()
+        """What was read in another way than it was typed, for the user to see."""
+        self._setting = units.read(self._typed.get("units") or "", "--units")
 
     def text(self, flag: str) -> Any:  # noqa: ANN401 - text or None, True or False of a flag
         """Return what was typed."""
         return self._typed[flag.removeprefix("--").replace("-", "_")]
 
-    @staticmethod
-    def _units(text: str) -> dict[str, Decimal]:
-        """Return what a plain number of each dimension stands for."""
-        mass = length = Decimal(1)
-        for name in text.split(","):
-            if name in MASSES:
-                mass = MASSES[name]
-            elif name in LENGTHS:
-                length = LENGTHS[name]
-            else:
-                known = ", ".join([*MASSES, *LENGTHS])
-                raise rejected("--units", text, f"give a unit or two of {known}")
-        return {"kg": mass, "m": length, "kg·m": mass * length}
-
     def decimal(self, flag: str, text: str, unit: str, what: str = "a number") -> Decimal:
         """Return a finite number, typed with a unit or without, in the library's unit."""
-        typed, factor = text.strip(), self._plain.get(unit, Decimal(1))
+        typed, factor = text.strip(), self._plain(unit)
         parts = NUMBER.fullmatch(typed)
-        if parts and parts[2] is not None and parts[2] in UNITS.get(unit, {}):
-            typed, factor = parts[1], UNITS[unit][parts[2]]
+        if parts and parts[2] is not None and (own := _factor(parts[2].strip(), unit)) is not None:
+            typed, factor = parts[1], own
         try:
             number = Decimal(typed)
         except InvalidOperation:
@@ -375,9 +360,34 @@ class Given:
             raise rejected(flag, text, "give a finite number")
         return number * factor
 
+    def _plain(self, unit: str) -> Decimal:
+        """Return what a plain number of a unit stands for: in those of ``--units``."""
+        if unit not in UNITS:
+            return Decimal(1)
+        return units.exact(units.convert(unit, self._setting).unit) or Decimal(1)
+
+    def echo(self, flag: str, unit: str) -> str:
+        """Return what was typed, with the unit that a plain number has."""
+        text: str = self.text(flag)
+        own = re.search(r"[^\d\s.,=:eE+-]", text)
+        return text if own else f"{text} {units.convert(unit, self._setting).unit}"
+
+    def _one(self, flag: str) -> str:
+        """Return what was typed for one number, a decimal comma as a point, which is said."""
+        text: str = self.text(flag)
+        match = COMMA.fullmatch(text.strip())
+        return text if match is None else self._point(flag, match)
+
+    def _point(self, flag: str, match: re.Match[str]) -> str:
+        """Return a number with a point for its comma, which is said."""
+        text = match[0]
+        point = f"{match[1]}.{match[2]}{match[3] or ''}"
+        self.said.append(f"{flag} {text} is read as {point}")
+        return point
+
     def number(self, flag: str, unit: str = "") -> float:
         """Return the number of an option that has one."""
-        return float(self.decimal(flag, self.text(flag), unit))
+        return float(self.decimal(flag, self._one(flag), unit))
 
     def optional(self, flag: str, unit: str = "") -> float | None:
         """Return the number of an option, if it is given."""
@@ -390,6 +400,13 @@ class Given:
 
     def listed(self, flag: str, text: str, unit: str = "") -> list[float]:
         """Return the numbers of a text, separated by commas."""
+        match = COMMA.fullmatch(text.strip())
+        # Behind both numbers of a list there is a unit, or behind none; zero needs none.
+        if match is not None and match[3] is not None and int(match[1]) and unit in UNITS:
+            if len(match[2]) > MOST_DECIMALS:
+                hint = f"write {match[1]}.{match[2]}{match[3]}, or the unit behind both"
+                raise rejected(flag, text, hint)
+            text = self._point(flag, match)
         return [float(self.decimal(flag, part, unit)) for part in text.split(",")]
 
     def whole(self, flag: str) -> int:
@@ -525,6 +542,13 @@ class Given:
             hint = "it is there already; give another name, or --force to replace it"
             raise rejected(flag, str(file), hint)
         return file
+
+
+def _factor(word: str, unit: str) -> Decimal | None:
+    """Return what a unit behind a number stands for in the library's unit; None for others."""
+    if unit not in UNITS:
+        return OTHERS.get(unit, {}).get(word.lower())
+    return units.exact(word, UNITS[unit])
 
 
 def _hint(typed: str, unit: str) -> str:

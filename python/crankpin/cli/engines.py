@@ -12,7 +12,7 @@ from crankpin._support.tables import Table
 from crankpin.cli.arguments import command, option, rejected
 from crankpin.cli.outputs import Shown, only
 from crankpin.model.presets import Presets
-from crankpin.view.page import save_gallery
+from crankpin.view.gallery import save_gallery
 
 if TYPE_CHECKING:
     from crankpin.cli.arguments import Given

@@ -66,7 +66,7 @@ def _counterweights(given: Given) -> Shown:
     angles = given.range("--angles", "°")
     fit = counterweights(
         given.engine("counterweights"),
-        planes=_planes(given),
+        planes=planes_of(given),
         target=given.text("--target"),
         factor=given.optional("--factor"),
         minimise=given.text("--minimise"),
@@ -76,7 +76,8 @@ def _counterweights(given: Given) -> Shown:
     return Shown(fit.frames, fit, engine=fit.fitted)
 
 
-def _planes(given: Given) -> Planes:
+def planes_of(given: Given) -> Planes:
+    """Return the planes of ``--planes``."""
     text: str = given.text("--planes")
     if text in ("ends", "webs"):
         return text
@@ -91,7 +92,8 @@ def _planes(given: Given) -> Planes:
     return {name.strip(): float(given.decimal("--planes", z, "m")) for name, _, z in parts}
 
 
-def _mass(flag: str, what: str) -> Option:
+def mass(flag: str, what: str) -> Option:
+    """Return an option that is a mass."""
     return option(flag, metavar="MASS", help=f"{what}: 550g, or a number in kg")
 
 
@@ -104,9 +106,9 @@ def _mass(flag: str, what: str) -> Option:
         default="0.5",
         help="part of the reciprocating mass, 0.5 or 50%% (default: %(default)s)",
     ),
-    _mass("--rotating-mass", "big end, bolts and bearing shells"),
-    _mass("--reciprocating-mass", "piston, pin, rings and small end"),
-    _mass("--oil", "oil of a crankpin (default: 0)"),
+    mass("--rotating-mass", "big end, bolts and bearing shells"),
+    mass("--reciprocating-mass", "piston, pin, rings and small end"),
+    mass("--oil", "oil of a crankpin (default: 0)"),
     "--units",
     option("--frame", choices=("table", "factors")),
     "--csv --plot --save --force",
@@ -115,11 +117,11 @@ def _mass(flag: str, what: str) -> Option:
 )
 def _bob_weight(given: Given) -> Shown:
     engine = given.engine("bob-weight")
-    if (mass := given.optional("--reciprocating-mass", "kg")) is not None:
-        cylinders = [each.replace(reciprocating_mass=mass) for each in engine.cylinders]
+    if (moving := given.optional("--reciprocating-mass", "kg")) is not None:
+        cylinders = [each.replace(reciprocating_mass=moving) for each in engine.cylinders]
         engine = engine.replace(cylinder=cylinders)
-    if (mass := given.optional("--rotating-mass", "kg")) is not None:
-        engine = engine.replace(rotating_mass=mass)
+    if (turning := given.optional("--rotating-mass", "kg")) is not None:
+        engine = engine.replace(rotating_mass=turning)
     bob = bob_weight(engine, given.number("--factor"), given.optional("--oil", "kg") or 0.0)
     return Shown(bob.frames, bob, engine=bob.fitted)
 

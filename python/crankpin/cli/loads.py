@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import LOADS
 from crankpin._support.record import changed
@@ -20,9 +21,20 @@ if TYPE_CHECKING:
 
 OF_A_FILE = tuple(
     option(flag, group="the file of --cycle")
-    for flag in ["--pressure-unit", "--gauge", "--absolute", "--angle-unit", "--tdc", "--columns"]
+    for flag in [
+        "--pressure-unit",
+        "--gauge",
+        "--absolute",
+        "--atmosphere",
+        "--angle-unit",
+        "--recorded-rpm",
+        "--tdc",
+        "--columns",
+    ]
 )
 """Options that need a file of ``--cycle``."""
+WITHOUT = "none"
+"""Value of ``--cycle`` for no gas pressure."""
 ON = {"crank": "crank_torque", "block": "torque"}
 """What a torque acts on → its quantity."""
 
@@ -51,7 +63,7 @@ ON = {"crank": "crank_torque", "block": "torque"}
     "at 0 in presets, in an engine file at its tdc_deg. The engine needs a firing order.",
 )
 def _torque(given: Given) -> Shown:
-    engine, note = _fired(given, "torque", otherwise="petrol")
+    engine, note = fired(given, "torque")
     chosen, rpm = given.chosen(), given.number("--rpm", "rpm")
     balance, quantity = engine.balance(rpm, **chosen), ON[given.text("--on")]
     drawn = balance if given.text("--picture") == "spectrum" else engine.waveform(rpm)
@@ -64,13 +76,7 @@ def _torque(given: Given) -> Shown:
 @command(
     "bearings",
     "loads of crankpins, wrist pins, cylinder walls and main bearings",
-    "name --rpm",
-    option(
-        "--cycle",
-        help="cylinder pressure over crank angle: a file, or petrol or diesel for an example "
-        "(default: the engine's own, if it has one)",
-    ),
-    "--firing-order --bore --crankcase",
+    "name --rpm --cycle --firing-order --bore --crankcase",
     *OF_A_FILE,
     option(
         "--load",
@@ -91,13 +97,13 @@ def _torque(given: Given) -> Shown:
         help="axes of a polar picture (default: %(default)s)",
     ),
     "--units",
-    option("--frame", choices=("table", "mains")),
+    option("--frame", choices=("table", "mains", "crankpins")),
     "--csv --plot",
     example="bearings i4 --rpm 6000 --load crankpin --axes crank --plot pin.png",
     note="Main bearings share the loads between them by the lever rule.",
 )
 def _bearings(given: Given) -> Shown:
-    engine, note = _fired(given, "bearings")
+    engine, note = fired(given, "bearings")
     kind = given.text("--picture")
     loads = bearing_loads(engine, given.number("--rpm", "rpm"))
     known = {"polar": ("load", "axes"), "curves": ("load",), "bending": ()}[kind]
@@ -105,32 +111,39 @@ def _bearings(given: Given) -> Shown:
     return Shown(loads.frames, loads, {"kind": kind, **options}, note=note)
 
 
-def _fired(given: Given, name: str, otherwise: str | None = None) -> tuple[Engine, str]:
-    """Return the engine, with gas pressure if there is any, and a note of what was assumed."""
+def fired(given: Given, name: str) -> tuple[Engine, str]:
+    """Return the engine, with gas pressure unless there is none, and a note of what was assumed."""
     engine: Engine = given.engine(name)
     typed: Any = given.text("--cycle")
     if (order := given.text("--firing-order")) is not None:
         engine = engine.replace(firing_order=order)
+    kind, _, load = (typed or "").partition(":")
+    named = typed is None or kind in EXAMPLES or typed == WITHOUT
     of_a_file = [each.names[0] for each in OF_A_FILE if given.text(each.names[0])]
-    if of_a_file and (typed is None or typed in EXAMPLES):
+    if of_a_file and named:
         raise inputs.faulty(of_a_file[0], "needs a file of --cycle", "give its path")
     bore, crankcase = given.optional("--bore", "m"), given.optional("--crankcase", "Pa")
     if typed is None and engine.fired:
         cylinders = [each if bore is None else each.replace(bore=bore) for each in engine.cylinders]
         return engine.replace(cylinder=cylinders, crankcase=crankcase), ""
-    if typed is None and otherwise is None:
+    if typed == WITHOUT:
         for flag, figure in (("--bore", bore), ("--crankcase", crankcase)):
             if figure is not None:
                 hint = "acts only beside gas pressure; give --cycle"
                 raise rejected(flag, given.text(flag), hint)
-        return engine, ""
-    typed = otherwise if typed is None else typed
-    example = typed in EXAMPLES
-    if not example and not Path(typed).suffix:
-        hint = f"give {' or '.join(EXAMPLES)} for an example, or a text file"
+        return engine.with_cycle(None), ""
+    if not named and not Path(typed).suffix:
+        hint = f"give {' or '.join(EXAMPLES)} for an example, {WITHOUT}, or a text file"
         raise rejected("--cycle", typed, hint)
     strokes = engine.strokes
-    cycle = Cycle.example(typed, strokes=strokes) if example else _loaded(given, typed, strokes)
+    if named:
+        part = float(given.decimal("--cycle", load, "", "a part of full load")) if load else 1.0
+        if not 0.0 <= part <= 1.0:
+            raise rejected("--cycle", typed, "give a part of full load, 0 (idling) to 1")
+        example: Any = kind or next(iter(EXAMPLES))
+        cycle = Cycle.example(example, load=part, strokes=strokes)
+    else:
+        cycle = _loaded(given, typed, strokes)
     unknown = bore is None and any(each.bore is None for each in engine.cylinders)
     cylinders = [
         each.replace(bore=(each.bore or each.stroke) if bore is None else bore)
@@ -138,9 +151,14 @@ def _fired(given: Given, name: str, otherwise: str | None = None) -> tuple[Engin
         else each
         for each in engine.cylinders
     ]
-    fired = engine.replace(cylinder=cylinders).with_cycle(cycle, crankcase=crankcase)
+    try:
+        driven = engine.replace(cylinder=cylinders).with_cycle(cycle, crankcase=crankcase)
+    except InputError as error:
+        if typed is not None or name != "bearings":  # which are of masses too
+            raise
+        return engine, f"It is not counted, since {error}\n"
     note = "Bores that are not known are taken to equal the stroke.\n" if unknown else ""
-    return fired, note
+    return driven, note if named else f"{note}Read: {cycle.origin}.\n"
 
 
 def _loaded(given: Given, path: str, strokes: int) -> Cycle:
@@ -157,6 +175,8 @@ def _loaded(given: Given, path: str, strokes: int) -> Cycle:
         pressure_unit=given.text("--pressure-unit"),
         angle_unit=given.text("--angle-unit"),
         gauge=gauge if gauge or absolute else None,
+        atmosphere=given.optional("--atmosphere", "Pa") or ATMOSPHERE,
+        recorded_rpm=given.optional("--recorded-rpm", "rpm"),
         tdc_deg=given.optional("--tdc", "°") or 0.0,
         columns=columns,
         strokes=strokes,

@@ -65,7 +65,7 @@ FLAGS = {name: f"--{name.removesuffix('_deg').replace('_', '-')}" for name in FI
     ),
     "--rpm --orders",
     option("--count", default="20", help="number of designs to print (default: %(default)s)"),
-    "--seed --csv --plot",
+    "--seed --units --csv --plot",
     option("--save", help="write the design of --pick, an engine file (.toml, .json)"),
     option(
         "--pick", metavar="N", default="1", help="which design --save writes (default: %(default)s)"

@@ -1,4 +1,4 @@
-"""Commands on an engine on its mounts: modes, axes, forces over orders and speeds; and design."""
+"""Commands on an engine on its mounts: modes, axes, forces, a page; and design."""
 
 from __future__ import annotations
 
@@ -41,6 +41,12 @@ PICTURES = ("cuts", "map", "spectrum")
         help="the largest orders over speed, a map of orders over speed, or one speed's spectrum "
         "(default: cuts of several speeds, spectrum of one, and without --rpm the modes)",
     ),
+    option(
+        "--html",
+        metavar="FILE",
+        help="write a page too, in which the mounts can be dragged (.html); --rpm is its speed at "
+        "first (default: 800)",
+    ),
     "--units",
     option("--frame", choices=(FIRST, "strain", "axes", "static", "loads")),
     "--csv --plot",
@@ -52,9 +58,15 @@ def _mounts(given: Given) -> Shown:
     if given.text("--misfire") is not None:
         powertrain = powertrain.without(given.whole("--misfire"))
     rpm: Any = given.range("--rpm", "rpm")
+    page = given.text("--html")
+    if page is not None:
+        if np.size(rpm) > 1:
+            raise rejected("--html", page, "begins at one speed: give --rpm one")
+        speed = {} if rpm is None else {"rpm": float(np.ravel(rpm)[0])}
+        powertrain.save_html(page, **speed, frequency=given.optional("--frequency"))
     if rpm is None:
         return _at_rest(given, powertrain)
-    for flag in ("--frequency", "--torque"):
+    for flag in ("--torque", *(() if page is not None else ("--frequency",))):
         if (typed := given.text(flag)) is not None:
             raise rejected(flag, typed, "acts without --rpm alone")
     if np.size(rpm) > MOST_ROWS:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import inspect
+import itertools
 import shlex
 import textwrap
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from crankpin._support import inputs
+from crankpin._support import inputs, units
 from crankpin.cli.arguments import PROG, command, option, rejected
 from crankpin.model import checks, engine_files, presets
 from crankpin.model.cylinder import Cylinder, Rod
@@ -16,7 +17,7 @@ from crankpin.model.data import allowed
 from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
     from crankpin.cli.arguments import Given
 
@@ -28,6 +29,9 @@ BUILDERS = {
     "radial": "radial",
     "firing-order": "from_firing_order",
     "lists": "from_lists",
+    "banks": "from_banks",
+    "w": "from_banks",
+    "x": "from_banks",
 }
 """Kind → the builder of :class:`Engine` that takes all of its layout from options."""
 
@@ -41,20 +45,27 @@ LAYOUT: dict[str, tuple[str, str, str]] = {
     ),
     "--spacing": (
         "spacing",
-        "m",
-        "distance of neighbouring throws, or rows (default: in proportion to the bore)",
+        "spacing",
+        "distance of neighbouring throws, or rows, or of each (default: in proportion to the bore)",
     ),
     "--bank-stagger": ("bank_stagger", "m", "distance of the left bank behind the right"),
     "--odd-bank": ("odd_bank", "text", "bank of cylinder 1 from the flywheel: right or left"),
     "--numbering": ("numbering", "text", "alternating, or by-bank"),
+    "--absent": ("absent", "wholes", "cylinders that a vee lacks, such as 6 of a V5"),
     "--cylinders": ("cylinders", "whole", "number of cylinders of a radial"),
-    "--rows": ("rows", "whole", "rows of a radial, 1 or 2"),
+    "--rows": ("rows", "whole", "rows of a radial"),
     "--firing-order": ("firing_order", "text", "such as 1-3-4-2"),
     "--intervals": ("intervals_deg", "angles", "of firing-order: firing intervals, degrees"),
     "--strokes": ("strokes", "whole", "strokes of a cycle, 4 or 2"),
     "--tdc": ("tdc_deg", "angles", "of lists: crank angles of top dead centre, degrees"),
     "--pins": ("pin_deg", "angles", "of lists, for --tdc: directions of the crankpins, degrees"),
-    "--banks": ("bank_deg", "angles", "of lists: directions of the bores, degrees; 90 is upright"),
+    "--banks": (
+        "bank_deg",
+        "angles",
+        "of lists, of each cylinder, and of banks: directions of the bores, degrees; 90 is upright",
+    ),
+    "--crank": ("crank", "wholes", "of lists: crankshaft of each cylinder, 0 the main one"),
+    "--cranks": ("cranks", "cranks", "of lists: further crankshafts, X:Y:RATIO,…, m"),
     "--z": ("z", "metres", "of lists: places along the crank, from the front"),
 }
 """Option → argument of a builder, how it is read, and its help."""
@@ -75,16 +86,19 @@ MASSES = {
     "--reciprocating-mass": "all that moves with the piston, the rod's share included",
     "--rotating-mass": "all that turns with the crankpin, of one cylinder (default: rod's share)",
 }
-"""Options of one cylinder's parts → their help."""
+"""Options of one cylinder's parts → their help; a list has a figure for each cylinder."""
 
 
 def _wrapped(names: Iterable[str]) -> str:
     return textwrap.fill(", ".join(names), 88, initial_indent="  ", subsequent_indent="  ")
 
 
-PARTS = "parts of one cylinder (default: a nominal half litre)"
+PARTS = "parts of one cylinder, or A,B,… of each (default: a nominal half litre)"
 SHAPE = "layout (default: that of the preset)"
-METAVARS = {"angles": "A,B,…", "metres": "Z,…", "whole": "N", "text": "TEXT", "m": "M"}
+METAVARS = {
+    "angles": "A,B,…", "metres": "Z,…", "whole": "N", "wholes": "N,…", "text": "TEXT", "m": "M",
+    "spacing": "M,…", "cranks": "X:Y:N,…",
+}  # fmt: skip
 """How an option is read → what stands for its value; others are one angle."""
 
 
@@ -92,8 +106,8 @@ METAVARS = {"angles": "A,B,…", "metres": "Z,…", "whole": "N", "text": "TEXT"
     "new",
     "make an engine file: a layout by its usual name, and weighed parts",
     option("kind", metavar="KIND", help="such as v-twin, v6, boxer-4, radial, inline"),
-    *(option(flag, group=PARTS, metavar="LENGTH", help=what) for flag, what in LENGTHS.items()),
-    *(option(flag, group=PARTS, metavar="MASS", help=what) for flag, what in MASSES.items()),
+    *(option(flag, group=PARTS, metavar="LENGTH,…", help=what) for flag, what in LENGTHS.items()),
+    *(option(flag, group=PARTS, metavar="MASS,…", help=what) for flag, what in MASSES.items()),
     *(
         option(flag, group=SHAPE, metavar=METAVARS.get(how, "A"), help=what)
         for flag, (_, how, what) in LAYOUT.items()
@@ -122,12 +136,15 @@ def _new(given: Given) -> str:
     if file is None:
         return engine_files.commented(engine.to_toml())
     engine.save(file)
-    said = "".join(f"{note}\n" for note in notes)
+    said = units.in_text("".join(f"{note}\n" for note in notes))
     return f"{engine!r}\n{said}Written to {file}: try {PROG} balance {shlex.quote(str(file))}\n"
 
 
 def _engine(
-    given: Given, cylinder: Cylinder | None, rotating: float | None, notes: list[str]
+    given: Given,
+    cylinder: Cylinder | list[Cylinder] | None,
+    rotating: float | list[float] | None,
+    notes: list[str],
 ) -> Engine:
     """Return the engine of a kind with these parts and what options change in its layout."""
     kind = given.text("kind")
@@ -140,7 +157,8 @@ def _engine(
     spacing = changes.pop("spacing", None)
     if spacing is None:
         along = base.builder != "from_lists" or "places" in base.arguments
-        bores = None if cylinder is None else cylinder.bore, base.cylinder.bore
+        first = cylinder[0] if isinstance(cylinder, list) else cylinder
+        bores = None if first is None else first.bore, base.cylinder.bore
         ratio = bores[0] / bores[1] if bores[0] and bores[1] else 1.0
         spacing = float(f"{base.spacing * ratio:.3g}")
         if along:
@@ -166,7 +184,8 @@ def _engine(
 def _layout(kind: str) -> presets.Layout:
     """Return the layout of a kind, with nothing but nominal parts if options have it all."""
     if kind in BUILDERS:
-        return presets.layout()._replace(builder=BUILDERS[kind], arguments={})
+        fan = {"bank_deg": kind.upper()} if kind in ("w", "x") else {}
+        return presets.layout()._replace(builder=BUILDERS[kind], arguments=fan)
     name = presets.named(kind)
     if name not in presets.Presets():
         if meant := inputs.nearest(kind.lower(), [*presets.aliases(), *BUILDERS]):
@@ -209,18 +228,30 @@ def _changes(given: Given, kind: str, base: presets.Layout) -> dict[str, Any]:
 def _read(given: Given, flag: str, how: str) -> Any:  # noqa: ANN401 - as the builder takes it
     """Return the value of an option; angles stay text, which may be a fraction."""
     text = given.text(flag)
-    if how == "m":
-        return given.number(flag, "m")
-    if how == "metres":
-        return given.numbers(flag, "m")
-    if how == "whole":
-        return given.whole(flag)
     if how == "text" or (how == "split" and text == "even"):
         return text
+    readers: dict[str, Callable[[], Any]] = {
+        "m": lambda: given.number(flag, "m"),
+        "metres": lambda: given.numbers(flag, "m"),
+        "spacing": lambda: given.range(flag, "m"),
+        "whole": lambda: given.whole(flag),
+        "wholes": lambda: given.whole_numbers(flag),
+        "cranks": lambda: [_crank(given, flag, each.split(":")) for each in text.split(",")],
+    }
+    if how in readers:
+        return readers[how]()
     typed = [each.strip().removesuffix("deg").rstrip("°") for each in text.split(",")]
-    listed = [inputs.angle(flag, each) for each in typed]
+    angles = [inputs.angle(flag, each) for each in typed]
     checks.radians(flag, text, [float(each) for each in typed if "." in each and "/" not in each])
-    return listed if how == "angles" else listed[0]
+    return angles if how == "angles" else angles[0]
+
+
+def _crank(given: Given, flag: str, parts: list[str]) -> tuple[float, float, int]:
+    """Return a further crankshaft: its axis, m, and its ratio."""
+    if len(parts) != 3 or not parts[2].strip().lstrip("+-").isdecimal():
+        raise rejected(flag, given.text(flag), "give X:Y:RATIO, such as 0.2:0:-1")
+    x, y = (float(given.decimal(flag, each, "m")) for each in parts[:2])
+    return x, y, int(parts[2])
 
 
 def _split(base: presets.Layout, changes: dict[str, Any]) -> dict[str, str]:
@@ -238,10 +269,41 @@ def _split(base: presets.Layout, changes: dict[str, Any]) -> dict[str, str]:
     return {"pin_split_deg": str(even)}
 
 
-def _parts(given: Given, notes: list[str]) -> tuple[Cylinder | None, float | None]:
+def _parts(
+    given: Given, notes: list[str]
+) -> tuple[Cylinder | list[Cylinder] | None, float | list[float] | None]:
+    """Return what options say of each cylinder, or of all: parts, and what rotates with the pin.
+
+    None stands for nominal parts.
+    """
+    lengths = {flag: given.numbers(flag, "m") for flag in LENGTHS}
+    masses = {flag: given.numbers(flag, "kg") for flag in MASSES}
+    typed = {flag: each for flag, each in (lengths | masses).items() if each is not None}
+    count = max((len(each) for each in typed.values()), default=1)
+    for flag, each in typed.items():
+        if len(each) not in (1, count):
+            raise rejected(flag, given.text(flag), f"give one, or {count}, one for each cylinder")
+
+    def of(which: dict[str, list[float] | None], k: int) -> dict[str, float | None]:
+        return {flag: None if each is None else each[k % len(each)] for flag, each in which.items()}
+
+    remarks: list[list[str]] = [[] for _ in range(count)]
+    pairs = [_parts_of_one(given, of(lengths, k), of(masses, k), remarks[k]) for k in range(count)]
+    notes += dict.fromkeys(itertools.chain.from_iterable(remarks))
+    cylinders, turning = zip(*pairs, strict=True)
+    rotating = None if None in turning else list(turning)
+    if count == 1 or None in cylinders:
+        return cylinders[0], rotating if count > 1 else turning[0]
+    return list(cylinders), rotating
+
+
+def _parts_of_one(
+    given: Given,
+    lengths: dict[str, float | None],
+    masses: dict[str, float | None],
+    notes: list[str],
+) -> tuple[Cylinder | None, float | None]:
     """Return the cylinder of the options and what rotates with its pin; None for nominal ones."""
-    lengths = {flag: given.optional(flag, "m") for flag in LENGTHS}
-    masses = {flag: given.optional(flag, "kg") for flag in MASSES}
     rotating = masses.pop("--rotating-mass")
     if all(value is None for value in (*lengths.values(), *masses.values())):
         notes.append(

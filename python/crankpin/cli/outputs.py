@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TextIO
 
 import numpy as np
 
-from crankpin._support import files, labels
+from crankpin._support import files, units
 from crankpin._support.frames import FIRST, Frames
+from crankpin._support.warnings import without_controls
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -65,7 +66,7 @@ def _printed(given: Given, found: Shown) -> tuple[str, str]:
         table = found.frames[name or FIRST]
         return table.to_csv(), table.loads
     shown = found.frames if name is None else found.frames[name]
-    return f"{shown.text()}\n{found.note}", ""
+    return f"{shown.text()}\n{units.in_text(found.note)}", ""
 
 
 def only(table: Table) -> Frames:
@@ -108,7 +109,7 @@ def write(text: str) -> None:
         raise OSError("standard output is closed")
     try:
         # Line by line: a pipe that breaks within a single long write can go unnoticed.
-        sys.stdout.writelines(labels.without_controls(text).splitlines(keepends=True))
+        sys.stdout.writelines(without_controls(text).splitlines(keepends=True))
         sys.stdout.flush()
     except BrokenPipeError:
         raise
@@ -129,7 +130,7 @@ def say(message: str) -> None:
     if sys.stderr is None:
         return
     try:
-        sys.stderr.write(f"crankpin: {labels.without_controls(message)}\n")
+        sys.stderr.write(f"crankpin: {without_controls(message)}\n")
         sys.stderr.flush()
     except OSError:
         abandon(sys.stderr)

@@ -176,9 +176,9 @@ def _how(result: Sweep, given: Given) -> str:
     if result.hold is not None:
         parts.append(labels.HELD[result.hold])
     if quantity == "moment" and given.text("--reference-z") is not None:
-        parts.append(f"about z = {given.number('--reference-z', 'm'):g} m")
-    if (spectrum := given.text("--spectrum")) is not None:
-        parts.append(f"spectrum {spectrum} kg·m")
+        parts.append(f"about z = {given.echo('--reference-z', 'm')}")
+    if given.text("--spectrum") is not None:
+        parts.append(f"spectrum {given.echo('--spectrum', 'kg·m')}")
     return ", ".join(parts)
 
 

@@ -2,24 +2,34 @@
 
 from __future__ import annotations
 
+import itertools
+import re
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias
+
+import numpy as np
 
 from crankpin import _core
 from crankpin._core import MOST_CYLINDERS
 from crankpin._support import inputs
 from crankpin.model import checks
 from crankpin.model import shafts as rotating
-from crankpin.model.data import EngineData, allowed, big_end, core_of_lists, parts
+from crankpin.model.data import Cranks, EngineData, allowed, big_end, core_of_lists, parts
+from crankpin.model.furnishing import furnished, one_of, pitch, without
 
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Angle, Angles
     from crankpin.model.cylinder import Cylinder
+    from crankpin.model.furnishing import Cylinders
     from crankpin.model.shafts import Shaft, Unbalance
+
+MOST_ROWS = 6
+"""Largest number of rows of a radial, and of banks around a crank."""
+FANS = {"W": (30, 90, 150), "X": (45, 135, 225, 315), "Y": (90, 210, 330), "H": (0, 180)}
+"""Usual names of engines with several banks on one crank → directions of the bores."""
 
 Numbering: TypeAlias = Literal["alternating", "by-bank"]
 Side: TypeAlias = Literal["right", "left"]
@@ -43,6 +53,8 @@ class Builders(EngineData):
         shafts: Iterable[Shaft] = (),
         mains: ArrayLike | None = None,
         reference_z: float | None = None,
+        cranks: Iterable[tuple[float, float, int]] = (),
+        crank: Iterable[int] | None = None,
         firing_order: str | Iterable[int] = "",
         strokes: int = 4,
         name: str = "",
@@ -50,7 +62,7 @@ class Builders(EngineData):
     ) -> Self:
         """Return the engine that these lists describe, one entry for each cylinder.
 
-        For any layout on one crank, such as W and VR engines.
+        For any layout, such as W and VR engines, and engines with several cranks.
 
         Parameters
         ----------
@@ -80,9 +92,17 @@ class Builders(EngineData):
         reference_z : float, optional
             Plane about which moments are taken, m; by default midway between the first and the
             last cylinder. Moments depend on it where a force remains.
+        cranks : sequence of (float, float, int), optional
+            Further crankshafts: x and y of the axis, m, and speed over that of the main one, below
+            zero against it; by default none.
+        crank : sequence of int, shape (n_cylinders,), optional
+            Crankshaft of each cylinder: 0 is the main one, 1 the first of ``cranks``; by default
+            all are on the main one.
         firing_order : str or sequence of int, optional
             Firing order of the engine, such as ``"1-3-2"``, if it is known: :meth:`firing` uses it,
-            and files keep it.
+            and files keep it. Dashes of any kind, spaces or nothing stand between cylinders, ``+``
+            between those that fire together; ``"A1-B1-A2"`` counts in each bank, A that of cylinder
+            1, and ``"1L-1R"`` in the left and the right one.
         strokes : {4, 2}, default 4
             4 or 2: strokes of a cycle.
         name : str, optional
@@ -117,10 +137,23 @@ class Builders(EngineData):
         ... )
         >>> abs(i3.balance(rpm=10, orders=[1]).moment).round(3)
         array([[1.33, 0.  ]])
+
+        A square four, two cranks that turn against each other:
+
+        >>> four = cp.Engine.from_lists(
+        ...     cylinder,
+        ...     tdc_deg=[0, 180, 180, 0],
+        ...     bank_deg=[90] * 4,
+        ...     z=[0, 0.1, 0, 0.1],
+        ...     cranks=[(0.1, 0, -1)],
+        ...     crank=[0, 0, 1, 1],
+        ... )
+        >>> four.vanishing_orders().force.remaining
+        (2, 4, 6, 8, 10, 12)
         """
         core = core_of_lists(
             cylinder, tdc_deg, pin_deg, bank_deg, z, rotating_mass,
-            mains=mains, reference_z=reference_z,
+            mains=mains, reference_z=reference_z, cranks=_cranks(cranks, crank, bank_deg),
         )  # fmt: skip
         core = rotating.with_counterweights(core, counterweights)
         core = rotating.with_shafts(core, shafts)
@@ -129,10 +162,10 @@ class Builders(EngineData):
     @classmethod
     def inline(
         cls,
-        cylinder: Cylinder,
+        cylinder: Cylinders,
         *,
         throws_deg: Angles,
-        spacing: float,
+        spacing: ArrayLike,
         rotating_mass: ArrayLike | None = None,
         first_tdc_deg: Angle = 0.0,
         firing_order: str | Iterable[int] = "",
@@ -144,13 +177,14 @@ class Builders(EngineData):
 
         Parameters
         ----------
-        cylinder : Cylinder
-            Moving parts of every cylinder.
+        cylinder : Cylinder, sequence of Cylinder or mapping of str to Cylinder
+            Moving parts of every cylinder, of each by number, or of each bank by its name: a
+            piston that is heavier, a bank with a pin offset of its own.
         throws_deg : sequence of number or str, shape (n_cylinders,)
             Crankpin angles in the direction of rotation, relative to each other, front to
             flywheel, degrees. A throw 120° ahead is at top dead centre 120° *earlier*.
-        spacing : float
-            Distance between neighbouring cylinders, m.
+        spacing : float or array_like
+            Distance between neighbouring cylinders, m, or of each from the one before it.
         rotating_mass : array_like, optional
             As in :meth:`from_lists`.
         first_tdc_deg : number or str, default 0.0
@@ -186,23 +220,26 @@ class Builders(EngineData):
         array([[    0.,     0.],
                [    0., 12359.]])
         """
-        layout = _along_crank(cylinder, throws_deg, spacing, rotating_mass, first_tdc_deg)
-        core = _kept(_core.Engine.inline(parts(cylinder), layout), cylinder)
+        one = one_of(cylinder)
+        layout = _along_crank(one, throws_deg, spacing, rotating_mass, first_tdc_deg)
+        core = _kept(_core.Engine.inline(parts(one), layout), one)
         checks.angles(throws_deg=throws_deg, first_tdc_deg=first_tdc_deg)
-        return cls(core, name, source, firing_order, strokes)
+        engine = cls(core, name, source, firing_order, strokes)
+        return furnished(engine, cylinder, spacing, rotating_mass)
 
     @classmethod
     def vee(
         cls,
-        cylinder: Cylinder,
+        cylinder: Cylinders,
         *,
         bank_angle_deg: Angle,
         throws_deg: Angles,
-        spacing: float,
+        spacing: ArrayLike,
         pin_split_deg: Angle = 0.0,
         bank_stagger: float = 0.0,
         numbering: Numbering = "alternating",
         odd_bank: Side = "right",
+        absent: Iterable[int] = (),
         rotating_mass: ArrayLike | None = None,
         first_tdc_deg: Angle = 0.0,
         firing_order: str | Iterable[int] = "",
@@ -214,15 +251,15 @@ class Builders(EngineData):
 
         Parameters
         ----------
-        cylinder : Cylinder
-            Moving parts of every cylinder.
+        cylinder : Cylinder, sequence of Cylinder or mapping of str to Cylinder
+            As in :meth:`inline`.
         bank_angle_deg : number or str
             Angle between the banks, degrees, 0 to 180.
         throws_deg : sequence of number or str, shape (n_throws,)
             Angles of the right bank's crankpins in the direction of rotation, relative to each
             other, front to flywheel, degrees.
-        spacing : float
-            Distance between neighbouring throws, m.
+        spacing : float or array_like
+            Distance between neighbouring throws, m, or of each from the one before it.
         pin_split_deg : number or str, default 0.0
             Left pin minus right pin, in the direction of rotation, degrees; 0 for shared pins.
             Even firing needs bank angle − firing interval: −60 for a 60° V6, −30 for a 90° V6.
@@ -232,6 +269,10 @@ class Builders(EngineData):
             ``"alternating"`` along the crank from bank to bank, or ``"by-bank"``.
         odd_bank : {"right", "left"}, default "right"
             The bank with cylinder 1, seen from the flywheel.
+        absent : sequence of int, optional
+            Cylinders that are not there, by their numbers in the whole vee; those that are there
+            are numbered anew from 1. Of three throws ``[6]`` leaves a V5, ``[2, 3, 6]`` a V3 with
+            a cylinder on each throw, by turns right and left.
         rotating_mass : array_like, optional
             Rotating mass at the crank radius, each cylinder's share of its crankpin, kg: a number
             for all cylinders, or one for each. Of a pin that two cylinders share it is half. By
@@ -270,23 +311,35 @@ class Builders(EngineData):
         >>> abs(v8.balance(rpm=6000, orders=[1]).moment.backward)  # all of it turns with the crank
         array([0.])
         """
-        layout = _along_crank(cylinder, throws_deg, spacing, rotating_mass, first_tdc_deg)
-        layout |= vee_layout(bank_angle_deg, pin_split_deg, bank_stagger, numbering, odd_bank)
-        core = _kept(_core.Engine.vee(parts(cylinder), layout), cylinder)
+        one = one_of(cylinder)
+        missing = inputs.items("absent", absent, "give numbers of cylinders, such as [6]")
+        masses = None if missing else rotating_mass
+        layout = _along_crank(one, throws_deg, spacing, masses, first_tdc_deg)
+        stagger = inputs.number("bank_stagger", bank_stagger)
+        even = 0.0 if np.ndim(spacing) else stagger
+        layout |= vee_layout(bank_angle_deg, pin_split_deg, even, numbering, odd_bank)
+        core = _kept(_core.Engine.vee(parts(one), layout), one)
         checks.angles(
             bank_angle_deg=bank_angle_deg, throws_deg=throws_deg, pin_split_deg=pin_split_deg,
             first_tdc_deg=first_tdc_deg,
         )  # fmt: skip
         checks.pin_split(core, layout["pin_split"])
-        return cls(core, name, source, firing_order, strokes)
+        if not missing:
+            engine = cls(core, name, source, firing_order, strokes)
+            return furnished(engine, cylinder, spacing, rotating_mass, stagger)
+        engine = furnished(cls(core, name, source), one, spacing, masses, stagger)
+        engine = cls(without(engine._core, one, missing), name, source, firing_order, strokes)
+        engine = engine.with_first_tdc(first_tdc_deg)
+        engine = furnished(engine, cylinder, 0.0, rotating_mass)
+        return engine if rotating_mass is None else engine.replace(rotating_mass=rotating_mass)
 
     @classmethod
     def flat(
         cls,
-        cylinder: Cylinder,
+        cylinder: Cylinders,
         *,
         throws_deg: Angles,
-        spacing: float,
+        spacing: ArrayLike,
         bank_stagger: float = 0.0,
         numbering: Numbering = "alternating",
         odd_bank: Side = "right",
@@ -301,11 +354,11 @@ class Builders(EngineData):
 
         Parameters
         ----------
-        cylinder : Cylinder
+        cylinder : Cylinder, sequence of Cylinder or mapping of str to Cylinder
             As in :meth:`vee`.
         throws_deg : sequence of number or str, shape (n_throws,)
             As in :meth:`vee`.
-        spacing : float
+        spacing : float or array_like
             As in :meth:`vee`.
         bank_stagger : float, default 0.0
             As in :meth:`vee`.
@@ -351,10 +404,10 @@ class Builders(EngineData):
     @classmethod
     def boxer(
         cls,
-        cylinder: Cylinder,
+        cylinder: Cylinders,
         *,
         throws_deg: Angles,
-        spacing: float,
+        spacing: ArrayLike,
         bank_stagger: float = 0.0,
         numbering: Numbering = "alternating",
         odd_bank: Side = "right",
@@ -369,11 +422,11 @@ class Builders(EngineData):
 
         Parameters
         ----------
-        cylinder : Cylinder
+        cylinder : Cylinder, sequence of Cylinder or mapping of str to Cylinder
             As in :meth:`vee`.
         throws_deg : sequence of number or str, shape (n_throws,)
             As in :meth:`vee`.
-        spacing : float
+        spacing : float or array_like
             As in :meth:`vee`.
         bank_stagger : float, default 0.0
             Distance that a crank web puts between opposed cylinders, m.
@@ -419,11 +472,11 @@ class Builders(EngineData):
     @classmethod
     def radial(
         cls,
-        cylinder: Cylinder,
+        cylinder: Cylinders,
         cylinders: int = 7,
         *,
         rows: int = 1,
-        spacing: float | None = None,
+        spacing: ArrayLike | None = None,
         rotating_mass: ArrayLike | None = None,
         first_tdc_deg: Angle = 0.0,
         firing_order: str | Iterable[int] | None = None,
@@ -434,21 +487,22 @@ class Builders(EngineData):
         """Return a radial: the cylinders of a row stand evenly around one crankpin.
 
         Cylinder 1 is upright; numbers ascend in the direction of rotation, in two rows from row to
-        row. Pins of two rows are half a turn apart, so that the rear row's cylinders stand between
-        those of the front row. All rods count as if each had its own bearing on the crankpin:
-        articulated rods on a master rod, whose pistons move a little differently and leave a force
-        of order 2, are not modelled.
+        row. Pins of several rows share the turn, half a turn apart of two, a quarter of four, and
+        cylinders of each row stand between those of the others. All rods count as if each had its
+        own bearing on the crankpin: articulated rods on a master rod, whose pistons move a little
+        differently and leave a force of order 2, are not modelled.
 
         Parameters
         ----------
-        cylinder : Cylinder
-            Moving parts of every cylinder.
+        cylinder : Cylinder, sequence of Cylinder or mapping of str to Cylinder
+            As in :meth:`inline`.
         cylinders : int, default 7
             Number of cylinders of all rows, three or more in each.
-        rows : {1, 2}, default 1
-            1 or 2.
-        spacing : float, optional
-            Distance between two rows, m; of one row it may be left out.
+        rows : int, default 1
+            Number of rows, up to 6.
+        spacing : float or array_like, optional
+            Distance between neighbouring rows, m, or of each from the one before it; of one row it
+            may be left out.
         rotating_mass : array_like, optional
             As in :meth:`inline`.
         first_tdc_deg : number or str, default 0.0
@@ -482,25 +536,27 @@ class Builders(EngineData):
         (1, 8, 10)
         """
         count, banks = inputs.whole("cylinders", cylinders), inputs.whole("rows", rows)
-        if banks not in (1, 2):
-            raise inputs.rejected("rows", banks, "give 1 or 2; Engine.from_lists takes any layout")
+        if not 1 <= banks <= MOST_ROWS:
+            hint = f"give 1 to {MOST_ROWS}; Engine.from_lists takes any layout"
+            raise inputs.rejected("rows", banks, hint)
         if count % banks or count < 3 * banks:
             hint = "give three or more to each row; two opposed cylinders are Engine.flat"
             raise inputs.rejected("cylinders", count, hint)
         if count > MOST_CYLINDERS:
             raise inputs.rejected("cylinders", count, f"an engine has 1 to {MOST_CYLINDERS}")
-        if spacing is None and banks == 2:
-            raise inputs.rejected("spacing", None, "give the distance between the two rows, m")
-        distance = inputs.number("spacing", 0.0 if spacing is None else spacing)
+        if spacing is None and banks > 1:
+            raise inputs.rejected("spacing", None, "give the distance between rows, m")
+        distance = 0.0 if spacing is None else pitch(spacing)
         if distance < 0.0:
             raise inputs.rejected("spacing", spacing, "give a number that is zero or more")
-        pins = [place % banks * 180 for place in range(count)]
-        around = [360 * place for place in range(count)]
+        pins = [Fraction(place % banks * 360, banks) for place in range(count)]
+        around = [Fraction(360 * place, count) for place in range(count)]
+        one = one_of(cylinder)
         core = core_of_lists(
-            cylinder,
-            [f"{angle - pin * count}/{count}" for angle, pin in zip(around, pins, strict=True)],
+            one,
+            [angle - pin for angle, pin in zip(around, pins, strict=True)],
             None,
-            [f"{90 * count + angle}/{count}" for angle in around],
+            [90 + angle for angle in around],
             [place % banks * distance for place in range(count)],
             rotating_mass, mains=None, reference_z=None,
         )  # fmt: skip
@@ -509,16 +565,108 @@ class Builders(EngineData):
             if firing_order is None
             else firing_order
         )
-        engine = cls(core, name, source, order, strokes)
-        return engine.with_first_tdc(first_tdc_deg)
+        engine = cls(core, name, source, order, strokes).with_first_tdc(first_tdc_deg)
+        along = 0.0 if spacing is None else spacing
+        return furnished(engine, cylinder, along, rotating_mass)
+
+    @classmethod
+    def from_banks(
+        cls,
+        cylinder: Cylinders,
+        bank_deg: Angles | Literal["W", "X", "Y", "H"],
+        *,
+        throws_deg: Angles,
+        spacing: ArrayLike,
+        bank_stagger: float = 0.0,
+        rotating_mass: ArrayLike | None = None,
+        first_tdc_deg: Angle = 0.0,
+        firing_order: str | Iterable[int] = "",
+        strokes: int = 4,
+        name: str = "",
+        source: str = "",
+    ) -> Self:
+        """Return an engine with a cylinder of every bank on every throw, such as a W or an X.
+
+        Cylinders are numbered bank by bank, each from the front to the flywheel.
+
+        Parameters
+        ----------
+        cylinder : Cylinder, sequence of Cylinder or mapping of str to Cylinder
+            As in :meth:`vee`; banks are ``"bank 1"``, ``"bank 2"``, ….
+        bank_deg : sequence of number or str, or {"W", "X", "Y", "H"}
+            Directions of the banks from +x, degrees; ``"W"`` is 30, 90, 150, ``"X"`` is 45, 135,
+            225, 315, ``"Y"`` is 90, 210, 330, and ``"H"`` is 0, 180.
+        throws_deg : sequence of number or str, shape (n_throws,)
+            Crankpins in the direction of rotation, relative to each other, front to flywheel,
+            degrees.
+        spacing : float or array_like
+            As in :meth:`vee`.
+        bank_stagger : float, default 0.0
+            How far each bank stands behind the one before it, m.
+        rotating_mass : array_like, optional
+            As in :meth:`from_lists`.
+        first_tdc_deg : number or str, default 0.0
+            As in :meth:`vee`.
+        firing_order : str or sequence of int, optional
+            As in :meth:`from_lists`.
+        strokes : {4, 2}, default 4
+            As in :meth:`from_lists`.
+        name, source : str, optional
+            As in :meth:`from_lists`.
+
+        Returns
+        -------
+        Engine
+            The engine.
+
+        Raises
+        ------
+        InputError
+            As for :meth:`from_lists`.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> x8 = cp.Engine.from_banks(
+        ...     cp.Cylinder(0.04, 0.14, 0.4), "X", throws_deg=[0, 180], spacing=0.1
+        ... )
+        >>> x8.vanishing_orders().force.remaining
+        ()
+        >>> x8.banks["bank 4"]
+        (7, 8)
+        """
+        if isinstance(bank_deg, str):
+            bank_deg = FANS[inputs.one_of("bank_deg", bank_deg.upper(), FANS)]
+        one, banks = one_of(cylinder), inputs.angles("bank_deg", bank_deg)
+        pins, distance = inputs.angles("throws_deg", throws_deg), pitch(spacing)
+        even = 0.0 if np.ndim(spacing) else inputs.number("bank_stagger", bank_stagger)
+        places = [
+            distance * k + even * bank for bank in range(len(banks)) for k in range(len(pins))
+        ]
+        core = core_of_lists(
+            one,
+            None,
+            pins * len(banks),
+            [bank for bank in banks for _ in pins],
+            places,
+            rotating_mass,
+            mains=None,
+            reference_z=None,
+            bank=[k for k in range(len(banks)) for _ in pins],
+        )
+        engine = cls(core, name, source, "", strokes).with_first_tdc(first_tdc_deg)
+        engine = engine.replace(firing_order=firing_order) if firing_order else engine
+        if np.ndim(spacing) and bank_stagger:
+            raise inputs.rejected("bank_stagger", bank_stagger, "give one spacing with it")
+        return furnished(engine, cylinder, spacing, rotating_mass)
 
     @classmethod
     def from_firing_order(
         cls,
-        cylinder: Cylinder,
+        cylinder: Cylinders,
         firing_order: str | Iterable[int],
         *,
-        spacing: float,
+        spacing: ArrayLike,
         bank_angle_deg: Angle | None = None,
         shared_pins: bool | None = None,
         rule: FiringRule = "even",
@@ -536,13 +684,13 @@ class Builders(EngineData):
 
         Parameters
         ----------
-        cylinder : Cylinder
-            Moving parts of every cylinder.
+        cylinder : Cylinder, sequence of Cylinder or mapping of str to Cylinder
+            As in :meth:`inline`.
         firing_order : str or sequence of int
             Cylinder numbers, as ``"1-8-4-3-6-5-7-2"`` or a list. Where ``rule="ijesc"`` gives a
             crank that cannot fire in this order, the engine's firing order is left empty.
-        spacing : float
-            Distance between neighbouring throws, m.
+        spacing : float or array_like
+            Distance between neighbouring throws, m, or of each from the one before it.
         bank_angle_deg : number or str, optional
             Angle between the banks of a vee, degrees; None for an inline engine.
         shared_pins : bool, optional
@@ -609,7 +757,8 @@ class Builders(EngineData):
 
         See :func:`crankpin.throws` for the crank alone.
         """
-        order = inputs.firing_order("firing_order", firing_order)
+        banks = _banks(firing_order, bank_angle_deg, numbering, odd_bank)
+        order = inputs.firing_order("firing_order", firing_order, banks)
         fired = (
             inputs.text("rule", rule, 'give "even" or "ijesc"'),
             None if intervals_deg is None else inputs.angles("intervals_deg", intervals_deg),
@@ -625,9 +774,12 @@ class Builders(EngineData):
                     else "they have intervals of their own; leave out rule and intervals_deg"
                 )
                 raise inputs.rejected("shared_pins", shared_pins, hint)
-        along = _along_crank(cylinder, (), spacing, rotating_mass, first_tdc_deg)
-        across = vee_layout_of(bank_angle_deg, bank_stagger, numbering, odd_bank)
-        moving = parts(cylinder)
+        one = one_of(cylinder)
+        along = _along_crank(one, (), spacing, rotating_mass, first_tdc_deg)
+        stagger = inputs.number("bank_stagger", bank_stagger)
+        behind = 0.0 if np.ndim(spacing) else stagger
+        across = vee_layout_of(bank_angle_deg, behind, numbering, odd_bank)
+        moving = parts(one)
         if bank_angle_deg is None:
             core = _core.Engine.inline_from_firing_order(moving, order, *fired, along)
         else:
@@ -646,31 +798,82 @@ class Builders(EngineData):
                     and shared_pins is None
                 ):
                     checks.split_pins(splits, shared, order, strokes)
-        core = _kept(core, cylinder)
+        core = _kept(core, one)
         checks.angles(
             bank_angle_deg=bank_angle_deg, intervals_deg=intervals_deg, first_tdc_deg=first_tdc_deg
         )
         if fired[1] is not None:
             taken = _core.Firing.named(core, order, strokes)
             checks.intervals(order, [inputs.degrees(each) for each in fired[1]], taken)
-        return cls(core, name, source, allowed(core, order, strokes), strokes)
+        engine = cls(core, name, source, allowed(core, order, strokes), strokes)
+        return furnished(engine, cylinder, spacing, rotating_mass, stagger)
 
 
 def _radial_order(cylinders: int, rows: int, strokes: int) -> str:
     """Return the even firing order of a radial; empty if there is none.
 
-    Each row fires at every second of its top dead centres; of cylinders of two rows that reach
-    theirs together, the second row's fires a turn after the first row's.
+    In a four-stroke each row fires at every second of its top dead centres. Cylinders of several
+    rows that reach theirs together fire a turn apart, or together if their number is odd.
     """
-    fired: dict[int, list[int]] = {}
     if strokes == 4 and cylinders // rows % 2 == 0:
         return ""
-    for place in range(cylinders):
-        row = place % rows
-        tdc = (place - row * cylinders // 2) % cylinders  # in parts of a turn
-        later = strokes == 4 and (tdc // rows + row) % 2
-        fired.setdefault(tdc + later * cylinders, []).append(place + 1)
-    return "-".join("+".join(map(str, fired[angle])) for angle in sorted(fired))
+    turn = cylinders * rows  # in whole parts of it
+    tdcs = [(place * rows - place % rows * cylinders) % turn for place in range(cylinders)]
+    best: list[list[int]] = []
+    # The first cylinder fires at once; any row may begin a turn later.
+    for later in itertools.product((0, 1), repeat=rows - 1) if strokes == 4 else [(0,) * rows]:
+        fired: dict[int, list[int]] = {}
+        for place, tdc in enumerate(tdcs):
+            row = place % rows
+            own = sorted(tdcs[row::rows])
+            turns = (own.index(tdc) + (0, *later)[row]) % 2 if strokes == 4 else 0
+            fired.setdefault(tdc + turns * turn, []).append(place + 1)
+        times = sorted(fired)
+        groups, cycle = [fired[time] for time in times], turn * (2 if strokes == 4 else 1)
+        pairs = zip(times, [*times[1:], times[0] + cycle], strict=True)
+        even = len({then - now for now, then in pairs}) == 1 == len({*map(len, groups)})
+        if even and len(groups) > len(best):
+            best = groups
+    return "-".join("+".join(map(str, group)) for group in best)
+
+
+def _banks(
+    firing_order: object, bank_angle_deg: Angle | None, numbering: object, odd_bank: object
+) -> list[int]:
+    """Return the bank of each cylinder of a vee that is named by its firing order."""
+    if bank_angle_deg is None or not isinstance(firing_order, str):
+        return []
+    count, first = len(re.findall(r"\d+", firing_order)), int(odd_bank == "left")
+    if numbering == "by-bank":
+        return [first if 2 * k < count else 1 - first for k in range(count)]
+    return [(first + k) % 2 for k in range(count)]
+
+
+def _cranks(cranks: object, crank: object, bank_deg: Angles) -> Cranks | None:
+    """Return the crankshafts and that of each cylinder; None for the main one alone."""
+    hint = "give x and y in metres and a whole ratio, such as [(0.2, 0.0, -1)]"
+    further = []
+    for each in inputs.items("cranks", cranks, hint):
+        figures = inputs.items("cranks", each, hint)
+        if len(figures) != 3:
+            raise inputs.rejected("cranks", each, hint)
+        x, y = (inputs.finite("cranks", figure) for figure in figures[:2])
+        further.append((x, y, inputs.whole("cranks", figures[2])))
+    if crank is None:
+        if further:
+            raise inputs.rejected("crank", None, "give the crankshaft of each cylinder, from 0")
+        return None
+    listed = [
+        inputs.whole("crank", each, 0)
+        for each in inputs.items("crank", crank, "give a whole number for each cylinder")
+    ]
+    count = len(inputs.items("bank_deg", bank_deg, "give a list of degrees"))
+    if len(listed) != count:
+        raise inputs.faulty("crank", f"has {len(listed)} entries", f"give {count}")
+    for each in listed:
+        if each > len(further):
+            raise inputs.rejected("crank", each, f"there are cranks 0 to {len(further)}")
+    return [(0.0, 0.0, 1), *further], listed
 
 
 def vee_layout(
@@ -705,16 +908,16 @@ def vee_layout_of(
 
 
 def _along_crank(
-    cylinder: Cylinder,
+    cylinder: object,
     throws_deg: Angles,
-    spacing: float,
+    spacing: ArrayLike,
     rotating_mass: ArrayLike | None,
     first_tdc_deg: Angle,
 ) -> dict[str, Any]:
     """Return what stands along a crank, as the core takes it."""
     return {
         "throws": inputs.angles("throws_deg", throws_deg),
-        "spacing": inputs.number("spacing", spacing),
+        "spacing": pitch(spacing),
         "rotating_mass": (
             [big_end(cylinder)]
             if rotating_mass is None

@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from crankpin.model.engine import Engine
     from crankpin.model.shafts import Shaft, Unbalance
 
 
@@ -199,9 +198,9 @@ def place(core: _core.Engine, name: str, *at: float | None, middle: float | None
     _report(next(filter(None, (_far(core, name, each, middle) for each in given)), []))
 
 
-def masses(engine: Engine, **given: float) -> None:
+def masses(core: _core.Engine, **given: float) -> None:
     """Warn of masses of one cylinder's parts, by the names of their arguments, in grams."""
-    _report(_grams(engine._core.largest_crank_radius, given))
+    _report(_grams(core.largest_crank_radius, given))
 
 
 def oil(mass: float, beside: float) -> None:

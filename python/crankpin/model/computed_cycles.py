@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final, Literal, Self, TypedDict
 from crankpin import _core
 from crankpin._core import ATMOSPHERE
 from crankpin._support import inputs
+from crankpin._support.warnings import suppressed
 from crankpin.model.cylinder import Cylinder
 
 if TYPE_CHECKING:
@@ -44,7 +45,30 @@ EXAMPLES: Final[Mapping[str, Mapping[str, Any]]] = {
         "rpm": 2000.0,
     },
 }
-"""Figures of the Wiebe cycles of :meth:`Cycle.example`: of no engine in particular."""
+"""Figures of the Wiebe cycles of :meth:`Cycle.example` at full load: of no engine in particular."""
+IDLING: Final[Mapping[str, Mapping[str, float]]] = {
+    "petrol": {
+        "start_deg": -24.0,
+        "duration_deg": 75.0,
+        "exhaust_pressure": 1.02e5,
+        "wall_temperature": 390.0,
+        "rpm": 800.0,
+    },
+    "diesel": {
+        "start_deg": -3.0,
+        "duration_deg": 40.0,
+        "intake_pressure": 1.0e5,
+        "exhaust_pressure": 1.04e5,
+        "charge_temperature": 335.0,
+        "wall_temperature": 390.0,
+        "rpm": 700.0,
+    },
+}
+"""Those of the figures that are others where the engine idles; between, they are linear in load."""
+IDLING_IMEP: Final = 1.2e5
+"""Indicated mean effective pressure of the examples that idle, Pa: that of friction."""
+SETTLED: Final = 1e-10
+"""Relative difference from its mean effective pressure at which an example's load is found."""
 
 
 class IdealOptions(TypedDict, total=False):
@@ -62,7 +86,7 @@ class ComputedCycles:
     """Base class of cycles: the ways to compute one."""
 
     @classmethod
-    def _of(cls, core: _core.Cycle) -> Self:
+    def _of(cls, core: _core.Cycle, origin: str = "") -> Self:
         """Return the cycle of what the core has."""
         raise NotImplementedError
 
@@ -378,15 +402,22 @@ class ComputedCycles:
         )
 
     @classmethod
-    def example(cls, kind: Literal["petrol", "diesel"] = "petrol", *, strokes: int = 4) -> Self:
+    def example(
+        cls, kind: Literal["petrol", "diesel"] = "petrol", *, load: float = 1.0, strokes: int = 4
+    ) -> Self:
         """Return a cycle to begin with: computed by :meth:`wiebe`, not measured.
 
         Parameters
         ----------
         kind : {"petrol", "diesel"}, default "petrol"
-            ``"petrol"``: a naturally aspirated four-stroke at full load and 3000 rpm.
-            ``"diesel"``: a turbocharged one at 2000 rpm. Bore and stroke are 86 mm, the rod is
-            145 mm long; the other figures are in ``crankpin.model.computed_cycles.EXAMPLES``.
+            ``"petrol"``: a naturally aspirated four-stroke, at full load and 3000 rpm.
+            ``"diesel"``: a turbocharged one, at 2000 rpm. Bore and stroke are 86 mm, the rod is
+            145 mm long; ``origin`` has the other figures.
+        load : float, default 1.0
+            Part of full load: 1, or less, down to 0, which is idling at 800 and 700 rpm. Indicated
+            mean effective pressure is linear in it, from 1.2 bar upwards, and set by the pressure
+            of the intake (petrol) or by the fuel (diesel, two-strokes); other figures are linear
+            in load too.
         strokes : {4, 2}, default 4
             4, or 2 for a two-stroke of the same figures.
 
@@ -395,17 +426,58 @@ class ComputedCycles:
         Cycle
             The cycle.
 
+        Raises
+        ------
+        InputError
+            If there is no such example, or the load is not between 0 and 1.
+
         Examples
         --------
         >>> import crankpin as cp
         >>> cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
         >>> round(cp.Cycle.example().imep(cylinder) / 1e5, 1)
         12.1
+        >>> part = cp.Cycle.example("petrol", load=0.1)
+        >>> part.name, round(part.imep(cylinder) / 1e5, 1)
+        ('example petrol, 10 % load', 2.3)
         """
-        figures = EXAMPLES[inputs.one_of("kind", kind, EXAMPLES)]
+        full = EXAMPLES[inputs.one_of("kind", kind, EXAMPLES)]
+        part = inputs.number("load", load)
+        if not 0.0 <= part <= 1.0:
+            raise inputs.rejected("load", load, "give a part of full load, 0 (idling) to 1")
         cylinder = Cylinder(0.043, 0.145, 0.5, bore=0.086)
-        name = f"example {kind}, full load"
-        return cls.wiebe(cylinder, **figures, strokes=strokes, name=name)
+        named = "full load" if part == 1.0 else f"{100.0 * part:.4g} % load" if part else "idling"
+
+        options: dict[str, Any] = {"strokes": strokes, "name": f"example {kind}, {named}"}
+        found: Any = cls.wiebe(cylinder, **full, **options)  # which has imep
+        if part == 1.0:
+            return found  # type: ignore[no-any-return]
+        figures = dict(full)
+        for each, idling in IDLING[kind].items():
+            figures[each] = idling + part * (full[each] - idling)
+        # A throttle sets the charge of four-strokes with petrol. A two-stroke's cylinder is filled
+        # at the pressure of the exhaust, with less of what burns.
+        throttled = kind == "petrol" and inputs.strokes(strokes) == 4
+        name = "intake_pressure" if throttled else "excess_air"
+        target = IDLING_IMEP + part * (found.imep(cylinder) - IDLING_IMEP)
+        whole = figures[name]
+        points = list[tuple[float, float]]()
+        charge = 1.0
+        with suppressed():
+            # Work is all but linear in the charge: secants converge from anywhere.
+            while True:
+                figures[name] = whole * charge if throttled else whole / charge
+                found = cls.wiebe(cylinder, **figures, **options)
+                error = found.imep(cylinder) / target - 1.0
+                if abs(error) < SETTLED:
+                    return found  # type: ignore[no-any-return]
+                points = [*points[-1:], (charge, error)]
+                if len(points) == 1:
+                    charge = 0.5
+                    continue
+                (before, of_before), (charge, _) = points
+                slope = (error - of_before) / (charge - before)
+                charge = max(charge - error / slope, 0.01)
 
     @classmethod
     def _computed(
@@ -423,7 +495,10 @@ class ComputedCycles:
         title = inputs.text("name", name) or f"{kind} cycle, compression ratio {ratio:.6g}"
         checked = {key: inputs.optional_number(key, value) for key, value in figures.items()}
         core = of(cylinder._parts, cylinder.bore, ratio, inputs.strokes(strokes), title, checked)
-        return cls._of(core)
+        said = {"bore": cylinder.bore, "stroke": cylinder.stroke, "compression_ratio": ratio}
+        known = {name: each for name, each in (said | checked).items() if each is not None}
+        listed = ", ".join(f"{name} {each:.6g}" for name, each in known.items())
+        return cls._of(core, f"Computed, not measured: {kind} cycle, in SI units {listed}")
 
 
 def area(cylinder: Cylinder) -> float:

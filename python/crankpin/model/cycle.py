@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 import math
-from typing import TYPE_CHECKING, Literal, Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._core import ATMOSPHERE
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.record import Input, read_only
 from crankpin._support.tables import Column, Table
@@ -21,15 +23,20 @@ from crankpin.model.computed_cycles import ComputedCycles, area
 if TYPE_CHECKING:
     from collections.abc import Iterable
     from pathlib import Path
+    from typing import Unpack
 
     from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order
+    from crankpin.model.cycle_files import FileOptions
     from crankpin.model.cylinder import Cylinder
 
 EVEN = 1e-6
 """Difference between steps of a grid, over the largest, up to which they are equal."""
+
+PARTS = 8
+"""Parts of a step between two points over which the piston's way is summed."""
 
 
 class Cycle(Tabled, Input, ComputedCycles):
@@ -54,6 +61,8 @@ class Cycle(Tabled, Input, ComputedCycles):
     degree : int, optional
         None for a table. Otherwise the points are Chebyshev points of adjoining panels,
         ``degree + 1`` of each, and pressure is the polynomial through them.
+    origin : str, optional
+        How it was measured, read or computed, in words: a line under the table.
 
     Raises
     ------
@@ -89,6 +98,9 @@ class Cycle(Tabled, Input, ComputedCycles):
     """Name or origin; may be empty."""
     degree: int | None
     """Degree of the polynomials through the points; None for a table."""
+    origin: str = dataclasses.field(default="", compare=False)
+    """How it was measured, read or computed, in words; may be empty. It does not count in equality
+    and is not in files."""
 
     def __init__(
         self,
@@ -97,6 +109,7 @@ class Cycle(Tabled, Input, ComputedCycles):
         strokes: int = 4,
         name: str = "",
         degree: int | None = None,
+        origin: str = "",
     ) -> None:
         for field, values in (("theta_deg", theta_deg), ("pressure", pressure)):
             object.__setattr__(self, field, read_only(inputs.vector(field, values).copy()))
@@ -111,15 +124,16 @@ class Cycle(Tabled, Input, ComputedCycles):
                     f"give one below the number of points, {len(self.theta_deg)}, or leave it out",
                 )
         object.__setattr__(self, "degree", degree)
+        object.__setattr__(self, "origin", inputs.text("origin", origin))
         if len(self._core):
             checks.pressure(self.pressure)
             checks.peak(self.theta_deg, self.pressure, self.period_deg)
 
     @classmethod
-    def _of(cls, core: _core.Cycle) -> Self:
+    def _of(cls, core: _core.Cycle, origin: str = "") -> Self:
         """Return the cycle of what the core has."""
         theta_deg, pressure, strokes, name, degree = core.points
-        return cls(theta_deg, pressure, strokes, name, degree)
+        return cls(theta_deg, pressure, strokes, name, degree, origin)
 
     @functools.cached_property
     def _core(self) -> _core.Cycle:
@@ -127,82 +141,36 @@ class Cycle(Tabled, Input, ComputedCycles):
         return _core.Cycle(self.theta_deg, self.pressure, self.strokes, self.name, self.degree)
 
     @classmethod
-    def load(
-        cls,
-        path: str | Path,
-        *,
-        pressure_unit: str | None = None,
-        angle_unit: Literal["deg", "rad"] | None = None,
-        gauge: bool | None = None,
-        atmosphere: float = ATMOSPHERE,
-        tdc_deg: float = 0.0,
-        columns: tuple[int | str, int | str] | None = None,
-        strokes: int | None = None,
-        name: str | None = None,
-    ) -> Cycle:
-        """Return the cycle in a text file with columns of crank angle and pressure.
-
-        Columns are separated by commas, semicolons, tabs or blanks; decimal commas are recognised
-        unless columns are separated by commas too. Lines before the numbers, and lines that begin
-        with ``#``, ``%`` or ``!``, are comments; the last before the numbers is the header, with
-        the one above it if that has as many cells. Text is UTF-8, Latin-1, or UTF-16 with a byte
-        order mark.
+    def load(cls, path: str | Path, **options: Unpack[FileOptions]) -> Cycle:
+        """Return the cycle in a text file of crank angle and pressure; of several their mean.
 
         Parameters
         ----------
         path : str or pathlib.Path
-            ``.csv``, ``.tsv``, ``.txt``, ``.dat`` or ``.asc``.
-        pressure_unit : str, optional
-            ``"Pa"``, ``"hPa"``, ``"kPa"``, ``"MPa"``, ``"mbar"``, ``"bar"`` or ``"psi"``; by
-            default what the header names.
-        angle_unit : {"deg", "rad"}, optional
-            ``"deg"`` or ``"rad"``; by default what the header names, else degrees.
-        gauge : bool, optional
-            True for pressure above that of the atmosphere, False for absolute pressure; by default
-            what the header says.
-        atmosphere : float, default 101325.0
-            Pressure added to gauge pressure, Pa.
-        tdc_deg : float, default 0.0
-            Angle of the firing top dead centre as the file counts angles, degrees.
-        columns : pair of int or str, optional
-            Numbers from 0, or names, of the columns of angle and pressure; by default the first
-            two, with a warning if there are more.
-        strokes : {4, 2}, optional
-            4 or 2; by default 4, or what :meth:`save` has written.
-        name : str, optional
-            By default the name of the file, or what :meth:`save` has written.
+            As in :meth:`Traces.load`.
+        **options : dict, optional
+            As in :meth:`Traces.load`.
 
         Returns
         -------
         Cycle
-            The cycle, its angles counted from the firing top dead centre.
+            The cycle, its angles counted from the firing top dead centre; ``origin`` says what was
+            read.
 
         Raises
         ------
         InputError
-            If the file states no unit, or not whether pressure is absolute, and the arguments do
-            neither; if it has no such columns; or as for :class:`Cycle`.
+            As for :meth:`Traces.load`.
         OSError
             If the file cannot be read.
 
         Warns
         -----
         UserWarning
-            If there are more columns and ``columns`` is left out, or as for :class:`Cycle`.
+            As for :class:`Cycle`.
         """
-        return cls(
-            *cycle_files.load(
-                path,
-                pressure_unit=pressure_unit,
-                angle_unit=angle_unit,
-                gauge=gauge,
-                atmosphere=atmosphere,
-                tdc_deg=tdc_deg,
-                columns=columns,
-                strokes=strokes,
-                name=name,
-            )
-        )
+        theta, pressure, strokes, name, origin, degree = cycle_files.load(path, **options)
+        return cls(theta, pressure.mean(axis=0), strokes, name, degree, origin)
 
     def save(self, path: str | Path) -> None:
         """Write the points to a text file, ``.csv`` or the like, that reads back as an equal cycle.
@@ -384,10 +352,11 @@ class Cycle(Tabled, Input, ComputedCycles):
         as large beside a jump between points: the change exceeds the error of the whole table if
         that is at most half of the thinned table's. Of peaks 4° to 40° wide at steps of 0.5° to 4°,
         two harmonics in a thousand have errors above it, up to six times, where the two errors are
-        alike by chance; the largest over orders ½ to 12 never is. It is no bound. Of a measured
-        trace it is what interpolation adds: noise, coarse digits and the sensor's own error are in
-        the points, which both tables share, and can be hundreds of times larger. The spread of
-        harmonics over several cycles shows these. Zero for polynomials.
+        alike by chance; the largest over orders ½ to 12 never is. It is no bound, which
+        :meth:`resolution_bound` is. Of a measured trace it is what interpolation adds: noise,
+        coarse digits and the sensor's own error are in the points, which both tables share, and can
+        be hundreds of times larger; :meth:`Traces.resolution_error` has them from the spread over
+        cycles. Zero for polynomials, of which it is a bound.
 
         Parameters
         ----------
@@ -427,6 +396,69 @@ class Cycle(Tabled, Input, ComputedCycles):
             np.maximum(error, abs(coarse - whole), out=error)
         return error
 
+    def resolution_bound(self, cylinder: Cylinder) -> float:
+        """Return a bound of every harmonic's error from the table's resolution, N·m.
+
+        It is proved for any pressure that between two neighbouring points stays between their two
+        values, as it does where all its extremes are points: then it differs from the cubic there
+        by their range and the cubic's at most. It falls with the step, where the error of smooth
+        pressure falls with its fourth power: far above :meth:`resolution_error`, and certain.
+
+        Parameters
+        ----------
+        cylinder : Cylinder
+            As in :meth:`torque_harmonics`.
+
+        Returns
+        -------
+        float
+            Bound of the magnitude of the error of the phasor of any order, N·m, and of twice the
+            mean torque's; zero for polynomials.
+
+        Raises
+        ------
+        InputError
+            If the cylinder has no bore.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> import numpy as np
+        >>> cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+        >>> theta = np.arange(-360, 360)
+        >>> cycle = cp.Cycle(theta, 1e5 + 3e6 * np.exp(-(((theta - 15) / 30) ** 2)))
+        >>> round(cycle.resolution_bound(cylinder), 2)
+        2.23
+        >>> cycle.resolution_error(cylinder, [12]).round(5)  # an estimate
+        array([8.e-05])
+        """
+        scale = 2.0 * area(cylinder) / math.radians(self.period_deg)
+        if self.degree is not None:
+            return 0.0
+        start = float(self.theta_deg[0])
+        edges = np.append(self.theta_deg, start + self.period_deg)
+        steps = np.diff(edges)
+        before, steps = edges[:-1][steps > 0.0], steps[steps > 0.0]
+        shares = np.arange(PARTS + 1) / PARTS
+        angles = before[:, None] + steps[:, None] * shares
+        inside = before[:, None] + steps[:, None] * np.array([1e-9, 1.0 / 3.0, 2.0 / 3.0, 1 - 1e-9])
+        first, second, third, fourth = self.pressure_at(inside).T
+        # A cubic is between the least and largest of its control points (Bernstein).
+        controls = np.stack(
+            [
+                first,
+                (-5.0 * first + 18.0 * second - 9.0 * third + 2.0 * fourth) / 6.0,
+                (2.0 * first - 9.0 * second + 18.0 * third - 5.0 * fourth) / 6.0,
+                fourth,
+            ]
+        )
+        # The piston's way within each step, and what it may go beyond its places and back.
+        moves = np.diff(cylinder.position(angles), axis=1)
+        way = np.abs(moves).sum(axis=1)
+        turns = (moves.min(axis=1) < 0.0) & (moves.max(axis=1) > 0.0)
+        way += 2.0 * turns * np.abs(moves).max(axis=1)
+        return float(scale * (np.ptp(controls, axis=0) @ way))
+
     @property
     def table(self) -> Table:
         """Pressure over crank angle."""
@@ -435,7 +467,7 @@ class Cycle(Tabled, Input, ComputedCycles):
             labels.printable(self.name) or "Cycle",
             f"{'four' if self.strokes == 4 else 'two'}-stroke",
             f"{len(self.theta_deg)} points ({self.grid})",
-            f"{self.pressure[peak] / 1e5:.4g} bar at {self.theta_deg[peak]:.4g}°",
+            f"{units.figure(self.pressure[peak] / 1e5, 'bar', 4)} at {self.theta_deg[peak]:.4g}°",
         )
         return Table(
             ", ".join(facts),
@@ -443,6 +475,7 @@ class Cycle(Tabled, Input, ComputedCycles):
                 Column("crank angle", tuple(self.theta_deg.tolist()), "°", digits=10),
                 Column("pressure", tuple(self.pressure.tolist()), "Pa", digits=7),
             ),
+            note=self.origin,
         )
 
     def plot(
@@ -478,7 +511,4 @@ class Cycle(Tabled, Input, ComputedCycles):
         ImportError
             If matplotlib is not installed.
         """
-        from crankpin.analysis import drawing  # noqa: PLC0415 - matplotlib is imported when used
-
-        found: Axes = drawing.draw(self, ax, cylinder=cylinder, label=label, **style)
-        return found
+        return draw(self, ax, cylinder=cylinder, label=label, **style)  # type: ignore[no-any-return]

@@ -57,7 +57,7 @@ class EngineData:
             )
         title, origin = inputs.text("name", name), inputs.text("source", source)
         count = inputs.strokes(strokes)
-        order = inputs.firing_order("firing_order", firing_order)
+        order = inputs.firing_order("firing_order", firing_order, core.bank)
         if order:
             core = core.firing_as(_core.Firing.named(core, order, count).text, count)
         elif count != 4:

@@ -10,8 +10,15 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 import numpy as np
 
 from crankpin._support import labels
+from crankpin._support.drawing import draw, inline_svg
 from crankpin._support.record import AbsentError
 from crankpin._support.tables import Table
+from crankpin.analysis import firing
+from crankpin.analysis.balance import Balance, balance
+from crankpin.analysis.closed_form import ClosedForm, closed_form
+from crankpin.analysis.explain import Explanation, explain
+from crankpin.analysis.vanishing import VanishingOrders, vanishing_orders
+from crankpin.analysis.waveform import Waveform, waveform
 from crankpin.model import shafts as rotating
 from crankpin.model.builders import Builders
 from crankpin.model.data import EngineData, Hold
@@ -22,12 +29,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Orders, Spectrum
-    from crankpin.analysis.balance import Balance
-    from crankpin.analysis.closed_form import ClosedForm
-    from crankpin.analysis.explain import Explanation
     from crankpin.analysis.firing import Firing
-    from crankpin.analysis.vanishing import VanishingOrders
-    from crankpin.analysis.waveform import Waveform
     from crankpin.model.cylinder import Cylinder
     from crankpin.model.shafts import Shaft, Unbalance
     from crankpin.view.widget import EngineWidget
@@ -200,12 +202,7 @@ class Engine(Builders):
         >>> b.force.xy[0]  # an inline-4 has no force of order 1
         array([0.+0.j, 0.+0.j])
         """
-        from crankpin.analysis.balance import balance
-
-        return balance(
-            self, rpm, orders=orders, rtol=rtol, spectrum=spectrum,
-            torque=torque,
-        )  # fmt: skip
+        return balance(self, rpm, orders=orders, rtol=rtol, spectrum=spectrum, torque=torque)
 
     def waveform(
         self,
@@ -260,8 +257,6 @@ class Engine(Builders):
         >>> w.force.shape
         (3, 2)
         """
-        from crankpin.analysis.waveform import waveform
-
         return waveform(
             self, rpm, theta_deg=theta_deg, orders=orders, rtol=rtol, spectrum=spectrum,
             torque=torque,
@@ -300,8 +295,6 @@ class Engine(Builders):
         >>> cp.Engine.preset("v6-90-odd-fire").firing()
         <Firing 4-stroke 1-6-5-4-3-2, 150-90-150-90-150-90°>
         """
-        from crankpin.analysis import firing
-
         return firing.firing(self, firing_order, strokes)
 
     def firings(
@@ -337,8 +330,6 @@ class Engine(Builders):
         <Firing 4-stroke 1-2, 180-540°>
         <Firing 4-stroke 1-2, 540-180°>
         """
-        from crankpin.analysis import firing
-
         return firing.firings(self, firing_order, strokes)
 
     def firing_orders(self, *, strokes: int | None = None) -> tuple[Firing, ...]:
@@ -371,8 +362,6 @@ class Engine(Builders):
         <Firing 4-stroke 1-3-4-2, even, 180°>
         <Firing 4-stroke 1-2+3-4, 180-0-180-360°>
         """
-        from crankpin.analysis import firing
-
         return firing.firing_orders(self, strokes)
 
     def vanishing_orders(
@@ -405,8 +394,6 @@ class Engine(Builders):
         >>> cp.Engine.preset("i6").vanishing_orders().force.vanishing
         (1, 2, 3, 4, 5, 7, 8, 9, 10, 11)
         """
-        from crankpin.analysis.vanishing import vanishing_orders
-
         return vanishing_orders(self, orders, reference_z=reference_z)
 
     def closed_form(
@@ -446,8 +433,6 @@ class Engine(Builders):
         >>> cp.Engine.preset("i3").closed_form(1).peak
         sqrt(3)*F*a
         """
-        from crankpin.analysis.closed_form import closed_form
-
         return closed_form(self, order, quantity, reference_z=reference_z)
 
     def explain(self, rpm: float | None = None) -> Explanation:
@@ -475,8 +460,6 @@ class Engine(Builders):
         >>> cp.Engine.preset("i4").explain(rpm=6000).sentences[0]
         'Order 2 leaves a shaking force of 9.27 kN, up and down: all four pistons pull together.'
         """
-        from crankpin.analysis.explain import explain
-
         return explain(self, rpm)
 
     # --- pages ----------------------------------------------------------------------------------
@@ -637,8 +620,6 @@ class Engine(Builders):
         return table if picture is None else f"<div>{picture}</div>{table}"
 
     def _picture(self) -> str | None:
-        from crankpin.analysis.drawing import inline_svg
-
         return inline_svg(self)
 
     @overload
@@ -720,8 +701,6 @@ class Engine(Builders):
         >>> import crankpin as cp
         >>> ax = cp.Engine.preset("v8-crossplane").plot(kind="star", theta_deg=45)
         """
-        from crankpin.analysis.drawing import draw
-
         return draw(  # type: ignore[no-any-return]
             self, ax, figure=figure, kind=kind, theta_deg=theta_deg, **style
         )

@@ -15,6 +15,8 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from crankpin._support import inputs, labels, tables
 from crankpin._support.record import AbsentItemError
 from crankpin.model.cylinder import Cylinder
@@ -32,6 +34,8 @@ NUMBERS = {
 """Numbers of cylinders in words."""
 OWN_PARTS = "-ebook"
 """End of the names of presets that belong to no family: their moving parts are not comparable."""
+OWN_PARTS_TITLE = " (e-book)"
+"""End of the titles of those presets, while they have these parts."""
 
 
 class Presets(Mapping[str, Engine]):
@@ -137,15 +141,33 @@ class Layout(NamedTuple):
     spacing: float
     """Distance between neighbouring throws, m."""
 
-    def build(self, cylinder: Cylinder, spacing: float, **changes: Any) -> Engine:  # noqa: ANN401
+    def build(
+        self,
+        cylinder: Cylinder | list[Cylinder],
+        spacing: Any,  # noqa: ANN401 - a float or several
+        **changes: Any,  # noqa: ANN401
+    ) -> Engine:
         """Return the engine with this cylinder and spacing, and other arguments of the builder."""
-        arguments = self.arguments | changes
-        if cylinder.rod is not None and "rotating_mass" not in changes:
+        arguments = dict(self.arguments)
+        if cylinder != self.cylinder and "name" in arguments:
+            arguments["name"] = arguments["name"].removesuffix(OWN_PARTS_TITLE)
+        arguments |= changes
+        one = cylinder if isinstance(cylinder, Cylinder) else cylinder[0]
+        if one.rod is not None and "rotating_mass" not in changes:
             arguments.pop("rotating_mass", None)  # a rod brings its own
         if "places" in arguments:  # in spacings, and a pin offset for each cylinder
             places = arguments.pop("places")
             offsets = arguments.pop("pin_offset", [0.0] * len(places))
-            each = [cylinder.replace(pin_offset=cylinder.pin_offset + more) for more in offsets]
+            parts = [one] * len(places) if isinstance(cylinder, Cylinder) else cylinder
+            if len(parts) != len(places):
+                hint = f"give one, or {len(places)}"
+                raise inputs.faulty("cylinder", f"has {len(parts)} entries", hint)
+            if np.ndim(spacing):
+                raise inputs.rejected("spacing", spacing, "give one number with this layout")
+            each = [
+                part.replace(pin_offset=part.pin_offset + more)
+                for part, more in zip(parts, offsets, strict=True)
+            ]
             return Engine.from_lists(each, z=[spacing * place for place in places], **arguments)
         if self.builder != "from_lists":
             arguments["spacing"] = spacing

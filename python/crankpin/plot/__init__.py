@@ -1,4 +1,4 @@
-"""Pictures of results: :func:`draw`, and one module for each kind of picture.
+"""Pictures of results: one module for each kind, which registers what draws it.
 
 Pictures are drawn on given axes, or on a new pyplot figure, which notebooks show. This package is
 imported when a picture is drawn, and matplotlib with it.
@@ -22,7 +22,3 @@ from crankpin.plot import (  # noqa: F401 - they register their pictures
     tolerances,
     waveform,
 )
-from crankpin.plot.dispatch import draw
-from crankpin.plot.engine import inline_svg
-
-__all__ = ["draw", "inline_svg"]

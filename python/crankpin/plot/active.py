@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import labels
+from crankpin._support.drawing import picture
 from crankpin.analysis.mounts.active import Cancellation
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, set_title
 from crankpin.plot.style import SERIES, muted, series
 from crankpin.plot.ticks import numeric, span

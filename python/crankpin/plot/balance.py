@@ -11,16 +11,14 @@ from matplotlib.transforms import ScaledTranslation
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balance import Balance
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
     Drawn,
-    Kinds,
     add_legend,
     axes_or_new,
-    check_one_place,
     label_x,
     label_y,
     note_zero,
+    register_kinds,
     reject_figure,
     set_panel_title,
     set_title,
@@ -84,15 +82,15 @@ def spectrum(
         else np.stack([result.read(each, "peak") for each in drawn], axis=-1)
     )
     orders, note = np.array(result.orders, dtype=np.float64), ""
-    given = result.request.orders is not None
-    if not given:
+    orders_given = result.request.orders is not None
+    if not orders_given:
         # Gas torque declines slowly: the few orders that can be seen would have no room.
         least = MATTERS if len(drawn) > 1 and not logarithmic else labels.NEGLIGIBLE
         seen = np.flatnonzero(peaks.max(axis=1) > least * peaks.max(initial=0.0))
         if seen.size and seen[-1] + 1 < len(orders):
             orders, peaks = orders[: seen[-1] + 1], peaks[: seen[-1] + 1]
             note = f"above order {orders[-1]:g}: below {least:g} of the largest"
-    how = "orders given" if given else ""
+    how = "orders given" if orders_given else ""
     where = joined(f"{number(result.rpm)} rpm", how, loads_of(result, name))
     set_title(ax, labels.name_of(result.engine), where, note)
     if label is None and count_series(ax):
@@ -101,7 +99,7 @@ def spectrum(
     for k, text in enumerate(series_names(drawn, label)):
         _stems(ax, orders, peaks[:, k], text, styles[k])
     _beside_each_other(ax)
-    _scale(ax, logarithmic=logarithmic, given=given)
+    _scale(ax, logarithmic=logarithmic, orders_given=orders_given)
     label_x(ax, "order (multiples of crank speed)")
     label_y(ax, with_unit(name, peak=True))
     add_legend(ax, last=ZERO)
@@ -144,7 +142,7 @@ def _beside_each_other(ax: Axes) -> None:
         zeros.set_transform(ax.get_xaxis_transform() + shift)
 
 
-def _scale(ax: Axes, *, logarithmic: bool, given: bool) -> None:
+def _scale(ax: Axes, *, logarithmic: bool, orders_given: bool) -> None:
     drawn = [line for line in ax.lines if line.get_gid() == SERIES]
     along = np.concatenate([line.get_xdata() for line in drawn])
     heights = np.concatenate([line.get_ydata() for line in drawn])
@@ -154,7 +152,7 @@ def _scale(ax: Axes, *, logarithmic: bool, given: bool) -> None:
     if not peaks.size:
         note_zero(ax)
     if logarithmic and peaks.size:
-        least = 0.0 if given else labels.NEGLIGIBLE * float(peaks.max())
+        least = 0.0 if orders_given else labels.NEGLIGIBLE * float(peaks.max())
         log_scale(ax, max(least, float(peaks.min())), float(peaks.max()))
     else:
         numeric(ax.yaxis)
@@ -189,8 +187,8 @@ def ellipses(
         label_plane(ax, name)
         add_legend(ax)
         return ax
-    made = make_plane_panels(figure, len(shown))
-    panels = made.axes.ravel()
+    grid = make_plane_panels(figure, len(shown))
+    panels = grid.axes.ravel()
     for panel, order in zip(panels, shown, strict=False):
         curve = result[order]
         ellipse(panel, curve, name, "", series(panel, 1, style)[0])
@@ -199,10 +197,10 @@ def ellipses(
     if not shown:
         scale_plane(panels[0])
     along_x, along_y = QUANTITIES[name].components
-    label_panels(made, along_x, along_y, QUANTITIES[name].unit)
+    label_panels(grid, along_x, along_y, QUANTITIES[name].unit)
     scales = "each panel to its own scale; dot: θ = 0"
-    made.set_title(labels.name_of(result.engine), where, scales, note)
-    return made.axes
+    grid.set_title(labels.name_of(result.engine), where, scales, note)
+    return grid.axes
 
 
 def ellipse(
@@ -229,17 +227,5 @@ def direction(order: OrderBalance, name: str) -> str:
 
 # --- balance -------------------------------------------------------------------------------------
 
-KINDS: Kinds = {"spectrum": spectrum, "ellipses": ellipses, "phasors": phasors}
 
-
-@picture.register(Balance)
-def _balance(
-    result: Balance,
-    ax: object = None,
-    *,
-    figure: object = None,
-    kind: str = "spectrum",
-    **options: object,
-) -> Drawn:
-    check_one_place(ax, figure)
-    return KINDS[inputs.one_of("kind", kind, KINDS)](result, ax, figure, **options)
+register_kinds(Balance, {"spectrum": spectrum, "ellipses": ellipses, "phasors": phasors})

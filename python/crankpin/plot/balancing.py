@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
+from crankpin._support.drawing import picture
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balancing.balancers import BalancerOptions
 from crankpin.analysis.balancing.bob_weight import BobWeight
 from crankpin.analysis.balancing.fitted_shafts import SHAKEN, BalanceShafts
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, note_zero, set_title
 from crankpin.plot.style import (
     MARKERS,
@@ -54,8 +54,8 @@ def rows_for(ax: Axes, names: Sequence[str], **style: Any) -> NDArray[np.intp]: 
 
 def wide_enough(ax: Axes, largest: float) -> None:
     """Let the horizontal axis begin at zero and have room for this value and those there."""
-    there = ax.get_xlim()[1] if count_series(ax) else 0.0
-    ax.set_xlim(0.0, max(there, 1.08 * largest) or 1.0)
+    width = ax.get_xlim()[1] if count_series(ax) else 0.0
+    ax.set_xlim(0.0, max(width, 1.08 * largest) or 1.0)
 
 
 # --- balance shafts ------------------------------------------------------------------------------
@@ -74,8 +74,8 @@ def _balance_shafts(
     **style: object,
 ) -> Axes:
     every = result.parts()
-    there = {each.quantity for each in every if max(each.before, each.after) > 0.0}
-    name = drawn_quantity(quantity, there.__contains__, SHAKEN)
+    shaken = {each.quantity for each in every if max(each.before, each.after) > 0.0}
+    name = drawn_quantity(quantity, shaken.__contains__, SHAKEN)
     ax = axes_or_new(ax)
     parts = [each for each in every if each.quantity == name]
     before, after = (
@@ -178,9 +178,13 @@ def _write_amounts(
 ) -> None:
     """Write the unbalance of each set on the right."""
     amounts = ax.secondary_yaxis("right")
-    amounts.set_yticks(rows, [rounded(1000.0 * each.unbalance) for each in shown], fontsize=size)
+    unit, factor = units.convert("kg·m")
+    if factor == 1.0:
+        unit, factor = "g·m", 1000.0
+    texts = [rounded(factor * each.unbalance) for each in shown]
+    amounts.set_yticks(rows, texts, fontsize=size)
     amounts.tick_params(axis="y", length=0, pad=6, labelcolor=muted(ax))
-    amounts.set_ylabel("unbalance, g·m", color=muted(ax))
+    amounts.set_ylabel(f"unbalance, {unit}", color=muted(ax))
     amounts.spines["right"].set_visible(False)
 
 

@@ -9,21 +9,19 @@ import numpy as np
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import LOADS
 from crankpin.analysis.bearings import PARTS, BearingLoads
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
     Drawn,
-    Kinds,
     add_legend,
     axes_or_new,
-    check_one_place,
     label_x,
     label_y,
     note_zero,
+    register_kinds,
     reject_figure,
     set_panel_title,
     set_title,
 )
-from crankpin.plot.plane import label_panels, make_plane_panels, share_scale, trace
+from crankpin.plot.plane import label_panels, make_plane_panels, share_scale, trace, trace_by_angle
 from crankpin.plot.style import SERIES, count_series, muted, series
 from crankpin.plot.ticks import degrees, from_zero, numeric, span
 from crankpin.plot.words import joined, loads_of, number
@@ -68,14 +66,22 @@ def polar(
         add_legend(ax)
         return ax
     wide, high = np.ptp([*vectors[places].reshape(-1, 2), (0.0, 0.0)], axis=0).tolist()
-    made = make_plane_panels(figure, len(places), high / wide if wide else 1.0)
-    for panel, place, name in zip(made.axes.flat, places, names, strict=False):
-        trace(panel, result.theta_deg, [vectors[place]], [name], style, period, centred=False)
+    panels = make_plane_panels(figure, len(places), high / wide if wide else 1.0)
+    by_angle = None
+    for panel, place, name in zip(panels.axes.flat, places, names, strict=False):
+        if style:
+            trace(panel, result.theta_deg, [vectors[place]], [name], style, period, centred=False)
+        else:
+            by_angle = trace_by_angle(panel, result.theta_deg, vectors[place], name, period)
         set_panel_title(panel, name)
-    share_scale(made)
-    label_panels(made, *ALONG[axes], "N")
-    made.set_title(*_titles(result, what))
-    return made.axes
+    share_scale(panels)
+    if by_angle is not None:
+        bar = panels.figure.colorbar(by_angle, ax=panels.axes.ravel().tolist(), aspect=35, pad=0.02)
+        degrees(bar.ax.yaxis)
+        bar.set_label("crank angle θ")
+    label_panels(panels, *ALONG[axes], "N")
+    panels.set_title(*_titles(result, what))
+    return panels.axes
 
 
 def curves(
@@ -176,17 +182,4 @@ def _names(load: str, places: list[int], label: str | None) -> list[str]:
     return [f"{before}{LOADS[load].words} {place + 1}" for place in places]
 
 
-KINDS: Kinds = {"polar": polar, "curves": curves, "bending": bending}
-
-
-@picture.register(BearingLoads)
-def _bearing_loads(
-    result: BearingLoads,
-    ax: object = None,
-    *,
-    figure: object = None,
-    kind: str = "polar",
-    **options: object,
-) -> Drawn:
-    check_one_place(ax, figure)
-    return KINDS[inputs.one_of("kind", kind, KINDS)](result, ax, figure, **options)
+register_kinds(BearingLoads, {"polar": polar, "curves": curves, "bending": bending})

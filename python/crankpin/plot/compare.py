@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.font_manager import FontProperties
 
+from crankpin._support import units
+from crankpin._support.drawing import picture
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.comparison import Comparison
 from crankpin.analysis.waveform import Waveform
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
     Drawn,
-    check_one_place,
     inches_of,
     label_x,
     label_y,
@@ -50,22 +50,21 @@ def _comparison(
     quantity: str | None = None,
     **style: object,
 ) -> Drawn:
-    check_one_place(ax, figure)
     name = drawn_quantity(quantity, nonzero_in(result.before, result.after))
     result.before.request.check(name)
     beside = width_for(figure) >= SIDE_BY_SIDE
     shape: dict[str, Any] = {"width_ratios": [3, 2]} if beside else {"height_ratios": [2, 3]}
     grid = (1, 2) if beside else (2, 1)
-    made = make_panels(ax, figure, *grid, row_height=0.75, **shape)
-    bars, *curves = made.axes.ravel()
+    panels = make_panels(ax, figure, *grid, row_height=0.75, **shape)
+    bars, *curves = panels.axes.ravel()
     _bars(bars, result, name, style)
-    if not made.single:
+    if not panels.single:
         set_panel_title(bars, "peaks by order")
         _curves(curves[0], result, name)
     where = f"{number(result.rpm)} rpm, {_total(result, name)}"
-    made.set_title(result.title, where, loads_of(result, name))
-    made.add_legend(bars.get_legend_handles_labels()[0])
-    return made.drawn
+    panels.set_title(result.title, where, loads_of(result, name))
+    panels.add_legend(bars.get_legend_handles_labels()[0])
+    return panels.drawn
 
 
 def _total(result: Comparison, name: str) -> str:
@@ -73,7 +72,9 @@ def _total(result: Comparison, name: str) -> str:
     before, after = (getattr(each.total, name).peak for each in (result.before, result.after))
     kind = QUANTITIES[name]
     what = f"{'longest' if kind.planar else 'peak'} {kind.words}"
-    values = f"{rounded(before, 4)} → {rounded(after, 4)} {kind.unit}"
+    shown = units.convert(kind.unit)
+    sizes = (rounded(each * shown.factor, 4) for each in (before, after))
+    values = f"{' → '.join(sizes)} {shown.unit}"
     return f"{what} {values} ({changed(before, after)})"
 
 

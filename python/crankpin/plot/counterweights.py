@@ -8,18 +8,17 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balance import over_square
 from crankpin.analysis.balancing.counterweights import Counterweights
 from crankpin.model.crankpins import crankpins
 from crankpin.plot.balance import direction, ellipse
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
     Drawn,
     add_figure_legend,
     add_legend,
     axes_or_new,
-    check_one_place,
     inches_of,
     label_x,
     label_y,
@@ -59,7 +58,6 @@ def _counterweights(
     quantity: str | None = None,
     **style: object,
 ) -> Drawn:
-    check_one_place(ax, figure)
     chosen = inputs.one_of("kind", kind, KINDS)
     exists = nonzero_in(over_square(result.engine, [1])[1], result.residual[1])
     name = drawn_quantity(quantity, exists, PLANE_VECTORS)
@@ -88,20 +86,20 @@ def _summary(result: Counterweights, figure: object, style: dict[str, Any]) -> D
     shown += ["moment"] if not shown else []
     count = 1 + len(shown)
     beside = width_for(figure) >= NARROWEST * count
-    made = make_panels(
+    grid = make_panels(
         None, figure, *((1, count) if beside else (count, 1)), row_height=0.75 if beside else 0.85
     )
-    panels = made.axes.ravel()
+    panels = grid.axes.ravel()
     set_panel_title(panels[0], "weights at θ = 0")
     _weights(panels[0], result, style)
     for panel, name in zip(panels[1:], shown, strict=True):
         set_panel_title(panel, QUANTITIES[name].words)
         states = _ellipses(panel, result, name, style)
     set_figure_title(
-        made.figure, labels.name_of(result.engine), "counterweights, and order 1 over ω²"
+        grid.figure, labels.name_of(result.engine), "counterweights, and order 1 over ω²"
     )
-    add_figure_legend(made.figure, states)
-    return made.axes
+    add_figure_legend(grid.figure, states)
+    return grid.axes
 
 
 def _weights(ax: Axes, result: Counterweights, style: dict[str, Any]) -> None:
@@ -175,8 +173,8 @@ def _ellipses(ax: Axes, result: Counterweights, name: str, style: dict[str, Any]
         order = over_square(engine, [1])[1]
         vanishes = getattr(order, name).peak == 0.0
         text = f"{state}: {'zero' if vanishes else direction(order, name)}"
-        given = style.get("label")
-        ellipse(ax, order, name, f"{given}, {text}" if given else text, look)
+        label = style.get("label")
+        ellipse(ax, order, name, f"{label}, {text}" if label else text, look)
         entries.append(Line2D([], [], label=state, **look))
     scale_plane(ax)
     label_plane(ax, name, QUANTITIES[name].unit_over_square)

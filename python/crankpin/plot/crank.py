@@ -17,7 +17,7 @@ from crankpin.analysis.geometry import (
     weights_on_shafts,
 )
 from crankpin.model.crankpins import Crankpin, throws
-from crankpin.plot.layout import inches_of, points_of
+from crankpin.plot.layout import in_units, inches_of, points_of
 from crankpin.plot.section import shaft_text
 from crankpin.plot.shapes import (
     JOURNAL,
@@ -191,8 +191,11 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     to_scale = pitch > 0.5 * crank_radius(engine)
     ax.set_aspect("equal" if to_scale else "auto")
     ax.autoscale_view()
-    ax.set_ylabel("y, m")
-    ax.set_xlabel("z, m" if to_scale else "z, m (not to the scale of y)")
+    (upright,) = in_units(ax.yaxis, "y, m")
+    ax.set_ylabel(upright)
+    along = "z, m" if to_scale else "z, m (not to the scale of y)"
+    (along,) = in_units(ax.xaxis, along)
+    ax.set_xlabel(along)
 
 
 def _stretches(engine: Engine) -> tuple[list[list[Stretch]], float]:
@@ -201,15 +204,15 @@ def _stretches(engine: Engine) -> tuple[list[list[Stretch]], float]:
     Pins at one place along the crank are drawn side by side, as they are built. Also return the
     distance between throws.
     """
-    found = throws(engine)
-    middles = [float(np.mean([pin.z for pin in throw])) for throw in found]
+    throw_list = throws(engine)
+    middles = [float(np.mean([pin.z for pin in throw])) for throw in throw_list]
     apart = np.diff(np.sort(middles))
     pitch = float(apart[apart > 0.0].min(initial=np.inf))
     if not np.isfinite(pitch):
         pitch = 1.2 * float(assumed_bores(engine).max())
     width = 0.62 * pitch
     drawn = []
-    for middle, throw in zip(middles, found, strict=True):
+    for middle, throw in zip(middles, throw_list, strict=True):
         edges = middle + width * (np.linspace(0.0, 1.0, len(throw) + 1) - 0.5)
         drawn.append([Stretch(*each) for each in zip(throw, edges[:-1], edges[1:], strict=True)])
     return drawn, pitch

@@ -84,15 +84,15 @@ def bundle_of(
     """
     lengths = [len(sweep.coords[dim]) for dim in others]
     places = list(np.ndindex(*lengths))
-    given = mpl.cbook.normalize_kwargs(dict(style), Line2D)
-    label = str(given.pop("label", None) or "")
+    options = mpl.cbook.normalize_kwargs(dict(style), Line2D)
+    label = str(options.pop("label", None) or "")
     if not others:
-        (look,) = series(ax, 1, given)
+        (look,) = series(ax, 1, options)
         return Bundle([Curve((), look, label)], [], None)
     texts = [values_of(sweep, dim, words) for dim in others]
     names = [", ".join(filter(None, [label, *parts])) for parts in itertools.product(*texts)]
     if len(others) == 1 and (others[0] == "engine" or len(places) <= DISTINCT):
-        return Bundle(*engine_looks(ax, names, sizes, given), None)
+        return Bundle(*engine_looks(ax, names, sizes, options), None)
     n_rest = len(places) // lengths[0]
     few = lengths[0] <= DISTINCT
     colours = [entry["color"] for entry in cycle(ax)] if few else scale(ax, lengths[0])
@@ -100,7 +100,7 @@ def bundle_of(
     for k in range(len(places)):
         colour, dash = divmod(k, n_rest)
         thin = THIN if n_rest > MOST_DASHES else {"linestyle": DASHES[dash]}
-        looks.append({"color": colours[colour % len(colours)]} | thin | given)
+        looks.append({"color": colours[colour % len(colours)]} | thin | options)
     handles = [
         Line2D([], [], color=colour, label=text)
         for colour, text in zip(colours, texts[0], strict=False)
@@ -193,16 +193,16 @@ def curves(
     shared: dict[str, Any] = {"sharex": "col", "sharey": "row"}
     if along == "engine":
         shared = {"sharex": "row", "sharey": "all"}
-    made = make_panels(ax, figure, len(rows.rows), len(rows.columns), **shared)
-    made.name_columns(rows.columns)
-    bundle = _draw(made.axes, sweep, name, along, rows, style, logarithmic=logarithmic)
-    what = rows.columns[0] if made.single else rows.note
-    made.set_title(words.title, words.subtitle(name), what)
-    made.add_legend(
-        [*bundle.handles, *entries_of(made.axes, ZERO, LEAST)],
-        words.common if bundle.handles or made.single else "",
+    panels = make_panels(ax, figure, len(rows.rows), len(rows.columns), **shared)
+    panels.name_columns(rows.columns)
+    bundle = _draw(panels.axes, sweep, name, along, rows, style, logarithmic=logarithmic)
+    what = rows.columns[0] if panels.single else rows.note
+    panels.set_title(words.title, words.subtitle(name), what)
+    panels.add_legend(
+        [*bundle.handles, *entries_of(panels.axes, ZERO, LEAST)],
+        words.common if bundle.handles or panels.single else "",
     )
-    return made.drawn
+    return panels.drawn
 
 
 def _draw(
@@ -306,7 +306,7 @@ def mark(
     least: bool,
 ) -> None:
     """Mark where curves vanish, and with ``least`` the smallest value of all if none does."""
-    found: dict[float, str] = {}
+    marked: dict[float, str] = {}
     for curve in drawn if len(drawn) <= DISTINCT else []:
         heights = peaks[:, *curve.place]
         zeros = x[heights == 0.0]
@@ -315,8 +315,8 @@ def mark(
             on_axis = ax.get_xaxis_transform()
             colour = curve.style["color"]
             ring(ax, zeros, np.zeros_like(zeros), colour, "o", ZERO, transform=on_axis)
-            found |= dict.fromkeys(zeros.tolist(), "")
-    for place in sorted(found)[:MOST_MARKS]:
+            marked |= dict.fromkeys(zeros.tolist(), "")
+    for place in sorted(marked)[:MOST_MARKS]:
         write_at_mark(ax, place, 0.0, at(along, place))
     if not least or not peaks.size or peaks.min() == 0.0:
         return

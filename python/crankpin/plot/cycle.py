@@ -7,15 +7,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import labels
+from crankpin._support.drawing import picture
 from crankpin.analysis.flywheel import Flywheel
+from crankpin.analysis.prepared_trace import PreparedTrace
 from crankpin.model.computed_cycles import area
 from crankpin.model.cycle import Cycle
-from crankpin.plot.dispatch import picture
+from crankpin.model.traces import Traces
 from crankpin.plot.layout import (
     Drawn,
     add_legend,
     axes_or_new,
-    check_one_place,
     label_x,
     label_y,
     make_panels,
@@ -68,6 +69,76 @@ def _cycle(
     return ax
 
 
+@picture.register(Traces)
+def _traces(
+    result: Traces, ax: Axes | None = None, *, label: str | None = None, **style: object
+) -> Axes:
+    ax = axes_or_new(ax)
+    first = not count_series(ax)
+    named = labels.printable(result.name)
+    set_title(ax, "Cylinder pressure", *([named] if first and named else []))
+    _band(result, ax, label or f"mean of {len(result)} cycles", style)
+    label_x(ax, "crank angle after the firing top dead centre")
+    add_legend(ax)
+    return ax
+
+
+def _band(result: Traces, ax: Axes, name: str, style: dict[str, object]) -> None:
+    """Draw the mean of cycles in the band of all."""
+    end = result.theta_deg[0] + result.period_deg
+    inside = result.theta_deg < end
+    theta = np.append(result.theta_deg[inside], end)
+    rows = np.column_stack([result.pressure[:, inside], result.pressure[:, :1]]) / 1e5
+    (look,) = series(ax, 1, style)
+    (line,) = ax.plot(theta, rows.mean(axis=0), gid=SERIES, label=name, **look)
+    if len(result) > 1:
+        least, most = rows.min(axis=0), rows.max(axis=0)
+        band: dict[str, Any] = {"color": line.get_color(), "alpha": 0.25, "linewidth": 0.0}
+        ax.fill_between(theta, least, most, label="least to largest", **band)
+    degrees(ax.xaxis)
+    span(ax, theta)
+    numeric(ax.yaxis)
+    from_zero(ax, max(float(rows.max()), *(float(each) for each in ax.dataLim.intervaly)))
+    label_y(ax, "absolute pressure, bar")
+
+
+@picture.register(PreparedTrace)
+def _prepared(
+    result: PreparedTrace,
+    ax: object = None,
+    *,
+    figure: object = None,
+    label: str | None = None,
+    **style: object,
+) -> Drawn:
+    panels = make_panels(ax, figure, 2, 1, row_height=0.55, sharex=True)
+    before, after = result.stages[0], result.traces
+    pressures = panels.axes[0, 0]
+    _band(after, pressures, ", ".join(filter(None, [label, "prepared"])), style)
+    thin: dict[str, Any] = {"color": muted(pressures), "linewidth": 0.9, "linestyle": "--"}
+    measured = before.pressure.mean(axis=0)
+    pressures.plot(before.theta_deg, measured / 1e5, gid="", label="as measured", **thin)
+    least = min(0.0, float(measured.min()), float(after.pressure.min())) / 1e5
+    pressures.set_ylim(bottom=1.05 * least)
+    add_legend(pressures)
+    if len(panels.axes) > 1:
+        changes = panels.axes[1, 0]
+        (look,) = series(changes, 1, style)
+        theta = after.theta_deg
+        at_these = np.interp(theta, before.theta_deg, measured, period=after.period_deg)
+        change = (after.pressure.mean(axis=0) - at_these) / 1e5
+        changes.plot(theta, change, gid=SERIES, label="change", **look)
+        changes.axhline(0.0, **thin)
+        numeric(changes.yaxis)
+        label_y(changes, "change, bar")
+        span(changes, theta)
+        degrees(changes.xaxis)
+        label_x(changes, "crank angle after the firing top dead centre")
+    steps = [name.partition(" (")[0].partition(": ")[0] for name in result.names[1:]]
+    panels.set_title(f"Cylinder pressure: {result.title}", joined(*steps))
+    return panels.drawn
+
+
 def _swept(cylinder: Cylinder, theta_deg: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the volume between the piston and its highest point, cm³."""
     bore_area = area(cylinder)
@@ -85,7 +156,6 @@ def _flywheel(
     label: str | None = None,
     **style: object,
 ) -> Drawn:
-    check_one_place(ax, figure)
     panels = make_panels(ax, figure, 2, 1, row_height=0.55, sharex=True)
     theta = result.theta_deg
     gas = "torque" if result.engine is None else "gas"

@@ -14,16 +14,15 @@ from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture, svg
 from crankpin.analysis.geometry import crank_angle
 from crankpin.model.engine import Engine
 from crankpin.plot.crank import side, star
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
     Drawn,
     add_figure_legend,
     add_legend,
     axes_or_new,
-    check_one_place,
     make_panels,
     reject_figure,
     set_figure_title,
@@ -56,7 +55,8 @@ class _Renderer(RendererSVG):
         self._draw_text_as_text(*text, **options)  # type: ignore[no-untyped-call]
 
 
-def inline_svg(engine: Engine) -> str:
+@svg.register(Engine)
+def _svg(engine: Engine) -> str:
     """Return cross-section and side view of an engine as an ``<svg>`` element.
 
     Its lines have the colour of the text around it; nothing in it refers to anything outside, and
@@ -123,7 +123,6 @@ def _engine(
     theta_deg: float = 0.0,
     **style: object,
 ) -> Drawn:
-    check_one_place(ax, figure)
     theta = crank_angle(theta_deg)
     if kind is not None:
         inputs.one_of("kind", kind, PANELS)

@@ -9,9 +9,9 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Patch
 
 from crankpin._support import labels
+from crankpin._support.drawing import picture
 from crankpin.analysis.firing import Firing, Gaps
 from crankpin.plot import ticks
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, points_of, set_title
 from crankpin.plot.style import background, colours, font_of, foreground, muted, tint, write
 
@@ -155,13 +155,15 @@ def _mark_overlaps(
         "facecolor": "none", "edgecolor": foreground(ax), "hatch": "////", "linewidth": 0.6,
         "zorder": 3,
     }  # fmt: skip
-    found = [(pair, overlap) for bank in overlaps for pair, overlap in bank.items() if overlap]
-    for pair, overlap in found:
+    overlapping = [
+        (pair, overlap) for bank in overlaps for pair, overlap in bank.items() if overlap
+    ]
+    for pair, overlap in overlapping:
         start = float(exhausts[pair[1] - 1, 0])
         pieces = _pieces((start, start + overlap), cycle)
         for cylinder in set(pair):
             _bars(ax, pieces, rows.index(cylinder), EXHAUSTS, **looks)
-    return [Patch(label="exhausts overlap", **looks)] if found else []
+    return [Patch(label="exhausts overlap", **looks)] if overlapping else []
 
 
 def _mark_firings(ax: Axes, places: Sequence[tuple[int, float]], middle: float) -> list[Line2D]:

@@ -14,13 +14,15 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.text import Text
 from matplotlib.transforms import ScaledTranslation
 
-from crankpin._support import inputs
+from crankpin._support import inputs, units
+from crankpin._support.drawing import picture
 from crankpin.plot.style import font_of, muted
 from crankpin.plot.words import plain_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from matplotlib.colorbar import Colorbar
     from matplotlib.font_manager import FontProperties
     from matplotlib.typing import ColorType
     from numpy.typing import NDArray
@@ -79,6 +81,29 @@ class Panels(NamedTuple):
             add_figure_legend(self.figure, handles, title if handles else "")
 
 
+def register_kinds(result_class: type, kinds: Kinds) -> None:
+    """Register pictures of a class, of which ``kind=`` chooses one; the first by default.
+
+    Parameters
+    ----------
+    result_class
+        The class.
+    kinds
+        Kind → the function that draws it.
+    """
+
+    @picture.register(result_class)
+    def draw_kind(
+        result: object,
+        ax: object = None,
+        *,
+        figure: object = None,
+        kind: str = next(iter(kinds)),
+        **options: object,
+    ) -> Drawn:
+        return kinds[inputs.one_of("kind", kind, kinds)](result, ax, figure, **options)
+
+
 def axes_or_new(ax: object) -> Axes:
     """Return the axes given, or those of a new pyplot figure."""
     if ax is not None and not isinstance(ax, Axes):
@@ -111,12 +136,6 @@ def make_panels(
     elif not isinstance(figure, FigureBase):
         raise inputs.rejected("figure", figure, "give a matplotlib Figure or SubFigure")
     return Panels(figure, figure.subplots(rows, columns, squeeze=False, **options))
-
-
-def check_one_place(ax: object, figure: object) -> None:
-    """Raise an InputError if both axes and a figure are given."""
-    if ax is not None and figure is not None:
-        raise inputs.faulty("ax and figure", "cannot be combined", "give one of them")
 
 
 def reject_figure(figure: object, kind: str) -> None:
@@ -327,14 +346,35 @@ def set_figure_title(figure: FigureBase, *lines: str) -> None:
 
 def label_x(ax: Axes, text: str) -> None:
     """Label the horizontal axis, on several lines where it is short."""
+    (text,) = in_units(ax.xaxis, text)
     ax.set_xlabel(plain_text(text))
     _fit(ax, ax.xaxis.label, _FittedText(ax.xaxis.label, [text], ax))
 
 
 def label_y(ax: Axes, *lines: str) -> None:
     """Label the vertical axis, on more lines where it is short."""
+    lines = tuple(in_units(ax.yaxis, *lines))
     ax.set_ylabel(plain_text("\n".join(lines)))
     _fit(ax, ax.yaxis.label, _FittedText(ax.yaxis.label, lines, ax, "height"))
+
+
+def label_bar(bar: Colorbar, text: str) -> None:
+    """Label a scale of colours."""
+    (text,) = in_units(bar.ax.yaxis, text)
+    bar.set_label(text)
+
+
+def in_units(axis: Any, *lines: str) -> list[str]:  # noqa: ANN401 - of matplotlib
+    """Return a label in the units of the setting, in which the numbers along an axis are written.
+
+    What is drawn remains in the unit of the result; ticks are where round numbers of the other are.
+    """
+    *before, last = lines
+    shown, factor = units.after_comma(last)
+    if factor == 1.0:
+        shown, factor = units.convert(last)
+    axis.crankpin_factor = factor
+    return [*before, shown if factor != 1.0 else last]
 
 
 def note_zero(ax: Axes, color: ColorType | None = None) -> None:
@@ -381,13 +421,13 @@ class _Legend:
     handles: Sequence[Any]
     title: str
     style: dict[str, Any]
-    made: Any = None
+    legend: Any = None
     """The legend, when it has been made."""
     how: object = None
     """Its arrangement."""
 
     def __call__(self) -> bool:
-        if self.made is not None and self.made.get_figure(root=True) is None:
+        if self.legend is not None and self.legend.get_figure(root=True) is None:
             return False  # removed
         names = [str(handle.get_label()) for handle in self.handles]
         left, down = 0.0, 0.0
@@ -408,9 +448,9 @@ class _Legend:
         if how == self.how:
             return False
         self.how = how
-        if self.made is not None:
-            self.made.remove()
-        self.made = self.place.legend(handles=self.handles, **arranged, **self._at(left, down))
+        if self.legend is not None:
+            self.legend.remove()
+        self.legend = self.place.legend(handles=self.handles, **arranged, **self._at(left, down))
         return True
 
     def _at(self, left: float, down: float) -> dict[str, Any]:

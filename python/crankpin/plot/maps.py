@@ -9,7 +9,7 @@ from matplotlib.colors import LogNorm, Normalize
 
 from crankpin._support import inputs
 from crankpin._support.quantities import QUANTITIES
-from crankpin.plot.layout import Drawn, Panels, label_x, label_y, make_panels, note_zero
+from crankpin.plot.layout import Drawn, Panels, label_bar, label_x, label_y, make_panels, note_zero
 from crankpin.plot.rows import Row, Rows, along_x, dimension, rows_of, words_of
 from crankpin.plot.style import foreground
 from crankpin.plot.ticks import degrees, numeric
@@ -58,19 +58,19 @@ def heat_map(
     dims = [dim for dim in sweep.coords if dim != "engine"]
     grids = [np.moveaxis(row.peaks, dims.index(up), 0) for row in rows.rows]
     coords = [np.asarray(sweep.coords[dim], dtype=np.float64) for dim in (along, up)]
-    made = make_panels(ax, figure, len(grids), len(rows.columns), sharex=True, sharey=True)
+    panels = make_panels(ax, figure, len(grids), len(rows.columns), sharex=True, sharey=True)
     scales = [scale(grid) for grid in grids]
     if "engine" in sweep.coords:
         scales = [scale(np.stack(grids))] * len(grids)
     vanishes = [
-        _heat(panels, coords, grid, name, norm, style)
-        for grid, panels, norm in zip(grids, made.axes, scales, strict=True)
+        _heat(row_panels, coords, grid, name, norm, style)
+        for grid, row_panels, norm in zip(grids, panels.axes, scales, strict=True)
     ]
-    _label_all(made, along, up, rows)
+    _label_all(panels, along, up, rows)
     notes = [note, "white dots: exactly zero" if any(vanishes) else ""]
-    what = [f"{rows.rows[0].name}, {rows.columns[0]}"] if made.single else []
-    made.set_title(words.title, words.subtitle(name), *what, *notes)
-    return made.drawn
+    what = [f"{rows.rows[0].name}, {rows.columns[0]}"] if panels.single else []
+    panels.set_title(words.title, words.subtitle(name), *what, *notes)
+    return panels.drawn
 
 
 def order_map(
@@ -98,16 +98,16 @@ def order_map(
     values = np.asarray(sweep.coords[along], dtype=np.float64)
     height = 0.7 if len(rows.rows) == 1 else 0.45
     shared: dict[str, Any] = {"sharex": True, "sharey": True, "row_height": height}
-    made = make_panels(ax, figure, len(rows.rows), len(rows.columns), **shared)
+    grid = make_panels(ax, figure, len(rows.rows), len(rows.columns), **shared)
     peaks = np.stack([row.peaks for row in rows.rows])
     norm = _logarithmic(peaks) if logarithmic else _from_zero(peaks)
-    for row, panels in zip(rows.rows, made.axes, strict=True):
+    for row, panels in zip(rows.rows, grid.axes, strict=True):
         mesh = _cells(panels, values, orders, row.peaks, {"norm": norm} | style)
     if peaks.any():
-        _colour_bar(made.axes.ravel(), mesh, name, peaks)
-    _label_all(made, along, "order", rows)
-    made.set_title(words.title, words.subtitle(name), rows.columns[0] if made.single else note)
-    return made.drawn
+        _colour_bar(grid.axes.ravel(), mesh, name, peaks)
+    _label_all(grid, along, "order", rows)
+    grid.set_title(words.title, words.subtitle(name), rows.columns[0] if grid.single else note)
+    return grid.drawn
 
 
 def _axes_of(sweep: Sweep, x: str | None) -> tuple[str, str]:
@@ -236,23 +236,23 @@ def _colour_bar(
     extend = "min" if below else "neither"
     figure = panels[0].get_figure(root=False)
     bar = figure.colorbar(mesh, ax=list(panels), aspect=25, pad=0.02, extend=extend)  # type: ignore[union-attr]
-    bar.set_label(f"peak, {QUANTITIES[quantity].unit}")
+    label_bar(bar, f"peak, {QUANTITIES[quantity].unit}")
     bar.outline.set_visible(False)
     if not isinstance(mesh.norm, LogNorm):
         numeric(bar.ax.yaxis)
 
 
-def _label_all(made: Panels, along: str, up: str, rows: Rows) -> None:
+def _label_all(panels: Panels, along: str, up: str, rows: Rows) -> None:
     """Name the columns above them, the rows and axes on the left and below."""
-    for (row, column), panel in np.ndenumerate(made.axes):
+    for (row, column), panel in np.ndenumerate(panels.axes):
         for axis, dim in ((panel.xaxis, along), (panel.yaxis, up)):
             if dim.endswith("_deg"):
                 degrees(axis)
             else:
                 numeric(axis, whole=dim == "order")
-        if row == len(made.axes) - 1:
+        if row == len(panels.axes) - 1:
             label_x(panel, dimension(along))
         if not column:
-            name = "" if made.single else rows.rows[row].name
+            name = "" if panels.single else rows.rows[row].name
             label_y(panel, *filter(None, [name, dimension(up)]))
-    made.name_columns(rows.columns)
+    panels.name_columns(rows.columns)

@@ -9,10 +9,18 @@ from matplotlib.colors import LinearSegmentedColormap, LogNorm
 from matplotlib.patches import Rectangle
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture
 from crankpin.analysis.mounts.modes import COORDINATES, PLACES, MountModes
 from crankpin.analysis.mounts.response import MountResponse
-from crankpin.plot.dispatch import picture
-from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, note_zero, set_title
+from crankpin.plot.layout import (
+    add_legend,
+    axes_or_new,
+    label_bar,
+    label_x,
+    label_y,
+    note_zero,
+    set_title,
+)
 from crankpin.plot.maps import RANGE
 from crankpin.plot.style import SERIES, background, colours, foreground, muted, series, tint
 from crankpin.plot.ticks import from_zero, numeric, span
@@ -177,7 +185,7 @@ def _map(
     options: dict[str, Any] = {"shading": "nearest", "norm": norm, "rasterized": True} | style
     mesh = ax.pcolormesh(rpm[columns], rows, np.maximum(cells, RANGE * largest), **options)
     bar = ax.get_figure(root=False).colorbar(mesh, ax=ax, aspect=25, pad=0.02)  # type: ignore[union-attr]
-    bar.set_label("peak, N")
+    label_bar(bar, "peak, N")
     bar.outline.set_visible(False)
     modes = result.powertrain.modes(AT if result.powertrain._varies else None)
     fine = np.linspace(max(float(rpm.min()), 1.0), float(rpm.max()), 400)

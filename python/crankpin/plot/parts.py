@@ -93,14 +93,14 @@ def _panels(ax: Axes | None, figure: object, orders: int, rest: int) -> tuple[Pa
     """Return panels, also as (orders, rest). As many are side by side as fit."""
     width = width_for(figure)
     if rest > 1 and width >= WIDE * rest:
-        made = make_panels(ax, figure, orders, rest, sharex="col", sharey="row")
-        return made, made.axes
+        panels = make_panels(ax, figure, orders, rest, sharex="col", sharey="row")
+        return panels, panels.axes
     columns = orders if width >= WIDE * orders else 1
     height = 0.7 if rest == 1 and columns > 1 else 0.45
-    made = make_panels(
+    panels = make_panels(
         ax, figure, orders * rest // columns, columns, row_height=height, sharex="col"
     )
-    return made, made.axes.reshape(rest, orders).T
+    return panels, panels.axes.reshape(rest, orders).T
 
 
 def _sizes(vector: Quantity) -> NDArray[np.float64]:

@@ -11,18 +11,17 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, FancyArrowPatch
 from matplotlib.transforms import ScaledTranslation
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
+from crankpin._support.drawing import picture
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis import contributions as adding
 from crankpin.analysis.star import StarDiagram
 from crankpin.plot import ticks
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
     Drawn,
     add_figure_legend,
     add_legend,
     axes_or_new,
-    check_one_place,
     inches_of,
     label_x,
     label_y,
@@ -98,7 +97,8 @@ def phasors(
             room, names = _polygon(panel, arms, chain, total, inks, style)
             _frame(panel, chain, room)
             _name(panel, names)
-            length = f"{rounded(abs(total), 4)} {QUANTITIES[kind].unit}" if total else "0"
+            unit, factor = units.convert(QUANTITIES[kind].unit)
+            length = f"{rounded(abs(total) * factor, 4)} {unit}" if total else "0"
             set_panel_title(panel, f"order {order} {part}".strip(), length)
             aside = aside or room > 0.0
     label_x(axes[-1, 0], _axis_label(kind, 0))
@@ -272,7 +272,6 @@ def _star(
     order: Order | None = None,
     **style: object,
 ) -> Drawn:
-    check_one_place(ax, figure)
     if order is not None and figure is not None:
         raise inputs.rejected("figure", figure, "one order has one panel; give ax")
     if ax is not None or order is not None:
@@ -287,8 +286,8 @@ def _star(
     panels = make_plane_panels(figure, len(stars[:MOST_STARS]))
     handles = []
     for panel, orders in zip(panels.axes.flat, stars, strict=False):
-        found = _vectors(panel, result, orders[0], style)
-        handles = max(handles, found, key=len)
+        vectors = _vectors(panel, result, orders[0], style)
+        handles = max(handles, vectors, key=len)
         # The numbers of many cylinders must not take the room of the stars.
         panel.set(xlim=(-NUMBERED, NUMBERED), ylim=(-NUMBERED, NUMBERED))
         for text in panel.texts:
@@ -304,10 +303,10 @@ def _star(
 
 def _distinct(result: StarDiagram) -> list[list[Order]]:
     """Return the orders that have the same vectors, as even firing makes them every few orders."""
-    found: dict[bytes, list[Order]] = {}
+    alike: dict[bytes, list[Order]] = {}
     for order, vectors in zip(result.orders, result.vectors, strict=True):
-        found.setdefault((np.round(vectors, DIRECTIONS) + 0.0).tobytes(), []).append(order)
-    return list(found.values())
+        alike.setdefault((np.round(vectors, DIRECTIONS) + 0.0).tobytes(), []).append(order)
+    return list(alike.values())
 
 
 def _vectors(ax: Axes, result: StarDiagram, order: Order, style: dict[str, Any]) -> list[Line2D]:

@@ -5,11 +5,20 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.collections import LineCollection
 
 from crankpin._support import inputs
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin.plot.layout import Panels, label_x, label_y, make_panels, note_zero, width_for
-from crankpin.plot.style import SERIES, count_series, foreground, muted, series, write
+from crankpin.plot.layout import (
+    Panels,
+    in_units,
+    label_x,
+    label_y,
+    make_panels,
+    note_zero,
+    width_for,
+)
+from crankpin.plot.style import SERIES, colour_map, count_series, foreground, muted, series, write
 from crankpin.plot.ticks import numeric
 from crankpin.plot.words import drawn_quantity, in_degrees, nonzero_in
 
@@ -101,6 +110,32 @@ def trace(
             _annotate(ax, where_to, angles, outward)
 
 
+def trace_by_angle(
+    ax: Axes, theta: NDArray[np.float64], values: NDArray[np.float64], name: str, period: float
+) -> LineCollection:
+    """Draw the tip of a vector, (n_theta, 2), in colours of the crank angle; return the curve.
+
+    A dot is where the angles begin. There are no others, so that narrow panels can be read.
+    """
+    once = theta <= theta.min(initial=np.inf) + period
+    theta, points = theta[once], values[once]
+    ax.plot(*points.T, gid=SERIES, label=name, color=muted(ax, 0.35), linewidth=0.8)
+    curve = LineCollection(
+        list(np.stack([points[:-1], points[1:]], axis=1)),
+        array=0.5 * (theta[:-1] + theta[1:]),
+        cmap=colour_map(ax),
+        clim=(theta.min(initial=0.0), theta.min(initial=0.0) + period),
+        linewidth=1.8,
+        capstyle="round",
+        zorder=2.5,
+    )
+    ax.add_collection(curve, autolim=False)
+    if points.any():
+        ax.plot(*points[0], "o", color=curve.cmap(0.0), markersize=4.5)
+    scale_plane(ax, 1.15, centred=False)
+    return curve
+
+
 def _beside(
     labelled: Iterator[tuple[complex, str]], curve: NDArray[np.complex128]
 ) -> Iterator[tuple[complex, str, complex]]:
@@ -152,10 +187,10 @@ def make_plane_panels(figure: object, count: int, height: float = 1.0) -> Panels
     columns, row_height = (3, 0.5) if count > 4 and width_for(figure) > 6.0 else (2, 0.6)
     columns, rows = min(columns, max(1, count)), max(1, -(-count // columns))
     row_height *= min(1.0, max(0.5, height))
-    made = make_panels(None, figure, rows, columns, row_height=row_height)
-    for panel in made.axes.flat[max(1, count) :]:
+    panels = make_panels(None, figure, rows, columns, row_height=row_height)
+    for panel in panels.axes.flat[max(1, count) :]:
         panel.set_visible(False)
-    return made
+    return panels
 
 
 def share_scale(panels: Panels) -> None:
@@ -177,8 +212,11 @@ def share_scale(panels: Panels) -> None:
 
 def label_panels(panels: Panels, along: str, across: str, unit: str) -> None:
     """Label the axes of all panels together."""
-    panels.figure.supxlabel(f"{along}, {unit}", fontsize="medium")
-    panels.figure.supylabel(f"{across}, {unit}", fontsize="medium")
+    for panel in panels.axes.flat:
+        (below,) = in_units(panel.xaxis, f"{along}, {unit}")
+        (beside,) = in_units(panel.yaxis, f"{across}, {unit}")
+    panels.figure.supxlabel(below, fontsize="medium")
+    panels.figure.supylabel(beside, fontsize="medium")
 
 
 def label_plane(ax: Axes, quantity: str, unit: str = "") -> None:

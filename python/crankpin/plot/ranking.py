@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture
 from crankpin.analysis.arrangements.search import ArrangementSearch
 from crankpin.analysis.design.designs import Designs, bank_angle_range
 from crankpin.analysis.design.families import turned
 from crankpin.analysis.ranking.ranking import Ranking
 from crankpin.plot.curves import FEW_POINTS, engine_looks
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, set_title
 from crankpin.plot.style import DISTINCT, SERIES, foreground, once, ring, series, write_at_mark
 from crankpin.plot.sweep import MOST_ENGINES
@@ -212,10 +212,10 @@ def _search(
     result: ArrangementSearch, ax: Axes | None = None, *, label: str | None = None, **style: object
 ) -> Axes:
     ax = axes_or_new(ax)
-    found = list(result)
-    angles = np.array([each.bank_angle_deg for each in found])
-    heights = np.array([max(each.second_order) for each in found])
-    without = f"{len(found)} bank angles without backward moment, {result.hold} held"
+    arrangements = list(result)
+    angles = np.array([each.bank_angle_deg for each in arrangements])
+    heights = np.array([max(each.second_order) for each in arrangements])
+    without = f"{len(arrangements)} bank angles without backward moment, {result.hold} held"
     name = f"V{result.cylinders}"
     set_title(ax, name, without)
     (look,) = series(ax, 1, style)

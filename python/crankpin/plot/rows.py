@@ -28,8 +28,8 @@ MATTERS = 1e-3
 
 def given_orders(orders: object) -> list[Order]:
     """Return orders that are to be drawn, one at least."""
-    if found := inputs.explicit_half_orders(orders):
-        return found
+    if listed := inputs.explicit_half_orders(orders):
+        return listed
     raise inputs.rejected("orders", [], "give at least one order, such as [1, 2]")
 
 
@@ -71,8 +71,8 @@ def rows_of(sweep: Sweep, quantity: str, orders: object = None, *, single: bool 
     """
     planar = quantity in PLANE_VECTORS and not single
 
-    def row(name: str, found: Any) -> Row:  # noqa: ANN401 - what has quantities
-        vector = getattr(found, quantity)
+    def row(name: str, quantities: Any) -> Row:  # noqa: ANN401 - what has quantities
+        vector = getattr(quantities, quantity)
         return Row(name, vector.peak_xy if planar else vector.peak[..., np.newaxis])
 
     def one(order: Order) -> Row:
@@ -88,8 +88,8 @@ def rows_of(sweep: Sweep, quantity: str, orders: object = None, *, single: bool 
         return Rows([one(order) for order in chosen], columns, "")
     if len(sweep.orders) == 1:
         return Rows([one(sweep.orders[0])], columns, "")
-    given = " given" if sweep.request.orders is not None else ""
-    rows = [row(f"all orders{given}", sweep.total)]
+    which = " given" if sweep.request.orders is not None else ""
+    rows = [row(f"all orders{which}", sweep.total)]
     if single:
         return Rows(rows, columns, "")
     places, note = largest(sweep, quantity, MOST - 1)

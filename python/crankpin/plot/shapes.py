@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.patches import Patch
 
+from crankpin._support import units
 from crankpin.analysis.geometry import (
     direction,
     geometry,
@@ -88,7 +89,7 @@ def legend_handles(engine: Engine, ink: Inks) -> list[Patch]:
             facecolor=colour,
             edgecolor=ink.line,
             linewidth=0.6,
-            label=f"{name}, up to {rounded(max(each.amount for each in weights))} kg·m each",
+            label=f"{name}, up to {_amount(max(each.amount for each in weights))} each",
         )
         for weights, colour, name in kinds
         if any(each.amount for each in weights)
@@ -148,11 +149,11 @@ def pins_in_line(engine: Engine, theta_deg: float = 0.0) -> dict[complex, list[i
     """Return the crankpins as seen from the flywheel: place from the axis, m → cylinders there."""
     places = geometry(engine, theta_deg)
     at = places.crankpin - places.axis
-    found: dict[complex, list[int]] = {}
+    pins: dict[complex, list[int]] = {}
     for pin in crankpins(engine):
         place = complex(at[pin.cylinders[0] - 1].round(9))
-        found.setdefault(place, []).extend(pin.cylinders)
-    return {complex(at[numbers[0] - 1]): sorted(numbers) for numbers in found.values()}
+        pins.setdefault(place, []).extend(pin.cylinders)
+    return {complex(at[numbers[0] - 1]): sorted(numbers) for numbers in pins.values()}
 
 
 def radius_of_amounts(engine: Engine, amounts: Sequence[float]) -> list[float]:
@@ -211,3 +212,9 @@ def arrow_round(ax: Axes, radius: float, at_deg: float, ink: Inks) -> None:
     tip, tail = (radius * complex(direction(at_deg + turn)) for turn in (2.0, -2.0))
     look = {"arrowstyle": "-|>", "color": ink.faint, "linewidth": 1.0, "shrinkA": 0, "shrinkB": 0}
     ax.annotate("", (tip.real, tip.imag), (tail.real, tail.imag), arrowprops=look)
+
+
+def _amount(unbalance: float) -> str:
+    """Write an unbalance, kg·m."""
+    shown = units.convert("kg·m")
+    return f"{rounded(unbalance * shown.factor)} {shown.unit}"

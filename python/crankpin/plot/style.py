@@ -111,11 +111,15 @@ def colours(ax: Axes, count: int) -> list[Any]:
 
 
 def scale(ax: Axes, count: int) -> list[Any]:
-    """Return colours of viridis, without its end that is close to the background."""
+    """Return colours of :func:`colour_map`, as far apart as they can be."""
+    return list(colour_map(ax)(np.linspace(0.0, 1.0, count)))
+
+
+def colour_map(ax: Axes) -> colors.Colormap:
+    """Return viridis, without its end that is close to the background."""
     dark = float(np.mean(background(ax))) < 0.5
     low, high = (0.2, 1.0) if dark else (0.0, 0.92)
-    colours_of = colors.ListedColormap(mpl.colormaps["viridis"](np.linspace(low, high, 256)))
-    return list(colours_of(np.linspace(0.0, 1.0, count)))
+    return colors.ListedColormap(mpl.colormaps["viridis"](np.linspace(low, high, 256)))
 
 
 def series(ax: Axes, count: int, style: Mapping[str, Any] | None = None) -> list[dict[str, Any]]:
@@ -123,11 +127,11 @@ def series(ax: Axes, count: int, style: Mapping[str, Any] | None = None) -> list
 
     Keywords in ``style`` apply to all of them; with a colour given, dashes distinguish them.
     """
-    given = mpl.cbook.normalize_kwargs(dict(style or {}), Line2D)
-    given.pop("label", None)
+    options = mpl.cbook.normalize_kwargs(dict(style or {}), Line2D)
+    options.pop("label", None)
     entries = cycle(ax)
-    there = count_series(ax)
-    return [entries[(there + k) % len(entries)] | given for k in range(count)]
+    drawn = count_series(ax)
+    return [entries[(drawn + k) % len(entries)] | options for k in range(count)]
 
 
 SERIES = "crankpin series"

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture
 from crankpin._support.quantities import QUANTITIES
 from crankpin.analysis.sweeps.sweep import Sweep
 from crankpin.plot.curves import curves
-from crankpin.plot.dispatch import picture
-from crankpin.plot.layout import Drawn, Kinds, check_one_place, label_x, make_panels
+from crankpin.plot.layout import Drawn, Kinds, label_x, make_panels
 from crankpin.plot.maps import heat_map, order_map
 from crankpin.plot.parts import parts
 from crankpin.plot.rows import given_orders, largest, words_of
@@ -64,14 +64,14 @@ def bars(
     note = _note(sweep, chosen)
     engines = min(len(words.names), MOST_ENGINES)
     height = max(0.45, engines * (0.04 + 0.03 * len(chosen)))
-    made = make_panels(ax, figure, 1, len(names), row_height=height, sharey=True)
-    made.name_columns([QUANTITIES[name].words for name in names])
-    for panel, name, values in zip(made.axes.flat, names, peaks, strict=True):
+    panels = make_panels(ax, figure, 1, len(names), row_height=height, sharey=True)
+    panels.name_columns([QUANTITIES[name].words for name in names])
+    for panel, name, values in zip(panels.axes.flat, names, peaks, strict=True):
         _panel(panel, words.names[:engines], values[:engines], chosen, name, style)
-    _class(made.axes[0, -1], classes[:engines])
-    made.set_title(words.title, where, note)
-    made.add_legend(made.axes[0, 0].get_legend_handles_labels()[0], words.common)
-    return made.drawn
+    _class(panels.axes[0, -1], classes[:engines])
+    panels.set_title(words.title, where, note)
+    panels.add_legend(panels.axes[0, 0].get_legend_handles_labels()[0], words.common)
+    return panels.drawn
 
 
 def _orders(sweep: Sweep, names: Sequence[str], orders: object) -> list[Order]:
@@ -153,7 +153,6 @@ def _sweep(
     x: str | None = None,
     **options: object,
 ) -> Drawn:
-    check_one_place(ax, figure)
     if options.get("quantity", "") is None:
         del options["quantity"]  # each kind has its own default
     if not result.coords:

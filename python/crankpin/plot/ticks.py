@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axis import XAxis
-from matplotlib.ticker import FuncFormatter, Locator, MaxNLocator
+from matplotlib.ticker import FixedLocator, Formatter, FuncFormatter, Locator, MaxNLocator
 
+from crankpin._support import drawing
 from crankpin._support.labels import NEGLIGIBLE
 from crankpin.plot.layout import points_of
 from crankpin.plot.words import in_degrees, number
@@ -62,10 +63,10 @@ class RoundLocator(Locator):
     def _candidates(self, low: float, high: float) -> Iterator[Sequence[float]]:
         """Yield places of ticks, ever fewer."""
         for count in range(self.most, 0, -1):
-            found = MaxNLocator(count, steps=STEPS, integer=self.whole, min_n_ticks=1).tick_values(
+            ticks = MaxNLocator(count, steps=STEPS, integer=self.whole, min_n_ticks=1).tick_values(
                 low, high
             )
-            yield [each for each in found if not self.whole or each == round(each)]
+            yield [each for each in ticks if not self.whole or each == round(each)]
 
     def _fit(self, places: Sequence[float], span: float) -> bool:
         """Return whether labels at these places do not touch."""
@@ -118,10 +119,10 @@ def numeric(axis: Axis, *, whole: bool = False) -> None:
 
 def span(ax: Axes, values: ArrayLike) -> None:
     """Limit the horizontal axis to values."""
-    found = np.asarray(values, dtype=np.float64)
-    found = found[np.isfinite(found)]
-    if found.size and found.min() < found.max():
-        ax.set_xlim(float(found.min()), float(found.max()))
+    finite = np.asarray(values, dtype=np.float64)
+    finite = finite[np.isfinite(finite)]
+    if finite.size and finite.min() < finite.max():
+        ax.set_xlim(float(finite.min()), float(finite.max()))
 
 
 def from_zero(ax: Axes, largest: float, room: float = 1.08, *, name: str = "y") -> None:
@@ -155,6 +156,68 @@ def magnitude_scale(
         return
     numeric(getattr(ax, f"{name}axis"))
     from_zero(ax, largest, name=name)
+
+
+# --- other units ----------------------------------------------------------------------------------
+
+
+class ScaledLocator(Locator):
+    """Ticks where numbers in another unit are round."""
+
+    def __init__(self, own: Locator, factor: float) -> None:
+        self.own, self.factor = own, factor
+
+    def set_axis(self, axis: Any) -> None:  # noqa: ANN401 - of matplotlib
+        """Set the axis, of the locator for the other unit too."""
+        super().set_axis(axis)
+        self.own.set_axis(axis)
+
+    def __call__(self) -> Sequence[float]:
+        """Return the places of the ticks."""
+        assert self.axis is not None  # noqa: S101 - by Axis.set_major_locator
+        return self.tick_values(*self.axis.get_view_interval())
+
+    def tick_values(self, vmin: float, vmax: float) -> Sequence[float]:
+        """Return the places of the ticks between two values."""
+        found = self.own.tick_values(vmin * self.factor, vmax * self.factor)
+        return [float(each) / self.factor for each in found]
+
+
+class ScaledFormatter(Formatter):
+    """Numbers of ticks in another unit."""
+
+    def __init__(self, own: Formatter, factor: float) -> None:
+        self.own, self.factor = own, factor
+
+    def set_axis(self, axis: Any) -> None:  # noqa: ANN401 - of matplotlib
+        """Set the axis, of the formatter for the other unit too."""
+        super().set_axis(axis)
+        self.own.set_axis(axis)
+
+    def set_locs(self, locs: Any) -> None:  # noqa: ANN401 - of matplotlib
+        """Set the places of all ticks."""
+        super().set_locs(locs)
+        self.own.set_locs([float(each) * self.factor for each in locs])
+
+    def __call__(self, x: float, pos: int | None = None) -> str:
+        """Return the text of a tick."""
+        return self.own(float(f"{x * self.factor:.12g}"), pos)
+
+
+def in_units(figure: Any) -> None:  # noqa: ANN401 - of matplotlib
+    """Let the numbers along axes be those of the units that labels name."""
+    for ax in figure.axes:
+        for axis in (ax.xaxis, ax.yaxis):
+            factor = getattr(axis, "crankpin_factor", 1.0)
+            locator, formatter = axis.get_major_locator(), axis.get_major_formatter()
+            if factor == 1.0 or isinstance(locator, ScaledLocator):
+                continue
+            if not isinstance(locator, FixedLocator):
+                axis.set_major_locator(ScaledLocator(locator, factor))
+            axis.set_major_formatter(ScaledFormatter(formatter, factor))
+
+
+drawing.finishers.append(in_units)
 
 
 # Functions of the module, so that figures pickle.

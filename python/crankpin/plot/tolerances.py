@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture
 from crankpin.analysis.ranking import objectives
 from crankpin.analysis.tolerances.samples import QUANTILES, Tolerances
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import add_legend, axes_or_new, inches_of, label_x, label_y, set_title
 from crankpin.plot.style import SERIES, font_of, foreground, muted, once, series
 from crankpin.plot.ticks import from_zero, numeric

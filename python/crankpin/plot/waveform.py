@@ -8,17 +8,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.sweeps.waveform import SweepWaveform
 from crankpin.analysis.waveform import Waveform
 from crankpin.plot.curves import bundle_of, colour_scale
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
     Drawn,
     add_legend,
     axes_or_new,
-    check_one_place,
     label_x,
     label_y,
     make_panels,
@@ -91,7 +90,6 @@ def _sweep_waveform(
     quantity: str | None = None,
     **style: object,
 ) -> Drawn:
-    check_one_place(ax, figure)
     name = drawn_quantity(quantity, nonzero_in(result))
     count = math.prod(len(values) for values in result.sweep.coords.values())
     chosen = "curves" if count <= DISTINCT else "envelope"
@@ -105,20 +103,20 @@ def _sweep_waveform(
     draw_panels = _curves if chosen == "curves" else _envelope
     words = words_of(result.sweep)
     points = f"{count} points of a sweep" if chosen == "envelope" else ""
-    made = make_panels(ax, figure, 1, len(columns), row_height=0.75, sharey=True)
-    made.name_columns(columns)
-    handles = draw_panels(made.axes, result, values, style)
-    for k, panel in enumerate(made.axes.flat):
+    panels = make_panels(ax, figure, 1, len(columns), row_height=0.75, sharey=True)
+    panels.name_columns(columns)
+    handles = draw_panels(panels.axes, result, values, style)
+    for k, panel in enumerate(panels.axes.flat):
         dress(panel, result.theta_deg)
         if not values[..., k].any():
             note_zero(panel)
-    _limit(made.axes[0, 0], values)
-    label_y(made.axes[0, 0], with_unit(name))
-    column = columns[0] if made.single else ""
+    _limit(panels.axes[0, 0], values)
+    label_y(panels.axes[0, 0], with_unit(name))
+    column = columns[0] if panels.single else ""
     how = ", ".join(filter(None, [summed(result, name), column, points]))
-    made.set_title(words.title, words.subtitle(name), how)
-    made.add_legend(handles, words.common if chosen == "curves" else "")
-    return made.drawn
+    panels.set_title(words.title, words.subtitle(name), how)
+    panels.add_legend(handles, words.common if chosen == "curves" else "")
+    return panels.drawn
 
 
 def _curves(

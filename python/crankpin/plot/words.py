@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.quantities import PARTS, PLANE_VECTORS, QUANTITIES
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Collection, Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
@@ -79,18 +79,18 @@ def nonzero_in(*results: object) -> Callable[[str], bool]:
     """Return a test of a name: whether one of the results has a quantity that is not all zero."""
 
     def exists(name: str) -> bool:
-        found = (getattr(each, name, None) for each in results)
-        return any(each is not None and np.any(getattr(each, "peak", each)) for each in found)
+        values = (getattr(each, name, None) for each in results)
+        return any(each is not None and np.any(getattr(each, "peak", each)) for each in values)
 
     return exists
 
 
 def drawn_quantity(
-    given: object, exists: Callable[[str], bool], among: Iterable[str] = QUANTITIES
+    quantity: object, exists: Callable[[str], bool], among: Collection[str] = QUANTITIES
 ) -> str:
     """Return the quantity asked for; by default the moment, or else the first that exists."""
-    if given is not None:
-        return inputs.one_of("quantity", given, among)
+    if quantity is not None:
+        return inputs.one_of("quantity", quantity, among)
     names = [name for name in ("moment", "force", "torque") if name in among]
     return next((name for name in names if exists(name)), names[0])
 
@@ -144,4 +144,6 @@ def summed(result: Waveform | SweepWaveform, quantity: str) -> str:
         return "exact kinematics"
     text = labels.orders_text(result.orders)
     bound = result.error_bound[quantity]
-    return f"{text} (the rest ≤ {rounded(bound, 2)} {QUANTITIES[quantity].unit})" if bound else text
+    shown = units.convert(QUANTITIES[quantity].unit)
+    rest = f"{rounded(bound * shown.factor, 2)} {shown.unit}"
+    return f"{text} (the rest ≤ {rest})" if bound else text

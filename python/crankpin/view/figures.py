@@ -13,6 +13,7 @@ from crankpin._support import inputs, labels
 from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.explain import Explanation
 from crankpin.analysis.flywheel import flywheel
+from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
 from crankpin.analysis.request import engine_core
 from crankpin.view.terms import RodRatios, at_rod_ratio, kinds, listed_orders, terms
 
@@ -33,6 +34,8 @@ IRREGULARITY = 0.01
 """Largest less smallest speed, over the mean, of a page whose moment of inertia is not given."""
 PRESSURE_STEP = 0.5
 """Degrees between the samples of a cycle, between which a page interpolates."""
+EXHAUST = {4: float(ValveTiming().exhaust_opens_deg), 2: float(PortTiming().exhaust_opens_deg)}
+"""Angle at which exhausts open, before the piston is lowest, degrees, by strokes: ordinary ones."""
 BLOCK = 50.0
 """Mass of the block, which is not known, over that of the pistons: 90 kg for two litres."""
 
@@ -138,6 +141,7 @@ def places(engine: Engine, rpm: float) -> dict[str, Any]:
             for shaft in engine.shafts
         ],
         "firing_deg": engine.firing().angles_deg.tolist() if engine.firing_order else None,
+        "exhaust_opens_deg": EXHAUST[engine.strokes],
     }
 
 

@@ -1,4 +1,4 @@
-"""Pages that need a browser alone, of an engine or of every preset: modules, style and figures."""
+"""Pages that need a browser alone, of an engine: modules, style and figures."""
 
 from __future__ import annotations
 
@@ -7,16 +7,17 @@ import json
 import re
 from pathlib import Path
 from string import Template
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from crankpin._support import files, inputs
-from crankpin.model import presets
-from crankpin.view.figures import figures, places
+from crankpin.view import mounted
+from crankpin.view.figures import figures
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from crankpin._support.inputs import Spectrum
+    from crankpin.analysis.mounts.powertrain import Powertrain
     from crankpin.model.engine import Engine
 
 WEB = Path(__file__).parent / "web"
@@ -24,9 +25,6 @@ IMPORT = re.compile(r'^import \{[^}]*\} from "\./(\w+\.mjs)";\n', re.MULTILINE)
 COMMENT = re.compile(r"^\s*(?://[^\n]*|/\*\*.*?\*/)\n", re.MULTILINE | re.DOTALL)
 EXPORT = re.compile(r"^export (?=const|class|function)", re.MULTILINE)
 INDENT = re.compile(r"^\s+", re.MULTILINE)
-GALLERY_HEAD = "<div class='crankpin'><header><h1>Engines</h1></header></div>"
-EBOOK_RPM = 10.0
-"""Speed of the presets with a crank radius of one metre, as in their source."""
 
 
 def save_html(
@@ -51,42 +49,19 @@ def save_html(
     files.write(file, text)
 
 
-def save_gallery(folder: str | Path, *, rpm: float = 3000.0) -> list[Path]:
-    """Write a page of each preset and ``index.html``; return the files.
-
-    Parameters
-    ----------
-    folder
-        Where to write them; it is made if need be.
-    rpm
-        Crank speed of the pages; engines of the e-book, of one metre crank radius, run at 10.
-    """
-    root = Path(folder)
-    root.mkdir(parents=True, exist_ok=True)
-    listed: list[dict[str, Any]] = []
-    pages = []
-    for name, engine in presets.presets().items():
-        speed = speed_of(name, rpm)
-        file = root / f"{name}.html"
-        save_html(engine, file, rpm=speed)
-        listed.append(
-            {
-                "href": file.name,
-                "figures": places(engine, speed),
-                "description": presets.presets().descriptions[name],
-            }
-        )
-        pages.append(file)
-    index = root / "index.html"
-    call = f"gallery({as_json(listed)});"
-    text = document("Engines", ("gallery.mjs",), call, styles=["gallery"], body=GALLERY_HEAD)
-    files.write(index, text)
-    return [index, *pages]
-
-
-def speed_of(preset: str, rpm: float) -> float:
-    """Return the speed at which a page shows a preset."""
-    return EBOOK_RPM if preset.endswith(presets.OWN_PARTS) else rpm
+def save_mounted_html(
+    powertrain: Powertrain, path: str | Path, *, rpm: float = 800.0, frequency: float | None = None
+) -> None:
+    """Write a page of a powertrain; :meth:`Powertrain.save_html` documents the arguments."""
+    file = inputs.file_path(path, (".html", ".htm"), "a page ends in .html")
+    known = mounted.figures(powertrain, rpm, frequency=frequency)
+    text = document(
+        known["name"],
+        ("mounted.mjs", "page.mjs"),
+        f"page(Mounted, {as_json(known)});",
+        styles=["mounted"],
+    )
+    files.write(file, text)
 
 
 def document(

@@ -11,7 +11,7 @@ use self::objective::{ObjectiveFunction, Rotor, TurningPhasor, dot};
 use crate::Complex64;
 use crate::engine::{Engine, Origin};
 use crate::load::source::Repeats;
-use crate::load::{Arithmetic, Factor, Load, Loads, PhasorSum, Phasors, Wanted, Weight};
+use crate::load::{Arithmetic, Factor, Load, LoadList, PhasorSum, Phasors, Wanted, Weight};
 use crate::load::{Term, superpose};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -24,7 +24,7 @@ use crate::readings::amplitude::{Amplitude, Amplitudes};
 /// weights this small: its slope there is 1.
 const LATER: f64 = 1e-3;
 /// Points evaluated in one task.
-const POINTS_PER_TASK: usize = 16;
+const STARTS_PER_TASK: usize = 16;
 
 /// Quantity of an objective.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -135,7 +135,7 @@ impl Objectives {
         removed: &[i32],
         cancel: &Cancel,
     ) -> Result<Self> {
-        let loads = Loads::new(engine, engine.reference(None)?);
+        let loads = LoadList::new(engine, engine.reference(None)?);
         let count = engine.stations().len();
         let lists = variables.iter().flat_map(|each| [&each.bores, &each.pins]);
         for list in lists {
@@ -216,7 +216,7 @@ impl Objectives {
     /// The objectives at points (points, variables) in radians, and their derivatives: (points,
     /// objectives) and (points, objectives, variables).
     pub fn evaluated(&self, points: &[Vec<f64>], cancel: &Cancel) -> Result<Vec<Vec<Derived>>> {
-        let chunks = pool::map(cancel, points.chunks(POINTS_PER_TASK).collect(), |chunk| {
+        let chunks = pool::map(cancel, points.chunks(STARTS_PER_TASK).collect(), |chunk| {
             let of_point = |x: &Vec<f64>| {
                 cancel.check()?;
                 Ok(self.functions.iter().map(|function| function.value(x)).collect::<Vec<_>>())

@@ -110,10 +110,13 @@ impl PartKind {
     pub fn new(deviations: Vec<Vec<f64>>, influences: Vec<Vec<Vec<f64>>>) -> Result<Self> {
         let parts = deviations.first().map_or(0, Vec::len);
         let (places, dimensions) = shape(&influences);
-        let alike = deviations.iter().all(|of| of.len() == parts)
+        let has_one_shape = deviations.iter().all(|of| of.len() == parts)
             && influences.iter().all(|of| shape(std::slice::from_ref(of)) == (places, dimensions))
             && influences.iter().flatten().all(|of| of.len() == dimensions);
-        if parts * places * dimensions == 0 || deviations.len() != influences.len() || !alike {
+        if parts * places * dimensions == 0
+            || deviations.len() != influences.len()
+            || !has_one_shape
+        {
             let found = format!("{} figures of {parts} parts", deviations.len());
             let hint =
                 "give each figure a deviation of every part, and its influence in every place";

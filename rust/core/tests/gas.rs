@@ -10,7 +10,7 @@ use crankpin_core::balance::{Balance, Orders, Request, TorquePart, balance};
 use crankpin_core::engine::layout::Strokes;
 use crankpin_core::engine::{Details, Gas, file};
 use crankpin_core::pressure::Given;
-use crankpin_core::sweep::{Axes, Figure, MapAxes, Quantity};
+use crankpin_core::sweep::{MapAxes, Quantity, Statistic, SweepAxes};
 use crankpin_core::{
     Angle, Cancel, Complex64, Crank, CrankAngles, Cycle, Cylinder, Engine, Hold, Order, Shaft,
     Station, Sweep, Unbalance, waveform,
@@ -197,11 +197,11 @@ fn sweeps_of_a_map_weigh_the_torques_of_its_cycles() {
             nodes().map(move |(speed, load)| made(stroke, 0.2, factor(speed, load)))
         });
         let map = MapAxes { rpm: speeds.to_vec(), loads: loads.to_vec(), load: vec![1.0, 0.4] };
-        let axes = Axes {
+        let axes = SweepAxes {
             rod_ratio: Some(ratios.to_vec()),
             rpm: swept_rpm.to_vec(),
             map: Some(map),
-            ..Axes::default()
+            ..SweepAxes::default()
         };
         let orders = common::whole(&[1, 2, 4]);
         let engines: Vec<_> = engines.collect();
@@ -220,8 +220,8 @@ fn sweeps_of_a_map_weigh_the_torques_of_its_cycles() {
     let parts = [TorquePart::Whole, TorquePart::Gas, TorquePart::Inertia];
     for (on_crank, part) in [false, true].into_iter().flat_map(|c| parts.map(|part| (c, part))) {
         let quantity = if on_crank { Quantity::CrankTorque(part) } else { Quantity::Torque(part) };
-        let phasors = sweep.phasors(quantity, Figure::Amplitude, &cancel).unwrap();
-        let [peaks, sums, means] = [Figure::Amplitude, Figure::Sum, Figure::Mean]
+        let phasors = sweep.phasors(quantity, Statistic::Amplitude, &cancel).unwrap();
+        let [peaks, sums, means] = [Statistic::Amplitude, Statistic::Sum, Statistic::Mean]
             .map(|figure| sweep.peaks(quantity, figure, &cancel).unwrap());
         for (place, &mean) in means.indexed_iter() {
             let (e, r, s, l) = (place[0], place[2], place[4], place[5]);
@@ -263,7 +263,7 @@ fn sweeps_of_a_map_weigh_the_torques_of_its_cycles() {
     let quantity = Quantity::CrankTorque(TorquePart::Whole);
     let many: Vec<f64> = (0..40).map(|k| 0.2 + 0.003 * f64::from(k)).collect();
     let sums = |ratios: &[f64]| {
-        let found = swept(&strokes[..1], ratios).peaks(quantity, Figure::Sum, &cancel);
+        let found = swept(&strokes[..1], ratios).peaks(quantity, Statistic::Sum, &cancel);
         found.unwrap().into_raw_vec_and_offset().0
     };
     let all = sums(&many);
@@ -310,7 +310,7 @@ fn each_point_of_a_sweep_of_a_fired_vee_is_a_balance() {
     let (orders, cancel) = (halves([1, 2, 3, 4, 9].into_iter()), Cancel::new());
     let orders_given = Orders::Given(orders.clone());
     for hold in [Hold::Pins, Hold::Firing] {
-        let axes = Axes {
+        let axes = SweepAxes {
             bank_angle: Some((angles.to_vec(), hold)),
             rod_ratio: Some(ratios.to_vec()),
             pin_offset: Some(offsets.to_vec()),
@@ -327,8 +327,8 @@ fn each_point_of_a_sweep_of_a_fired_vee_is_a_balance() {
         ] {
             let quantity =
                 if on_crank { Quantity::CrankTorque(part) } else { Quantity::Torque(part) };
-            let phasors = sweep.phasors(quantity, Figure::Amplitude, &cancel).unwrap();
-            let means = sweep.peaks(quantity, Figure::Mean, &cancel).unwrap();
+            let phasors = sweep.phasors(quantity, Statistic::Amplitude, &cancel).unwrap();
+            let means = sweep.peaks(quantity, Statistic::Mean, &cancel).unwrap();
             for (place, &mean) in means.indexed_iter() {
                 let (e, a, r, o) = (place[0], place[1], place[2], place[3]);
                 let fired = fired_vee([ratios[r], offsets[o]]);
@@ -353,13 +353,13 @@ fn each_point_of_a_sweep_of_a_fired_vee_is_a_balance() {
 #[test]
 fn few_orders_of_fired_sweeps_leave_out_no_more_than_their_bound() {
     let (rtol, rpm) = (5e-3, 300.0);
-    let chosen = |engine: Engine, axes: &Axes, torque: bool| {
+    let chosen = |engine: Engine, axes: &SweepAxes, torque: bool| {
         let engines = vec![Arc::new(engine)];
         Sweep::within(rtol, engines, axes.clone(), None, torque, &Cancel::new()).unwrap()
     };
-    let one = Axes { rpm: vec![rpm], ..Axes::default() };
-    let twice = Axes { pin_offset: Some(vec![0.0; 2]), ..one.clone() };
-    let ratios = Axes { rod_ratio: Some(vec![0.2, 0.3, 0.25]), ..one.clone() };
+    let one = SweepAxes { rpm: vec![rpm], ..SweepAxes::default() };
+    let twice = SweepAxes { pin_offset: Some(vec![0.0; 2]), ..one.clone() };
+    let ratios = SweepAxes { rod_ratio: Some(vec![0.2, 0.3, 0.25]), ..one.clone() };
     // Of one cylinder's torque, and of the scale of the torque of its masses over ω².
     let largest = (0..720).map(|k| derived(f64::from(k)).abs()).fold(0.0, f64::max);
     let square = (rpm * TAU / 60.0).powi(2);
@@ -399,14 +399,14 @@ fn waveforms_of_a_fired_sweep_have_its_means() {
     let degrees: Vec<f64> = (0..72).map(|k| 10.0 * f64::from(k)).collect();
     let angles = CrankAngles::new(&degrees).unwrap();
     let rod_ratio = Some(ratios.to_vec());
-    let axes = Axes { rod_ratio, rpm: vec![1000.0], ..Axes::default() };
+    let axes = SweepAxes { rod_ratio, rpm: vec![1000.0], ..SweepAxes::default() };
     let orders = halves([1, 2, 3, 4, 9].into_iter());
     let sweep = Sweep::new(vec![Arc::new(fired_vee(VEE))], axes, orders, None, &cancel).unwrap();
     for on_crank in [false, true] {
         let whole = TorquePart::Whole;
         let quantity =
             if on_crank { Quantity::CrankTorque(whole) } else { Quantity::Torque(whole) };
-        let means = sweep.peaks(quantity, Figure::Mean, &cancel).unwrap();
+        let means = sweep.peaks(quantity, Statistic::Mean, &cancel).unwrap();
         let [by_orders, exact] = [false, true].map(|exact| {
             let mut out = vec![f64::NAN; 2 * degrees.len()];
             sweep.waveforms(quantity, &angles, exact, &mut out, &cancel).unwrap();

@@ -9,7 +9,7 @@ use common::{InArrays, by_orders, changed, turning, whole, xy};
 use crankpin_core::angle::cis_degrees;
 use crankpin_core::balance::{TorquePart, Vector, balance};
 use crankpin_core::harmonics::{self, torque::TorqueHarmonics};
-use crankpin_core::sweep::{Axes, Figure, Quantity};
+use crankpin_core::sweep::{Quantity, Statistic, SweepAxes};
 use crankpin_core::{
     Angle, Balance, Cancel, Complex64, Crank, Cylinder, Engine, Hold, Order, Orders, Request,
     Spectrum, Station, Sweep, waveform,
@@ -367,18 +367,18 @@ proptest! {
         ratio in 0.1..0.5, offset in -0.01..0.01, rpm in 100.0..9000.0,
     ) {
         let hold = if firing { Hold::Firing } else { Hold::Pins };
-        let axes = Axes {
+        let axes = SweepAxes {
             bank_angle: Some((angles.clone(), hold)),
             rod_ratio: Some(vec![0.5 * ratio, ratio]),
             pin_offset: Some(vec![offset, 0.0, -offset]),
             rpm: vec![rpm, 3000.0], map: None };
         let cancel = Cancel::new();
         let sweep = Sweep::new(vec![engine.clone().into()], axes, whole(&ORDERS), Some(0.1), &Cancel::new()).unwrap();
-        let phasors = |quantity| sweep.phasors(quantity, Figure::Amplitude, &cancel).unwrap();
+        let phasors = |quantity| sweep.phasors(quantity, Statistic::Amplitude, &cancel).unwrap();
         let (force, moment) = (phasors(Quantity::Force), phasors(Quantity::Moment));
         let torque = phasors(TORQUE);
-        let peaks = sweep.peaks(Quantity::Moment, Figure::Amplitude, &cancel).unwrap();
-        let vectors = sweep.peaks(Quantity::Force, Figure::Length, &cancel).unwrap();
+        let peaks = sweep.peaks(Quantity::Moment, Statistic::Amplitude, &cancel).unwrap();
+        let vectors = sweep.peaks(Quantity::Force, Statistic::Length, &cancel).unwrap();
         for (i, &angle) in angles.iter().enumerate() {
             let there = engine.with_bank_angle(Angle::from_degrees(angle).unwrap(), hold).unwrap();
             let there = changed(&there, |p| {
@@ -408,14 +408,14 @@ proptest! {
     #[test]
     fn a_sweep_over_speed_and_rods_is_a_loop(engine in engines(true), ratio in 0.1..0.5) {
         let rpm = vec![0.0, 1000.0, 3000.0];
-        let axes = Axes { bank_angle: None, rod_ratio: Some(vec![ratio]), pin_offset: None, rpm, map: None };
+        let axes = SweepAxes { bank_angle: None, rod_ratio: Some(vec![ratio]), pin_offset: None, rpm, map: None };
         let engine = changed(&engine, |p| {
             let (r, m) = (p.cylinder.crank_radius(), p.cylinder.reciprocating_mass());
             Station { cylinder: Cylinder::new(r, r / ratio, m, 0.0).unwrap(), ..*p }
         });
         let engines = vec![engine.clone().into()];
         let sweep = Sweep::new(engines, axes, whole(&ORDERS), Some(0.0), &Cancel::new()).unwrap();
-        let moment = sweep.phasors(Quantity::Moment, Figure::Amplitude, &Cancel::new()).unwrap();
+        let moment = sweep.phasors(Quantity::Moment, Statistic::Amplitude, &Cancel::new()).unwrap();
         let alone = of(&engine);
         for k in 0..ORDERS.len() {
             for axis in 0..2 {
@@ -431,14 +431,14 @@ proptest! {
         // The same angles in one sweep of many blocks and in two.
         let angles: Vec<f64> = (0..150).map(|k| f64::from(k) * 1.2).collect();
         let sweep = |angles: &[f64]| {
-            let axes = Axes {
+            let axes = SweepAxes {
                 bank_angle: Some((angles.to_vec(), Hold::Pins)),
                 rod_ratio: None,
                 pin_offset: None,
                 rpm: vec![3000.0], map: None };
             let engines = vec![engine.clone().into(), engine.clone().into()];
             let sweep = Sweep::new(engines, axes, whole(&[1, 2, 4]), None, &Cancel::new()).unwrap();
-            sweep.peaks(Quantity::Moment, Figure::Sum, &Cancel::new()).unwrap()
+            sweep.peaks(Quantity::Moment, Statistic::Sum, &Cancel::new()).unwrap()
         };
         let whole = sweep(&angles);
         let (first, last) = (sweep(&angles[..split]), sweep(&angles[split..]));

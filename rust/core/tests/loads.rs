@@ -10,7 +10,7 @@ use crankpin_core::balance::TorquePart;
 use crankpin_core::balance::{Vector, balance};
 use crankpin_core::exact::vanishing::{ProofQuantity as Sum, QUANTITIES, Verdict, vanishing};
 use crankpin_core::harmonics;
-use crankpin_core::sweep::{Axes, Figure, Quantity};
+use crankpin_core::sweep::{Quantity, Statistic, SweepAxes};
 use crankpin_core::wrench::{Torque, Wrench};
 use crankpin_core::{
     Angle, Balance, Cancel, Complex64, Crank, CrankAngles, Cylinder, Engine, Hold, Order, Orders,
@@ -122,17 +122,17 @@ proptest! {
         reference in -0.3..0.3,
     ) {
         let hold = if firing { Hold::Firing } else { Hold::Pins };
-        let axes = Axes {
+        let axes = SweepAxes {
             bank_angle: Some((bank_angles.clone(), hold)),
             rpm: vec![3000.0],
-            ..Axes::default()
+            ..SweepAxes::default()
         };
         let engines = vec![engine.clone().into()];
         let sweep = Sweep::new(engines, axes, whole(&ORDERS), Some(reference), &Cancel::new()).unwrap();
         let cancel = Cancel::new();
         let all = [Quantity::Force, Quantity::Moment, TORQUE, CRANK_TORQUE];
         let phasors =
-            all.map(|quantity| sweep.phasors(quantity, Figure::Amplitude, &cancel).unwrap());
+            all.map(|quantity| sweep.phasors(quantity, Statistic::Amplitude, &cancel).unwrap());
         let thetas = [10.0, 133.0];
         let waves = all.map(|quantity| {
             let shape = sweep.waveform_shape(quantity, thetas.len()).unwrap();
@@ -557,17 +557,17 @@ fn half_orders_of_inertia_are_zero() {
     let found = balance(&engine, &REQUEST, &given, &Cancel::new()).unwrap();
     assert_eq!([found.wrenches[0], found.wrenches[2]], [Wrench::default(); 2]);
     assert_eq!(found.wrenches[1], by_orders(&engine, &REQUEST, &[2]).wrenches[0]);
-    let axes = Axes {
+    let axes = SweepAxes {
         bank_angle: Some((vec![72.0, 90.0], Hold::Pins)),
         rpm: vec![3000.0],
-        ..Axes::default()
+        ..SweepAxes::default()
     };
     let sweep =
         |orders| Sweep::new(vec![engine.clone()], axes.clone(), orders, Some(0.0), &Cancel::new());
     let (all, second) = (sweep(orders).unwrap(), sweep(whole(&[2])).unwrap());
     for quantity in [Quantity::Force, Quantity::Moment, TORQUE, CRANK_TORQUE] {
         let lengths =
-            |sweep: &Sweep| sweep.peaks(quantity, Figure::Length, &Cancel::new()).unwrap();
+            |sweep: &Sweep| sweep.peaks(quantity, Statistic::Length, &Cancel::new()).unwrap();
         let (all, second) = (lengths(&all), lengths(&second));
         for angle in 0..2 {
             let row = [0, 1, 2].map(|order| all[[0, angle, 0, 0, 0, 0, order]]);

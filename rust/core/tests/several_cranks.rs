@@ -2,13 +2,18 @@
 
 mod common;
 
-use common::angle;
+use std::sync::Arc;
+
 use common::random::{angles, cylinders, weighted};
+use common::{InArrays, angle};
 use crankpin_core::balance::{Balance, Request, TorquePart, Vector};
-use crankpin_core::engine::Origin;
+use crankpin_core::engine::{Details, Gas, Origin};
 use crankpin_core::exact::vanishing::{QUANTITIES, Verdict, vanishing};
+use crankpin_core::pressure::Given;
+use crankpin_core::sweep::{Quantity, Statistic, SweepAxes};
 use crankpin_core::{
-    Cancel, Complex64, Crank, Cylinder, Engine, Order, Orders, Station, Unbalance, balance, terms,
+    Cancel, Complex64, Crank, Cycle, Cylinder, Engine, Order, Orders, Station, Sweep, Unbalance,
+    balance, terms,
 };
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -36,6 +41,29 @@ fn engines() -> impl Strategy<Value = Engine> {
             Station { cylinder, tdc, bank, z, rotating_mass }
         });
         Engine::new("", "", stations.collect()).unwrap().with_cranks(cranks, on).unwrap()
+    })
+}
+
+/// The same with pressure in some cylinders, of those on cranks as fast as the main one.
+fn fired(engines: impl Strategy<Value = Engine>) -> impl Strategy<Value = Engine> {
+    let theta_deg: Vec<f64> = (0..48).map(|k| 15.0 * f64::from(k)).collect();
+    let at = |θ: &f64| 1e5 + 3e6 * (-0.02 * f64::abs(θ - 15.0)).exp();
+    let pressure = theta_deg.iter().map(at).collect();
+    let given = Given { name: String::new(), strokes: 4, theta_deg, pressure, degree: None };
+    let cycle = Arc::new(Cycle::new(given).unwrap());
+    let fires = proptest::collection::vec([any::<bool>(), any::<bool>()], 7);
+    (engines, fires).prop_map(move |(engine, fires)| {
+        let ratio = |i: usize| engine.cranks()[engine.crank_of(i)].ratio;
+        let cylinders = 0..engine.stations().len();
+        let cycle_of = |i: usize| (fires[i][0] && ratio(i).abs() == 1).then_some(0);
+        let gas = Gas {
+            cycles: vec![Arc::clone(&cycle)],
+            cycle_of: cylinders.clone().map(cycle_of).collect(),
+            crankcase: 1e5,
+            later: cylinders.clone().map(|i| fires[i][1]).collect(),
+        };
+        let bored = Details { bore: Some(0.08), ..Details::default() };
+        engine.with_details(vec![bored; cylinders.len()]).and_then(|e| e.with_gas(gas)).unwrap()
     })
 }
 
@@ -168,6 +196,55 @@ proptest! {
             expected[4] = whole.wrenches[k].moved([aside[0], aside[1], 0.0]).torque().roll;
             for ((sum, expected), bound) in sums.into_iter().zip(expected).zip(bound) {
                 prop_assert!((sum - expected).norm() <= bound, "{k} {sum} {expected} {bound}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_balance_is_a_sweep_of_one_point(
+        engine in fired(weighted(engines())),
+        digits in 1.0..9.0_f64,
+    ) {
+        let (rtol, cancel) = (10_f64.powf(-digits), Cancel::new());
+        let axes = SweepAxes { rpm: vec![REQUEST.rpm], ..SweepAxes::default() };
+        let engines = vec![Arc::new(engine)];
+        let auto = Orders::Auto { rtol };
+        let balance = balance::balance(&engines[0], &REQUEST, &auto, &cancel).unwrap();
+        let reference = REQUEST.reference_z;
+        let sweep =
+            Sweep::within(rtol, engines.clone(), axes.clone(), reference, true, &cancel).unwrap();
+        prop_assert_eq!(sweep.orders(), &balance.orders);
+        prop_assert_eq!(sweep.omitted(), &balance.omitted);
+        prop_assert_eq!(sweep.error_bound(), balance.error_bound);
+        let orders: Vec<Order> = (1..=9).map(|h| Order::from_halves(h).unwrap()).collect();
+        let given = Orders::Given(orders.clone());
+        let balance = balance::balance(&engines[0], &REQUEST, &given, &cancel).unwrap();
+        let sweep = Sweep::new(engines, axes, orders, reference, &cancel).unwrap();
+        for (quantity, vector) in
+            [(Quantity::Force, Vector::Force), (Quantity::Moment, Vector::Moment)]
+        {
+            let parts = sweep.phasors(quantity, Statistic::Turning, &cancel).unwrap();
+            let parts = parts.into_raw_vec_and_offset().0;
+            for (k, parts) in parts.chunks(2).enumerate() {
+                let planar = balance.planar(vector, k);
+                prop_assert_eq!(parts, [planar.forward, planar.backward()], "{:?} {}", vector, k);
+            }
+        }
+        for part in [TorquePart::Whole, TorquePart::Inertia, TorquePart::Gas] {
+            for (quantity, on_crank) in
+                [(Quantity::Torque(part), false), (Quantity::CrankTorque(part), true)]
+            {
+                let phasors = sweep.phasors(quantity, Statistic::Amplitude, &cancel).unwrap();
+                for (k, phasor) in phasors.into_raw_vec_and_offset().0.into_iter().enumerate() {
+                    let torque = balance.torque(part, k);
+                    let expected = if on_crank { torque.crank } else { torque.roll };
+                    // A balance has one bound of rounding for both torques, and of each part.
+                    let rounding = balance.torque_zero_bound(TorquePart::Whole, k);
+                    let is_near = (phasor - expected).norm() <= rounding;
+                    let is_rounding = part == TorquePart::Whole || expected == Complex64::default();
+                    let is_same = phasor == expected || is_near && is_rounding;
+                    prop_assert!(is_same, "{part:?} {k} {phasor} {expected}");
+                }
             }
         }
     }

@@ -11,7 +11,7 @@ use common::{
 };
 use crankpin_core::balance::TorquePart;
 use crankpin_core::balance::{Vector, balance};
-use crankpin_core::sweep::{Axes, Figure, Quantity};
+use crankpin_core::sweep::{Quantity, Statistic, SweepAxes};
 use crankpin_core::{
     Angle, Balance, Cancel, Complex64, CrankAngles, Cylinder, Engine, Error, Hold, Orders, Request,
     Spectrum, Station, Sweep, Waveform, waveform,
@@ -87,7 +87,7 @@ fn kinematics_that_cancel_are_zero() {
         let engine = pair(heavier);
         let wave = waveform::exact(&engine, &REQUEST, &thetas(300), &Cancel::new()).unwrap();
         assert_eq!(wave.moment.iter().all(|moment| *moment == 0.0), vanishes, "{heavier}");
-        let swept = sweep(&[engine], &Axes { rpm: vec![RPM], ..Axes::default() }, &[1]);
+        let swept = sweep(&[engine], &SweepAxes { rpm: vec![RPM], ..SweepAxes::default() }, &[1]);
         let moments = waveforms(&swept, Quantity::Moment, &thetas(300), true);
         assert_eq!(moments.iter().all(|moment| *moment == 0.0), vanishes, "{heavier}");
     }
@@ -230,7 +230,7 @@ fn components(quantity: Quantity) -> std::ops::Range<usize> {
 
 const QUANTITIES: [Quantity; 4] = [Quantity::Force, Quantity::Moment, TORQUE, CRANK_TORQUE];
 
-fn sweep(engines: &[Arc<Engine>], axes: &Axes, orders: &[u32]) -> Sweep {
+fn sweep(engines: &[Arc<Engine>], axes: &SweepAxes, orders: &[u32]) -> Sweep {
     Sweep::new(engines.to_vec(), axes.clone(), whole(orders), Some(REFERENCE), &Cancel::new())
         .unwrap()
 }
@@ -252,7 +252,7 @@ fn waveforms(sweep: &Sweep, quantity: Quantity, thetas: &[f64], exact: bool) -> 
 #[track_caller]
 fn each_row_is_a_waveform(
     engines: &[Arc<Engine>],
-    axes: &Axes,
+    axes: &SweepAxes,
     orders: &[u32],
     thetas: &[f64],
     every: [usize; 2],
@@ -263,7 +263,7 @@ fn each_row_is_a_waveform(
         let width = thetas.len() * which.len();
         let exact = waveforms(&all, quantity, thetas, true);
         let summed = waveforms(&all, quantity, thetas, false);
-        let phasors = all.phasors(quantity, Figure::Amplitude, &Cancel::new()).unwrap();
+        let phasors = all.phasors(quantity, Statistic::Amplitude, &Cancel::new()).unwrap();
         let phasors = phasors.as_slice().unwrap();
         let last = phasors.len() / orders.len() / which.len() - 1;
         for (point, place) in places(all.shape()).enumerate() {
@@ -313,7 +313,7 @@ fn each_row_of_a_sweep_is_a_waveform() {
     let engines = [mixed(), plain()];
     let holds = [None, Some(Hold::Pins), Some(Hold::Firing)];
     for k in 0..12 {
-        let axes = Axes {
+        let axes = SweepAxes {
             bank_angle: holds[k % 3].map(|hold| (vec![0.0, 37.0, 90.0], hold)),
             rod_ratio: (k / 3 % 2 == 1).then(|| vec![0.4, 0.1]),
             pin_offset: (k / 6 == 1).then(|| vec![-0.003, 0.0, 0.005]),
@@ -323,7 +323,8 @@ fn each_row_of_a_sweep_is_a_waveform() {
         each_row_is_a_waveform(&engines, &axes, &[1, 2, 4, 6, 3], &thetas(40), [1, 5]);
         each_row_is_a_waveform(&[weighted()], &axes, &[1, 2, 4, 6, 3], &thetas(40), [1, 5]);
     }
-    let ratios = Axes { rod_ratio: Some(vec![0.3, 0.2]), rpm: vec![RPM], ..Axes::default() };
+    let ratios =
+        SweepAxes { rod_ratio: Some(vec![0.3, 0.2]), rpm: vec![RPM], ..SweepAxes::default() };
     each_row_is_a_waveform(&[in_line()], &ratios, &[9, 1], &thetas(3), [1, 1]);
 }
 
@@ -332,17 +333,17 @@ fn nothing_depends_on_how_many_rows_and_angles_there_are() {
     // Tiles and blocks of 256 angles, spans of 1024, 128 rows that share them, threads or not.
     for count in [1, 255, 256, 257, 1023, 1024, 1025, 2100] {
         for rows in [1, 127, 128, 129, 300] {
-            let axes = Axes {
+            let axes = SweepAxes {
                 bank_angle: Some((evenly(rows, [0.0, 180.0]), Hold::Pins)),
                 rpm: vec![RPM],
-                ..Axes::default()
+                ..SweepAxes::default()
             };
             if count * rows <= 150_000 {
                 each_row_is_a_waveform(&[plain()], &axes, &[1, 2, 4], &thetas(count), [43, 85]);
             }
         }
     }
-    let axes = Axes {
+    let axes = SweepAxes {
         bank_angle: Some((evenly(3, [0.0, 180.0]), Hold::Firing)),
         rod_ratio: Some(evenly(7, [0.1, 0.4])),
         pin_offset: Some(evenly(5, [-0.003, 0.003])),
@@ -370,7 +371,7 @@ fn any_number_of_terms_is_added() {
     let orders: Vec<u32> = vec![1, 2, 4, 6, 8, 10, 12, 14, 16, 18];
     for count in 1..=orders.len() {
         for speeds in [1, 200] {
-            let axes = Axes { rpm: evenly(speeds, [3000.0, 4000.0]), ..Axes::default() };
+            let axes = SweepAxes { rpm: evenly(speeds, [3000.0, 4000.0]), ..SweepAxes::default() };
             for places in [
                 &[(90.0, 0.0)][..],
                 // Sines as well.
@@ -388,16 +389,16 @@ fn any_number_of_terms_is_added() {
     let light = Cylinder::new(0.05, 0.15, 1e-20, 0.0).unwrap();
     let light = Station { cylinder: light, ..place(40.0, 20.0) };
     let engines = [Arc::new(Engine::new("", "", vec![light]).unwrap())];
-    let axes = Axes { rpm: vec![RPM], ..Axes::default() };
+    let axes = SweepAxes { rpm: vec![RPM], ..SweepAxes::default() };
     each_row_is_a_waveform_of_orders(&engines, &axes, &[1, 2, 4]);
 }
 
 #[track_caller]
-fn each_row_is_a_waveform_of_orders(engines: &[Arc<Engine>], axes: &Axes, orders: &[u32]) {
+fn each_row_is_a_waveform_of_orders(engines: &[Arc<Engine>], axes: &SweepAxes, orders: &[u32]) {
     let (sweep, thetas) = (sweep(engines, axes, orders), thetas(5));
     for quantity in QUANTITIES {
         let count = components(quantity).len();
-        let phasors = sweep.phasors(quantity, Figure::Amplitude, &Cancel::new()).unwrap();
+        let phasors = sweep.phasors(quantity, Statistic::Amplitude, &Cancel::new()).unwrap();
         let all = waveforms(&sweep, quantity, &thetas, false);
         let points = phasors.as_slice().unwrap().chunks(orders.len() * count);
         for (point, row) in points.zip(all.chunks(thetas.len() * count)) {
@@ -418,7 +419,7 @@ fn each_row_is_a_waveform_of_orders(engines: &[Arc<Engine>], axes: &Axes, orders
 
 #[test]
 fn waveforms_of_a_sweep_have_their_refusals() {
-    let axes = Axes { rpm: vec![RPM, 1000.0], ..Axes::default() };
+    let axes = SweepAxes { rpm: vec![RPM, 1000.0], ..SweepAxes::default() };
     let cancel = Cancel::new();
     let angles = CrankAngles::new(&thetas(9)).unwrap();
     let with = |spectrum: Option<Spectrum>| {

@@ -6,7 +6,9 @@ use std::sync::Arc;
 use crate::array::frozen;
 use crankpin_core as core;
 use crankpin_core::engine::crankpins::Crankpin;
-use crankpin_core::engine::{Crank, Details, Gas, Hold, Shaft, Station, Unbalance, file};
+use crankpin_core::engine::{
+    Crank, Details, Gas, Hold, RodFigures, Shaft, Station, Unbalance, file,
+};
 use crankpin_core::layout::{FiringOrder, FiringRule, Inline, Numbering, Side, Strokes, Vee};
 use crankpin_core::{Complex64, Error, limits};
 use crankpin_macros::guarded;
@@ -414,7 +416,7 @@ impl Engine {
         self.0
             .details()
             .iter()
-            .map(|d| (d.bore, d.piston_mass, d.rod.map(<(f64, f64, f64)>::from)))
+            .map(|d| (d.bore, d.piston_mass, d.rod.map(|r| (r.mass, r.inertia, r.to_crankpin))))
             .collect()
     }
 
@@ -429,7 +431,7 @@ impl Engine {
         let details = details.map(|(bore, piston_mass, rod)| Details {
             bore,
             piston_mass,
-            rod: rod.map(<[f64; 3]>::from),
+            rod: rod.map(|(mass, inertia, to_crankpin)| RodFigures { mass, inertia, to_crankpin }),
         });
         let engine = self.0.with_details(details.collect()).and_then(|e| e.with_mains(mains));
         engine.and_then(|e| e.with_reference(reference_z)).or_raise().map(Self::from)

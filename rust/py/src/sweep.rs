@@ -1,7 +1,7 @@
 //! Sweeps.
 
 use crankpin_core as core;
-use crankpin_core::sweep::{Axes, Figure, MapAxes, Quantity};
+use crankpin_core::sweep::{MapAxes, Quantity, Statistic, SweepAxes};
 use crankpin_core::{Cancel, Complex64, Error, memory};
 use crankpin_macros::guarded;
 use numpy::{Element, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1};
@@ -32,14 +32,14 @@ fn quantity(name: &str) -> PyResult<Quantity> {
     }
 }
 
-fn figure(name: &str) -> PyResult<Figure> {
+fn figure(name: &str) -> PyResult<Statistic> {
     let figures = [
-        ("amplitude", Figure::Amplitude),
-        ("length", Figure::Length),
-        ("sum", Figure::Sum),
-        ("length of sum", Figure::LengthOfSum),
-        ("zero bound", Figure::ZeroBound),
-        ("mean", Figure::Mean),
+        ("amplitude", Statistic::Amplitude),
+        ("length", Statistic::Length),
+        ("sum", Statistic::Sum),
+        ("length of sum", Statistic::LengthOfSum),
+        ("zero bound", Statistic::ZeroBound),
+        ("mean", Statistic::Mean),
     ];
     choice("figure", name, &figures)
 }
@@ -60,7 +60,7 @@ impl Sweep {
     fn values<'py, T: Element + Send>(
         &self,
         py: Python<'py>,
-        (quantity, figure): (Quantity, Figure),
+        (quantity, figure): (Quantity, Statistic),
         progress: Option<&Py<PyAny>>,
         write: impl FnOnce(&mut [T], &Cancel) -> core::Result<()> + Send,
     ) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
@@ -121,7 +121,7 @@ impl Sweep {
         let sweep = interrupt::run(py, |cancel| {
             let list =
                 |values: Option<&[f64]>| values.map(|v| memory::copied(v, cancel)).transpose();
-            let axes = Axes {
+            let axes = SweepAxes {
                 bank_angle: list(bank_angle)?.zip(held),
                 rod_ratio: list(rod_ratio)?,
                 pin_offset: list(pin_offset)?,
@@ -172,7 +172,7 @@ impl Sweep {
         turning: bool,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
-        let figure = if turning { Figure::Turning } else { Figure::Amplitude };
+        let figure = if turning { Statistic::Turning } else { Statistic::Amplitude };
         let quantity = quantity(name)?;
         self.values(py, (quantity, figure), progress.as_ref(), |out, cancel| {
             self.sweep.write_phasors(quantity, figure, out, cancel)

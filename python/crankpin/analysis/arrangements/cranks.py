@@ -136,9 +136,9 @@ class Symmetries:
                 continue
             if self.staggered and len(changes) % 2:
                 continue
-            found = crank.mirrored() if mirror else crank
-            found = found.reversed() if reverse else found
-            yield ", ".join(changes), found.exchanged() if swap else found
+            image = crank.mirrored() if mirror else crank
+            image = image.reversed() if reverse else image
+            yield ", ".join(changes), image.exchanged() if swap else image
 
     def first(self, crank: Crank, *, exchange: bool = True) -> Crank:
         """Return the representative of all equivalent cranks: the first in order of size."""

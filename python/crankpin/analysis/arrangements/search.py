@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 from crankpin import _core
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.record import Input, changed, item_key
-from crankpin._support.tables import Table
-from crankpin.analysis.drawing import draw
+from crankpin._support.tables import Item, Table
 from crankpin.model.data import parts
 from crankpin.model.engine import Engine
 
@@ -35,7 +35,7 @@ _LISTED = "second_order"
 _WHOLE = (0.0, 180.0)
 
 
-class Arrangement(Input):
+class Arrangement(Item, Input):
     """A bank angle at which first-order moment is all forward, and the phases of both banks."""
 
     bank_angle_deg: float
@@ -199,10 +199,10 @@ def search_arrangements(
             'give hold="pins", and leave out alternating; with top dead centres held pins are '
             "split at all but one bank angle",
         )
-    with progress_bar.shown(watched, f"V{count}") as told:
-        core = _core.Search(count, rule, phases, held, shared, told)
-    given = None if phases is None else tuple(phases)
-    return ArrangementSearch(core, count, rule, given, hold, shared, progress=watched)
+    with progress_bar.shown(watched, f"V{count}") as report:
+        core = _core.Search(count, rule, phases, held, shared, report)
+    listed_phases = None if phases is None else tuple(phases)
+    return ArrangementSearch(core, count, rule, listed_phases, hold, shared, progress=watched)
 
 
 class ArrangementSearch(Tabled):
@@ -264,8 +264,8 @@ class ArrangementSearch(Tabled):
 
     @cached_property
     def _angles(self) -> _core.BankAngles:
-        with progress_bar.shown(self.progress, f"V{self.cylinders} bank angles") as told:
-            return _core.BankAngles(self._search, self.window_deg, told)
+        with progress_bar.shown(self.progress, f"V{self.cylinders} bank angles") as report:
+            return _core.BankAngles(self._search, self.window_deg, report)
 
     @cached_property
     def bank_angles_deg(self) -> NDArray[np.float64]:
@@ -379,8 +379,8 @@ class ArrangementSearch(Tabled):
         measure = by if callable(by) else _MEASURES[inputs.one_of("by", by, _MEASURES)]
         wanted = inputs.whole("count", count, 0)
         least = _LISTED if callable(by) else by
-        found = (self._least(k, least) for k in range(len(self)))
-        return tuple(heapq.nsmallest(wanted, found, key=measure))
+        arrangements = (self._least(k, least) for k in range(len(self)))
+        return tuple(heapq.nsmallest(wanted, arrangements, key=measure))
 
     def plot(self, ax: Axes | None = None, **options: object) -> Axes:
         """Draw the second-order moment that remains over the bank angles; return the axes.
@@ -435,10 +435,10 @@ class ArrangementSearch(Tabled):
     def _brief(self) -> str:
         rule = ", alternating" if self.alternating else ""
         rule += " on shared pins" if self.shared_pins else ""
-        found = f"{self.qualifying} of {self.candidates} pairs"
+        count = f"{self.qualifying} of {self.candidates} pairs"
         low, high = self.window_deg
         part = "" if self.window_deg == _WHOLE else f", bank angles {low:g} to {high:g}"
-        return f"<ArrangementSearch of a V{self.cylinders}{rule}: {found}{part}>"
+        return f"<ArrangementSearch of a V{self.cylinders}{rule}: {count}{part}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (_again, self._compared())
@@ -452,10 +452,10 @@ def _again(
     shared_pins: bool,
     window_deg: tuple[float, float],
 ) -> ArrangementSearch:
-    found = search_arrangements(
+    search = search_arrangements(
         cylinders, alternating=alternating, phases_deg=phases, hold=hold, shared_pins=shared_pins
     )
-    return found.within(*window_deg)
+    return search.within(*window_deg)
 
 
 def _bank_angle(name: str, value: object) -> float:

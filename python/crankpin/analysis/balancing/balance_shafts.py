@@ -108,7 +108,7 @@ def balance_shafts(
     >>> import crankpin as cp
     >>> i3 = cp.Engine.preset("i3")
     >>> fit = cp.balance_shafts(i3, -1)
-    >>> [round(each.amount, 6) for each in fit[0].unbalances]
+    >>> [round(weight.amount, 6) for weight in fit[0].unbalances]
     [0.008379, 0.008379]
     >>> bool(fit.fitted.balance(rpm=3000)[1].moment.backward)
     False
@@ -117,21 +117,21 @@ def balance_shafts(
 
     >>> i4 = cp.Engine.preset("i4")
     >>> pair = cp.balance_shafts(i4, [2, -2], x=[0.08, -0.08])
-    >>> [round(each.y, 4) for each in pair]
+    >>> [round(shaft.y, 4) for shaft in pair]
     [0.0709, -0.0709]
     >>> second = pair.fitted.balance(rpm=6000, orders=[2])[2]
     >>> float(round(second.force.peak, 6)), float(round(second.torque.peak, 6))
     (0.0, 0.0)
     """
     core = engine_core(engine)
-    asked = _shaft_requests(ratios, x=x, y=y, planes=planes, bearings=bearings, remove=remove)
-    checks.place(core, "x", *(each.x for each in asked), middle=0.0)
-    checks.place(core, "y", *(each.y for each in asked), middle=0.0)
-    checks.place(core, "planes", *(z for each in asked for z in each.planes or ()))
-    checks.place(core, "bearings", *(z for each in asked for z in each.bearings or ()))
+    requests = _shaft_requests(ratios, x=x, y=y, planes=planes, bearings=bearings, remove=remove)
+    checks.place(core, "x", *(each.x for each in requests), middle=0.0)
+    checks.place(core, "y", *(each.y for each in requests), middle=0.0)
+    checks.place(core, "planes", *(z for each in requests for z in each.planes or ()))
+    checks.place(core, "bearings", *(z for each in requests for z in each.bearings or ()))
     speed = inputs.optional_number("rpm", rpm)
-    found, beyond = _core.fit_shafts(
-        core, [(each.ratio, (each.x, each.y), each.planes, each.remove) for each in asked], speed
+    fitted, beyond = _core.fit_shafts(
+        core, [(each.ratio, (each.x, each.y), each.planes, each.remove) for each in requests], speed
     )
     if beyond is not None:
         warn(
@@ -144,10 +144,10 @@ def balance_shafts(
         engine,
         tuple(
             Shaft(each.ratio, tuple(map(unbalance_of, weights)), x, y)
-            for each, ((x, y), weights, _) in zip(asked, found, strict=True)
+            for each, ((x, y), weights, _) in zip(requests, fitted, strict=True)
         ),
-        tuple(Turning(*exerts) for _, _, exerts in found),
-        tuple(each.bearings or supports for each in asked),
+        tuple(Turning(*exerts) for _, _, exerts in fitted),
+        tuple(each.bearings or supports for each in requests),
         speed,
     )
 
@@ -180,7 +180,7 @@ def _shaft_requests(
     listed = _ratios(ratios)
     count = len(listed)
     removals = _removals(remove, listed)
-    found = list(
+    requests = list(
         map(
             ShaftRequest,
             listed,
@@ -191,39 +191,39 @@ def _shaft_requests(
             removals,
         )
     )
-    for k, each in enumerate(found):
+    for k, each in enumerate(requests):
         if each.planes is not None and len(each.planes) < 2 and each.remove == "moment":
             message = "a couple takes two planes; give two, or remove the force"
             raise inputs.rejected(f"planes[{k}]", list(each.planes), message)
-    return found
+    return requests
 
 
-def _ratios(given: object) -> list[int]:
+def _ratios(ratios: object) -> list[int]:
     hint = "give whole numbers other than 0, such as -1 or [2, -2]"
-    listed = inputs.items("ratios", given, hint) if isinstance(given, Iterable) else [given]
-    found = [inputs.whole("ratios", each) for each in listed]
-    if not 1 <= len(found) <= MOST_SHAFTS:
-        raise inputs.faulty("ratios", f"has {len(found)} shafts", f"give 1 to {MOST_SHAFTS}")
-    for each in found:
+    listed = inputs.items("ratios", ratios, hint) if isinstance(ratios, Iterable) else [ratios]
+    numbers = [inputs.whole("ratios", each) for each in listed]
+    if not 1 <= len(numbers) <= MOST_SHAFTS:
+        raise inputs.faulty("ratios", f"has {len(numbers)} shafts", f"give 1 to {MOST_SHAFTS}")
+    for each in numbers:
         if each == 0 or abs(each) > inputs.HIGHEST_ORDER:
-            raise inputs.rejected("ratios", given, hint)
-    return found
+            raise inputs.rejected("ratios", ratios, hint)
+    return numbers
 
 
-def _removals(given: object, ratios: list[int]) -> list[Remove]:
-    alike = isinstance(given, str) or not isinstance(given, Iterable)
-    listed = [given] * len(ratios) if alike else _each("remove", given, len(ratios))
-    found: dict[int, Remove] = {}
+def _removals(remove: object, ratios: list[int]) -> list[Remove]:
+    alike = isinstance(remove, str) or not isinstance(remove, Iterable)
+    listed = [remove] * len(ratios) if alike else _each("remove", remove, len(ratios))
+    removals: dict[int, Remove] = {}
     for ratio, each in zip(ratios, listed, strict=True):
         word = cast("Remove", inputs.one_of("remove", each, REMOVE))
-        if found.setdefault(ratio, word) != word:
+        if removals.setdefault(ratio, word) != word:
             hint = "shafts of one ratio share their task; give them the same"
-            raise inputs.rejected("remove", given, hint)
-    return [found[ratio] for ratio in ratios]
+            raise inputs.rejected("remove", remove, hint)
+    return [removals[ratio] for ratio in ratios]
 
 
-def _each(name: str, given: object, count: int) -> list[Any]:
-    listed = inputs.items(name, given, f"give one for each of {count} shafts")
+def _each(name: str, values: object, count: int) -> list[Any]:
+    listed = inputs.items(name, values, f"give one for each of {count} shafts")
     if len(listed) != count:
         raise inputs.faulty(
             name, f"has {len(listed)} entries", f"give one for each of {count} shafts"
@@ -231,24 +231,24 @@ def _each(name: str, given: object, count: int) -> list[Any]:
     return listed
 
 
-def _coordinates(name: str, given: object, count: int) -> list[float | None]:
-    listed = _each(name, given, count) if isinstance(given, Iterable) else [given] * count
+def _coordinates(name: str, values: object, count: int) -> list[float | None]:
+    listed = _each(name, values, count) if isinstance(values, Iterable) else [values] * count
     return [None if each is None else inputs.finite(name, each) for each in listed]
 
 
-def _places(name: str, given: object, count: int) -> list[tuple[float, ...] | None]:
-    if given is None:
+def _places(name: str, values: object, count: int) -> list[tuple[float, ...] | None]:
+    if values is None:
         return [None] * count
     hint = "give places along the crank, m, such as [0.0, 0.3], or a list of these"
-    listed = inputs.items(name, given, hint)
+    listed = inputs.items(name, values, hint)
     if any(each is None or isinstance(each, Iterable) for each in listed):
         each_has = _each(name, listed, count)
     else:
         each_has = [listed] * count
-    found: list[tuple[float, ...] | None] = []
+    intervals: list[tuple[float, ...] | None] = []
     for k, each in enumerate(each_has):
         if each is None:
-            found.append(None)
+            intervals.append(None)
             continue
         numbers = [
             inputs.finite(f"{name}[{k}]", z) for z in inputs.items(f"{name}[{k}]", each, hint)
@@ -256,14 +256,14 @@ def _places(name: str, given: object, count: int) -> list[tuple[float, ...] | No
         places = tuple(sorted(numbers))
         if not places or len(set(places)) < len(places):
             raise inputs.rejected(f"{name}[{k}]", each, "give different places")
-        found.append(places)
-    return found
+        intervals.append(places)
+    return intervals
 
 
-def _bearings(given: object, count: int) -> list[tuple[float, float] | None]:
-    found: list[tuple[float, float] | None] = []
-    for k, each in enumerate(_places("bearings", given, count)):
+def _bearings(bearings: object, count: int) -> list[tuple[float, float] | None]:
+    pairs: list[tuple[float, float] | None] = []
+    for k, each in enumerate(_places("bearings", bearings, count)):
         if each is not None and len(each) != 2:
             raise inputs.rejected(f"bearings[{k}]", list(each), "give the places of two bearings")
-        found.append(None if each is None else (each[0], each[1]))
-    return found
+        pairs.append(None if each is None else (each[0], each[1]))
+    return pairs

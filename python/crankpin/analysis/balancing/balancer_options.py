@@ -163,10 +163,10 @@ def balancer_options(
     front = _front(
         np.hstack([hardware, values]), np.append([0.0, TIED * hardware[:, 1].max()], slack)
     )
-    found = zip(sets, values.tolist(), front.tolist(), reaches.tolist(), strict=True)
+    results = zip(sets, values.tolist(), front.tolist(), reaches.tolist(), strict=True)
     options = tuple(
         changed(each, values=tuple(row), on_front=best, reaches=enough)
-        for each, row, best, enough in found
+        for each, row, best, enough in results
     )
     bare = tuple(each.bare() for each in objectives)
     return BalancerOptions(engine, speed, bare, tuple(targets.items()), options)
@@ -180,11 +180,11 @@ def _ratios(orders: Sequence[int], *, with_weights: bool) -> list[int]:
 
 def _front(criteria: NDArray[np.float64], slack: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return which rows no other row is as good as in all columns, and better in one."""
-    found = np.ones(len(criteria), dtype=bool)
+    undominated = np.ones(len(criteria), dtype=bool)
     for k, row in enumerate(criteria):
         as_good = (criteria <= row + slack).all(axis=1)
-        found[k] = not (as_good & (criteria < row - slack).any(axis=1)).any()
-    return found
+        undominated[k] = not (as_good & (criteria < row - slack).any(axis=1)).any()
+    return undominated
 
 
 # --- sets of hardware ---------------------------------------------------------------------------
@@ -230,7 +230,7 @@ def balancer_sets(
         weights: engine.with_counterweights([*engine.counterweights, *weights])
         for weights in dict.fromkeys([(), counterweights])
     }
-    found = []
+    sets = []
     for choice in itertools.product(*choices):
         chosen = [each for each in choice if each is not None]
         if len(chosen) > most_shafts:
@@ -246,15 +246,15 @@ def balancer_sets(
         )
         for weights, other in weighted.items():
             with_shafts = other.with_shafts([*engine.shafts, *shafts])
-            found.append(BalancerOption(_name(chosen, weights), weights, shafts, with_shafts))
-    return sorted(found, key=lambda each: (len(each.shafts), each.unbalance))
+            sets.append(BalancerOption(_name(chosen, weights), weights, shafts, with_shafts))
+    return sorted(sets, key=lambda each: (len(each.shafts), each.unbalance))
 
 
-def _removals(there: Turning) -> tuple[Remove, ...]:
+def _removals(turning_parts: Turning) -> tuple[Remove, ...]:
     """Return what a shaft can remove, each another way."""
-    if there.force and there.moment:
+    if turning_parts.force and turning_parts.moment:
         return ("both", "force", "moment")
-    return ("both",) if there.force or there.moment else ()
+    return ("both",) if turning_parts.force or turning_parts.moment else ()
 
 
 def _name(parts: Sequence[Part], weights: tuple[Unbalance, ...]) -> str:
@@ -302,7 +302,7 @@ def _axes(places: object, ratios: Sequence[int]) -> Mapping[int, Axis]:
         return {}
     if not isinstance(places, Mapping):
         raise inputs.rejected("places", places, hint)
-    found = {}
+    axes = {}
     for ratio, place in places.items():
         name = f"places[{inputs.shorten(ratio)}]"
         x_and_y = inputs.items(name, place, hint)
@@ -312,5 +312,5 @@ def _axes(places: object, ratios: Sequence[int]) -> Mapping[int, Axis]:
         if ratio not in ratios:
             hint = f"ratios of the shafts compared are {', '.join(map(str, ratios))}"
             raise inputs.rejected(name, place, hint)
-        found[ratio] = (x, y)
-    return found
+        axes[ratio] = (x, y)
+    return axes

@@ -9,14 +9,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import SHOWN, Tabled
-from crankpin._support.record import AbsentError, Listed, Record
-from crankpin._support.tables import Table
+from crankpin._support.record import AbsentError, Listed
+from crankpin._support.tables import Item, Table
 from crankpin.analysis.balance import balance
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking.objectives import ByObjectives
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from matplotlib.axes import Axes
 
     from crankpin.analysis.balance import Balance
@@ -25,7 +27,7 @@ if TYPE_CHECKING:
     from crankpin.model.shafts import Shaft, Unbalance
 
 
-class BalancerOption(Record):
+class BalancerOption(Item):
     """A set of balancing hardware, and its residual."""
 
     name: str
@@ -54,6 +56,11 @@ class BalancerOption(Record):
         """Counterweights and shafts that were added."""
         return (*self.counterweights, *self.shafts)
 
+    def _figures(self) -> Mapping[str, object]:
+        counts = {name: len(getattr(self, name)) for name in ("counterweights", "shafts")}
+        names = ("unbalance", "values", "on_front", "reaches")
+        return {"name": self.name} | counts | {name: getattr(self, name) for name in names}
+
 
 class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
     """Sets of balancing hardware, fewest shafts and least unbalance first.
@@ -65,7 +72,7 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
     --------
     >>> import crankpin as cp
     >>> options = cp.balancer_options(cp.Engine.preset("i4"), rpm=6000)
-    >>> [(each.name, len(each.shafts)) for each in options.front]
+    >>> [(option.name, len(option.shafts)) for option in options.front]
     [('nothing', 0), ('shaft +2', 1), ('shaft −2', 1), ('shafts −2, +2', 2)]
     >>> float(options[-1].fitted.balance(rpm=6000, orders=[2])[2].force.peak)
     0.0
@@ -148,7 +155,9 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
             "unit",
         )  # fmt: skip
         title = f"{labels.name_of(self.engine)} at {self.rpm:g} rpm: sets of hardware"
-        return Table.from_rows(title, heads, rows, loads=self.loads_counted)
+        return Table.from_rows(
+            title, heads, rows, loads=self.loads_counted, row_units=[str(row[-1]) for row in rows]
+        )
 
     def plot(self, ax: Axes | None = None, **style: object) -> Axes:
         """Draw the residuals of the front in per cent of the engine's own; return the axes.
@@ -207,5 +216,5 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
             f"{by_label[label].head} ≤ {value:.5g} {by_label[label].unit}".strip()
             for label, value in self.targets
         )
-        found = "no set reaches it" if self.least is None else f"least {self.least.name}"
-        return f"Target: {wanted}; {found}."
+        outcome = "no set reaches it" if self.least is None else f"least {self.least.name}"
+        return f"Target: {wanted}; {outcome}."

@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from dataclasses import field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import over_square
+from crankpin.analysis.balancing import planes as correction_planes
+from crankpin.analysis.balancing.card import Card, weighed, with_parts
 from crankpin.analysis.balancing.fitting import LARGEST_FACTOR, check_factor, with_bob_weights
 from crankpin.analysis.balancing.planes import Turning, turning
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks
 from crankpin.model.crankpins import Crankpin, crankpins
@@ -28,6 +32,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin.analysis.balance import Balance
+    from crankpin.analysis.balancing.planes import Planes
     from crankpin.model.engine import Engine
     from crankpin.model.shafts import Unbalance
 
@@ -35,11 +40,18 @@ TABULATED = (0.0, 0.5, 1.0)
 """Factors in the table of residuals."""
 ALIKE = 1e-12
 """Factors that differ by less, and relative figures below, are rounding."""
+SIDES = 'give two texts, such as ("right", "left")'
 HALVINGS = 60
 """Of an interval of factors, to the last digits of a double."""
 
 
-def bob_weight(engine: Engine, factor: float = 0.5, oil: float = 0.0) -> BobWeight:
+def bob_weight(
+    engine: Engine,
+    factor: float = 0.5,
+    oil: float = 0.0,
+    *,
+    parts: Mapping[str, ArrayLike] | None = None,
+) -> BobWeight:
     """Return the bob weight of every crankpin for a balance factor, and the residual.
 
     A crankshaft is balanced with ``rotating + factor · reciprocating`` mass clamped to each pin,
@@ -56,6 +68,10 @@ def bob_weight(engine: Engine, factor: float = 0.5, oil: float = 0.0) -> BobWeig
         Share κ of the reciprocating mass, 0 to 10; 0.5 is "50 % balance factor".
     oil : float, default 0.0
         Oil in the bearings and the bore of a crankpin, kg of each pin.
+    parts : mapping of str to array_like, optional
+        Weighed parts of a cylinder, kg: a number for all cylinders, or one for each. ``"piston"``,
+        ``"pin"``, ``"locks"``, ``"rings"`` and ``"small end"`` add up to the reciprocating mass,
+        ``"big end"`` and ``"bearings"`` to the rotating mass; by default the engine's.
 
     Returns
     -------
@@ -90,8 +106,10 @@ def bob_weight(engine: Engine, factor: float = 0.5, oil: float = 0.0) -> BobWeig
     check_factor("factor", part)
     if not 0.0 <= of_oil <= 1e6:
         raise inputs.rejected("oil", of_oil, "give the oil of a crankpin in kilograms, 0 or more")
+    of_parts = weighed(engine, {} if parts is None else parts)
+    engine = with_parts(engine, of_parts)
     checks.oil(of_oil, engine.cylinders[0].reciprocating_mass)
-    return BobWeight(engine, part, of_oil)
+    return BobWeight(engine, part, of_oil, of_parts)
 
 
 class BobWeight(Tabled):
@@ -117,9 +135,12 @@ class BobWeight(Tabled):
     """Share κ of the reciprocating mass."""
     oil: float
     """Oil of each crankpin, kg."""
+    parts: Mapping[str, NDArray[np.float64]] = field(default_factory=dict)
+    """Weighed parts of each cylinder, kg: part to (n_cylinders,); empty where none were given."""
 
     def __post_init__(self) -> None:
         engine_core(self.engine)
+        super().__post_init__()
 
     @cached_property
     def crankpins(self) -> tuple[Crankpin, ...]:
@@ -148,7 +169,11 @@ class BobWeight(Tabled):
     @property
     def mass(self) -> NDArray[np.float64]:
         """Bob weight of each crankpin, at the crank radius, kg: (n_crankpins,)."""
-        return read_only(self.rotating + self.factor * self.reciprocating + self.oil)
+        return self._mass_at(self.factor)
+
+    def _mass_at(self, factor: float) -> NDArray[np.float64]:
+        """Return the bob weights of a factor, kg."""
+        return read_only(self.rotating + factor * self.reciprocating + self.oil)
 
     @property
     def grams(self) -> NDArray[np.float64]:
@@ -287,12 +312,21 @@ class BobWeight(Tabled):
         forward, backward = self._parts(quantity)
         found = []
         for factor in _of_one_size(forward, backward):
-            parts = [complex(part.at(np.array(factor))) for part in (forward, backward)]
-            # A part that vanishes has no direction.
-            if 0.0 <= factor <= LARGEST_FACTOR and all(parts):
-                tilt = round(float(np.angle(parts[0] * parts[1], deg=True)) / 2.0, 9)
-                found.append((factor, 90.0 if tilt <= -90.0 else tilt + 0.0))  # no −0
+            tilt = self._direction_deg(quantity, factor)
+            if 0.0 <= factor <= LARGEST_FACTOR and tilt is not None:
+                found.append((factor, tilt))
         return tuple(found)
+
+    def _direction_deg(self, quantity: str, factor: float) -> float | None:
+        """Return the direction of the longest half axis, degrees from +x in (−90, 90].
+
+        None where either part vanishes: a circle has no longest half axis.
+        """
+        one, other = (complex(part.at(np.array(factor))) for part in self._parts(quantity))
+        if min(abs(one), abs(other)) <= ALIKE * max(abs(one), abs(other)):
+            return None
+        tilt = round(float(np.angle(one * other, deg=True)) / 2.0, 9)
+        return 90.0 if tilt <= -90.0 else tilt + 0.0  # no −0
 
     def _parts(self, quantity: str) -> tuple[Part, Part]:
         return self._first_order[inputs.one_of("quantity", quantity, ["force", "moment"])]
@@ -345,11 +379,12 @@ class BobWeight(Tabled):
         listed = sorted(words)
         # An engine without force or moment of order 1 has no columns of it.
         quantities = [name for name in PLANE_VECTORS if any(map(any, self._parts(name)))]
-        header, columns = ["factor", ""], []
+        header: list[str | tuple[str, str]] = ["factor", ""]
+        columns = []
         for name in quantities or ["moment"]:
             longest, shortest = self.half_axes(name, listed)
             unit = QUANTITIES[name].unit_over_square
-            header += [f"{name}, longest {unit}", f"shortest {unit}"]
+            header += [(f"{name}, longest", unit), ("shortest", unit)]
             columns += [longest, abs(shortest)]
         names = [(f"{factor:.6g}", ", ".join(words[factor])) for factor in listed]
         title = "Residual of order 1, half axes over ω²"
@@ -363,6 +398,88 @@ class BobWeight(Tabled):
                 yield least, f"least {name}"
             for factor, direction_deg in self.straight(name):
                 yield factor, f"{name} along {direction_deg:.4g}°"
+
+    # --- card -----------------------------------------------------------------------------------
+
+    def card(
+        self,
+        factors: ArrayLike | None = None,
+        *,
+        rpm: float = 3000.0,
+        sides: tuple[str, str] = ("right", "left"),
+        planes: Planes | None = None,
+        radius: ArrayLike | None = None,
+        balanced_to: ArrayLike | None = None,
+    ) -> Card:
+        """Return the card of a balancing shop: parts, bob weights, residuals, correction.
+
+        Parameters
+        ----------
+        factors : array_like, optional
+            Shares κ of the reciprocating mass that are compared; by default ``factor``.
+        rpm : float, default 3000.0
+            Crank speed of the residuals.
+        sides : (str, str), default ("right", "left")
+            What is on the right and on the left of the engine, seen from the flywheel, such as
+            ``("exhaust", "intake")``, for directions in words.
+        planes : {"webs", "ends"}, sequence of float or mapping of str to float, optional
+            Where metal can be added or drilled away, as in :func:`crankpin.counterweights`.
+        radius : array_like, optional
+            Radius of the weight or hole, m: of all planes, or one for each.
+        balanced_to : array_like, optional
+            Bob weight to which the crankshaft is balanced now, kg: of all crankpins, or one for
+            each; by default its counterweights are those of the engine.
+
+        Returns
+        -------
+        Card
+            The card.
+
+        Raises
+        ------
+        InputError
+            If an argument is out of range, or ``radius`` or ``balanced_to`` stands without
+            ``planes``.
+
+        Notes
+        -----
+        Heavy metal takes the place of steel: a slug of 17.0 g/cm³ in a hole of 7.85 g/cm³ weighs
+        1.858 times what it adds.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> single = cp.Engine.preset("single", rotating_mass=0.5)
+        >>> single = cp.bob_weight(single, parts={"piston": 0.4, "pin": 0.1})
+        >>> single.card([0.5, 0.6], rpm=6000).frames["bob weights"]
+        Bob weight of each crankpin
+        cylinders  crankpin °  rotating g  reciprocating g  oil g  at 50 % g  at 60 % g
+        1                  90       500.0            500.0      0      750.0      800.0
+        """
+        shares = inputs.vector("factors", self.factor if factors is None else factors)
+        check_factor("factors", shares)
+        speed = self.engine.balance(rpm, orders=[1]).rpm  # which checks it
+        named = [inputs.text("sides", each) for each in inputs.items("sides", sides, SIDES)]
+        if len(named) != 2:
+            raise inputs.rejected("sides", sides, SIDES)
+        if planes is None:
+            inputs.only_with("planes", radius=radius, balanced_to=balanced_to)
+        places = {} if planes is None else correction_planes.named(self.engine, planes)
+        radii = [None] * len(places)
+        if radius is not None:
+            radii = _positive("radius", radius, len(places), "give metres, above 0")
+        weights = None
+        if balanced_to is not None:
+            hint = "give kilograms, above 0"
+            weights = tuple(_positive("balanced_to", balanced_to, len(self.crankpins), hint))
+        return Card(
+            self,
+            tuple(dict.fromkeys(shares.tolist())),
+            speed,
+            (named[0], named[1]),
+            tuple((*place, each) for place, each in zip(places.items(), radii, strict=True)),
+            weights,
+        )
 
     def plot(self, ax: Axes | None = None, *, quantity: str | None = None, **style: object) -> Axes:
         """Draw the residual of order 1 over the factor: longest, shortest vector; return the axes.
@@ -449,6 +566,16 @@ def _of_one_size(forward: Part, backward: Part) -> list[float]:
     # A root of zero comes out beside it.
     roots = [0.0 if abs(each) < ALIKE else each for each in (middle - apart, middle + apart)]
     return list(dict.fromkeys(roots))
+
+
+def _positive(name: str, values: ArrayLike, count: int, hint: str) -> list[Any]:
+    """Return one number above zero for each item; a scalar is that of all."""
+    listed = inputs.per_item(name, values, count)
+    if len(listed) != count:
+        raise inputs.faulty(name, f"has {len(listed)} figures", f"give one, or {count}")
+    if not all(0.0 < each <= 1e6 for each in listed):
+        raise inputs.rejected(name, values, hint)
+    return listed
 
 
 def _numbers(pin: Crankpin) -> str:

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import read_only
@@ -14,7 +15,6 @@ from crankpin._support.tables import Table
 from crankpin.analysis.balance import over_square
 from crankpin.analysis.balancing import planes as correction_planes
 from crankpin.analysis.balancing.fitting import Fit, bay_loads, external, internal, left_by
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks
 from crankpin.model.crankpins import bays
@@ -129,10 +129,10 @@ def counterweights(
     limits = correction_planes.bounds(names, bound)
     checks.bounds(core, limits.values())
     checks.place(core, "length", fit.length, middle=0.0)
-    found = (external if fit.target == "external" else internal)(
+    fitted = (external if fit.target == "external" else internal)(
         engine, places, limits, correction_planes.angles(names, angles_deg), fit
     )
-    return Counterweights(engine, tuple(places.items()), fit, *found)
+    return Counterweights(engine, tuple(places.items()), fit, *fitted)
 
 
 class Counterweights(Tabled):
@@ -204,7 +204,7 @@ class Counterweights(Tabled):
         point: more than a millionth of what the weights exert.
         """
         decided = self.engine.vanishing_orders([1])
-        found = {}
+        verdicts = {}
         for name in ("force", "moment"):
             before = getattr(decided, name)
             if self._meets(name):
@@ -221,8 +221,8 @@ class Counterweights(Tabled):
                     size *= max(abs(z - self.engine.reference_z) for _, z in self.places)
                 stays = abs(complex(getattr(self.residual[1], name).forward))
                 forward = "remains" if stays > size else "undecided"
-            found[name] = {"forward": forward, "backward": before.backward[1]}
-        return read_only(found)
+            verdicts[name] = {"forward": forward, "backward": before.backward[1]}
+        return read_only(verdicts)
 
     def _meets(self, name: str) -> bool:
         """Return whether the forward part is exactly the one wanted."""
@@ -296,7 +296,9 @@ class Counterweights(Tabled):
         if "undecided" in note and self.missing:
             note += f" Within {self.missing:.1e} of what was wanted."
         title = "Residual of order 1, half axes over ω²"
-        return Table.from_rows(title, ["quantity", "state", "longest", "shortest"], rows, note=note)
+        heads = ["quantity", "state", "longest", "shortest"]
+        units = [row[0].rpartition(", ")[2] for row in rows]
+        return Table.from_rows(title, heads, rows, note=note, row_units=units)
 
     @overload
     def plot(

@@ -11,12 +11,12 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import Listed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import Balance, balance
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.geometry import direction
 from crankpin.model.shafts import Shaft
 
@@ -134,7 +134,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
         >>> round(pair["difference"], 4), pair["right_sum"], pair["up_deg"]
         (0.1418, 0.0, 90.0)
         """
-        found = {}
+        heights = {}
         for order in self.orders:
             pair = [
                 (shaft.ratio, each.force)
@@ -146,8 +146,8 @@ class BalanceShafts(Listed[Shaft], Tabled):
                 torque = _core.roll_torque(self.engine._core, order, self.rpm)
                 difference, right, up = _core.pair_heights(forces[order], forces[-order], torque)
                 up_deg = round(math.degrees(up), 13)
-                found[order] = {"difference": difference, "right_sum": right, "up_deg": up_deg}
-        return read_only(found)
+                heights[order] = {"difference": difference, "right_sum": right, "up_deg": up_deg}
+        return read_only(heights)
 
     def bearing_loads(self, rpm: float) -> NDArray[np.complex128]:
         """Return the loads on the two bearings of each shaft at θ = 0, front first.
@@ -259,7 +259,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
         if len(known) == len(self):
             front, rear = abs(self.bearing_loads(labels.UNIT_RPM)).T.tolist()
             columns += [
-                Column("bearings", tuple(b - a for a, b in known), "m apart"),
+                Column("bearings apart", tuple(b - a for a, b in known), "m"),
                 Column("front load", tuple(front), "kg·m"),
                 Column("rear load", tuple(rear), "kg·m"),
             ]
@@ -273,7 +273,8 @@ class BalanceShafts(Listed[Shaft], Tabled):
             quantity = f"{kind.words}, {kind.unit_over_square}"
             rows.append((str(each.order), quantity, each.part, each.before, each.after))
         heads = ["order", "quantity", "part", "before", "after"]
-        return Table.from_rows("Residual, over ω²", heads, rows)
+        units = [row[1].rpartition(", ")[2] for row in rows]
+        return Table.from_rows("Residual, over ω²", heads, rows, row_units=units)
 
     def parts(self) -> tuple[Part, ...]:
         """Return the parts of force, moment and torque of the shafts' orders, before and after.
@@ -285,14 +286,14 @@ class BalanceShafts(Listed[Shaft], Tabled):
         """
         states = (self._of(self.engine), self.residual)
         square = inputs.angular_speed(states[0].rpm) ** 2
-        found = []
+        parts = []
         for order, quantity in itertools.product(self.orders, SHAKEN):
             pair = [getattr(each[order], quantity) for each in states]
             planar = QUANTITIES[quantity].planar
             for part in ("forward", "backward") if planar else ("",):
                 sizes = [float(abs(getattr(each, part or "phasor"))) / square for each in pair]
-                found.append(Part(order, quantity, part, *sizes))
-        return tuple(found)
+                parts.append(Part(order, quantity, part, *sizes))
+        return tuple(parts)
 
 
 def _is_a_pair(forces: list[tuple[int, complex]]) -> bool:

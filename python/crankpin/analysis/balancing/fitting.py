@@ -98,6 +98,8 @@ def check_factor(name: str, factor: ArrayLike) -> None:
     listed = np.asarray(factor)
     if not ((listed >= 0.0) & (listed <= LARGEST_FACTOR)).all():
         hint = f"give a share of the reciprocating mass, 0 to {LARGEST_FACTOR:g}, such as 0.5"
+        if not listed.ndim and LARGEST_FACTOR < listed <= 100.0:
+            hint += f"; {listed:g} % is {listed / 100.0:g}"
         raise inputs.rejected(name, factor, hint)
 
 

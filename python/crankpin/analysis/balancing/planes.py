@@ -26,10 +26,10 @@ MOST_ANGLES = 10_000
 """Largest number of angles of all planes together: a step of the fit takes 40 ms then."""
 
 
-def named(engine: Engine, given: Planes) -> dict[str, float]:
+def named(engine: Engine, planes: Planes) -> dict[str, float]:
     """Return places of planes, m, by name, from front to flywheel or as given."""
-    if isinstance(given, str):
-        if inputs.one_of("planes", given, ["ends", "webs"]) == "ends":
+    if isinstance(planes, str):
+        if inputs.one_of("planes", planes, ["ends", "webs"]) == "ends":
             front, rear = float(engine.z.min()), float(engine.z.max())
             return {"front": front, "rear": rear} if front < rear else {"crankpin": front}
         return {
@@ -37,10 +37,10 @@ def named(engine: Engine, given: Planes) -> dict[str, float]:
             for number, bay in enumerate(bays(engine), start=1)
             for k, (side, z) in enumerate(zip_longest(("front", "rear"), bay.webs), start=1)
         }
-    if isinstance(given, Mapping):
-        places = {inputs.text("planes", name): _place(name, z) for name, z in given.items()}
+    if isinstance(planes, Mapping):
+        places = {inputs.text("planes", name): _place(name, z) for name, z in planes.items()}
     else:
-        listed = inputs.items("planes", given, HINT)
+        listed = inputs.items("planes", planes, HINT)
         places = {f"plane {k}": _place(k - 1, z) for k, z in enumerate(listed, start=1)}
     if not 1 <= len(places) <= MOST:
         raise inputs.faulty("planes", f"has {len(places)} places", f"give 1 to {MOST}")
@@ -57,24 +57,24 @@ def _place(key: object, value: object) -> float:
     return place
 
 
-def bounds(names: Sequence[str], given: object) -> dict[str, float]:
+def bounds(names: Sequence[str], limits: object) -> dict[str, float]:
     """Return the largest mass·radius in each plane, kg·m; infinite where there is no bound."""
-    by_name = _by_name("bound", names, given)
-    found = {}
+    by_name = _by_name("bound", names, limits)
+    amounts = {}
     for name in names:
         bound = by_name.get(name)
-        found[name] = math.inf if bound is None else inputs.number("bound", bound)
-        if not found[name] >= 0.0:
-            raise inputs.rejected("bound", found[name], "give a mass·radius of 0 kg·m or more")
-    return found
+        amounts[name] = math.inf if bound is None else inputs.number("bound", bound)
+        if not amounts[name] >= 0.0:
+            raise inputs.rejected("bound", amounts[name], "give a mass·radius of 0 kg·m or more")
+    return amounts
 
 
-def angles(names: Sequence[str], given: object) -> dict[str, tuple[str, ...]] | None:
+def angles(names: Sequence[str], angles_deg: object) -> dict[str, tuple[str, ...]] | None:
     """Return the angles allowed in each plane as text, or None where all are."""
-    if given is None:
+    if angles_deg is None:
         return None
-    by_name = _by_name("angles_deg", names, given)
-    found = {}
+    by_name = _by_name("angles_deg", names, angles_deg)
+    allowed = {}
     for name in names:
         if by_name.get(name) is None:
             raise inputs.faulty(
@@ -83,24 +83,24 @@ def angles(names: Sequence[str], given: object) -> dict[str, tuple[str, ...]] | 
         listed = inputs.angles("angles_deg", by_name[name])
         if not 1 <= len(listed) <= 360:
             raise inputs.faulty("angles_deg", f"has {len(listed)} angles", "give 1 to 360")
-        found[name] = tuple(dict.fromkeys(listed))
-    count = sum(map(len, found.values()))
+        allowed[name] = tuple(dict.fromkeys(listed))
+    count = sum(map(len, allowed.values()))
     if count > MOST_ANGLES:
         raise inputs.faulty(
             "angles_deg", f"has {count} angles in all", f"give at most {MOST_ANGLES}"
         )
-    return found
+    return allowed
 
 
-def _by_name(what: str, names: Sequence[str], given: object) -> Mapping[str, Any]:
+def _by_name(what: str, names: Sequence[str], values: object) -> Mapping[str, Any]:
     """Return values by name: of a mapping, or one value for all."""
-    if not isinstance(given, Mapping):
-        return dict.fromkeys(names, given)
-    for name in given:
+    if not isinstance(values, Mapping):
+        return dict.fromkeys(names, values)
+    for name in values:
         if name not in names:
             listed = inputs.shorten(list(names))
             raise inputs.rejected(what, name, f"is not a plane; choose from: {listed}")
-    return given
+    return values
 
 
 # --- parts that turn with a shaft ----------------------------------------------------------------

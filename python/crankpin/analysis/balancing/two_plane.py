@@ -57,21 +57,21 @@ def two_plane_correction(
     Examples
     --------
     >>> import crankpin as cp
-    >>> found = cp.two_plane_correction(
+    >>> correction = cp.two_plane_correction(
     ...     [120, 80], [30, 200], measured_z=[0.0, 0.4], correction_z=[0.05, 0.35]
     ... )
-    >>> found.amount_g_mm.round(2), found.angle_deg.round(2)
+    >>> correction.amount_g_mm.round(2), correction.angle_deg.round(2)
     (array([153.15, 113.08]), array([209.13,  21.76]))
-    >>> found.drill_deg.round(2)
+    >>> correction.drill_deg.round(2)
     array([ 29.13, 201.76])
     """
-    given = {
+    readings = {
         "amount_g_mm": amount_g_mm,
         "angle_deg": angle_deg,
         "measured_z": measured_z,
         "correction_z": correction_z,
     }
-    pairs = {name: _pair(name, values) for name, values in given.items()}
+    pairs = {name: _pair(name, values) for name, values in readings.items()}
     if min(pairs["amount_g_mm"]) < 0.0:
         hint = "give zero or more; angle_deg turns it round"
         raise inputs.rejected("amount_g_mm", amount_g_mm, hint)

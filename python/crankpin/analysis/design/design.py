@@ -165,9 +165,9 @@ def design(
 
     If it need not fire evenly, and has counterweights, 90°:
 
-    >>> cp.design(**v10, counterweights=True, by="[1].moment.backward,[2].moment.peak")[0]
-    ... # doctest: +ELLIPSIS
-    Design(place=1, values=(0.0, ...
+    >>> by = "[1].moment.backward,[2].moment.peak"
+    >>> cp.design(**v10, counterweights=True, by=by)[0].bank_angle_deg
+    90.0
     """
     objectives = listed_objectives(by)
     tolerance = tie_tolerance(tie_rtol)
@@ -175,7 +175,7 @@ def design(
     speed = inputs.number("rpm", rpm)
     summed = inputs.orders(orders)
     watched = progress_bar.checked(progress)
-    asked = checked(
+    question = checked(
         cylinders,
         layout,
         cylinder=cylinder,
@@ -194,18 +194,18 @@ def design(
         shafts=shafts,
     )
     with suppressed("mean piston speed"):
-        warn_of_units(asked)
-        search = Search(asked, objectives, speed, summed)
-        found = search.optima(wanted, start, watched)
-        designs, swept = search.best(found, wanted, tolerance)
+        warn_of_units(question)
+        search = Search(question, objectives, speed, summed)
+        best = search.optima(wanted, start, watched)
+        designs, swept = search.best(best, wanted, tolerance)
     inputs.warn_of_units(swept.mean_piston_speed)
     return Designs(
-        asked,
+        question,
         tuple(objective.bare() for objective in objectives),
         speed,
         None if summed is None else tuple(summed),
         designs,
-        len(found),
+        len(best),
         search.cranks,
     )
 
@@ -256,7 +256,7 @@ class Search:
         single = [each for each in self._families if len(each.variables) == 1]
         several = [each for each in self._families if len(each.variables) > 1]
         symmetries = self._question.symmetries
-        found = [optima.Optimum(each.base, isolated=True, values=()) for each in fixed]
+        results = [optima.Optimum(each.base, isolated=True, values=()) for each in fixed]
         with progress_bar.shown(progress, "designs") as shown:
 
             def told(done: int, total: int) -> None:
@@ -264,25 +264,25 @@ class Search:
                     shown(done, total)
 
             if single:
-                found += optima.of_one_angle(single, self._merit, symmetries, count, told)
+                results += optima.of_one_angle(single, self._merit, symmetries, count, told)
             if several:
-                found += optima.of_several_angles(several, self._merit, symmetries, seed, told)
-        return found
+                results += optima.of_several_angles(several, self._merit, symmetries, seed, told)
+        return results
 
     def best(
-        self, found: Sequence[Optimum], count: int, rtol: float
+        self, candidates: Sequence[Optimum], count: int, rtol: float
     ) -> tuple[tuple[Design, ...], Sweep]:
         """Return the best designs, and the sweep of all that were found."""
         symmetries = self._question.symmetries
-        cranks = [self._firing(symmetries.first(each.crank)) for each in found]
+        cranks = [self._firing(symmetries.first(each.crank)) for each in candidates]
         swept, rows = self._values(cranks)
         tolerances = rtol * self._scales(rows)
         designs: list[Design] = []
-        for group in groups(rows, np.arange(len(found)), tolerances):
+        for group in groups(rows, np.arange(len(candidates)), tolerances):
             place = len(designs) + 1
             for k in group[: count - len(designs)]:
                 images = dict(symmetries.images(cranks[k]))
-                values, isolated = tuple(rows[k].tolist()), found[k].isolated
+                values, isolated = tuple(rows[k].tolist()), candidates[k].isolated
                 engine = swept.engines[k]
                 if order := self._question.firing_order(cranks[k]):
                     engine = engine.replace(firing_order=order, strokes=self._question.strokes)

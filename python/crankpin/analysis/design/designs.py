@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
-from crankpin._support.record import Listed, Record
-from crankpin._support.tables import Table
+from crankpin._support.record import Listed
+from crankpin._support.tables import Item, Table
 from crankpin.analysis.arrangements.cranks import HALF, Crank
 from crankpin.analysis.design.families import engines_of, turned
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking.objectives import ByObjectives, named
 from crankpin.analysis.sweeps.sweep import sweep
 
@@ -33,7 +33,7 @@ NEARBY = "*"
 """Mark of a design that other angles nearby equal."""
 
 
-class Design(Record):
+class Design(Item):
     """An engine of :class:`Designs`."""
 
     place: int
@@ -71,6 +71,10 @@ class Design(Record):
     def pin_split_deg(self) -> tuple[float, ...]:
         """Left pin minus right pin of each throw, degrees; empty without banks."""
         return self.crank.pin_split_deg
+
+    def _figures(self) -> Mapping[str, object]:
+        names = ("place", "throws_deg", "pin_split_deg", "bank_angle_deg", "equivalents")
+        return {name: getattr(self, name) for name in (*names, "isolated", "values")}
 
     @property
     def equivalents(self) -> int:

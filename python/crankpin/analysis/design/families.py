@@ -84,7 +84,7 @@ class Family:
 
 def families(question: Question) -> tuple[list[Family], int]:
     """Return one of each set of equivalent candidates, and the number of all."""
-    found: dict[Family, None] = {}
+    distinct: dict[Family, None] = {}
     everything: set[Family] = set()
     for family in _all(question):
         if family in everything:
@@ -94,13 +94,13 @@ def families(question: Question) -> tuple[list[Family], int]:
             raise too_many(question.count)
         fixed = not family.variables
         base = question.symmetries.first(family.base, exchange=fixed)
-        found.setdefault(dataclasses.replace(family, base=base))
-    if not found:
+        distinct.setdefault(dataclasses.replace(family, base=base))
+    if not distinct:
         between = "{} to {}".format(*question.bank_angle)
         hint = "allow other bank angles, or pins that are split (shared_pins=False)"
         hint = f"no crank fires at these intervals; {hint}"
         raise inputs.faulty("bank_angle_deg", f"= {between}", hint)
-    return list(found), len(everything)
+    return list(distinct), len(everything)
 
 
 def _all(question: Question) -> Iterator[Family]:
@@ -250,7 +250,7 @@ def _plus(angles: list[Exact], which: tuple[int, ...], value: Exact) -> list[Exa
 
 def engines_of(question: Question, cranks: Sequence[Crank]) -> list[Engine]:
     """Return the engine of each crank."""
-    found = []
+    engines = []
     with suppressed():
         # Of units once for the whole call; pins may be split to any side here.
         for crank in cranks:
@@ -261,8 +261,8 @@ def engines_of(question: Question, cranks: Sequence[Crank]) -> list[Engine]:
                 engine = engine.with_counterweights(
                     [dataclasses.replace(weight, z=z, pin=pin) for pin, z in pins]
                 )
-            found.append(_with_shafts(engine, question.shafts) if question.shafts else engine)
-    return found
+            engines.append(_with_shafts(engine, question.shafts) if question.shafts else engine)
+    return engines
 
 
 def turned(question: Question, crank: Crank, bank_angle_deg: float) -> Crank:
@@ -286,7 +286,7 @@ def warn_of_units(question: Question) -> None:
 
 
 def _bare(question: Question, crank: Crank) -> Engine:
-    given: dict[str, Any] = {
+    arguments: dict[str, Any] = {
         "spacing": question.spacing,
         "rotating_mass": question.rotating_mass,
         "throws_deg": crank.throws,
@@ -294,7 +294,7 @@ def _bare(question: Question, crank: Crank) -> Engine:
     }
     if crank.bank_angle is None:
         name = f"I{question.cylinders} {crank.text}"
-        return Engine.inline(question.cylinder, **given, name=name)
+        return Engine.inline(question.cylinder, **arguments, name=name)
     alike = len(set(crank.splits)) == 1
     split = f", split {crank.splits_text}" if crank.splits_text else ""
     engine = Engine.vee(
@@ -302,7 +302,7 @@ def _bare(question: Question, crank: Crank) -> Engine:
         bank_angle_deg=crank.bank_angle,
         pin_split_deg=crank.splits[0] if alike else 0,
         bank_stagger=question.bank_stagger,
-        **given,
+        **arguments,
         name=f"V{question.cylinders} {float(crank.bank_angle):.6g}°, {crank.text}{split}",
     )
     if alike:
@@ -335,8 +335,8 @@ def _with_shafts(engine: Engine, ratios: tuple[int, ...]) -> Engine:
     first and the last throw: force and moment determine them.
     """
     wanted = [(ratio, (0.0, 0.0), ends(engine), "both") for ratio in ratios]
-    found, _ = _core.fit_shafts(engine._core, wanted, None)
+    fitted, _ = _core.fit_shafts(engine._core, wanted, None)
     return engine.with_shafts(
         Shaft(ratio, tuple(map(unbalance_of, weights)), name=f"of order {abs(ratio)}")
-        for ratio, (_, weights, _) in zip(ratios, found, strict=True)
+        for ratio, (_, weights, _) in zip(ratios, fitted, strict=True)
     )

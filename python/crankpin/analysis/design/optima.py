@@ -75,7 +75,7 @@ def of_one_angle(
     merit_of: Callable[[Family], Objectives],
     symmetries: Symmetries,
     count: int,
-    told: Told,
+    report: Told,
 ) -> list[Optimum]:
     """Return the best optima of families with a single angle that varies.
 
@@ -85,8 +85,8 @@ def of_one_angle(
     brackets: list[tuple[float, float, float, int]] = []
     for k, family in enumerate(families):
         brackets += [(*bracket, k) for bracket in _brackets(family, merit_of(family))]
-        told(k + 1, len(families) + len(brackets))
-    found: list[Optimum] = []
+        report(k + 1, len(families) + len(brackets))
+    minima: list[Optimum] = []
     of_family: list[list[Optimum]] = [[] for _ in families]
     at_ends: set[tuple[float, ...]] = set()
     heights: list[float] = []
@@ -94,10 +94,10 @@ def of_one_angle(
         merit, own = merit_of(families[which]), of_family[which]
         # No objective is below zero.
         least = max(bound, FLAT * merit.weights[-1])
-        if len(found) >= count and least > heapq.nsmallest(count, heights)[-1]:
+        if len(minima) >= count and least > heapq.nsmallest(count, heights)[-1]:
             break
         optimum = _between(families[which], merit, low, high)
-        told(len(families) + k, len(families) + len(brackets))
+        report(len(families) + k, len(families) + len(brackets))
         if not _new(own, optimum, symmetries) or _of_a_continuum(own, optimum):
             continue
         if optimum.crank.bank_angle in (0, HALF):
@@ -106,10 +106,10 @@ def of_one_angle(
             if key in at_ends:
                 continue
             at_ends.add(key)
-        found.append(optimum)
+        minima.append(optimum)
         own.append(optimum)
         heights.append(float(np.array(optimum.values) @ merit.weights))
-    return found
+    return minima
 
 
 def _brackets(family: Family, merit: Objectives) -> Iterator[tuple[float, float, float]]:
@@ -167,7 +167,7 @@ def of_several_angles(
     merit_of: Callable[[Family], Objectives],
     symmetries: Symmetries,
     seed: int,
-    told: Told,
+    report: Told,
 ) -> list[Optimum]:
     """Return the optima of families with several angles that vary."""
     everything: list[Optimum] = []
@@ -175,17 +175,17 @@ def of_several_angles(
     for k, family in enumerate(families):
         merit, (low, high) = merit_of(family), _limits(family)
         random = np.random.default_rng([seed, k])
-        found: list[Optimum] = []
+        minima: list[Optimum] = []
         starts, needed = 0, FEWEST_STARTS
         while starts < needed:
             optimum = _optimum(family, merit, random.uniform(low, high))
-            if _new(found, optimum, symmetries) and not _of_a_continuum(found, optimum):
-                found.append(optimum)
+            if _new(minima, optimum, symmetries) and not _of_a_continuum(minima, optimum):
+                minima.append(optimum)
             starts, steps = starts + 1, steps + 1
-            needed = min(MOST_STARTS, max(FEWEST_STARTS, STARTS_EACH * len(found)))
+            needed = min(MOST_STARTS, max(FEWEST_STARTS, STARTS_EACH * len(minima)))
             rest = needed - starts + FEWEST_STARTS * (len(families) - k - 1)
-            told(steps, steps + rest)
-        everything += [each for each in found if _new(everything, each, symmetries)]
+            report(steps, steps + rest)
+        everything += [each for each in minima if _new(everything, each, symmetries)]
     return everything
 
 
@@ -203,8 +203,8 @@ def _optimum(family: Family, merit: Objectives, start: Real) -> Optimum:
 
 def _optimum_at(family: Family, merit: Objectives, values: Real, *, isolated: bool) -> Optimum:
     rounded = _rounded(family, merit, values)
-    found = _values(merit, np.radians([float(each) for each in rounded]))
-    return Optimum(family.crank(rounded), isolated, tuple(found.tolist()))
+    merits = _values(merit, np.radians([float(each) for each in rounded]))
+    return Optimum(family.crank(rounded), isolated, tuple(merits.tolist()))
 
 
 def _values(merit: Objectives, values: Real) -> Real:
@@ -275,18 +275,18 @@ def _rounded(family: Family, merit: Objectives, values: Real) -> list[Exact]:
     degrees = np.degrees(values)
     level = _values(merit, values) @ merit.weights
     for parts in (*range(8), None):
-        found = [_near(each, family, parts) for each in degrees.tolist()]
+        angles = [_near(each, family, parts) for each in degrees.tolist()]
         if parts is None:
             break
-        limits = zip(found, family.variables, strict=True)
+        limits = zip(angles, family.variables, strict=True)
         if not all(each.periodic or each.low <= value <= each.high for value, each in limits):
             continue
-        rounded = np.array([float(each) for each in found])
+        rounded = np.array([float(each) for each in angles])
         change = float(_values(merit, np.radians(rounded)) @ merit.weights - level)
         # What is lower further away is another dip.
         if change <= FLAT and (change >= -FLAT or np.abs(rounded - degrees).max() <= NEAR):
             break
-    return found
+    return angles
 
 
 def _near(degrees: float, family: Family, digits: int | None) -> Exact:
@@ -299,17 +299,17 @@ def _near(degrees: float, family: Family, digits: int | None) -> Exact:
     return simple(Fraction(repr(round(degrees, digits - 1))))
 
 
-def _new(found: Sequence[Optimum], optimum: Optimum, symmetries: Symmetries) -> bool:
+def _new(known: Sequence[Optimum], optimum: Optimum, symmetries: Symmetries) -> bool:
     """Return whether none of those found is equivalent at the same angles."""
     images = [optimum.crank, *(image for _, image in symmetries.images(optimum.crank))]
-    return not any(_alike(image, each.crank) for each in found for image in images)
+    return not any(_alike(image, each.crank) for each in known for image in images)
 
 
-def _of_a_continuum(found: Sequence[Optimum], optimum: Optimum) -> bool:
+def _of_a_continuum(known: Sequence[Optimum], optimum: Optimum) -> bool:
     """Return whether one of a family's optima stands for this one, which others nearby equal."""
     if optimum.isolated:
         return False
-    levels = (np.subtract(each.values, optimum.values) for each in found if not each.isolated)
+    levels = (np.subtract(each.values, optimum.values) for each in known if not each.isolated)
     return any(np.abs(each).max() < NEARLY_LEVEL for each in levels)
 
 

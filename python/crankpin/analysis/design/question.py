@@ -174,8 +174,8 @@ def checked(
     )
 
 
-def _cylinders(given: object, banks: int) -> int:
-    number = inputs.whole("cylinders", given)
+def _cylinders(cylinders: object, banks: int) -> int:
+    number = inputs.whole("cylinders", cylinders)
     if not banks <= number <= MOST_CYLINDERS or number % banks:
         even = "an even number, 2" if banks == 2 else "a whole number, 1"
         raise inputs.rejected("cylinders", number, f"give {even} to {MOST_CYLINDERS}")
@@ -202,66 +202,74 @@ def _spread(number: int, over: int) -> tuple[Exact, ...]:
     return tuple(simple(Fraction(over * k, number) % TURN) for k in range(number))
 
 
-def _bank_angles(kind: str, given: Range | None) -> tuple[Exact, Exact]:
+def _bank_angles(kind: str, bank_angle_deg: Range | None) -> tuple[Exact, Exact]:
     if kind != "vee":
-        if given is not None:
+        if bank_angle_deg is not None:
             what = "has no banks" if kind == "inline" else "has its banks at 180"
-            raise inputs.rejected("bank_angle_deg", given, f'layout="{kind}" {what}; leave it out')
+            raise inputs.rejected(
+                "bank_angle_deg", bank_angle_deg, f'layout="{kind}" {what}; leave it out'
+            )
         return (0, 0) if kind == "inline" else (HALF, HALF)
-    if given is None:
+    if bank_angle_deg is None:
         hint = "give an angle, or two to choose between: (60, 90)"
-        raise inputs.rejected("bank_angle_deg", given, hint)
-    return _range("bank_angle_deg", given, 0, HALF)
+        raise inputs.rejected("bank_angle_deg", bank_angle_deg, hint)
+    return _range("bank_angle_deg", bank_angle_deg, 0, HALF)
 
 
-def _splits(kind: str, shared_pins: bool | None, given: Range | None) -> tuple[Exact, Exact]:
-    shared = given is None if shared_pins is None else inputs.flag("shared_pins", shared_pins)
-    if kind != "vee" and (given is not None or shared_pins is not None):
+def _splits(
+    kind: str, shared_pins: bool | None, pin_split_deg: Range | None
+) -> tuple[Exact, Exact]:
+    shared = (
+        pin_split_deg is None if shared_pins is None else inputs.flag("shared_pins", shared_pins)
+    )
+    if kind != "vee" and (pin_split_deg is not None or shared_pins is not None):
         what = "one cylinder on each pin" if kind == "inline" else "pins split by 180"
         hint = f"has {what}; leave out shared_pins and pin_split_deg"
         raise inputs.rejected("layout", kind, hint)
     if kind == "boxer":
         return (HALF, HALF)
-    if shared and given is not None:
-        raise inputs.rejected("pin_split_deg", given, "shared pins have none; leave one out")
+    if shared and pin_split_deg is not None:
+        raise inputs.rejected(
+            "pin_split_deg", pin_split_deg, "shared pins have none; leave one out"
+        )
     if shared:
         return (0, 0)
-    if given is None:
+    if pin_split_deg is None:
         return -HALF, HALF
-    return _range("pin_split_deg", given, -HALF, HALF)
+    return _range("pin_split_deg", pin_split_deg, -HALF, HALF)
 
 
-def _range(name: str, given: Range, low: Exact, high: Exact) -> tuple[Exact, Exact]:
+def _range(name: str, limits: Range, low: Exact, high: Exact) -> tuple[Exact, Exact]:
     hint = f"give an angle, or the lowest and the highest, {low} to {high}"
-    is_one = isinstance(given, str) or not isinstance(given, Iterable)
-    ends: Sequence[Any] = (given, given)
-    if not is_one and getattr(given, "ndim", None) != 0:
-        ends = inputs.items(name, given, hint)
+    is_one = isinstance(limits, str) or not isinstance(limits, Iterable)
+    ends: Sequence[Any] = (limits, limits)
+    if not is_one and getattr(limits, "ndim", None) != 0:
+        ends = inputs.items(name, limits, hint)
     if len(ends) != 2:
-        raise inputs.rejected(name, given, hint)
+        raise inputs.rejected(name, limits, hint)
     first, last = (exact(inputs.angle(name, end)) for end in ends)
     if not low <= first <= last <= high:
-        raise inputs.rejected(name, given, hint)
-    checks.radians(name, given, ends)
+        raise inputs.rejected(name, limits, hint)
+    checks.radians(name, limits, ends)
     return first, last
 
 
-def _throws(count: int, given: object) -> tuple[tuple[Exact, ...], ...]:
-    if given is None:
+def _throws(count: int, throws: object) -> tuple[tuple[Exact, ...], ...]:
+    if throws is None:
         # Over two turns an even number of throws comes to half as many directions, each twice.
         return tuple(_spread(count, turns * TURN) for turns in ((1,) if count % 2 else (1, 2)))
     hint = f'give {count} angles to be put in order, or "free"'
-    if isinstance(given, str):
-        raise inputs.rejected("throws_deg", given, hint)
-    listed = [exact(each) % TURN for each in inputs.angles("throws_deg", given)]
+    if isinstance(throws, str):
+        raise inputs.rejected("throws_deg", throws, hint)
+    listed = [exact(each) % TURN for each in inputs.angles("throws_deg", throws)]
     if len(listed) != count:
-        raise inputs.rejected("throws_deg", given, hint)
+        raise inputs.rejected("throws_deg", throws, hint)
     return (tuple(listed),)
 
 
-def _shafts(given: Iterable[int]) -> tuple[int, ...]:
+def _shafts(shaft_ratios: Iterable[int]) -> tuple[int, ...]:
     hint = "give different speed ratios such as [-1] or [2, -2]; for 1 give counterweights=True"
-    listed = inputs.items("shafts", given, hint)
+    listed = inputs.items("shafts", shaft_ratios, hint)
     ratios = [inputs.whole("shafts", each) for each in listed]
     if {0, 1} & set(ratios) or len(set(ratios)) < len(ratios):
         raise inputs.rejected("shafts", listed, hint)

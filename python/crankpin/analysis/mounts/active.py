@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.record import changed, read_only
 from crankpin._support.tables import Column, Table
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.mounts.adaptive import AdaptiveLaw
 from crankpin.analysis.mounts.phasors import optimal
 from crankpin.analysis.mounts.response import MountResponse
@@ -307,7 +307,7 @@ class Cancellation(Tabled):
             columns += [Column("at most", tuple(most)), Column("at", tuple(where), "rpm", 10)]
         over = ", largest over speed" if self.before.dims else ""
         title = self.before._title(f"rms with and without actuators{over}")
-        return Table(title, tuple(columns), self._notes(rows), self.loads_counted)
+        return Table(title, tuple(columns), self._notes(rows), self.loads_counted, unit)
 
     def _notes(self, rows: list[tuple[Any, ...]]) -> str:
         notes = []

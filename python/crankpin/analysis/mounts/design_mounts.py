@@ -118,7 +118,8 @@ class MountDesign(Tabled):
         if missed:
             note += f" NOT reached within these bounds: {', '.join(missed)}."
         title = f"{labels.name_of(self.powertrain.engine)}: design of its mounts"
-        return Table(title, columns, note, self.loads_counted)
+        units = tuple(name.rpartition(" ")[2] for name in self.names)
+        return Table(title, columns, note, self.loads_counted, units)
 
     @property
     def frames(self) -> Frames:

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
-from crankpin.analysis.drawing import draw
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.mounts.response import MountResponse
     from crankpin.analysis.mounts.static_state import StaticState
     from crankpin.model.actuators import Actuator
+    from crankpin.view.widget import PowertrainWidget
 
 
 class Powertrain(Input):
@@ -509,6 +510,68 @@ class Powertrain(Input):
         listed[number - 1] = None
         engine = self.engine.with_cycle(listed, crankcase=self.engine.crankcase)
         return self.replace(engine=engine)
+
+    # --- pages ------------------------------------------------------------------------------------
+
+    def view(self, rpm: float = 800.0, *, frequency: float | None = None) -> PowertrainWidget:
+        """Return the engine turning on its mounts, as a widget for notebooks (needs anywidget).
+
+        Mounts can be dragged; modes and response follow. Its traits ``angle_deg``, ``rpm``,
+        ``order``, ``mode`` and ``mounts`` move the page when they are set, and follow its reader;
+        ``powertrain`` is the one with the mounts as they stand.
+
+        Parameters
+        ----------
+        rpm : float, default 800.0
+            Crank speed at first, rpm.
+        frequency : float, optional
+            As in :meth:`modes`.
+
+        Returns
+        -------
+        PowertrainWidget
+            A widget of anywidget.
+
+        Raises
+        ------
+        InputError
+            If an argument is out of range, stiffness depends on frequency and none is given, or
+            the powertrain has a support that gives way.
+        ImportError
+            If anywidget is not installed.
+        """
+        from crankpin.view.widget import PowertrainWidget  # noqa: PLC0415
+
+        return PowertrainWidget(self, rpm, frequency=frequency)
+
+    def save_html(
+        self, path: str | Path, rpm: float = 800.0, *, frequency: float | None = None
+    ) -> None:
+        """Write the engine turning on its mounts, as a page that needs a browser alone.
+
+        The page evaluates the library's coefficients: mounts can be dragged in it, and modes and
+        response follow.
+
+        Parameters
+        ----------
+        path : str or pathlib.Path
+            Name of the file, which ends in ``.html``.
+        rpm : float, default 800.0
+            As in :meth:`view`.
+        frequency : float, optional
+            As in :meth:`modes`.
+
+        Raises
+        ------
+        InputError
+            If an argument is out of range, the name ends otherwise, stiffness depends on frequency
+            and none is given, or the powertrain has a support that gives way.
+        OSError
+            If the file cannot be written.
+        """
+        from crankpin.view.page import save_mounted_html  # noqa: PLC0415
+
+        save_mounted_html(self, path, rpm=rpm, frequency=frequency)
 
     # --- files ------------------------------------------------------------------------------------
 

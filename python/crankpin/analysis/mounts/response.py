@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 import numpy as np
 
 from crankpin._support import inputs, labels, optional
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.record import AbsentError, Record, changed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import mean_piston_speed
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.mounts.vectors import Source, VectorQuantity
 from crankpin.analysis.quantity import ALL, Key, Keyed, order_key
 from crankpin.analysis.request import Request, check_request

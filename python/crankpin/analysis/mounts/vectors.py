@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.record import AbsentError, Record, changed, read_only
 from crankpin.analysis.quantity import ALL, Key, Keyed, order_key
 
@@ -128,7 +128,8 @@ class VectorQuantity(Keyed, Record):
         which = " of all orders" if self.order == ALL else which
         name, loads = labels.printable(self.words), self.result.loads_counted
         if not self.result.dims and self.order is not None:
-            return f"<VectorQuantity {name}{which}: peak {self.peak:.5g} {self.unit}, {loads}>"
+            peak = units.figure(self.peak, self.unit, 5)
+            return f"<VectorQuantity {name}{which}: peak {peak}, {loads}>"
         shape = ", ".join(
             f"{name}: {length}"
             for name, length in zip(self.dims, self.peak_xyz.shape, strict=False)

@@ -60,12 +60,12 @@ class Objective(NamedTuple):
             # Left out as negligible, or zero.
             swept = swept._at_orders((self.order,))
         if self.of_sweep is not None:
-            found = np.array(self.of_sweep(swept)).reshape(len(swept.engines), -1)
+            values = np.array(self.of_sweep(swept)).reshape(len(swept.engines), -1)
         else:
             rows = [[self._value(each) for each in row] for row in balances(swept)]
-            found = np.array(rows, dtype=np.float64)
-        found.setflags(write=False)
-        return found
+            values = np.array(rows, dtype=np.float64)
+        values.setflags(write=False)
+        return values
 
     @property
     def of_function(self) -> bool:
@@ -76,9 +76,9 @@ class Objective(NamedTuple):
         """Return the objective without its functions, so that it can be pickled and compared."""
         return self._replace(of_sweep=None, of_balance=None)
 
-    def _value(self, found: Balance) -> float:
+    def _value(self, balance: Balance) -> float:
         assert self.of_balance is not None  # noqa: S101 - one of the two is there
-        value = inputs.number("by", self.of_balance(found))
+        value = inputs.number("by", self.of_balance(balance))
         if value == -np.inf:
             raise inputs.rejected(
                 "by", value, "return finite numbers, or inf for an engine to avoid"
@@ -173,12 +173,12 @@ def named(label: str) -> Objective:
         words = "root mean square difference of the firing intervals from equal ones"
         return Objective(label, "firing unevenness", words, "°", of_balance=_unevenness)
     # As of results, moment[1] is [1].moment.
-    found = _PATH.fullmatch(_ORDER_LAST.sub(r"\2.\1\3", label))
-    if not found or (found[1] is None and found[3] in ("forward", "backward")):
+    match = _PATH.fullmatch(_ORDER_LAST.sub(r"\2.\1\3", label))
+    if not match or (match[1] is None and match[3] in ("forward", "backward")):
         inputs.one_of("by", label, COMMON)
-    assert found is not None  # noqa: S101 - else rejected above
-    order = None if found[1] is None else inputs.order(float(found[1]))
-    quantity, what = found[2] or found[4], found[3] or found[5]
+    assert match is not None  # noqa: S101 - else rejected above
+    order = None if match[1] is None else inputs.order(float(match[1]))
+    quantity, what = match[2] or match[4], match[3] or match[5]
     name = KINDS[quantity].words
     head = f"{'total' if order is None else f'order-{order}'} {name}"
     head += {"peak": "", "peak_xy": " along x or y"}.get(what, f", {what}")
@@ -212,12 +212,12 @@ def of_table(swept: Sweep) -> list[Objective]:
         names.append("total.torque.peak")
     if all(len(engine) <= MOST_CYLINDERS for engine in swept.engines):
         names.append("unevenness_deg")
-    given = swept.request.orders
-    return [each for each in map(named, names) if given is None or each.order in (None, *given)]
+    orders = swept.request.orders
+    return [each for each in map(named, names) if orders is None or each.order in (None, *orders)]
 
 
-def _unevenness(found: Balance) -> float:
-    return found.engine.firing_orders()[0].unevenness_deg
+def _unevenness(balance: Balance) -> float:
+    return balance.engine.firing_orders()[0].unevenness_deg
 
 
 # --- by function --------------------------------------------------------------------------------
@@ -234,22 +234,24 @@ def listed(by: object) -> list[Objective]:
     elif callable(by):
         by = [by]
     hint = f"give a name ({', '.join(COMMON)}), a function of a Balance, or a list of these"
-    found: list[Objective] = []
+    objectives: list[Objective] = []
     for each in inputs.items("by", by, hint):
         if isinstance(each, str):
-            found.append(named(each))
+            objectives.append(named(each))
         elif callable(each):
-            label = _free(each, found)
+            label = _free(each, objectives)
             words = f"{label}{FUNCTION_GIVEN}"
-            found.append(Objective(label, label, words, "", of_balance=each))
+            objectives.append(Objective(label, label, words, "", of_balance=each))
         else:
             raise inputs.rejected("by", each, hint)
-    if not found:
+    if not objectives:
         raise inputs.rejected("by", by, hint)
-    twice = {each.label for each in found if [one.label for one in found].count(each.label) > 1}
+    twice = {
+        each.label for each in objectives if [one.label for one in objectives].count(each.label) > 1
+    }
     if twice:
         raise inputs.rejected("by", by, f"{min(twice)} is given twice; give it once")
-    return found
+    return objectives
 
 
 def _free(function: object, taken: list[Objective]) -> str:

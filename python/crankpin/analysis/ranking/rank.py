@@ -175,24 +175,24 @@ def rank(
 
 
 def _engines(
-    given: Engines | Arrangement | Sequence[Arrangement] | ArrangementSearch,
+    engines: Engines | Arrangement | Sequence[Arrangement] | ArrangementSearch,
     cylinder: object,
     spacing: object,
 ) -> Engines:
     """Return engines, or those of arrangements."""
-    if isinstance(given, ArrangementSearch) and len(given) > inputs.MOST_ITEMS:
+    if isinstance(engines, ArrangementSearch) and len(engines) > inputs.MOST_ITEMS:
         raise inputs.faulty(
             "engines",
-            f"is a search with {len(given)} bank angles, more than {inputs.MOST_ITEMS}",
+            f"is a search with {len(engines)} bank angles, more than {inputs.MOST_ITEMS}",
             "give some of them, such as its best(count=100) or within(60, 61)",
         )
-    if isinstance(given, Arrangement):
-        given = [given]
-    is_search = isinstance(given, ArrangementSearch)
-    if not isinstance(given, (Engine, Mapping, ArrangementSearch)):
-        given = inputs.items("engines", given, "give crankpin.Engine objects or arrangements")
-    listed = [] if isinstance(given, (Engine, Mapping)) else list(given)
-    if not listed and not isinstance(given, (Engine, Mapping)):
+    if isinstance(engines, Arrangement):
+        engines = [engines]
+    is_search = isinstance(engines, ArrangementSearch)
+    if not isinstance(engines, (Engine, Mapping, ArrangementSearch)):
+        engines = inputs.items("engines", engines, "give crankpin.Engine objects or arrangements")
+    listed = [] if isinstance(engines, (Engine, Mapping)) else list(engines)
+    if not listed and not isinstance(engines, (Engine, Mapping)):
         where = "the search has no bank angle in its window" if is_search else "give at least one"
         raise inputs.rejected("engines", [], where)
     arrangements = [one for one in listed if isinstance(one, Arrangement)]
@@ -201,7 +201,7 @@ def _engines(
             if value is not None:
                 hint = "is for arrangements; engines have their own, leave it out"
                 raise inputs.rejected(name, value, hint)
-        return cast("Engines", [given] if isinstance(given, Engine) else given)
+        return cast("Engines", [engines] if isinstance(engines, Engine) else engines)
     for one in listed:
         if not isinstance(one, Arrangement):
             raise inputs.rejected("engines", one, "give arrangements alone, or engines alone")

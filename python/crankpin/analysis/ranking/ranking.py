@@ -12,10 +12,10 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
-from crankpin._support.record import Listed, Record, changed
-from crankpin._support.tables import Table
-from crankpin.analysis.drawing import draw
+from crankpin._support.record import Listed, changed
+from crankpin._support.tables import Item, Table
 from crankpin.analysis.ranking.objectives import ByObjectives, of_table
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ MOST_ANGLES = 6
 """Bank angles shown in a cell."""
 
 
-class Choice(Record):
+class Choice(Item):
     """An engine of a :class:`Ranking` at its best bank angles."""
 
     place: int
@@ -212,7 +212,7 @@ def chosen(
     """Return each engine at its best angles, the best engine first."""
     tolerances = np.array([rtol * _largest(each) for each in values])
     names, grid = list(swept.coords["engine"]), angles_of(swept)
-    found: list[Choice] = []
+    choices: list[Choice] = []
     for k, engine in enumerate(swept.engines):
         rows = np.stack([each[k] for each in values], axis=1)
         angles = grid
@@ -236,12 +236,12 @@ def chosen(
             where = tuple(sorted(set(angles[kept].tolist())))
             if where and swept.hold is not None:
                 engine = engine.with_bank_angle(where[0], hold=swept.hold)  # noqa: PLW2901
-        found.append(Choice(0, str(names[k]), engine, where, best))
-    rows = np.array([each.values for each in found])
+        choices.append(Choice(0, str(names[k]), engine, where, best))
+    rows = np.array([each.values for each in choices])
     ranked: list[Choice] = []
-    for group in groups(rows, np.arange(len(found)), tolerances):
+    for group in groups(rows, np.arange(len(choices)), tolerances):
         place = len(ranked) + 1
-        ranked += [changed(found[k], place=place) for k in group]
+        ranked += [changed(choices[k], place=place) for k in group]
     return tuple(ranked)
 
 
@@ -284,11 +284,11 @@ def angles_of(swept: Sweep) -> NDArray[np.float64] | None:
 
 def own_angles(engines: Sequence[Engine]) -> NDArray[np.float64]:
     """Return the engines' bank angles, NaN where there are not two banks."""
-    found = np.full(len(engines), np.nan)
+    angles = np.full(len(engines), np.nan)
     for k, engine in enumerate(engines):
         with contextlib.suppress(InputError):
-            found[k] = engine.bank_angle_deg
-    return found
+            angles[k] = engine.bank_angle_deg
+    return angles
 
 
 # --- between bank angles --------------------------------------------------------------------------
@@ -312,8 +312,8 @@ def dips(
     """Return bank angles between the given ones at which the objective is lower than at them."""
 
     def at(where: NDArray[np.float64]) -> NDArray[np.float64]:
-        found = measured(where.ravel())
-        return np.where(np.isnan(found), np.inf, found).reshape(where.shape)
+        measurements = measured(where.ravel())
+        return np.where(np.isnan(measurements), np.inf, measurements).reshape(where.shape)
 
     angles, first = np.unique(angles, return_index=True)
     values = np.where(np.isnan(values), np.inf, values)[first]

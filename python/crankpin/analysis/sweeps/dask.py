@@ -104,16 +104,18 @@ def _normalized(
     try:
         if any(isinstance(length, (bool, np.bool_)) for length in wanted.values()):
             raise TypeError("True and False are not numbers of points")
-        found: tuple[tuple[int, ...], ...] = optional.library("dask.array").core.normalize_chunks(
+        normalized: tuple[tuple[int, ...], ...] = optional.library(
+            "dask.array"
+        ).core.normalize_chunks(
             tuple(wanted.values()), shape=tuple(sizes.values()), dtype=np.complex128
         )
         if any(
             not length >= 1  # NaN too
-            for size, lengths_of in zip(sizes.values(), found, strict=True)
+            for size, lengths_of in zip(sizes.values(), normalized, strict=True)
             for length in lengths_of
             if size
         ):
             raise ValueError("a chunk has at least one point")
     except (TypeError, ValueError, ArithmeticError, NotImplementedError) as error:
         raise inputs.rejected("chunks", chunks, f"{hint} ({error})") from None
-    return found
+    return normalized

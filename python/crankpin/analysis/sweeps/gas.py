@@ -39,11 +39,13 @@ class GasMap(Record):
         for k, each in enumerate(maps):
             if not (each is None or isinstance(each, CycleMap)):
                 raise inputs.rejected(f"cycle[{k}]", each, hint)
-        given = [each for each in maps if each is not None]
-        if not given:
+        present = [each for each in maps if each is not None]
+        if not present:
             raise inputs.rejected("cycle", cycle, "has no map; leave it out")
         for axis in ("rpm", "load"):
-            if any(not np.array_equal(getattr(m, axis), getattr(given[0], axis)) for m in given):
+            if any(
+                not np.array_equal(getattr(m, axis), getattr(present[0], axis)) for m in present
+            ):
                 raise inputs.faulty(
                     "cycle", f"has maps that differ in {axis}", f"give the same {axis}"
                 )

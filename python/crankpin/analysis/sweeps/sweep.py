@@ -13,13 +13,13 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
+from crankpin._support.drawing import draw
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import changed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis import export
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import Request, check_request, engine_core
 from crankpin.analysis.sweeps import dask
 from crankpin.analysis.sweeps.gas import GasMap
@@ -148,7 +148,7 @@ def sweep(
     """
     shown = progress_bar.checked(progress)
     listed, names = _listed(engines)
-    given = {
+    arguments = {
         "bank_angle_deg": bank_angle_deg,
         "rod_ratio": rod_ratio,
         "pin_offset": pin_offset,
@@ -156,7 +156,7 @@ def sweep(
         "load": load,
     }
     swept: dict[str, Any] = {
-        name: values for name, values in given.items() if values is not None or name == "rpm"
+        name: values for name, values in arguments.items() if values is not None or name == "rpm"
     }
     axes: dict[str, NDArray[np.float64] | float] = {}
     for name, values in swept.items():
@@ -224,7 +224,7 @@ class Sweep(ByOrder[Any]):
             name: values if isinstance(values, np.ndarray) else np.array([values])
             for name, values in self.axes.items()
         }
-        dims = self.dims
+        swept = [isinstance(self.axes.get(name), np.ndarray) for name in AXES]
         cores = [engine_core(engine) for engine in self.engines]
         core = _core.Sweep(
             cores if self.gas_map is None else self.gas_map.fired(self.engines),
@@ -239,9 +239,9 @@ class Sweep(ByOrder[Any]):
             request.reference_z,
             request.pairs,
             request.torque,
-            [self.names is not None, *(name in dims for name in AXES)],
+            [self.names is not None, *swept],
         )
-        self.__dict__.update(_core=core, _orders=tuple(core.orders), _omitted=tuple(core.omitted))
+        self.__dict__["_core"] = core
 
     @cached_property
     def error_bound(self) -> Mapping[str, float]:
@@ -294,9 +294,9 @@ class Sweep(ByOrder[Any]):
     @cached_property
     def fixed(self) -> Mapping[str, float]:
         """Argument that was given as a single value → the value."""
-        given = {name: self.axes[name] for name in AXES if name in self.axes}
+        values = {name: self.axes[name] for name in AXES if name in self.axes}
         return read_only(
-            {name: float(value) for name, value in given.items() if name not in self.dims}
+            {name: float(value) for name, value in values.items() if name not in self.dims}
         )
 
     @property
@@ -306,8 +306,8 @@ class Sweep(ByOrder[Any]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         # A progress bar stays where it is shown; functions cannot be pickled.
-        made, (kind, fields) = super().__reduce__()
-        return made, (kind, fields | {"progress": False})
+        rebuild, (kind, fields) = super().__reduce__()
+        return rebuild, (kind, fields | {"progress": False})
 
     @property
     def _of_parts(self) -> Request:
@@ -667,9 +667,9 @@ class Sweep(ByOrder[Any]):
         >>> s.plot(orders=[1, 2]).shape
         (2, 2)
         """
-        given = {"figure": figure, "kind": kind, "quantity": quantity, "x": x}
+        chosen_options = {"figure": figure, "kind": kind, "quantity": quantity, "x": x}
         chosen = {} if orders is None else {"orders": orders}
-        return draw(self, ax, **given, **chosen, **options)  # type: ignore[no-any-return]
+        return draw(self, ax, **chosen_options, **chosen, **options)  # type: ignore[no-any-return]
 
     @property
     def table(self) -> Table:
@@ -687,11 +687,11 @@ class Sweep(ByOrder[Any]):
         return Table(title, tuple(columns), loads=self.loads_counted)
 
     def _title(self, of: str = "") -> str:
-        given = " of the orders given" if self.request.orders is not None else ""
+        which = " of the orders given" if self.request.orders is not None else ""
         fixed = [labels.value_text(name, value) for name, value in self.fixed.items()]
         held = [labels.HELD[self.hold]] if self.hold else []
         engine = f"{engine_titles(self)[0]}: " if self.names is None else ""
-        of = of or given or " of all orders together"
+        of = of or which or " of all orders together"
         text = ", ".join([f"{engine}peaks{of}", *fixed, *held])
         return f"{text[0].upper()}{text[1:]}"
 
@@ -711,15 +711,15 @@ def _place(name: str, value: object, values: Any) -> int:  # noqa: ANN401 - name
         return names.index(inputs.one_of("engine", value, names))
     number = inputs.number(name, value)
     swept = np.asarray(values)
-    found = np.flatnonzero(swept == number)
-    if not found.size:
+    places = np.flatnonzero(swept == number)
+    if not places.size:
         raise inputs.rejected(
             name,
             value,
             f"is not among the {len(values)} swept values, {swept.min():.10g} to "
             f"{swept.max():.10g}; the nearest is {swept[np.abs(swept - number).argmin()]:.10g}",
         )
-    return int(found[0])
+    return int(places[0])
 
 
 def _listed(engines: Engines) -> tuple[list[Engine], tuple[str, ...] | None]:
@@ -755,9 +755,9 @@ def engine_titles(sweep: Sweep) -> list[str]:
     Where bank angle is swept, names of engines (not those of a mapping) go without the bank angle
     that the engine had before, such as in "V6 60°".
     """
-    given = sweep.coords.get("engine")
+    coordinate = sweep.coords.get("engine")
     titles = [labels.name_of(engine) for engine in sweep.engines]
-    names = titles if given is None else [str(name) for name in given]
+    names = titles if coordinate is None else [str(name) for name in coordinate]
     if "bank_angle_deg" not in {*sweep.coords, *sweep.fixed} or names != titles:
         return names
     without = [labels.printable(engine._title(with_bank_angle=False)) for engine in sweep.engines]

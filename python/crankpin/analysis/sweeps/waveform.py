@@ -12,9 +12,9 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
+from crankpin._support.drawing import draw
 from crankpin._support.quantities import KINDS
 from crankpin._support.record import read_only
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.waveform import OverAngle
 
 if TYPE_CHECKING:

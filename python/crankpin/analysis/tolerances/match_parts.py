@@ -88,11 +88,11 @@ class MeasuredParts(Record):
     def kinds(self) -> tuple[Kind, ...]:
         """Deviations of the parts from their means, and what a unit of each does."""
         reciprocating = self._influences(rotating=False)
-        found = [Kind((self.pistons - self.pistons.mean())[:, None], reciprocating[:, None])]
+        kinds = [Kind((self.pistons - self.pistons.mean())[:, None], reciprocating[:, None])]
         if self.rods is not None:
             both = np.stack([reciprocating, self._influences(rotating=True)], axis=1)
-            found.append(Kind(self.rods - self.rods.mean(axis=0), both))
-        return tuple(found)
+            kinds.append(Kind(self.rods - self.rods.mean(axis=0), both))
+        return tuple(kinds)
 
     def _influences(self, *, rotating: bool) -> NDArray[np.float64]:
         """Return what a kilogram in each cylinder adds: (n_cylinders, n_dimensions)."""
@@ -227,7 +227,7 @@ def match_parts(
     >>> float(match.engines[0].balance(rpm=6000)[1].force.peak)  # 402 + 401 - 405 - 398 g
     0.0
     """
-    engine_core(engine)
+    core = engine_core(engine)
     count = len(engine)
     inputs.one_of("by", by, WORDS)
     masses = _masses("pistons", pistons, 1)
@@ -242,40 +242,42 @@ def match_parts(
     several = min(len(each) for each in (masses, ends) if each is not None) // count
     wanted = several if sets is None else inputs.whole("sets", sets)
     if not 1 <= wanted <= several:
-        given = f"{len(masses)} pistons" + ("" if ends is None else f" and {len(ends)} rods")
+        parts_text = f"{len(masses)} pistons" + ("" if ends is None else f" and {len(ends)} rods")
         raise inputs.rejected(
             "sets",
             wanted,
-            f"{given} suffice for {several} of {count} cylinders; give 1 to {several}",
+            f"{parts_text} suffice for {several} of {count} cylinders; give 1 to {several}",
         )
     if by == "spread" and orders is not None:
         raise inputs.rejected("orders", orders, 'acts only beside by="balance"; leave it out')
     listed = inputs.explicit_orders((1, 2) if orders is None else orders)
     start = inputs.whole("seed", seed, 0)
-    asked = progress_bar.checked(progress)
-    checks.masses(engine, pistons=masses.max(), rods=0.0 if ends is None else ends.max())
+    shown = progress_bar.checked(progress)
+    checks.masses(core, pistons=masses.max(), rods=0.0 if ends is None else ends.max())
     measured = MeasuredParts(engine, masses[:, 0], ends, tuple(listed))
     if by == "spread":
-        chosen, exact = _by_spread(measured, wanted, start, asked)
+        chosen, exact = _by_spread(measured, wanted, start, shown)
         # Rods might make up for any difference of pistons.
         bound = sum(measured.value(by, each) for each in chosen) if exact else 0.0
     else:
-        chosen, exact, bound = _by_balance(measured, wanted, start, asked)
+        chosen, exact, bound = _by_balance(measured, wanted, start, shown)
     return Match(measured, by, tuple(chosen), bound, exact)
 
 
 def _masses(name: str, values: ArrayLike, columns: int) -> NDArray[np.float64]:
     """Return masses, a row for each part."""
-    found = inputs.array(name, values)
+    numbers = inputs.array(name, values)
     shape = "(n,)" if columns == 1 else "(n, 2): small end and big end of each rod"
-    if found.ndim != (1 if columns == 1 else 2) or (columns == 2 and found.shape[1] != 2):
-        raise inputs.faulty(name, f"has shape {found.shape}", f"give masses in kg of shape {shape}")
-    if len(found) > MOST_PARTS:
-        raise inputs.faulty(name, f"has {len(found)} entries", f"give {MOST_PARTS} at most")
-    if not (np.isfinite(found).all() and (found > 0.0).all()):
+    if numbers.ndim != (1 if columns == 1 else 2) or (columns == 2 and numbers.shape[1] != 2):
+        raise inputs.faulty(
+            name, f"has shape {numbers.shape}", f"give masses in kg of shape {shape}"
+        )
+    if len(numbers) > MOST_PARTS:
+        raise inputs.faulty(name, f"has {len(numbers)} entries", f"give {MOST_PARTS} at most")
+    if not (np.isfinite(numbers).all() and (numbers > 0.0).all()):
         raise inputs.rejected(name, values, "give masses above zero, kg")
     # Records make their arrays read-only: the caller's stay as they are.
-    return found.reshape(-1, columns).copy()
+    return numbers.reshape(-1, columns).copy()
 
 
 # --- the search -----------------------------------------------------------------------------------
@@ -309,8 +311,8 @@ def _by_spread(
     starts += _random_starts(parts.kinds, seed, max(STARTS, SPREAD_STARTS // len(masses)))
     places = [np.eye(count).tolist()]
     listed = [([each.tolist()], places) for each in (masses, small)]
-    found, _, _ = _matched("spread", [0.0] * count, listed, sets, starts, progress)
-    return found, False
+    matched, _, _ = _matched("spread", [0.0] * count, listed, sets, starts, progress)
+    return matched, False
 
 
 def _by_balance(
@@ -443,13 +445,13 @@ def windows(masses: NDArray[np.float64], size: int, sets: int) -> list[NDArray[n
             with_last = least[t - 1, m - size] + ranges[m - size]
             taken[t, m] = with_last < least[t, m - 1]
             least[t, m] = min(with_last, least[t, m - 1])
-    found, m = [], len(masses)
+    windows, m = [], len(masses)
     for t in range(sets, 0, -1):
         while not taken[t, m]:
             m -= 1
-        found.append(order[m - size : m])
+        windows.append(order[m - size : m])
         m -= size
-    return found[::-1]
+    return windows[::-1]
 
 
 class Match(Tabled):
@@ -493,12 +495,12 @@ class Match(Tabled):
     def as_given(self) -> float:
         """The same of the parts in the order in which they were given."""
         count = len(self.engine)
-        given = (np.arange(k * count, (k + 1) * count) for k in range(len(self.assignment)))
+        engines = (np.arange(k * count, (k + 1) * count) for k in range(len(self.assignment)))
         return sum(
             self.parts.value(
                 self.by, assignment_of(*([each] * (1 if self.parts.rods is None else 2)))
             )
-            for each in given
+            for each in engines
         )
 
     @cached_property
@@ -544,6 +546,7 @@ class Match(Tabled):
             columns.append(Column("rod", tuple(rods)))
             columns.append(Column("small end", tuple(small), "kg"))
             columns.append(Column("big end", tuple(big), "kg"))
-        known = "no assignment is better" if self.exact else f"none is below {self.bound:.4g}"
+        none = f"none is below {self.bound:.4g} {self.unit}"
+        known = "no assignment is better" if self.exact else none
         title = f"{WORDS[self.by]}: {self.value:.4g} {self.unit}, {known}"
-        return Table(f"{title}; as given {self.as_given:.4g}", tuple(columns))
+        return Table(f"{title}; as given {self.as_given:.4g} {self.unit}", tuple(columns))

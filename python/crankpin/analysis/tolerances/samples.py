@@ -10,12 +10,12 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
+from crankpin._support.drawing import draw
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import changed, read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder, total_peaks
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking import objectives
 from crankpin.analysis.request import check_request, engine_core
 from crankpin.analysis.tolerances.spreads import (
@@ -62,17 +62,17 @@ def names_of(by: object, request: Request) -> tuple[str, ...]:
 
 def _checked(name: str, request: Request) -> Objective:
     """Return an objective that has a value for each sample."""
-    found = objectives.named(name)
-    if found.of_sweep is None:
+    objective = objectives.named(name)
+    if objective.of_sweep is None:
         named = ", ".join(f'"{each}"' for each in objectives.COMMON[:3])
         hint = f"has no value for each sample; give names such as {named}"
         raise inputs.rejected("by", name, hint)
-    if found.order is not None and found.order not in (request.orders or ()):
-        hint = f'by = "{name}" needs order {found.order}'
+    if objective.order is not None and objective.order not in (request.orders or ()):
+        hint = f'by = "{name}" needs order {objective.order}'
         raise inputs.rejected("orders", list(request.orders or ()), hint)
     if "torque" in name:
         request.check("torque")
-    return found
+    return objective
 
 
 class Tolerances(ByOrder["NDArray[np.float64]"]):
@@ -354,8 +354,8 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         parts = inputs.array("q", q)
         if not ((parts >= 0.0) & (parts <= 1.0)).all():
             raise inputs.rejected("q", q, "give numbers from 0 to 1")
-        found: NDArray[np.float64] = np.quantile(self.values(by), parts.ravel())
-        return found.reshape(parts.shape)[()]
+        quantiles: NDArray[np.float64] = np.quantile(self.values(by), parts.ravel())
+        return quantiles.reshape(parts.shape)[()]
 
     @cached_property
     def shares(self) -> Table:
@@ -535,7 +535,13 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         engine = labels.name_of(self.engine)
         title = f"{engine} at {self.rpm:g} rpm: {self.samples} samples, {self.figures.text}"
         of_torque = any("torque" in self._objective(by).quantity for by in self.by)
-        return Table.from_rows(title, header, rows, loads=self.loads_counted if of_torque else "")
+        return Table.from_rows(
+            title,
+            header,
+            rows,
+            loads=self.loads_counted if of_torque else "",
+            row_units=[self._objective(by).unit for by in self.by],
+        )
 
     def _objective(self, by: str | None) -> Objective:
         name = self.by[0] if by is None else inputs.text("by", by)

@@ -45,7 +45,7 @@ class Spreads:
     def checked(
         cls,
         engine: Engine,
-        given: Mapping[str, ArrayLike],
+        amounts: Mapping[str, ArrayLike],
         distribution: str,
         pins: Iterable[Iterable[int]] | None,
     ) -> Spreads:
@@ -59,7 +59,7 @@ class Spreads:
             items, count = (
                 ("crankpin", len(groups)) if name in OF_PINS else ("cylinder", len(engine))
             )
-            spreads = inputs.per_item(name, given[name], count)
+            spreads = inputs.per_item(name, amounts[name], count)
             if len(spreads) != count:
                 raise inputs.faulty(
                     name,
@@ -128,11 +128,11 @@ def deviating(
     )
 
 
-def _pins(engine: Engine, given: Iterable[Iterable[int]]) -> tuple[tuple[int, ...], ...]:
+def _pins(engine: Engine, groups: Iterable[Iterable[int]]) -> tuple[tuple[int, ...], ...]:
     hint = "give the numbers of the cylinders on each crankpin, such as [[1, 2], [3, 4]]"
     pins = tuple(
         tuple(inputs.whole("pins", number) for number in inputs.items("pins", pin, hint))
-        for pin in inputs.items("pins", given, hint)
+        for pin in inputs.items("pins", groups, hint)
     )
     if sorted(number for pin in pins for number in pin) != [*range(1, len(engine) + 1)]:
         raise inputs.rejected("pins", pins, f"name each cylinder once; {hint}")
@@ -159,7 +159,7 @@ def deviations(spreads: Spreads, samples: int, seed: int) -> dict[str, NDArray[n
     Each figure has a generator of its own, spawned from the seed, that draws sample after sample:
     a sample does not depend on how many follow, nor on what else spreads.
     """
-    found = {}
+    deviations = {}
     for stream, (name, each) in enumerate(zip(FIGURES, spreads.values, strict=True)):
         random = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(stream,)))
         values = np.empty((samples if each else 0, len(each)))
@@ -174,5 +174,5 @@ def deviations(spreads: Spreads, samples: int, seed: int) -> dict[str, NDArray[n
                 piece -= 1.0
             piece *= each
         values.setflags(write=False)
-        found[name] = values
-    return found
+        deviations[name] = values
+    return deviations

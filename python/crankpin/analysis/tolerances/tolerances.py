@@ -131,7 +131,7 @@ def tolerances(
     77.2
     """
     engine_core(engine)
-    given = {
+    arguments = {
         "reciprocating_mass": reciprocating_mass,
         "rotating_mass": rotating_mass,
         "crank_radius": crank_radius,
@@ -139,10 +139,10 @@ def tolerances(
         "z": z,
         "rod_length": rod_length,
     }
-    spreads = Spreads.checked(engine, given, distribution, pins)
+    spreads = Spreads.checked(engine, arguments, distribution, pins)
     if not spreads.given:
-        first, value = next(iter(given.items()))
-        hint = f"no part deviates; give a spread, {', '.join(given)}"
+        first, value = next(iter(arguments.items()))
+        hint = f"no part deviates; give a spread, {', '.join(arguments)}"
         raise inputs.rejected(first, value, hint)
     count, start = inputs.whole("samples", samples), _seed(seed)
     if not 1 <= count <= MOST_SAMPLES:
@@ -158,10 +158,10 @@ def tolerances(
         request = request.at_orders(tuple(kept))
     shown = names_of(by, request)
     report = progress_bar.checked(progress)
-    found = Tolerances(engine, speed, spreads, count, start, request, bound, shown)
-    found.evaluate(report)
+    result = Tolerances(engine, speed, spreads, count, start, request, bound, shown)
+    result.evaluate(report)
     inputs.warn_of_units(mean_piston_speed(engine, speed))
-    return found
+    return result
 
 
 def _seed(seed: object) -> int:
@@ -170,7 +170,7 @@ def _seed(seed: object) -> int:
         return int(seed.generate_state(1, np.uint64)[0])
     if isinstance(seed, np.random.Generator):
         return int(seed.integers(MOST_SEEDS, dtype=np.uint64))
-    found = inputs.whole("seed", seed)
-    if not 0 <= found < MOST_SEEDS:
+    number = inputs.whole("seed", seed)
+    if not 0 <= number < MOST_SEEDS:
         raise inputs.rejected("seed", seed, "give a whole number, 0 to 2**64 - 1")
-    return found
+    return number

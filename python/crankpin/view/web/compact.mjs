@@ -3,7 +3,7 @@
 import { choice } from "./controls.mjs";
 import { html } from "./dom.mjs";
 import { panel, region } from "./panels.mjs";
-import { Scene } from "./scene.mjs";
+import { STILL, Scene } from "./scene.mjs";
 import { STRINGS } from "./strings.mjs";
 import { Arrow, LEAST, Twist } from "./vectors.mjs";
 import { View } from "./view.mjs";
@@ -13,6 +13,7 @@ const DIALS = ["force", "moment", "torque"];
 
 export class Compact extends View {
   build(title) {
+    super.build();
     const { figures, readouts, settings, state, transport } = this;
     state.dial = null;
     this.scenes = [new Scene("cross", [390, 330], [40, 26])];
@@ -62,7 +63,7 @@ export class Compact extends View {
 
   draw(pose, strokes) {
     const { dial } = this.state;
-    this.scenes[0].pose(pose, strokes, () => [0, 0]);
+    this.scenes[0].pose(pose, strokes, STILL);
     this.dials[dial].pose(pose[dial]);
   }
 }

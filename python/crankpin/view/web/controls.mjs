@@ -7,7 +7,7 @@ import { STRINGS } from "./strings.mjs";
 const FACTORS = [0, ...[1, 10, 100, 1e3, 1e4].flatMap((ten) => [1, 2, 5].map((n) => n * ten))];
 
 /** Highest engine speed that can be typed. */
-const FASTEST = 1e6;
+export const FASTEST = 1e6;
 
 /** Degrees of a single step. */
 const STEPS = [0.1, 1, 5, 10, 90];
@@ -94,25 +94,21 @@ export class Settings {
     const fastest = slow ? 1.5 * figures.rpm : Math.max(1.5 * figures.rpm, 8000);
     const settle = () => this.show(view.state);
     this.rpm = pair(STRINGS.speed, STRINGS.speedField, "rpm", 0, fastest, slow ? 0.1 : 10, STRINGS.rpm,
-      (rpm) => view.set({ rpm }), settle, FASTEST);
+      (rpm) => view.set({ rpm }), settle, [0, FASTEST]);
     this.bank = pair(STRINGS.bankAngle, STRINGS.bankAngleField, "bank-angle", 0, 180, 0.5,
       STRINGS.degrees, (bank_angle_deg) => view.set({ bank_angle_deg }), settle);
     this.rod = pair(STRINGS.rodRatio, STRINGS.rodRatioField, "rod-ratio", least, most, 0.001, "",
       (rod_ratio) => view.set({ rod_ratio }), settle);
     this.hold = choice("hold", STRINGS.holds, view);
     const held = html("div", { class: "hold" }, html("span", {}, STRINGS.choices.hold), this.hold);
-    this.factor = slider(STRINGS.exaggeration, 0, FACTORS.length - 1, 1,
-      (k) => view.set({ exaggeration: FACTORS[k] }));
-    this.factorShown = numbered(html, "output", "exaggeration");
+    this.exaggeration = new Exaggeration(STRINGS.rocking, view);
     this.orders = html("span", {
       class: "rocking-orders", role: "group", "aria-label": STRINGS.rockingOrders,
     });
     const vee = figures.bank_angle_deg !== null;
     this.element = html("div", { class: "settings" },
       this.rpm.element, this.rod.element, ...(vee ? [this.bank.element, held] : []),
-      html("div", { class: "setting" },
-        html("span", {}, STRINGS.rocking), this.factor, this.factorShown),
-      this.orders,
+      this.exaggeration.element, this.orders,
     );
   }
 
@@ -141,21 +137,38 @@ export class Settings {
     this.rod.show(state.rod_ratio);
     this.bank.show(state.bank_angle_deg);
     this.hold.value = state.hold;
-    const factor = state.exaggeration;
-    this.factor.value = Math.max(0, FACTORS.findLastIndex((each) => each <= factor));
-    show(this.factorShown, factor, factor ? `× ${factor}` : STRINGS.off);
+    this.exaggeration.show(state.exaggeration);
     for (const [box] of this.boxes ?? []) box.checked = !state.still.has(Number(box.value));
   }
 }
 
-/** A slider and a field for the same number. */
-function pair(label, described, name, least, most, step, unit, act, settle, limit = most) {
+/** By how much motion is drawn larger than it is. */
+export class Exaggeration {
+  constructor(label, view) {
+    this.factor = slider(STRINGS.exaggeration, 0, FACTORS.length - 1, 1,
+      (k) => view.set({ exaggeration: FACTORS[k] }));
+    this.shown = numbered(html, "output", "exaggeration");
+    this.element = html("div", { class: "setting" }, html("span", {}, label), this.factor, this.shown);
+  }
+
+  show(factor) {
+    this.factor.value = Math.max(0, FACTORS.findLastIndex((each) => each <= factor));
+    show(this.shown, factor, factor ? `× ${factor}` : STRINGS.off);
+  }
+}
+
+/** A unit that is the value's own: how it is shown, and how what is typed is taken. */
+const PLAIN = { shown: (value) => value, taken: (value) => value };
+
+/** A slider and a field for the same number, within `limits` in the field, in a unit of both. */
+export function pair(label, described, name, least, most, step, unit, act, settle, limits = [least, most],
+  inUnit = PLAIN) {
   const bound = (value) => fixed(html, "span", "bound", value, `${value}`);
-  const limits = html("span", { class: "limits", role: "status", hidden: true },
-    `${STRINGS.give} `, bound(least), "–", bound(limit));
+  const said = html("span", { class: "limits", role: "status", hidden: true },
+    `${STRINGS.give} `, bound(limits[0]), "–", bound(limits[1]));
   const changed = (value) => {
-    limits.hidden = true;
-    act(value);
+    said.hidden = true;
+    act(inUnit.taken(value));
   };
   const range = slider(label, least, most, step, changed);
   const field = html("input", {
@@ -163,18 +176,18 @@ function pair(label, described, name, least, most, step, unit, act, settle, limi
     "data-name": name, "data-value": "",
   });
   const left = (refused) => {
-    limits.hidden = !refused;
+    said.hidden = !refused;
     settle();
   };
-  typed(field, changed, left, (value) => value >= least && value <= limit);
+  typed(field, changed, left, (value) => value >= limits[0] && value <= limits[1]);
   return {
     element: html("div", { class: "setting" }, html("span", {}, label), range,
-      html("span", { class: "field" }, field, html("i", {}, unit)), limits),
+      html("span", { class: "field" }, field, html("i", {}, unit)), said),
     show(value) {
       if (value === null) return;
-      range.value = value;
+      range.value = inUnit.shown(value);
       field.setAttribute("data-value", value);
-      write(field, value);
+      write(field, inUnit.shown(value));
     },
   };
 }
@@ -188,7 +201,7 @@ export function choice(key, names, view) {
   return element;
 }
 
-function slider(label, min, max, step, act) {
+export function slider(label, min, max, step, act) {
   const element = html("input", { type: "range", "aria-label": label, min, max, step });
   element.addEventListener("input", () => act(Number(element.value)));
   return element;

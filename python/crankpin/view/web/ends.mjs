@@ -27,10 +27,10 @@ export class Ends {
     });
   }
 
-  pose(shift) {
+  pose(motion) {
     const { scene, parts } = this;
     parts.forEach(({ dot }, k) => {
-      const [x, y] = scene.at([0, 0], scene.dimensions.ends[k], shift);
+      const [x, y] = scene.at([0, 0], scene.dimensions.ends[k], motion);
       dot.setAttribute("cx", x.toFixed(2));
       dot.setAttribute("cy", y.toFixed(2));
     });

@@ -10,8 +10,9 @@ import { legend, panel, region, section } from "./panels.mjs";
 import { Phasors } from "./phasors.mjs";
 import { ownSettings } from "./places.mjs";
 import { displacement, largestDisplacement, rocking } from "./rocking.mjs";
-import { Scene } from "./scene.mjs";
+import { STILL, Scene } from "./scene.mjs";
 import { Sentences } from "./sentences.mjs";
+import { Sound } from "./sound.mjs";
 import { STRINGS } from "./strings.mjs";
 import { STROKES } from "./strokes.mjs";
 import { Timeline } from "./timeline.mjs";
@@ -20,6 +21,7 @@ import { View } from "./view.mjs";
 
 export class Full extends View {
   build(title) {
+    super.build();
     const { figures } = this;
     this.width = 900;
     Object.assign(this.state, { exaggeration: null, still: new Set(), ...frames(figures) });
@@ -45,13 +47,17 @@ export class Full extends View {
     this.stretched = numbered(html, "span", "stretch");
     this.stretchedLine = html("p", { class: "hint" }, `${STRINGS.stretched} `, this.stretched);
     this.sentences = new Sentences(figures);
+    this.sound = figures.firing_deg ? new Sound(figures.exhaust_opens_deg) : null;
     this.element = region(title, "",
-      this.header.element, this.sentences.element, this.transport.element, this.settings.element,
+      this.header.element,
       html("div", { class: "views" },
         panel(STRINGS.crossSection, this.readouts.angle, this.scenes[0].element),
         panel(this.frames[0], this.scenes[1].element),
         panel(this.frames[1], this.scenes[2].element)),
       this.stretchedLine,
+      this.transport.element, this.settings.element,
+      this.sound ? this.sound.element : "",
+      this.sentences.element,
       html("div", { class: "dials" }, ...this.dials()),
       section(STRINGS.orders, legend(["forward", "backward"], STRINGS.legend), this.phasors.element),
       section(STRINGS.timeline,
@@ -84,6 +90,7 @@ export class Full extends View {
 
   destroy() {
     this.resized.disconnect();
+    this.sound?.destroy();
     super.destroy();
   }
 
@@ -101,6 +108,7 @@ export class Full extends View {
     show(this.stretched, stretch, short(stretch, 1));
     this.stretchedLine.hidden = stretch === 1;
     this.settings.layout(this.shown);
+    this.sound?.layout(this.engine);
     this.sentences.layout(this.state, ownSettings(this.figures));
     this.phasors.layout(this.shown, whole);
     this.force.layout(this.curve.force, this.peaks.force, whole.force);
@@ -188,10 +196,9 @@ export class Full extends View {
   }
 
   draw(pose, strokes) {
-    const still = () => [0, 0];
     const moved = displacement(this.rocking, pose.crank);
-    const rocks = (z) => scale(moved(z), this.state.exaggeration);
-    this.scenes.forEach((scene, k) => scene.pose(pose, strokes, k ? rocks : still));
+    const rocks = { ...STILL, at: ([, , z]) => [...scale(moved(z), this.state.exaggeration), 0] };
+    this.scenes.forEach((scene, k) => scene.pose(pose, strokes, k ? rocks : STILL));
     this.ends.pose(rocks);
     this.force.pose(pose.force);
     this.moment.pose(pose.moment);

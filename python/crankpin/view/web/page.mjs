@@ -7,4 +7,5 @@ export function page(View, figures) {
   const name = document.title;
   view.listeners.add(() => { document.title = `${name}${view.header.changes.textContent}`; });
   globalThis.crankpin = view;
+  if (location.hash === "#playing") view.set({ playing: true });
 }

@@ -71,6 +71,18 @@ export class Projection {
     return this.toward[0] * x + this.toward[1] * y + this.toward[2] * z * this.stretch;
   }
 
+  /** The part of a rotation, about x, y and z, that is seen turning, counter-clockwise. */
+  about(turn) {
+    return turn[0] * this.toward[0] + turn[1] * this.toward[1] + turn[2] * this.toward[2];
+  }
+
+  /** The displacement in metres, within the picture, that moves a point by pixels: of views along an axis. */
+  moved([x, y]) {
+    const { right, up, scale, stretch } = this;
+    const [a, b, c] = [0, 1, 2].map((k) => (right[k] * x - up[k] * y) / scale);
+    return [a, b, c / stretch];
+  }
+
   /** Outline of a cylinder about an axis in the cross-section, from one place of it to another. */
   tube([dx, dy], from, to, radius) {
     const ellipse = this.ellipse([dx, dy], radius);

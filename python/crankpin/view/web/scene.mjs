@@ -34,6 +34,9 @@ export function stretchAlong({ cylinders }) {
   return Math.max(1, 1.1 / least);
 }
 
+/** The motion of a body that stands still: displacement of a point, and a small rotation, about x, y and z. */
+export const STILL = { at: () => [0, 0, 0], turn: [0, 0, 0] };
+
 export class Scene {
   /** `frame` names a projection; the picture is `size` pixels before it is scaled. */
   constructor(frame, size, margin = [14, 14]) {
@@ -41,6 +44,8 @@ export class Scene {
     this.margin = margin;
     this.engineLayer = svg("g");
     this.overlay = svg("g");
+    /** Points that the picture contains besides the engine. */
+    this.around = [];
     this.element = svg("svg", { viewBox: `0 0 ${size.join(" ")}`, role: "img" },
       this.engineLayer, this.overlay);
     this.items = null;
@@ -58,7 +63,7 @@ export class Scene {
   layout(engine) {
     const { projection } = this;
     this.dimensions = dimensions(engine);
-    projection.fit(extremes(engine, this.dimensions), this.size, this.margin,
+    projection.fit([...extremes(engine, this.dimensions), ...this.around], this.size, this.margin,
       this.dimensions.stretch);
     this.items ??= this.parts(engine);
     this.shapes = new Map();
@@ -72,15 +77,20 @@ export class Scene {
     }
   }
 
-  /** Move everything to a pose; `shift` is the displacement of the crank axis at z, in metres. */
-  pose(pose, strokes, shift) {
-    for (const item of this.items) item.pose(pose, strokes, shift);
+  /** Move everything to a pose, displaced by a motion, such as `STILL`. */
+  pose(pose, strokes, motion) {
+    for (const item of this.items) item.pose(pose, strokes, motion);
   }
 
   /** A place in metres, displaced with the engine. */
-  at([x, y], z, shift) {
-    const [dx, dy] = shift(z);
-    return this.projection.point([x + dx, y + dy, z]);
+  at([x, y], z, motion) {
+    const [dx, dy, dz] = motion.at([x, y, z]);
+    return this.projection.point([x + dx, y + dy, z + dz]);
+  }
+
+  /** Put an element that is drawn about a place there, turned with the engine. */
+  put(element, place, z, motion) {
+    translate(element, this.at(place, z, motion), this.projection.about(motion.turn));
   }
 
   // Each part is an element, how it is laid out (which returns its depth), and how it is posed.
@@ -110,7 +120,7 @@ export class Scene {
         element.setAttribute("d", path(places, true));
         return this.projection.depth([...add(cylinders[k].axis, scale(direction, ends.low)), z]);
       },
-      pose: (_pose, _strokes, shift) => translate(element, this.at(ends.axis, z, shift)),
+      pose: (_pose, _strokes, motion) => this.put(element, ends.axis, z, motion),
     };
   }
 
@@ -141,8 +151,8 @@ export class Scene {
         }
         return projection.depth([...direction.map((part) => part * l), z]);
       },
-      pose: (pose, strokes, shift) => {
-        translate(element, this.at(pose.cylinders[k].wrist, z, shift));
+      pose: (pose, strokes, motion) => {
+        this.put(element, pose.cylinders[k].wrist, z, motion);
         if (strokes[k] !== stroke) {
           stroke = strokes[k];
           element.setAttribute("class", `piston ${stroke ?? ""}`);
@@ -183,9 +193,9 @@ export class Scene {
         bar.width = 0.3 * r * this.projection.scale;
         return this.projection.depth([...add(cylinders[k].axis, scale(direction, 0.5 * length)), z]);
       },
-      pose: ({ cylinders }, _strokes, shift) => {
+      pose: ({ cylinders }, _strokes, motion) => {
         const { crankpin, wrist } = cylinders[k];
-        bar.draw([this.at(crankpin, z, shift), this.at(wrist, z, shift)]);
+        bar.draw([this.at(crankpin, z, motion), this.at(wrist, z, motion)]);
       },
     };
   }
@@ -202,12 +212,12 @@ export class Scene {
         bar.width = 0.46 * cylinders[k].crank_radius * this.projection.scale;
         return this.projection.depth([...axis, z]);
       },
-      pose: ({ cylinders }, _strokes, shift) => {
+      pose: ({ cylinders }, _strokes, motion) => {
         const { crankpin } = cylinders[k];
         const half = this.dimensions.halfThrow;
         bar.draw([
-          this.at(axis, z - half, shift), this.at(crankpin, z - half, shift),
-          this.at(crankpin, z + half, shift), this.at(axis, z + half, shift),
+          this.at(axis, z - half, motion), this.at(crankpin, z - half, motion),
+          this.at(crankpin, z + half, motion), this.at(axis, z + half, motion),
         ]);
       },
     };
@@ -228,8 +238,8 @@ export class Scene {
         bar.width = 0.52 * radius * this.projection.scale;
         return this.projection.depth([0, 0, 0.5 * (start + stop)]);
       },
-      pose: (_pose, _strokes, shift) =>
-        bar.draw([this.at([0, 0], start, shift), this.at([0, 0], stop, shift)]),
+      pose: (_pose, _strokes, motion) =>
+        bar.draw([this.at([0, 0], start, motion), this.at([0, 0], stop, motion)]),
     };
   }
 
@@ -244,8 +254,8 @@ export class Scene {
         bar.width = 0.22 * this.dimensions.radius * this.projection.scale;
         return this.projection.depth([...axis, this.dimensions.ends[0]]);
       },
-      pose: (_pose, _strokes, shift) =>
-        bar.draw(this.dimensions.ends.map((z) => this.at(axis, z, shift))),
+      pose: (_pose, _strokes, motion) =>
+        bar.draw(this.dimensions.ends.map((z) => this.at(axis, z, motion))),
     };
   }
 
@@ -268,9 +278,9 @@ export class Scene {
         element.setAttribute("class", `weight ${kind}`);
         return this.projection.depth([...axis, z]);
       },
-      pose: ({ weights }, _strokes, shift) => {
+      pose: ({ weights }, _strokes, motion) => {
         const points = [axis, ...rim.map((by) => add(axis, scale(multiply(weights[k], by), reach)))];
-        element.setAttribute("d", path(points.map((point) => this.at(point, z, shift)), true));
+        element.setAttribute("d", path(points.map((point) => this.at(point, z, motion)), true));
       },
     };
   }
@@ -354,6 +364,10 @@ function extremes(engine, { radius, ends, stretch }) {
   return points;
 }
 
-export function translate(element, [x, y]) {
-  element.setAttribute("transform", `translate(${x.toFixed(2)} ${y.toFixed(2)})`);
+/** Put an element at a place in pixels, turned by a small angle in radians. */
+function translate(element, [x, y], turn) {
+  const place = `${x.toFixed(2)} ${y.toFixed(2)}`;
+  const by = turn.toFixed(5);
+  element.setAttribute("transform", turn
+    ? `matrix(1 ${-by} ${by} 1 ${place})` : `translate(${place})`);
 }

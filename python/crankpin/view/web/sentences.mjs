@@ -17,9 +17,10 @@ export class Sentences {
     this.known = sentences.length > 0;
   }
 
-  /** Show them while the engine is the one that they are about; its speed is said with them. */
+  /** Show them while the engine is the one that they are about; else they keep their place, so that nothing jumps. */
   layout(settings, own) {
     const same = Object.keys(own).every((key) => key === "rpm" || key === "hold" || settings[key] === own[key]);
-    this.element.hidden = !(this.known && same);
+    this.element.hidden = !this.known;
+    this.element.style.visibility = same ? "" : "hidden";
   }
 }

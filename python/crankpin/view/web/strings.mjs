@@ -31,6 +31,7 @@ export const STRINGS = {
   choices: {
     hold: "held as the bank angle changes",
     dial: "vector shown",
+    quantity: "quantity over engine speed",
     side: "side of the engine",
     space: "direction from which the engine is seen rocking",
   },
@@ -75,6 +76,8 @@ export const STRINGS = {
     power: "power", exhaust: "exhaust", intake: "intake", compression: "compression",
   },
   marks: { fires: "fires", tdc: "top dead centre" },
+  sound: "sound",
+  soundSaid: "pulses as exhausts open, a bank in each ear; without pipes, silencers, intake and parts",
   firingOrder: "fires",
   every: (degrees) => `(every ${degrees}°)`,
   intervals: (degrees) => `(intervals ${degrees}°)`,

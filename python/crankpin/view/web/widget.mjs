@@ -2,16 +2,15 @@
 
 import { Compact } from "./compact.mjs";
 import { Full } from "./full.mjs";
-
-/** Traits that the page and Python share, by the names of the state's entries. */
-const SHARED = ["angle_deg", "rpm", "bank_angle_deg", "rod_ratio", "hold"];
+import { Mounted } from "./mounted.mjs";
 
 /** While the engine plays Python hears of the angle no more often than this, milliseconds. */
 const PACE = 100;
 
 function render({ model, el }) {
   const figures = model.get("figures");
-  const view = new (figures.compact ? Compact : Full)(figures);
+  const kind = figures.mounted ? Mounted : figures.compact ? Compact : Full;
+  const view = new kind(figures);
   // JupyterLab looks at the focused control before what it stands in: each must say that its keys
   // are not the notebook's.
   view.element.addEventListener("focusin",
@@ -19,7 +18,7 @@ function render({ model, el }) {
   el.append(view.element);
 
   const heard = Object.fromEntries(
-    SHARED.map((key) => [`change:${key}`, () => view.set({ [key]: model.get(key) })]));
+    kind.SHARED.map((key) => [`change:${key}`, () => view.set({ [key]: model.get(key) })]));
   heard["change:core"] = () => view.useCore(model.get("core"));
   for (const [event, act] of Object.entries(heard)) {
     model.on(event, act);
@@ -38,7 +37,7 @@ function render({ model, el }) {
   view.listeners.add((changed) => {
     for (const key of changed) {
       // What comes from Python is not sent back.
-      if (SHARED.includes(key) && view.state[key] !== model.get(key)) unsent.add(key);
+      if (kind.SHARED.includes(key) && view.state[key] !== model.get(key)) unsent.add(key);
     }
     if (!unsent.size) return;
     if (!view.state.playing) send();

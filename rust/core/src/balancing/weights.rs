@@ -83,7 +83,7 @@ const ROOM: f64 = 1e-6;
 /// What solvers may leave of their equations, in figures of order 1.
 pub(super) const ROUNDING: f64 = 1e-12;
 /// Targets below this are none.
-const NOTHING: f64 = 1e-200;
+const LEAST_TARGET: f64 = 1e-200;
 /// Bounds above this multiple of the target bind nowhere; those below its inverse leave nothing.
 const UNBOUNDED: f64 = 1e9;
 
@@ -114,8 +114,8 @@ pub fn least(request: &WeightRequest, cancel: &Cancel) -> Result<FittedWeights> 
     let scale = target.iter().map(|part| part.norm()).fold(0.0, f64::max);
     let room = |plane: &usize| request.bounds[*plane] > scale / UNBOUNDED;
     let kept: Vec<usize> = (0..request.z.len()).filter(room).collect();
-    if scale <= NOTHING || kept.is_empty() {
-        let reached = scale <= NOTHING;
+    if scale <= LEAST_TARGET || kept.is_empty() {
+        let reached = scale <= LEAST_TARGET;
         let missing = if reached { 0.0 } else { 1.0 };
         return Ok(FittedWeights { list: Vec::new(), reached, missing });
     }

@@ -11,7 +11,7 @@ const SAMPLES: usize = 12;
 /// 1 − cos(π/12) at most.
 const HIGH: f64 = 0.9;
 /// Part of the largest possible sum below which rounding makes the peaks.
-const NOTHING: f64 = 1e-9;
+const LEAST_PEAK: f64 = 1e-9;
 
 /// A phasor that turns as the variables change: `phasor · e^{i·rates·x}`.
 #[derive(Debug, Clone, Default)]
@@ -174,7 +174,7 @@ impl ObjectiveFunction {
             .collect();
         let size: f64 = phasors.iter().map(|each| each.value.norm()).sum();
         let highest = squares.iter().copied().fold(0.0, f64::max);
-        let least = (HIGH * HIGH * highest).max((NOTHING * size).powi(2));
+        let least = (HIGH * HIGH * highest).max((LEAST_PEAK * size).powi(2));
         let mut at: Vec<usize> = (0..count)
             .filter(|&k| {
                 let (before, after) = (squares[(k + count - 1) % count], squares[(k + 1) % count]);

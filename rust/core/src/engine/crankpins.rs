@@ -180,10 +180,10 @@ impl Engine {
 }
 
 /// Puts each cylinder into the first group to whose every member it is alike.
-fn grouped(cylinders: &[usize], alike: impl Fn(usize, usize) -> bool) -> Vec<Vec<usize>> {
+fn grouped(cylinders: &[usize], is_same: impl Fn(usize, usize) -> bool) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for &k in cylinders {
-        match groups.iter_mut().find(|group| group.iter().all(|&other| alike(k, other))) {
+        match groups.iter_mut().find(|group| group.iter().all(|&other| is_same(k, other))) {
             Some(group) => group.push(k),
             None => groups.push(vec![k]),
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::layout::Strokes;
-use super::{Crank, Details, Engine, Gas, Shaft, Station, Unbalance};
+use super::{Crank, Details, Engine, Gas, RodFigures, Shaft, Station, Unbalance};
 use crate::mechanism::slider_crank::Cylinder;
 use crate::mounts::Powertrain;
 use crate::mounts::file::PowertrainEntry;
@@ -83,15 +83,6 @@ struct PartsEntry {
     piston_mass: Option<f64>,
     #[serde(default, skip_serializing_if = "is_default")]
     rod: Option<RodFigures>,
-}
-
-/// A rod of known inertia; its length is that of the cylinder's.
-#[derive(Serialize, Deserialize, Clone, Copy, PartialEq)]
-#[serde(deny_unknown_fields)]
-struct RodFigures {
-    mass: f64,
-    inertia: f64,
-    to_crankpin: f64,
 }
 
 fn four() -> u32 {
@@ -233,11 +224,7 @@ impl PartsEntry {
             rod_inertia_excess: cylinder.rod_inertia_excess(),
             bore: details.bore,
             piston_mass: details.piston_mass,
-            rod: details.rod.map(|[mass, inertia, to_crankpin]| RodFigures {
-                mass,
-                inertia,
-                to_crankpin,
-            }),
+            rod: details.rod,
         }
     }
 
@@ -247,8 +234,7 @@ impl PartsEntry {
     }
 
     fn details(&self) -> Details {
-        let rod = self.rod.map(|rod| [rod.mass, rod.inertia, rod.to_crankpin]);
-        Details { bore: self.bore, piston_mass: self.piston_mass, rod }
+        Details { bore: self.bore, piston_mass: self.piston_mass, rod: self.rod }
     }
 }
 
@@ -550,7 +536,7 @@ fn check_tables(value: &serde_json::Value, place: &str) -> Result<()> {
         "mounts",
         "receivers",
     ];
-    const NUMBERS: [&str; 15] = [
+    const LISTS_OF_NUMBERS: [&str; 15] = [
         "mains",
         "theta_deg",
         "pressure",
@@ -576,7 +562,7 @@ fn check_tables(value: &serde_json::Value, place: &str) -> Result<()> {
             check_tables(value, key)?;
         }
         let Some(list) = value.as_array() else { continue };
-        if NUMBERS.contains(&key.as_str()) {
+        if LISTS_OF_NUMBERS.contains(&key.as_str()) {
             continue;
         }
         if !LISTS.contains(&key.as_str()) {
@@ -638,7 +624,11 @@ mod tests {
                 let details = |i: usize| Details {
                     bore: i.is_multiple_of(2).then_some(0.08),
                     piston_mass: i.is_multiple_of(3).then_some(0.3),
-                    rod: i.is_multiple_of(5).then_some([0.5, 1e-3, 0.04]),
+                    rod: i.is_multiple_of(5).then_some(RodFigures {
+                        mass: 0.5,
+                        inertia: 1e-3,
+                        to_crankpin: 0.04,
+                    }),
                 };
                 let details = (0..engine.stations().len()).map(details).collect();
                 let engine = engine.with_details(details).unwrap();

@@ -11,6 +11,8 @@ mod gas;
 pub mod layout;
 mod shaft;
 
+use serde::{Deserialize, Serialize};
+
 use self::banks::right_bank;
 pub use self::banks::{Banks, Hold, bank_angle_in_range};
 pub use self::gas::Gas;
@@ -45,15 +47,26 @@ pub struct Details {
     pub bore: Option<f64>,
     /// Mass of piston, pin and rings, kg; with `rod`, the rest of the reciprocating mass is the rod's.
     pub piston_mass: Option<f64>,
-    /// The rod's mass in kg, moment of inertia about its centre of mass in kg·m², and distance of
-    /// that from the crankpin in m.
-    pub rod: Option<[f64; 3]>,
+    /// The rod as a body.
+    pub rod: Option<RodFigures>,
+}
+
+/// A rod of known inertia; its length is that of the cylinder's.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RodFigures {
+    /// kg.
+    pub mass: f64,
+    /// Moment of inertia about the centre of mass, kg·m².
+    pub inertia: f64,
+    /// Distance of the centre of mass from the crankpin, m.
+    pub to_crankpin: f64,
 }
 
 impl Details {
     /// Mass of the rod that turns with the crankpin, kg, by the rod's length; zero without a rod.
     pub fn big_end(&self, rod_length: f64) -> Result<f64> {
-        self.rod.map_or(Ok(0.0), |[mass, inertia, to_crankpin]| {
+        self.rod.map_or(Ok(0.0), |RodFigures { mass, inertia, to_crankpin }| {
             Ok(Rod::new(mass, inertia, rod_length, to_crankpin)?.rotating_mass())
         })
     }
@@ -425,7 +438,7 @@ impl Engine {
         for Details { bore, piston_mass, rod } in &details {
             bore.map(|bore| limits::length("bore", bore)).transpose()?;
             piston_mass.map(|mass| limits::not_negative("piston_mass", mass)).transpose()?;
-            if let Some([mass, inertia, to_crankpin]) = *rod {
+            if let Some(RodFigures { mass, inertia, to_crankpin }) = *rod {
                 limits::not_negative("rod.mass", mass)?;
                 limits::inertia("rod.inertia", inertia)?;
                 limits::not_negative("rod.to_crankpin", to_crankpin)?;
@@ -601,7 +614,8 @@ mod tests {
         let bored = Details { bore: Some(0.08), ..Details::default() };
         assert!(engine.with_details(vec![bored]).is_err());
         assert_eq!(engine.with_details(vec![bored; 2]).unwrap().details(), [bored; 2]);
-        let negative = Details { rod: Some([-1.0, 0.0, 0.0]), ..bored };
+        let rod = RodFigures { mass: -1.0, inertia: 0.0, to_crankpin: 0.0 };
+        let negative = Details { rod: Some(rod), ..bored };
         assert!(engine.with_details(vec![negative; 2]).is_err());
     }
 

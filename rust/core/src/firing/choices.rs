@@ -1,10 +1,10 @@
-//! The ways in which an engine can fire: all of them, those of a named order, and the most even one.
+//! The schedules by which an engine can fire: all of them, those of a named order, and the most even one.
 
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-use super::tops;
-use super::way::Firing;
+use super::highest_points::highest_points;
+use super::schedule::Firing;
 use crate::engine::Engine;
 use crate::layout::{FiringOrder, Strokes};
 use crate::numbers::cancel::Cancel;
@@ -23,8 +23,8 @@ impl Firing {
         order: &FiringOrder,
         strokes: Strokes,
     ) -> Result<Vec<Self>> {
-        let tops = tops::tops(engine);
-        let count = tops.len();
+        let highest = highest_points(engine);
+        let count = highest.len();
         let (cylinders, together) = order.rotated();
         if cylinders.len() != count {
             let hint = format!("name each of the engine's {count} cylinders once");
@@ -34,7 +34,7 @@ impl Firing {
         // top once, where the second turn begins.
         let mut second_turn_at = Vec::new();
         for (k, pair) in (1..).zip(cylinders.windows(2)) {
-            let [before, now] = [pair[0], pair[1]].map(|cylinder| tops[cylinder]);
+            let [before, now] = [pair[0], pair[1]].map(|cylinder| highest[cylinder]);
             if together[k] {
                 if before != now {
                     return Ok(Vec::new());
@@ -58,14 +58,14 @@ impl Firing {
                 for &cylinder in &cylinders[split..] {
                     later[cylinder] = true;
                 }
-                Self::assemble(engine, &tops, strokes, &later)
+                Self::assemble(engine, &highest, strokes, &later)
             })
             .collect();
         most_even_first(&mut found);
         Ok(found)
     }
 
-    /// The most even way for an engine to fire in this order.
+    /// The most even schedule for an engine to fire in this order.
     pub fn named(
         engine: &Arc<Engine>,
         order: &FiringOrder,
@@ -77,9 +77,10 @@ impl Firing {
         }
         let count = engine.stations().len();
         let later = vec![false; count];
-        let within_a_turn = Self::assemble(engine, &tops::tops(engine), Strokes::Two, &later);
-        let tops = shorten(&within_a_turn.to_string().replace('-', ", "));
-        let mut hint = format!("this crank cannot fire in this order: its TDC sequence is {tops}");
+        let within_a_turn = Self::assemble(engine, &highest_points(engine), Strokes::Two, &later);
+        let sequence = shorten(&within_a_turn.to_string().replace('-', ", "));
+        let mut hint =
+            format!("this crank cannot fire in this order: its TDC sequence is {sequence}");
         if can_list(count, strokes) {
             let possible = Self::all(engine, strokes, cancel)?;
             hint = format!("{hint}. Possible orders, most even first: {}", listed(&possible));
@@ -87,7 +88,7 @@ impl Firing {
         Err(Error::value("firing_order", order, hint))
     }
 
-    /// The way in which an engine fires: the most even one in its own firing order, or the only one.
+    /// The schedule by which an engine fires: the most even one in its own firing order, or the only one.
     pub fn own(engine: &Arc<Engine>, cancel: &Cancel) -> Result<Self> {
         let strokes = engine.strokes();
         if !engine.firing_order().is_empty() {
@@ -104,10 +105,10 @@ impl Firing {
         Err(Error::value("firing_order", "None", hint))
     }
 
-    /// Every way for an engine to fire, the most even first.
+    /// Every schedule for an engine to fire, the most even first.
     pub fn all(engine: &Arc<Engine>, strokes: Strokes, cancel: &Cancel) -> Result<Vec<Self>> {
-        let tops = tops::tops(engine);
-        let count = tops.len();
+        let highest = highest_points(engine);
+        let count = highest.len();
         if !can_list(count, strokes) {
             let hint = format!(
                 "all firing orders are listed for up to {MOST_LISTED} cylinders, 2 to the power of {}; \
@@ -122,14 +123,14 @@ impl Firing {
             cancel.check()?;
             let bit = |i: usize| (choice << 1).checked_shr(i as u32).unwrap_or(0) & 1 == 1;
             let later: Vec<bool> = (0..count).map(bit).collect();
-            found.push(Self::assemble(engine, &tops, strokes, &later));
+            found.push(Self::assemble(engine, &highest, strokes, &later));
         }
         most_even_first(&mut found);
         Ok(found)
     }
 }
 
-/// True if every way to fire can be listed.
+/// True if every schedule can be listed.
 fn can_list(cylinders: usize, strokes: Strokes) -> bool {
     strokes == Strokes::Two || cylinders <= MOST_LISTED
 }
@@ -190,10 +191,10 @@ mod tests {
     fn an_order_within_one_turn_leaves_the_start_of_the_next_open() {
         let v6 = engine(&vee(60.0, 0.0, &[0.0, 120.0, 240.0], Side::Right));
         let order: FiringOrder = "1-2-5-6-3-4".parse().unwrap();
-        let ways = Firing::all_named(&v6, &order, Strokes::Four).unwrap();
-        assert_eq!(ways.len(), 6);
-        for way in &ways {
-            let mut sorted = intervals(way);
+        let schedules = Firing::all_named(&v6, &order, Strokes::Four).unwrap();
+        assert_eq!(schedules.len(), 6);
+        for schedule in &schedules {
+            let mut sorted = intervals(schedule);
             sorted.sort_by(f64::total_cmp);
             assert_eq!(sorted, [60.0, 60.0, 60.0, 60.0, 60.0, 420.0]);
         }
@@ -204,12 +205,12 @@ mod tests {
     #[test]
     fn cylinders_that_fire_together_are_told_and_read_back() {
         let boxer = engine(&vee(180.0, 180.0, &[0.0, 180.0], Side::Right));
-        let ways = Firing::all(&boxer, Strokes::Four, &Cancel::new()).unwrap();
-        assert_eq!(ways.len(), 8);
-        for way in &ways {
-            let order: FiringOrder = way.to_string().parse().unwrap();
-            assert_eq!(order.to_string(), way.to_string());
-            assert!(Firing::all_named(&boxer, &order, Strokes::Four).unwrap().contains(way));
+        let schedules = Firing::all(&boxer, Strokes::Four, &Cancel::new()).unwrap();
+        assert_eq!(schedules.len(), 8);
+        for schedule in &schedules {
+            let order: FiringOrder = schedule.to_string().parse().unwrap();
+            assert_eq!(order.to_string(), schedule.to_string());
+            assert!(Firing::all_named(&boxer, &order, Strokes::Four).unwrap().contains(schedule));
         }
         let together: FiringOrder = "3+4-1+2".parse().unwrap();
         let two_stroke = Firing::named(&boxer, &together, Strokes::Two, &Cancel::new()).unwrap();
@@ -226,30 +227,30 @@ mod tests {
     fn every_way_to_fire_is_listed_once_and_tells_itself() {
         let tdcs = [40.0, 130.0, 305.5, 40.0];
         let engine = placed(&tdcs.map(|tdc| (cylinder(0.0), tdc, 90.0)));
-        let ways = Firing::all(&engine, Strokes::Four, &Cancel::new()).unwrap();
-        assert_eq!(ways.len(), 8);
-        let mut choices: Vec<Vec<bool>> = ways.iter().map(Firing::later).collect();
-        for way in &ways {
-            let later = way.later();
+        let schedules = Firing::all(&engine, Strokes::Four, &Cancel::new()).unwrap();
+        assert_eq!(schedules.len(), 8);
+        let mut choices: Vec<Vec<bool>> = schedules.iter().map(Firing::later).collect();
+        for schedule in &schedules {
+            let later = schedule.later();
             assert!(!later[0]);
-            assert_eq!(&Firing::with_later(&engine, Strokes::Four, &later).unwrap(), way);
+            assert_eq!(&Firing::with_later(&engine, Strokes::Four, &later).unwrap(), schedule);
             // Factor after the first firing, and the angles 40° on.
             let after = |i: usize| {
                 let top: f64 = (tdcs[i] - tdcs[0] + 360.0) % 360.0;
                 top + if later[i] { 360.0 } else { 0.0 }
             };
             let angles: Vec<f64> = (0..4).map(|i| (after(i) + 40.0) % 720.0).collect();
-            assert_eq!(figures(&way.angles()), angles);
-            let mut times: Vec<f64> = way.order().iter().map(|&i| after(i)).collect();
-            assert!(times.is_sorted() && way.order()[0] == 0);
+            assert_eq!(figures(&schedule.angles()), angles);
+            let mut times: Vec<f64> = schedule.order().iter().map(|&i| after(i)).collect();
+            assert!(times.is_sorted() && schedule.order()[0] == 0);
             times.push(720.0);
             let gaps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
-            assert_eq!(intervals(way), gaps);
+            assert_eq!(intervals(schedule), gaps);
             let square: f64 = gaps.iter().map(|gap| (gap - 180.0).powi(2)).sum();
-            assert!((way.unevenness() - (square / 4.0).sqrt()).abs() < 1e-12);
-            assert!(!way.even());
+            assert!((schedule.unevenness() - (square / 4.0).sqrt()).abs() < 1e-12);
+            assert!(!schedule.even());
         }
-        assert!(ways.is_sorted_by(|a, b| a.unevenness() <= b.unevenness() + 1e-6));
+        assert!(schedules.is_sorted_by(|a, b| a.unevenness() <= b.unevenness() + 1e-6));
         choices.sort();
         choices.dedup();
         assert_eq!(choices.len(), 8);
@@ -266,11 +267,11 @@ mod tests {
 
     #[test]
     fn the_most_even_way_comes_first_however_near_the_others() {
-        // Half of the ways come within a degree of another.
+        // Half of the schedules come within a degree of another.
         let tdcs = [0.0, 90.3, 180.4, 270.9];
         let engine = placed(&tdcs.map(|tdc| (cylinder(0.0), tdc, 90.0)));
-        let ways = Firing::all(&engine, Strokes::Four, &Cancel::new()).unwrap();
-        let unevenness: Vec<f64> = ways.iter().map(Firing::unevenness).collect();
+        let schedules = Firing::all(&engine, Strokes::Four, &Cancel::new()).unwrap();
+        let unevenness: Vec<f64> = schedules.iter().map(Firing::unevenness).collect();
         assert!(
             unevenness.windows(2).any(|pair| 1e-3 < pair[1] - pair[0] && pair[1] - pair[0] < 0.5)
         );

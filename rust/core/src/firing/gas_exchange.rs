@@ -1,7 +1,7 @@
 //! Strokes, and when valves and ports are open.
 
-use super::tops::{same, top_to_bottom};
-use super::way::Firing;
+use super::highest_points::{same, top_to_bottom};
+use super::schedule::Firing;
 use crate::engine::Station;
 use crate::layout::{MOST_ROUNDING, Strokes};
 use crate::numbers::angle::Angle;

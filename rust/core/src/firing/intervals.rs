@@ -1,6 +1,6 @@
 //! Groups of cylinders, and the crank angles between firings within them.
 
-use super::way::Firing;
+use super::schedule::Firing;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
 

@@ -8,15 +8,15 @@
 //! Angles that are parts of a turn are exact, and so is what is reported as even or simultaneous;
 //! others are distinguished when they differ by more than [`crate::layout::MOST_ROUNDING`].
 //!
-//! Imports run downwards: `tops` → [`way`] → [`choices`], [`intervals`],
+//! Imports run downwards: `highest_points` → [`schedule`] → [`choices`], [`intervals`],
 //! [`gas_exchange`]; [`pins`] is independent.
 
 pub mod choices;
 pub mod gas_exchange;
+mod highest_points;
 pub mod intervals;
 pub mod pins;
-mod tops;
-pub mod way;
+pub mod schedule;
 
 #[cfg(test)]
 mod tests;
@@ -25,4 +25,4 @@ pub use choices::MOST_LISTED;
 pub use gas_exchange::{Overlap, Period, Periods, Timing};
 pub use intervals::Gap;
 pub use pins::{Throws, inline_throws, vee_throws};
-pub use way::Firing;
+pub use schedule::Firing;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::source::Source;
-use super::{Loads, count, find_or_push};
+use super::{LoadList, count, find_or_push};
 use crate::Complex64;
 use crate::mechanism::Mechanism;
 use crate::mechanism::slider_crank::CrankPosition;
@@ -71,7 +71,7 @@ pub(crate) struct Kinematics {
 }
 
 impl Kinematics {
-    pub fn new(loads: &Loads) -> Self {
+    pub fn new(loads: &LoadList) -> Self {
         let (mut sums, mut zero_bounds) = (Vec::<LoadSum>::new(), [0.0; 2]);
         let count = count(&loads.list, false);
         for load in &loads.list {

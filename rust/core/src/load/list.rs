@@ -15,7 +15,7 @@ use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 
 /// All loads of an engine about a reference plane.
-pub(crate) struct Loads {
+pub(crate) struct LoadList {
     /// Pistons, one for each cylinder; unbalances of cranks, then of shafts; pressures; rods.
     pub list: Vec<Load>,
     /// One of each kind: loads refer to them by index.
@@ -24,7 +24,7 @@ pub(crate) struct Loads {
     pub reference: f64,
 }
 
-impl Loads {
+impl LoadList {
     /// Loads of an engine. Pistons of equal crank radius, rod length and pin offset share a source, hence
     /// their harmonics; a spectrum is one source for all, with masses and radius in it.
     pub fn new(engine: &Engine, reference: f64) -> Self {

@@ -33,7 +33,7 @@ pub(crate) mod source;
 mod spectrum;
 mod unbalance;
 
-pub(crate) use self::list::Loads;
+pub(crate) use self::list::LoadList;
 pub(crate) use self::place::Place;
 use self::source::{Column, ForcePart, Parts, Repeats, Scaling};
 use crate::Complex64;
@@ -45,7 +45,7 @@ use crate::wrench::Planar;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Load {
     pub place: Place,
-    /// Index into [`Loads::sources`].
+    /// Index into [`LoadList::sources`].
     pub source: usize,
     /// Those of the source.
     pub parts: Parts,
@@ -59,7 +59,7 @@ pub(crate) struct Load {
 /// Factor of a sum, which depends on the order: an amplitude of a source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub(crate) struct Harmonic {
-    /// Index into [`Loads::sources`].
+    /// Index into [`LoadList::sources`].
     pub source: usize,
     pub column: Column,
 }

@@ -33,6 +33,22 @@ pub(crate) fn jet(coefficients: &[f64], x: f64) -> [f64; 3] {
     jets(coefficients, &[x]).map(|[value]| value)
 }
 
+/// Sums of a Chebyshev series at some places side by side, by Clenshaw's recurrence.
+#[inline(always)]
+pub(crate) fn values<const N: usize>(coefficients: &[f64], x: &[f64; N]) -> [f64; N] {
+    let [mut b, mut b_before] = [[0.0; N]; 2];
+    for &c in coefficients[1..].iter().rev() {
+        for i in 0..N {
+            let next = (2.0 * x[i]).mul_add(b[i], c - b_before[i]);
+            (b_before[i], b[i]) = (b[i], next);
+        }
+    }
+    for i in 0..N {
+        b[i] = x[i].mul_add(b[i], coefficients[0] - b_before[i]);
+    }
+    b
+}
+
 /// Sums of a Chebyshev series at some places side by side, and their first two derivatives, by
 /// Clenshaw's recurrence.
 #[inline(always)]

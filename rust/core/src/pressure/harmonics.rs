@@ -1,6 +1,6 @@
 //! Harmonics of the torque of gas pressure, and a bound of those left out.
 
-use std::sync::LazyLock;
+use std::sync::{LazyLock, Mutex};
 
 use super::{Cycle, period_deg};
 use crate::Complex64;
@@ -8,7 +8,7 @@ use crate::engine::layout::Strokes;
 use crate::mechanism::slider_crank::{Motion, Proportions};
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::cancel::Cancel;
-use crate::numbers::chebyshev::{jet, jets};
+use crate::numbers::chebyshev::{jet, jets, values};
 use crate::numbers::error::Result;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
@@ -33,10 +33,39 @@ impl GasTorque {
     }
 }
 
+/// The last torque of a cycle that was integrated, alone and with squares of its derivatives: all readings
+/// of an engine need the same one, at any speed.
+#[derive(Debug, Default)]
+pub(super) struct LastTorques([Mutex<Option<Integrated>>; 2]);
+
+/// A torque, and what it is of.
+#[derive(Debug)]
+struct Integrated {
+    proportions: Proportions,
+    crankcase: f64,
+    orders: Vec<Order>,
+    torque: GasTorque,
+    squares: [f64; 2],
+}
+
+impl Clone for LastTorques {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+/// They are no part of a cycle.
+impl PartialEq for LastTorques {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
 /// Nodes that are summed at once: they stay in the cache.
 const NODES_AT_ONCE: usize = 512;
 /// Numbers that are summed side by side.
 const SUMMED_SIDE_BY_SIDE: usize = 8;
+type Lanes = [f64; SUMMED_SIDE_BY_SIDE];
 /// Orders after which powers are computed afresh: rounding grows with each multiplication.
 const FRESH: usize = 32;
 /// Part of the total within which the quadrature of a squared slope or bend is exact.
@@ -80,6 +109,96 @@ struct Abscissae {
     /// Sums over all points so far of the weight times the squares of the torque's slope and bend, per
     /// radian.
     squares: [f64; 2],
+    /// Parts of a panel that are left.
+    parts: Vec<(f64, f64)>,
+}
+
+/// Pressure on a panel.
+struct PressurePanel<'a> {
+    /// Of its Chebyshev series.
+    coefficients: &'a [f64],
+    /// Degrees.
+    middle: f64,
+    /// Half its width, radians.
+    half: f64,
+}
+
+/// Motion of a piston, and where it is singular.
+struct PistonMotion<'a> {
+    proportions: &'a Proportions,
+    /// Distances of the singularities above ±90° from the real axis.
+    heights: [f64; 2],
+}
+
+impl<'a> PistonMotion<'a> {
+    /// The rod would stand across the bore at sin θ = e/r ± l/r.
+    fn new(proportions: &'a Proportions) -> Self {
+        let heights = [proportions.above.high, proportions.below.high].map(|beyond| {
+            // acosh(1 + x) without loss of a small x.
+            (beyond + (beyond * (beyond + 2.0)).sqrt()).ln_1p()
+        });
+        Self { proportions, heights }
+    }
+
+    /// Distance of a crank angle from the nearest singularity in the complex plane.
+    fn to_singularity(&self, theta: f64) -> f64 {
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let [above, below] = [quarter, -quarter].map(|at| {
+            let turns = (theta - at) / std::f64::consts::TAU;
+            (turns - turns.round()) * std::f64::consts::TAU
+        });
+        above.hypot(self.heights[0]).min(below.hypot(self.heights[1]))
+    }
+}
+
+impl Abscissae {
+    /// Append some nodes of a panel: the first of these places and weights.
+    #[inline(always)]
+    fn add<const SQUARES: bool>(
+        &mut self,
+        (places, weights, count): (&Lanes, &Lanes, usize),
+        panel: &PressurePanel,
+        proportions: &Proportions,
+        crankcase: f64,
+    ) {
+        let (half, half_deg) = (panel.half, panel.half.to_degrees());
+        let [mut degrees, mut sin, mut cos, mut weighted] = [[0.0; SUMMED_SIDE_BY_SIDE]; 4];
+        for (degrees, place) in degrees.iter_mut().zip(places) {
+            *degrees = panel.middle + half_deg * place;
+        }
+        sin_cos_degrees(&degrees, &mut sin, &mut cos);
+        let [pressure, mut slope, mut bend] = if SQUARES {
+            jets(panel.coefficients, places)
+        } else {
+            [
+                values(panel.coefficients, places),
+                [0.0; SUMMED_SIDE_BY_SIDE],
+                [0.0; SUMMED_SIDE_BY_SIDE],
+            ]
+        };
+        for k in 0..SUMMED_SIDE_BY_SIDE {
+            let motion = proportions.motion(sin[k], cos[k]);
+            let gauge = pressure[k] - crankcase;
+            // The piston's way down is minus its distance from the crank.
+            weighted[k] = weights[k] * (-gauge * motion.velocity);
+            if SQUARES {
+                let (of_slope, of_bend) = (slope[k] / half, bend[k] / (half * half));
+                slope[k] = of_slope * motion.velocity + gauge * motion.acceleration;
+                bend[k] = of_bend * motion.velocity
+                    + 2.0 * of_slope * motion.acceleration
+                    + gauge * jerk(proportions, &motion, sin[k], cos[k]);
+            }
+        }
+        self.theta_deg.extend_from_slice(&degrees[..count]);
+        self.weighted.extend_from_slice(&weighted[..count]);
+        if SQUARES {
+            for (square, derivative) in self.squares.iter_mut().zip([slope, bend]) {
+                for (weight, derivative) in weights.iter().zip(&derivative).take(count) {
+                    *square += weight * derivative * derivative;
+                }
+            }
+        }
+    }
 }
 
 impl Cycle {
@@ -135,6 +254,34 @@ impl Cycle {
         orders: &[Order],
         cancel: &Cancel,
     ) -> Result<(GasTorque, [f64; 2])> {
+        // None waits for a lock: a forked child has no thread that would release it.
+        let last = self.last_torques.0[usize::from(SQUARES)].try_lock();
+        let known = last.as_ref().ok().and_then(|last| (**last).as_ref());
+        let is_it = |known: &&Integrated| {
+            known.proportions == *proportions
+                && known.crankcase == crankcase
+                && known.orders == orders
+        };
+        if let Some(Integrated { torque, squares, .. }) = known.filter(is_it) {
+            return Ok((torque.clone(), *squares));
+        }
+        drop(last);
+        let (torque, squares) =
+            self.integrated::<SQUARES>(proportions, crankcase, orders, cancel)?;
+        if let Ok(mut last) = self.last_torques.0[usize::from(SQUARES)].try_lock() {
+            let (proportions, orders, torque) = (*proportions, orders.to_vec(), torque.clone());
+            *last = Some(Integrated { proportions, crankcase, orders, torque, squares });
+        }
+        Ok((torque, squares))
+    }
+
+    fn integrated<const SQUARES: bool>(
+        &self,
+        proportions: &Proportions,
+        crankcase: f64,
+        orders: &[Order],
+        cancel: &Cancel,
+    ) -> Result<(GasTorque, [f64; 2])> {
         let period = period_deg(self.strokes).to_radians();
         let mut sorted: Vec<usize> = (0..orders.len()).collect();
         sorted.sort_unstable_by_key(|&k| orders[k]);
@@ -144,6 +291,7 @@ impl Cycle {
         let highest = halves.last().map_or(0.0, |&halves| 0.5 * f64::from(halves));
         let mut sums: Vec<Complex64> = memory::zeros(sorted.len())?;
         let (mut mean, mut points) = (0.0, Abscissae::default());
+        let motion = PistonMotion::new(proportions);
         let mut powers = Powers::default();
         let mut finish = |points: &mut Abscissae| -> Result<()> {
             mean += points.weighted.iter().sum::<f64>();
@@ -157,7 +305,7 @@ impl Cycle {
         };
         for panel in 0..self.panels.edges.len() - 1 {
             let points = &mut points;
-            self.nodes::<SQUARES>(panel, proportions, crankcase, highest, points, &mut finish)?;
+            self.nodes::<SQUARES>(panel, &motion, crankcase, highest, points, &mut finish)?;
         }
         finish(&mut points)?;
         let mut phasors = memory::zeros(orders.len())?;
@@ -179,64 +327,45 @@ impl Cycle {
     fn nodes<const SQUARES: bool>(
         &self,
         panel: usize,
-        proportions: &Proportions,
+        motion: &PistonMotion,
         crankcase: f64,
         highest: f64,
         points: &mut Abscissae,
         finish: &mut impl FnMut(&mut Abscissae) -> Result<()>,
     ) -> Result<()> {
         let (from, to) = (self.panels.edges[panel], self.panels.edges[panel + 1]);
-        let coefficients = self.panels.panel(panel);
-        let half = 0.5 * (to - from).to_radians();
-        let middle = 0.5 * (from + to);
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from).to_radians());
+        let panel = PressurePanel { coefficients: self.panels.panel(panel), middle, half };
         let centred = middle.to_radians();
         let extra = self.panels.degree.div_ceil(2) as u32;
         // Parts of the panel, as intervals of [−1, 1].
-        let mut parts = vec![(-1.0, 1.0)];
-        while let Some((low, high)) = parts.pop() {
+        points.parts.push((-1.0, 1.0));
+        while let Some((low, high)) = points.parts.pop() {
             let (centre, width): (f64, f64) = (0.5 * (low + high), 0.5 * (high - low));
             let theta = centred + half * centre;
-            let distance = to_singularity(proportions, theta) / (half * width);
+            let distance = motion.to_singularity(theta) / (half * width);
             let phase = highest * half * width;
             let rule = RULES.iter().find(|rule| phase <= rule.phase && distance >= rule.distance);
             // A panel that is a point to rounding has no parts.
             let Some(rule) = rule.or(if width < 1e-15 { RULES.last() } else { None }) else {
-                parts.extend([(centre, high), (low, centre)]);
+                points.parts.extend([(centre, high), (low, centre)]);
                 continue;
             };
             vectorised(
                 #[inline(always)]
                 || {
                     for rule in NODES[(rule.points + extra) as usize].chunks(SUMMED_SIDE_BY_SIDE) {
-                        let mut places = [0.0; SUMMED_SIDE_BY_SIDE];
-                        for (place, (x, _)) in places.iter_mut().zip(rule) {
-                            *place = centre + width * x;
+                        let [mut places, mut weights] = [[0.0; SUMMED_SIDE_BY_SIDE]; 2];
+                        for (k, (x, weight)) in rule.iter().enumerate() {
+                            places[k] = centre + width * x;
+                            weights[k] = weight * half * width;
                         }
-                        let degrees = places.map(|place| middle + half.to_degrees() * place);
-                        let [mut sin, mut cos] = [[0.0; SUMMED_SIDE_BY_SIDE]; 2];
-                        sin_cos_degrees(&degrees, &mut sin, &mut cos);
-                        let [pressure, slope, bend] = jets(coefficients, &places);
-                        for (k, (_, weight)) in rule.iter().enumerate() {
-                            let motion = proportions.motion(sin[k], cos[k]);
-                            let (gauge, weight) = (pressure[k] - crankcase, weight * half * width);
-                            // The piston's way down is minus its distance from the crank.
-                            let torque = -gauge * motion.velocity;
-                            points.theta_deg.push(degrees[k]);
-                            points.weighted.push(weight * torque);
-                            if !SQUARES {
-                                continue;
-                            }
-                            let (slope, bend) = (slope[k] / half, bend[k] / half.powi(2));
-                            let of_torque = [
-                                slope * motion.velocity + gauge * motion.acceleration,
-                                bend * motion.velocity
-                                    + 2.0 * slope * motion.acceleration
-                                    + gauge * jerk(proportions, &motion, sin[k], cos[k]),
-                            ];
-                            for (square, derivative) in points.squares.iter_mut().zip(of_torque) {
-                                *square += weight * derivative * derivative;
-                            }
-                        }
+                        points.add::<SQUARES>(
+                            (&places, &weights, rule.len()),
+                            &panel,
+                            motion.proportions,
+                            crankcase,
+                        );
                     }
                 },
             );
@@ -313,13 +442,6 @@ impl Wave {
         self.sin.resize(theta_deg.len(), 0.0);
         sin_cos_degrees(&self.angles, &mut self.sin, &mut self.cos);
     }
-
-    #[inline(always)]
-    fn lanes(
-        &self,
-    ) -> impl Iterator<Item = (&[f64; SUMMED_SIDE_BY_SIDE], &[f64; SUMMED_SIDE_BY_SIDE])> {
-        self.cos.as_chunks().0.iter().zip(self.sin.as_chunks().0)
-    }
 }
 
 impl Powers {
@@ -341,55 +463,44 @@ impl Powers {
         for (i, (&order, sum)) in halves.iter().zip(sums).enumerate() {
             let gap = order - before;
             before = order;
-            if gap > 2 || i % FRESH == 0 {
+            *sum += if gap > 2 || i % FRESH == 0 {
                 self.wave.fill(theta_deg, order);
                 cancel.check()?;
+                self.sum::<false>(weighted)
             } else {
                 if gap != self.gap {
                     self.step.fill(theta_deg, gap);
                     self.gap = gap;
                 }
-                self.turn();
-            }
-            *sum += self.sum(weighted);
+                self.sum::<true>(weighted)
+            };
         }
         Ok(())
     }
 
-    /// Turn the wave by the step.
+    /// Sum of torque times the conjugate wave, by lanes; of the wave turned by the step, or as it is.
     #[inline(always)]
-    fn turn(&mut self) {
-        let waves = self.wave.cos.iter_mut().zip(&mut self.wave.sin);
-        for ((cos, sin), (&c, &s)) in waves.zip(self.step.cos.iter().zip(&self.step.sin)) {
-            (*cos, *sin) = (*cos * c - *sin * s, *cos * s + *sin * c);
-        }
-    }
-
-    /// Sum of torque times the conjugate wave, by lanes.
-    #[inline(always)]
-    fn sum(&self, weighted: &[f64]) -> Complex64 {
+    fn sum<const TURNED: bool>(&mut self, weighted: &[f64]) -> Complex64 {
         let (mut re, mut im) = ([0.0; SUMMED_SIDE_BY_SIDE], [0.0; SUMMED_SIDE_BY_SIDE]);
-        for (weighted, (cos, sin)) in
-            weighted.as_chunks::<SUMMED_SIDE_BY_SIDE>().0.iter().zip(self.wave.lanes())
-        {
+        let Self { wave, step, .. } = self;
+        let waves = wave.cos.as_chunks_mut().0.iter_mut().zip(wave.sin.as_chunks_mut().0);
+        let mut steps = step.cos.as_chunks().0.iter().zip(step.sin.as_chunks().0);
+        for (weighted, (cos, sin)) in weighted.as_chunks().0.iter().zip(waves) {
+            let (cos, sin): (&mut Lanes, &mut Lanes) = (cos, sin);
+            let weighted: &Lanes = weighted;
+            if TURNED && let Some((c, s)) = steps.next() {
+                let (c, s): (&Lanes, &Lanes) = (c, s);
+                for k in 0..SUMMED_SIDE_BY_SIDE {
+                    let before = cos[k];
+                    cos[k] = before.mul_add(c[k], -(sin[k] * s[k]));
+                    sin[k] = before.mul_add(s[k], sin[k] * c[k]);
+                }
+            }
             for k in 0..SUMMED_SIDE_BY_SIDE {
-                re[k] += weighted[k] * cos[k];
-                im[k] -= weighted[k] * sin[k];
+                re[k] = weighted[k].mul_add(cos[k], re[k]);
+                im[k] = (-weighted[k]).mul_add(sin[k], im[k]);
             }
         }
         Complex64::new(re.iter().sum(), im.iter().sum())
     }
-}
-
-/// Distance of a crank angle in the complex plane from the nearest singularity of the piston's motion:
-/// where the rod would stand across the bore, sin θ = e/r ± l/r.
-fn to_singularity(proportions: &Proportions, theta: f64) -> f64 {
-    let distance = |at: f64, beyond: f64| {
-        // acosh(1 + x) without loss of a small x.
-        let height = (beyond + (beyond * (beyond + 2.0)).sqrt()).ln_1p();
-        let turns = (theta - at) / std::f64::consts::TAU;
-        ((turns - turns.round()) * std::f64::consts::TAU).hypot(height)
-    };
-    let quarter = std::f64::consts::FRAC_PI_2;
-    distance(quarter, proportions.above.high).min(distance(-quarter, proportions.below.high))
 }

@@ -13,6 +13,7 @@ pub mod map;
 use serde::{Deserialize, Serialize};
 
 pub use self::harmonics::GasTorque;
+use self::harmonics::LastTorques;
 use self::interpolant::Panels;
 use crate::engine::layout::Strokes;
 use crate::numbers::crank_angles::{FEWEST_POINTS, check_grid, repeats_first};
@@ -50,6 +51,7 @@ pub struct Cycle {
     given: Given,
     strokes: Strokes,
     panels: Panels,
+    last_torques: LastTorques,
 }
 
 /// What a cycle is made of.
@@ -115,7 +117,7 @@ impl Cycle {
             }
             Some(degree) => Panels::of_chebyshev(angles, values, period, degree)?,
         };
-        Ok(Self { given, strokes, panels })
+        Ok(Self { given, strokes, panels, last_torques: LastTorques::default() })
     }
 
     /// What it was made of.

@@ -228,6 +228,34 @@ fn tails_bound_what_is_left_out_and_are_close() {
 }
 
 #[test]
+fn a_torque_that_is_kept_is_that_of_its_own_question() {
+    let cycle = table(even(90, 720.0), smooth, 4).unwrap();
+    let orders = |halves: &[u32]| -> Vec<Order> {
+        halves.iter().map(|&h| Order::from_halves(h).unwrap()).collect()
+    };
+    let mut questions = Vec::new();
+    for offset in [0.0, 0.1] {
+        for crankcase in [0.0, ATMOSPHERE] {
+            for halves in [&[1, 2, 3][..], &[2], &[3, 2, 1]] {
+                let p = Proportions::new(0.3, offset).unwrap();
+                questions.push((p, crankcase, orders(halves)));
+            }
+        }
+    }
+    let answers = |(p, crankcase, orders): &(Proportions, f64, Vec<Order>), cycle: &Cycle| {
+        let torque = cycle.torque_of(p, *crankcase, orders, &Cancel::new()).unwrap();
+        (torque, cycle.torque_up_to(p, *crankcase, orders[0], &Cancel::new()).unwrap())
+    };
+    for question in &questions {
+        // A copy keeps nothing.
+        let alone = answers(question, &cycle.clone());
+        for _ in 0..2 {
+            assert_eq!(answers(question, &cycle), alone);
+        }
+    }
+}
+
+#[test]
 fn a_two_stroke_has_whole_orders_alone() {
     let p = Proportions::new(0.3, 0.0).unwrap();
     let of = |theta: f64| 1e5 / (1.1 - theta.to_radians().cos());

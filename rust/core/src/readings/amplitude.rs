@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::Complex64;
 use crate::load::source::{Column, Scaling, Source, TorqueAmplitudes};
-use crate::load::{Harmonic, Load, Loads, Phasors, Wanted, count, superpose};
+use crate::load::{Harmonic, Load, LoadList, Phasors, Wanted, count, superpose};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
@@ -17,7 +17,7 @@ use crate::wrench::{Planar, Wrench, rounding, snapped};
 /// Torque is zero where it is not wanted; a spectrum of forces does not determine it. The means are
 /// those of the torques of pressure on the block and on the crank. `sources` are those of the loads.
 pub(crate) fn wrenches(
-    loads: &Loads,
+    loads: &LoadList,
     sources: &[Arc<dyn Source>],
     torque: bool,
     orders: &[Order],

@@ -2,7 +2,7 @@
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::{Load, Loads, count};
+use crate::load::{Load, LoadList, count};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -232,7 +232,7 @@ pub fn balance(
     let omega = angular_speed(request.rpm)?;
     let reference = engine.reference(request.reference_z)?;
     let torque = request.torque && engine.spectrum().is_none();
-    let loads = Loads::new(engine, reference);
+    let loads = LoadList::new(engine, reference);
     let square = omega * omega;
     let chosen = match orders {
         Orders::Given(orders) => {

@@ -1,4 +1,4 @@
-//! A few orders that reach a tolerance, and the bound of what they leave out.
+//! A few orders that reach a tolerance, and the bound of what they leave out: of balances and of sweeps.
 //!
 //! What is left out is at most the sum of the sizes of its orders, |forward| + |backward| after the
 //! layout's cancellations. Orders are evaluated up to where all above them are negligible, and that
@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use crate::engine::{Engine, Origin};
 use crate::load::source::{Repeats, Scale, Scaling, Source, Tail};
-use crate::load::{Load, Loads, count};
+use crate::load::{Load, LoadList, count};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -31,7 +31,7 @@ const HIGHEST_OF_GAS: u32 = 192;
 
 /// Order up to which the torque of pressure is integrated first; then to four times it, as far as
 /// [`HIGHEST_OF_GAS`].
-pub(crate) const FIRST_OF_GAS: u32 = 48;
+const FIRST_OF_GAS: u32 = 48;
 
 /// Orders chosen for an engine, those of inertia over ω² so that they serve any speed.
 pub(crate) struct Chosen {
@@ -59,7 +59,8 @@ pub(crate) struct OrderSums {
 }
 
 impl OrderSums {
-    fn of(wrench: &Wrench) -> Self {
+    /// What an order adds at most.
+    pub fn of(wrench: &Wrench) -> Self {
         let Wrench { force, moment, inertia, gas } = wrench;
         Self {
             force: force.peak(),
@@ -70,7 +71,7 @@ impl OrderSums {
     }
 
     /// Side by side.
-    pub fn values(self) -> [f64; 4] {
+    fn values(self) -> [f64; 4] {
         [self.force, self.moment, self.inertia, self.gas]
     }
 
@@ -78,8 +79,15 @@ impl OrderSums {
         Self { force, moment, inertia, gas }
     }
 
+    /// The larger of both, sum by sum.
+    pub fn max(self, other: Self) -> Self {
+        let mut largest = self.values();
+        largest.iter_mut().zip(other.values()).for_each(|(a, b)| *a = a.max(b));
+        Self::from_values(largest)
+    }
+
     /// All times a tolerance.
-    pub fn scaled(self, rtol: f64) -> Self {
+    fn scaled(self, rtol: f64) -> Self {
         Self::from_values(self.values().map(|value| rtol * value))
     }
 
@@ -93,40 +101,101 @@ impl OrderSums {
     }
 }
 
+/// An engine whose orders are chosen: its loads, and their sources where harmonics decrease most slowly.
+pub(crate) struct Candidate<'a> {
+    pub engine: &'a Engine,
+    pub loads: &'a LoadList,
+    pub sources: Vec<Arc<dyn Source>>,
+    /// Whether it is the one before it with other pressures.
+    pub repeats: bool,
+}
+
+/// The choice of a few orders for some engines, whose sizes are still to be evaluated.
+pub(crate) struct Choice {
+    /// Orders to evaluate, ascending.
+    pub orders: Vec<Order>,
+    /// Orders of the torque of pressure, of each engine.
+    pub gas: Vec<GasOrders>,
+    /// Bounds of what orders above those add, of each engine.
+    pub rest: Vec<OrderSums>,
+    /// What may be left out, of each engine.
+    allowed: Vec<OrderSums>,
+}
+
+impl Choice {
+    /// Among the orders that leave out at most `rtol`.
+    pub fn new(rtol: f64, candidates: &[Candidate], torque: bool, cancel: &Cancel) -> Result<Self> {
+        let rtol = limits::tolerance(rtol)?;
+        let (mut orders, mut allowed) = (Vec::new(), Vec::new());
+        for Candidate { engine, loads, sources, repeats } in candidates {
+            cancel.check()?;
+            let scales = scales(engine, loads);
+            if !repeats {
+                orders.extend(self::candidates(rtol, &scales, loads, sources, torque)?);
+            }
+            allowed.push(scales.scaled(rtol));
+        }
+        orders.sort_unstable();
+        orders.dedup();
+        // As far as the others at once, which have a part of gas too.
+        let last = orders.last().map_or(0, |order| order.halves().div_ceil(2));
+        let highest = last.clamp(FIRST_OF_GAS, HIGHEST_OF_GAS);
+        let (mut of_gas, mut rest, mut all) = (Vec::new(), Vec::new(), orders.clone());
+        for (Candidate { loads, sources, repeats, .. }, allowed) in
+            candidates.iter().zip(&mut allowed)
+        {
+            let inertia = match rest.last() {
+                Some(&before) if *repeats => before,
+                _ => tail(loads, &orders, torque, sources),
+            };
+            let gas = if torque {
+                GasOrders::new(rtol, loads, sources, highest, cancel)?
+            } else {
+                GasOrders { sources: sources.clone(), ..GasOrders::default() }
+            };
+            rest.push(OrderSums { gas: gas.tail, ..inertia });
+            allowed.gas = gas.allowed;
+            all.extend(&gas.orders);
+            of_gas.push(gas);
+        }
+        all.sort_unstable();
+        all.dedup();
+        Ok(Self { orders: all, gas: of_gas, rest, allowed })
+    }
+
+    /// Which orders are kept, of sizes of each order and engine, and bounds of what each engine leaves
+    /// out.
+    pub fn few(&self, sizes: &[Vec<OrderSums>]) -> (Vec<bool>, Vec<OrderSums>) {
+        let side_by_side = |sums: &[OrderSums]| -> Vec<f64> {
+            sums.iter().flat_map(|sums| sums.values()).collect()
+        };
+        let sizes: Vec<Vec<f64>> = sizes.iter().map(|sums| side_by_side(sums)).collect();
+        let mut lost = side_by_side(&self.rest);
+        let kept = few(&sizes, &side_by_side(&self.allowed), &mut lost);
+        (kept, lost.as_chunks().0.iter().map(|&lost| OrderSums::from_values(lost)).collect())
+    }
+}
+
 /// The orders of an engine that leave out at most `rtol`.
 pub(crate) fn within(
     rtol: f64,
     engine: &Engine,
-    loads: &Loads,
+    loads: &LoadList,
     torque: bool,
     cancel: &Cancel,
 ) -> Result<Chosen> {
-    let rtol = limits::tolerance(rtol)?;
-    let scales = scales(engine, loads);
-    let mut orders = candidates(rtol, &scales, loads, &loads.sources, torque)?;
-    let tail = tail(loads, orders.last(), torque, &loads.sources);
-    let mut gas = GasOrders { sources: loads.sources.clone(), ..GasOrders::default() };
-    if torque {
-        // As far as the others at once, which have a part of gas too.
-        let last = orders.last().map_or(0, |order| order.halves().div_ceil(2));
-        let highest = last.clamp(FIRST_OF_GAS, HIGHEST_OF_GAS);
-        gas = GasOrders::new(rtol, loads, &loads.sources, highest, cancel)?;
-        orders.extend(&gas.orders);
-        orders.sort_unstable();
-        orders.dedup();
-    }
-    let (all, mean) = wrenches(loads, &gas.sources, torque, &orders, cancel)?;
-    let sizes: Vec<[f64; 4]> = all.iter().map(|wrench| OrderSums::of(wrench).values()).collect();
-    let mut lost = OrderSums { gas: gas.tail, ..tail }.values();
-    let allowed = OrderSums { gas: gas.allowed, ..scales.scaled(rtol) }.values();
-    let kept = few(&sizes, &allowed, &mut lost);
-    let left_out = OrderSums::from_values(lost);
-    let mut chosen = Chosen { orders: vec![], wrenches: vec![], mean, omitted: vec![], left_out };
-    for (((order, wrench), size), kept) in orders.into_iter().zip(all).zip(sizes).zip(kept) {
+    let alone = Candidate { engine, loads, sources: loads.sources.clone(), repeats: false };
+    let choice = Choice::new(rtol, &[alone], torque, cancel)?;
+    let (all, mean) = wrenches(loads, &choice.gas[0].sources, torque, &choice.orders, cancel)?;
+    let sizes: Vec<_> = all.iter().map(|wrench| vec![OrderSums::of(wrench)]).collect();
+    let (kept, left_out) = choice.few(&sizes);
+    let mut chosen =
+        Chosen { orders: vec![], wrenches: vec![], mean, omitted: vec![], left_out: left_out[0] };
+    for (((order, wrench), size), kept) in choice.orders.into_iter().zip(all).zip(sizes).zip(kept) {
         if kept {
             chosen.orders.push(order);
             memory::push(&mut chosen.wrenches, wrench)?;
-        } else if size.iter().any(|&size| size > 0.0) {
+        } else if size[0] != OrderSums::default() {
             chosen.omitted.push(order);
         }
     }
@@ -138,7 +207,7 @@ pub(crate) fn within(
 pub(crate) fn within_each(
     rtol: f64,
     engine: &Engine,
-    loads: &Loads,
+    loads: &LoadList,
     torque: bool,
     cancel: &Cancel,
 ) -> Result<(Vec<Order>, OrderSums)> {
@@ -155,7 +224,7 @@ pub(crate) fn within_each(
     for cylinder in 0..engine.stations().len() {
         let mut list = others.clone();
         list.retain(|load| load.place.origin == Origin::Cylinder(cylinder));
-        let alone = Loads { list, sources: loads.sources.clone(), ..*loads };
+        let alone = LoadList { list, sources: loads.sources.clone(), ..*loads };
         let chosen = within(rtol, engine, &alone, torque, cancel)?;
         orders.extend(chosen.orders);
         let lost = chosen.left_out.values();
@@ -170,7 +239,7 @@ pub(crate) fn within_each(
 ///
 /// `lost` holds what each sum has lost already and is given what it loses. Returns which orders are
 /// kept. A size counts relative to what its sum may lose, and the largest of an order's decides.
-pub(crate) fn few<S: AsRef<[f64]>>(sizes: &[S], allowed: &[f64], lost: &mut [f64]) -> Vec<bool> {
+fn few<S: AsRef<[f64]>>(sizes: &[S], allowed: &[f64], lost: &mut [f64]) -> Vec<bool> {
     let share = |sizes: &S| {
         let shares = sizes.as_ref().iter().zip(allowed);
         shares.map(|(&size, &most)| if size == 0.0 { 0.0 } else { size / most }).fold(0.0, f64::max)
@@ -194,10 +263,10 @@ pub(crate) fn few<S: AsRef<[f64]>>(sizes: &[S], allowed: &[f64], lost: &mut [f64
 /// What higher orders add is at most [`NEGLIGIBLE_REST`] times the tolerance, or, if no order achieves
 /// that, at most a quarter of it. `sources` are those of the loads, at the point of a sweep where their
 /// harmonics decrease most slowly.
-pub(crate) fn candidates(
+fn candidates(
     rtol: f64,
     scales: &OrderSums,
-    loads: &Loads,
+    loads: &LoadList,
     sources: &[Arc<dyn Source>],
     torque: bool,
 ) -> Result<Vec<Order>> {
@@ -256,17 +325,23 @@ fn lowest(is_enough: impl Fn(u32) -> bool) -> Option<u32> {
     Some(high)
 }
 
-/// Bounds over ω² of what orders above the last one evaluated add to force, moment and torque, as if
-/// nothing cancelled, with these sources in place of those of the loads.
-pub(crate) fn tail(
-    loads: &Loads,
-    last: Option<&Order>,
+/// Bounds over ω² of what orders beyond those evaluated add to force, moment and torque, as if nothing
+/// cancelled, with these sources in place of those of the loads.
+fn tail(
+    loads: &LoadList,
+    evaluated: &[Order],
     torque: bool,
     sources: &[Arc<dyn Source>],
 ) -> OrderSums {
-    let last = last.map_or(0, |order| order.halves() / 2);
+    let last = evaluated.last().map_or(0, |order| order.halves() / 2);
+    // Another source may have the last order: those from the first one missing on are left out.
+    let is_missing =
+        |own: &u32| evaluated.binary_search_by_key(&(2 * own), |order| order.halves()).is_err();
     let inertia = |source: &Arc<dyn Source>| match source.parts().scaling {
-        Scaling::SpeedSquared => source.beyond(last, torque),
+        Scaling::SpeedSquared => {
+            let missing = source.orders(last).into_iter().filter(is_missing).min();
+            source.beyond(missing.map_or(last, |order| order - 1), torque)
+        }
         Scaling::Given => Tail::default(),
     };
     let beyond: Vec<Tail> = sources.iter().map(inertia).collect();
@@ -294,7 +369,7 @@ pub(crate) fn times(weight: f64, bound: f64) -> f64 {
 /// its spectrum or unbalance; for moment that times the longest lever of a load that has weight; for
 /// torque the largest m·r² or unbalance times crank radius or its shaft's distance from the crank.
 /// Where rod inertia makes more of order 1, what it makes: about J·r/l.
-pub(crate) fn scales(engine: &Engine, loads: &Loads) -> OrderSums {
+fn scales(engine: &Engine, loads: &LoadList) -> OrderSums {
     let [mut force, mut lever, mut torque] = [0.0_f64; 3];
     for load in &loads.list {
         let place = &load.place;
@@ -332,7 +407,7 @@ impl GasOrders {
     /// slowly.
     pub fn new(
         rtol: f64,
-        loads: &Loads,
+        loads: &LoadList,
         sources: &[Arc<dyn Source>],
         mut highest: u32,
         cancel: &Cancel,
@@ -406,7 +481,7 @@ mod tests {
                 rotating_mass: 0.0,
             };
             let engine = Engine::new("", "", vec![place]).unwrap();
-            let loads = Loads::new(&engine, 0.0);
+            let loads = LoadList::new(&engine, 0.0);
             // Against a scale of its own a heavier rod takes more orders.
             let scales = OrderSums { force: 1e9, moment: 1e9, inertia: 4.0, gas: 0.0 };
             let orders = candidates(1e-6, &scales, &loads, &loads.sources, true).unwrap();
@@ -424,17 +499,17 @@ mod tests {
     #[test]
     fn loads_that_act_the_other_way_are_bounded_alike() {
         let engine = crate::load::tests::fired([Some(0); 3]).0;
-        let ahead = Loads::new(&engine, 0.0);
-        let mut opposite = Loads::new(&engine, 0.0);
+        let ahead = LoadList::new(&engine, 0.0);
+        let mut opposite = LoadList::new(&engine, 0.0);
         opposite.list.iter_mut().for_each(|load| {
             load.weight *= -1.0;
             load.roll *= -1.0;
         });
-        let last = Order::whole(4).unwrap();
-        let bounds = |loads: &Loads| {
+        let evaluated = Order::all_whole(&[1, 2, 3, 4]).unwrap();
+        let bounds = |loads: &LoadList| {
             let gas = GasOrders::new(0.1, loads, &loads.sources, FIRST_OF_GAS, &Cancel::new());
             let gas = gas.unwrap();
-            let inertia = tail(loads, Some(&last), true, &loads.sources);
+            let inertia = tail(loads, &evaluated, true, &loads.sources);
             (inertia, scales(&engine, loads), gas.tail, gas.allowed)
         };
         let found = bounds(&opposite);

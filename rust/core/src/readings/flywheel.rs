@@ -7,7 +7,7 @@
 use std::sync::LazyLock;
 
 use crate::engine::Engine;
-use crate::load::Loads;
+use crate::load::LoadList;
 use crate::load::kinematics::{BLOCK, Kinematics};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, parts};
@@ -500,7 +500,7 @@ fn mean_of(values: &[f64]) -> f64 {
 fn moving(engine: Option<&Engine>, edges_deg: &[f64], cancel: &Cancel) -> Result<[Vec<f64>; 2]> {
     let mut found = [memory::zeros(edges_deg.len())?, memory::zeros(edges_deg.len())?];
     let Some(engine) = engine else { return Ok(found) };
-    let loads = Loads::new(engine, engine.reference(None)?);
+    let loads = LoadList::new(engine, engine.reference(None)?);
     let kinematics = Kinematics::new(&loads);
     for part in parts(0..edges_deg.len(), BLOCK) {
         cancel.check()?;

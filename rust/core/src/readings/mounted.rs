@@ -54,7 +54,7 @@ pub(crate) struct EngineLoads {
 }
 
 /// One order at one speed.
-struct OperatingPoint<'a> {
+struct OrderAtSpeed<'a> {
     /// nω.
     omega: f64,
     load: &'a ComplexVector6,
@@ -359,7 +359,7 @@ impl Response {
     fn for_each(
         &self,
         cancel: &Cancel,
-        mut work: impl FnMut(&OperatingPoint) -> Result<()>,
+        mut work: impl FnMut(&OrderAtSpeed) -> Result<()>,
     ) -> Result<()> {
         let count = self.powertrain.mounts().len();
         for (point, motion) in self.motions.iter().enumerate() {
@@ -372,7 +372,7 @@ impl Response {
             } else {
                 self.stiffnesses(point, f64::NAN)?
             };
-            work(&OperatingPoint {
+            work(&OrderAtSpeed {
                 omega: self.omega_of(point),
                 load: &self.loads[point],
                 motion,
@@ -384,7 +384,7 @@ impl Response {
     }
 
     /// Force of a mount on what carries it.
-    fn force(&self, mount: usize, point: &OperatingPoint) -> [Complex64; 3] {
+    fn force(&self, mount: usize, point: &OrderAtSpeed) -> [Complex64; 3] {
         let deflection = self.powertrain.deflection(mount, point.motion, point.carriers.get(mount));
         self.powertrain.force_on_support(mount, &point.stiffnesses[mount], &deflection)
     }

@@ -6,7 +6,7 @@
 use super::amplitude::Amplitudes;
 use super::balance::{Balance, Request, angular_speed};
 use crate::engine::{Engine, Origin};
-use crate::load::{Load, Loads};
+use crate::load::{Load, LoadList};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::limits;
@@ -54,7 +54,7 @@ pub fn terms(
     }
     let omega = angular_speed(request.rpm)?;
     let torque = request.torque && engine.spectrum().is_none();
-    let loads = Loads::new(engine, engine.reference(request.reference_z)?);
+    let loads = LoadList::new(engine, engine.reference(request.reference_z)?);
     let amplitudes = Amplitudes::new(&loads.sources, torque, orders, cancel)?;
     let count = |origin: fn(usize) -> Origin, count: usize| (0..count).map(origin);
     let parts = count(Origin::Cylinder, engine.stations().len())

@@ -4,7 +4,7 @@ use ndarray::{Array1, Array2};
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::Loads;
+use crate::load::LoadList;
 use crate::load::kinematics::{AngleBlock, BLOCK, Columns, Kinematics, Quantities, Units};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, check};
@@ -64,7 +64,7 @@ pub fn exact(
     }
     let omega = angular_speed(request.rpm)?;
     let reference = engine.reference(request.reference_z)?;
-    let loads = Loads::new(engine, reference);
+    let loads = LoadList::new(engine, reference);
     let kinematics = Kinematics::new(&loads);
     let square = omega * omega;
     let shape = Shape {
@@ -153,7 +153,7 @@ impl Columns {
 }
 
 /// Numbers of [`pool::is_worth_parallel`] that take as long as a crank angle of an engine of a few cylinders.
-const NUMBERS: usize = 24;
+const NUMBERS_PER_ANGLE: usize = 24;
 
 /// Run over the crank angles in blocks, in parallel.
 fn in_blocks(
@@ -165,7 +165,7 @@ fn in_blocks(
     let hint = "split theta_deg into parts";
     limits::result_size("theta_deg", &[theta_deg.len(), 16], size_of::<f64>(), hint)?;
     check(theta_deg, cancel)?;
-    if !pool::is_worth_parallel(NUMBERS * theta_deg.len()) {
+    if !pool::is_worth_parallel(NUMBERS_PER_ANGLE * theta_deg.len()) {
         return fill_blocks(theta_deg, shape, cancel, add);
     }
     // Results are allocated there too: an allocator that keeps an arena for each thread then reuses
@@ -211,7 +211,7 @@ fn fill_blocks(
         }
         Ok(())
     };
-    pool::each(cancel, tasks, NUMBERS * angles, block)?;
+    pool::each(cancel, tasks, NUMBERS_PER_ANGLE * angles, block)?;
     let [force, moment] =
         planar.map(|values| memory::array("theta_deg", (values.len() / 2, 2), values));
     let mut torques = torques.into_iter().map(Array1::from);

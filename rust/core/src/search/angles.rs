@@ -142,8 +142,12 @@ impl Angles {
     }
 
     /// The families that have an angle.
-    pub(super) fn alike(&self, origin: AngleSource, context: Families<'_>) -> Result<Vec<Family>> {
-        context.alike(origin.family, &self.others)
+    pub(super) fn of_equal_angle(
+        &self,
+        origin: AngleSource,
+        context: Families<'_>,
+    ) -> Result<Vec<Family>> {
+        context.of_equal_angle(origin.family, &self.others)
     }
 
     /// How many angles all families have.

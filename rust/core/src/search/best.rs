@@ -232,7 +232,7 @@ impl Search {
         let (sin, cos) = (0.5 * radians).sin_cos();
         let size = |place: u32| self.moments.twice(families.packed(place)).norm() * radians.sin();
         let mut best = Best { by, second: f64::INFINITY, first: f64::INFINITY, pair: None };
-        for family in angles.alike(origin, families)? {
+        for family in angles.of_equal_angle(origin, families)? {
             let Family { first, second, image, .. } = family;
             let (turned, exchanged) = self.ahead(origin, family);
             // With the pins held, phases turn with the bores.

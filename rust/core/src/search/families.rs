@@ -183,22 +183,22 @@ impl Families<'_> {
     }
 
     /// Those with the angle of a family among others, and itself.
-    pub(super) fn alike(self, family: Family, others: &[Family]) -> Result<Vec<Family>> {
+    pub(super) fn of_equal_angle(self, family: Family, others: &[Family]) -> Result<Vec<Family>> {
         let folded = family.folded();
         let start = others.partition_point(|other| other.folded() < folded - NEAREST_FOLDED);
         let close =
             others[start..].iter().take_while(|other| other.folded() <= folded + NEAREST_FOLDED);
         let mut same = Same::new(self);
-        let mut alike = memory::collected([family].into_iter())?;
+        let mut equal = memory::collected([family].into_iter())?;
         for &other in close {
             if same.angle(family, other) {
-                memory::push(&mut alike, other)?;
+                memory::push(&mut equal, other)?;
             }
         }
         // One sequence, whichever of them is listed.
         let rank = |family: &Family| (family.first, family.second, family.image);
-        alike.sort_unstable_by_key(rank);
-        Ok(alike)
+        equal.sort_unstable_by_key(rank);
+        Ok(equal)
     }
 
     /// What every class has: a bank with itself, at half a circle, and with itself reversed, at 0.
@@ -472,7 +472,9 @@ mod tests {
                     for other in &to.others {
                         let same = |family: &&Family| family.folded() == other.folded();
                         let family = *to.families.iter().find(same).unwrap();
-                        assert!(families.alike(family, &[*other]).unwrap().contains(other));
+                        assert!(
+                            families.of_equal_angle(family, &[*other]).unwrap().contains(other)
+                        );
                     }
                     to.families
                 };

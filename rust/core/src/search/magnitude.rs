@@ -63,15 +63,15 @@ impl Magnitude {
             let value = format!("turn × ({})", phases.join(", "));
             return Err(Error::value("phases_deg", value, hint));
         }
-        let spread = |packed: u128| (packed as u64).wrapping_mul(SPREAD);
+        let hashed = |packed: u128| (packed as u64).wrapping_mul(SPREAD);
         // The column of distance 0 counts a throw twice.
         let half: Vec<i64> = column(0).iter().map(|entry| entry / 2).collect();
         let mut by_distance = vec![0; parts];
         for (&distance, &column) in distances.iter().zip(&packing.columns) {
-            by_distance[distance] = spread(column);
-            by_distance[(parts - distance) % parts] = spread(column);
+            by_distance[distance] = hashed(column);
+            by_distance[(parts - distance) % parts] = hashed(column);
         }
-        Ok(Self { by_distance, by_itself: spread(packing.pack(&half)) })
+        Ok(Self { by_distance, by_itself: hashed(packing.pack(&half)) })
     }
 
     /// What a throw adds to the key by itself.

@@ -7,7 +7,7 @@ pub mod random;
 use std::sync::Arc;
 
 use crankpin_core::balance::{Balance, Vector, balance};
-use crankpin_core::sweep::{Axes, Figure, Quantity};
+use crankpin_core::sweep::{Quantity, Statistic, SweepAxes};
 use crankpin_core::{
     Angle, Cancel, Complex64, Crank, Cylinder, Engine, Order, Orders, Request, Result, Shaft,
     Station, Sweep, Unbalance,
@@ -105,9 +105,9 @@ pub fn places(shape: [usize; 6]) -> impl Iterator<Item = [usize; 6]> {
 }
 
 /// The axes at a place alone.
-pub fn alone(axes: &Axes, [_, angle, ratio, offset, speed, _]: [usize; 6]) -> Axes {
+pub fn alone(axes: &SweepAxes, [_, angle, ratio, offset, speed, _]: [usize; 6]) -> SweepAxes {
     let only = |values: &Option<Vec<f64>>, k: usize| values.as_ref().map(|values| vec![values[k]]);
-    Axes {
+    SweepAxes {
         bank_angle: axes.bank_angle.as_ref().map(|(angles, hold)| (vec![angles[angle]], *hold)),
         rod_ratio: only(&axes.rod_ratio, ratio),
         pin_offset: only(&axes.pin_offset, offset),
@@ -117,7 +117,7 @@ pub fn alone(axes: &Axes, [_, angle, ratio, offset, speed, _]: [usize; 6]) -> Ax
 }
 
 /// The engine that stands at the first point of these axes.
-pub fn there(engine: &Engine, axes: &Axes) -> Engine {
+pub fn there(engine: &Engine, axes: &SweepAxes) -> Engine {
     let turned = axes.bank_angle.as_ref().map(|(angles, hold)| {
         engine.with_bank_angle(Angle::from_degrees(angles[0]).unwrap(), *hold).unwrap()
     });
@@ -267,24 +267,24 @@ pub trait InArrays {
     fn phasors(
         &self,
         quantity: Quantity,
-        figure: Figure,
+        figure: Statistic,
         cancel: &Cancel,
     ) -> Result<ArrayD<Complex64>>;
-    fn peaks(&self, quantity: Quantity, figure: Figure, cancel: &Cancel) -> Result<ArrayD<f64>>;
+    fn peaks(&self, quantity: Quantity, figure: Statistic, cancel: &Cancel) -> Result<ArrayD<f64>>;
 }
 
 impl InArrays for Sweep {
     fn phasors(
         &self,
         quantity: Quantity,
-        figure: Figure,
+        figure: Statistic,
         cancel: &Cancel,
     ) -> Result<ArrayD<Complex64>> {
         let write = |out: &mut [Complex64]| self.write_phasors(quantity, figure, out, cancel);
         in_array(self, (quantity, figure), write)
     }
 
-    fn peaks(&self, quantity: Quantity, figure: Figure, cancel: &Cancel) -> Result<ArrayD<f64>> {
+    fn peaks(&self, quantity: Quantity, figure: Statistic, cancel: &Cancel) -> Result<ArrayD<f64>> {
         let write = |out: &mut [f64]| self.write_peaks(quantity, figure, out, cancel);
         in_array(self, (quantity, figure), write)
     }
@@ -292,7 +292,7 @@ impl InArrays for Sweep {
 
 fn in_array<T: Clone + Default>(
     sweep: &Sweep,
-    (quantity, figure): (Quantity, Figure),
+    (quantity, figure): (Quantity, Statistic),
     write: impl FnOnce(&mut [T]) -> Result<()>,
 ) -> Result<ArrayD<T>> {
     sweep.check_size(quantity, figure, size_of::<T>())?;

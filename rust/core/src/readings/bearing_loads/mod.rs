@@ -20,7 +20,7 @@ pub use self::sections::{Part, Sections};
 use crate::Complex64;
 use crate::engine::{Engine, Origin};
 use crate::load::kinematics::{BLOCK, Units};
-use crate::load::{Load, Loads};
+use crate::load::{Load, LoadList};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, check, parts};
 use crate::numbers::error::{Error, Result};
@@ -151,7 +151,7 @@ impl BearingLoadsModel {
             mains: cranks.flat_map(of_crank).collect(),
             ratios: engine.cranks().iter().map(|crank| crank.ratio).collect(),
         };
-        for load in Loads::new(engine, 0.0).list.iter().filter(|load| load.is_turning()) {
+        for load in LoadList::new(engine, 0.0).list.iter().filter(|load| load.is_turning()) {
             let crank = match load.place.origin {
                 Origin::Cylinder(i) => Some(engine.crank_of(i)),
                 Origin::Counterweight(k) => {

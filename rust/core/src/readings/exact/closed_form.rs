@@ -10,7 +10,7 @@ use num_traits::{CheckedDiv, CheckedMul};
 use super::roots::{FormalSum, Share};
 use super::{ExactLoads, Levers, too_long, whole};
 use crate::engine::Engine;
-use crate::load::{Load, Loads, Wanted, superpose};
+use crate::load::{Load, LoadList, Wanted, superpose};
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -91,7 +91,7 @@ fn part_of_turn(argument: &str, angle: Angle) -> Result<(i64, i64)> {
 /// Levers in units of the spacing, and the spacing.
 fn levers(
     engine: &Engine,
-    loads: &Loads,
+    loads: &LoadList,
     reference: Option<f64>,
     cancel: &Cancel,
 ) -> Result<(Vec<Ratio>, f64)> {
@@ -222,7 +222,7 @@ pub fn closed_form(
 /// Twice the forward and twice the conjugate of the backward part, over a denominator; `products` are
 /// weights times levers.
 fn sums(
-    loads: &Loads,
+    loads: &LoadList,
     order: Order,
     products: &[Ratio],
     moment: bool,

@@ -11,7 +11,7 @@ pub mod vanishing;
 use num_traits::{CheckedAdd, CheckedDiv, CheckedMul, Signed};
 
 use crate::engine::{Engine, first_equal};
-use crate::load::Loads;
+use crate::load::LoadList;
 use crate::mechanism::Mechanism;
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
@@ -61,7 +61,7 @@ impl TypedProportions {
 
 /// Loads of which exact sums are made, and their motions.
 struct ExactLoads {
-    loads: Loads,
+    loads: LoadList,
     /// Motions that differ as typed, or in the speed of their cranks, whichever the sense: offsets are on
     /// the side to which the crankpin swings.
     motions: Vec<Mechanism>,
@@ -75,7 +75,7 @@ impl ExactLoads {
             let reason = "its forces are a spectrum that was given".to_owned();
             return Err(Error::Undefined { argument: "an exact sum", reason });
         }
-        let mut loads = Loads::new(engine, engine.reference(reference)?);
+        let mut loads = LoadList::new(engine, engine.reference(reference)?);
         loads.retain_exact();
         let mechanisms: Vec<(usize, &Mechanism)> = (0..)
             .zip(&loads.sources)
@@ -112,7 +112,7 @@ impl Levers {
     /// Levers about a reference plane, by default midway between the first and the last cylinder.
     fn new(
         engine: &Engine,
-        loads: &Loads,
+        loads: &LoadList,
         reference: Option<f64>,
         cancel: &Cancel,
     ) -> Result<Self> {

@@ -43,7 +43,7 @@ use crate::Complex64;
 use crate::engine::Engine;
 use crate::firing::Firing;
 use crate::layout::Strokes;
-use crate::load::{Load, Loads};
+use crate::load::{Load, LoadList};
 use crate::mechanism::Mechanism;
 use crate::mechanism::harmonics;
 use crate::mechanism::slider_crank::Cylinder;
@@ -456,7 +456,7 @@ fn evaluated(
     let request = Request { rpm: 60.0, reference_z, torque: true };
     let orders = Orders::Given(orders.to_vec());
     let found = balance::balance(engine, &request, &orders, cancel)?;
-    let loads = Loads::new(engine, engine.reference(reference_z)?);
+    let loads = LoadList::new(engine, engine.reference(reference_z)?);
     let volumes = loads.volumes().into_iter().zip(&loads.sources);
     let largest: f64 = volumes.map(|(volume, source)| volume.size * source.largest_torque()).sum();
     let zero = |k: usize| {

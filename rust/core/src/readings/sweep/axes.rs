@@ -11,7 +11,7 @@ use crate::readings::balance::angular_speed;
 
 /// What is swept; `None` keeps the values of each engine.
 #[derive(Debug, Clone, Default)]
-pub struct Axes {
+pub struct SweepAxes {
     /// Degrees between the banks, and what is held as they change.
     pub bank_angle: Option<(Vec<f64>, Hold)>,
     /// λ; the crank radius stays and the rod changes.
@@ -35,7 +35,7 @@ pub struct MapAxes {
     pub load: Vec<f64>,
 }
 
-impl Axes {
+impl SweepAxes {
     /// ω² of each speed.
     pub(super) fn squares(&self, cancel: &Cancel) -> Result<Vec<f64>> {
         length("rpm", self.rpm.len())?;

@@ -20,26 +20,26 @@
 //!   magnitude of the offset from order 3 on for torques, and for forces if order 1 counts 1 more.
 //!   Orders 1 and 2 of torques are kept where the layout has them.
 //! - Torque of pressure: the largest of the points, each evaluated.
+//!
+//! Where no axis but speed and load is swept, orders are those of a balance, chosen by its wrenches.
 
 use std::sync::Arc;
 
 use super::Quantity::{CrankTorque, Torque};
 use super::harmonics::of;
 use super::layout::{Layout, LayoutSum, Swung};
-use super::{Axes, Quantity, Sweep};
+use super::{Quantity, Sweep, SweepAxes};
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::load::source::{Column, Point, Scaling, Source};
-use crate::load::{Harmonic, Loads};
+use crate::load::{Harmonic, LoadList};
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
-use crate::numbers::limits;
 use crate::numbers::order::Order;
+use crate::readings::amplitude::wrenches;
 use crate::readings::balance::TorquePart;
-use crate::readings::choice::{
-    FIRST_OF_GAS, GasOrders, OrderSums, candidates, few, scales, tail, times,
-};
+use crate::readings::choice::{Candidate, Choice, GasOrders, OrderSums, times};
 
 impl Sweep {
     /// With few orders that leave out at most `rtol` at any point, as [`crate::Orders::Auto`] does
@@ -47,18 +47,16 @@ impl Sweep {
     pub fn within(
         rtol: f64,
         engines: Vec<Arc<Engine>>,
-        axes: Axes,
+        axes: SweepAxes,
         reference_z: Option<f64>,
         torque: bool,
         cancel: &Cancel,
     ) -> Result<Self> {
-        let rtol = limits::tolerance(rtol)?;
         let mut sweep = Self::new(engines, axes, vec![Order::FIRST], reference_z, cancel)?;
         sweep.torque &= torque;
         sweep.fired &= sweep.torque;
-        let torque = sweep.torque;
         let mut quantities = vec![Quantity::Force, Quantity::Moment];
-        if torque {
+        if sweep.torque {
             quantities.extend([Torque(TorquePart::Inertia), CrankTorque(TorquePart::Inertia)]);
         }
         let of_gas = quantities.len();
@@ -66,65 +64,58 @@ impl Sweep {
             quantities.extend([Torque(TorquePart::Gas), CrankTorque(TorquePart::Gas)]);
         }
         // Between the cycles of a map no sum is larger than the largest of theirs; their engines are
-        // alike but for pressure.
+        // equal but for pressure.
         let nodes = sweep.nodes.count();
         let quantities_of =
             |k: usize| &quantities[if k.is_multiple_of(nodes) { 0 } else { of_gas }..];
-        let loads: Vec<Loads> = (0..sweep.engines.len()).map(|k| sweep.loads(k)).collect();
+        let loads: Vec<LoadList> = (0..sweep.engines.len()).map(|k| sweep.loads(k)).collect();
         let [rod_ratio, pin_offset] = sweep.extremes;
         let extreme = Point { rod_ratio, pin_offset };
-        let (mut slowest, mut allowed, mut gas_tails) = (Vec::new(), Vec::new(), Vec::new());
-        sweep.orders = Vec::new();
-        for (k, (engine, loads)) in sweep.engines.iter().zip(&loads).enumerate() {
-            cancel.check()?;
-            let sources = loads.at_point(&extreme)?;
-            let scales = scales(engine, loads);
-            if k.is_multiple_of(nodes) {
-                sweep.orders.extend(candidates(rtol, &scales, loads, &sources, torque)?);
-            }
-            let mut gas = GasOrders::default();
-            if sweep.fired {
-                gas = GasOrders::new(rtol, loads, &sources, FIRST_OF_GAS, cancel)?;
-                sweep.orders.extend(&gas.orders);
-            }
-            slowest.push(sources);
-            gas_tails.push(sweep.gas_tail(loads, &gas, cancel)?);
-            let mut of_engine = OrderSums { gas: gas.allowed, ..scales.scaled(rtol) };
-            allowed.extend(quantities_of(k).iter().map(|quantity| *quantity.of(&mut of_engine)));
+        let all = sweep.engines.iter().zip(&loads).enumerate();
+        let candidates = all.map(|(k, (engine, loads))| {
+            let (sources, repeats) = (loads.at_point(&extreme)?, !k.is_multiple_of(nodes));
+            Ok(Candidate { engine, loads, sources, repeats })
+        });
+        let candidates = candidates.collect::<Result<Vec<_>>>()?;
+        let mut choice = Choice::new(rtol, &candidates, sweep.torque, cancel)?;
+        for ((rest, loads), gas) in choice.rest.iter_mut().zip(&loads).zip(&choice.gas) {
+            rest.gas = sweep.gas_tail(loads, gas, cancel)?;
         }
-        sweep.orders.sort_unstable();
-        sweep.orders.dedup();
-        // A sum for each engine and quantity, in the order of the engines.
+        let slowest: Vec<_> = candidates.into_iter().map(|candidate| candidate.sources).collect();
+        sweep.orders.clone_from(&choice.orders);
+        // By order and engine.
         let mut sizes = vec![Vec::new(); sweep.orders.len()];
-        let (mut lost, mut sums) = (Vec::new(), Vec::new());
         let mut known = Known::new();
-        for (index, (loads, sources)) in loads.iter().zip(&slowest).enumerate() {
+        let is_one_point = sweep.axes.bank_angle.is_none() && sweep.points() == 1;
+        for (index, (loads, slowest)) in loads.iter().zip(&slowest).enumerate() {
             cancel.check()?;
-            let rest = tail(loads, sweep.orders.last(), torque, sources);
-            let mut rest = OrderSums { gas: gas_tails[index], ..rest };
-            let quantities = quantities_of(index);
-            let layouts = sweep.layouts(&sweep.engines[index], loads, quantities)?;
-            for (&quantity, layout) in quantities.iter().zip(&layouts) {
-                let largest = sweep.largest(layout, sources, quantity, &mut known, cancel)?;
-                sizes.iter_mut().zip(largest).for_each(|(sizes, size)| sizes.push(size));
-                lost.push(*quantity.of(&mut rest));
-                sums.push(quantity);
+            let mut of_engine = vec![OrderSums::default(); sizes.len()];
+            if is_one_point {
+                let sources = &choice.gas[index].sources;
+                let (all, _) = wrenches(loads, sources, sweep.torque, &sweep.orders, cancel)?;
+                of_engine = all.iter().map(OrderSums::of).collect();
+            } else {
+                let quantities = quantities_of(index);
+                let layouts = sweep.layouts(&sweep.engines[index], loads, quantities)?;
+                for (&quantity, layout) in quantities.iter().zip(&layouts) {
+                    let largest = sweep.largest(layout, slowest, quantity, &mut known, cancel)?;
+                    for (sums, size) in of_engine.iter_mut().zip(largest) {
+                        let sum = quantity.of(sums);
+                        *sum = sum.max(size);
+                    }
+                }
             }
+            sizes.iter_mut().zip(of_engine).for_each(|(sizes, sums)| sizes.push(sums));
         }
-        let kept = few(&sizes, &allowed, &mut lost);
+        let (kept, left_out) = choice.few(&sizes);
         let fastest = sweep.squares.iter().copied().fold(0.0, f64::max);
-        let mut worst = OrderSums::default();
-        for (lost, quantity) in lost.into_iter().zip(sums) {
-            let worst = quantity.of(&mut worst);
-            *worst = worst.max(lost);
-        }
+        let worst = left_out.into_iter().fold(OrderSums::default(), OrderSums::max);
         sweep.error_bound = worst.bounds(fastest);
-        for ((order, kept), sizes) in
-            std::mem::take(&mut sweep.orders).into_iter().zip(kept).zip(sizes)
-        {
+        sweep.orders.clear();
+        for ((order, kept), sizes) in choice.orders.into_iter().zip(kept).zip(sizes) {
             if kept {
                 sweep.orders.push(order);
-            } else if sizes.iter().any(|&size| size > 0.0) {
+            } else if sizes.iter().any(|&size| size != OrderSums::default()) {
                 sweep.omitted.push(order);
             }
         }
@@ -132,7 +123,7 @@ impl Sweep {
     }
 
     /// Bound, at any point, of the torque of pressure above the last of its orders.
-    fn gas_tail(&self, loads: &Loads, gas: &GasOrders, cancel: &Cancel) -> Result<f64> {
+    fn gas_tail(&self, loads: &LoadList, gas: &GasOrders, cancel: &Cancel) -> Result<f64> {
         let Some(&last) = gas.orders.last().filter(|_| self.points() > 1) else {
             return Ok(gas.tail);
         };
@@ -310,7 +301,7 @@ mod tests {
         let place = Station { cylinder, tdc, bank, z: 0.0, rotating_mass: 0.0 };
         let cranks = vec![Crank::MAIN, Crank { axis: [0.1, 0.0], ratio }];
         let engine = Engine::new("", "", vec![place]).unwrap().with_cranks(cranks, vec![1]);
-        let axes = Axes { rod_ratio, pin_offset, rpm: vec![1000.0], ..Axes::default() };
+        let axes = SweepAxes { rod_ratio, pin_offset, rpm: vec![1000.0], ..SweepAxes::default() };
         let orders = Order::all_whole(&(1..=24).collect::<Vec<u32>>()).unwrap();
         let engines = vec![Arc::new(engine.unwrap())];
         let sweep = Sweep::new(engines, axes, orders.clone(), None, &cancel).unwrap();

@@ -9,7 +9,7 @@ use super::harmonics::PointHarmonics;
 use super::layout::Layout;
 use super::{Quantity, Sweep};
 use crate::Complex64;
-use crate::load::Loads;
+use crate::load::LoadList;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
@@ -95,7 +95,7 @@ impl Coefficients {
     pub fn new(
         sweep: &Sweep,
         quantity: Quantity,
-        (loads, layout): (&Loads, &Layout),
+        (loads, layout): (&LoadList, &Layout),
         points: Range<usize>,
         cancel: &Cancel,
     ) -> Result<Self> {

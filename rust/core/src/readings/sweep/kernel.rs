@@ -16,7 +16,7 @@ use super::factors::{Coefficients, Waves};
 use super::layout::Layout;
 use super::{Quantity, Sweep};
 use crate::Complex64;
-use crate::load::Loads;
+use crate::load::LoadList;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::parts;
 use crate::numbers::error::Result;
@@ -53,7 +53,7 @@ pub(super) struct Job<'a> {
     pub cancel: &'a Cancel,
 }
 
-type LoadsAndLayout = (Loads, Arc<Layout>);
+type LoadsAndLayout = (LoadList, Arc<Layout>);
 
 impl Job<'_> {
     /// Loads and layout sums of some engines; those of one engine with other pressures share their sums.

@@ -4,7 +4,7 @@ use super::{Quantity, Sweep};
 use crate::Complex64;
 use crate::engine::{Engine, Hold};
 use crate::load::source::{Column, Scaling};
-use crate::load::{BankPhase, Harmonic, Loads, PhasorSum, Term, Wanted, count, find_or_push};
+use crate::load::{BankPhase, Harmonic, LoadList, PhasorSum, Term, Wanted, count, find_or_push};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
@@ -39,7 +39,7 @@ impl Sweep {
     pub(super) fn layouts(
         &self,
         engine: &Engine,
-        loads: &Loads,
+        loads: &LoadList,
         quantities: &[Quantity],
     ) -> Result<Vec<Layout>> {
         let vee = match &self.axes.bank_angle {
@@ -97,9 +97,9 @@ impl Sweep {
     }
 
     /// Loads of an engine.
-    pub(super) fn loads(&self, engine: usize) -> Loads {
+    pub(super) fn loads(&self, engine: usize) -> LoadList {
         let reference = self.references[engine];
-        Loads::new(&self.engines[engine], reference)
+        LoadList::new(&self.engines[engine], reference)
     }
 }
 

@@ -18,7 +18,7 @@ mod waveform;
 
 use std::sync::Arc;
 
-pub use self::axes::{Axes, MapAxes};
+pub use self::axes::{MapAxes, SweepAxes};
 use self::block::Block;
 use self::kernel::Job;
 use self::operating::Nodes;
@@ -46,7 +46,7 @@ pub enum Quantity {
 
 /// Which value of force, moment or torque over the turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Figure {
+pub enum Statistic {
     /// Of each order along (about) each axis: (…, `n_orders`, and 2 except for torque).
     Amplitude,
     /// Forward and backward part of each order: (…, `n_orders`, 2).
@@ -76,16 +76,16 @@ pub enum Figure {
 /// # )?;
 /// use std::sync::Arc;
 ///
-/// use crankpin_core::sweep::{Axes, Figure, Quantity, Sweep};
+/// use crankpin_core::sweep::{SweepAxes, Statistic, Quantity, Sweep};
 /// use crankpin_core::{Cancel, Order};
 ///
 /// let rpm = vec![1000.0, 2000.0];
-/// let axes = Axes { bank_angle: None, rod_ratio: None, pin_offset: None, rpm, map: None };
+/// let axes = SweepAxes { bank_angle: None, rod_ratio: None, pin_offset: None, rpm, map: None };
 /// let orders = Order::all_whole(&[1, 2])?;
 /// let sweep = Sweep::new(vec![Arc::new(four)], axes, orders, None, &Cancel::new())?;
-/// assert_eq!(sweep.result_shape(Quantity::Force, Figure::Length), [1, 1, 1, 1, 2, 1, 2]);
+/// assert_eq!(sweep.result_shape(Quantity::Force, Statistic::Length), [1, 1, 1, 1, 2, 1, 2]);
 /// let mut peaks = vec![0.0; 4]; // by speed and order, N
-/// sweep.write_peaks(Quantity::Force, Figure::Length, &mut peaks, &Cancel::new())?;
+/// sweep.write_peaks(Quantity::Force, Statistic::Length, &mut peaks, &Cancel::new())?;
 /// assert_eq!((peaks[0], peaks[2]), (0.0, 0.0));
 /// assert!((peaks[3] / peaks[1] - 4.0).abs() < 1e-12);
 /// # Ok::<(), crankpin_core::Error>(())
@@ -94,7 +94,7 @@ pub enum Figure {
 pub struct Sweep {
     /// Each as often as a map has cycles, with one of them after the other.
     engines: Vec<Arc<Engine>>,
-    axes: Axes,
+    axes: SweepAxes,
     /// Places of speeds and loads in a map of cycles.
     nodes: Nodes,
     orders: Vec<Order>,
@@ -116,7 +116,7 @@ impl Sweep {
     /// has cycles: those of one engine, load by load of one speed after the other.
     pub fn new(
         engines: Vec<Arc<Engine>>,
-        axes: Axes,
+        axes: SweepAxes,
         orders: Vec<Order>,
         reference_z: Option<f64>,
         cancel: &Cancel,
@@ -198,20 +198,20 @@ impl Sweep {
     /// Lengths of all axes of a result: engine, bank angle, rod ratio, pin offset, speed, load; then orders
     /// and components, if any.
     #[must_use]
-    pub fn result_shape(&self, quantity: Quantity, figure: Figure) -> Vec<usize> {
+    pub fn result_shape(&self, quantity: Quantity, figure: Statistic) -> Vec<usize> {
         let orders = &[self.orders.len()][..];
         let tail: [&[usize]; 2] = match figure {
-            Figure::Amplitude => [orders, quantity.shape()],
-            Figure::Turning => [orders, &[2]],
-            Figure::Length | Figure::ZeroBound => [orders, &[]],
-            Figure::Sum => [&[], quantity.shape()],
-            Figure::LengthOfSum | Figure::Mean => [&[], &[]],
+            Statistic::Amplitude => [orders, quantity.shape()],
+            Statistic::Turning => [orders, &[2]],
+            Statistic::Length | Statistic::ZeroBound => [orders, &[]],
+            Statistic::Sum => [&[], quantity.shape()],
+            Statistic::LengthOfSum | Statistic::Mean => [&[], &[]],
         };
         [&self.shape()[..], &tail.concat()].concat()
     }
 
     /// Rejects a result of numbers of this many bytes that is too large for one call.
-    pub fn check_size(&self, quantity: Quantity, figure: Figure, bytes: usize) -> Result<()> {
+    pub fn check_size(&self, quantity: Quantity, figure: Statistic, bytes: usize) -> Result<()> {
         let hint = "sweep one axis in parts, or use to_dask";
         limits::result_size("sweep", &self.result_shape(quantity, figure), bytes, hint)
     }
@@ -221,12 +221,12 @@ impl Sweep {
     pub fn write_phasors(
         &self,
         quantity: Quantity,
-        figure: Figure,
+        figure: Statistic,
         out: &mut [Complex64],
         cancel: &Cancel,
     ) -> Result<()> {
         let width = self.checked_width(quantity, figure, out.len())?;
-        self.spread(quantity, width, out, cancel, |quantity, out, factor| {
+        self.at_each_speed(quantity, width, out, cancel, |quantity, out, factor| {
             self.phasor_rows(quantity, figure, out, factor, cancel)
         })
     }
@@ -235,11 +235,11 @@ impl Sweep {
     pub fn write_peaks(
         &self,
         quantity: Quantity,
-        figure: Figure,
+        figure: Statistic,
         out: &mut [f64],
         cancel: &Cancel,
     ) -> Result<()> {
-        let figure = if figure == Figure::Turning { Figure::Amplitude } else { figure };
+        let figure = if figure == Statistic::Turning { Statistic::Amplitude } else { figure };
         let width = self.checked_width(quantity, figure, out.len())?;
         let has_gas = self.has_gas(quantity);
         let finder = figure.is_of_sum().then(|| {
@@ -248,13 +248,13 @@ impl Sweep {
         });
         let finder = finder.transpose()?;
         let means = |quantity, out: &mut [f64], _| self.mean_rows(quantity, out, cancel);
-        if figure == Figure::Mean {
-            return self.spread(quantity, width, out, cancel, means);
+        if figure == Statistic::Mean {
+            return self.at_each_speed(quantity, width, out, cancel, means);
         }
-        if has_gas && figure != Figure::ZeroBound {
+        if has_gas && figure != Statistic::ZeroBound {
             let orders = self.orders.len();
             let phasors = self.operating(quantity, orders, |quantity, out, factor| {
-                self.phasor_rows(quantity, Figure::Amplitude, out, factor, cancel)
+                self.phasor_rows(quantity, Statistic::Amplitude, out, factor, cancel)
             })?;
             let Some(finder) = finder else { return phasors.magnitudes(out, cancel) };
             let means = self.operating(quantity, 1, means)?;
@@ -262,7 +262,7 @@ impl Sweep {
                 finder.beside_mean(mean, phasors, cancel)
             });
         }
-        self.spread(quantity, width, out, cancel, |quantity, out, factor| {
+        self.at_each_speed(quantity, width, out, cancel, |quantity, out, factor| {
             self.peak_rows((quantity, figure), finder.as_ref(), out, factor, cancel)
         })
     }
@@ -271,12 +271,12 @@ impl Sweep {
     fn phasor_rows(
         &self,
         quantity: Quantity,
-        figure: Figure,
+        figure: Statistic,
         out: &mut [Complex64],
         factor: f64,
         cancel: &Cancel,
     ) -> Result<()> {
-        let components = if figure == Figure::Turning { 2 } else { quantity.components() };
+        let components = if figure == Statistic::Turning { 2 } else { quantity.components() };
         let width = self.orders.len() * components;
         let job = Job { sweep: self, quantity, width, slow: false, cancel };
         job.rows(
@@ -286,7 +286,7 @@ impl Sweep {
             |block: &Block, factor: f64, out: &mut [Complex64]| {
                 for (i, row) in out.chunks_exact_mut(width).enumerate() {
                     for (order, phasors) in row.chunks_exact_mut(components).enumerate() {
-                        let values = if figure == Figure::Turning {
+                        let values = if figure == Statistic::Turning {
                             let [forward, backward_conj] = block.turning(order, i);
                             [forward, backward_conj.conj() + Complex64::default()]
                         } else {
@@ -305,7 +305,7 @@ impl Sweep {
     /// A figure of every row, times a factor.
     fn peak_rows(
         &self,
-        (quantity, figure): (Quantity, Figure),
+        (quantity, figure): (Quantity, Statistic),
         finder: Option<&PeakFinder>,
         out: &mut [f64],
         factor: f64,
@@ -320,15 +320,15 @@ impl Sweep {
             #[inline(always)]
             |block: &Block, factor: f64, out: &mut [f64]| {
                 match (figure, finder) {
-                    (Figure::Length, _) => block.lengths(factor, out),
-                    (Figure::ZeroBound, _) => {
+                    (Statistic::Length, _) => block.lengths(factor, out),
+                    (Statistic::ZeroBound, _) => {
                         for (i, row) in out.chunks_exact_mut(orders).enumerate() {
                             for (order, bound) in row.iter_mut().enumerate() {
                                 *bound = block.bound(order, i) * factor;
                             }
                         }
                     }
-                    (Figure::Sum, Some(finder)) => {
+                    (Statistic::Sum, Some(finder)) => {
                         for (i, row) in out.chunks_exact_mut(components).enumerate() {
                             cancel.check()?;
                             for (peak, phasors) in row.iter_mut().zip(block.by_component(i)) {
@@ -336,7 +336,7 @@ impl Sweep {
                             }
                         }
                     }
-                    (Figure::LengthOfSum, Some(finder)) => {
+                    (Statistic::LengthOfSum, Some(finder)) => {
                         for (i, peak) in out.iter_mut().enumerate() {
                             cancel.check()?;
                             let [x, y] = block.by_component(i);
@@ -365,7 +365,7 @@ impl Sweep {
     }
 
     /// Numbers of a row, after a check of a buffer for all rows.
-    fn checked_width(&self, quantity: Quantity, figure: Figure, room: usize) -> Result<usize> {
+    fn checked_width(&self, quantity: Quantity, figure: Statistic, room: usize) -> Result<usize> {
         self.check_known(quantity)?;
         let shape = self.result_shape(quantity, figure);
         if room != shape.iter().product::<usize>() {
@@ -375,7 +375,7 @@ impl Sweep {
     }
 
     /// Numbers of a row.
-    fn width(&self, quantity: Quantity, figure: Figure) -> usize {
+    fn width(&self, quantity: Quantity, figure: Statistic) -> usize {
         self.result_shape(quantity, figure)[self.shape().len()..].iter().product()
     }
 
@@ -401,7 +401,7 @@ impl Sweep {
     }
 }
 
-impl Figure {
+impl Statistic {
     /// Whether it takes a search for an extremum.
     fn is_of_sum(self) -> bool {
         matches!(self, Self::Sum | Self::LengthOfSum)
@@ -409,7 +409,7 @@ impl Figure {
 }
 
 impl Quantity {
-    /// Axes of one value: x and y, or none for what is about z alone.
+    /// SweepAxes of one value: x and y, or none for what is about z alone.
     fn shape(self) -> &'static [usize] {
         match self {
             Self::Force | Self::Moment => &[2],

@@ -1,10 +1,10 @@
 //! Rows of a sweep at its speeds and loads.
 //!
 //! A row without either is evaluated once; at a speed it is multiplied by ω². Torque of pressure does not
-//! scale so: a row of it for each cycle of a map is weighted as the cycles are, by linear interpolation
-//! over speed and load, and added.
+//! scale so: rows of it, one for each cycle of a map, are interpolated as the cycles are, linearly over
+//! speed and then over load, and added.
 
-use super::axes::Axes;
+use super::axes::SweepAxes;
 use super::kernel::{Number, ROWS_PER_TASK};
 use super::{Quantity, Sweep};
 use crate::Complex64;
@@ -31,7 +31,7 @@ pub(super) struct Nodes {
 }
 
 impl Nodes {
-    pub fn new(axes: &Axes, cancel: &Cancel) -> Result<Self> {
+    pub fn new(axes: &SweepAxes, cancel: &Cancel) -> Result<Self> {
         let Some(map) = &axes.map else {
             return Ok(Self {
                 loads_of_map: 1,
@@ -58,17 +58,9 @@ impl Nodes {
         self.loads.len()
     }
 
-    /// Cycles and their weights at a speed and a load.
-    fn weights(&self, speed: usize, load: usize) -> [(usize, f64); 4] {
-        let at_speed = self.speeds.get(speed).copied().unwrap_or_default();
-        let mut weights = [(0, 0.0); 4];
-        let places = at_speed.weights().into_iter().flat_map(|of_speed| {
-            self.loads[load].weights().map(move |of_load| (of_speed, of_load))
-        });
-        for (out, ((speed, a), (load, b))) in weights.iter_mut().zip(places) {
-            *out = (speed * self.loads_of_map + load, a * b);
-        }
-        weights
+    /// Speeds of the map and their weights at a speed.
+    fn speed_weights(&self, speed: usize) -> [(usize, f64); 2] {
+        self.speeds.get(speed).copied().unwrap_or_default().weights()
     }
 }
 
@@ -82,6 +74,20 @@ pub(super) struct Operating<'a, T> {
     width: usize,
 }
 
+/// Room for a row, and for what those at one speed share.
+struct Room<T> {
+    row: Vec<T>,
+    at_speed: AtSpeed<T>,
+}
+
+/// Rows of pressure interpolated over speed, one for each load of a map.
+#[derive(Default)]
+struct AtSpeed<T> {
+    rows: Vec<T>,
+    /// Of which row, at which speed.
+    place: Option<(usize, usize)>,
+}
+
 /// A row at a speed and a load.
 #[derive(Clone, Copy)]
 struct GridPoint {
@@ -92,7 +98,7 @@ struct GridPoint {
 
 impl Sweep {
     /// Writes rows at every speed and load; `evaluate` writes those of a quantity over ω², times a factor.
-    pub(super) fn spread<T: Number>(
+    pub(super) fn at_each_speed<T: Number>(
         &self,
         quantity: Quantity,
         width: usize,
@@ -185,38 +191,62 @@ impl<T: Number> Operating<'_, T> {
             1,
             cancel,
             #[inline(always)]
-            |place, _, out| {
-                self.row(place, out);
-                Ok(())
-            },
+            |place, room, out| self.row(place, &mut room.at_speed, out),
         )
     }
 
     /// Writes one row at a speed and a load.
     #[inline(always)]
-    fn row(&self, place: GridPoint, out: &mut [T]) {
-        let (sweep, width) = (self.sweep, self.width);
+    fn row(&self, place: GridPoint, at_speed: &mut AtSpeed<T>, out: &mut [T]) -> Result<()> {
+        let (nodes, width) = (&self.sweep.nodes, self.width);
         if self.inertia.is_empty() {
             out.fill(T::default());
         } else {
-            let square = sweep.squares[place.speed];
+            let square = self.sweep.squares[place.speed];
             let row = &self.inertia[place.row * width..][..width];
             // Adding zero makes −0 0.
             out.iter_mut().zip(row).for_each(|(out, &value)| *out = value * square + T::default());
         }
         if self.gas.is_empty() {
-            return;
+            return Ok(());
         }
+        if nodes.count() == 1 {
+            add_scaled(out, &self.gas[place.row * width..][..width], 1.0);
+            return Ok(());
+        }
+        if at_speed.place != Some((place.row, place.speed)) {
+            self.interpolate(place, at_speed)?;
+        }
+        for (load, weight) in nodes.loads[place.load].weights() {
+            if weight != 0.0 {
+                add_scaled(out, &at_speed.rows[load * width..][..width], weight);
+            }
+        }
+        Ok(())
+    }
+
+    /// Interpolates a row of pressure over speed.
+    #[inline(always)]
+    fn interpolate(&self, place: GridPoint, at_speed: &mut AtSpeed<T>) -> Result<()> {
+        let (sweep, width) = (self.sweep, self.width);
+        let nodes = &sweep.nodes;
         let of_engine = sweep.bank_angles().len() * sweep.points();
         let (engine, rest) = (place.row / of_engine, place.row % of_engine);
-        for (node, weight) in sweep.nodes.weights(place.speed, place.load) {
+        if at_speed.rows.is_empty() {
+            at_speed.rows = memory::zeros(nodes.loads_of_map * width)?;
+        }
+        at_speed.rows.fill(T::default());
+        for (speed, weight) in nodes.speed_weights(place.speed) {
             if weight == 0.0 {
                 continue;
             }
-            let row = (engine * sweep.nodes.count() + node) * of_engine + rest;
-            let row = &self.gas[row * width..][..width];
-            out.iter_mut().zip(row).for_each(|(out, &value)| *out = *out + value * weight);
+            for (load, out) in at_speed.rows.chunks_exact_mut(width.max(1)).enumerate() {
+                let node = engine * nodes.count() + speed * nodes.loads_of_map + load;
+                add_scaled(out, &self.gas[(node * of_engine + rest) * width..][..width], weight);
+            }
         }
+        at_speed.place = Some((place.row, place.speed));
+        Ok(())
     }
 
     /// Hands every row at every speed and load, room for one, and the place of its result to a function;
@@ -227,7 +257,7 @@ impl<T: Number> Operating<'_, T> {
         width: usize,
         cost: usize,
         cancel: &Cancel,
-        work: impl Fn(GridPoint, &mut [T], &mut [O]) -> Result<()> + Sync,
+        work: impl Fn(GridPoint, &mut Room<T>, &mut [O]) -> Result<()> + Sync,
     ) -> Result<()> {
         let (speeds, loads) = (self.sweep.squares.len(), self.sweep.nodes.loads());
         let rows =
@@ -236,7 +266,8 @@ impl<T: Number> Operating<'_, T> {
         let pieces = memory::collected(out.chunks_mut(rows * width).enumerate())?;
         cancel.expect(pieces.len());
         let piece = |(k, out): (usize, &mut [O])| {
-            let mut room: Vec<T> = memory::zeros(self.width)?;
+            let row: Vec<T> = memory::zeros(self.width)?;
+            let mut room = Room { row, at_speed: AtSpeed::default() };
             let at = k * rows;
             let mut place = GridPoint {
                 row: at / loads / speeds,
@@ -265,6 +296,12 @@ impl<T: Number> Operating<'_, T> {
     }
 }
 
+/// Adds a row times a weight.
+#[inline(always)]
+fn add_scaled<T: Number>(out: &mut [T], row: &[T], weight: f64) {
+    out.iter_mut().zip(row).for_each(|(out, &value)| *out = *out + value * weight);
+}
+
 impl Operating<'_, Complex64> {
     /// Writes the magnitudes of every row.
     pub fn magnitudes(&self, out: &mut [f64], cancel: &Cancel) -> Result<()> {
@@ -275,8 +312,8 @@ impl Operating<'_, Complex64> {
             cancel,
             #[inline(always)]
             |place, room, out| {
-                self.row(place, room);
-                for (out, phasor) in out.iter_mut().zip(room) {
+                self.row(place, &mut room.at_speed, &mut room.row)?;
+                for (out, phasor) in out.iter_mut().zip(&room.row) {
                     *out = phasor.re.mul_add(phasor.re, phasor.im * phasor.im).sqrt();
                 }
                 Ok(())
@@ -295,10 +332,10 @@ impl Operating<'_, Complex64> {
         // A search for an extremum takes some hundred times as long.
         self.each(out, 1, 256, cancel, |place, room, out| {
             cancel.check()?;
-            self.row(place, room);
+            self.row(place, &mut room.at_speed, &mut room.row)?;
             let mut mean = [0.0];
-            means.row(place, &mut mean);
-            out[0] = find(room, mean[0])?;
+            means.row(place, &mut AtSpeed::default(), &mut mean)?;
+            out[0] = find(&room.row, mean[0])?;
             Ok(())
         })
     }

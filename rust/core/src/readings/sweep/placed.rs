@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::{Quantity, Sweep};
-use crate::load::Loads;
+use crate::load::LoadList;
 use crate::load::kinematics::{AngleBlock, Columns, Kinematics, LoadSum, Quantities};
 use crate::load::source::{Scaling, Source};
 use crate::numbers::angle::Angle;
@@ -26,9 +26,9 @@ impl Sweep {
         let loads = match &self.axes.bank_angle {
             Some((angles, hold)) => {
                 let turned = engine.with_bank_angle(Angle::from_degrees(angles[angle])?, *hold)?;
-                Loads::new(&turned, reference)
+                LoadList::new(&turned, reference)
             }
-            None => Loads::new(engine, reference),
+            None => LoadList::new(engine, reference),
         };
         Ok(Placed { kinematics: Kinematics::new(&loads), points: Vec::new() })
     }

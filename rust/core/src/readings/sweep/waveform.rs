@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::placed::Placed;
 use super::tiles::{OrderWave, TILE, Tiles};
-use super::{Figure, Quantity, Sweep};
+use super::{Quantity, Statistic, Sweep};
 use crate::Complex64;
 use crate::load::kinematics::{AngleBlock, BLOCK};
 use crate::numbers::cancel::Cancel;
@@ -48,21 +48,27 @@ impl Sweep {
             ));
         }
         self.check_known(quantity)?;
-        let rows = Rows { angles, components: quantity.components(), cancel };
-        self.spread(quantity, angles.len() * rows.components, out, cancel, |part, out, factor| {
-            if exact {
-                self.by_kinematics(part, &rows, factor, out)
-            } else {
-                self.by_orders(part, &rows, factor, out)
-            }
-        })
+        let rows = RowsOverAngle { angles, components: quantity.components(), cancel };
+        self.at_each_speed(
+            quantity,
+            angles.len() * rows.components,
+            out,
+            cancel,
+            |part, out, factor| {
+                if exact {
+                    self.by_kinematics(part, &rows, factor, out)
+                } else {
+                    self.by_orders(part, &rows, factor, out)
+                }
+            },
+        )
     }
 
     /// Rows times a factor, of which what scales otherwise has none.
     fn by_orders(
         &self,
         quantity: Quantity,
-        rows: &Rows,
+        rows: &RowsOverAngle,
         factor: f64,
         out: &mut [f64],
     ) -> Result<()> {
@@ -75,7 +81,7 @@ impl Sweep {
             return rows.add(&means, out);
         }
         let mut phasors: Vec<Complex64> = memory::zeros(self.rows_of(quantity) * width)?;
-        self.phasor_rows(quantity, Figure::Amplitude, &mut phasors, factor, rows.cancel)?;
+        self.phasor_rows(quantity, Statistic::Amplitude, &mut phasors, factor, rows.cancel)?;
         let phasors = &phasors[..];
         let tiles = |range: &Range<usize>, terms: &[OrderWave]| {
             Tiles::new(rows.angles, range, &self.orders, terms)
@@ -116,7 +122,7 @@ impl Sweep {
     fn by_kinematics(
         &self,
         quantity: Quantity,
-        rows: &Rows,
+        rows: &RowsOverAngle,
         factor: f64,
         out: &mut [f64],
     ) -> Result<()> {
@@ -164,14 +170,14 @@ impl Sweep {
 }
 
 /// Rows over crank angle: one for each engine, bank angle, and point of rod ratio and pin offset.
-struct Rows<'a> {
+struct RowsOverAngle<'a> {
     angles: &'a CrankAngles,
     /// Numbers to an angle.
     components: usize,
     cancel: &'a Cancel,
 }
 
-impl Rows<'_> {
+impl RowsOverAngle<'_> {
     /// Adds the mean of each row, if it has any.
     fn add(&self, means: &[f64], out: &mut [f64]) -> Result<()> {
         let rows = out.chunks_mut(self.angles.len().max(1));
@@ -232,7 +238,7 @@ mod tests {
         let mut out = vec![0.0; 3 * ROWS * angles.len()];
         let mut run = |last: usize| {
             let (cancel, steps) = (Cancel::new(), AtomicUsize::new(0));
-            let rows = Rows { angles: &angles, components: 1, cancel: &cancel };
+            let rows = RowsOverAngle { angles: &angles, components: 1, cancel: &cancel };
             let work = |(): &(), _: Range<usize>, _: Vec<&mut [f64]>| {
                 if steps.fetch_add(1, Ordering::Relaxed) + 1 == last {
                     cancel.raise();

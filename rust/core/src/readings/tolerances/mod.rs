@@ -8,7 +8,7 @@ mod terms;
 use self::terms::Terms;
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::Loads;
+use crate::load::LoadList;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -133,7 +133,7 @@ pub fn orders(
     cancel: &Cancel,
 ) -> Result<(Vec<Order>, ErrorBounds)> {
     let omega = angular_speed(request.rpm)?;
-    let loads = Loads::new(engine, engine.reference(request.reference_z)?);
+    let loads = LoadList::new(engine, engine.reference(request.reference_z)?);
     let (mut orders, left_out) = choice::within_each(rtol, engine, &loads, request.torque, cancel)?;
     if orders.first() != Some(&Order::FIRST) {
         orders.insert(0, Order::FIRST);
@@ -352,11 +352,11 @@ fn check_reach(
     spreads: &[Vec<f64>; FIGURES],
     largest: f64,
 ) -> Result<()> {
-    let spread = |figure: Parameter, k: usize| spreads[figure as usize].get(k).copied();
+    let deviation = |figure: Parameter, k: usize| spreads[figure as usize].get(k).copied();
     let name = Parameter::name;
     for (i, place) in engine.stations().iter().enumerate() {
         let (cylinder, number) = (place.cylinder, i + 1);
-        let mass = spread(Parameter::ReciprocatingMass, i).unwrap_or(0.0);
+        let mass = deviation(Parameter::ReciprocatingMass, i).unwrap_or(0.0);
         if largest * mass > cylinder.reciprocating_mass() {
             let most = cylinder.reciprocating_mass() / largest;
             let hint = format!(
@@ -365,8 +365,8 @@ fn check_reach(
             );
             return Err(Error::figure(name(Parameter::ReciprocatingMass), mass, hint));
         }
-        let radius = spread(Parameter::CrankRadius, pin_of[i]).unwrap_or(0.0);
-        let rod = spread(Parameter::RodLength, i).unwrap_or(0.0);
+        let radius = deviation(Parameter::CrankRadius, pin_of[i]).unwrap_or(0.0);
+        let rod = deviation(Parameter::RodLength, i).unwrap_or(0.0);
         let smallest = cylinder.crank_radius() - largest * radius;
         let slack = cylinder.rod_length() - cylinder.pin_offset().abs() - cylinder.crank_radius();
         let shrunk = largest * (radius + rod);

@@ -12,7 +12,7 @@ use super::amplitudes::{SampleAmplitudes, amplitudes};
 use super::{Deviations, Parameter, SAMPLES_AT_ONCE, pins};
 use crate::Complex64;
 use crate::engine::{Engine, Origin, Station, distinct};
-use crate::load::{Arithmetic, Factor, Load, Loads, Phasors, Wanted, Weight, superpose};
+use crate::load::{Arithmetic, Factor, Load, LoadList, Phasors, Wanted, Weight, superpose};
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -58,7 +58,7 @@ pub(super) struct Terms {
     numbers: Vec<u32>,
     torque: bool,
     places: Vec<Station>,
-    loads: Loads,
+    loads: LoadList,
     deviating: Vec<Deviating>,
     pin_of: Vec<usize>,
     /// Different cylinders with the speeds of their cranks, and which of them is in each place.
@@ -95,7 +95,7 @@ impl Terms {
         for (i, &pin) in pin_of.iter().enumerate() {
             ratio_of[pin] = ratio(i);
         }
-        let mut loads = Loads::new(&laden, reference);
+        let mut loads = LoadList::new(&laden, reference);
         let deviating = |load: &Load| {
             let (pin, kind) = match load.place.origin {
                 Origin::Cylinder(i) if load.is_turning() => (i, DeviatingKind::RotatingMass(i)),

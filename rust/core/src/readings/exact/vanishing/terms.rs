@@ -8,7 +8,7 @@ use super::super::{ExactLoads, Levers, TypedProportions, too_long};
 use super::ProofQuantity;
 use crate::engine::{Engine, distinct, first_equal};
 use crate::load::source::{Column, ExactFactor};
-use crate::load::{self, Harmonic, Load, Loads, Wanted, superpose};
+use crate::load::{self, Harmonic, Load, LoadList, Wanted, superpose};
 use crate::mechanism::Mechanism;
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
@@ -91,7 +91,7 @@ pub(super) type SymbolSums = Vec<load::Term<Vec<Share>>>;
 
 /// Everything about an engine that does not depend on the order.
 pub(super) struct Proof {
-    pub loads: Loads,
+    pub loads: LoadList,
     /// Motions, of proportions and speed of a crank.
     pub motions: Vec<Mechanism>,
     /// Motion of each source that has one.

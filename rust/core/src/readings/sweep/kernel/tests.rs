@@ -5,7 +5,7 @@ use super::*;
 use crate::engine::{Engine, Hold, Station};
 use crate::numbers::error::Error;
 use crate::numbers::order::Order;
-use crate::readings::sweep::{Axes, Figure};
+use crate::readings::sweep::{Statistic, SweepAxes};
 use crate::{Angle, Cylinder};
 
 #[test]
@@ -36,13 +36,13 @@ fn cancellation_stops_at_the_next_stretch() {
             let rows = 2 * of_engine;
             // Pieces of values times speeds are steps too.
             let pieces = if rpm.len() > 1 { (rows * rpm.len()).div_ceil(ROWS_PER_TASK) } else { 0 };
-            let axes = Axes { bank_angle, rod_ratio, rpm, ..Axes::default() };
+            let axes = SweepAxes { bank_angle, rod_ratio, rpm, ..SweepAxes::default() };
             let orders = vec![Order::whole(2).unwrap()];
             let sweep = Sweep::new(engines.clone(), axes, orders, None, &Cancel::new()).unwrap();
             // Raises the flag once a number of rows are done.
             let run = |after: usize| {
                 let (cancel, done) = (Cancel::new(), AtomicUsize::new(0));
-                let shape = sweep.result_shape(Quantity::Force, Figure::Length);
+                let shape = sweep.result_shape(Quantity::Force, Statistic::Length);
                 let mut out = vec![0.0; shape.iter().product()];
                 let finish = |_: &Block, _: f64, out: &mut [f64]| {
                     if done.fetch_add(out.len(), Ordering::Relaxed) + out.len() >= after {
@@ -52,9 +52,10 @@ fn cancellation_stops_at_the_next_stretch() {
                 };
                 let quantity = Quantity::Force;
                 let job = Job { sweep: &sweep, quantity, width: 1, slow: false, cancel: &cancel };
-                let result = sweep.spread(quantity, 1, &mut out, &cancel, |_, out, factor| {
-                    job.rows(out, factor, finish)
-                });
+                let result =
+                    sweep.at_each_speed(quantity, 1, &mut out, &cancel, |_, out, factor| {
+                        job.rows(out, factor, finish)
+                    });
                 (result, done.into_inner(), cancel.progress())
             };
             assert_eq!(run(usize::MAX), (Ok(()), rows, (rows + pieces, rows + pieces)));

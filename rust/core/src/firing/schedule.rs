@@ -1,15 +1,15 @@
-//! One way for an engine to fire: when each cylinder does, and how evenly.
+//! A schedule by which an engine fires: when each cylinder does, and how evenly.
 
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-use super::tops::{self, degrees, highest_after_tdc, same};
+use super::highest_points::{degrees, highest_after_tdc, highest_points, same};
 use crate::engine::{Engine, Station};
 use crate::layout::Strokes;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
 
-/// One way for an engine to fire: cylinders by index from 0.
+/// A schedule by which an engine fires: cylinders by index from 0.
 ///
 /// ```
 /// # let four = crankpin_core::engine::file::from_toml(
@@ -47,7 +47,7 @@ pub struct Firing {
 }
 
 impl Firing {
-    /// The way to fire in which the cylinders marked `later` fire in the second turn after the first
+    /// The schedule in which the cylinders marked `later` fire in the second turn after the first
     /// cylinder.
     pub fn with_later(engine: &Arc<Engine>, strokes: Strokes, later: &[bool]) -> Result<Self> {
         let count = engine.stations().len();
@@ -55,17 +55,17 @@ impl Firing {
             let hint = "give 0 or 1 for each cylinder, 0 for the first and in a two-stroke";
             return Err(Error::value("revolutions", format!("{later:?}"), hint));
         }
-        Ok(Self::assemble(engine, &tops::tops(engine), strokes, later))
+        Ok(Self::assemble(engine, &highest_points(engine), strokes, later))
     }
 
     pub(super) fn assemble(
         engine: &Arc<Engine>,
-        tops: &[Angle],
+        highest: &[Angle],
         strokes: Strokes,
         later: &[bool],
     ) -> Self {
         let times: Vec<Angle> =
-            tops.iter().zip(later).map(|(&top, &later)| top + turn_if(later)).collect();
+            highest.iter().zip(later).map(|(&highest, &later)| highest + turn_if(later)).collect();
         let mut order: Vec<usize> = (0..times.len()).collect();
         order.sort_by(|&a, &b| times[a].partial_cmp(&times[b]).unwrap_or(Ordering::Equal));
         let fired: Vec<usize> = order.iter().copied().filter(|&i| engine.fires(i)).collect();

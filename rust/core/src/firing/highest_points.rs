@@ -5,10 +5,10 @@ use crate::layout::MOST_ROUNDING;
 use crate::numbers::angle::Angle;
 
 /// Crank angles at which pistons are highest, after the first one's, within a turn.
-pub(super) fn tops(engine: &Engine) -> Vec<Angle> {
+pub(super) fn highest_points(engine: &Engine) -> Vec<Angle> {
     let stations = engine.stations();
     let (first, past_first) = (stations[0].tdc, highest_after_tdc(&stations[0]));
-    let mut tops: Vec<Angle> = stations
+    let mut highest: Vec<Angle> = stations
         .iter()
         .map(|station| {
             let past = highest_after_tdc(station) - past_first;
@@ -21,14 +21,14 @@ pub(super) fn tops(engine: &Engine) -> Vec<Angle> {
         })
         .collect();
     // Merge angles that differ only by rounding.
-    let mut order: Vec<usize> = (0..tops.len()).collect();
-    order.sort_by(|&a, &b| tops[a].degrees().total_cmp(&tops[b].degrees()));
+    let mut order: Vec<usize> = (0..highest.len()).collect();
+    order.sort_by(|&a, &b| highest[a].degrees().total_cmp(&highest[b].degrees()));
     for pair in order.windows(2) {
-        if same(tops[pair[0]], tops[pair[1]]) {
-            tops[pair[1]] = tops[pair[0]];
+        if same(highest[pair[0]], highest[pair[1]]) {
+            highest[pair[1]] = highest[pair[0]];
         }
     }
-    tops
+    highest
 }
 
 /// Degrees after top dead centre at which crank and rod are in line.
@@ -76,7 +76,7 @@ mod tests {
         assert_eq!(apart(0.0), "1-2+3");
         assert_eq!(apart(0.1 * MOST_ROUNDING), "1-2+3");
         assert_eq!(apart(10.0 * MOST_ROUNDING), "1-2-3");
-        // An offset of one and not of the other: tops asin(e/(l + r)) apart from their pins'.
+        // An offset of one and not of the other: highest points asin(e/(l + r)) apart from their pins'.
         let past = (0.02_f64 / 0.2).asin().to_degrees();
         let engine = placed(&[(cylinder(0.02), 0.0, 90.0), (cylinder(0.0), past + 120.0, 90.0)]);
         let firing = Firing::all(&engine, Strokes::Two, &Cancel::new()).unwrap().remove(0);

@@ -1,0 +1,312 @@
+"""Units that people write: what they are read as, and what is shown in their place.
+
+Numbers of the library are SI. A setting names the units in which tables, texts and pictures show
+them; it changes no number of a result.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from decimal import Decimal
+from fractions import Fraction
+from typing import TYPE_CHECKING, NamedTuple
+
+from crankpin._support import inputs
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+    from types import TracebackType
+
+MASSES = {
+    "kg": Decimal(1), "g": Decimal("1e-3"), "mg": Decimal("1e-6"),
+    "lb": Decimal("0.45359237"), "oz": Decimal("0.028349523125"),
+}  # fmt: skip
+"""Unit of mass → kg."""
+LENGTHS = {
+    "m": Decimal(1), "cm": Decimal("1e-2"), "mm": Decimal("1e-3"), "µm": Decimal("1e-6"),
+    "in": Decimal("0.0254"), "ft": Decimal("0.3048"),
+}  # fmt: skip
+"""Unit of length → m."""
+GRAVITY = Decimal("9.80665")
+FORCES = {
+    "N": Decimal(1), "kN": Decimal(1000), "MN": Decimal(10**6),
+    "lbf": MASSES["lb"] * GRAVITY, "ozf": MASSES["oz"] * GRAVITY, "kgf": GRAVITY,
+}  # fmt: skip
+"""Unit of force → N."""
+PRESSURES = {
+    "Pa": Decimal(1), "hPa": Decimal(100), "kPa": Decimal(1000), "MPa": Decimal(10**6),
+    "mbar": Decimal(100), "bar": Decimal(10**5),
+    "psi": MASSES["lb"] * GRAVITY / LENGTHS["in"] ** 2,
+}  # fmt: skip
+"""Unit of pressure → Pa."""
+KINDS = (MASSES, LENGTHS, FORCES, PRESSURES)
+SYMBOLS = {name: (kind, factor) for kind, of in enumerate(KINDS) for name, factor in of.items()}
+"""Unit → its kind, a place in :data:`KINDS`, and its factor to SI."""
+ALIASES = {
+    "gm": "g", "gms": "g", "gr": "g", "gram": "g", "grams": "g", "kgs": "kg", "kilo": "kg",
+    "lbs": "lb", "lbm": "lb", "pound": "lb", "pounds": "lb", "ounce": "oz", "ounces": "oz",
+    "ozs": "oz", '"': "in", "”": "in", "″": "in", "''": "in", "inch": "in", "inches": "in",
+    "'": "ft", "’": "ft", "′": "ft", "foot": "ft", "feet": "ft", "um": "µm", "μm": "µm",
+    "lbsf": "lbf", "kp": "kgf", "newton": "N", "metre": "m", "meter": "m",
+}  # fmt: skip
+"""What people write → the unit."""
+HINT = 'give units of mass, length, force or pressure, such as "g, mm, lbf" or "oz·in"'
+LEAST_DIGITS = 3
+"""Significant digits of a converted number in a text, at least."""
+
+_EXPONENTS = {"": 1, "²": 2, "³": 3, "2": 2, "3": 3, "^2": 2, "^3": 3}
+_SI = "|".join(sorted(
+    ("kg", "g", "mg", "m", "cm", "mm", "µm", "N", "kN", "MN", *PRESSURES), key=len, reverse=True
+))  # fmt: skip
+_UNIT = rf"(?:{_SI}|s|rad)[²³]?(?:[·/](?:{_SI}|s|rad)[²³]?)*(?![\w·/²³])"
+_NUMBER = r"[-+−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
+_FIGURE = re.compile(rf"(?<![\w.])({_NUMBER}) ({_UNIT})", re.ASCII)
+_VECTOR = re.compile(rf"\(((?:{_NUMBER}(?:, )?)+)\) ({_UNIT})", re.ASCII)
+
+Dimension = tuple[int, ...]
+
+
+class Converted(NamedTuple):
+    """Unit in which something is shown."""
+
+    unit: str
+    """Unit, as read by people."""
+    factor: float
+    """What numbers are multiplied by."""
+
+
+class Shown:
+    """Setting of units, made by :func:`crankpin.units`: its block ends it."""
+
+    def __init__(self, setting: Setting) -> None:
+        global _setting
+        self._before, _setting = _setting, setting
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        global _setting  # noqa: PLW0603 - as above
+        _setting = self._before
+
+
+def units(text: str = "") -> Shown:
+    """Set the units in which tables, texts and pictures are shown.
+
+    Numbers that results hold remain in SI units. The setting lasts until another one; as a context
+    manager, until its block ends.
+
+    Parameters
+    ----------
+    text : str, default ""
+        Units of mass (``kg``, ``g``, ``lb``, ``oz``), length (``m``, ``mm``, ``in``, ``ft``), force
+        (``N``, ``kN``, ``lbf``, ``kgf``) and pressure (``Pa``, ``bar``, ``psi``), and products such
+        as ``oz·in`` or ``lbf·ft``, separated by commas. A kind that is not named stays as it is;
+        with ``lbf`` torques are in lbf·ft, unless a product is named. Empty for what results have.
+
+    Returns
+    -------
+    Shown
+        The setting, as a context manager that ends it with its block.
+
+    Raises
+    ------
+    InputError
+        If there is no such unit, or a kind is named twice.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> bob = cp.bob_weight(cp.Engine.preset("single", rotating_mass=0.5))
+    >>> with cp.units("oz, in, lbf"):
+    ...     print(bob.frames["table"])
+    Single: bob weights, rotating + 50 % of reciprocating
+    cylinders  crankpin °  rotating oz  reciprocating oz  oil oz  bob weight oz
+    1                  90       17.637            15.873       0         25.574
+    """
+    return Shown(read(text))
+
+
+Setting = dict[Dimension, str]
+"""Dimension → its unit."""
+_setting: Setting = {}
+
+
+def read(text: object, name: str = "units") -> Setting:
+    """Return the units that a text names."""
+    found: Setting = {}
+    for word in filter(None, (each.strip() for each in inputs.text(name, text, HINT).split(","))):
+        unit = symbol(word) or word.replace("*", "·")
+        try:
+            dimension = _dimension(_terms(unit))
+        except KeyError:
+            meant = inputs.nearest(word, [*SYMBOLS, *ALIASES])
+            raise inputs.rejected(name, text, f"{HINT}{meant}") from None
+        if dimension in found:
+            raise inputs.rejected(name, text, f"{found[dimension]} and {unit} are of one kind")
+        found[dimension] = _text(_terms(unit))
+    return found
+
+
+def current() -> Setting:
+    """Return the units of the setting."""
+    return _setting
+
+
+def symbol(word: str) -> str | None:
+    """Return the unit that a word stands for, whatever its case; None if there is none."""
+    if word in SYMBOLS:
+        return word
+    lower = word.lower()
+    known = {name.lower(): name for name in reversed(SYMBOLS)}
+    return ALIASES.get(word) or ALIASES.get(lower) or known.get(lower)
+
+
+def exact(unit: str, dimension: Dimension | None = None) -> Decimal | None:
+    """Return what a unit stands for in SI units; None where it is unknown, or of another kind."""
+    for written in (unit, *_joined(unit)):
+        try:
+            terms = _terms(written)
+        except KeyError:
+            continue
+        if dimension in (None, _dimension(terms)):
+            return math.prod(
+                (SYMBOLS[name][1] ** n for name, n in terms if name in SYMBOLS), start=Decimal(1)
+            )
+    return None
+
+
+def _joined(unit: str) -> Iterator[str]:
+    """Yield the products that a unit without a sign of multiplication can be: gmm, lb-ft."""
+    yield from (unit.replace(sign, "·") for sign in "- ." if sign in unit)
+    for k in range(1, len(unit)):
+        first, second = unit[:k], unit[k:]
+        if first in SYMBOLS and second in LENGTHS and SYMBOLS[first][0] != 1:  # no length first
+            yield f"{first}·{second}"
+
+
+def convert(unit: str, setting: Mapping[Dimension, str] | None = None) -> Converted:
+    """Return the unit that a setting shows in place of another, and the factor of numbers."""
+    chosen = _setting if setting is None else setting
+    same = Converted(unit, 1.0)
+    if not chosen or not unit:
+        return same
+    try:
+        terms = _terms(unit)
+        dimension = _dimension(terms)
+    except KeyError:
+        return same
+    if dimension in chosen:
+        target = _terms(chosen[dimension])
+    else:
+        single = {sum(k * n for k, n in enumerate(key)): name for key, name in chosen.items()
+                  if sum(map(abs, key)) == 1}  # fmt: skip
+        if dimension == TORQUE:  # in newton metres, or pound feet, whatever lengths are in
+            if 2 not in single:
+                return same
+            single[1] = "ft" if single[2] in ("lbf", "ozf") else "m"
+        target = [
+            (single.get(SYMBOLS[name][0], name) if name in SYMBOLS else name, n)
+            for name, n in terms
+        ]
+    factor = _factor(terms) / _factor(target)
+    return Converted(_text(target), float(factor))
+
+
+def figure(value: float, unit: str, digits: int) -> str:
+    """Return a number of significant digits with its unit, as the setting shows it."""
+    shown = convert(unit)
+    return f"{value * shown.factor:.{digits}g} {shown.unit}"
+
+
+def in_text(text: str, setting: Mapping[Dimension, str] | None = None) -> str:
+    """Return a text of the library with its numbers and their SI units as a setting shows them."""
+    chosen = _setting if setting is None else setting
+    if not chosen:
+        return text
+
+    def written(number: str, factor: float) -> str:
+        mantissa = re.sub(r"e.*|\D", "", number).lstrip("0")
+        digits = max(len(mantissa), LEAST_DIGITS)
+        value = float(number.replace("−", "-")) * factor
+        return f"{float(f'{value:.{digits}g}'):.10g}"
+
+    def one(match: re.Match[str]) -> str:
+        shown = convert(match[2], chosen)
+        if shown.unit == match[2]:
+            return match[0]
+        return f"{written(match[1], shown.factor)} {shown.unit}"
+
+    def several(match: re.Match[str]) -> str:
+        shown = convert(match[2], chosen)
+        if shown.unit == match[2]:
+            return match[0]
+        numbers = (written(each, shown.factor) for each in match[1].split(", "))
+        return f"({', '.join(numbers)}) {shown.unit}"
+
+    return _VECTOR.sub(several, _FIGURE.sub(one, text))
+
+
+def after_comma(text: str, setting: Mapping[Dimension, str] | None = None) -> tuple[str, float]:
+    """Return ``force, N`` with the unit that a setting shows, and the factor of its numbers."""
+    match = re.fullmatch(r"(.*, )([^ ,]+)( \(.*\))?", text)
+    shown = convert(match[2] if match else "", setting)
+    return f"{match[1]}{shown.unit}{match[3] or ''}" if match else text, shown.factor
+
+
+# --- products and quotients of units --------------------------------------------------------------
+
+TORQUE: Dimension = (0, 1, 1, 0)
+Terms = list[tuple[str, int]]
+
+
+def _terms(unit: str) -> Terms:
+    """Return the symbols of a unit with their exponents; a KeyError for one that is unknown."""
+    found: Terms = []
+    for part, sign in _parts(unit):
+        match = re.fullmatch(r"(.*?)(\^?[23]|[²³]|)", part.strip())
+        name = match[1] if match else part
+        known = name if name in ("s", "rad") else symbol(name)
+        if known is None or match is None:
+            raise KeyError(unit)
+        found.append((known, sign * _EXPONENTS[match[2]]))
+    return found
+
+
+def _parts(unit: str) -> list[tuple[str, int]]:
+    above, *below = unit.split("/")
+    pairs = [(each, 1) for each in re.split(r"[·*]", above)]
+    return pairs + [(each, -1) for part in below for each in re.split(r"[·*]", part)]
+
+
+def _dimension(terms: Terms) -> Dimension:
+    """Return the exponents of mass, length, force, pressure; of others the name is one."""
+    found = [0] * len(KINDS)
+    others: list[int] = []
+    for name, n in terms:
+        if name in SYMBOLS:
+            found[SYMBOLS[name][0]] += n
+        else:
+            others += [10 if name == "s" else 20, n]
+    return (*found, *others)
+
+
+def _factor(terms: Terms) -> Fraction:
+    return math.prod(
+        (Fraction(SYMBOLS[name][1]) ** n for name, n in terms if name in SYMBOLS), start=Fraction(1)
+    )
+
+
+def _power(n: int) -> str:
+    return {1: "", 2: "²", 3: "³"}[abs(n)]
+
+
+def _text(terms: Terms) -> str:
+    above = "·".join(f"{name}{_power(n)}" for name, n in terms if n > 0)
+    return "/".join([above, *(f"{name}{_power(n)}" for name, n in terms if n < 0)])

@@ -1,0 +1,300 @@
+"""The card of a balancing shop: weighed parts, bob weights of several factors, and residuals."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Mapping
+from functools import cached_property
+from string import Template
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from crankpin._support import files, inputs, labels
+from crankpin._support.frames import Frames, Tabled
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
+from crankpin._support.tables import Column, Table
+from crankpin.analysis.balancing.counterweights import counterweights
+from crankpin.analysis.sentences import across, turns
+from crankpin.model.shafts import Unbalance
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from crankpin.analysis.balancing.bob_weight import BobWeight
+    from crankpin.model.engine import Engine
+
+PARTS = {
+    "piston": "reciprocating",
+    "pin": "reciprocating",
+    "locks": "reciprocating",
+    "rings": "reciprocating",
+    "small end": "reciprocating",
+    "big end": "rotating",
+    "bearings": "rotating",
+}
+"""Part of a cylinder that is weighed → what it counts as."""
+RECIPROCATING, ROTATING = "reciprocating", "rotating"
+STEEL, HEAVY_METAL = 7.85, 17.0
+"""Densities of a crankshaft and of the tungsten alloy pressed into its holes, g/cm³."""
+G_MM = 1e6
+"""Gram millimetres to a kg·m."""
+ROUNDING = 1e-12
+"""Differences of factors, and parts of the longest vector, that are rounding."""
+PAGE = Template("""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width">
+<title>$title</title>
+<style>
+body { font: 10pt/1.3 system-ui, sans-serif; max-width: 19cm; margin: 1cm auto; }
+h1 { font-size: 14pt; margin: 0 0 4mm; }
+table { border-collapse: collapse; width: 100%; margin: 0 0 4mm; break-inside: avoid; }
+caption { text-align: left; font-weight: bold; padding: 1mm 0; }
+th, td { border-bottom: 0.2mm solid #999; padding: 0.7mm 2mm; text-align: right; }
+th:first-child, td:first-child { text-align: left; }
+th { border-bottom: 0.4mm solid #000; }
+p { margin: 0 0 4mm; }
+@page { size: auto; margin: 12mm; }
+@media print { body { margin: 0; max-width: none; } }
+</style>
+</head>
+<body>
+<h1>$title</h1>
+$tables
+</body>
+</html>
+""")
+
+
+def weighed(engine: Engine, parts: object) -> dict[str, NDArray[np.float64]]:
+    """Return the mass of each part of each cylinder, kg: part → (n_cylinders,).
+
+    Of an engine whose parts are not given, its reciprocating and rotating masses.
+    """
+    if not isinstance(parts, Mapping):
+        hint = f"give a mapping of parts to kilograms: {', '.join(PARTS)}"
+        raise inputs.rejected("parts", parts, hint)
+    found = {}
+    for name, mass in parts.items():
+        part = inputs.one_of("parts", str(name).replace("_", " "), PARTS)
+        masses = np.array(inputs.per_item(f"parts[{name!r}]", mass, len(engine)))
+        if len(masses) != len(engine):
+            hint = f"give one, or {len(engine)}"
+            raise inputs.faulty(f"parts[{name!r}]", f"has {len(masses)} masses", hint)
+        if not ((masses >= 0.0) & (masses <= 1e6)).all():
+            raise inputs.rejected(f"parts[{name!r}]", mass, "give kilograms, 0 or more")
+        found[part] = masses
+    return {part: found[part] for part in PARTS if part in found}
+
+
+def with_parts(engine: Engine, parts: Mapping[str, NDArray[np.float64]]) -> Engine:
+    """Return an engine of these parts; a kind of which none is given stays as it is."""
+    sums = {
+        kind: np.sum([parts[part] for part in parts if PARTS[part] == kind], axis=0)
+        for kind in {PARTS[part] for part in parts}
+    }
+    # To the nanogram, which leaves 0.65 + 0.18 its decimals.
+    rounded = {kind: masses.round(12).tolist() for kind, masses in sums.items()}
+    if RECIPROCATING in rounded:
+        each = zip(engine.cylinders, rounded[RECIPROCATING], strict=True)
+        moving = [one.replace(reciprocating_mass=mass) for one, mass in each]
+        kept = rounded.get(ROTATING, engine.rotating_mass.tolist())
+        return engine.replace(cylinder=moving, rotating_mass=kept)
+    return engine.replace(rotating_mass=rounded[ROTATING]) if rounded else engine
+
+
+class Card(Tabled):
+    """Card of a balancing shop, made by :meth:`crankpin.types.BobWeight.card`.
+
+    Frames: ``table``, the weighed parts; ``bob weights`` of every crankpin; ``residual`` at a speed
+    by balance factor; and, where planes are given, ``correction``.
+    """
+
+    bob: BobWeight
+    """The bob weights."""
+    factors: tuple[float, ...]
+    """Balance factors compared."""
+    rpm: float
+    """Crank speed of the residuals."""
+    sides: tuple[str, str]
+    """What is on the right and on the left of the engine, seen from the flywheel."""
+    planes: tuple[tuple[str, float, float | None], ...]
+    """Planes of the correction: name, place along the crank, m, and radius, m, or None."""
+    balanced_to: tuple[float, ...] | None
+    """Bob weight to which the crankshaft is balanced now, of each crankpin, kg; None if unknown."""
+
+    @property
+    def table(self) -> Table:
+        """Table of the weighed parts."""
+        bob, engine = self.bob, self.bob.engine
+        shares = f"{', '.join(f'{100.0 * each:.6g}' for each in self.factors)} %"
+        rows: list[tuple[str, str, str, NDArray[np.float64]]] = [
+            (part, PARTS[part], shares if PARTS[part] == RECIPROCATING else "100 %", masses)
+            for part, masses in bob.parts.items()
+        ]
+        moving = np.array([each.reciprocating_mass for each in engine.cylinders])
+        for kind, share, masses in (
+            (RECIPROCATING, shares, moving),
+            (ROTATING, "100 %", engine.rotating_mass),
+        ):
+            rows.append((f"all {kind}", kind, share, masses))
+        alike = all(not np.ptp(masses) for *_, masses in rows)
+        numbers = np.array([1e3 * masses for *_, masses in rows])
+        heads = ["each cylinder"] if alike else [f"cylinder {k + 1}" for k in range(len(engine))]
+        return Table.from_rows(
+            f"{labels.name_of(engine)}: weighed parts",
+            ["part", "counts as", "share", *((head, "g") for head in heads)],
+            [row[:3] for row in rows],
+            numbers[:, :1] if alike else numbers,
+            decimals=1,
+        )
+
+    @property
+    def frames(self) -> Frames:
+        """``table``, ``bob weights``, ``residual``; ``correction`` where planes are given."""
+        further: dict[str, Any] = {"bob weights": self._bob_weights, "residual": self._residual}
+        if self.planes:
+            further["correction"] = self._correction
+        return self._frames(**further)
+
+    def _bob_weights(self) -> Table:
+        bob = self.bob
+        oil = np.full(len(bob.crankpins), bob.oil)
+        masses = [bob.rotating, bob.reciprocating, oil, *map(bob._mass_at, self.factors)]
+        heads = ["rotating", "reciprocating", "oil"]
+        heads += [f"at {100.0 * each:.6g} %" for each in self.factors]
+        return Table.from_rows(
+            "Bob weight of each crankpin",
+            ["cylinders", ("crankpin", "°"), *((head, "g") for head in heads)],
+            [(", ".join(map(str, pin.cylinders)), pin.pin_deg) for pin in bob.crankpins],
+            1e3 * np.stack(masses, axis=1),
+            decimals=1,
+        )
+
+    @cached_property
+    def _by_factor(self) -> dict[float, str]:
+        """Factors of the card, and those that leave a straight line, with a remark."""
+        found = dict.fromkeys(self.factors, "")
+        for name in PLANE_VECTORS:
+            for factor, _ in self.bob.straight(name):
+                near = next((each for each in found if abs(each - factor) < ROUNDING), factor)
+                words = [found.get(near, ""), f"straight line of the {name}"]
+                found[near] = ", ".join(filter(None, words))
+        return found
+
+    def _residual(self) -> Table:
+        bob, factors = self.bob, sorted(self._by_factor)
+        columns = [
+            Column("factor", tuple(100.0 * each for each in factors), "%"),
+            Column("", tuple(self._by_factor[each] for each in factors)),
+        ]
+        omega_squared = (self.rpm / labels.UNIT_RPM) ** 2
+        for name in PLANE_VECTORS:
+            if not any(map(any, bob._parts(name))):
+                continue
+            longest, shortest = (omega_squared * each for each in bob.half_axes(name, factors))
+            shortest[abs(shortest) < ROUNDING * longest.max()] = 0.0
+            unit = QUANTITIES[name].unit
+            words = tuple(self._direction(name, each) for each in factors)
+            columns += [
+                Column(f"{name}, longest", tuple(longest.tolist()), unit, digits=4),
+                Column("shortest", tuple(abs(shortest).tolist()), unit, digits=4),
+                Column("direction of the longest" if name == "force" else "ends move", words),
+            ]
+        title = f"What order 1 leaves {labels.at_speed(self.rpm)}, half axes"
+        note = "" if len(columns) > 2 else "Nothing of order 1 is left at any factor."
+        return Table(title, tuple(columns), note)
+
+    def _direction(self, quantity: str, factor: float) -> str:
+        """Return in words which way the longest half axis points, of a moment which way ends go."""
+        tilt = self.bob._direction_deg(quantity, factor)
+        longest, shortest = self.bob.half_axes(quantity, factor)
+        if tilt is None:
+            return turns(shortest) if longest else "–"
+        # A moment about x moves the ends up and down.
+        return across(tilt if quantity == "force" else tilt - 90.0, self.sides)
+
+    def _correction(self) -> Table:
+        places = {name: z for name, z, _ in self.planes}
+        radii = {name: radius for name, _, radius in self.planes}
+        rows: list[tuple[Any, ...]] = []
+        engine = _weighted(self.bob, self.balanced_to)
+        for factor in self.factors:
+            fit = counterweights(engine, planes=places, factor=factor)
+            for plane, each in fit.by_plane:
+                angle = inputs.degrees(each.angle_deg)
+                amount, radius = G_MM * each.amount, radii[plane]
+                share = f"{100.0 * factor:.6g} %"
+                rows.append((share, plane, each.z, amount, angle, (angle + 180.0) % 360.0, radius))
+        found: list[tuple[Any, ...]] = list(zip(*rows, strict=True)) if rows else [()] * 7
+        shares, names, z, amounts, adding, drilling, at = found
+        columns = [
+            Column("factor", shares),
+            Column("plane", names),
+            Column("z", z, "m"),
+            Column("unbalance", amounts, "g·mm", decimals=0),
+            Column("add at", adding, "°", decimals=1),
+            Column("or drill at", drilling, "°", decimals=1),
+        ]
+        if any(radii.values()):
+            net = [a / (1e3 * r) for a, r in zip(amounts, at, strict=True)]
+            slugs = [each * HEAVY_METAL / (HEAVY_METAL - STEEL) for each in net]
+            columns += [
+                Column("radius", tuple(1e3 * r for r in at), "mm"),
+                Column("weight", tuple(net), "g", decimals=1),
+                Column("as heavy metal", tuple(slugs), "g", decimals=1),
+            ]
+        has = "from nothing"
+        if self.balanced_to is not None:
+            has = "from the bob weight it has"
+        elif self.bob.engine.counterweights:
+            has = "from the counterweights it has"
+        note = "" if rows else "Nothing is to be added or drilled away."
+        return Table(f"Correction of the crankshaft, {has}", tuple(columns), note)
+
+    def save_html(self, path: str | Path) -> None:
+        """Write the card as one page for any browser, whose print is one page, or a PDF.
+
+        Parameters
+        ----------
+        path : str or pathlib.Path
+            Name of the file, which ends in ``.html``.
+
+        Raises
+        ------
+        InputError
+            If the name ends otherwise.
+        OSError
+            If the file cannot be written.
+        """
+        file = inputs.file_path(path, (".html", ".htm"), "a page ends in .html")
+        title = f"{labels.name_of(self.bob.engine)}: bob weights"
+        files.write(
+            file, PAGE.substitute(title=html.escape(title), tables=self.frames._repr_html_())
+        )
+
+
+def _weighted(bob: BobWeight, balanced_to: Sequence[float] | None) -> Engine:
+    """Return the engine with the oil of its crankpins, and what its crankshaft has now."""
+    engine, masses = bob.engine, bob.engine.rotating_mass.copy()
+    for pin in bob.crankpins:
+        masses[pin.cylinders[0] - 1] += bob.oil
+    engine = engine.replace(rotating_mass=masses)
+    if balanced_to is None:
+        return engine
+    weights = [
+        Unbalance(
+            mass * engine.cylinders[pin.cylinders[0] - 1].crank_radius,
+            pin.z,
+            180,
+            pin=pin.cylinders[0],
+        )
+        for pin, mass in zip(bob.crankpins, balanced_to, strict=True)
+        if mass
+    ]
+    return engine.with_counterweights(weights)

@@ -1,0 +1,162 @@
+"""Commands on engines beside each other, their stars, formulas, flywheels and harmonics."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from crankpin._support import inputs
+from crankpin._support.tables import Table
+from crankpin.analysis.comparison import compare
+from crankpin.analysis.flywheel import flywheel
+from crankpin.analysis.star import star_diagram
+from crankpin.cli.arguments import command, option, rejected
+from crankpin.cli.loads import OF_A_FILE, fired
+from crankpin.cli.outputs import Shown, only
+from crankpin.model.cylinder import slider_crank_harmonics
+
+if TYPE_CHECKING:
+    from crankpin.cli.arguments import Given
+
+HIGHEST = 12
+"""Highest order of the harmonics that are printed without ``--orders``."""
+
+
+@command(
+    "compare",
+    "two engines at one speed: peaks of each order, before and after",
+    option("names", metavar="NAME", nargs="+", help="two presets or engine files (.toml, .json)"),
+    "--rpm --orders --rtol --quantity --reference-z --spectrum --units --csv --plot",
+    example="compare i4 i4-crossplane --rpm 6000 --plot both.png",
+)
+def _compare(given: Given) -> Shown:
+    engines = [*given.engines().values()]
+    if len(engines) != 2:
+        raise inputs.faulty("NAME", f"stands for {len(engines)} engines", "give two")
+    before, after = engines
+    rpm = given.number("--rpm", "rpm")
+    comparison = compare(before, after, rpm, spectrum=given.spectrum(), **given.chosen())
+    return Shown(comparison.frames, comparison, {"quantity": given.quantity(engines)})
+
+
+@command(
+    "flywheel",
+    "speed over a cycle with a flywheel, or the flywheel that keeps it even",
+    "name --rpm",
+    option("--inertia", metavar="J", help="moment of inertia of all that turns, kg·m²"),
+    option(
+        "--irregularity",
+        metavar="X",
+        help="largest less smallest speed over the mean, 0.01 or 1%%, to find the inertia for",
+    ),
+    "--cycle --firing-order --bore --crankcase",
+    *OF_A_FILE,
+    "--units",
+    option("--frame", choices=("table", "approximations")),
+    "--csv --plot",
+    example="flywheel i4 --rpm 800 --irregularity 2% --bore 86mm",
+)
+def _flywheel(given: Given) -> Shown:
+    engine, note = fired(given, "flywheel")
+    found = flywheel(
+        engine,
+        rpm=given.number("--rpm", "rpm"),
+        inertia=given.optional("--inertia", "kg·m²"),
+        irregularity=given.optional("--irregularity"),
+    )
+    return Shown(found.frames, found, note=note)
+
+
+@command(
+    "star",
+    "phase vectors of a firing order and their sums, order by order",
+    "name",
+    option("--orders", default=None, help="such as 0.5,1,1.5 (default: all up to 12)"),
+    option("--mode-shape", metavar="A,B,…", help="amplitude of a torsional mode at each cylinder"),
+    "--firing-order",
+    option("--strokes", choices=("4", "2"), help="strokes of a cycle (default: the engine's own)"),
+    "--csv --plot",
+    example="star i6 --orders 0.5,1.5,3 --mode-shape 1,0.95,0.86,0.73,0.57,0.39",
+)
+def _star(given: Given) -> Shown:
+    orders = None if given.text("--orders") is None else given.orders()
+    star = star_diagram(
+        given.engine("star"),
+        orders,
+        mode_shape=given.numbers("--mode-shape"),
+        firing_order=given.text("--firing-order"),
+        strokes=None if given.text("--strokes") is None else int(given.text("--strokes")),
+    )
+    return Shown(star.frames, star)
+
+
+@command(
+    "closed-form",
+    "force or moment of one order as a formula (needs SymPy)",
+    "name",
+    option("--order", default="1", help="whole multiple of crank speed (default: %(default)s)"),
+    option(
+        "--quantity",
+        choices=("force", "moment"),
+        default="moment",
+        help="what the formula is of (default: %(default)s)",
+    ),
+    "--reference-z --units",
+    example="closed-form i3 --order 1",
+)
+def _closed_form(given: Given) -> str:
+    quantity: Any = given.text("--quantity")
+    return f"{given.engine('closed-form').closed_form(given.whole('--order'), quantity)!r}\n"
+
+
+@command(
+    "harmonics",
+    "harmonics of a slider-crank's inertia force, exact, over m·r·ω²",
+    option(
+        "ratio", metavar="RATIO", nargs="?", help="crank radius / rod length, such as 0.3 or 1/3.5"
+    ),
+    option("--stroke", metavar="LENGTH", help="stroke, in place of RATIO with --rod-length"),
+    option("--rod-length", metavar="LENGTH", help="rod length between the centres"),
+    option("--pin-offset", metavar="LENGTH", help="offset of the piston pin's path (default: 0)"),
+    option("--orders", default=None, help="such as 1,2,4 (default: all up to 12)"),
+    "--units --csv",
+    example="harmonics 0.3 --orders 1,2,4,6",
+    note="The force along the bore is m·r·ω² times the sum of aₙ·cos(n·θ + phase).",
+)
+def _harmonics(given: Given) -> Shown:
+    offset = given.optional("--pin-offset", "m")
+    ratio, radius = _ratio(given)
+    listed: Any = [*range(1, HIGHEST + 1)] if given.text("--orders") is None else given.orders()
+    if offset is not None and radius is None:
+        raise rejected("--pin-offset", given.text("--pin-offset"), "needs --stroke")
+    if offset is None or radius is None:
+        found = slider_crank_harmonics(ratio, listed).astype(complex)
+    else:
+        found = slider_crank_harmonics(ratio, listed, offset / radius)
+    phases = np.where(found == 0.0, 0.0, np.angle(found, deg=True))
+    title = f"Slider-crank, rod ratio {ratio:.6g}"
+    title += "" if offset is None else f", pin offset {given.echo('--pin-offset', 'm')}"
+    table = Table.from_rows(
+        title,
+        ["order", "amplitude", ("phase", "°")],
+        [(n, float(abs(a)), float(p)) for n, a, p in zip(listed, found, phases, strict=True)],
+    )
+    return Shown(only(table))
+
+
+def _ratio(given: Given) -> tuple[float, float | None]:
+    """Return the rod ratio, and the crank radius, m, if it is known."""
+    typed = given.text("ratio")
+    stroke, length = given.optional("--stroke", "m"), given.optional("--rod-length", "m")
+    if (typed is None) == (stroke is None or length is None):
+        raise inputs.faulty("RATIO", "= None", "give it, or --stroke and --rod-length")
+    if stroke is not None and length is not None:
+        if not length > 0.0:
+            raise rejected("--rod-length", given.text("--rod-length"), "give a length above 0")
+        return 0.5 * stroke / length, 0.5 * stroke
+    above, _, below = typed.partition("/")
+    divisor = float(given.decimal("RATIO", below or "1", ""))
+    if not divisor:
+        raise rejected("RATIO", typed, "give a number between 0 and 1, such as 0.3 or 1/3.5")
+    return float(given.decimal("RATIO", above, "")) / divisor, None

@@ -1,0 +1,483 @@
+"""Measured cylinder pressure of many cycles: their mean and their spread."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from crankpin._core import ATMOSPHERE
+from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
+from crankpin._support.frames import Tabled
+from crankpin._support.record import AbsentError, Input, item_key, read_only
+from crankpin._support.tables import Column, Table
+from crankpin._support.warnings import suppressed, warn
+from crankpin.model import checks, cycle_files
+from crankpin.model.computed_cycles import area
+from crankpin.model.cycle import Cycle
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+    from pathlib import Path
+    from typing import Self, Unpack
+
+    from matplotlib.axes import Axes
+    from numpy.typing import ArrayLike, NDArray
+
+    from crankpin._support.inputs import Order
+    from crankpin.model.cycle_files import FileOptions
+    from crankpin.model.cylinder import Cylinder
+
+SHOWN_ORDERS: tuple[Order, ...] = (0.5, 1, 6, 12)
+"""Orders whose torque is reported of measured traces: two low ones, and two that phases shift."""
+OF_WHITE_NOISE = 70.0
+"""Variance of fourth differences of white noise, over its own: 1 + 16 + 36 + 16 + 1."""
+OFFSET = (
+    "no absolute pressure is below zero. If the sensor's offset is in it, crankpin.prepare_trace "
+    "removes it"
+)
+OF_A_NORMAL = 1.482602
+"""Standard deviation over median magnitude of normally distributed numbers."""
+
+
+class Traces(Tabled, Input):
+    """Absolute pressure in a cylinder over many cycles, as measured.
+
+    A piezoelectric sensor's offset may still be in it: :func:`crankpin.prepare_trace` removes it.
+
+    Parameters
+    ----------
+    theta_deg : array_like, shape (n,)
+        Crank angles of all cycles, as of :class:`Cycle`, degrees.
+    pressure : array_like, shape (n_cycles, n)
+        Absolute pressure there, Pa, a row for each cycle.
+    strokes : {4, 2}, default 4
+        As in :class:`Cycle`.
+    name : str, optional
+        Name; may be empty.
+    origin : str, optional
+        How they were measured or read, in words: a line under the table.
+
+    Raises
+    ------
+    InputError
+        As for :class:`Cycle`.
+
+    Warns
+    -----
+    UserWarning
+        As for :class:`Cycle`, once for all cycles.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> import numpy as np
+    >>> cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+    >>> theta = np.arange(-360.0, 360.0)
+    >>> spread = np.random.default_rng(0).normal(1.0, 0.03, (60, 1))
+    >>> traces = cp.Traces(theta, cp.Cycle.example().pressure_at(theta) * spread)
+    >>> len(traces), round(traces.cov(cylinder), 3)
+    (60, 0.027)
+    >>> abs(traces.torque_harmonics(cylinder, [0.5, 1]).mean(axis=0)).round(1)
+    array([99.5, 99. ])
+    """
+
+    theta_deg: NDArray[np.float64]
+    """Crank angles after the firing top dead centre, degrees: (n,)."""
+    pressure: NDArray[np.float64]
+    """Absolute pressure there, Pa: (n_cycles, n)."""
+    strokes: int
+    """4 or 2."""
+    name: str
+    """Name; may be empty."""
+    origin: str = dataclasses.field(default="", compare=False)
+    """How they were measured or read, in words; may be empty."""
+
+    def __init__(
+        self,
+        theta_deg: ArrayLike,
+        pressure: ArrayLike,
+        strokes: int = 4,
+        name: str = "",
+        origin: str = "",
+    ) -> None:
+        theta = inputs.vector("theta_deg", theta_deg).copy()
+        rows = inputs.array("pressure", pressure)
+        if rows.ndim != 2 or not len(rows) or rows.shape[1] != len(theta):
+            hint = f"give a row of {len(theta)} pressures for each cycle, one at every angle"
+            raise inputs.faulty("pressure", f"has shape {rows.shape}", hint)
+        if not np.isfinite(rows).all():
+            raise inputs.faulty("pressure", "has numbers that are not finite", "give finite ones")
+        values = {
+            "theta_deg": read_only(theta),
+            "pressure": read_only(rows.copy()),
+            "strokes": inputs.strokes(strokes),
+            "name": inputs.text("name", name),
+            "origin": inputs.text("origin", origin),
+        }
+        for field, value in values.items():
+            object.__setattr__(self, field, value)
+        least = float(rows.min())
+        raised = -least if least < -ATMOSPHERE else 0.0
+        if raised:
+            warn(f"pressure is {least:g} Pa at its least: {OFFSET}")
+        else:
+            checks.pressure(self.pressure)
+        with suppressed("pressure "):
+            mean = Cycle(theta, rows.mean(axis=0) + raised, strokes, name, None, origin)
+        self.__dict__.update(_raised=raised, _mean=mean)
+
+    @classmethod
+    def load(cls, path: str | Path, **options: Unpack[FileOptions]) -> Self:
+        """Return the cycles in a text file with columns of crank angle, or time, and pressure.
+
+        Cycles stand beside each other in columns, below each other in blocks whose angles begin
+        again, or follow each other in angles or times that go on; incomplete ones are left out.
+        Columns are separated by commas, semicolons, tabs or blanks; decimal commas are recognised
+        unless columns are separated by commas too. Lines before the numbers, and lines that begin
+        with ``#``, ``%`` or ``!``, are comments; the last before the numbers is the header, with
+        the one above it if that has as many cells. Text is UTF-8, Latin-1, or UTF-16 with a byte
+        order mark; long files are read piece by piece. ``origin`` says what was read, and what of
+        it is stated by the header or by arguments, or assumed.
+
+        Parameters
+        ----------
+        path : str or pathlib.Path
+            ``.csv``, ``.tsv``, ``.txt``, ``.dat`` or ``.asc``.
+        **options : dict, optional
+            ``pressure_unit``: ``"Pa"``, ``"hPa"``, ``"kPa"``, ``"MPa"``, ``"mbar"``, ``"bar"`` or
+            ``"psi"``; by default what the header names.
+            ``gauge``: True for pressure above that of the atmosphere, False for absolute pressure;
+            by default what the header says.
+            ``atmosphere``: pressure added to gauge pressure, Pa, by default 101325.
+            ``angle_unit``: ``"deg"`` or ``"rad"``, or ``"s"`` or ``"ms"`` for a record over time;
+            by default what the header names, else degrees. Times become angles at a constant
+            speed, that at which three or more compressions follow each other.
+            ``recorded_rpm``: crank speed of a record over time, rpm, where it is too short for
+            that.
+            ``tdc_deg``: angle of the firing top dead centre as the file counts angles, from
+            whatever event, degrees, by default 0.
+            ``columns``: numbers from 0, or names, of the columns of angle and pressure, those of
+            further cycles after them; by default the first two, and all that are like the second.
+            ``strokes``: 4 or 2; by default 4, or what :meth:`Cycle.save` has written.
+            ``name``: by default the name of the file, or what :meth:`Cycle.save` has written.
+
+        Returns
+        -------
+        Traces
+            The cycles, their angles counted from the firing top dead centre.
+
+        Raises
+        ------
+        InputError
+            If the file states no unit, or not whether pressure is absolute, and the arguments do
+            neither; if it has no such columns; or as for :class:`Cycle`.
+        OSError
+            If the file cannot be read.
+
+        Warns
+        -----
+        UserWarning
+            If compressions follow each other at another speed than is given, or as for
+            :class:`Cycle`.
+        """
+        return cls(*cycle_files.load(path, **options)[:5])
+
+    def __len__(self) -> int:
+        return len(self.pressure)
+
+    def __getitem__(self, place: int) -> Cycle:
+        """Return one of the cycles, by its index from 0."""
+        index = inputs.whole("index", item_key(place, len(self)))
+        self._check_offset()
+        return self._cycle(self.pressure[index])
+
+    def __iter__(self) -> Iterator[Cycle]:
+        """Return an iterator over the cycles."""
+        return (self[k] for k in range(len(self)))
+
+    @property
+    def _raised(self) -> float:
+        """What is added to pressure that an unknown offset makes no absolute one, and 0 else, Pa.
+
+        Torque is that of the difference to the crankcase, which is raised too.
+        """
+        return self.__dict__["_raised"]  # type: ignore[no-any-return]
+
+    def _cycle(self, row: NDArray[np.float64]) -> Cycle:
+        with suppressed():  # Warned of where all were given.
+            return Cycle(self.theta_deg, row, self.strokes, self.name, None, self.origin)
+
+    def _raised_cycles(self) -> Iterator[Cycle]:
+        return (self._cycle(row + self._raised) for row in self.pressure)
+
+    def _check_offset(self) -> None:
+        if self._raised:
+            fault = f"is {-self._raised:g} Pa at its least"
+            raise inputs.faulty("pressure", fault, OFFSET, AbsentError)
+
+    @property
+    def mean(self) -> Cycle:
+        """Mean of the cycles at every crank angle."""
+        self._check_offset()
+        return self._raised_mean
+
+    @property
+    def _raised_mean(self) -> Cycle:
+        return self.__dict__["_mean"]  # type: ignore[no-any-return]
+
+    @property
+    def period_deg(self) -> float:
+        """720° or 360°."""
+        return self._raised_mean.period_deg
+
+    @functools.cached_property
+    def noise(self) -> float:
+        """Standard deviation of what is not smooth over the crank angle, Pa.
+
+        From fourth differences, which pressure at steps of up to 1° does not have: that of white
+        noise, of coarse digits and of vibration near half the sampling rate. Their median counts,
+        so that a few steep angles do not.
+        """
+        differences = np.abs(np.diff(self.pressure, 4, axis=1))
+        if not differences.size:
+            return 0.0
+        return float(OF_A_NORMAL * np.median(differences) / math.sqrt(OF_WHITE_NOISE))
+
+    @functools.cached_property
+    def peaks(self) -> NDArray[np.float64]:
+        """Largest pressure of each cycle, Pa: (n_cycles,)."""
+        return read_only(self.pressure.max(axis=1))
+
+    @functools.cached_property
+    def peaks_deg(self) -> NDArray[np.float64]:
+        """Crank angle of the largest pressure of each cycle, degrees: (n_cycles,)."""
+        return read_only(self.theta_deg[self.pressure.argmax(axis=1)])
+
+    def imep(self, cylinder: Cylinder) -> NDArray[np.float64]:
+        """Return the indicated mean effective pressure of each cycle, Pa: (n_cycles,).
+
+        Parameters
+        ----------
+        cylinder : Cylinder
+            As in :meth:`Cycle.imep`.
+
+        Returns
+        -------
+        ndarray of float, shape (n_cycles,)
+            Indicated mean effective pressures, Pa.
+
+        Raises
+        ------
+        InputError
+            As for :meth:`Cycle.imep`.
+        """
+        displacement = area(cylinder) * cylinder.travel
+        torque = np.array([each.mean_torque(cylinder) for each in self._raised_cycles()])
+        return torque * math.radians(self.period_deg) / displacement
+
+    def cov(self, cylinder: Cylinder) -> float:
+        """Return the coefficient of variation of imep: its standard deviation over its mean.
+
+        Parameters
+        ----------
+        cylinder : Cylinder
+            As in :meth:`Cycle.imep`.
+
+        Returns
+        -------
+        float
+            Coefficient of variation; NaN for one cycle.
+
+        Raises
+        ------
+        InputError
+            As for :meth:`Cycle.imep`.
+        """
+        imep = self.imep(cylinder)
+        return _deviation(imep) / abs(float(imep.mean()))
+
+    def torque_harmonics(
+        self, cylinder: Cylinder, orders: Order | Iterable[Order], *, crankcase: float = ATMOSPHERE
+    ) -> NDArray[np.complex128]:
+        """Return the peak phasors of the torque of each cycle on the crank, N·m.
+
+        Parameters
+        ----------
+        cylinder : Cylinder
+            As in :meth:`Cycle.torque_harmonics`.
+        orders : number or sequence of numbers
+            As in :meth:`Cycle.torque_harmonics`.
+        crankcase : float, default 101325.0
+            As in :meth:`Cycle.torque_harmonics`.
+
+        Returns
+        -------
+        ndarray of complex, shape (n_cycles, n_orders)
+            Peak phasors, N·m. Their mean is that of the mean cycle.
+
+        Raises
+        ------
+        InputError
+            As for :meth:`Cycle.torque_harmonics`.
+        """
+        listed = inputs.explicit_half_orders(orders)
+        below = inputs.number("crankcase", crankcase)
+        checks.crankcase(below)
+        with suppressed("crankcase ="):
+            found = [
+                each.torque_harmonics(cylinder, listed, crankcase=below + self._raised)
+                for each in self._raised_cycles()
+            ]
+        return np.array(found)
+
+    def spread(self, cylinder: Cylinder, orders: Order | Iterable[Order] = SHOWN_ORDERS) -> Table:
+        """Return mean and spread over cycles of peak, imep and the torque's harmonics.
+
+        Parameters
+        ----------
+        cylinder : Cylinder
+            Cylinder with a bore.
+        orders : number or sequence of numbers, default (0.5, 1, 6, 12)
+            As in :meth:`Cycle.torque_harmonics`.
+
+        Returns
+        -------
+        Table
+            Mean, standard deviation, that over the mean (COV), least and largest. Of a harmonic
+            mean is the magnitude of the mean phasor and deviation that of phasors in the plane,
+            phases included; over the root of the number of cycles it is the mean's standard error.
+
+        Raises
+        ------
+        InputError
+            As for :meth:`Cycle.torque_harmonics`.
+        """
+        listed = inputs.explicit_half_orders(orders)
+        phasors = self.torque_harmonics(cylinder, listed)
+        figures = [
+            ("peak pressure", "bar", self.peaks / 1e5),
+            ("angle of peak", "°", self.peaks_deg),
+            ("imep", "bar", self.imep(cylinder) / 1e5),
+        ]
+        rows = [
+            (name, unit, float(each.mean()), _deviation(each), float(each.min()), float(each.max()))
+            for name, unit, each in figures
+        ]
+        for order, each in zip(listed, phasors.T, strict=True):
+            sizes = np.abs(each)
+            mean = float(abs(each.mean()))
+            extremes = float(sizes.min()), float(sizes.max())
+            rows.append((f"torque order {order:g}", "N·m", mean, _deviation(each), *extremes))
+        of_mean = [
+            100.0 * row[3] / abs(row[2]) if row[2] and row[1] != "°" else None for row in rows
+        ]
+        names, units, *columns = zip(*rows, strict=True)
+        heads = ("mean", "deviation", "least", "largest")
+        shown = [Column(head, values) for head, values in zip(heads, columns, strict=True)]
+        return Table(
+            f"{self._title}, spread",
+            (
+                Column("figure", names),
+                *shown[:2],
+                Column("COV", tuple(of_mean), "%", digits=3),
+                *shown[2:],
+                Column("unit", units),
+            ),
+        )
+
+    def resolution_error(
+        self, cylinder: Cylinder, orders: Order | Iterable[Order], *, crankcase: float = ATMOSPHERE
+    ) -> NDArray[np.float64]:
+        """Return an estimate of the error of the mean cycle's harmonics, N·m: (n_orders,).
+
+        That of interpolation (:meth:`Cycle.resolution_error` of the mean cycle) and the standard
+        error over cycles, root of the sum of squares. The second contains noise, coarse digits and
+        the spread of combustion. It is an estimate, no bound: a wrong top dead centre, reference or
+        gain of the sensor is the same in all cycles.
+
+        Parameters
+        ----------
+        cylinder : Cylinder
+            As in :meth:`Cycle.torque_harmonics`.
+        orders : number or sequence of numbers
+            As in :meth:`Cycle.torque_harmonics`.
+        crankcase : float, default 101325.0
+            As in :meth:`Cycle.torque_harmonics`.
+
+        Returns
+        -------
+        ndarray of float, shape (n_orders,)
+            Estimated errors, N·m; of one cycle NaN, which says nothing of its noise.
+
+        Raises
+        ------
+        InputError
+            If half of the points are fewer than a table has.
+        """
+        listed = inputs.explicit_half_orders(orders)
+        between = self._raised_mean.resolution_error(cylinder, listed, crankcase=crankcase)
+        phasors = self.torque_harmonics(cylinder, listed, crankcase=crankcase)
+        over_cycles = [_deviation(each) / math.sqrt(len(self)) for each in phasors.T]
+        return np.hypot(between, over_cycles)
+
+    @property
+    def _title(self) -> str:
+        count = f"{len(self)} cycle{'s' if len(self) > 1 else ''}"
+        return f"{labels.printable(self.name) or 'Traces'}, {count}"
+
+    @property
+    def table(self) -> Table:
+        """Mean, deviation, least and largest pressure over crank angle."""
+        rows = self.pressure
+        deviation = rows.std(axis=0, ddof=1) if len(self) > 1 else np.full(rows.shape[1], np.nan)
+        curves = {
+            "mean": rows.mean(axis=0),
+            "deviation": deviation,
+            "least": rows.min(axis=0),
+            "largest": rows.max(axis=0),
+        }
+        strokes = "four" if self.strokes == 4 else "two"
+        return Table(
+            f"{self._title}, {strokes}-stroke, "
+            f"{len(self.theta_deg)} points ({self._raised_mean.grid}), "
+            f"noise {self.noise / 1e5:.2g} bar",
+            (
+                Column("crank angle", tuple(self.theta_deg.tolist()), "°", digits=10),
+                *(Column(k, tuple(each.tolist()), "Pa", digits=7) for k, each in curves.items()),
+            ),
+            note=self.origin,
+        )
+
+    def plot(self, ax: Axes | None = None, *, label: str | None = None, **style: object) -> Axes:
+        """Draw the mean pressure over crank angle, in the band of all cycles.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on; by default new ones.
+        label : str, optional
+            Entry of the legend; by default the name.
+        **style : dict, optional
+            Properties of the line, as matplotlib takes them.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes.
+
+        Raises
+        ------
+        ImportError
+            If matplotlib is not installed.
+        """
+        return draw(self, ax, label=label, **style)  # type: ignore[no-any-return]
+
+
+def _deviation(values: NDArray[np.float64] | NDArray[np.complex128]) -> float:
+    """Return the standard deviation of numbers or phasors; NaN of one."""
+    return float(np.std(values, ddof=1)) if len(values) > 1 else math.nan

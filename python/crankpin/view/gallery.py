@@ -1,0 +1,53 @@
+"""A folder of pages, of every preset, and a page that lists them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from crankpin._support import files
+from crankpin.model import presets
+from crankpin.view.figures import places
+from crankpin.view.page import as_json, document, save_html
+
+HEAD = "<div class='crankpin'><header><h1>Engines</h1></header></div>"
+EBOOK_RPM = 10.0
+"""Speed of the presets with a crank radius of one metre, as in their source."""
+
+
+def save_gallery(folder: str | Path, *, rpm: float = 3000.0) -> list[Path]:
+    """Write a page of each preset and ``index.html``; return the files.
+
+    Parameters
+    ----------
+    folder
+        Where to write them; it is made if need be.
+    rpm
+        Crank speed of the pages; engines of the e-book, of one metre crank radius, run at 10.
+    """
+    root = Path(folder)
+    root.mkdir(parents=True, exist_ok=True)
+    listed: list[dict[str, Any]] = []
+    pages = []
+    for name, engine in presets.presets().items():
+        speed = speed_of(name, rpm)
+        file = root / f"{name}.html"
+        save_html(engine, file, rpm=speed)
+        listed.append(
+            {
+                "href": file.name,
+                "figures": places(engine, speed),
+                "description": presets.presets().descriptions[name],
+            }
+        )
+        pages.append(file)
+    index = root / "index.html"
+    call = f"gallery({as_json(listed)});"
+    text = document("Engines", ("gallery.mjs",), call, styles=["gallery"], body=HEAD)
+    files.write(index, text)
+    return [index, *pages]
+
+
+def speed_of(preset: str, rpm: float) -> float:
+    """Return the speed at which a page shows a preset."""
+    return EBOOK_RPM if preset.endswith(presets.OWN_PARTS) else rpm

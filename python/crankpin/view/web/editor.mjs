@@ -1,0 +1,109 @@
+// The mounts as numbers: a table of all, and controls for the one that is chosen.
+
+import { pair } from "./controls.mjs";
+import { html, numbered, show } from "./dom.mjs";
+import { short } from "./format.mjs";
+import { MOUNT_STRINGS } from "./mount_strings.mjs";
+import { STRINGS } from "./strings.mjs";
+
+const MILLIMETRES = { shown: (metres) => metres * 1e3, taken: (typed) => typed / 1e3 };
+const PER_MILLIMETRE = { shown: (stiffness) => stiffness / 1e3, taken: (typed) => typed * 1e3 };
+
+/** Places that can be typed, mm, and how far sliders reach. */
+const FARTHEST = 5000;
+const REACH = 400;
+
+/** Stiffness that can be typed, N/mm; sliders reach to the multiple of the mount's largest. */
+const STIFFEST = 1e6;
+const MULTIPLE = 3;
+
+export class Editor {
+  /** `change` takes the number of a mount and its new place or stiffness, `choose` a number, `reset` nothing. */
+  constructor({ mounts }, { change, choose, reset }) {
+    this.figures = mounts;
+    this.change = change;
+    this.rows = mounts.map(({ name }, k) => {
+      const label = numbered(html, "span", "mount-name");
+      show(label, name, name);
+      const button = html("button", { type: "button" }, label);
+      button.addEventListener("click", () => choose(k));
+      const numbers = [...["x", "y", "z"], ...[1, 2, 3].map((axis) => `k${axis}`)].map((part) =>
+        numbered(html, "td", `mount-${k + 1}-${part}`));
+      return { button, numbers, element: html("tr", {}, html("th", { scope: "row" }, button), ...numbers) };
+    });
+    this.reset = html("button", { type: "button" }, MOUNT_STRINGS.asBefore);
+    this.reset.addEventListener("click", reset);
+    this.controls = html("div", { class: "settings" });
+    this.code = numbered(html, "code", "python");
+    this.element = html("div", {},
+      html("div", { class: "scrolls" }, html("table", { class: "mounts" },
+        html("thead", {}, html("tr", {},
+          ...MOUNT_STRINGS.mountHeads.map((text) => html("th", { scope: "col" }, text)))),
+        html("tbody", {}, ...this.rows.map(({ element }) => element)))),
+      this.controls, this.reset,
+      html("details", {}, html("summary", {}, MOUNT_STRINGS.asPython), html("pre", {}, this.code)));
+  }
+
+  /** Follow the mounts; `chosen` is the number of one, `changed` whether they are others than at first. */
+  layout(mounts, chosen, changed) {
+    this.reset.disabled = !changed;
+    if (chosen !== this.chosen) this.choose(mounts, chosen);
+    mounts.forEach(({ at, stiffness }, k) => {
+      const { button, numbers, element } = this.rows[k];
+      element.classList.toggle("chosen", k === chosen);
+      button.setAttribute("aria-pressed", k === chosen);
+      at.forEach((value, axis) => show(numbers[axis], value, short(MILLIMETRES.shown(value), 1)));
+      [0, 1, 2].forEach((axis) => (stiffness
+        ? show(numbers[3 + axis], stiffness[axis], short(PER_MILLIMETRE.shown(stiffness[axis]), 1))
+        : show(numbers[3 + axis], "", MOUNT_STRINGS.ofTable)));
+    });
+    this.settle(mounts);
+    show(this.code, JSON.stringify(mounts), this.python(mounts));
+  }
+
+  /** What makes a powertrain with these mounts of the one that the page was made of. */
+  python(mounts) {
+    const lines = mounts.map(({ at, stiffness }, k) => {
+      const own = this.figures[k];
+      const figures = [["at", at, own.at], ["dynamic_stiffness", stiffness, own.stiffness]]
+        .filter(([, now, before]) => now && now.some((value, axis) => value !== before[axis]))
+        .map(([name, now]) => `${name}=(${now.join(", ")})`);
+      return `    powertrain.mounts[${k}]${figures.length ? `.replace(${figures.join(", ")})` : ""},`;
+    });
+    return ["powertrain.replace(mounts=[", ...lines, "])"].join("\n");
+  }
+
+  /** Make the controls of a mount. */
+  choose(mounts, chosen) {
+    this.chosen = chosen;
+    const { name } = this.figures[chosen];
+    const { at, stiffness } = mounts[chosen];
+    const settle = () => this.settle(this.mounts);
+    const along = (values, axis) => (value) => values().map((each, k) => (k === axis ? value : each));
+    this.places = at.map((value, axis) => {
+      const act = along(() => this.mounts[chosen].at, axis);
+      const own = 1e3 * this.figures[chosen].at[axis];
+      return pair("xyz"[axis], `${name}: ${"xyz"[axis]}, ${STRINGS.millimetres}`, `mount-${"xyz"[axis]}`, Math.floor(own - REACH),
+        Math.ceil(own + REACH), 1, STRINGS.millimetres, (typed) => this.change(chosen, { at: act(typed) }), settle,
+        [-FARTHEST, FARTHEST], MILLIMETRES);
+    });
+    const largest = Math.max(...(this.figures[chosen].stiffness ?? [0])) || 1e5;
+    const most = Math.ceil((MULTIPLE * largest) / 1e3);
+    this.stiffnesses = (stiffness ?? []).map((value, axis) => {
+      const act = along(() => this.mounts[chosen].stiffness, axis);
+      return pair(MOUNT_STRINGS.axes[axis], `${name}: ${MOUNT_STRINGS.axes[axis]}, N/mm`, `mount-k${axis + 1}`, 0, most, 1, "N/mm",
+        (typed) => this.change(chosen, { stiffness: act(typed) }), settle, [0, STIFFEST], PER_MILLIMETRE);
+    });
+    const title = numbered(html, "b", "mount-name");
+    show(title, name, name);
+    this.controls.replaceChildren(title, ...[...this.places, ...this.stiffnesses].map(({ element }) => element),
+      ...(stiffness ? [] : [html("p", { class: "hint" }, MOUNT_STRINGS.tableIsFixed)]));
+  }
+
+  settle(mounts) {
+    this.mounts = mounts;
+    const { at, stiffness } = mounts[this.chosen];
+    at.forEach((value, axis) => this.places[axis].show(value));
+    stiffness?.forEach((value, axis) => this.stiffnesses[axis].show(value));
+  }
+}

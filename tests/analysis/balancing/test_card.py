@@ -1,0 +1,191 @@
+"""Is the card of a balancing shop what is worked out by hand?"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+import crankpin as cp
+import numpy as np
+import pytest
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+PARTS = {
+    "piston": 0.470, "pin": 0.118, "locks": 0.002, "rings": 0.060, "small end": 0.180,
+    "big end": 0.430, "bearings": 0.042,
+}  # fmt: skip
+OIL = 0.004
+
+
+def card_of_a_v8() -> cp.types.Card:
+    """A cross-plane V8 whose crankshaft was balanced to 1850 g."""
+    bob = cp.bob_weight(cp.Engine.preset("v8-crossplane"), 0.5, OIL, parts=PARTS)
+    return bob.card(
+        [0.48, 0.5, 0.52],
+        rpm=6000,
+        planes={"front": -0.02, "rear": 0.32},
+        radius=0.07,
+        balanced_to=1.85,
+    )
+
+
+def test_bob_weights_by_hand() -> None:
+    """2 (470 + 118 + 2 + 60 + 180) = 1660 g and 2 (430 + 42) + 4 = 948 g; 948 + κ 1660."""
+    card = card_of_a_v8()
+    frame = card.frames["bob weights"]
+    for share, grams in (("48", 1744.8), ("50", 1778.0), ("52", 1811.2)):
+        np.testing.assert_allclose(frame[f"at {share} %"].values, [grams] * 4, rtol=1e-12)
+    assert card.table["part"].values[:7] == (*PARTS,)
+    assert card.table["each cylinder"].cells()[-2:] == ["830.0", "472.0"]
+    assert set(card.table["share"].values) == {"48, 50, 52 %", "100 %"}
+
+
+def test_the_couple_that_two_per_cent_leaves_by_hand() -> None:
+    """Four per cent of √10 a m r ω², the couple of throws at 0°, 90°, 270°, 180°."""
+    card = card_of_a_v8()
+    v8 = card.bob.engine
+    omega = 2.0 * np.pi * 6000 / 60.0
+    whole = np.sqrt(10.0) * 0.1 * 0.83 * v8.cylinders[0].crank_radius * omega**2
+    residual = card.frames["residual"]
+    found = dict(zip(residual["factor"].values, residual["moment, longest"].values, strict=True))
+    # Rounding of a sum of eight cylinders.
+    np.testing.assert_allclose([found[48.0], found[52.0]], 0.04 * whole, rtol=1e-10)
+    assert found[50.0] == 0.0
+    assert "force, longest" not in residual
+
+
+def test_the_correction_by_hand() -> None:
+    """1850 − 1778 = 72 g at each pin is taken off counterweights: √10 a 72 g r at 340 mm."""
+    card = card_of_a_v8()
+    radius = card.bob.engine.cylinders[0].crank_radius
+    table = card.frames["correction"]
+    at_50 = [k for k, share in enumerate(table["factor"].values) if share == "50 %"]
+    amount = np.sqrt(10.0) * 100.0 * 72.0 * (1e3 * radius) / 340.0
+    for k, angle in zip(at_50, (153.435, 333.435), strict=True):
+        assert table["unbalance"].values[k] == pytest.approx(amount, rel=1e-9)
+        assert table["weight"].values[k] == pytest.approx(amount / 70.0, rel=1e-9)
+        # In steel of 7.85 g/cm³, of 17 g/cm³.
+        assert table["as heavy metal"].values[k] == pytest.approx(amount / 70.0 / (1 - 7.85 / 17.0))
+        assert table["add at"].values[k] == pytest.approx(angle, abs=1e-3)
+        assert table["or drill at"].values[k] == pytest.approx((angle + 180.0) % 360.0, abs=1e-3)
+
+
+def test_the_correction_is_what_the_bob_weight_lacks() -> None:
+    """A crankshaft that is balanced to its bob weight takes nothing; without weights, all of it."""
+    bob = cp.bob_weight(cp.Engine.preset("single"), 0.5, OIL, parts=PARTS)
+    done = bob.card(planes=[0.0], balanced_to=bob.mass).frames["correction"]
+    assert len(done) == 0 or max(done["unbalance"].values) < 1e-9
+    (whole,) = bob.card(planes=[0.0]).frames["correction"]["unbalance"].values
+    assert whole == pytest.approx(1e6 * bob.mass[0] * bob.engine.cylinders[0].crank_radius)
+
+
+@pytest.mark.parametrize(
+    ("bank_angle", "factor", "words"),
+    [
+        (45, (1 - np.cos(np.pi / 4)) / 2, "up and down"),  # the two straight lines of a V-twin
+        (45, (1 + np.cos(np.pi / 4)) / 2, "sideways"),
+        (45, 0.4, "up and down"),
+        (45, 0.5, "all round, against the crank"),
+        (90, 0.6, "all round, against the crank"),
+    ],
+)
+def test_directions_in_words(bank_angle: int, factor: float, words: str) -> None:
+    parts = cp.Cylinder(0.048, 0.19, 0.5)
+    twin = cp.Engine.vee(parts, bank_angle_deg=bank_angle, throws_deg=[0], spacing=0.1)
+    residual = cp.bob_weight(twin).card([factor]).frames["residual"]
+    (row,) = [k for k, each in enumerate(residual["factor"].values) if each == 100.0 * factor]
+    found = residual["direction of the longest"].values[row]
+    assert found == (words if bank_angle == 45 else words.replace("against", "with"))
+
+
+def test_a_leaning_single_leans_towards_a_side() -> None:
+    """A cylinder 30° to the right of upright shakes along itself without counterweights."""
+    parts = cp.Cylinder(0.04, 0.14, 0.4)
+    for bank, words in ((60, "30° towards the exhaust side"), (120, "30° towards the intake side")):
+        single = cp.Engine.from_lists(parts, bank_deg=[bank], tdc_deg=[0], z=[0.0])
+        card = cp.bob_weight(single).card([0.0], sides=("exhaust", "intake"), rpm=6000)
+        residual = card.frames["residual"]
+        assert residual["direction of the longest"].values[0] == words
+        pull = 0.4 * 0.04 * (2.0 * np.pi * 100.0) ** 2
+        assert residual["force, longest"].values[0] == pytest.approx(pull, rel=1e-12)
+        assert residual["shortest"].values[0] == 0.0
+
+
+def test_the_ends_of_a_twin_at_180_move_up_and_down() -> None:
+    parts = cp.Cylinder(0.04, 0.14, 0.4)
+    twin = cp.Engine.inline(parts, throws_deg=[0, 180], spacing=0.1)
+    residual = cp.bob_weight(twin).card([0.0, 1.0]).frames["residual"]
+    assert residual["ends move"].values == ("up and down", "sideways")
+
+
+def test_random_cards_are_balances_of_the_fitted_engine() -> None:
+    """What a factor leaves is the balance of the engine with its bob weights, at any speed."""
+    rng = np.random.default_rng(3)
+    for _ in range(20):
+        count = int(rng.integers(1, 6))
+        engine = cp.Engine.from_lists(
+            [cp.Cylinder(0.04, 0.14, mass) for mass in rng.uniform(0.2, 0.8, count)],
+            tdc_deg=rng.uniform(0, 360, count).round(3).tolist(),
+            bank_deg=rng.uniform(0, 180, count).round(3).tolist(),
+            z=np.sort(rng.uniform(0, 0.5, count)),
+            rotating_mass=0.3,
+        )
+        factor, rpm = float(rng.uniform(0.1, 0.9)), float(rng.uniform(1000, 9000))
+        residual = cp.bob_weight(engine).card([factor], rpm=rpm).frames["residual"]
+        row = residual["factor"].values.index(100.0 * factor)
+        left = cp.bob_weight(engine, factor).fitted.balance(rpm, orders=[1])[1]
+        scale = left.force.peak
+        assert residual["force, longest"].values[row] == pytest.approx(scale, rel=1e-9)
+        assert residual["shortest"].values[row] == pytest.approx(
+            abs(left.force.minor), abs=1e-9 * scale
+        )
+
+
+def test_parts_that_differ_have_a_column_for_each_cylinder() -> None:
+    masses = [0.47, 0.471, 0.469, 0.47]
+    bob = cp.bob_weight(cp.Engine.preset("i4"), parts={"piston": masses, "small_end": 0.18})
+    table = bob.card().table
+    assert [table[f"cylinder {k + 1}"].values[0] for k in range(4)] == pytest.approx(
+        [470.0, 471.0, 469.0, 470.0], rel=1e-12
+    )
+    assert [each.reciprocating_mass for each in bob.engine.cylinders] == [
+        0.65, 0.651, 0.649, 0.65,
+    ]  # fmt: skip
+
+
+def test_the_page_has_every_number_and_prints(tmp_path: Path) -> None:
+    card, file = card_of_a_v8(), tmp_path / "card.html"
+    card.save_html(file)
+    text = file.read_text(encoding="utf-8")
+    for frame in card.frames.values():
+        for row in frame.cells():
+            for cell in row:
+                assert f"<td>{cell}</td>" in text
+    assert "@media print" in text
+    assert not re.search(r"(src|href)=", text)  # it loads nothing
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"factors": 52}, "factor"),
+        ({"sides": ("right",)}, "sides"),
+        ({"radius": 0.07}, "radius"),
+        ({"planes": "ends", "radius": 0.0}, "radius"),
+        ({"planes": "ends", "balanced_to": [1.0, 2.0]}, "balanced_to"),
+        ({"rpm": -1}, "rpm"),
+    ],
+)
+def test_arguments_that_are_wrong(options: dict[str, object], message: str) -> None:
+    with pytest.raises(cp.InputError, match=message):
+        cp.bob_weight(cp.Engine.preset("i4")).card(**options)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("parts", [{"crown": 0.4}, {"piston": -0.1}, {"piston": [0.4, 0.5]}, 0.5])
+def test_parts_that_are_wrong(parts: object) -> None:
+    with pytest.raises(cp.InputError, match="parts"):
+        cp.bob_weight(cp.Engine.preset("i4"), parts=parts)  # type: ignore[arg-type]
+    with pytest.raises(cp.InputError, match=r"52 % is 0\.52"):
+        cp.bob_weight(cp.Engine.preset("i4"), factor=52)

@@ -1,0 +1,99 @@
+"""Do the commands on comparisons, flywheels, stars and formulas print the library's numbers?"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import crankpin as cp
+import matplotlib as mpl
+import pytest
+from crankpin.cli import main
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+CAPTURE = pytest.CaptureFixture[str]
+
+
+@pytest.fixture(autouse=True)
+def _agg() -> None:
+    mpl.use("agg")
+
+
+def printed(capsys: CAPTURE, line: str) -> str:
+    """What a run that succeeds prints."""
+    assert main(line.split()) == 0
+    out, err = capsys.readouterr()
+    assert err == ""
+    return out
+
+
+def refused(capsys: CAPTURE, line: str) -> str:
+    """What a run that fails says."""
+    assert main(line.split()) == 2
+    return capsys.readouterr().err.removeprefix("crankpin: error: ")
+
+
+def test_compare(capsys: CAPTURE, tmp_path: Path) -> None:
+    before, after = (cp.Engine.preset(name) for name in ("i4", "i4-crossplane"))
+    comparison = cp.compare(before, after, rpm=6000)
+    picture = tmp_path / "both.png"
+    line = f"compare i4 i4-crossplane --rpm 6000 --plot {picture}"
+    assert printed(capsys, line) == f"{comparison.frames.text()}\n"
+    assert picture.stat().st_size > 10_000
+    assert "give two" in refused(capsys, "compare i4")
+
+
+def test_flywheel(capsys: CAPTURE) -> None:
+    cylinder = cp.Engine.preset("i4").cylinders[0].replace(bore=0.086)
+    i4 = cp.Engine.preset("i4").replace(cylinder=cylinder).with_cycle(cp.Cycle.example())
+    found = cp.flywheel(i4, rpm=800, irregularity=0.02)
+    line = "flywheel i4 --rpm 800 --bore 86mm --cycle petrol"
+    assert printed(capsys, f"{line} --irregularity 2%") == f"{found.frames.text()}\n"
+    (row,) = (
+        each.split()
+        for each in printed(capsys, f"{line} --inertia 8000lb·in²").splitlines()
+        if each.startswith("moment of inertia")
+    )
+    assert row[-2:] == [f"{8000 * 0.45359237 * 0.0254**2:.6g}", "kg·m²"]
+    assert "inertia" in refused(capsys, line)
+
+
+def test_star(capsys: CAPTURE) -> None:
+    shape = [1, 0.95, 0.86, 0.73, 0.57, 0.39]
+    star = cp.star_diagram(cp.Engine.preset("i6"), [0.5, 3], mode_shape=shape)
+    line = "star i6 --orders 0.5,3 --mode-shape 1,0.95,0.86,0.73,0.57,0.39"
+    assert printed(capsys, line) == f"{star.frames.text()}\n"
+    assert printed(capsys, "star i4") == f"{cp.star_diagram(cp.Engine.preset('i4'))}\n"
+
+
+def test_closed_form(capsys: CAPTURE) -> None:
+    pytest.importorskip("sympy")
+    form = cp.Engine.preset("i3").closed_form(1)
+    assert printed(capsys, "closed-form i3") == f"{form!r}\n"
+    force = cp.Engine.preset("i4").closed_form(2, "force")
+    assert printed(capsys, "closed-form i4 --order 2 --quantity force") == f"{force!r}\n"
+
+
+def test_harmonics(capsys: CAPTURE) -> None:
+    """a₂ of λ = 0.5 is 0.53555286 (to eight digits, from 50-digit arithmetic)."""
+    rows = printed(capsys, "harmonics 0.5 --orders 1,2,4 --csv").splitlines()
+    assert rows[0] == "order,amplitude,phase °"
+    second, fourth = (row.split(",") for row in rows[2:])
+    assert float(second[1]) == pytest.approx(0.53555286, abs=5e-9)
+    assert float(fourth[1]) == pytest.approx(0.03842615, abs=5e-9)
+    assert float(fourth[2]) == 180.0
+    same = "harmonics --stroke 80mm --rod-length 80mm --orders 1,2,4 --csv"
+    assert printed(capsys, same).splitlines() == rows
+    cylinder = cp.Cylinder(0.043, 0.145, 1.0, 0.001)
+    offset = printed(capsys, "harmonics --stroke 86mm --rod-length 145mm --pin-offset 1mm --csv")
+    for row, value in zip(
+        offset.splitlines()[1:], abs(cylinder.harmonics([*range(1, 13)])), strict=True
+    ):
+        assert float(row.split(",")[1]) == pytest.approx(value, rel=1e-12)
+    assert float(printed(capsys, "harmonics 1/3.5 --csv").splitlines()[2].split(",")[1]) == (
+        pytest.approx(cp.slider_crank_harmonics(1 / 3.5, 2)[0], rel=1e-15)
+    )
+    for line in ("harmonics", "harmonics 0.3 --stroke 1 --rod-length 2", "harmonics 1/0"):
+        assert "RATIO" in refused(capsys, line)
+    assert "--pin-offset" in refused(capsys, "harmonics 0.3 --pin-offset 1mm")

@@ -1,0 +1,114 @@
+"""Measured cycles again: plain sums over their points. Imports nothing of crankpin.
+
+Angles are degrees from the firing top dead centre, on an even grid of one period; ``crank`` is
+crank radius, rod length and pin offset, m.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from rederivation.pressure import height, slope
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+    Crank = tuple[float, float, float]
+
+
+def travel(crank: Crank) -> float:
+    """Return the way of the piston between its ends, whose crank and rod are in line."""
+    r, rod, e = crank
+    return float(np.sqrt((rod + r) ** 2 - e**2) - np.sqrt((rod - r) ** 2 - e**2))
+
+
+def imep(theta: Array, pressure: Array, crank: Crank) -> Array:
+    """Return −∮p dx over the travel, by trapezes over the piston's way; a row for each cycle."""
+    x = height(np.radians(np.append(theta, theta[0])), *crank)
+    closed = np.column_stack([pressure, pressure[:, :1]])
+    return np.asarray(-np.trapezoid(closed, x, axis=1) / travel(crank))
+
+
+def cov(values: Array) -> float:
+    """Return the deviation over the mean, of n − 1 differences."""
+    mean = values.sum() / len(values)
+    return float(np.sqrt(((values - mean) ** 2).sum() / (len(values) - 1)) / mean)
+
+
+def torque_phasors(
+    theta: Array, pressure: Array, orders: Sequence[float], crank: Crank, bore: float
+) -> NDArray[np.complex128]:
+    """Return peak phasors of −(p − 101325)·A·dx/dθ, sums over the points."""
+    angle = np.radians(theta)
+    torque = -(pressure - 101325.0) * np.pi / 4 * bore**2 * slope(angle, *crank)
+    return np.array(2.0 / len(theta) * torque @ np.exp(-1j * np.outer(angle, orders)))
+
+
+def noise_of_phasors(noise: float, theta: Array, crank: Crank, bore: float) -> float:
+    """Return the deviation in the plane of a torque phasor from white noise of a deviation.
+
+    Its parts are sums of independent numbers: their variances add.
+    """
+    weights = np.pi / 4 * bore**2 * slope(np.radians(theta), *crank)
+    return float(2.0 / len(theta) * noise * np.sqrt((weights**2).sum()))
+
+
+# --- what an indicating system would have measured ------------------------------------------------
+
+
+def relative_volume(theta: Array, crank: Crank, compression_ratio: float) -> Array:
+    """Return V/V_c from the piston's way down."""
+    r, rod, e = crank
+    down = np.sqrt((rod + r) ** 2 - e**2) - height(np.radians(theta), *crank)
+    return np.asarray(1.0 + (compression_ratio - 1.0) * down / travel(crank))
+
+
+def burnt(theta: Array, crank: Crank, compression_ratio: float, n: float, rise: float) -> Array:
+    """Return pressure, Pa: 1 bar to −140°, compressed by V⁻ⁿ, times a burn, blown down from 130°.
+
+    The burn multiplies p·Vⁿ by up to 1 + ``rise`` from −15° to 45°, as a smooth step.
+    """
+    wrapped = (theta + 360.0) % 720.0 - 360.0
+    volume = relative_volume(wrapped, crank, compression_ratio)
+    closes = relative_volume(np.array([-140.0]), crank, compression_ratio)[0]
+    y = np.clip((wrapped + 15.0) / 60.0, 0.0, 1.0)
+    pressure = 1e5 * (closes / volume) ** n * (1.0 + rise * y**2 * (3.0 - 2.0 * y))
+    opened = np.clip((wrapped - 130.0) / 50.0, 0.0, 1.0)
+    fading = 0.5 + 0.5 * np.cos(np.pi * opened)
+    pressure = 1e5 + (pressure - 1e5) * fading
+    return np.where((wrapped < -140.0) | (wrapped > 180.0), 1e5, pressure)
+
+
+def motored(theta: Array, crank: Crank, compression_ratio: float, n: float, loss: float) -> Array:
+    """Return pressure that loses heat about the top dead centre, Pa: a slope, whose peak is early.
+
+    p·Vⁿ falls by ``loss`` over 60°, linearly through the centre.
+    """
+    wrapped = (theta + 360.0) % 720.0 - 360.0
+    pressure = burnt(wrapped, crank, compression_ratio, n, 0.0)
+    return np.asarray(pressure * (1.0 - loss * np.clip(wrapped / 60.0 + 0.5, 0.0, 1.0)))
+
+
+def motored_peak(crank: Crank, compression_ratio: float, n: float, loss: float) -> float:
+    """Return the angle of that peak, by a fine grid: the loss angle, below zero."""
+    fine = np.linspace(-5.0, 5.0, 200_001)
+    return float(fine[motored(fine, crank, compression_ratio, n, loss).argmax()])
+
+
+def offset_of_two_points(
+    theta: Array, pressure: Array, crank: Crank, compression_ratio: float, n: float
+) -> float:
+    """Return what is to be added to a pressure that is p·Vⁿ = constant at −100° and −60°.
+
+    p₂ + Δ = (p₁ + Δ)·(V₁/V₂)ⁿ.
+    """
+    k = [int(np.abs(theta - at).argmin()) for at in (-100.0, -60.0)]
+    v1, v2 = relative_volume(theta[k], crank, compression_ratio)
+    p1, p2 = pressure[k]
+    ratio = (v1 / v2) ** n
+    return float((p2 - ratio * p1) / (ratio - 1.0))

@@ -1,0 +1,188 @@
+"""Are units read and shown by exact factors, and is everything shown in those of the setting?"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from decimal import Decimal
+
+import crankpin as cp
+import matplotlib as mpl
+import numpy as np
+import pytest
+from crankpin._support import units
+from crankpin._support.frames import Tabled
+from crankpin._support.tables import Column, Table
+from hypothesis import given
+from hypothesis import strategies as st
+from matplotlib import pyplot as plt
+from matplotlib.text import Text
+from promises.test_objects import OBJECTS
+
+SI = re.compile(
+    r"(?<![\w·/])(?:kg|g|mg|m|cm|mm|µm|N|kN|MN|Pa|bar|kPa|MPa)[²³]?(?:[·/](?:s²?|m²?|mm|rad))*"
+    r"(?![\w·/²³'])"
+)
+"""A unit of mass, length, force or pressure that is of the SI."""
+IMPERIAL = "oz, in, lbf, psi"
+MEASURED = {
+    "kg": ["kg", "g", "lb", "oz"],
+    "m": ["m", "mm", "in", "ft", "cm"],
+    "kg·m": ["g·mm", "oz·in", "kg·m", "lb·ft"],
+    "kg·m²": ["g·mm²", "lb·in²", "kg·m²"],
+    "N": ["N", "kN", "lbf", "kgf"],
+    "N·m": ["N·m", "lbf·ft", "lbf·in", "kN·m"],
+    "Pa": ["bar", "psi", "kPa"],
+    "N/m": ["N/m", "N/mm", "lbf/in"],
+}
+
+
+@pytest.fixture(autouse=True)
+def _as_before() -> Iterator[None]:
+    mpl.use("agg")
+    yield
+    plt.close("all")
+    cp.units()
+
+
+@pytest.mark.parametrize(
+    ("unit", "si"),
+    [
+        ("lb", "0.45359237"),  # exact: international yard and pound agreement, 1959
+        ("oz", "0.028349523125"),
+        ("in", "0.0254"),
+        ("ft", "0.3048"),
+        ("lbf", "4.4482216152605"),  # lb × 9.80665 m/s²
+        ("oz·in", "0.000720077887375"),
+        ("lbf·ft", "1.3558179483314004"),
+        ("g·mm", "0.000001"),
+        ("kN", "1000"),
+    ],
+)
+def test_factors_are_exact(unit: str, si: str) -> None:
+    assert units.exact(unit) == Decimal(si)
+    assert units.exact("psi") == pytest.approx(Decimal("6894.757293168361"), abs=Decimal("1e-11"))
+
+
+@given(
+    st.sampled_from([(si, unit) for si, listed in MEASURED.items() for unit in listed]),
+    st.floats(1e-12, 1e12),
+)
+def test_what_is_shown_reads_back(kinds: tuple[str, str], value: float) -> None:
+    """To two roundings."""
+    si, unit = kinds
+    shown = units.convert(si, units.read(unit))
+    assert shown.unit == unit
+    factor = units.exact(unit)
+    assert factor is not None
+    back = float(Decimal(value * shown.factor) * factor)
+    np.testing.assert_allclose(back, value, rtol=4.5e-16)
+    table = Table("a table", (Column("x", (value, None, "text"), si),))
+    there = table.to(unit)
+    assert there.columns[0].unit == unit
+    np.testing.assert_allclose(there.to(si)["x"].values[0], value, rtol=4.5e-16)
+    assert there["x"].values[1:] == (None, "text")
+
+
+@pytest.mark.parametrize(
+    ("typed", "unit"),
+    [
+        ("g·mm", "g·mm"), ("gmm", "g·mm"), ("g*mm", "g·mm"), ("g-mm", "g·mm"), ("ozin", "oz·in"),
+        ("oz in", "oz·in"), ("mgm", "mg·m"), ("gm", "g·m"), ("kgm", "kg·m"), ("OZ·IN", "oz·in"),
+    ],
+)  # fmt: skip
+def test_unbalances_are_read_as_people_write_them(typed: str, unit: str) -> None:
+    assert units.exact(typed, (1, 1, 0, 0)) == units.exact(unit)
+
+
+@pytest.mark.parametrize(
+    ("typed", "unit"),
+    [("MM", "mm"), ("lbs", "lb"), ("gm", "g"), ('"', "in"), ("inches", "in"), ("Oz", "oz"),
+     ("KG", "kg"), ("µm", "µm"), ("″", "in"), ("LBF", "lbf")],
+)  # fmt: skip
+def test_units_are_read_as_people_write_them(typed: str, unit: str) -> None:
+    assert units.symbol(typed) == unit
+
+
+@pytest.mark.parametrize("text", ["cubit", "g, cubit", "g, kg", "oz·cubit", 3, "s/"])
+def test_units_that_are_none(text: object) -> None:
+    with pytest.raises(cp.InputError, match="units"):
+        cp.units(text)  # type: ignore[arg-type]
+
+
+def test_a_kind_that_is_not_named_stays() -> None:
+    setting = units.read("lb, in")
+    assert units.convert("N", setting) == ("N", 1.0)
+    assert units.convert("N·m", setting) == ("N·m", 1.0)
+    assert units.convert("kg·m²", setting).unit == "lb·in²"
+    assert units.convert("N·m", units.read("lbf")).unit == "lbf·ft"
+    assert units.convert("N·m", units.read("lbf, mm")).unit == "lbf·ft"
+    assert units.convert("N·m", units.read("lbf, lbf·in")).unit == "lbf·in"
+    assert units.convert("m/s²", units.read("in")).unit == "in/s²"
+    assert units.convert("Hz", units.read(IMPERIAL)) == ("Hz", 1.0)
+
+
+def test_the_setting_ends_with_its_block_and_changes_no_result() -> None:
+    balance = OBJECTS["Balance"]
+    before, text = balance.force.peak.copy(), repr(balance)
+    with cp.units("lbf"):
+        assert repr(balance) != text
+        with cp.units("kN"):
+            assert "kN" in repr(balance)
+        assert "lbf·ft" in repr(balance)
+        np.testing.assert_array_equal(balance.force.peak, before)
+    assert repr(balance) == text
+    cp.units("lbf")
+    assert "lbf" in repr(balance)
+
+
+@pytest.mark.parametrize("name", OBJECTS)
+def test_no_text_has_other_units_than_those_set(name: str) -> None:
+    value = OBJECTS[name]
+    with cp.units(IMPERIAL):
+        texts = [repr(value)] if isinstance(value, (cp.Engine, cp.types.Explanation)) else []
+        if isinstance(value, Tabled):
+            for key, frame in value.frames.items():
+                texts += [frame.text(), frame.html(), value.to_csv(frame=key)]
+    for text in texts:
+        for line in re.sub("<[^>]*>", "|", text).splitlines():
+            words = re.sub(r"m·r[^ ]*", "", line)  # of formulas
+            assert not SI.search(words), line
+
+
+@pytest.mark.parametrize("name", [n for n in OBJECTS if hasattr(OBJECTS[n], "plot")])
+def test_no_picture_has_other_units_than_those_set(name: str) -> None:
+    if name == "Sweep of one":  # has none
+        return
+    with cp.units(IMPERIAL):
+        OBJECTS[name].plot()
+        figure = plt.gcf()
+        figure.canvas.draw()
+        for text in figure.findobj(Text):
+            words = re.sub(r"m·r[^ ]*", "", text.get_text())
+            assert not SI.search(words), words
+
+
+def test_numbers_along_axes_are_those_of_the_unit() -> None:
+    """A tick stands where its number, read in its unit, is."""
+    balance = cp.Engine.preset("v8-crossplane").balance(6000)
+    factors = {"": ("N·m", 1.0), "lbf": ("lbf·ft", 0.7375621492772654)}
+    for setting, (unit, factor) in factors.items():
+        with cp.units(setting):
+            ax = balance.plot(quantity="moment")
+            ax.figure.canvas.draw()
+            assert ax.get_ylabel().endswith(f", {unit}")
+            ticks = [(t.get_loc(), t.label1.get_text()) for t in ax.yaxis.get_major_ticks()]
+            assert len([text for _, text in ticks if text]) > 2
+            for place, text in ticks:
+                number = float(text.replace("\N{NO-BREAK SPACE}", "").replace("−", "-"))
+                assert number == pytest.approx(place * factor, rel=1e-9, abs=1e-9)
+
+
+def test_texts_are_converted_with_their_digits() -> None:
+    setting = units.read("oz, in, lbf")
+    text = "Sag (1.27, -2.54, 0.5) mm under 1.3558179 N·m; 8.90 kN along 45°, 3 in pitch at 2 rpm"
+    assert units.in_text(text, setting) == (
+        "Sag (0.05, -0.1, 0.0197) in under 0.99999996 lbf·ft; 2000 lbf along 45°, "
+        "3 in pitch at 2 rpm"
+    )
