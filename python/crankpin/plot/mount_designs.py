@@ -7,15 +7,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture
 from crankpin.analysis.mounts.design_mounts import MountDesign
 from crankpin.analysis.mounts.design_responses import DesignResponses
 from crankpin.analysis.mounts.modes import RollAxes
 from crankpin.analysis.mounts.robustness import MountRobustness
-from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
     add_legend,
     axes_or_new,
-    check_one_place,
     label_x,
     label_y,
     make_panels,
@@ -174,7 +173,6 @@ def _axes(
     result: RollAxes, ax: Axes | None = None, *, figure: object = None, **style: object
 ) -> Any:  # noqa: ANN401 - axes, or an array of them
     """Draw both axes, the mounts and their polygon, and the CG, from the side and from the rear."""
-    check_one_place(ax, figure)
     panels = make_panels(ax, figure, 1, 2, row_height=0.9)
     views = VIEWS[:1] if panels.single else VIEWS
     powertrain = result.powertrain

@@ -8,6 +8,7 @@ import numpy as np
 
 from crankpin._support import inputs, labels, units
 from crankpin._support.quantities import PARTS, PLANE_VECTORS, QUANTITIES
+from crankpin._support.warnings import without_controls
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Sequence
@@ -25,7 +26,7 @@ def plain_text(text: str) -> str:
 
     Control characters are in no font, and not allowed in SVG.
     """
-    return labels.without_controls(text).replace("$", r"\$")
+    return without_controls(text).replace("$", r"\$")
 
 
 def number(value: float) -> str:

@@ -16,10 +16,10 @@ import numpy as np
 
 from crankpin._support import inputs, labels, optional
 from crankpin._support import progress as progress_bar
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.mounts.powertrain import Powertrain
 
 if TYPE_CHECKING:

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import mean_piston_speed
-from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import Request, check_request
 from crankpin.model import checks
 from crankpin.model.mounts import _vector

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
-from crankpin.analysis.drawing import draw
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -115,6 +115,7 @@ impl Equations {
     }
 
     /// Whether the stiffness at each frequency counts.
+    #[cfg(test)]
     pub fn is_factored(&self) -> bool {
         matches!(self.form, Form::Pencil(_))
     }
