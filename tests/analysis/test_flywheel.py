@@ -461,8 +461,8 @@ def test_inertia_torque_is_not_counted_twice() -> None:
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"inertia": None}, "irregularity = None: give one of inertia, irr"),
-        ({"irregularity": 0.01}, "give one of inertia, irregularity"),
+        ({"inertia": None}, "irregularity = None: give one of inertia=…, irr"),
+        ({"irregularity": 0.01}, "give one of inertia=…, irregularity=…"),
         ({"inertia": 0.0}, "above 0"),
         ({"inertia": -1.0}, "zero or more"),
         ({"inertia": 1e-3}, "stops"),
@@ -554,3 +554,10 @@ def test_orders_and_swing_are_those_of_a_small_fluctuation(seed: int) -> None:
     turn = cp.flywheel(([0, 90, 360], [1, 2, 1]), 600, inertia=1.0)
     with pytest.raises(cp.InputError, match=r"orders = 0\.5: give ones that come round in 360"):
         turn.irregularity_of([0.5, 1])
+
+
+def test_orders_that_the_engine_cancels_are_not_listed() -> None:
+    fired = cp.Engine.preset("i4").with_cycle(cp.Cycle.example())
+    assert cp.flywheel(fired, 800, inertia=0.1).frames["orders"]["order"].values == (2.0, 4.0, 6.0)
+    steady = cp.flywheel(([0, 360], [300, 300]), rpm=600, inertia=2.0)
+    assert steady.frames["orders"]["order"].values == ()

@@ -119,8 +119,8 @@ def test_another_point_takes_the_moment_of_the_force_off() -> None:
             here.about(point)
     assert here.about(z=z) == here.about(z) == here.about((0.0, 0.0, z))
     for mistake, named in (
-        ({}, "z = None: give one of point, z"),
-        ({"point": z, "z": z}, "give one of point, z"),
+        ({}, "z = None: give one of point=…, z=…"),
+        ({"point": z, "z": z}, "give one of point=…, z=…"),
         ({"z": "x"}, "z = 'x'"),
     ):
         with pytest.raises(cp.InputError, match=named):

@@ -97,3 +97,12 @@ def test_harmonics(capsys: CAPTURE) -> None:
     for line in ("harmonics", "harmonics 0.3 --stroke 1 --rod-length 2", "harmonics 1/0"):
         assert "RATIO" in refused(capsys, line)
     assert "--pin-offset" in refused(capsys, "harmonics 0.3 --pin-offset 1mm")
+
+
+def test_exercise(capsys: CAPTURE) -> None:
+    sheet = cp.exercise("v-angle", seed=7)
+    assert printed(capsys, "exercise v-angle --seed 7") == f"{sheet}\n"
+    both = printed(capsys, "exercise v-angle --seed 7 --solution")
+    assert both == f"{sheet}\n\n{sheet.solution}\n"
+    assert refused(capsys, "exercise v-angel").startswith("TOPIC = 'v-angel': give \"single\"")
+    assert "--seed" in refused(capsys, "exercise single --seed 1.5")

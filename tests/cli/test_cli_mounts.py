@@ -166,7 +166,7 @@ def test_windows_and_limits_are_those_of_the_library(car: Path, capsys: CAPTURE)
         (["--stiffness", "3e4,3e5", "--vary", "reer=stiffness"], "right"),
         (["--y", "0.1", "--modes-between", "30,5"], "--modes-between = "),
         (["--y", "0.1", "--by", "noise"], "--by = "),
-        (["--y", "0.1", "--by", "body_force[2]"], "--rpm = "),
+        (["--y", "0.1", "--by", "body_force[2]"], "--rpm is left out"),
     ],
 )
 def test_errors_of_a_fit_name_the_option(

@@ -159,8 +159,11 @@ def test_files_of_cycles_are_read_as_options_say(capsys: CAPTURE, tmp_path: Path
     mean = engine.with_cycle(cp.Cycle(theta, pressure)).balance(3000, orders=[2]).crank_torque.mean
     assert f"{mean:.2f}" in out
     for typed, hints in (
-        (f"bearings i4 {read}", ["--pressure-unit = None: ", "give one of Pa"]),
-        (f"torque i4 {read} --pressure-unit bar", ["--gauge = None: ", "give --gauge, or --abso"]),
+        (f"bearings i4 {read}", ["--pressure-unit is left out: ", "give one of Pa"]),
+        (
+            f"torque i4 {read} --pressure-unit bar",
+            ["--gauge is left out: ", "give --gauge, or --abso"],
+        ),
         ("torque i4 --tdc 3", ["--tdc needs a file of --cycle"]),
         ("torque i4 --cycle petrol --gauge", ["--gauge needs a file of --cycle"]),
         (f"torque i4 {read} --gauge --absolute", ["--gauge cannot be combined with --absolute"]),
@@ -179,12 +182,12 @@ def test_hints_can_be_followed(capsys: CAPTURE, tmp_path: Path) -> None:
         capsys, f"tolerances {file} --pin 0.1 --samples 50"
     )
     assert main(f"shafts {file} --ratios 2,-2".split()) == 2
-    assert "--rpm = None: " in capsys.readouterr().err
+    assert "--rpm is left out: " in capsys.readouterr().err
     assert "at 2000 rpm" in printed(capsys, f"shafts {file} --ratios 2,-2 --rpm 2000")
     bare = tmp_path / "bare.toml"
     cp.Engine.preset("i4").replace(firing_order="").save(bare)
     assert main(f"torque {bare}".split()) == 2
-    assert "--firing-order = None: " in capsys.readouterr().err
+    assert "--firing-order is left out: " in capsys.readouterr().err
     table = printed(capsys, "torque i4 --firing-order 1-3-4-2").splitlines()[1:]
     assert printed(capsys, f"torque {bare} --firing-order 1-3-4-2").splitlines()[1:] == table
 
@@ -204,3 +207,33 @@ def test_hints_can_be_followed(capsys: CAPTURE, tmp_path: Path) -> None:
 def test_errors_name_the_option(capsys: CAPTURE, typed: str, message: str) -> None:
     assert main(typed.split()) == 2
     assert message in capsys.readouterr().err
+
+
+def test_a_trace_is_read_prepared_and_saved(capsys: CAPTURE, tmp_path: Path) -> None:
+    theta, random = np.arange(-360.0, 360.0, 1.0), np.random.default_rng(3)
+    cycle = cp.Cycle.example()
+    pressure = cycle.pressure_at(theta) + 5e4 + random.normal(0.0, 5e3, (8, len(theta)))
+    with_bore = cp.Engine.preset("i4").cylinders[0]
+    motored = cp.Cycle.motored(with_bore, compression_ratio=10.5).pressure_at(theta + 1.0)
+    header = "crank angle [deg];" + ";".join(["p abs [bar]"] * 8)
+    table = np.c_[theta, pressure.T / 1e5]
+    file, other, out = tmp_path / "run.csv", tmp_path / "motored.csv", tmp_path / "run.toml"
+    np.savetxt(file, table, fmt="%.4f", delimiter=";", header=header)
+    np.savetxt(other, np.c_[theta, motored / 1e5], delimiter=";", header=header[:30])
+    cylinder = cp.Engine.preset("i4").cylinders[0].replace(bore=0.09)
+    prepared = cp.prepare_trace(
+        cp.Traces.load(file, strokes=4), cylinder, intake_pressure=0.95e5, lowpass_order=60
+    )
+    typed = f"trace i4 {file} --bore 90mm --intake-pressure 0.95bar --lowpass-order 60 --save {out}"
+    text = printed(capsys, typed)
+    assert prepared.table.text() in text
+    assert prepared.traces.spread(cylinder).text() in text
+    assert "Read: 8 cycles in columns" in text
+    saved = cp.Engine.load(out)
+    assert saved.cycles is not None
+    assert saved.cycles[0] == prepared.cycle
+    assert saved.cylinders[0].bore == 0.09
+    with_motored = printed(capsys, f"trace i4 {file} --motored {other} --loss-angle 1")
+    assert "loss angle 1°, given" in with_motored
+    assert main(["trace", "i4", str(file), "--exponent", "1.3"]) == 2
+    assert "--compression-ratio" in capsys.readouterr().err

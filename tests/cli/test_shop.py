@@ -6,12 +6,11 @@ from typing import TYPE_CHECKING
 
 import crankpin as cp
 import numpy as np
+import pytest
 from crankpin.cli import main
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-    import pytest
 
 PARTS = {
     "piston": 0.470, "pin": 0.118, "locks": 0.002, "rings": 0.060, "small end": 0.180,
@@ -106,3 +105,29 @@ def test_matched_parts_are_those_of_the_library(
     match = cp.match_parts(cp.Engine.preset("i4"), masses, ends, by="spread")
     assert both == f"{match.frames.text()}\n"
     assert "--big-ends" in refused(capsys, "match i4 --pistons 1,1,1,1 --small-ends 1,1,1,1")
+
+
+@pytest.mark.filterwarnings("default:pistons")
+def test_errors_name_what_was_typed(capsys: pytest.CaptureFixture[str]) -> None:
+    v8 = "v8-crossplane"
+    two = "--measured 0,0.3 --correct=-0.1,0.4"
+    masses = ",".join(f"{each}" for each in (828, 833, 831, 829, 834, 830, 827, 832))
+    for typed, said in (
+        (f"two-plane --amounts 4200,2600 --angles 35 {two}", "--angles has 1 figure: give two"),
+        (f"two-plane --amounts=-1,2 --angles 35,36 {two}", "--amounts = array"),
+        (
+            f"match {v8} --pistons {masses} --units g --big-ends {masses}",
+            "--small-ends is left out: ",
+        ),
+        (f"firing {v8} --firing-order L1-R2-L4", "--firing-order = 'L1-R2-L4': name each of"),
+        (f"compare {v8}", "NAME stands for 1 engine: "),
+        ("new radial --cylinders 9 --rows 2", "--cylinders = 9: give a multiple of rows, 2"),
+        (f"flywheel {v8}", "--irregularity is left out: give one of --inertia …"),
+        ("new v8 --bore 4in --stroke 3in --rod-length 6in", "--rod-mass is left out: "),
+        ("balance v8.tml", 'NAME = "v8.tml": no such preset; crankpin new makes'),
+    ):
+        assert refused(capsys, typed).startswith(said)
+    assert main(f"match {v8} --pistons {masses}".split()) == 2
+    assert "--pistons = 827.0: the lightest is 3.5 kg below" in capsys.readouterr().err
+    line = printed(capsys, "closed-form single --order 1").splitlines()[0]
+    assert line == "Single: shaking force of order 1"

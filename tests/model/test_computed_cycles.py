@@ -159,7 +159,7 @@ def test_harmonics_of_an_ideal_cycle_are_those_of_quadrature_and_fall_as_1_over_
     ("changes", "message"),
     [
         ({"compression_ratio": 1.0}, r"compression_ratio = 1\.0"),
-        ({"heat": None}, "excess_air = None: give one of heat, excess"),
+        ({"heat": None}, "excess_air = None: give one of heat=…, excess"),
         ({"excess_air": 1.0}, "excess_air = 1.0: give one"),
         ({"rpm": 3000}, "rpm = 3000: heat loss needs both it and wall_temperature"),
         ({"start_deg": 200}, r"start_deg = 200\.0: give a number from"),

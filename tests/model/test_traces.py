@@ -76,6 +76,16 @@ def test_spread_has_peaks_imep_and_orders() -> None:
     np.testing.assert_allclose(table["mean"].values[3:], abs(phasors.mean(axis=0)), rtol=1e-14)
 
 
+def test_spread_of_one_cycle_and_of_cycles_alike() -> None:
+    theta = np.arange(-360.0, 360.0, 0.45)
+    pressure = cp.Cycle.example().pressure_at(theta)
+    alike = cp.Traces(theta, np.tile(pressure, (60, 1))).spread(CYLINDER)
+    assert set(alike["deviation"].values) == {0.0}  # not the rounding of their mean
+    one = cp.Traces(theta, pressure[None]).spread(CYLINDER)
+    assert set(one["deviation"].cells()) == {"–"}
+    assert "nan" not in one.text()
+
+
 @pytest.mark.parametrize(
     ("pressure", "message"),
     [

@@ -33,10 +33,8 @@ every_result = pytest.mark.parametrize("name", [*RESULTS, *SWEPT])
 UNTABLED = {
     "Cylinder", "Engine", "PortTiming", "Rod", "Shaft", "Unbalance", "ValveTiming", "InertiaTrack",
     "Mount", "Powertrain", "RigidBody", "Actuator", "Subframe", "Receptance",
-    "OrderResponse", "VectorQuantity", "WorstForce",
-    # inputs, and items of results that have tables
-    "Exercise",  # text
 }  # fmt: skip
+"""Inputs."""
 CHARACTERS = "a0 \t\n\\{}$&#%_~^|<>\"'=+-°·²ω→–₂"
 """What names may have, LaTeX obeys, or fonts of text lack."""
 
@@ -69,8 +67,8 @@ def test_frames_begin_with_the_table(name: str) -> None:
 def test_text_and_html_show_every_frame_or_a_line(name: str) -> None:
     result = result_of(name)
     text, html, frames = repr(result), result._repr_html_(), list(result.frames.values())
-    if isinstance(result, (cp.types.ClosedForm, cp.types.Explanation)):  # formulas, sentences
-        assert text.startswith(result.table.title)
+    if isinstance(result, (cp.types.ClosedForm, cp.types.Exercise, cp.types.Explanation)):
+        assert text.startswith(result.table.title)  # formulas, questions, sentences
         return
     if isinstance(result, Item):  # one of many
         assert "\n" not in text

@@ -426,7 +426,11 @@ def _by_banks(name: str, typed: str, banks: Sequence[int]) -> str:
             raise rejected(name, typed, f"there is no {match[0]}; banks and cylinders are {known}")
         return str(members[place - 1])
 
-    return _LETTERS.sub(number, typed)
+    by_numbers = _LETTERS.sub(number, typed)
+    if sorted(map(int, re.findall(r"\d+", by_numbers))) != [*range(1, len(banks) + 1)]:
+        # Rejected here: what follows would name numbers that were not typed.
+        raise rejected(name, typed, f"name each of the engine's {len(banks)} cylinders once")
+    return by_numbers
 
 
 def order(value: object) -> Order:
@@ -563,7 +567,8 @@ def only_one_of(**values: object) -> None:
     """Reject two arguments of which none is given, or both."""
     if sum(value is not None for value in values.values()) != 1:
         name, value = values.popitem()
-        raise rejected(name, value, f"give one of {', '.join([*values, name])}")
+        one = ", ".join(f"{each}=…" for each in [*values, name])
+        raise rejected(name, value, f"give one of {one}")
 
 
 def only_with(partner: str, **values: object) -> None:

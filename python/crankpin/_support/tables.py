@@ -58,7 +58,7 @@ class Column(Record):
         ]
 
     def _rounded(self, value: float | None) -> str:
-        if value is None:
+        if value is None or value != value:  # noqa: PLR0124 - NaN, of any size of number
             return "–"
         if isinstance(value, bool):
             return str(value)
@@ -183,7 +183,7 @@ class Table(Tabled):
         >>> import crankpin as cp
         >>> weights = cp.counterweights(cp.Engine.preset("single"), planes=[0])
         >>> weights.table.to("oz*in, in")["amount"].cells()
-        ['13.435']
+        ['13.436']
         """
         return self._in(units.read(units_shown, "units_shown"))
 

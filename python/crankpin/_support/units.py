@@ -128,7 +128,7 @@ def units(text: str = "") -> Shown:
     ...     print(bob.frames["table"])
     Single: bob weights, rotating + 50 % of reciprocating
     cylinders  crankpin °  rotating oz  reciprocating oz  oil oz  bob weight oz
-    1                  90       17.637            15.873       0         25.574
+    1                90.0        17.64             15.87       0          25.57
     """
     return Shown(read(text))
 

@@ -10,6 +10,7 @@ from random import Random
 from typing import TYPE_CHECKING, NamedTuple
 
 from crankpin._support import inputs
+from crankpin._support.frames import Frames, Tabled
 from crankpin._support.record import Record, read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import balance
@@ -88,7 +89,7 @@ class Step(Record):
     """Name of the answer that it is; empty for a step on the way."""
 
 
-class Exercise(Record):
+class Exercise(Tabled):
     """A question with its figures, the engine that it is about, and the solution in steps.
 
     Made by :func:`crankpin.exercise`.
@@ -117,6 +118,24 @@ class Exercise(Record):
     """Engine of the question."""
     steps: tuple[Step, ...]
     """Steps of the solution."""
+
+    def __post_init__(self) -> None:
+        steps: object = self.steps
+        sound = isinstance(steps, tuple) and all(isinstance(each, Step) for each in steps)
+        if not (sound and steps):
+            raise inputs.rejected("steps", steps, "use cp.exercise")
+        super().__post_init__()
+
+    @property
+    def table(self) -> Table:
+        """Answers that the sheet asks for, with their units, and the question."""
+        asked = [(step.answer, step.unit) for step in self.steps if step.answer]
+        return Table.from_rows(self._head, ["answer", "unit"], asked, note=self.question)
+
+    @property
+    def frames(self) -> Frames:
+        """``table``; ``solution``: its steps."""
+        return self._frames(solution=lambda: self.solution)
 
     @cached_property
     def solution(self) -> Table:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, overload
 
@@ -352,17 +351,17 @@ class Flywheel(Tabled):
         return self._frames(approximations=self._approximated, orders=self._by_order)
 
     def _by_order(self) -> Table:
-        """Return irregularity and swing of orders up to 6 that come round in the period."""
+        """Return irregularity and swing of the orders up to 6 that matter."""
         turns = float(self.theta_deg[-1] - self.theta_deg[0]) / 360.0
-        orders = [k / 2 for k in range(1, 13) if (k / 2 * turns) % 1.0 < EQUAL]
-        uneven = self.irregularity_of(orders) if orders else np.empty(0)
-        swings = tuple(
-            math.degrees(each / order) for order, each in zip(orders, uneven.tolist(), strict=True)
-        )
+        orders = np.array([k / 2 for k in range(1, 13) if (k / 2 * turns) % 1.0 < EQUAL])
+        uneven = self.irregularity_of(orders.tolist()) if orders.size else np.empty(0)
+        # Those that the engine cancels are rounding.
+        matter = uneven > max(NEGLIGIBLE * uneven.max(initial=0.0), EQUAL)
+        orders, uneven = orders[matter], uneven[matter]
         columns = (
-            Column("order", tuple(orders)),
-            Column("irregularity", tuple((100.0 * uneven).tolist()), "%", least=NEGLIGIBLE),
-            Column("swing", swings, "°", least=NEGLIGIBLE),
+            Column("order", tuple(orders.tolist())),
+            Column("irregularity", tuple((100.0 * uneven).tolist()), "%"),
+            Column("swing", tuple(np.degrees(uneven / orders).tolist()), "°"),
         )
         title = "Irregularity and swing of each order alone"
         return Table(title, columns, loads=self.loads_counted)

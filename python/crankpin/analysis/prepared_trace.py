@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.tables import Column, Table
@@ -258,7 +258,7 @@ class PreparedTrace(Tabled):
             of_imep = [100.0 * (imep[k] / imep[j] - 1.0) for k, j in enumerate(before)]
             moved = 100.0 * np.abs(phasors - phasors[before]) / np.abs(phasors[before])
         columns = [
-            Column("step", self.names),
+            Column("step", self._shown_names()),
             Column("imep", tuple(each / 1e5 for each in imep), "bar"),
             Column("changes", tuple(of_imep), "%", digits=3),
             *(
@@ -274,6 +274,10 @@ class PreparedTrace(Tabled):
         """``table``; ``orders``: peaks, noise and amplitudes by step; ``spread``: over cycles."""
         return self._frames(orders=self._orders, spread=lambda: self.traces.spread(self.cylinder))
 
+    def _shown_names(self) -> tuple[str, ...]:
+        """Return the names of the steps in the units of the setting."""
+        return tuple(units.in_text(name) for name in self.names)
+
     def _orders(self) -> Table:
         rows = [
             (
@@ -283,7 +287,9 @@ class PreparedTrace(Tabled):
                 100.0 * each.cov(self.cylinder),
                 *np.abs(phasors).tolist(),
             )
-            for name, each, phasors in zip(self.names, self.stages, self._phasors, strict=True)
+            for name, each, phasors in zip(
+                self._shown_names(), self.stages, self._phasors, strict=True
+            )
         ]
         heads: list[str | tuple[str, str]] = [
             "step", ("peak", "bar"), ("noise", "bar"), ("COV of imep", "%"),

@@ -37,9 +37,9 @@ if TYPE_CHECKING:
 
 ORDER = (
     "presets", "new", "balance", "explain", "compare", "sweep", "rank", "firing", "star", "torque",
-    "flywheel", "bearings", "mounts", "mounts-fit", "counterweights", "bob-weight", "card",
-    "two-plane", "match", "shafts", "design", "tolerances", "closed-form", "harmonics", "view",
-    "gallery",
+    "trace", "flywheel", "bearings", "mounts", "mounts-fit", "counterweights", "bob-weight", "card",
+    "two-plane", "match", "shafts", "design", "tolerances", "closed-form", "harmonics",
+    "exercise", "view", "gallery",
 )  # fmt: skip
 """Commands in the order of the help."""
 

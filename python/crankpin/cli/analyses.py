@@ -9,6 +9,7 @@ import numpy as np
 from crankpin._support import inputs
 from crankpin._support.tables import Table
 from crankpin.analysis.comparison import compare
+from crankpin.analysis.exercises import TOPICS, exercise
 from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.star import star_diagram
 from crankpin.cli.arguments import command, option, rejected
@@ -33,7 +34,8 @@ HIGHEST = 12
 def _compare(given: Given) -> Shown:
     engines = [*given.engines().values()]
     if len(engines) != 2:
-        raise inputs.faulty("NAME", f"stands for {len(engines)} engines", "give two")
+        several = "engine" if len(engines) == 1 else "engines"
+        raise inputs.faulty("NAME", f"stands for {len(engines)} {several}", "give two")
     before, after = engines
     rpm = given.number("--rpm", "rpm")
     comparison = compare(before, after, rpm, spectrum=given.spectrum(), **given.chosen())
@@ -53,7 +55,7 @@ def _compare(given: Given) -> Shown:
     "--cycle --firing-order --bore --crankcase",
     *OF_A_FILE,
     "--units",
-    option("--frame", choices=("table", "approximations")),
+    option("--frame", choices=("table", "approximations", "orders")),
     "--csv --plot",
     example="flywheel i4 --rpm 800 --irregularity 2% --bore 86mm",
 )
@@ -99,15 +101,30 @@ def _star(given: Given) -> Shown:
     option(
         "--quantity",
         choices=("force", "moment"),
-        default="moment",
-        help="what the formula is of (default: %(default)s)",
+        help="what the formula is of (default: moment, or force if all cylinders are at one z)",
     ),
     "--reference-z --units",
     example="closed-form i3 --order 1",
 )
 def _closed_form(given: Given) -> str:
-    quantity: Any = given.text("--quantity")
-    return f"{given.engine('closed-form').closed_form(given.whole('--order'), quantity)!r}\n"
+    engine = given.engine("closed-form")
+    quantity: Any = given.quantity([engine])
+    return f"{engine.closed_form(given.whole('--order'), quantity)!r}\n"
+
+
+@command(
+    "exercise",
+    "a sheet for a pupil, with figures of its own, and its solution",
+    option("topic", metavar="TOPIC", help=f"{', '.join(TOPICS)}"),
+    "--seed",
+    option("--solution", action="store_true", help="print the solution too"),
+    example="exercise v-angle --seed 7 --solution",
+)
+def _exercise(given: Given) -> str:
+    topic = inputs.one_of("TOPIC", given.text("topic"), TOPICS)
+    sheet = exercise(topic, given.whole("--seed"))
+    solution = f"\n{sheet.solution}\n" if given.text("--solution") else ""
+    return f"{sheet}\n{solution}"
 
 
 @command(
@@ -150,7 +167,7 @@ def _ratio(given: Given) -> tuple[float, float | None]:
     typed = given.text("ratio")
     stroke, length = given.optional("--stroke", "m"), given.optional("--rod-length", "m")
     if (typed is None) == (stroke is None or length is None):
-        raise inputs.faulty("RATIO", "= None", "give it, or --stroke and --rod-length")
+        raise inputs.faulty("RATIO", "is left out", "give it, or --stroke and --rod-length")
     if stroke is not None and length is not None:
         if not length > 0.0:
             raise rejected("--rod-length", given.text("--rod-length"), "give a length above 0")

@@ -198,7 +198,10 @@ OPTIONS: dict[str, dict[str, Any]] = {
 
 OPPOSITES = {"gauge": "absolute"}
 """Argument of the library that may be False → the option that says so."""
-RENAMED = {"path": "out", "to_crankpin": "rod_centre", "cylinder": "misfire"}
+RENAMED = {
+    "path": "out", "to_crankpin": "rod_centre", "cylinder": "misfire", "amount_g_mm": "amounts",
+    "angle_deg": "angles", "measured_z": "measured", "correction_z": "correct",
+}  # fmt: skip
 """Argument of the library → the option of a command that has it under another name."""
 
 
@@ -277,6 +280,8 @@ def error_in_options(error: InputError, typed: Mapping[str, object]) -> InputErr
     # One that is left out is named only where that is the fault.
     among = _options(typed, left_out=error.value == "None")
     error.argument = re.sub(r"^\w+", lambda word: _option(word[0], among), error.argument)
+    if error.value == "None" and error.argument.startswith("--"):  # None was not typed
+        value = " is left out: "
     error.hint = _hint_in_options(error.hint, typed)
     error.args = (error.argument + value + error.hint,)
     return error

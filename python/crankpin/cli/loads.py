@@ -10,13 +10,16 @@ from crankpin._support import inputs, labels
 from crankpin._support.quantities import LOADS
 from crankpin._support.record import changed
 from crankpin.analysis.bearings import AXES, bearing_loads
+from crankpin.analysis.prepared_trace import prepare_trace
 from crankpin.cli.arguments import command, option, rejected
 from crankpin.cli.outputs import Shown, left_out, only
 from crankpin.model.computed_cycles import EXAMPLES
 from crankpin.model.cycle import Cycle
+from crankpin.model.traces import Traces
 
 if TYPE_CHECKING:
     from crankpin.cli.arguments import Given
+    from crankpin.model.cycle_files import FileOptions
     from crankpin.model.engine import Engine
 
 OF_A_FILE = tuple(
@@ -161,8 +164,58 @@ def fired(given: Given, name: str) -> tuple[Engine, str]:
     return driven, note if named else f"{note}Read: {cycle.origin}.\n"
 
 
+@command(
+    "trace",
+    "measured cycles of a file: their mean and spread, prepared as options say",
+    "name",
+    option("file", metavar="FILE", help="cylinder pressure of one or many cycles, a text file"),
+    "--bore",
+    *(each._replace(group="the files") for each in OF_A_FILE),
+    option("--motored", metavar="FILE", help="the same without combustion, which finds the TDC"),
+    option("--loss-angle", metavar="ANGLE", help="from the motored peak to the TDC (default: 0.7)"),
+    option(
+        "--lowpass-order", metavar="ORDER", help="order at which a low-pass halves the amplitude"
+    ),
+    option("--intake-pressure", metavar="P", help="absolute pressure of the intake, Pa or 0.95bar"),
+    option("--exponent", metavar="N", help="of a polytropic compression, such as 1.3, or fit"),
+    option("--compression-ratio", metavar="R", help="largest over smallest volume"),
+    "--units --csv --plot --save --force",
+    example="trace i4 run7.csv --bore 86mm --intake-pressure 0.95bar --save run7.toml",
+    note="--save writes the engine with the mean of the prepared cycles.",
+)
+def _trace(given: Given) -> Shown:
+    engine, strokes = given.engine("trace"), given.engine("trace").strokes
+    bore = given.optional("--bore", "m")
+    cylinder = engine.cylinders[0]
+    cylinder = cylinder.replace(bore=bore or cylinder.bore or cylinder.stroke)
+    note = "" if bore or engine.cylinders[0].bore else "The bore is taken to equal the stroke.\n"
+    traces = Traces.load(given.text("file"), **_read_as(given, strokes))
+    motored = given.text("--motored")
+    exponent = given.text("--exponent")
+    prepared = prepare_trace(
+        traces,
+        cylinder,
+        motored=None if motored is None else Traces.load(motored, **_read_as(given, strokes)),
+        loss_angle_deg=given.optional("--loss-angle", "°"),
+        lowpass_order=given.optional("--lowpass-order"),
+        intake_pressure=given.optional("--intake-pressure", "Pa"),
+        exponent=exponent if exponent in (None, "fit") else given.number("--exponent"),
+        compression_ratio=given.optional("--compression-ratio"),
+    )
+    cylinders = [each.replace(bore=bore or each.bore or each.stroke) for each in engine.cylinders]
+    with_mean = engine.replace(cylinder=cylinders).with_cycle(prepared.cycle)
+    return Shown(
+        prepared.frames, prepared, engine=with_mean, note=f"{note}Read: {traces.origin}.\n"
+    )
+
+
 def _loaded(given: Given, path: str, strokes: int) -> Cycle:
     """Return the cycle in a file, read as options say."""
+    return Cycle.load(path, **_read_as(given, strokes))
+
+
+def _read_as(given: Given, strokes: int) -> FileOptions:
+    """Return how a file of cylinder pressure is read."""
     gauge, absolute = given.text("--gauge"), given.text("--absolute")
     if gauge and absolute:
         raise inputs.faulty("--gauge", "cannot be combined with --absolute", "give one of them")
@@ -170,14 +223,13 @@ def _loaded(given: Given, path: str, strokes: int) -> Cycle:
     if (listed := given.text("--columns")) is not None:
         parts = (part.strip() for part in listed.split(","))
         columns = [int(part) if part.isdecimal() else part for part in parts]
-    return Cycle.load(
-        path,
-        pressure_unit=given.text("--pressure-unit"),
-        angle_unit=given.text("--angle-unit"),
-        gauge=gauge if gauge or absolute else None,
-        atmosphere=given.optional("--atmosphere", "Pa") or ATMOSPHERE,
-        recorded_rpm=given.optional("--recorded-rpm", "rpm"),
-        tdc_deg=given.optional("--tdc", "°") or 0.0,
-        columns=columns,
-        strokes=strokes,
-    )
+    return {
+        "pressure_unit": given.text("--pressure-unit"),
+        "angle_unit": given.text("--angle-unit"),
+        "gauge": gauge if gauge or absolute else None,
+        "atmosphere": given.optional("--atmosphere", "Pa") or ATMOSPHERE,
+        "recorded_rpm": given.optional("--recorded-rpm", "rpm"),
+        "tdc_deg": given.optional("--tdc", "°") or 0.0,
+        "columns": columns,
+        "strokes": strokes,
+    }

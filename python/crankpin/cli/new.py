@@ -328,7 +328,8 @@ def _parts_of_one(
         hint = "a cylinder of your own needs --piston-mass, or --reciprocating-mass"
         raise inputs.faulty("--piston-mass", "is left out", hint)
     cylinder = Cylinder.from_rod(rod, stroke / 2.0, masses["--piston-mass"], **common)
-    return cylinder, rotating
+    # As weighed: that of the rod has the rounding of its centre.
+    return cylinder, masses["--big-end"] if rotating is None else rotating
 
 
 def _rod(
@@ -340,6 +341,8 @@ def _rod(
     if ends == (mass is not None) or (small is None) != (big is None):
         hint = "--small-end and --big-end, or else give --reciprocating-mass and --rotating-mass"
         hint = f"a rod needs --rod-mass, or both {hint}"
+        if mass is None:
+            raise inputs.faulty("--rod-mass", "is left out", hint)
         raise inputs.rejected("--rod-mass", mass, hint)
     if small is not None and big is not None:
         # To the nanogram, which leaves 0.2 + 0.555 its decimals.

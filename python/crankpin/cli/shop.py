@@ -183,6 +183,9 @@ def _match(given: Given) -> Shown:
     ends = [given.numbers(flag, "kg") for flag in ("--small-ends", "--big-ends")]
     rods = None
     if any(each is not None for each in ends):
+        for flag, each in zip(("--small-ends", "--big-ends"), ends, strict=True):
+            if each is None:
+                raise inputs.faulty(flag, "is left out", "rods have --small-ends and --big-ends")
         small, big = (each or [] for each in ends)
         if len(small) != len(big):
             hint = f"give as many --big-ends as --small-ends, {len(small)}"

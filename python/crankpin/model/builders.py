@@ -539,7 +539,10 @@ class Builders(EngineData):
         if not 1 <= banks <= MOST_ROWS:
             hint = f"give 1 to {MOST_ROWS}; Engine.from_lists takes any layout"
             raise inputs.rejected("rows", banks, hint)
-        if count % banks or count < 3 * banks:
+        if count % banks:
+            hint = f"give a multiple of rows, {banks}: all rows have as many cylinders"
+            raise inputs.rejected("cylinders", count, hint)
+        if count < 3 * banks:
             hint = "give three or more to each row; two opposed cylinders are Engine.flat"
             raise inputs.rejected("cylinders", count, hint)
         if count > MOST_CYLINDERS:

@@ -249,7 +249,8 @@ def unknown(argument: str, name: str, *, typed: bool = False, own: str = "") -> 
     if not meant:
         near = [each for each in family(plain.rpartition("-")[0]) if each in Presets()]
         near = near or [words[each] for each in difflib.get_close_matches(plain, words, 3, 0.7)]
-        built = _recipe(plain, typed=typed)
+        is_file = re.search(r"\.[a-z]+$", plain)  # with another ending than those of engine files
+        built = "" if is_file else _recipe(plain, typed=typed)
     if not (near or built):
         more = "crankpin new makes" if typed else "Engine.inline, vee and the like make"
         built = f"{own or f'{more} engines of your own'}; "

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin._core import ATMOSPHERE
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.record import AbsentError, Input, item_key, read_only
@@ -376,7 +376,7 @@ class Traces(Tabled, Input):
         of_mean = [
             100.0 * row[3] / abs(row[2]) if row[2] and row[1] != "°" else None for row in rows
         ]
-        names, units, *columns = zip(*rows, strict=True)
+        names, row_units, *columns = zip(*rows, strict=True)
         heads = ("mean", "deviation", "least", "largest")
         shown = [Column(head, values) for head, values in zip(heads, columns, strict=True)]
         return Table(
@@ -386,8 +386,9 @@ class Traces(Tabled, Input):
                 *shown[:2],
                 Column("COV", tuple(of_mean), "%", digits=3),
                 *shown[2:],
-                Column("unit", units),
+                Column("unit", row_units),
             ),
+            row_units=row_units,
         )
 
     def resolution_error(
@@ -445,7 +446,7 @@ class Traces(Tabled, Input):
         return Table(
             f"{self._title}, {strokes}-stroke, "
             f"{len(self.theta_deg)} points ({self._raised_mean.grid}), "
-            f"noise {self.noise / 1e5:.2g} bar",
+            f"noise {units.figure(self.noise / 1e5, 'bar', 2)}",
             (
                 Column("crank angle", tuple(self.theta_deg.tolist()), "°", digits=10),
                 *(Column(k, tuple(each.tolist()), "Pa", digits=7) for k, each in curves.items()),
@@ -480,4 +481,8 @@ class Traces(Tabled, Input):
 
 def _deviation(values: NDArray[np.float64] | NDArray[np.complex128]) -> float:
     """Return the standard deviation of numbers or phasors; NaN of one."""
-    return float(np.std(values, ddof=1)) if len(values) > 1 else math.nan
+    if len(values) < 2:
+        return math.nan
+    if (values == values[0]).all():  # whose mean may be beside them by its rounding
+        return 0.0
+    return float(np.std(values, ddof=1))

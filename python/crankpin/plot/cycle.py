@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._support import labels
+from crankpin._support import labels, units
 from crankpin._support.drawing import picture
 from crankpin.analysis.flywheel import Flywheel
 from crankpin.analysis.prepared_trace import PreparedTrace
@@ -134,7 +134,8 @@ def _prepared(
         span(changes, theta)
         degrees(changes.xaxis)
         label_x(changes, "crank angle after the firing top dead centre")
-    steps = [name.partition(" (")[0].partition(": ")[0] for name in result.names[1:]]
+    shown = [units.in_text(name) for name in result.names]
+    steps = [name.partition(" (")[0].partition(": ")[0] for name in shown[1:]]
     panels.set_title(f"Cylinder pressure: {result.title}", joined(*steps))
     return panels.drawn
 

@@ -160,6 +160,27 @@ def test_what_stays_is_what_turning_masses_leave(name: str, factor: float) -> No
         assert bob.half_axes(quantity, [0.1, factor])[0][1] == longest
 
 
+@pytest.mark.parametrize("seed", range(20))
+def test_what_cancels_is_zero_and_not_its_rounding(seed: int) -> None:
+    """As the balance of the fitted engine has it, whose zeros are those of sums."""
+    rng = np.random.default_rng(seed)
+    pins, bank = int(rng.choice([2, 3, 4, 6])), rng.choice([60.0, 90.0, 180.0])
+    masses = 0.5 + 0.001 * (rng.integers(20) + np.arange(2 * pins))
+    engine = cp.Engine.vee(
+        [UNIT.replace(reciprocating_mass=float(mass)) for mass in masses],
+        bank_angle_deg=bank,
+        throws_deg=[360.0 * k / pins for k in range(pins)],
+        spacing=1.0,
+        rotating_mass=0.4,
+    )
+    bob = cp.bob_weight(engine, 0.5)
+    for quantity in ("force", "moment"):
+        vector, axes = getattr(bob.residual[1], quantity), bob.half_axes(quantity, 0.5)
+        assert [each == 0.0 for each in axes] == [vector.peak == 0.0, vector.minor == 0.0]
+        for factor, _ in bob.straight(quantity):
+            assert bob.half_axes(quantity, factor)[1] == 0.0
+
+
 @pytest.mark.parametrize("name", ["single", "v6-90", "i3", "45° V-twin"])
 def test_half_axes_are_those_of_the_theorem(name: str) -> None:
     """|(1 − 2κ)f| ± |b|, least at one half, straight at ½(1 ± |b|/|f|)."""

@@ -12,6 +12,8 @@ import pytest
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from chromium import Open
+
 PARTS = {
     "piston": 0.470, "pin": 0.118, "locks": 0.002, "rings": 0.060, "small end": 0.180,
     "big end": 0.430, "bearings": 0.042,
@@ -165,6 +167,19 @@ def test_the_page_has_every_number_and_prints(tmp_path: Path) -> None:
                 assert f"<td>{cell}</td>" in text
     assert "@media print" in text
     assert not re.search(r"(src|href)=", text)  # it loads nothing
+
+
+@pytest.mark.slow  # a browser
+@pytest.mark.parametrize("name", ["v8-crossplane", "v12-60", "v16-45"])
+def test_parts_of_every_cylinder_fit_on_a_sheet(name: str, open_file: Open, tmp_path: Path) -> None:
+    engine, file = cp.Engine.preset(name), tmp_path / "card.html"
+    pistons = [0.480 + 0.001 * k for k in range(len(engine))]
+    bob = cp.bob_weight(engine, parts=PARTS | {"piston": pistons})
+    bob.card([0.48, 0.5, 0.52], rpm=7000).save_html(file)
+    paper = {"width": 703, "height": 1000}  # A4 less margins of 12 mm
+    page = open_file(file, viewport=paper)
+    page.emulate_media(media="print")
+    assert page.evaluate("document.documentElement.scrollWidth") <= paper["width"]
 
 
 @pytest.mark.parametrize(

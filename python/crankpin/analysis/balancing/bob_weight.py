@@ -209,13 +209,22 @@ class BobWeight(Tabled):
         """
         ratios = {ratio for _, _, ratio in self.engine._core.cranks[0]}
         engines = [with_bob_weights(self.engine, factor) for factor in (0.0, 1.0)]
+        sizes = self._sizes(engines[1])
         senses = []
         for sense in (1, -1):
-            start, after = (turning(engine, sense) for engine in engines)
+            pairs = zip(*(turning(engine, sense) for engine in engines), sizes, strict=True)
             weighed = sense in ratios
-            pairs = zip(start, after, strict=True)
-            senses.append([Part(one, other - one if weighed else 0j) for one, other in pairs])
+            senses.append(
+                [Part(one, other - one if weighed else 0j, size) for one, other, size in pairs]
+            )
         return dict(zip(Turning._fields, zip(*senses, strict=True), strict=True))
+
+    def _sizes(self, weighted: Engine) -> tuple[float, float]:
+        """Return the sums of all magnitudes that force and moment are the difference of."""
+        amounts = np.array([each.amount for each in weighted.counterweights])
+        places = np.array([each.z for each in weighted.counterweights])
+        levers = np.abs(places - self.engine.reference_z)
+        return float(amounts.sum()), float((amounts * levers).sum())
 
     def half_axes(self, quantity: str, factor: ArrayLike) -> tuple[Any, Any]:
         """Return the longest and shortest half axis of order 1 by balance factor, over ω².
@@ -250,7 +259,8 @@ class BobWeight(Tabled):
         check_factor("factor", factors)
         forward, backward = (abs(part.at(factors)) for part in parts)
         longest, shortest = forward + backward, forward - backward
-        found = (longest, np.where(abs(shortest) < 1e-14 * longest, 0.0, shortest))
+        rounding = np.maximum(1e-14 * longest, 1e-15 * (1.0 + factors) * parts[0].size)
+        found = (longest, np.where(abs(shortest) < rounding, 0.0, shortest))
         return read_only(found) if factors.ndim else (float(found[0]), float(found[1]))
 
     def least(self, quantity: str) -> float | None:
@@ -378,7 +388,9 @@ class BobWeight(Tabled):
             words.setdefault(near, []).extend([text] if text else [])
         listed = sorted(words)
         # An engine without force or moment of order 1 has no columns of it.
-        quantities = [name for name in PLANE_VECTORS if any(map(any, self._parts(name)))]
+        quantities = [
+            name for name in PLANE_VECTORS if any(part.exists for part in self._parts(name))
+        ]
         header: list[str | tuple[str, str]] = ["factor", ""]
         columns = []
         for name in quantities or ["moment"]:
@@ -515,12 +527,23 @@ class Part(NamedTuple):
     """At factor 0."""
     change: complex
     """To factor 1."""
+    size: float
+    """Sum of the magnitudes that cancel in it."""
 
     def at(self, factor: NDArray[np.float64]) -> NDArray[np.complex128]:
         """Return the part by factor, rounding of one that vanishes as zero."""
         part = self.start + factor * self.change
-        none = np.abs(part) < 1e-14 * (abs(self.start) + np.abs(factor * self.change))
+        # What is left of many figures that cancel is as large as the rounding of their sum.
+        none = np.abs(part) < np.maximum(
+            1e-14 * (abs(self.start) + np.abs(factor * self.change)),
+            1e-15 * (1.0 + factor) * self.size,
+        )
         return np.where(none, 0.0, part)
+
+    @property
+    def exists(self) -> bool:
+        """True unless it is zero at any factor."""
+        return bool(self.start or self.change)
 
     @property
     def nearest(self) -> float:

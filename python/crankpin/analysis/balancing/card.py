@@ -55,9 +55,12 @@ body { font: 10pt/1.3 system-ui, sans-serif; max-width: 19cm; margin: 1cm auto; 
 h1 { font-size: 14pt; margin: 0 0 4mm; }
 table { border-collapse: collapse; width: 100%; margin: 0 0 4mm; break-inside: avoid; }
 caption { text-align: left; font-weight: bold; padding: 1mm 0; }
-th, td { border-bottom: 0.2mm solid #999; padding: 0.7mm 2mm; text-align: right; }
+th, td { border-bottom: 0.2mm solid #999; padding: 0.7mm 1.2mm; text-align: right; }
 th:first-child, td:first-child { text-align: left; }
 th { border-bottom: 0.4mm solid #000; }
+table:has(th:nth-child(10)) th:nth-child(n + 4) { writing-mode: vertical-rl; text-align: left; }
+table:has(th:nth-child(13)) { font-size: 7.5pt; }
+table:has(th:nth-child(17)) { font-size: 6pt; }
 p { margin: 0 0 4mm; }
 @page { size: auto; margin: 12mm; }
 @media print { body { margin: 0; max-width: none; } }
@@ -195,7 +198,7 @@ class Card(Tabled):
         ]
         omega_squared = (self.rpm / labels.UNIT_RPM) ** 2
         for name in PLANE_VECTORS:
-            if not any(map(any, bob._parts(name))):
+            if not any(part.exists for part in bob._parts(name)):
                 continue
             longest, shortest = (omega_squared * each for each in bob.half_axes(name, factors))
             shortest[abs(shortest) < ROUNDING * longest.max()] = 0.0

@@ -73,7 +73,7 @@ def two_plane_correction(
     }
     pairs = {name: _pair(name, values) for name, values in readings.items()}
     if min(pairs["amount_g_mm"]) < 0.0:
-        hint = "give zero or more; angle_deg turns it round"
+        hint = "give zero or more; an angle 180° further turns it round"
         raise inputs.rejected("amount_g_mm", amount_g_mm, hint)
     one, other = pairs["correction_z"]
     if one == other:
@@ -85,7 +85,8 @@ def two_plane_correction(
 def _pair(name: str, values: ArrayLike) -> tuple[float, float]:
     listed = inputs.vector(name, values)
     if len(listed) != 2:
-        raise inputs.faulty(name, f"has {len(listed)} figures", "give two, one for each plane")
+        figures = f"{len(listed)} figure{'' if len(listed) == 1 else 's'}"
+        raise inputs.faulty(name, f"has {figures}", "give two, one for each plane")
     if not (np.abs(listed) <= 1e30).all():
         raise inputs.rejected(name, values, "give finite numbers")
     return float(listed[0]), float(listed[1])

@@ -622,9 +622,8 @@ class Powertrain(Input):
         read = _core.Powertrain.from_text(engine_files.read(file), engine_files.is_toml(file))
         core_engine, core = read
         if core is None:
-            raise inputs.rejected(
-                "path", str(file), "the file has no [powertrain]: use Engine.load"
-            )
+            hint = "the file has no [powertrain], body and mounts; Engine.load reads its engine"
+            raise inputs.rejected("path", str(file), hint)
         mass, cg, inertia = core.body
         body = RigidBody(mass, cg, inertia, products="tensor")
         mounts = [Mount._of(figures) for figures in core.mounts]

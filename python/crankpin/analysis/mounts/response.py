@@ -10,10 +10,10 @@ import numpy as np
 from crankpin._support import inputs, labels, optional
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
-from crankpin._support.record import AbsentError, Record, changed, read_only
-from crankpin._support.tables import Column, Table
+from crankpin._support.record import AbsentError, changed, read_only
+from crankpin._support.tables import Column, Item, Table
 from crankpin.analysis.balance import mean_piston_speed
-from crankpin.analysis.mounts.vectors import Source, VectorQuantity
+from crankpin.analysis.mounts.vectors import Source, VectorQuantity, of_order
 from crankpin.analysis.quantity import ALL, Key, Keyed, order_key
 from crankpin.analysis.request import Request, check_request
 from crankpin.model.mounts import _vector
@@ -160,13 +160,6 @@ def _require_subframe(powertrain: Powertrain, name: str) -> None:
         raise AbsentError(f"{name}: no subframe carries the mounts; give one, p.on(cp.Subframe(…))")
 
 
-def _which(order: Key) -> str:
-    """Return the order in words."""
-    if order is None:
-        return ""
-    return " of all orders" if order == ALL else f" of order {order}"
-
-
 class MountQuantities:
     """Mixin of a response and of one of its orders: the vectors that both have."""
 
@@ -234,7 +227,7 @@ class MountQuantities:
         return PointMotion(result, _vector("point", point), on, order)
 
 
-class OrderResponse(MountQuantities, Record):
+class OrderResponse(MountQuantities, Tabled):
     """One order of a response, or all orders together.
 
     Made by a response's ``[order]``.
@@ -248,8 +241,22 @@ class OrderResponse(MountQuantities, Record):
     def _key(self) -> tuple[MountResponse, Key]:
         return self.result, self.order
 
-    def __repr__(self) -> str:
-        return f"<OrderResponse{_which(self.order)}: {self.body_force!r}>"
+    @property
+    def _brief(self) -> str:
+        return f"<OrderResponse{of_order(self.order)}: {self.body_force!r}>"
+
+    @property
+    def table(self) -> Table:
+        """Peaks of the force on the body, and of each mount, at each speed."""
+        body = self.body_force.table
+        mounts = [
+            Column(name, vector.table["longest"].values, "N")
+            for name, vector in self.mount_force.items()
+        ]
+        title = self.result._title(
+            f"peaks of the force on the body, and of each mount,{of_order(self.order)}"
+        )
+        return changed(body, title=title, columns=(*body.columns[:-1], *mounts))
 
     def _of(self, name: str) -> Any:  # noqa: ANN401 - a number at one speed
         if self.order == ALL:
@@ -290,7 +297,7 @@ class OrderResponse(MountQuantities, Record):
         return self._of("power_passed")  # type: ignore[no-any-return]
 
 
-class WorstForce(Record):
+class WorstForce(Item):
     """Largest force of one order on what carries the mounts, and the mode nearest to it."""
 
     force: float
@@ -307,6 +314,14 @@ class WorstForce(Record):
     """Number of the mode of the nearest frequency, from 1."""
     mode_frequency: float
     """Its frequency, Hz."""
+
+    @property
+    def table(self) -> Table:
+        """Figures and their units."""
+        figures = self._figures()
+        units = {"force": "N", "rpm": "rpm", "frequency": "Hz", "mode_frequency": "Hz"}
+        rows = [(name, value, units.get(name, "")) for name, value in figures.items()]
+        return Table.from_rows("Largest force of one order", ["figure", "value", "unit"], rows)
 
 
 class MountResponse(MountQuantities, Keyed, Tabled):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.record import read_only
@@ -142,7 +142,7 @@ class MountRobustness(Tabled):
         parts = [f"stiffness ± {' or '.join(f'{share:g}' for share in shares)} %"]
         parts += [f"mass ± {100 * self.mass:g} %"] if self.mass else []
         parts += [f"inertia ± {100 * self.inertia:g} %"] if self.inertia else []
-        parts += [f"CG ± {1e3 * self.cg:g} mm"] if self.cg else []
+        parts += [f"CG ± {units.figure(1e3 * self.cg, 'mm', 6)}"] if self.cg else []
         title = f"{labels.name_of(self.powertrain.engine)} on its mounts: {', '.join(parts)}"
         return Table(title, tuple(columns))
 

@@ -8,7 +8,9 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels, units
-from crankpin._support.record import AbsentError, Record, changed, read_only
+from crankpin._support.frames import Tabled
+from crankpin._support.record import AbsentError, changed, read_only
+from crankpin._support.tables import Column, Table
 from crankpin.analysis.quantity import ALL, Key, Keyed, order_key
 
 if TYPE_CHECKING:
@@ -21,7 +23,14 @@ Source: TypeAlias = tuple[Any, ...]
 """What a vector is of: ``("support",)``, ``("mount", index)``, ``("at", point, on, name)``."""
 
 
-class VectorQuantity(Keyed, Record):
+def of_order(order: Key) -> str:
+    """Return an order in words that follow a name."""
+    if order is None:
+        return ""
+    return " of all orders" if order == ALL else f" of order {order}"
+
+
+class VectorQuantity(Keyed, Tabled):
     """Peak phasors of a vector in space: of every order, of one, or of all orders together.
 
     Order n is ``Re(P exp(inθ))``. ``force[2]`` is order 2, also if it is not among ``orders``;
@@ -123,9 +132,36 @@ class VectorQuantity(Keyed, Record):
         """Return the quantity at one order, or at ``"all"``."""
         return changed(self, order=None if order is None else order_key(order))
 
-    def __repr__(self) -> str:
-        which = "" if self.order is None else f" of order {self.order}"
-        which = " of all orders" if self.order == ALL else which
+    @property
+    def table(self) -> Table:
+        """Peaks along x, y and z, length of the longest vector, and the rms of the length.
+
+        By order at one speed, else at each speed of the order, or of all orders together.
+        """
+        result, order, note = self.result, self.order, ""
+        order = ALL if order is None and result.dims else order
+        vector = changed(self, order=order)
+        if result.dims:
+            columns = [Column("rpm", tuple(np.asarray(result.rpm).tolist()), digits=10)]
+        elif order is not None:
+            columns = [Column("order", (order,))]
+        else:
+            places, note = result._shown()
+            columns = [Column("order", (*(result.orders[k] for k in places), ALL))]
+        peaks, rms = np.atleast_2d(vector._peaks()), np.atleast_1d(vector.rms)
+        if order is None:
+            peaks = np.vstack([peaks[places], self.total._peaks()])
+            rms = np.append(rms[places], self.total.rms)
+        heads = ("peak along x", "along y", "along z", "longest", "rms")
+        for head, values in zip(heads, (*peaks.T, rms), strict=True):
+            columns.append(Column(head, tuple(values.tolist()), self.unit))
+        which = of_order(order)
+        title = result._title(f"{self.words}{which and f',{which}'}")
+        return Table(title, tuple(columns), note, loads=result.loads_counted)
+
+    @property
+    def _brief(self) -> str:
+        which = of_order(self.order)
         name, loads = labels.printable(self.words), self.result.loads_counted
         if not self.result.dims and self.order is not None:
             peak = units.figure(self.peak, self.unit, 5)

@@ -409,7 +409,7 @@ impl Statistic {
 }
 
 impl Quantity {
-    /// SweepAxes of one value: x and y, or none for what is about z alone.
+    /// Axes of one value: x and y, or none for what is about z alone.
     fn shape(self) -> &'static [usize] {
         match self {
             Self::Force | Self::Moment => &[2],
