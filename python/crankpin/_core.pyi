@@ -584,8 +584,8 @@ class Powertrain:
     def deflections(self) -> _Real: ...
     def unit_mass(self) -> _Real: ...
     def static(
-        self, gravity: Sequence[float], torque: float
-    ) -> tuple[list[list[float]], list[_Real], float]: ...
+        self, gravity: Sequence[float], torque: float, thrust: Sequence[Sequence[float]]
+    ) -> tuple[list[list[float]], list[_Real], float, list[int]]: ...
     def modes(
         self, frequency: float | None
     ) -> tuple[_Real, list[_Real], list[_Real], list[int], list[str]]: ...
@@ -603,12 +603,16 @@ class Powertrain:
         frequency: float | None,
     ) -> tuple[tuple[list[float], list[float], list[float]], _Real, _Real, _Real]: ...
     def response(
-        self, engine: Engine, rpm: _Real, orders: Sequence[float] | None, rtol: float
+        self,
+        engine: Engine,
+        rpm: _Real,
+        orders: Sequence[float] | None,
+        rtol: float,
+        drive: tuple[Sequence[Sequence[Sequence[float]]], _Complex, bool] | None = None,
     ) -> Response: ...
 
 @final
 class Response:
-    def under(self, loads: _Complex) -> Response: ...
     @property
     def orders(self) -> list[float]: ...
     @property

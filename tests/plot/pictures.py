@@ -146,6 +146,12 @@ def _scattered() -> Any:  # noqa: ANN401
     return ON_MOUNTS.designs(np.arange(600, 4001, 100.0), vary, orders=[2, 4])
 
 
+ON_TILTED = MOUNTED.replace(
+    body=MOUNTED.body.replace(
+        inertia=[[8.1, 0.3, -0.6], [0.3, 7.6, -1.1], [-0.6, -1.1, 4.9]], products="tensor"
+    )
+)
+
 PICTURES: dict[str, Callable[..., Any]] = {
     "cancelled": _of_one_panel(lambda ax: _cancelled(1200.0, ax=ax)),
     "cancelled-over-speed": _of_one_panel(lambda ax: _cancelled(np.arange(800, 5001, 50.0), ax=ax)),
@@ -246,6 +252,7 @@ PICTURES: dict[str, Callable[..., Any]] = {
     ).plot,
     "mount-designs": lambda **place: _scattered().plot(order=2, **place),
     "mount-robustness": MOUNTED.robustness(0.15, mass=0.02, cg=0.01).plot,
+    "roll-axes": ON_TILTED.axes().plot,
     "designs": V10S.plot,
     "tolerances": SPREAD.plot,
     "tolerance-shares": lambda **place: SPREAD.plot(kind="shares", **place),

@@ -142,3 +142,29 @@ def test_robustness_is_a_bar_for_each_mode_and_cause() -> None:
     np.testing.assert_allclose(ends, np.concatenate(expected), rtol=1e-14)
     labels = [text.get_text() for text in ax.get_yticklabels()]
     assert labels[0].endswith(f"{result.purity[0]:.0f} → {result.least_purity[0]:.0f} %")
+
+
+def test_axes_of_roll_are_drawn_in_two_views() -> None:
+    axes = MOUNTED.axes()
+    side, rear = axes.plot().flat
+    for panel, right in ((side, 2), (rear, 0)):
+        lines = {str(line.get_label()): line for line in panel.lines}
+        mounts = np.array([mount.at for mount in MOUNTED.mounts])
+        np.testing.assert_array_equal(lines["mounts"].get_data(), mounts[:, [right, 1]].T)
+        np.testing.assert_array_equal(
+            np.ravel(lines["centre of gravity"].get_data()), [MOUNTED.body.cg[right], 0.07]
+        )
+        (polygon,) = panel.patches
+        corners = {tuple(corner) for corner in polygon.get_xy().tolist()}
+        assert corners == {tuple(place) for place in mounts[:, [right, 1]].tolist()}
+    for name, through, along in (
+        ("torque roll axis", np.array(MOUNTED.body.cg), axes.torque_roll),
+        ("elastic roll axis", axes.elastic_foot, axes.elastic),
+    ):
+        line = next(each for each in side.lines if each.get_label() == name)
+        z, y = map(np.asarray, line.get_data())
+        np.testing.assert_allclose(
+            (y - through[1]) * along[2], (z - through[2]) * along[1], atol=1e-12
+        )
+    one = plt.figure().subplots()
+    assert axes.plot(one) is one

@@ -1,4 +1,4 @@
-"""Mounts that were designed, many designs of them, their tolerances."""
+"""Mounts that were designed, many designs of them, their tolerances, and where axes of roll are."""
 
 from __future__ import annotations
 
@@ -10,8 +10,17 @@ from crankpin._support import inputs, labels
 from crankpin._support.drawing import picture
 from crankpin.analysis.mounts.design_mounts import MountDesign
 from crankpin.analysis.mounts.design_responses import DesignResponses
+from crankpin.analysis.mounts.modes import RollAxes
 from crankpin.analysis.mounts.robustness import MountRobustness
-from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, set_title
+from crankpin.plot.layout import (
+    add_legend,
+    axes_or_new,
+    label_x,
+    label_y,
+    make_panels,
+    set_panel_title,
+    set_title,
+)
 from crankpin.plot.mounts import AT
 from crankpin.plot.style import SERIES, foreground, muted, series
 from crankpin.plot.ticks import from_zero, numeric, span
@@ -153,3 +162,60 @@ def _robustness(result: MountRobustness, ax: Axes | None = None, **style: object
     set_title(ax, labels.name_of(result.powertrain.engine), joined("on its mounts", title))
     add_legend(ax, last="nominal")
     return ax
+
+
+VIEWS = (("from the side", 2, 1), ("from the flywheel", 0, 1))
+"""Name of a view, and the axes to the right and up."""
+
+
+@picture.register(RollAxes)
+def _axes(
+    result: RollAxes, ax: Axes | None = None, *, figure: object = None, **style: object
+) -> Any:  # noqa: ANN401 - axes, or an array of them
+    """Draw both axes, the mounts and their polygon, and the CG, from the side and from the rear."""
+    panels = make_panels(ax, figure, 1, 2, row_height=0.9)
+    views = VIEWS[:1] if panels.single else VIEWS
+    powertrain = result.powertrain
+    cg = np.array(powertrain.body.cg)
+    places = {mount.name: np.array(mount.at) for mount in powertrain.mounts}
+    corners = np.array([places[name] for name in powertrain.static().support_polygon])
+    everything = np.array([*places.values(), cg, result.elastic_foot])
+    reach = 0.5 * float(np.ptp(everything, axis=0).max()) or 0.1
+    lines = [
+        ("torque roll axis", cg, result.torque_roll),
+        ("elastic roll axis", result.elastic_foot, result.elastic),
+        ("crank", np.zeros(3), np.array([0.0, 0.0, 1.0])),
+    ]
+    for place, (name, right, up) in zip(panels.axes.flat, views, strict=True):
+        looks = series(place, 2, style)
+        looks.append({"color": muted(place, 0.6), "linestyle": ":", "linewidth": 1.2})
+        outline: dict[str, Any] = {"color": muted(place, 0.15), "zorder": 0, "linewidth": 1.0}
+        place.fill(corners[:, right], corners[:, up], label="polygon of the mounts", **outline)
+        place.plot(
+            *np.array([*corners, corners[0]])[:, [right, up]].T,
+            color=muted(place, 0.4),
+            linewidth=0.8,
+        )
+        for (label, through, along), look in zip(lines, looks, strict=True):
+            middle = through + along * float((everything.mean(axis=0) - through) @ along)
+            ends = np.array([middle - 1.5 * reach * along, middle + 1.5 * reach * along])
+            if np.hypot(along[right], along[up]) > 0.05:
+                place.plot(ends[:, right], ends[:, up], label=label, gid=SERIES, **look)
+            else:
+                point: dict[str, Any] = {"marker": "x", "linestyle": "", "gid": SERIES}
+                place.plot(through[right], through[up], label=label, **(look | point))
+        mounts = np.array([*places.values()])
+        mark: dict[str, Any] = {"color": foreground(place), "linestyle": "", "zorder": 3}
+        place.plot(mounts[:, right], mounts[:, up], marker="s", label="mounts", **mark)
+        place.plot(cg[right], cg[up], marker="o", label="centre of gravity", **mark)
+        place.set_aspect("equal", adjustable="datalim")
+        numeric(place.xaxis)
+        numeric(place.yaxis)
+        label_x(place, f"{'xyz'[right]}, m")
+        label_y(place, f"{'xyz'[up]}, m")
+        if not panels.single:
+            set_panel_title(place, name)
+    words = f"{rounded(result.angle_deg)}° and {rounded(1e3 * result.distance)} mm between the axes"
+    panels.set_title(labels.name_of(powertrain.engine), joined("axes of roll", words))
+    panels.add_legend(panels.axes.flat[0].get_legend_handles_labels()[0])
+    return panels.drawn

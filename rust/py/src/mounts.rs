@@ -6,8 +6,8 @@ use std::sync::Arc;
 use crate::array::frozen;
 use crankpin_core as core;
 use crankpin_core::engine::file;
-use crankpin_core::mount_designs::{DesignRequest, Figure, Variation, mount_designs};
-use crankpin_core::mounted::Derivative;
+use crankpin_core::mount_designs::{DesignRequest, MountFigure, Variation, design_responses};
+use crankpin_core::mounted::{Derivative, Drive};
 use crankpin_core::mounts::{
     self, InertiaTrack, Mount, MountFigures, Products, Receiver, Receptance, RigidBody, Table,
 };
@@ -27,7 +27,7 @@ use crate::interrupt;
 /// Mass, centre of gravity, tensor of inertia.
 type Body = (f64, [f64; 3], [[f64; 3]; 3]);
 /// Frequencies, and complex stiffnesses along the three axes at them.
-type Rows = (Vec<f64>, Vec<[Complex64; 3]>);
+type StiffnessTable = (Vec<f64>, Vec<[Complex64; 3]>);
 /// Name, place, orientation, static and dynamic stiffness, loss factor, damping, track, table.
 type Figures = (
     String,
@@ -38,12 +38,13 @@ type Figures = (
     [f64; 3],
     [f64; 3],
     Option<(f64, f64, f64)>,
-    Option<Rows>,
+    Option<StiffnessTable>,
 );
 /// Name, and at each frequency the displacement over the force at each coordinate.
 type Transfer = (String, Vec<Vec<[Complex64; 3]>>);
-/// Displacements by weight and torque, forces of the mounts by each, and the margin of support.
-type Static<'py> = ([[f64; 6]; 2], [Bound<'py, PyArray2<f64>>; 2], f64);
+/// Displacements by weight, torque and thrust, forces of the mounts by each, the margin of support, and the mounts at the
+/// corners of its polygon.
+type Static<'py> = ([[f64; 6]; 3], [Bound<'py, PyArray2<f64>>; 3], f64, Vec<usize>);
 /// Frequencies, shapes, energy and strain energy, then purity, loss factor and damped frequency, groups, and
 /// free motions in words.
 type Modes<'py> = (
@@ -55,7 +56,7 @@ type Modes<'py> = (
 );
 /// Directions of torque roll axis and elastic axis and the foot of that, distances of the mounts, and figures:
 /// angles of both to the crank, between them, distance, pitch, compliance.
-type Axes<'py> = ([[f64; 3]; 3], Bound<'py, PyArray1<f64>>, [f64; 6]);
+type RollAxes<'py> = ([[f64; 3]; 3], Bound<'py, PyArray1<f64>>, [f64; 6]);
 
 /// Frequencies, purity and least purity; least and largest frequencies by stiffness, mass and place of the
 /// CG; derivatives by that; corners of the least purity.
@@ -65,8 +66,10 @@ type Robustness<'py> = (
     Bound<'py, PyArray2<f64>>,
     [Vec<[bool; 3]>; 6],
 );
+/// Place and direction of actuators, their forces, and whether the engine's loads act.
+type PyDrive<'py> = (Vec<[[f64; 3]; 2]>, PyReadonlyArray2<'py, Complex64>, bool);
 /// Orders, omitted ones, bounds; frequencies, largest peaks, rms.
-type Designs<'py> = (
+type DesignResponses<'py> = (
     (Vec<OrderNumber>, Vec<OrderNumber>, [f64; 3]),
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArrayDyn<f64>>,
@@ -161,7 +164,7 @@ fn mount_figures(powertrain: &mounts::Powertrain) -> Vec<Figures> {
 
 /// A place, m, or the name of a receiver.
 #[derive(FromPyObject)]
-pub enum Point {
+pub enum MotionPoint {
     /// x, y, z.
     Place([f64; 3]),
     /// Name.
@@ -286,18 +289,19 @@ impl Powertrain {
         self.0.support().map(Support::of)
     }
 
-    /// At rest, under gravity and a torque on the body about z.
+    /// At rest, under gravity, a torque on the body about z, and a thrust at a place.
     #[pyo3(name = "static")]
     fn at_rest<'py>(
         &self,
         py: Python<'py>,
         gravity: [f64; 3],
         torque: f64,
+        thrust: [[f64; 3]; 2],
     ) -> PyResult<Static<'py>> {
-        let found = mounts::at_rest(&self.0, gravity, torque).or_raise()?;
-        let [weight, torque] = found.force;
-        let forces = [frozen(py, Array2::from(weight))?, frozen(py, Array2::from(torque))?];
-        Ok((found.displacement, forces, found.support_margin))
+        let found = mounts::at_rest(&self.0, gravity, torque, thrust).or_raise()?;
+        let [weight, torque, thrust] = found.force.map(|force| frozen(py, Array2::from(force)));
+        let forces = [weight?, torque?, thrust?];
+        Ok((found.displacement, forces, found.support_margin, found.support_corners))
     }
 
     /// Deflection of each mount along its axes, of displacement of the CG and rotation: (`n_mounts`, 3, 6).
@@ -333,7 +337,7 @@ impl Powertrain {
         ))
     }
 
-    fn axes<'py>(&self, py: Python<'py>, frequency: Option<f64>) -> PyResult<Axes<'py>> {
+    fn axes<'py>(&self, py: Python<'py>, frequency: Option<f64>) -> PyResult<RollAxes<'py>> {
         let found = mounts::axes(&self.0, frequency).or_raise()?;
         let elastic = found.elastic;
         Ok((
@@ -382,14 +386,14 @@ impl Powertrain {
         orders: (Option<Vec<OrderNumber>>, f64),
         quantities: (bool, Vec<[f64; 3]>),
         frequency: Option<f64>,
-    ) -> PyResult<Designs<'py>> {
+    ) -> PyResult<DesignResponses<'py>> {
         let figures = [
-            ("at", Figure::At),
-            ("tilt_deg", Figure::Tilt),
-            ("stiffness", Figure::Stiffness),
-            ("dynamic_stiffness", Figure::DynamicStiffness),
-            ("loss_factor", Figure::LossFactor),
-            ("damping", Figure::Damping),
+            ("at", MountFigure::At),
+            ("tilt_deg", MountFigure::Tilt),
+            ("stiffness", MountFigure::Stiffness),
+            ("dynamic_stiffness", MountFigure::DynamicStiffness),
+            ("loss_factor", MountFigure::LossFactor),
+            ("damping", MountFigure::Damping),
         ];
         let mut variations = Vec::new();
         for (mount, name, values) in vary {
@@ -404,7 +408,7 @@ impl Powertrain {
             DesignRequest { rpm, orders: &orders, mount_forces, points: &points, frequency };
         let engine = &engine.get().0;
         let found = interrupt::run(py, |cancel| {
-            mount_designs(engine, &self.0, &variations, &request, cancel)
+            design_responses(engine, &self.0, &variations, &request, cancel)
         })?;
         let (count, orders) = (found.frequency.len(), found.orders.len());
         let of_largest = [count, found.quantities, orders, 3];
@@ -421,6 +425,9 @@ impl Powertrain {
         ))
     }
 
+    /// Response to the engine, and with a drive to actuators: place and direction of each, peak phasors of their
+    /// forces, (`n_points`, `n_actuators`), and whether the engine's loads act.
+    #[pyo3(signature = (engine, rpm, orders, rtol, drive=None))]
     fn response(
         &self,
         py: Python<'_>,
@@ -428,12 +435,21 @@ impl Powertrain {
         rpm: PyReadonlyArray1<'_, f64>,
         orders: Option<Vec<OrderNumber>>,
         rtol: f64,
+        drive: Option<PyDrive<'_>>,
     ) -> PyResult<Response> {
         let (orders, rpm) = (balance::orders(orders, rtol)?, rpm.as_slice()?);
-        let engine = &engine.get().0;
-        let found = interrupt::run(py, |cancel| {
-            core::mounted::Response::new(engine, Arc::clone(&self.0), rpm, &orders, cancel)
-        })?;
+        let (engine, powertrain) = (&engine.get().0, Arc::clone(&self.0));
+        let found = if let Some((actuators, forces, engine_runs)) = &drive {
+            let (forces, engine_runs) = (forces.as_slice()?, *engine_runs);
+            let drive = Drive { actuators, forces, engine_runs };
+            interrupt::run(py, |cancel| {
+                core::mounted::Response::driven(engine, powertrain, rpm, &orders, &drive, cancel)
+            })?
+        } else {
+            interrupt::run(py, |cancel| {
+                core::mounted::Response::new(engine, powertrain, rpm, &orders, cancel)
+            })?
+        };
         Ok(Response { core: found, speeds: rpm.len(), mounts: self.0.mounts().len() })
     }
 }
@@ -467,14 +483,6 @@ fn side_by_side<const N: usize>(rows: &[nalgebra::SVector<Complex64, N>]) -> Vec
 #[guarded]
 #[pymethods]
 impl Response {
-    /// Response to loads about the CG, a row for each speed and order, in place of the engine's.
-    fn under(&self, py: Python<'_>, loads: PyReadonlyArray2<'_, Complex64>) -> PyResult<Self> {
-        let (rows, _) = loads.as_slice()?.as_chunks::<6>();
-        let loads = rows.iter().map(|&row| row.into()).collect();
-        let core = interrupt::run(py, |cancel| self.core.under(loads, cancel))?;
-        Ok(Self { core, ..*self })
-    }
-
     #[getter]
     fn orders(&self) -> Vec<OrderNumber> {
         numbers(self.core.orders())
@@ -533,7 +541,7 @@ impl Response {
     fn at<'py>(
         &self,
         py: Python<'py>,
-        point: Point,
+        point: MotionPoint,
         derivative: &str,
         of_subframe: bool,
     ) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
@@ -544,8 +552,8 @@ impl Response {
         ];
         let derivative = choice("derivative", derivative, &derivatives)?;
         let moved = interrupt::run(py, |cancel| match &point {
-            Point::Place(place) => self.core.at(*place, derivative, of_subframe, cancel),
-            Point::Receiver(name) => self.core.at_receiver(name, derivative, cancel),
+            MotionPoint::Place(place) => self.core.at(*place, derivative, of_subframe, cancel),
+            MotionPoint::Receiver(name) => self.core.at_receiver(name, derivative, cancel),
         })?;
         self.shaped(py, moved.into_flattened(), &[3])
     }
@@ -554,12 +562,12 @@ impl Response {
     fn grades<'py>(
         &self,
         py: Python<'py>,
-        point: Point,
+        point: MotionPoint,
         of_subframe: bool,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let grades = interrupt::run(py, |cancel| match &point {
-            Point::Place(place) => self.core.grades(*place, of_subframe, cancel),
-            Point::Receiver(name) => self.core.grades_at_receiver(name, cancel),
+            MotionPoint::Place(place) => self.core.grades(*place, of_subframe, cancel),
+            MotionPoint::Receiver(name) => self.core.grades_at_receiver(name, cancel),
         })?;
         frozen(py, grades.into())
     }

@@ -184,3 +184,42 @@ def test_a_dead_cylinder_brings_half_orders() -> None:
     assert whole[0.5].body_force.peak == pytest.approx(0.0, abs=1e-9 * whole.body_force.peak.max())
     assert dead[0.5].body_force.peak > 1.0
     assert "cylinder 3 does not fire" in dead.loads_counted
+
+
+def test_thrust_is_borne_by_the_mounts_where_it_acts() -> None:
+    push, at = np.array([10.0, -20.0, -3500.0]), np.array([0.02, -0.1, 0.9])
+    plain, state = PLAIN.static(100.0), PLAIN.static(100.0, thrust=push, thrust_at=at)
+    forces = state.thrust_force
+    assert forces.sum(axis=0) == near(push, 1e-12)
+    arms = np.array([mount.at for mount in PLAIN.mounts])
+    # Moments cancel from forty times the result.
+    assert np.cross(arms, forces).sum(axis=0) == near(np.cross(at, push), 1e-11)
+    assert state.preload == near(plain.preload + forces, 1e-12)
+    # In the plane of the mounts, 0.18 m below the CG.
+    moved = state.thrust_shift[2] - 0.18 * np.radians(state.thrust_deg[0])
+    assert moved == near(-3500.0 / (4 * 1.2e5), 1e-12)
+    assert "thrust F_z" in str(state.table)
+    assert "thrust" not in str(plain.table)
+
+
+def test_the_support_polygon_is_that_of_the_outer_mounts() -> None:
+    inner = cp.Mount("inner", at=(0.0, 0.0, CG[2]), stiffness=1e5)
+    state = PLAIN.replace(mounts=[*PLAIN.mounts, inner]).static()
+    assert {*state.support_polygon} == {*PLAIN.names}
+    corners = np.array([PLAIN.mounts[PLAIN.names.index(n)].at for n in state.support_polygon])
+    edges = np.diff([*corners, corners[0]], axis=0)
+    turns = np.cross(edges, np.roll(edges, -1, axis=0))[:, 1]
+    assert (turns > 0.0).all() or (turns < 0.0).all()
+
+
+def test_axes_of_symmetric_mounts_have_zeros_and_no_rounding() -> None:
+    axes = PLAIN.axes()
+    assert axes.torque_roll.tolist() == axes.elastic.tolist() == [0.0, 0.0, 1.0]
+    assert (axes.elastic_foot[0], axes.pitch, axes.elastic_deg, axes.angle_deg) == (0, 0, 0, 0)
+    # The foot is below the CG: lateral stiffness acts at the mounts' height.
+    assert axes.elastic_foot[1] < CG[1]
+    # A tilt of 1e-9 is no rounding.
+    tilted = PLAIN.replace(
+        body=cp.RigidBody(150.0, CG, [[7, 0, 1e-9], [0, 8, 0], [1e-9, 0, 4.5]], "tensor")
+    )
+    assert tilted.axes().torque_roll[0] == near(-1e-9 / 7.0, 1e-6)

@@ -58,17 +58,10 @@ class DrivenResponse(MountResponse):
     engine_runs: bool = True
     """False for the actuators alone."""
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        cg = np.array(self.powertrain.body.cg)
-        units = [
-            [*one.direction, *np.cross(np.array(one.at) - cg, one.direction)]
-            for one in self.actuators
-        ]
-        loads = (np.asarray(self.forces) @ np.array(units).reshape(-1, 6)).reshape(-1, 6)
-        if self.engine_runs:
-            loads = loads + self._core.loads().reshape(-1, 6)
-        self.__dict__["_response"] = self._core.under(np.ascontiguousarray(loads))
+    def _drive(self) -> tuple[Any, ...]:
+        places = [(one.at, one.direction) for one in self.actuators]
+        forces = np.reshape(np.asarray(self.forces, dtype=complex), (-1, len(places)))
+        return ((places, np.ascontiguousarray(forces), self.engine_runs),)
 
     def _of_speed(self, index: int) -> dict[str, Any]:
         return {"forces": self.forces[index]}

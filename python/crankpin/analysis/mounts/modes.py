@@ -14,6 +14,7 @@ from crankpin._support.tables import Column, Table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import FigureBase
     from numpy.typing import NDArray
 
     from crankpin.analysis.mounts.powertrain import Powertrain
@@ -268,3 +269,31 @@ class RollAxes(Tabled):
         title = f"{labels.name_of(self.powertrain.engine)} on its mounts: axes of roll"
         kinds = ["torque roll axis (free)", "elastic roll axis (screw)"]
         return Table.from_rows(title, ["axis", *heads], kinds, np.array(rows), note=note)
+
+    def plot(
+        self, ax: Axes | None = None, *, figure: FigureBase | None = None, **style: object
+    ) -> Any:  # noqa: ANN401 - axes, or an array of them
+        """Draw both axes with mounts, their polygon and the CG, from the side and the flywheel.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw the view from the side on.
+        figure : matplotlib.figure.Figure or SubFigure, optional
+            Figure to draw both views in; by default a new one.
+        **style : dict, optional
+            Properties of the lines of both axes.
+
+        Returns
+        -------
+        matplotlib.axes.Axes or ndarray of Axes
+            The axes given, or both panels.
+
+        Raises
+        ------
+        InputError
+            If axes and a figure are given, or an option is unknown.
+        ImportError
+            If matplotlib is not installed.
+        """
+        return draw(self, ax, figure=figure, **style)

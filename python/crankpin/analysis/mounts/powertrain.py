@@ -129,6 +129,8 @@ class Powertrain(Input):
         gear_ratio: float = 1.0,
         gravity: ArrayLike = static_state.GRAVITY,
         rpm: float = 1000.0,
+        thrust: ArrayLike = (0.0, 0.0, 0.0),
+        thrust_at: ArrayLike = (0.0, 0.0, 0.0),
     ) -> StaticState:
         """Return sag, preloads and wind-up, with the static stiffness of the mounts.
 
@@ -147,6 +149,11 @@ class Powertrain(Input):
             direction.
         rpm : float, default 1000.0
             Crank speed at which the mean torque of the engine is read, rpm.
+        thrust : sequence of float, default (0.0, 0.0, 0.0)
+            Force of a propeller's shaft on the unit, N, where its gearbox bears that: along its
+            axis, away from the propeller when it drives ahead.
+        thrust_at : sequence of float, default (0.0, 0.0, 0.0)
+            Place where it acts, m.
 
         Returns
         -------
@@ -170,7 +177,7 @@ class Powertrain(Input):
         >>> p.static().preload[:, 1].round(4)
         array([-638.8332, -481.9268, -448.304 ])
         """
-        return static_state.static(self, torque, gear_ratio, gravity, rpm)
+        return static_state.static(self, torque, gear_ratio, gravity, rpm, thrust, thrust_at)
 
     def modes(self, frequency: float | None = None) -> MountModes:
         """Return the natural modes, with the dynamic stiffness of the mounts.

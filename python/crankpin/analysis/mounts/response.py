@@ -344,7 +344,7 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         request = check_request(self.request, "Powertrain.response")
         speeds = np.atleast_1d(np.asarray(self.rpm, dtype=float))
         core = self.powertrain._core.response(
-            self.powertrain.engine._core, speeds, request.orders, request.rtol
+            self.powertrain.engine._core, speeds, request.orders, request.rtol, *self._drive()
         )
         self.__dict__.update(_response=core, _orders=tuple(core.orders), _cache={})
         super().__post_init__()
@@ -510,6 +510,10 @@ class MountResponse(MountQuantities, Keyed, Tabled):
     def _of_order(self) -> dict[str, Any]:
         """Return what else changes where another order is taken."""
         return {}
+
+    def _drive(self) -> tuple[Any, ...]:
+        """Return actuators, their forces, and whether the engine runs, as the core takes them."""
+        return ()
 
     def cancel(
         self,

@@ -1,4 +1,4 @@
-"""A powertrain at rest: sag and preload under its weight, wind-up under a mean torque."""
+"""A powertrain at rest: sag and preload under its weight, wind-up under a mean torque, thrust."""
 
 from __future__ import annotations
 
@@ -33,16 +33,22 @@ class StaticState(Tabled):
     """Mean torque that leaves the unit, N·m, about +z: −torque acts on the body."""
     gravity: tuple[float, float, float]
     """Acceleration of gravity in the engine's axes, m/s²."""
+    thrust: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Force of a propeller's shaft on the unit, N."""
+    thrust_at: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Place where it acts, m."""
 
     def __post_init__(self) -> None:
         core = self.powertrain._core
-        displacement, forces, margin = core.static(list(self.gravity), -self.torque)
+        push = [list(self.thrust), list(self.thrust_at)]
+        displacement, forces, margin, corners = core.static(list(self.gravity), -self.torque, push)
         moved = np.array(displacement)
         values = {
             "_shift": read_only(moved[:, :3]),
             "_turn_deg": read_only(np.degrees(moved[:, 3:])),
             "_forces": read_only(np.array(forces)),
             "_margin": margin,
+            "_corners": tuple(self.powertrain.names[k] for k in corners),
         }
         self.__dict__.update(values)
         super().__post_init__()
@@ -68,6 +74,16 @@ class StaticState(Tabled):
         return self.__dict__["_turn_deg"][1]  # type: ignore[no-any-return]
 
     @property
+    def thrust_shift(self) -> NDArray[np.float64]:
+        """Displacement of the centre of gravity under the thrust, m: (n_axes,)."""
+        return self.__dict__["_shift"][2]  # type: ignore[no-any-return]
+
+    @property
+    def thrust_deg(self) -> NDArray[np.float64]:
+        """Rotation about x, y and z under the thrust, degrees: (n_axes,)."""
+        return self.__dict__["_turn_deg"][2]  # type: ignore[no-any-return]
+
+    @property
     def weight_force(self) -> NDArray[np.float64]:
         """Force of each mount on what carries it due to the weight, N: (n_mounts, n_axes)."""
         return self.__dict__["_forces"][0]  # type: ignore[no-any-return]
@@ -78,9 +94,14 @@ class StaticState(Tabled):
         return self.__dict__["_forces"][1]  # type: ignore[no-any-return]
 
     @property
+    def thrust_force(self) -> NDArray[np.float64]:
+        """Force of each mount on what carries it due to the thrust, N: (n_mounts, n_axes)."""
+        return self.__dict__["_forces"][2]  # type: ignore[no-any-return]
+
+    @property
     def preload(self) -> NDArray[np.float64]:
-        """Force of each mount on what carries it, of weight and torque, N: (n_mounts, n_axes)."""
-        return read_only(self.weight_force + self.torque_force)
+        """Force of each mount on what carries it, of all causes, N: (n_mounts, n_axes)."""
+        return read_only(self.weight_force + self.torque_force + self.thrust_force)
 
     @property
     def support_margin(self) -> float:
@@ -91,10 +112,17 @@ class StaticState(Tabled):
         return self.__dict__["_margin"]  # type: ignore[no-any-return]
 
     @property
+    def support_polygon(self) -> tuple[str, ...]:
+        """Names of the mounts at the corners of their polygon, seen along gravity, in order."""
+        return self.__dict__["_corners"]  # type: ignore[no-any-return]
+
+    @property
     def table(self) -> Table:
-        """Forces of the mounts on what carries them, by weight and torque."""
+        """Forces of the mounts on what carries them, by cause."""
         columns = [Column("mount", self.powertrain.names)]
-        for cause, forces in (("weight", self.weight_force), ("torque", self.torque_force)):
+        causes = [("weight", self.weight_force), ("torque", self.torque_force)]
+        causes += [("thrust", self.thrust_force)] if any(self.thrust) else []
+        for cause, forces in causes:
             for axis, values in zip("xyz", forces.T.tolist(), strict=True):
                 columns.append(Column(f"{cause} F_{axis}", tuple(values), "N"))
         x, y, z = 1e3 * self.sag
@@ -116,6 +144,8 @@ def static(
     gear_ratio: float,
     gravity: ArrayLike,
     rpm: float,
+    thrust: ArrayLike,
+    thrust_at: ArrayLike,
 ) -> StaticState:
     """Return the state at rest; :meth:`Powertrain.static` documents the arguments."""
     leaving: Any = torque
@@ -133,4 +163,5 @@ def static(
             "gear_ratio", 0.0, "give crank speed over output speed, such as 1 or 12.5"
         )
     leaving = inputs.finite("torque", leaving) * ratio
-    return StaticState(powertrain, leaving, _vector("gravity", gravity))
+    places = (_vector("thrust", thrust), _vector("thrust_at", thrust_at))
+    return StaticState(powertrain, leaving, _vector("gravity", gravity), *places)

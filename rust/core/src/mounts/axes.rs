@@ -2,13 +2,16 @@
 
 use nalgebra::{Vector3, Vector6};
 
-use super::modes::{dynamic, natural};
+use super::modes::{NaturalModes, dynamic, natural};
 use super::{Powertrain, real};
 use crate::numbers::error::{Error, Result};
 
+/// Roundings of a number that sums of a dozen products, and turns of Jacobi's method, make.
+const ROUNDINGS: f64 = 16.0;
+
 /// Torque roll axis, elastic roll axis, and where they are.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Axes {
+pub struct RollAxes {
     /// Direction of the axis about which the free body turns under an oscillating torque about z: through
     /// the CG, towards the flywheel.
     pub torque_roll: [f64; 3],
@@ -41,43 +44,116 @@ pub struct ElasticAxis {
 
 /// Axes with the mounts' dynamic stiffness at a frequency, Hz, which may be left out where the stiffness
 /// does not depend on it.
-pub fn axes(powertrain: &Powertrain, frequency: Option<f64>) -> Result<Axes> {
+pub fn axes(powertrain: &Powertrain, frequency: Option<f64>) -> Result<RollAxes> {
     let crank = Vector3::z();
     let body = powertrain.body();
-    let torque_roll =
-        body.inertia().cholesky().map(|factors| factors.solve(&crank).normalize()).ok_or_else(
-            || Error::value("inertia", "not positive definite", "give a tensor that is"),
-        )?;
+    let factors = body
+        .inertia()
+        .cholesky()
+        .ok_or_else(|| Error::value("inertia", "not positive definite", "give a tensor that is"))?;
+    let [least, _, most] = body.principal_moments();
+    let free = factors.solve(&crank).normalize();
+    let free = Bounded::new(free, Vector3::repeat(ROUNDINGS * f64::EPSILON * most / least));
+    let torque_roll = free.value.normalize();
     let (_, stiffnesses) = dynamic(powertrain, frequency)?;
     let modes = natural(powertrain, &real(&stiffnesses))?;
     modes.require_support(powertrain)?;
-    let motion = modes.flexed(&Vector6::new(0.0, 0.0, 0.0, 0.0, 0.0, 1.0));
-    let shift: Vector3<f64> = motion.fixed_rows::<3>(0).into();
-    let turn: Vector3<f64> = motion.fixed_rows::<3>(3).into();
-    let from_cg = turn.cross(&shift) / turn.norm_squared();
-    let direction = turn.normalize();
-    let normal = torque_roll.cross(&direction);
+    let load = Vector6::new(0.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+    let (motion, rounding) = (modes.flexed(&load), flexed_rounding(powertrain, &modes, &load)?);
+    let part = |from: usize| {
+        let rows = |of: &Vector6<f64>| Vector3::new(of[from], of[from + 1], of[from + 2]);
+        Bounded::new(rows(&motion), rows(&rounding))
+    };
+    let (shift, turn) = (part(0), part(3));
+    let square = turn.value.norm_squared();
+    let from_cg = turn.cross(&shift).over(square);
+    let foot = Bounded::new(
+        body.cg() + from_cg.value,
+        from_cg.rounding + (body.cg().abs() + from_cg.value.abs()) * f64::EPSILON,
+    );
+    let unit = turn.over(turn.value.norm());
+    let direction = unit.value.normalize();
+    let normal = free.cross(&unit);
     // Lines that are parallel to rounding have the distance of any of their points.
-    let distance = if normal.norm() > 1e-9 {
-        from_cg.dot(&normal).abs() / normal.norm()
+    let distance = if normal.value.norm() > 1e-9 {
+        from_cg.dot(&normal).abs() / normal.value.norm()
     } else {
-        from_cg.norm()
+        from_cg.value.norm()
     };
     let from_axis = |mount: &super::Mount| (mount.at() - body.cg()).cross(&torque_roll).norm();
-    Ok(Axes {
+    Ok(RollAxes {
         torque_roll: torque_roll.into(),
         torque_roll_deg: angle(&torque_roll, &crank),
         mount_distances: powertrain.mounts().iter().map(from_axis).collect(),
         elastic: ElasticAxis {
             direction: direction.into(),
-            foot: (body.cg() + from_cg).into(),
-            pitch: turn.dot(&shift) / turn.norm_squared(),
+            foot: foot.value.into(),
+            pitch: turn.dot(&shift) / square,
             angle_deg: angle(&direction, &crank),
-            compliance: turn.z,
+            compliance: turn.value.z,
         },
         angle_deg: angle(&torque_roll, &direction),
         distance,
     })
+}
+
+/// A vector of which no component is within its bound of rounding, but zero.
+struct Bounded {
+    value: Vector3<f64>,
+    rounding: Vector3<f64>,
+}
+
+impl Bounded {
+    fn new(value: Vector3<f64>, rounding: Vector3<f64>) -> Self {
+        let value = value.zip_map(&rounding, |part, bound| {
+            // Adding zero makes −0 0.
+            if part.abs() <= bound { 0.0 } else { part + 0.0 }
+        });
+        Self { value, rounding }
+    }
+
+    fn over(&self, divisor: f64) -> Self {
+        Self::new(self.value / divisor, self.rounding / divisor)
+    }
+
+    fn cross(&self, other: &Self) -> Self {
+        let (a, b) = (&self.value, &other.value);
+        let bound = |j: usize, k: usize| {
+            let [aj, ak, bj, bk] = [a[j], a[k], b[j], b[k]].map(f64::abs);
+            let products = aj * bk + ak * bj;
+            let of_errors = self.rounding[j] * bk
+                + self.rounding[k] * bj
+                + other.rounding[j] * ak
+                + other.rounding[k] * aj;
+            of_errors + f64::EPSILON * products
+        };
+        Self::new(a.cross(b), Vector3::new(bound(1, 2), bound(2, 0), bound(0, 1)))
+    }
+
+    /// Scalar product, zero within its bound of rounding.
+    fn dot(&self, other: &Self) -> f64 {
+        let (a, b) = (self.value.abs(), other.value.abs());
+        let of_errors = self.rounding.dot(&b) + other.rounding.dot(&a);
+        let value = self.value.dot(&other.value);
+        if value.abs() <= of_errors + 3.0 * f64::EPSILON * a.dot(&b) { 0.0 } else { value }
+    }
+}
+
+/// Bound of what rounding makes of each part of K⁻¹f: in coordinates of unit mass, of K = AᵀA with A known to some
+/// roundings of its norm.
+fn flexed_rounding(
+    powertrain: &Powertrain,
+    modes: &NaturalModes,
+    load: &Vector6<f64>,
+) -> Result<Vector6<f64>> {
+    let (least, most) = (modes.omega[0], modes.omega[5]);
+    let along = modes.shapes.tr_mul(load);
+    let weighted = |power: i32| Vector6::from_fn(|k, _| along[k] / modes.omega[k].powi(power));
+    let [moved, strained] = [weighted(2).norm(), weighted(1).norm()];
+    let roundings = ROUNDINGS * powertrain.mounts().len() as f64 * f64::EPSILON;
+    let bound = roundings * (most / least) * (moved + strained / least);
+    let unit = powertrain.unit_mass()?;
+    Ok(Vector6::from_fn(|row, _| unit.row(row).norm() * bound))
 }
 
 /// Angle between two directions, degrees; of small angles too every digit is right.

@@ -2,15 +2,16 @@
 //!
 //! In coordinates of unit mass they are (K − ω²)x = f. Where K does not depend on frequency, its Schur form
 //! K = U T Uᴴ is made once: a frequency then takes a back substitution, and unlike a sum over complex modes it
-//! loses no digit where two of them merge. Where K depends on frequency, each takes a factorisation L D Lᵀ
-//! without pivots; where that would lose digits, or the matrix has no inverse, the frequency is left to the
-//! factorisation with pivots of [`Powertrain::motion`].
+//! loses no digit where two of them merge. Where it does, K = A + iωB of all mounts with hysteretic and viscous
+//! damping and of the others as they are at a frequency, each takes a factorisation L D Lᵀ without pivots; where
+//! that would lose digits, or the matrix has no inverse, the frequency is left to the factorisation with pivots
+//! of [`Powertrain::motion`].
 
 #![allow(clippy::needless_range_loop, reason = "lanes of several arrays are indexed in step")]
 
 use std::array::from_fn;
 
-use nalgebra::Schur;
+use nalgebra::{Matrix6, Schur};
 
 use super::{ComplexMatrix6, ComplexVector6, Powertrain};
 use crate::Complex64;
@@ -49,14 +50,22 @@ pub(crate) struct Equations {
 enum Form {
     /// Upper triangle of the Schur form.
     Triangle(Box<Triangle>),
-    /// For each direction of each mount the entries of the stiffness by it, in coordinates of unit mass.
-    Directions(Vec<[f64; ENTRIES]>),
+    /// Stiffness over frequency.
+    Pencil(Box<Pencil>),
 }
 
 /// Upper triangle, real and imaginary parts, and the norm of it.
 struct Triangle {
     entries: [[[f64; 2]; 6]; 6],
     size: f64,
+}
+
+/// A + iωB, and for each direction of the mounts that depend on frequency otherwise the entries of the stiffness
+/// by it.
+struct Pencil {
+    constant: [[f64; ENTRIES]; 2],
+    viscous: [f64; ENTRIES],
+    varying: Vec<[f64; ENTRIES]>,
 }
 
 /// Row and column of an entry.
@@ -86,10 +95,7 @@ impl Equations {
     pub fn new(powertrain: &Powertrain, least: f64) -> Result<Self> {
         let unit = powertrain.unit_mass()?;
         let complex = unit.map(Complex64::from);
-        let is_constant = !powertrain
-            .mounts()
-            .iter()
-            .any(|mount| mount.dynamic().varies() || mount.dynamic().damping_varies());
+        let is_constant = !powertrain.mounts().iter().any(|mount| mount.dynamic().damping_varies());
         if is_constant && least > 0.0 {
             let stiffnesses = powertrain.stiffnesses(least, String::new)?;
             let matrix = complex.transpose() * powertrain.assembled(&stiffnesses) * complex;
@@ -104,33 +110,49 @@ impl Equations {
                 });
             }
         }
-        let entries = powertrain.deflections().iter().flat_map(|deflection| {
-            let turned = deflection * unit;
-            [0, 1, 2].map(|axis| PLACES.map(|(i, j)| turned[(axis, i)] * turned[(axis, j)]))
-        });
-        let form = Form::Directions(entries.collect());
+        let form = Form::Pencil(Box::new(Pencil::of(powertrain, &unit)));
         Ok(Self { form, to: complex.transpose(), from: complex })
     }
 
     /// Whether the stiffness at each frequency counts.
+    #[cfg(test)]
     pub fn is_factored(&self) -> bool {
-        matches!(self.form, Form::Directions(_))
+        matches!(self.form, Form::Pencil(_))
     }
 
-    /// Replaces a load in the form's coordinates by the solution at squares of angular speeds; false where
-    /// that is left to the caller. `stiffnesses` are those of each direction of each mount at them, real and
-    /// imaginary parts, if [`Self::is_factored`].
+    /// Replaces a load in the form's coordinates by the solution at angular speeds; false where that is left to
+    /// the caller. `varying` are the stiffnesses at them of each direction of the mounts that depend on frequency
+    /// otherwise than by viscous damping, real and imaginary parts.
     #[inline(always)]
-    pub fn solve(
-        &self,
-        squares: &Lane,
-        stiffnesses: &[[Lane; 2]],
-        load: &mut Lanes6,
-    ) -> [bool; LANES] {
+    pub fn solve(&self, rates: &Lane, varying: &[[Lane; 2]], load: &mut Lanes6) -> [bool; LANES] {
         match &self.form {
-            Form::Triangle(triangle) => substituted(triangle, squares, load),
-            Form::Directions(entries) => factored(entries, squares, stiffnesses, load),
+            Form::Triangle(triangle) => substituted(triangle, rates, load),
+            Form::Pencil(pencil) => factored(pencil, rates, varying, load),
         }
+    }
+}
+
+impl Pencil {
+    fn of(powertrain: &Powertrain, unit: &Matrix6<f64>) -> Self {
+        let zero = [0.0; ENTRIES];
+        let mut pencil = Self { constant: [zero; 2], viscous: zero, varying: Vec::new() };
+        for (mount, deflection) in powertrain.mounts().iter().zip(powertrain.deflections()) {
+            let turned = deflection * unit;
+            let constant = mount.dynamic().constant();
+            for axis in 0..3 {
+                let entries = PLACES.map(|(i, j)| turned[(axis, i)] * turned[(axis, j)]);
+                let Some((stiffness, damping)) = constant else {
+                    pencil.varying.push(entries);
+                    continue;
+                };
+                for (k, entry) in entries.into_iter().enumerate() {
+                    pencil.constant[0][k] += stiffness[axis].re * entry;
+                    pencil.constant[1][k] += stiffness[axis].im * entry;
+                    pencil.viscous[k] += damping[axis] * entry;
+                }
+            }
+        }
+        pencil
     }
 }
 
@@ -153,8 +175,12 @@ fn schur(matrix: &ComplexMatrix6, least: f64) -> Option<(ComplexMatrix6, Complex
 // a fused product is a call.
 
 #[inline(always)]
-fn substituted(triangle: &Triangle, squares: &Lane, load: &mut Lanes6) -> [bool; LANES] {
-    let mut is_solved = [true; LANES];
+fn substituted(triangle: &Triangle, rates: &Lane, load: &mut Lanes6) -> [bool; LANES] {
+    let mut squares = [0.0; LANES];
+    for l in 0..LANES {
+        squares[l] = rates[l] * rates[l];
+    }
+    let mut least = [f64::INFINITY; LANES];
     let [re, im] = load;
     for k in (0..6).rev() {
         let (mut real, mut imaginary) = (re[k], im[k]);
@@ -172,23 +198,35 @@ fn substituted(triangle: &Triangle, squares: &Lane, load: &mut Lanes6) -> [bool;
             let inverse = 1.0 / norm;
             re[k][l] = rest.mul_add(real[l], d_im * imaginary[l]) * inverse;
             im[k][l] = rest.mul_add(imaginary[l], -(d_im * real[l])) * inverse;
-            let least = RESONANCE * (triangle.size + squares[l]);
-            is_solved[l] &= norm > least * least;
+            least[l] = if norm < least[l] { norm } else { least[l] };
         }
+    }
+    let mut is_solved = [false; LANES];
+    for l in 0..LANES {
+        let nearest = RESONANCE * (triangle.size + squares[l]);
+        // What overflows on the way ends in the first row.
+        is_solved[l] = least[l] > nearest * nearest && re[0][l].is_finite();
     }
     is_solved
 }
 
 #[inline(always)]
 fn factored(
-    entries: &[[f64; ENTRIES]],
-    squares: &Lane,
-    stiffnesses: &[[Lane; 2]],
+    pencil: &Pencil,
+    rates: &Lane,
+    varying: &[[Lane; 2]],
     load: &mut Lanes6,
 ) -> [bool; LANES] {
     let zero = [0.0; LANES];
     let mut matrix = [[zero; 2]; ENTRIES];
-    for (of_direction, [re, im]) in entries.iter().zip(stiffnesses) {
+    for k in 0..ENTRIES {
+        let [re, im, viscous] = [pencil.constant[0][k], pencil.constant[1][k], pencil.viscous[k]];
+        for l in 0..LANES {
+            matrix[k][0][l] = re;
+            matrix[k][1][l] = viscous.mul_add(rates[l], im);
+        }
+    }
+    for (of_direction, [re, im]) in pencil.varying.iter().zip(varying) {
         for (entry, &factor) in matrix.iter_mut().zip(of_direction) {
             for l in 0..LANES {
                 entry[0][l] = factor.mul_add(re[l], entry[0][l]);
@@ -196,12 +234,13 @@ fn factored(
             }
         }
     }
-    let mut size = *squares;
+    let mut size = zero;
     for k in 0..6 {
         let [re, im] = &mut matrix[entry(k, k)];
         for l in 0..LANES {
-            size[l] = size[l].max(re[l].abs() + im[l].abs() + squares[l]);
-            re[l] -= squares[l];
+            let square = rates[l] * rates[l];
+            size[l] = size[l].max(re[l].abs() + im[l].abs() + square);
+            re[l] -= square;
         }
     }
     let (mut worst, mut least) = (zero, [f64::INFINITY; LANES]);
@@ -270,9 +309,10 @@ fn factored(
     let mut is_solved = [false; LANES];
     for l in 0..LANES {
         let square = size[l] * size[l];
-        // Not of numbers that are none.
+        // Not of numbers that are none, nor at rest, where there is no damping.
         is_solved[l] = worst[l] <= LARGEST_GROWTH * LARGEST_GROWTH * square
-            && least[l] > RESONANCE * RESONANCE * square;
+            && least[l] > RESONANCE * RESONANCE * square
+            && rates[l] > 0.0;
     }
     is_solved
 }
@@ -287,6 +327,19 @@ pub(crate) fn product(row: &[Complex64; 6], of: &Lanes6) -> [Lane; 2] {
             let (re, im) = (of[0][k][l], of[1][k][l]);
             sum[0][l] = factor.re.mul_add(re, (-factor.im).mul_add(im, sum[0][l]));
             sum[1][l] = factor.re.mul_add(im, factor.im.mul_add(re, sum[1][l]));
+        }
+    }
+    sum
+}
+
+/// The same of a real row.
+#[inline(always)]
+pub(crate) fn real_product(row: &[f64; 6], of: &Lanes6) -> [Lane; 2] {
+    let mut sum = [[0.0; LANES]; 2];
+    for k in 0..6 {
+        for l in 0..LANES {
+            sum[0][l] = row[k].mul_add(of[0][k][l], sum[0][l]);
+            sum[1][l] = row[k].mul_add(of[1][k][l], sum[1][l]);
         }
     }
     sum

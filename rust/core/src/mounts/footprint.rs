@@ -2,21 +2,27 @@
 
 use nalgebra::{Vector2, Vector3};
 
-/// Distance of the CG from the edge of the polygon that the mounts span, both seen along gravity, m: above
-/// zero inside, below outside; of mounts in a line never above zero. Without gravity it is seen along y.
+/// Indices of the mounts at the corners of the polygon that they span, seen along gravity, in order, and the
+/// distance of the CG from its edge, m: above zero inside, below outside; of mounts in a line never above zero.
+/// Without gravity it is seen along y.
 #[must_use]
-pub fn support_margin(mounts: &[Vector3<f64>], cg: Vector3<f64>, gravity: Vector3<f64>) -> f64 {
+pub fn support_polygon(
+    mounts: &[Vector3<f64>],
+    cg: Vector3<f64>,
+    gravity: Vector3<f64>,
+) -> (Vec<usize>, f64) {
     let down = gravity.try_normalize(0.0).unwrap_or_else(|| -Vector3::y());
     // Any two directions at right angles to it.
     let least = down.iamin();
     let across =
         down.cross(&Vector3::from_fn(|k, _| if k == least { 1.0 } else { 0.0 })).normalize();
     let ahead = down.cross(&across);
-    let seen = |mount: &Vector3<f64>| {
+    let seen = |(k, mount): (usize, &Vector3<f64>)| {
         let from_cg = mount - cg;
-        Vector2::new(from_cg.dot(&across), from_cg.dot(&ahead))
+        (k, Vector2::new(from_cg.dot(&across), from_cg.dot(&ahead)))
     };
-    let hull = convex_hull(mounts.iter().map(seen).collect());
+    let (corners, hull): (Vec<usize>, Vec<Vector2<f64>>) =
+        convex_hull(mounts.iter().enumerate().map(seen).collect()).into_iter().unzip();
     let edges = hull.iter().zip(hull.iter().cycle().skip(1));
     let distance = |(from, to): (&Vector2<f64>, &Vector2<f64>)| {
         let edge = to - from;
@@ -27,21 +33,21 @@ pub fn support_margin(mounts: &[Vector3<f64>], cg: Vector3<f64>, gravity: Vector
     let nearest = edges.clone().map(distance).fold(f64::INFINITY, f64::min);
     let is_inside =
         hull.len() > 2 && edges.clone().all(|(from, to)| (to - from).perp(&-from) > 0.0);
-    if is_inside { nearest } else { -nearest + 0.0 }
+    (corners, if is_inside { nearest } else { -nearest + 0.0 })
 }
 
-/// Corners of the convex hull, counter-clockwise (Andrew's monotone chain).
-fn convex_hull(mut points: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
-    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    points.dedup();
+/// Corners of the convex hull, counter-clockwise (Andrew's monotone chain), with their indices.
+fn convex_hull(mut points: Vec<(usize, Vector2<f64>)>) -> Vec<(usize, Vector2<f64>)> {
+    points.sort_by(|(_, a), (_, b)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    points.dedup_by_key(|(_, point)| *point);
     if points.len() < 3 {
         return points;
     }
-    let half = |points: &mut dyn Iterator<Item = Vector2<f64>>| {
-        let mut chain: Vec<Vector2<f64>> = Vec::new();
+    let half = |points: &mut dyn Iterator<Item = (usize, Vector2<f64>)>| {
+        let mut chain: Vec<(usize, Vector2<f64>)> = Vec::new();
         for point in points {
-            while let [.., before, last] = chain[..]
-                && (last - before).perp(&(point - last)) <= 0.0
+            while let [.., (_, before), (_, last)] = chain[..]
+                && (last - before).perp(&(point.1 - last)) <= 0.0
             {
                 chain.pop();
             }
@@ -64,7 +70,7 @@ mod tests {
     fn margin(places: &[[f64; 2]], cg: [f64; 2]) -> f64 {
         let place = |[x, z]: [f64; 2]| Vector3::new(x, 0.7, z);
         let places: Vec<_> = places.iter().copied().map(place).collect();
-        support_margin(&places, place(cg), DOWN)
+        support_polygon(&places, place(cg), DOWN).1
     }
 
     #[test]
@@ -74,6 +80,16 @@ mod tests {
         assert!((margin(&square, [1.0, -0.5]) + 0.5).abs() < 1e-15);
         assert!((margin(&square, [-3.0, -4.0]) + 5.0).abs() < 1e-14);
         assert!((margin(&square[..3], [1.5, 0.5]) - 0.5).abs() < 1e-15);
+    }
+
+    #[test]
+    fn its_corners_are_mounts_in_order() {
+        let places = [[0.0, 0.0], [1.0, 1.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0], [1.0, 0.0]];
+        let places: Vec<_> = places.map(|[x, z]| Vector3::new(x, 0.7, z)).into();
+        let (mut corners, _) = support_polygon(&places, Vector3::zeros(), DOWN);
+        let first = corners.iter().position(|&k| k == 0).unwrap();
+        corners.rotate_left(first);
+        assert!(corners == [0, 3, 2, 4] || corners == [0, 4, 2, 3], "{corners:?}");
     }
 
     #[test]
@@ -89,9 +105,9 @@ mod tests {
     #[test]
     fn gravity_says_from_where_it_is_seen() {
         let places = [[0.2, 0.0, 0.2], [-0.2, 0.0, 0.2], [0.0, 0.0, -0.3]].map(Vector3::from);
-        let upright = support_margin(&places, Vector3::new(0.0, 0.5, 0.0), DOWN);
-        let inclined =
-            support_margin(&places, Vector3::new(0.0, 0.5, 0.0), Vector3::new(5.0, -5.0, 0.0));
+        let upright = support_polygon(&places, Vector3::new(0.0, 0.5, 0.0), DOWN).1;
+        let gravity = Vector3::new(5.0, -5.0, 0.0);
+        let inclined = support_polygon(&places, Vector3::new(0.0, 0.5, 0.0), gravity).1;
         assert!(upright > 0.1 && inclined < 0.0);
     }
 }

@@ -16,11 +16,11 @@ mod static_state;
 mod stiffness;
 mod support;
 
-use nalgebra::{Cholesky, Matrix3x6, U6, Vector3};
+use nalgebra::{Cholesky, Matrix3x6, Vector3};
 
-pub use self::axes::{Axes, ElasticAxis, axes};
+pub use self::axes::{ElasticAxis, RollAxes, axes};
 pub use self::body::{Products, RigidBody};
-pub use self::footprint::support_margin;
+pub use self::footprint::support_polygon;
 pub(crate) use self::modes::natural_frequencies;
 pub use self::modes::{FreeMotion, Modes, modes};
 pub use self::mount::{Mount, MountFigures, Orientation, motion_of_point};
@@ -136,19 +136,15 @@ impl Powertrain {
         sum
     }
 
-    /// Factor L of the mass matrix, L·Lᵀ.
-    fn mass_factor(&self) -> Result<Cholesky<f64, U6>> {
-        Cholesky::new(self.body.mass_matrix()).ok_or_else(|| {
-            let hint = "give a tensor whose principal moments are above zero";
-            Error::value("inertia", "not positive definite", hint)
-        })
-    }
-
-    /// The matrix L⁻ᵀ whose columns have unit mass.
+    /// The matrix L⁻ᵀ whose columns have unit mass, with L·Lᵀ the mass matrix.
     pub fn unit_mass(&self) -> Result<nalgebra::Matrix6<f64>> {
-        let inverse = self.mass_factor()?.l().try_inverse();
         let error = || Error::value("inertia", "not positive definite", "give a tensor that is");
-        inverse.map(|inverse| inverse.transpose()).ok_or_else(error)
+        let factors = Cholesky::new(self.body.inertia()).ok_or_else(error)?;
+        let one = nalgebra::Matrix3::identity();
+        let turn = factors.l().solve_lower_triangular(&one).ok_or_else(error)?.transpose();
+        let mut unit = nalgebra::Matrix6::from_diagonal_element(self.body.mass().sqrt().recip());
+        unit.fixed_view_mut::<3, 3>(3, 3).copy_from(&turn);
+        Ok(unit)
     }
 
     /// Motion under a load about the CG at an angular speed; none where the matrix has no inverse, as in

@@ -155,6 +155,17 @@ impl Dynamic {
         }
     }
 
+    /// Complex stiffness with its hysteretic damping, N/m, and viscous damping, N·s/m, along the three axes; none
+    /// where it depends on frequency otherwise.
+    #[must_use]
+    pub fn constant(&self) -> Option<([Complex64; 3], [f64; 3])> {
+        let Self::Constant { stiffness, loss_factor, damping, track: None } = self else {
+            return None;
+        };
+        let of_axis = |k: usize| Complex64::new(stiffness[k], stiffness[k] * loss_factor[k]);
+        Some(([0, 1, 2].map(of_axis), *damping))
+    }
+
     /// Whether its real part depends on frequency.
     #[must_use]
     pub fn varies(&self) -> bool {

@@ -4,14 +4,13 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::Matrix3x6;
+use nalgebra::{Matrix3x6, RowVector6, Vector3};
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::mounts::equations::{Equations, LANES, Lane, Lanes6, product, rows};
+use crate::mounts::equations::{Equations, LANES, Lane, Lanes6, product, real_product};
 use crate::mounts::{
-    ComplexMatrix6, ComplexVector6, Mount, Orientation, Powertrain, motion_of_point,
-    natural_frequencies,
+    ComplexVector6, Mount, Orientation, Powertrain, motion_of_point, natural_frequencies,
 };
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -21,14 +20,14 @@ use crate::numbers::order::Order;
 use crate::numbers::pool;
 use crate::numbers::simd::vectorised;
 use crate::readings::balance::{ErrorBounds, Orders};
-use crate::readings::mounted::Loads;
+use crate::readings::mounted::EngineLoads;
 
 /// Designs computed between two checks whether another thread is idle.
 const DESIGNS_PER_TASK: usize = 8;
 
 /// A figure of a mount that differs between designs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Figure {
+pub enum MountFigure {
     /// Place, m.
     At,
     /// Degrees, the first of three numbers.
@@ -49,7 +48,7 @@ pub struct Variation {
     /// Index of the mount.
     pub mount: usize,
     /// The figure.
-    pub figure: Figure,
+    pub figure: MountFigure,
     /// Its values along x, y and z, or the mount's axes.
     pub values: Vec<[f64; 3]>,
 }
@@ -72,7 +71,7 @@ pub struct DesignRequest<'a> {
 /// Largest responses of each design: first the force on what carries the mounts, then that of each mount,
 /// then the velocity of each point, along x, y and z.
 #[derive(Debug, Clone, PartialEq)]
-pub struct MountDesigns {
+pub struct DesignResponses {
     /// Multiples of crank speed.
     pub orders: Vec<Order>,
     /// Orders left out that are not zero.
@@ -89,29 +88,33 @@ pub struct MountDesigns {
     pub quantities: usize,
 }
 
-/// Loads and stiffness at speeds and orders, which all designs share.
+/// Loads and stiffness at speeds and orders, which all designs share. A place is an order at the speeds of a lane,
+/// the last speed again where there are fewer.
 struct Shared<'a> {
     request: DesignRequest<'a>,
-    loads: Loads,
-    /// Speeds in lanes, the last one again where there are fewer.
-    omega: Vec<Lane>,
+    loads: EngineLoads,
+    /// Lanes of speeds.
+    lanes: usize,
     /// Load of each order over (nω)², and that of gas pressure.
     amplitudes: Vec<[ComplexVector6; 2]>,
-    /// Stiffness of each direction of each mount at the speeds of each lane and order, as it is without
-    /// variations; empty where no design needs it.
+    /// nω at each place.
+    rates: Vec<Lane>,
+    /// Mounts whose stiffness depends on frequency otherwise than by viscous damping.
+    varying: Vec<usize>,
+    /// Stiffness of each of their directions at each place, as it is without variations.
     stiffnesses: Vec<[Lane; 2]>,
-    /// Mounts whose stiffness differs between designs.
+    /// Which of them differ between designs.
     varied: Vec<usize>,
 }
 
 /// Evaluate the designs of a powertrain that variations make.
-pub fn mount_designs(
+pub fn design_responses(
     engine: &Engine,
     base: &Powertrain,
     variations: &[Variation],
     request: &DesignRequest,
     cancel: &Cancel,
-) -> Result<MountDesigns> {
+) -> Result<DesignResponses> {
     if base.support().is_some() {
         let hint = "designs are those of mounts on what does not move: leave out the support";
         return Err(Error::value("support", "given", hint));
@@ -164,8 +167,8 @@ pub fn mount_designs(
         }
         Ok(())
     })?;
-    let Loads { orders, omitted, error_bound, .. } = shared.loads;
-    Ok(MountDesigns { orders, omitted, error_bound, frequency, largest, rms, quantities })
+    let EngineLoads { orders, omitted, error_bound, .. } = shared.loads;
+    Ok(DesignResponses { orders, omitted, error_bound, frequency, largest, rms, quantities })
 }
 
 /// A design.
@@ -175,12 +178,12 @@ fn varied(base: &Powertrain, variations: &[Variation], design: usize) -> Result<
         let mut figures = mounts[variation.mount].figures().clone();
         let value = variation.values[design];
         match variation.figure {
-            Figure::At => figures.at = value,
-            Figure::Tilt => figures.orientation = Orientation::Tilt(value[0]),
-            Figure::Stiffness => figures.stiffness = value,
-            Figure::DynamicStiffness => figures.dynamic_stiffness = Some(value),
-            Figure::LossFactor => figures.loss_factor = value,
-            Figure::Damping => figures.damping = value,
+            MountFigure::At => figures.at = value,
+            MountFigure::Tilt => figures.orientation = Orientation::Tilt(value[0]),
+            MountFigure::Stiffness => figures.stiffness = value,
+            MountFigure::DynamicStiffness => figures.dynamic_stiffness = Some(value),
+            MountFigure::LossFactor => figures.loss_factor = value,
+            MountFigure::Damping => figures.damping = value,
         }
         let name = figures.name.clone();
         mounts[variation.mount] =
@@ -197,44 +200,35 @@ impl<'a> Shared<'a> {
         request: &DesignRequest<'a>,
         cancel: &Cancel,
     ) -> Result<Self> {
-        let loads = Loads::new(engine, base.body().cg(), request.rpm, request.orders, cancel)?;
-        let omega: Vec<Lane> = loads
-            .omega
-            .chunks(LANES)
-            .map(|few| std::array::from_fn(|l| few[l.min(few.len() - 1)]))
-            .collect();
-        let amplitudes = loads.amplitudes();
-        let is_of_stiffness =
-            |variation: &&Variation| !matches!(variation.figure, Figure::At | Figure::Tilt);
-        let mut varied: Vec<usize> =
-            variations.iter().filter(is_of_stiffness).map(|variation| variation.mount).collect();
-        varied.sort_unstable();
-        varied.dedup();
-        let mut shared =
-            Self { request: *request, loads, omega, amplitudes, stiffnesses: Vec::new(), varied };
-        let directions = 3 * base.mounts().len();
-        let points = shared.omega.len() * shared.amplitudes.len();
-        let lengths = [points, directions, 2 * LANES];
+        let loads =
+            EngineLoads::new(engine, base.body().cg(), request.rpm, request.orders, cancel)?;
+        let (amplitudes, speeds) = (loads.amplitudes(), &loads.omega);
+        let (lanes, orders) = (speeds.len().div_ceil(LANES), amplitudes.len());
+        let is_varying = |&k: &usize| base.mounts()[k].dynamic().constant().is_none();
+        let varying: Vec<usize> = (0..base.mounts().len()).filter(is_varying).collect();
+        let is_varied = |&k: &usize| variations.iter().any(|one| one.mount == varying[k]);
+        let varied = (0..varying.len()).filter(is_varied).collect();
+        let lengths = [lanes * orders, 1 + 6 * varying.len(), LANES];
         limits::result_size("designs", &lengths, size_of::<f64>(), "give fewer speeds or orders")?;
-        let mut stiffnesses = memory::with_capacity(points * directions)?;
-        for place in 0..points {
+        let mut rates = memory::with_capacity(lanes * orders)?;
+        for few in speeds.chunks(LANES) {
+            let omega: Lane = std::array::from_fn(|l| few[l.min(few.len() - 1)]);
+            rates.extend(loads.orders.iter().map(|order| omega.map(|one| one * order.number())));
+        }
+        let (request, stiffnesses) = (*request, Vec::new());
+        let mut shared =
+            Self { request, loads, lanes, amplitudes, rates, varying, stiffnesses, varied };
+        let directions = 3 * shared.varying.len();
+        let mut stiffnesses = memory::with_capacity(shared.rates.len() * directions)?;
+        for place in 0..shared.rates.len() {
             cancel.check()?;
-            let all = 0..base.mounts().len();
-            let zero = [[0.0; LANES]; 2];
             let from = stiffnesses.len();
-            stiffnesses.extend(std::iter::repeat_n(zero, directions));
+            stiffnesses.extend(std::iter::repeat_n([[0.0; LANES]; 2], directions));
+            let all = 0..shared.varying.len();
             shared.write_stiffnesses(base, place, all, &mut stiffnesses[from..])?;
         }
         shared.stiffnesses = stiffnesses;
         Ok(shared)
-    }
-
-    /// Angular speeds of an order at some speeds.
-    #[inline(always)]
-    fn rates(&self, place: usize) -> Lane {
-        let (lane, order) = (place / self.amplitudes.len(), place % self.amplitudes.len());
-        let order = self.loads.orders[order].number();
-        self.omega[lane].map(|omega| omega * order)
     }
 
     fn words(&self, place: usize, l: usize) -> String {
@@ -250,11 +244,10 @@ impl<'a> Shared<'a> {
         mounts: impl Iterator<Item = usize>,
         to: &mut [[Lane; 2]],
     ) -> Result<()> {
-        let rates = self.rates(place);
         for k in mounts {
-            let mount = &powertrain.mounts()[k];
+            let mount = &powertrain.mounts()[self.varying[k]];
             for l in 0..LANES {
-                let along = mount.stiffness_at(rates[l], || self.words(place, l))?;
+                let along = mount.stiffness_at(self.rates[place][l], || self.words(place, l))?;
                 for (axis, value) in along.iter().enumerate() {
                     to[3 * k + axis][0][l] = value.re;
                     to[3 * k + axis][1][l] = value.im;
@@ -275,61 +268,72 @@ impl<'a> Shared<'a> {
         let lowest = self.loads.orders.iter().map(|order| order.number()).fold(f64::MAX, f64::min);
         let least = self.loads.omega.iter().copied().fold(f64::MAX, f64::min) * lowest;
         let equations = Equations::new(powertrain, least)?;
-        let outputs = Outputs::new(powertrain, &equations, &self.request, least)?;
-        let amplitudes: Vec<[ComplexVector6; 2]> =
-            self.amplitudes.iter().map(|both| both.map(|load| equations.to * load)).collect();
+        let outputs = Outputs::new(powertrain, &equations, &self.request);
+        let amplitudes: Vec<[[f64; 6]; 4]> = self
+            .amplitudes
+            .iter()
+            .map(|both| {
+                let [by_square, fixed] = both.map(|load| equations.to * load);
+                [
+                    by_square.map(|p| p.re),
+                    by_square.map(|p| p.im),
+                    fixed.map(|p| p.re),
+                    fixed.map(|p| p.im),
+                ]
+                .map(Into::into)
+            })
+            .collect();
         let (orders, quantities) = (amplitudes.len(), rms.len());
         // Squares of magnitudes at each speed of a lane.
         let zero = [[0.0; LANES]; 3];
         let mut most = memory::collected(std::iter::repeat_n(zero, orders * quantities))?;
         let mut sums = memory::collected(std::iter::repeat_n(zero, quantities))?;
         let mut rms_most = memory::collected(std::iter::repeat_n(zero, quantities))?;
-        let directions = 3 * powertrain.mounts().len();
+        let directions = 3 * self.varying.len();
         let mut stiffnesses =
             memory::collected(std::iter::repeat_n([[0.0; LANES]; 2], directions))?;
-        for lane in 0..self.omega.len() {
-            cancel.check()?;
-            sums.fill(zero);
-            for order in 0..orders {
-                let place = lane * orders + order;
-                let shared = &self.stiffnesses[place * directions..(place + 1) * directions];
-                if equations.is_factored() {
-                    stiffnesses.copy_from_slice(shared);
-                    let varied = self.varied.iter().copied();
-                    self.write_stiffnesses(powertrain, place, varied, &mut stiffnesses)?;
-                }
-                let rates = self.rates(place);
-                let squares = rates.map(|rate| rate * rate);
-                let mut solution: Lanes6 = [[[0.0; LANES]; 6]; 2];
-                let is_solved = vectorised(
-                    #[inline(always)]
-                    || {
-                        let [by_square, fixed] = &amplitudes[order];
+        vectorised(
+            #[inline(always)]
+            || -> Result<()> {
+                for lane in 0..self.lanes {
+                    cancel.check()?;
+                    sums.fill(zero);
+                    for order in 0..orders {
+                        let place = lane * orders + order;
+                        let rates = &self.rates[place];
+                        if directions > 0 {
+                            let from = place * directions;
+                            stiffnesses.copy_from_slice(&self.stiffnesses[from..from + directions]);
+                            let varied = self.varied.iter().copied();
+                            self.write_stiffnesses(powertrain, place, varied, &mut stiffnesses)?;
+                        }
+                        let mut solution: Lanes6 = [[[0.0; LANES]; 6]; 2];
+                        let [p_re, p_im, q_re, q_im] = &amplitudes[order];
                         for k in 0..6 {
                             for l in 0..LANES {
-                                let square = squares[l];
-                                solution[0][k][l] = by_square[k].re.mul_add(square, fixed[k].re);
-                                solution[1][k][l] = by_square[k].im.mul_add(square, fixed[k].im);
+                                let square = rates[l] * rates[l];
+                                solution[0][k][l] = p_re[k].mul_add(square, q_re[k]);
+                                solution[1][k][l] = p_im[k].mul_add(square, q_im[k]);
                             }
                         }
-                        equations.solve(&squares, &stiffnesses, &mut solution)
-                    },
-                );
-                if is_solved != [true; LANES] {
-                    self.repair(powertrain, &equations, place, is_solved, &mut solution)?;
+                        let is_solved = equations.solve(rates, &stiffnesses, &mut solution);
+                        if is_solved != [true; LANES] {
+                            self.repair(powertrain, &equations, place, is_solved, &mut solution)?;
+                        }
+                        let most = &mut most[order * quantities..(order + 1) * quantities];
+                        outputs.add(&solution, rates, &stiffnesses, most, &mut sums);
+                    }
+                    for (most, sum) in rms_most.iter_mut().zip(&sums) {
+                        for axis in 0..3 {
+                            for l in 0..LANES {
+                                most[axis][l] = most[axis][l].max(sum[axis][l]);
+                            }
+                        }
+                    }
                 }
-                let most = &mut most[order * quantities..(order + 1) * quantities];
-                vectorised(
-                    #[inline(always)]
-                    || outputs.add(&solution, &squares, &stiffnesses, most, &mut sums),
-                );
-            }
-            for (most, sum) in rms_most.iter_mut().zip(&sums) {
-                for (most, sum) in most.iter_mut().zip(sum) {
-                    (0..LANES).for_each(|l| most[l] = most[l].max(sum[l]));
-                }
-            }
-        }
+                Ok(())
+            },
+        )?;
         let root = |of: &[Lane; 3]| of.map(|lane| lane.into_iter().fold(0.0, f64::max).sqrt());
         for quantity in 0..quantities {
             for order in 0..orders {
@@ -349,11 +353,10 @@ impl<'a> Shared<'a> {
         is_solved: [bool; LANES],
         solution: &mut Lanes6,
     ) -> Result<()> {
-        let rates = self.rates(place);
         let [by_square, fixed] = &self.amplitudes[place % self.amplitudes.len()];
         let mass = powertrain.body().mass_matrix().map(Complex64::from);
         for l in (0..LANES).filter(|&l| !is_solved[l]) {
-            let omega = rates[l];
+            let omega = self.rates[place][l];
             let load = by_square * Complex64::from(omega * omega) + fixed;
             let solved = if load == ComplexVector6::zeros() {
                 load
@@ -378,61 +381,120 @@ impl<'a> Shared<'a> {
 }
 
 /// A vector along three axes as products with a solution.
-type Rows = [[Complex64; 6]; 3];
+type VectorRows = [[Complex64; 6]; 3];
+
+/// A force as products with the solution of a design's equations.
+struct ForceRows {
+    /// By stiffness that does not depend on frequency.
+    constant: VectorRows,
+    /// By viscous damping, over iω.
+    viscous: Option<[[f64; 6]; 3]>,
+    /// Of each direction of the mounts that depend on frequency otherwise: its index, its axis, and the deflection
+    /// along it.
+    varying: Vec<(usize, [f64; 3], [f64; 6])>,
+}
 
 /// Quantities of a design, as products with the solution of its equations.
 struct Outputs {
-    /// Constant stiffness: rows of the force of all, and of each mount that counts.
-    forces: Vec<Rows>,
-    /// Otherwise: deflection along its axes, and the axes, of each mount.
-    deflections: Vec<(Rows, [[f64; 3]; 3])>,
-    mount_forces: bool,
+    /// Force of all mounts, and of each that counts.
+    forces: Vec<ForceRows>,
     /// Displacement of points.
-    points: Vec<Rows>,
+    points: Vec<VectorRows>,
+}
+
+fn rows(matrix: &Matrix3x6<Complex64>) -> VectorRows {
+    [0, 1, 2].map(|i| [0, 1, 2, 3, 4, 5].map(|j| matrix[(i, j)]))
+}
+
+impl ForceRows {
+    /// Force of some mounts, with the index of the first direction of each that depends on frequency.
+    fn of(
+        powertrain: &Powertrain,
+        equations: &Equations,
+        mounts: impl Iterator<Item = (usize, usize)>,
+    ) -> Self {
+        let mut constant = Matrix3x6::zeros();
+        let (mut viscous, mut varying) = (Matrix3x6::zeros(), Vec::new());
+        let unit = equations.from.map(|part| part.re);
+        for (k, first) in mounts {
+            let (mount, deflection) = (&powertrain.mounts()[k], &powertrain.deflections()[k]);
+            let force =
+                |axis: usize, row: &RowVector6<f64>| mount.axes().row(axis).transpose() * row;
+            let constant_of = mount.dynamic().constant();
+            for axis in 0..3 {
+                let row: RowVector6<f64> = deflection.row(axis).into();
+                let Some((stiffness, damping)) = constant_of else {
+                    let direction: Vector3<f64> = mount.axes().row(axis).transpose();
+                    let row: [f64; 6] = (row * unit).transpose().into();
+                    varying.push((first + axis, direction.into(), row));
+                    continue;
+                };
+                constant += force(axis, &row).map(Complex64::from) * stiffness[axis];
+                viscous += force(axis, &row) * damping[axis];
+            }
+        }
+        let constant = rows(&(constant * equations.from));
+        let viscous = (viscous.amax() > 0.0).then(|| {
+            let viscous = viscous * unit;
+            [0, 1, 2].map(|i| [0, 1, 2, 3, 4, 5].map(|j| viscous[(i, j)]))
+        });
+        Self { constant, viscous, varying }
+    }
+
+    #[inline(always)]
+    fn times(&self, solution: &Lanes6, rates: &Lane, stiffnesses: &[[Lane; 2]]) -> [[Lane; 2]; 3] {
+        let mut force = vector(&self.constant, solution);
+        if let Some(viscous) = &self.viscous {
+            for axis in 0..3 {
+                let moved = real_product(&viscous[axis], solution);
+                for l in 0..LANES {
+                    force[axis][0][l] = (-rates[l]).mul_add(moved[1][l], force[axis][0][l]);
+                    force[axis][1][l] = rates[l].mul_add(moved[0][l], force[axis][1][l]);
+                }
+            }
+        }
+        for (direction, axis, row) in &self.varying {
+            let [re, im] = real_product(row, solution);
+            let [k_re, k_im] = &stiffnesses[*direction];
+            for along in 0..3 {
+                let factor = axis[along];
+                for l in 0..LANES {
+                    let real = k_re[l].mul_add(re[l], -(k_im[l] * im[l]));
+                    let imaginary = k_re[l].mul_add(im[l], k_im[l] * re[l]);
+                    force[along][0][l] = factor.mul_add(real, force[along][0][l]);
+                    force[along][1][l] = factor.mul_add(imaginary, force[along][1][l]);
+                }
+            }
+        }
+        force
+    }
 }
 
 impl Outputs {
-    fn new(
-        powertrain: &Powertrain,
-        equations: &Equations,
-        request: &DesignRequest,
-        omega: f64,
-    ) -> Result<Self> {
-        let rows_of = |motion: &Matrix3x6<Complex64>| {
-            let product = motion * equations.from;
-            [0, 1, 2].map(|i| [0, 1, 2, 3, 4, 5].map(|j| product[(i, j)]))
-        };
+    fn new(powertrain: &Powertrain, equations: &Equations, request: &DesignRequest) -> Self {
         let cg = powertrain.body().cg();
         let moved = |place: &[f64; 3]| {
-            let arm = nalgebra::Vector3::from(*place) - cg;
-            rows_of(&motion_of_point(&arm).map(Complex64::from))
+            let motion = motion_of_point(&(Vector3::from(*place) - cg));
+            rows(&(motion.map(Complex64::from) * equations.from))
         };
         let points = request.points.iter().map(moved).collect();
-        let mount_forces = request.mount_forces;
-        let mut outputs =
-            Self { forces: Vec::new(), deflections: Vec::new(), mount_forces, points };
-        if equations.is_factored() {
-            for (mount, deflection) in powertrain.mounts().iter().zip(powertrain.deflections()) {
-                let axes = mount.axes();
-                let axes = [0, 1, 2].map(|i| [0, 1, 2].map(|j| axes[(i, j)]));
-                let rows = rows_of(&deflection.map(Complex64::from));
-                outputs.deflections.push((rows, axes));
-            }
-            return Ok(outputs);
+        let mut first = 0;
+        let mounts: Vec<(usize, usize)> = powertrain
+            .mounts()
+            .iter()
+            .enumerate()
+            .map(|(k, mount)| {
+                let own = first;
+                first += if mount.dynamic().constant().is_none() { 3 } else { 0 };
+                (k, own)
+            })
+            .collect();
+        let mut forces = vec![ForceRows::of(powertrain, equations, mounts.iter().copied())];
+        if request.mount_forces {
+            let each = mounts.iter().map(|&one| std::iter::once(one));
+            forces.extend(each.map(|one| ForceRows::of(powertrain, equations, one)));
         }
-        let stiffnesses = powertrain.stiffnesses(omega, String::new)?;
-        let whole: ComplexMatrix6 = powertrain.assembled(&stiffnesses) * equations.from;
-        let all = rows(&whole);
-        outputs.forces.push([all[0], all[1], all[2]]);
-        if mount_forces {
-            for (k, deflection) in powertrain.deflections().iter().enumerate() {
-                let along = nalgebra::Matrix3::from_diagonal(&stiffnesses[k].into());
-                let axes = powertrain.mounts()[k].axes().transpose().map(Complex64::from);
-                let force = axes * along * deflection.map(Complex64::from);
-                outputs.forces.push(rows_of(&force));
-            }
-        }
-        Ok(outputs)
+        Self { forces, points }
     }
 
     /// Adds squares of the magnitudes of all quantities: the largest, and the sum over orders. Without closures
@@ -441,52 +503,21 @@ impl Outputs {
     fn add(
         &self,
         solution: &Lanes6,
-        squares: &Lane,
+        rates: &Lane,
         stiffnesses: &[[Lane; 2]],
         most: &mut [[Lane; 3]],
         sums: &mut [[Lane; 3]],
     ) {
         let one = [1.0; LANES];
         let mut quantity = 0;
-        for rows in &self.forces {
-            let vector = vector(rows, solution);
+        for force in &self.forces {
+            let vector = force.times(solution, rates, stiffnesses);
             take(&vector, &one, &mut most[quantity], &mut sums[quantity]);
             quantity += 1;
         }
-        if !self.deflections.is_empty() {
-            let mut sum = [[[0.0; LANES]; 2]; 3];
-            for (mount, (rows, axes)) in self.deflections.iter().enumerate() {
-                let moved = vector(rows, solution);
-                let mut forces = [[[0.0; LANES]; 2]; 3];
-                for axis in 0..3 {
-                    let [k_re, k_im] = &stiffnesses[3 * mount + axis];
-                    let [re, im] = &moved[axis];
-                    for along in 0..3 {
-                        let factor = axes[axis][along];
-                        for l in 0..LANES {
-                            let real = k_re[l].mul_add(re[l], -(k_im[l] * im[l]));
-                            let imaginary = k_re[l].mul_add(im[l], k_im[l] * re[l]);
-                            forces[along][0][l] = factor.mul_add(real, forces[along][0][l]);
-                            forces[along][1][l] = factor.mul_add(imaginary, forces[along][1][l]);
-                        }
-                    }
-                }
-                for along in 0..3 {
-                    for l in 0..LANES {
-                        sum[along][0][l] += forces[along][0][l];
-                        sum[along][1][l] += forces[along][1][l];
-                    }
-                }
-                if self.mount_forces {
-                    take(&forces, &one, &mut most[1 + mount], &mut sums[1 + mount]);
-                }
-            }
-            take(&sum, &one, &mut most[0], &mut sums[0]);
-            quantity = if self.mount_forces { 1 + self.deflections.len() } else { 1 };
-        }
         for rows in &self.points {
             let moved = vector(rows, solution);
-            take(&moved, squares, &mut most[quantity], &mut sums[quantity]);
+            take(&moved, rates, &mut most[quantity], &mut sums[quantity]);
             quantity += 1;
         }
     }
@@ -498,13 +529,13 @@ fn vector(rows: &[[Complex64; 6]; 3], solution: &Lanes6) -> [[Lane; 2]; 3] {
     [product(&rows[0], solution), product(&rows[1], solution), product(&rows[2], solution)]
 }
 
-/// Adds squares of magnitudes times a factor.
+/// Adds squares of magnitudes times a rate.
 #[inline(always)]
-fn take(vector: &[[Lane; 2]; 3], factor: &Lane, most: &mut [Lane; 3], sums: &mut [Lane; 3]) {
+fn take(vector: &[[Lane; 2]; 3], rates: &Lane, most: &mut [Lane; 3], sums: &mut [Lane; 3]) {
     for axis in 0..3 {
         let [re, im] = &vector[axis];
         for l in 0..LANES {
-            let square = re[l].mul_add(re[l], im[l] * im[l]) * factor[l];
+            let square = re[l].mul_add(re[l], im[l] * im[l]) * (rates[l] * rates[l]);
             most[axis][l] = if square > most[axis][l] { square } else { most[axis][l] };
             sums[axis][l] += square;
         }

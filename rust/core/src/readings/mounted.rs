@@ -43,7 +43,7 @@ pub struct Response {
 }
 
 /// An engine's loads about a centre of gravity.
-pub(crate) struct Loads {
+pub(crate) struct EngineLoads {
     pub orders: Vec<Order>,
     pub omitted: Vec<Order>,
     pub error_bound: ErrorBounds,
@@ -80,7 +80,7 @@ fn load(wrench: &Wrench) -> ComplexVector6 {
     ComplexVector6::new(force_x, force_y, Complex64::ZERO, pitch, yaw, wrench.torque().roll)
 }
 
-impl Loads {
+impl EngineLoads {
     /// Those of an engine at some speeds.
     pub fn new(
         engine: &Engine,
@@ -140,7 +140,20 @@ impl Response {
         orders: &Orders,
         cancel: &Cancel,
     ) -> Result<Self> {
-        let of_engine = Loads::new(engine, powertrain.body().cg(), rpm, orders, cancel)?;
+        let mut response = Self::at_rest(engine, powertrain, rpm, orders, cancel)?;
+        response.solve(rpm, cancel)?;
+        Ok(response)
+    }
+
+    /// Loads of the engine, and no motion.
+    fn at_rest(
+        engine: &Engine,
+        powertrain: Arc<Powertrain>,
+        rpm: &[f64],
+        orders: &Orders,
+        cancel: &Cancel,
+    ) -> Result<Self> {
+        let of_engine = EngineLoads::new(engine, powertrain.body().cg(), rpm, orders, cancel)?;
         let count = of_engine.orders.len();
         let hint = "give fewer speeds or orders";
         limits::result_size("response", &[rpm.len(), count, 6], size_of::<Complex64>(), hint)?;
@@ -149,8 +162,8 @@ impl Response {
             let wrenches = of_engine.unit.iter();
             loads.extend(wrenches.map(|wrench| load(&wrench.at_speed(omega * omega))));
         }
-        let Loads { orders, omitted, error_bound, omega, .. } = of_engine;
-        let mut response = Self {
+        let EngineLoads { orders, omitted, error_bound, omega, .. } = of_engine;
+        Ok(Self {
             powertrain,
             orders,
             omitted,
@@ -160,9 +173,7 @@ impl Response {
             motions: Vec::new(),
             carriers: Vec::new(),
             subframe: Vec::new(),
-        };
-        response.solve(rpm, cancel)?;
-        Ok(response)
+        })
     }
 
     /// Motion under the load of a point, a load that is not zero.
@@ -244,23 +255,27 @@ impl Response {
         let first = piece * POINTS_PER_TASK;
         let mut all = memory::with_capacity(motions.len())?;
         let [to, from] = [rows(&equations.to), rows(&equations.from)];
-        let directions = 3 * self.powertrain.mounts().len() * usize::from(equations.is_factored());
-        let mut stiffnesses = vec![[[0.0; LANES]; 2]; directions];
+        let varying: Vec<_> = self
+            .powertrain
+            .mounts()
+            .iter()
+            .filter(|mount| mount.dynamic().constant().is_none())
+            .collect();
+        let mut stiffnesses = vec![[[0.0; LANES]; 2]; 3 * varying.len()];
         for (k, motions) in motions.chunks_mut(LANES).enumerate() {
             let points = first + k * LANES..first + k * LANES + motions.len();
             let loads = lanes(&self.loads[points.clone()]);
-            let mut squares = [0.0; LANES];
+            let mut rates = [0.0; LANES];
             for l in 0..LANES {
                 let point = (points.start + l).min(points.end - 1);
                 let omega = self.omega_of(point);
-                squares[l] = omega * omega;
-                if directions == 0 || self.loads[point] == ComplexVector6::zeros() {
+                rates[l] = omega;
+                if varying.is_empty() || self.loads[point] == ComplexVector6::zeros() {
                     continue;
                 }
                 let (row, order) = self.place(point);
                 let words = || format!("order {order} at {} rpm", rpm[row]);
-                for (mount, along) in self.powertrain.mounts().iter().zip(stiffnesses.chunks_mut(3))
-                {
+                for (mount, along) in varying.iter().zip(stiffnesses.chunks_mut(3)) {
                     for (value, to) in mount.stiffness_at(omega, words)?.iter().zip(along) {
                         (to[0][l], to[1][l]) = (value.re, value.im);
                     }
@@ -273,7 +288,7 @@ impl Response {
                     for (k, row) in to.iter().enumerate() {
                         [solution[0][k], solution[1][k]] = product(row, &loads);
                     }
-                    let solved = equations.solve(&squares, &stiffnesses, &mut solution);
+                    let solved = equations.solve(&rates, &stiffnesses, &mut solution);
                     let mut moved: Lanes6 = [[[0.0; LANES]; 6]; 2];
                     for (k, row) in from.iter().enumerate() {
                         [moved[0][k], moved[1][k]] = product(row, &solution);
@@ -566,5 +581,6 @@ impl Derivative {
 }
 
 mod driven;
+pub use self::driven::Drive;
 #[cfg(test)]
 mod tests;

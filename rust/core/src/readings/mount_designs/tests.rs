@@ -43,9 +43,9 @@ fn check(base: &Powertrain, number: &mut impl FnMut() -> f64) {
     };
     let size = base.mounts()[1].figures().stiffness[0];
     let variations = [
-        Variation { mount: 0, figure: Figure::DynamicStiffness, values: positive(size) },
-        Variation { mount: 1, figure: Figure::At, values: positive(0.4) },
-        Variation { mount: 2, figure: Figure::Tilt, values: positive(90.0) },
+        Variation { mount: 0, figure: MountFigure::DynamicStiffness, values: positive(size) },
+        Variation { mount: 1, figure: MountFigure::At, values: positive(0.4) },
+        Variation { mount: 2, figure: MountFigure::Tilt, values: positive(90.0) },
     ];
     let rpm: Vec<f64> = (0..13).map(|k| 700.0 + 150.0 * f64::from(k)).collect();
     let orders = Orders::whole(&[1, 2, 3, 4]).unwrap();
@@ -58,7 +58,7 @@ fn check(base: &Powertrain, number: &mut impl FnMut() -> f64) {
         points: &points,
         frequency,
     };
-    let found = mount_designs(&engine, base, &variations, &request, &cancel).unwrap();
+    let found = design_responses(&engine, base, &variations, &request, &cancel).unwrap();
     let mounts = base.mounts().len();
     assert_eq!(found.quantities, 2 + mounts);
     for design in 0..5 {
@@ -174,7 +174,7 @@ fn modes_that_merge_lose_no_digits() {
         std::array::from_fn(|k| [start[k].re; LANES]),
         std::array::from_fn(|k| [start[k].im; LANES]),
     ];
-    assert_eq!(equations.solve(&[8100.0; LANES], &[], &mut solution), [true; LANES]);
+    assert_eq!(equations.solve(&[90.0; LANES], &[], &mut solution), [true; LANES]);
     let moved = equations.from
         * ComplexVector6::from_fn(|k, _| Complex64::new(solution[0][k][0], solution[1][k][0]));
     // Cramer's rule of the two.
@@ -201,10 +201,10 @@ fn what_cannot_be_is_named() {
         frequency: None,
     };
     let error = |variations: &[Variation]| {
-        mount_designs(&engine, &base, variations, &request, &cancel).unwrap_err().to_string()
+        design_responses(&engine, &base, variations, &request, &cancel).unwrap_err().to_string()
     };
     assert!(error(&[]).starts_with("vary = no design"));
-    let variation = |values| Variation { mount: 0, figure: Figure::LossFactor, values };
+    let variation = |values| Variation { mount: 0, figure: MountFigure::LossFactor, values };
     let said = "design 1: mount \"0\": loss_factor[2] = -0.1: give zero or more";
     let found = error(&[variation(vec![[0.1; 3], [0.1, 0.1, -0.1]])]);
     assert!(found.starts_with(said), "{found}");
@@ -213,6 +213,6 @@ fn what_cannot_be_is_named() {
     let body = *base.body();
     let below = Powertrain::new(body, base.mounts().to_vec()).unwrap();
     let carried = base.clone().on(crate::mounts::Support::Subframe(Box::new(below))).unwrap();
-    let found = mount_designs(&engine, &carried, &two[..1], &request, &cancel);
+    let found = design_responses(&engine, &carried, &two[..1], &request, &cancel);
     assert!(found.unwrap_err().to_string().starts_with("support = given"));
 }
