@@ -139,7 +139,7 @@ impl Bounded {
     }
 }
 
-/// Bound of what rounding makes of each part of K⁻¹f: in coordinates of unit mass, of K = AᵀA with A known to some
+/// Bound of what rounding makes of each part of K⁻¹f: in coordinates of unit mass, of `K = AᵀA` with `A` known to some
 /// roundings of its norm.
 fn flexed_rounding(
     powertrain: &Powertrain,
