@@ -88,6 +88,10 @@ NOTHING_OF_GAS = {
     "Firing",  # angles; those that do not fire are named
     "MountModes", "MountRobustness", "RollAxes", "StaticState",
     "AdaptiveLaw", "VelocityFeedback",  # of any load
+    "Arrangement", "BalancerOption", "Choice", "Design",  # items of results that say it
+    "OrderResponse", "VectorQuantity", "WorstForce",  # parts of a response, which says it
+    "Card", "ClosedForm",  # force and moment
+    "Exercise", "Explanation",  # sentences, which say it themselves
 }  # fmt: skip
 """Results in tables that no pressure changes."""
 
@@ -225,16 +229,19 @@ COMMANDS_SAY = {
     "shafts": "--by total.torque.peak",
     "tolerances": "--pin 0.1 --samples 20 --orders 1,2",
     "mounts": "--rpm 3000:4000:500",
+    "flywheel": "--inertia 0.1",
 }
 """Command whose results gas pressure could change → its options."""
 COMMANDS_SILENT = {
     "presets", "new", "gallery", "view",  # no results of an engine: the page says it itself
-    "firing", "counterweights", "bob-weight",
+    "firing", "counterweights", "bob-weight", "card", "two-plane", "match", "closed-form",
+    "harmonics",  # force and moment, angles, masses
+    "star", "trace", "exercise", "mounts-fit",  # a firing order, the pressure, sheets, modes
 }  # fmt: skip
 
 
 def test_every_command_is_tested() -> None:
-    assert set(COMMANDS) == COMMANDS_SAY.keys() | COMMANDS_SILENT | {"design"}
+    assert set(COMMANDS) == COMMANDS_SAY.keys() | COMMANDS_SILENT | {"design", "compare"}
 
 
 @pytest.mark.parametrize("engine", WORDS)
@@ -243,7 +250,7 @@ def test_commands_say_what_they_count(
     name: str, engine: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     made, words = WORDS[engine]
-    if engine == "bare" and name in ("torque", "bearings"):
+    if engine == "bare" and name in ("torque", "bearings", "flywheel"):
         words = "gas: example petrol, full load"  # without another cycle
     if engine != "bare" and name == "tolerances":
         return  # which do not count gas
@@ -261,6 +268,11 @@ def test_commands_say_what_they_count(
     out, err = capsys.readouterr()
     assert "gas" not in out.partition("\n")[2]  # below the heads: for programs
     assert err == f"crankpin: {words}\n"
+
+
+def test_comparisons_say_that_they_are_without_gas(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["compare", "i4", "i4-crossplane"]) == 0
+    assert capsys.readouterr().out.casefold().count("without gas pressure") == 1
 
 
 @pytest.mark.parametrize("options", [[], ["--csv"]])

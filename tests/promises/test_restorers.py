@@ -76,6 +76,6 @@ def test_straight_lines_and_firing() -> None:
     np.testing.assert_allclose([low, high], [0.5 - HALF / 2.0, 0.5 + HALF / 2.0], rtol=1e-12)
     assert (along, across) == (90.0, 0.0)
     assert {*inline(0, 270).firing_orders()[0].intervals_text.split("-")} == {"270", "450"}
-    assert inline(0, 180, strokes=2).fires_evenly
+    assert inline(0, 180, strokes=2).firing_orders()[0].even
     yaw = ENGINES["boxer"].engine.balance(RPM, orders=[1])[1].moment.peak_xy
     np.testing.assert_allclose(yaw, [0.0, PULL * STAGGER], rtol=1e-12, atol=1e-12)

@@ -212,6 +212,14 @@ def optional_number(name: str, value: object) -> float | None:
     return None if value is None else number(name, value)
 
 
+def is_listed(value: object) -> bool:
+    """Return whether a value is several, whatever they are: a list, or an array with an axis."""
+    try:
+        return isinstance(value, (list, tuple)) or np.ndim(value) > 0  # type: ignore[arg-type]
+    except ValueError:  # of another ragged sequence
+        return True
+
+
 def listed_numbers(name: str, values: ArrayLike) -> list[float]:
     """Return numbers that are taken one by one as a list, up to a limit."""
     array = vector(name, values)
@@ -397,11 +405,13 @@ def firing_order(name: str, values: object, banks: Sequence[int] = ()) -> str:
         return "-".join(shorten(number) for number in items(name, values, hint))
     typed = text(name, values, hint)
     plain = typed.strip()
-    if plain.isascii() and plain.isdigit() and sorted(plain) == list("123456789")[: len(plain)]:
+    if len(plain) <= len(DIGITS) and sorted(plain) == list(DIGITS[: len(plain)]):
         return "-".join(plain)
     return _by_banks(name, typed, banks) if banks and _LETTERS.search(plain) else typed
 
 
+DIGITS = "123456789"
+"""Numbers of cylinders that are written without signs between them."""
 _LETTERS = re.compile(
     r"(?:(?P<before>[A-Za-z])(?P<number>\d+)|(?P<turned>\d+)(?P<after>[A-Za-z]))\b"
 )

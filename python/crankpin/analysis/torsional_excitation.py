@@ -238,7 +238,8 @@ def torsional_excitation(
     if listed is None:
         step = 1 if cycles is None or engine.strokes == 2 else 0.5
         listed = [step * k for k in range(1, round(HIGHEST / step) + 1)]
-    speeds = inputs.vector("rpm", rpm) if np.ndim(rpm) else np.array([inputs.number("rpm", rpm)])
+    several = inputs.is_listed(rpm)
+    speeds = inputs.vector("rpm", rpm) if several else np.array([inputs.number("rpm", rpm)])
     if not len(speeds):
         raise inputs.rejected("rpm", rpm, "give a crank speed, or several")
     explicit = inputs.explicit_half_orders(listed)
@@ -259,10 +260,10 @@ def torsional_excitation(
     means = [cycle.mean_torque(cylinder) if cycle else 0.0 for cycle, cylinder in of_cylinders]
     return TorsionalExcitation(
         engine,
-        speeds.copy() if np.ndim(rpm) else balance.rpm,
+        speeds.copy() if several else balance.rpm,
         balance.orders,
         gas,
-        np.multiply.outer(scales, inertia) if np.ndim(rpm) else inertia,
+        np.multiply.outer(scales, inertia) if several else inertia,
         np.array(means or [0.0] * len(engine)),
     )
 

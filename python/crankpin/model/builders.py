@@ -8,8 +8,6 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias
 
-import numpy as np
-
 from crankpin import _core
 from crankpin._core import MOST_CYLINDERS
 from crankpin._support import inputs
@@ -19,6 +17,7 @@ from crankpin.model.data import Cranks, EngineData, allowed, big_end, core_of_li
 from crankpin.model.furnishing import furnished, one_of, pitch, without
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Angle, Angles
@@ -316,7 +315,7 @@ class Builders(EngineData):
         masses = None if missing else rotating_mass
         layout = _along_crank(one, throws_deg, spacing, masses, first_tdc_deg)
         stagger = inputs.number("bank_stagger", bank_stagger)
-        even = 0.0 if np.ndim(spacing) else stagger
+        even = 0.0 if inputs.is_listed(spacing) else stagger
         layout |= vee_layout(bank_angle_deg, pin_split_deg, even, numbering, odd_bank)
         core = _kept(_core.Engine.vee(parts(one), layout), one)
         checks.angles(
@@ -642,7 +641,7 @@ class Builders(EngineData):
             bank_deg = FANS[inputs.one_of("bank_deg", bank_deg.upper(), FANS)]
         one, banks = one_of(cylinder), inputs.angles("bank_deg", bank_deg)
         pins, distance = inputs.angles("throws_deg", throws_deg), pitch(spacing)
-        even = 0.0 if np.ndim(spacing) else inputs.number("bank_stagger", bank_stagger)
+        even = 0.0 if inputs.is_listed(spacing) else inputs.number("bank_stagger", bank_stagger)
         places = [
             distance * k + even * bank for bank in range(len(banks)) for k in range(len(pins))
         ]
@@ -658,8 +657,9 @@ class Builders(EngineData):
             bank=[k for k in range(len(banks)) for _ in pins],
         )
         engine = cls(core, name, source, "", strokes).with_first_tdc(first_tdc_deg)
-        engine = engine.replace(firing_order=firing_order) if firing_order else engine
-        if np.ndim(spacing) and bank_stagger:
+        unknown = isinstance(firing_order, str) and not firing_order
+        engine = engine if unknown else engine.replace(firing_order=firing_order)
+        if inputs.is_listed(spacing) and bank_stagger:
             raise inputs.rejected("bank_stagger", bank_stagger, "give one spacing with it")
         return furnished(engine, cylinder, spacing, rotating_mass)
 
@@ -780,7 +780,7 @@ class Builders(EngineData):
         one = one_of(cylinder)
         along = _along_crank(one, (), spacing, rotating_mass, first_tdc_deg)
         stagger = inputs.number("bank_stagger", bank_stagger)
-        behind = 0.0 if np.ndim(spacing) else stagger
+        behind = 0.0 if inputs.is_listed(spacing) else stagger
         across = vee_layout_of(bank_angle_deg, behind, numbering, odd_bank)
         moving = parts(one)
         if bank_angle_deg is None:

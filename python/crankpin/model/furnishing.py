@@ -36,7 +36,7 @@ def one_of(cylinder: object) -> Any:  # noqa: ANN401 - a cylinder, or what is to
 
 def pitch(spacing: ArrayLike) -> float:
     """Return the spacing with which a layout is built: of unequal distances their mean."""
-    if not np.ndim(spacing):
+    if not inputs.is_listed(spacing):
         return inputs.number("spacing", spacing)
     listed = inputs.listed_numbers("spacing", spacing)
     if not listed or not all(0.0 < each < np.inf for each in listed):
@@ -66,10 +66,10 @@ def furnished(
     stagger
         How far the left bank stands behind the right, m.
     """
-    if not np.ndim(spacing) and isinstance(cylinder, Cylinder):
+    if not inputs.is_listed(spacing) and isinstance(cylinder, Cylinder):
         return engine
     each, z = _each(engine, cylinder), engine.z
-    if np.ndim(spacing):
+    if inputs.is_listed(spacing):
         listed = inputs.listed_numbers("spacing", spacing)
         throw = np.rint(z / pitch(spacing)).astype(int)
         if throw.max() != len(listed):
