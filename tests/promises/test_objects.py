@@ -1055,6 +1055,7 @@ def test_every_public_object_is_documented_and_the_main_ones_by_example() -> Non
             cp.types.Balance,
             cp.types.OrderBalance,
             cp.types.Table,
+            cp.types.MountDesign,
             cp.types.VelocityFeedback,
             cp.Actuator,
             cp.Mount,

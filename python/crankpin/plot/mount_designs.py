@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import picture
 from crankpin.analysis.mounts.design_mounts import MountDesign
 from crankpin.analysis.mounts.design_responses import DesignResponses
@@ -216,6 +216,8 @@ def _axes(
         if not panels.single:
             set_panel_title(place, name)
     words = f"{rounded(result.angle_deg)}° and {rounded(1e3 * result.distance)} mm between the axes"
-    panels.set_title(labels.name_of(powertrain.engine), joined("axes of roll", words))
+    panels.set_title(
+        labels.name_of(powertrain.engine), joined("axes of roll", units.in_text(words))
+    )
     panels.add_legend(panels.axes.flat[0].get_legend_handles_labels()[0])
     return panels.drawn

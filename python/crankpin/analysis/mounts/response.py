@@ -321,7 +321,10 @@ class WorstForce(Item):
         figures = self._figures()
         units = {"force": "N", "rpm": "rpm", "frequency": "Hz", "mode_frequency": "Hz"}
         rows = [(name, value, units.get(name, "")) for name, value in figures.items()]
-        return Table.from_rows("Largest force of one order", ["figure", "value", "unit"], rows)
+        return Table.from_rows(
+            "Largest force of one order", ["figure", "value", "unit"], rows,
+            row_units=[unit for _, _, unit in rows],
+        )  # fmt: skip
 
 
 class MountResponse(MountQuantities, Keyed, Tabled):
