@@ -117,3 +117,15 @@ def test_a_plain_inertia_is_in_the_unit_of_the_help_whatever_the_others(capsys: 
     main(f"{line} 0.15".split())
     irregularity = [text for text in capsys.readouterr().out.splitlines() if "irregul" in text]
     assert irregularity[0] in plain
+
+
+def test_a_preset_is_compared_with_itself_as_textbooks_lump_it(capsys: CAPTURE) -> None:
+    comparison = cp.compare(cp.Engine.preset("v6-60-ebook"), "lumped", 10, orders=[1, 2])
+    line = "compare v6-60-ebook lumped --rpm 10 --orders 1,2"
+    assert printed(capsys, line) == f"{comparison.frames.text()}\n"
+    assert refused(capsys, f"{line} --spectrum 1=9.0").startswith("--spectrum = ")
+    uneven = cp.Engine.preset("i4", rotating_mass=[0.1, 0.2, 0.1, 0.1])
+    with pytest.raises(cp.InputError, match="has cylinders that differ"):
+        cp.compare(uneven, "lumped", 3000)
+    with pytest.raises(cp.InputError, match="lumped"):
+        cp.compare(uneven, "lumpd", 3000)  # type: ignore[arg-type]

@@ -147,6 +147,19 @@ def test_v_engine_tables_but_the_wrong_rows() -> None:
         np.testing.assert_allclose(found, WRONG_ROWS[place], rtol=0, atol=half_digit(3))
 
 
+@pytest.mark.parametrize("name", ebook.V_ENGINES)
+def test_a_preset_is_compared_with_its_printed_table_by_one_call(name: str) -> None:
+    preset = cp.Engine.preset(f"{name.replace('_plane', 'plane').replace('_', '-')}-ebook")
+    comparison = cp.compare(preset, "lumped", ebook.RPM, orders=ORDERS, torque=False)
+    assert comparison.before == preset.balance(ebook.RPM, orders=ORDERS, torque=False)
+    # One cylinder's force is ten newtons; the page's phases are a mirror of the preset's pins.
+    expected = as_printed(ebook.V_ENGINES[name])
+    np.testing.assert_allclose(
+        np.sort(sizes(comparison.after)[:, 2:]), np.sort(expected[:, 2:]), rtol=0, atol=1e-12
+    )
+    np.testing.assert_allclose(sizes(comparison.after)[:, :2], expected[:, :2], rtol=0, atol=1e-12)
+
+
 def v_twin(lag_deg: float) -> Array:
     """Forces of a 90-degree V-twin, its second cylinder later by some angle, (4, 2)."""
     return as_printed(ebook.Layout((0.0, lag_deg), (45.0, 135.0), (0.0, 0.0)))[:, :2]

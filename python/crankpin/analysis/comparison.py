@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, Final, Literal, overload
 
 import numpy as np
 
@@ -25,9 +25,15 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 
+LUMPED: Final = "lumped"
+"""Stands for an engine as textbooks lump it."""
+LUMPED_ORDERS = 12
+"""Highest order of an engine that is lumped: those above are a millionth of the first."""
+
+
 def compare(
     before: Engine,
-    after: Engine,
+    after: Engine | Literal["lumped"],
     rpm: float,
     *,
     orders: Orders = "auto",
@@ -39,8 +45,12 @@ def compare(
 
     Parameters
     ----------
-    before, after : Engine
-        The engines: one before and after a change, or any two.
+    before : Engine
+        The engine before a change, or any.
+    after : Engine or "lumped"
+        The engine after it, or any other. ``"lumped"`` is ``before`` as textbooks lump it, the
+        e-book among them: what rotates with a crankpin moves along the bore, with the piston. Their
+        tables are reproduced so, beside the engine that is built.
     rpm : float
         Crank speed, rpm.
     orders : number, sequence of numbers or "auto", default "auto"
@@ -51,7 +61,7 @@ def compare(
     spectrum : mapping of int to complex, optional
         As in :meth:`Engine.balance`; moments of each engine are about its own reference plane.
     torque : bool, default True
-        As in :meth:`Engine.balance`; moments of each engine are about its own reference plane.
+        As in :meth:`Engine.balance`; an engine that is lumped has none.
 
     Returns
     -------
@@ -71,15 +81,36 @@ def compare(
     >>> c.change("moment").round(3)
     array([0.577, 0.414])
     """
-    for name, engine in (("before", before), ("after", after)):
-        engine_core(engine, name)
     options: dict[str, Any] = {"rtol": rtol, "spectrum": spectrum, "torque": torque}
-    first = balance(before, rpm, orders=orders, **options)
+    engine_core(before, "before")
+    if isinstance(after, str):
+        inputs.one_of("after", after, (LUMPED,))
+        if spectrum is not None:
+            raise inputs.rejected("spectrum", spectrum, 'is that of "lumped" itself; leave it out')
+        options["torque"] = False  # which a spectrum does not determine
+        first = balance(before, rpm, orders=orders, **options)
+        after, options["spectrum"] = _lumped(before)
+    else:
+        engine_core(after, "after")
+        first = balance(before, rpm, orders=orders, **options)
     second = balance(after, rpm, orders=orders, **options)
     both = tuple(sorted({*first.orders, *second.orders}))
     if both:
         first, second = first._at_orders(both), second._at_orders(both)
     return Comparison(first, second)
+
+
+def _lumped(engine: Engine) -> tuple[Engine, Spectrum]:
+    """Return an engine without rotating masses, and a cylinder's spectrum with them in order 1."""
+    kinds = set(zip(engine.cylinders, engine.rotating_mass.tolist(), strict=True))
+    if len(kinds) > 1:
+        raise inputs.faulty("before", "has cylinders that differ", "lump one whose are equal")
+    ((cylinder, rotating),) = kinds
+    orders = range(1, LUMPED_ORDERS + 1)
+    moving = cylinder.reciprocating_mass * np.asarray(cylinder.harmonics(list(orders)))
+    moving[0] += rotating
+    spectrum = dict(zip(orders, (cylinder.crank_radius * moving).tolist(), strict=True))
+    return engine.replace(rotating_mass=0.0, name=f"{engine.name}, lumped"), spectrum
 
 
 class Comparison(Tabled):

@@ -8,7 +8,7 @@ import numpy as np
 
 from crankpin._support import inputs
 from crankpin._support.tables import Table
-from crankpin.analysis.comparison import compare
+from crankpin.analysis.comparison import LUMPED, compare
 from crankpin.analysis.exercises import TOPICS, exercise
 from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.star import star_diagram
@@ -27,18 +27,28 @@ HIGHEST = 12
 @command(
     "compare",
     "two engines at one speed: peaks of each order, before and after",
-    option("names", metavar="NAME", nargs="+", help="two presets or engine files (.toml, .json)"),
+    option(
+        "names",
+        metavar="NAME",
+        nargs="+",
+        help="two presets or engine files (.toml, .json); lumped for the first as textbooks lump "
+        "it: what rotates moves along the bores",
+    ),
     "--rpm --orders --rtol --quantity --reference-z --spectrum --units --csv --plot",
     example="compare i4 i4-crossplane --rpm 6000 --plot both.png",
 )
 def _compare(given: Given) -> Shown:
-    engines = [*given.engines().values()]
-    if len(engines) != 2:
+    names = given.text("names")
+    lumped = names[1:] == [LUMPED]
+    engines = [*given.engines(names[:1] if lumped else None).values()]
+    if len(engines) != (1 if lumped else 2):
         several = "engine" if len(engines) == 1 else "engines"
         raise inputs.faulty("NAME", f"stands for {len(engines)} {several}", "give two")
-    before, after = engines
+    before, after = engines[0], engines[-1]
     rpm = given.number("--rpm", "rpm")
-    comparison = compare(before, after, rpm, spectrum=given.spectrum(), **given.chosen())
+    comparison = compare(
+        before, LUMPED if lumped else after, rpm, spectrum=given.spectrum(), **given.chosen()
+    )
     return Shown(comparison.frames, comparison, {"quantity": given.quantity(engines)})
 
 

@@ -454,10 +454,10 @@ class Given:
             raise rejected(flag, text, f"{float(steps):.3g} steps; give {MOST_ROWS} at most")
         return np.array([float(start + k * step) for k in range(int(steps) + 1)])
 
-    def engines(self) -> dict[str, Engine]:
+    def engines(self, names: Sequence[str] | None = None) -> dict[str, Engine]:
         """Return the engines of NAME…, by their titles, or by what was typed where these repeat."""
         typed: dict[str, Engine] = {}
-        for name in self._typed.get("names") or [self.text("name")]:
+        for name in names or self._typed.get("names") or [self.text("name")]:
             if Path(name).suffix.lower() in engine_files.ENDINGS:
                 typed[name] = Engine.load(name)
                 continue
