@@ -368,7 +368,7 @@ class Given:
     def _plain(self, unit: str) -> Decimal:
         """Return what a plain number of a unit stands for: in those of ``--units``.
 
-        Moments of inertia stay in kg·m², as the help has it: nobody's flywheel is in g·mm².
+        Moments of inertia stay in kg·m², as the help has it: no flywheel is weighed in g·mm².
         """
         if unit not in UNITS or unit == "kg·m²":
             return Decimal(1)
