@@ -220,6 +220,8 @@ def test_axes_of_symmetric_mounts_have_zeros_and_no_rounding() -> None:
     assert axes.elastic_foot[1] < CG[1]
     # A tilt of 1e-9 is no rounding.
     tilted = PLAIN.replace(
-        body=cp.RigidBody(150.0, CG, [[7, 0, 1e-9], [0, 8, 0], [1e-9, 0, 4.5]], "tensor")
+        body=cp.RigidBody(
+            150.0, CG, [[7.0, 0.0, 1e-9], [0.0, 8.0, 0.0], [1e-9, 0.0, 4.5]], "tensor"
+        )
     )
     assert tilted.axes().torque_roll[0] == near(-1e-9 / 7.0, 1e-6)
