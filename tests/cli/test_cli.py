@@ -731,8 +731,12 @@ def test_examples_of_help_run(
     places = {"left": (-0.3, 0, 0), "right": (0.3, 0, 0), "rear": (0, 0, 0.5)}
     mounts = [cp.Mount(name, at=at, stiffness=2e5, loss_factor=0.1) for name, at in places.items()]
     cp.Powertrain(cp.Engine.preset("i4"), body, mounts).save("car.toml")
+    theta = np.arange(-360.0, 360.0)
+    bar = cp.Cycle.example().pressure_at(theta) / 1e5
+    np.savetxt("run7.csv", np.c_[theta, bar], header="angle [deg] absolute pressure [bar]")
     assert printed(capsys, *example.split())
     Path("car.toml").unlink()
+    Path("run7.csv").unlink()
     written = re.findall(r"(?:--plot|--save|--out|-o) (\S+)", example)
     assert sorted(file.name for file in tmp_path.iterdir()) == sorted(written)
 

@@ -405,7 +405,7 @@ def test_rows_of_a_radial() -> None:
     ("given", "message"),
     [
         ({"cylinders": 2}, "cylinders = 2: give three or more to each row; .* Engine.flat"),
-        ({"cylinders": 7, "rows": 2, "spacing": 0.1}, "cylinders = 7: give three or more"),
+        ({"cylinders": 7, "rows": 2, "spacing": 0.1}, "cylinders = 7: give a multiple of rows, 2"),
         ({"cylinders": 28, "rows": 7}, "rows = 7: give 1 to 6; Engine.from_lists"),
         ({"cylinders": 14, "rows": 2}, "spacing = None: give the distance between rows"),
         ({"cylinders": 7.5}, "cylinders = 7.5: give a whole number"),

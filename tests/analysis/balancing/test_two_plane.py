@@ -86,7 +86,7 @@ def test_table_and_copies() -> None:
     ("given_", "words"),
     [
         ({"amount_g_mm": [1, -2]}, r"amount_g_mm = \[1, -2\]: give zero or more"),
-        ({"amount_g_mm": 3}, "amount_g_mm has 1 figures: give two"),
+        ({"amount_g_mm": 3}, "amount_g_mm has 1 figure: give two"),
         ({"angle_deg": [1, 2, 3]}, "angle_deg has 3 figures: give two"),
         ({"angle_deg": [1, float("nan")]}, "angle_deg = .*give finite numbers"),
         ({"measured_z": ["a", 0]}, "measured_z = .*give numbers"),

@@ -254,14 +254,6 @@ def match_parts(
     start = inputs.whole("seed", seed, 0)
     shown = progress_bar.checked(progress)
     checks.masses(core, pistons=masses.max(), rods=0.0 if ends is None else ends.max())
-    below = float(masses.mean() - masses.min())  # at least 0
-    lightest = min(each.reciprocating_mass for each in engine.cylinders)
-    if below >= lightest:
-        hint = (
-            f"the lightest is {below:.4g} kg below their mean, which stands for the engine's own "
-            f"reciprocating mass, {lightest:.4g} kg: give masses in kg, such as 0.48"
-        )
-        raise inputs.rejected("pistons", float(masses.min()), hint)
     measured = MeasuredParts(engine, masses[:, 0], ends, tuple(listed))
     if by == "spread":
         chosen, exact = _by_spread(measured, wanted, start, shown)
@@ -514,6 +506,15 @@ class Match(Tabled):
     @cached_property
     def engines(self) -> tuple[Engine, ...]:
         """The engines with their parts: masses are the engine's own and the parts' deviations."""
+        pistons = self.parts.pistons
+        below = float(pistons.mean() - pistons.min())  # at least 0
+        lightest = min(each.reciprocating_mass for each in self.engine.cylinders)
+        if below > lightest:
+            hint = (
+                f"the lightest is {below:.4g} kg below their mean, which stands for the engine's "
+                f"own reciprocating mass, {lightest:.4g} kg: give masses in kg, such as 0.48"
+            )
+            raise inputs.rejected("pistons", float(pistons.min()), hint)
         several = len(self.assignment) > 1
         return tuple(
             self.parts.engine_of(
