@@ -125,6 +125,11 @@ def test_balance_shafts_and_flywheel(seed: int) -> None:
     speed, energy, share = (float(value) for value in read.groups())
     inertia = energy * share / (speed * math.pi / 30) ** 2
     assert sheet.answers["inertia"] == pytest.approx(inertia, rel=5e-4)  # four digits of energy
+    # The flywheel and the pistons turn. Their inertia varies, which the textbook neglects.
+    engine = sheet.engine
+    wheel = cp.flywheel(engine, speed, irregularity=1 / share)
+    pistons = cp.torsional_excitation(engine, speed, orders=[2]).reciprocating_inertia.sum()
+    assert sheet.answers["inertia"] == pytest.approx(wheel.inertia + pistons, rel=0.05)
 
 
 def test_firing_order() -> None:

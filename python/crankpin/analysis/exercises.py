@@ -129,7 +129,7 @@ class Exercise(Tabled):
     @property
     def table(self) -> Table:
         """Answers that the sheet asks for, with their units, and the question."""
-        asked = [(step.answer, step.unit) for step in self.steps if step.answer]
+        asked = [(step.answer, step.unit) for step in self._answered]
         return Table.from_rows(self._head, ["answer", "unit"], asked, note=self.question)
 
     @property
@@ -149,7 +149,12 @@ class Exercise(Tabled):
     @cached_property
     def answers(self) -> Mapping[str, float]:
         """Right answers by name, in the units that the sheet asks for."""
-        return read_only({step.answer: step.value for step in self.steps if step.answer})
+        return read_only({step.answer: step.value for step in self._answered})
+
+    @property
+    def _answered(self) -> list[Step]:
+        """Steps that are answers."""
+        return [step for step in self.steps if step.answer]
 
     def check(self, **answers: float) -> dict[str, bool]:
         """Return which answers are right, to one per cent.
@@ -188,9 +193,8 @@ class Exercise(Tabled):
 
     @property
     def _asks(self) -> str:
-        answers = [step for step in self.steps if step.answer]
         return "Answers: " + ", ".join(
-            f"{step.answer} ({step.unit})" if step.unit else step.answer for step in answers
+            f"{step.answer} ({step.unit})" if step.unit else step.answer for step in self._answered
         )
 
     def _repr_html_(self) -> str:
@@ -234,7 +238,7 @@ class Figures(NamedTuple):
     @property
     def first_order(self) -> list[Step]:
         """Steps to the first-order force of one piston."""
-        omega = self.rpm * math.pi / 30
+        omega = inputs.angular_speed(self.rpm)
         force = self.cylinder.reciprocating_mass * self.cylinder.crank_radius * omega**2
         return [
             Step("angular speed", "ω = 2π n / 60", omega, "rad/s"),
@@ -487,14 +491,23 @@ def _flywheel(random: Random) -> Sheet:
     engine = Engine.preset(name, cylinder=cylinder).with_cycle(Cycle.example())
     fit = flywheel(engine, figures.rpm, irregularity=1 / share)
     omega = figures.first_order[0].value
-    energy = fit.inertia * omega**2 / share
+    of_gas, with_inertia = fit.approximations
+    energy = fit.energy * with_inertia / of_gas
     steps = (
         figures.first_order[0],
-        Step("inertia of the flywheel", "J = ΔE / (δ ω²)", fit.inertia, "kg·m²", "inertia"),
+        Step(
+            "inertia of all that turns",
+            "J = ΔE / (δ ω²)",
+            energy * share / omega**2,
+            "kg·m²",
+            "inertia",
+        ),
+        Step("of the flywheel, beside the pistons'", "cp.flywheel", fit.inertia, "kg·m²"),
     )
     question = (
-        f"Over a cycle the energy of an engine's crankshaft at {figures.rpm} rpm swings by "
-        f"{energy:.4g} J. Which inertia keeps its irregularity at 1/{share}?"
+        f"Over a cycle the work of gas and inertia torque on a crankshaft at {figures.rpm} rpm "
+        f"swings by {energy:.4g} J. Which inertia of all that turns keeps its irregularity at "
+        f"1/{share}?"
     )
     return "A flywheel", question, engine, steps
 
