@@ -80,3 +80,36 @@ def test_it_is_made_of_two_like_balances() -> None:
         kind(I4, FITTED)  # type: ignore[arg-type]
     with pytest.raises(cp.InputError, match="different orders or speeds"):
         kind(I4.balance(5000, orders=[1]), FITTED.balance(5000, orders=[2]))
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_an_engine_that_is_lumped_differs_in_order_1_alone(seed: int) -> None:
+    """For any rod ratio, offset and layout; with nothing that rotates, in none."""
+    random = np.random.default_rng(seed)
+    radius = 0.05
+    cylinder = cp.Cylinder(
+        radius, radius / random.uniform(0.2, 0.85), 0.4, pin_offset=random.uniform(0.0, 0.005)
+    )
+    throws = random.uniform(0.0, 360.0, 4)
+    engine = cp.Engine.vee(
+        cylinder,
+        bank_angle_deg=random.uniform(10.0, 120.0),
+        throws_deg=throws,
+        spacing=0.1,
+        rotating_mass=0.3,
+    )
+    both = cp.compare(engine, "lumped", 3000)
+    for name in ("force", "moment"):
+        before, after = getattr(both.before, name), getattr(both.after, name)
+        # Equal but for rounding: amplitudes are handed over in place of computed ones.
+        largest = float(before.peak.max())
+        higher = np.array(both.orders) > 1
+        np.testing.assert_allclose(
+            after.xy[higher], before.xy[higher], rtol=0, atol=1e-14 * largest
+        )
+        assert abs(after.xy[0] - before.xy[0]).max() > 0.01 * largest
+    still = engine.replace(rotating_mass=0.0)
+    same = cp.compare(still, "lumped", 3000)
+    np.testing.assert_allclose(
+        same.after.force.xy, same.before.force.xy, rtol=0, atol=1e-14 * same.before.force.peak.max()
+    )

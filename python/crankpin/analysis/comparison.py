@@ -27,8 +27,6 @@ if TYPE_CHECKING:
 
 LUMPED: Final = "lumped"
 """Stands for an engine as textbooks lump it."""
-LUMPED_ORDERS = 12
-"""Highest order of an engine that is lumped: those above are a millionth of the first."""
 
 
 def compare(
@@ -89,7 +87,7 @@ def compare(
             raise inputs.rejected("spectrum", spectrum, 'is that of "lumped" itself; leave it out')
         options["torque"] = False  # which a spectrum does not determine
         first = balance(before, rpm, orders=orders, **options)
-        after, options["spectrum"] = _lumped(before)
+        after, options["spectrum"] = _lumped(before, int(max((1, *first.orders))))
     else:
         engine_core(after, "after")
         first = balance(before, rpm, orders=orders, **options)
@@ -100,13 +98,16 @@ def compare(
     return Comparison(first, second)
 
 
-def _lumped(engine: Engine) -> tuple[Engine, Spectrum]:
-    """Return an engine without rotating masses, and a cylinder's spectrum with them in order 1."""
+def _lumped(engine: Engine, highest: int) -> tuple[Engine, Spectrum]:
+    """Return an engine without rotating masses, and a cylinder's spectrum with them in order 1.
+
+    Up to the highest order that the engine itself needs: above the first both have the same.
+    """
     kinds = set(zip(engine.cylinders, engine.rotating_mass.tolist(), strict=True))
     if len(kinds) > 1:
         raise inputs.faulty("before", "has cylinders that differ", "lump one whose are equal")
     ((cylinder, rotating),) = kinds
-    orders = range(1, LUMPED_ORDERS + 1)
+    orders = range(1, highest + 1)
     moving = cylinder.reciprocating_mass * np.asarray(cylinder.harmonics(list(orders)))
     moving[0] += rotating
     spectrum = dict(zip(orders, (cylinder.crank_radius * moving).tolist(), strict=True))
