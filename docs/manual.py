@@ -6,7 +6,6 @@ import argparse
 import contextlib
 import hashlib
 import html
-import math
 import os
 import re
 import shutil
@@ -19,6 +18,7 @@ import latex2mathml.converter
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 from crankpin import cli
+from crankpin._support import inputs
 from crankpin._support.record import FieldsDocumented
 from crankpin.model import engine_files
 from crankpin.view import gallery
@@ -220,7 +220,7 @@ def make_gallery(app: Sphinx) -> None:
         _write(GALLERY / f"{name}.md", text)
         if not (THUMBNAILS / f"{name}.png").exists():
             _draw_thumbnail(engine, THUMBNAILS / f"{name}.png")
-        force = explained.unit * (rpm * math.pi / 30) ** 2
+        force = explained.unit * inputs.angular_speed(rpm) ** 2
         card = CARD.format(
             name=name,
             title=html.escape(engine.name),

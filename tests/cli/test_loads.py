@@ -235,5 +235,8 @@ def test_a_trace_is_read_prepared_and_saved(capsys: CAPTURE, tmp_path: Path) -> 
     assert saved.cylinders[0].bore == 0.09
     with_motored = printed(capsys, f"trace i4 {file} --motored {other} --loss-angle 1")
     assert "loss angle 1°, given" in with_motored
+    assert "Bores that are not known" not in with_motored  # the preset has one
+    assert main(["trace", "i4", str(file), "--bore", "0"]) == 2
+    assert capsys.readouterr().err.startswith("crankpin: error: --bore = 0.0: ")
     assert main(["trace", "i4", str(file), "--exponent", "1.3"]) == 2
     assert "--compression-ratio" in capsys.readouterr().err

@@ -20,6 +20,7 @@ from crankpin.model.traces import Traces
 if TYPE_CHECKING:
     from crankpin.cli.arguments import Given
     from crankpin.model.cycle_files import FileOptions
+    from crankpin.model.cylinder import Cylinder
     from crankpin.model.engine import Engine
 
 OF_A_FILE = tuple(
@@ -147,21 +148,23 @@ def fired(given: Given, name: str) -> tuple[Engine, str]:
         cycle = Cycle.example(example, load=part, strokes=strokes)
     else:
         cycle = _loaded(given, typed, strokes)
-    unknown = bore is None and any(each.bore is None for each in engine.cylinders)
-    cylinders = [
-        each.replace(bore=(each.bore or each.stroke) if bore is None else bore)
-        if unknown or bore is not None
-        else each
-        for each in engine.cylinders
-    ]
+    cylinders, note = _with_bores(engine, bore)
     try:
         driven = engine.replace(cylinder=cylinders).with_cycle(cycle, crankcase=crankcase)
     except InputError as error:
         if typed is not None or name != "bearings":  # which are of masses too
             raise
         return engine, f"It is not counted, since {error}\n"
-    note = "Bores that are not known are taken to equal the stroke.\n" if unknown else ""
     return driven, note if named else f"{note}Read: {cycle.origin}.\n"
+
+
+def _with_bores(engine: Engine, bore: float | None) -> tuple[list[Cylinder], str]:
+    """Return the cylinders with the bore typed, and a note where one had to be assumed."""
+    if bore is not None:
+        return [each.replace(bore=bore) for each in engine.cylinders], ""
+    cylinders = [each.replace(bore=each.bore or each.stroke) for each in engine.cylinders]
+    known = all(each.bore for each in engine.cylinders)
+    return cylinders, "" if known else "Bores that are not known are taken to equal the stroke.\n"
 
 
 @command(
@@ -184,25 +187,22 @@ def fired(given: Given, name: str) -> tuple[Engine, str]:
     note="--save writes the engine with the mean of the prepared cycles.",
 )
 def _trace(given: Given) -> Shown:
-    engine, strokes = given.engine("trace"), given.engine("trace").strokes
-    bore = given.optional("--bore", "m")
-    cylinder = engine.cylinders[0]
-    cylinder = cylinder.replace(bore=bore or cylinder.bore or cylinder.stroke)
-    note = "" if bore or engine.cylinders[0].bore else "The bore is taken to equal the stroke.\n"
-    traces = Traces.load(given.text("file"), **_read_as(given, strokes))
+    engine = given.engine("trace")
+    cylinders, note = _with_bores(engine, given.optional("--bore", "m"))
+    read_as = _read_as(given, engine.strokes)
+    traces = Traces.load(given.text("file"), **read_as)
     motored = given.text("--motored")
     exponent = given.text("--exponent")
     prepared = prepare_trace(
         traces,
-        cylinder,
-        motored=None if motored is None else Traces.load(motored, **_read_as(given, strokes)),
+        cylinders[0],
+        motored=None if motored is None else Traces.load(motored, **read_as),
         loss_angle_deg=given.optional("--loss-angle", "°"),
         lowpass_order=given.optional("--lowpass-order"),
         intake_pressure=given.optional("--intake-pressure", "Pa"),
         exponent=exponent if exponent in (None, "fit") else given.number("--exponent"),
         compression_ratio=given.optional("--compression-ratio"),
     )
-    cylinders = [each.replace(bore=bore or each.bore or each.stroke) for each in engine.cylinders]
     with_mean = engine.replace(cylinder=cylinders).with_cycle(prepared.cycle)
     return Shown(
         prepared.frames, prepared, engine=with_mean, note=f"{note}Read: {traces.origin}.\n"
