@@ -14,6 +14,7 @@ mod closed_form;
 mod convert;
 mod design;
 mod engine;
+mod explain;
 mod firing;
 mod flywheel;
 mod interrupt;
@@ -46,6 +47,7 @@ mod _core {
         convert::{exact_angle, near_miss},
         design::Objectives,
         engine::Engine,
+        explain::{Explanation, across, dead_text, explain, gas_text, turns},
         firing::{Firing, check_timing, inline_throws, vee_throws},
         flywheel::CycleGrid,
         matching::matched,
