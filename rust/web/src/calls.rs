@@ -10,12 +10,14 @@ use crate::{balance, balancing, build, engine, figures, mounts, readings};
 type Call = fn(&mut Arguments, &mut Columns) -> Result<Value>;
 
 /// Every call, for `site/core.mjs` and README.md.
-const CALLS: [(&str, Call); 14] = [
+const CALLS: [(&str, Call); 16] = [
     ("balance", balance::balance),
     ("balance_shafts", balancing::balance_shafts),
     ("bank_angles", readings::bank_angles),
     ("build", build::build),
+    ("card", balancing::card),
     ("counterweights", balancing::counterweights),
+    ("explain", readings::explain),
     ("figures", figures::figures),
     ("firing", readings::firing),
     ("harmonics", readings::piston_harmonics),

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use crankpin_core::balance::{Request, TorquePart};
+use crankpin_core::balance::{Request, TorquePart, Vector};
+use crankpin_core::explain::{self as explanations, Row, Subject, Wording};
 use crankpin_core::layout::Strokes;
 use crankpin_core::pressure::example::{Kind, example};
 use crankpin_core::sweep::{Quantity, Statistic, Sweep, SweepAxes};
@@ -196,4 +197,26 @@ pub fn with_cycle(arguments: &mut Arguments, columns: &mut Columns) -> Result<Va
     answer["theta_deg"] = theta;
     answer["pressure"] = pressure;
     Ok(answer)
+}
+
+/// How an engine shakes, in sentences, and what they say as data.
+pub fn explain(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
+    let engine = Arc::new(arguments.mounted()?.0);
+    let rpm: Option<f64> = arguments.optional("rpm")?;
+    let found = explanations::explain(&engine, rpm, Subject::Everything, &Cancel::new())?;
+    let finding = |Row { kind, vector, orders, values, reason, groups, proved }: Row| {
+        let quantity = vector.map(|vector| match vector {
+            Vector::Force => "force",
+            Vector::Moment => "moment",
+        });
+        json!({
+            "kind": kind, "quantity": quantity, "orders": numbers(&orders), "values": values,
+            "reason": reason, "groups": groups, "proved": proved,
+        })
+    };
+    let findings: Vec<Value> = found.findings.iter().map(|each| finding(each.row())).collect();
+    Ok(json!({
+        "sentences": found.sentences(&found.findings, &Wording::of(&engine)), "findings": findings,
+        "unit": found.unit, "part": found.part.name(), "lever": found.lever,
+    }))
 }

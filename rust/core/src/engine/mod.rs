@@ -412,6 +412,16 @@ impl Engine {
         engine.with_known_torque()
     }
 
+    /// The same engine with these masses at its crankpins, one for each cylinder, kg.
+    pub fn with_rotating_masses(&self, masses: &[f64]) -> Result<Self> {
+        check_each_cylinder("rotating_mass", masses.len(), self.stations.len())?;
+        let mut engine = self.clone();
+        for (i, (station, &mass)) in engine.stations.iter_mut().zip(masses).enumerate() {
+            station.rotating_mass = limits::not_negative(&format!("rotating_mass[{i}]"), mass)?;
+        }
+        Ok(engine)
+    }
+
     /// The same engine with these counterweights on the crankshaft instead of those it has.
     pub fn with_counterweights(&self, counterweights: Vec<Unbalance>) -> Result<Self> {
         shaft::check_count("counterweights", counterweights.len())?;
