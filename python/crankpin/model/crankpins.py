@@ -61,15 +61,16 @@ def throws(engine: Engine) -> list[list[Crankpin]]:
     where pins are split, and in a boxer.
     """
     return [
-        [Crankpin(tuple(cylinders), pin_deg, z, crank) for cylinders, pin_deg, z, crank in throw]
+        [Crankpin(tuple(cylinders), *place) for cylinders, *place in throw]
         for throw in engine._core.throws()
     ]
 
 
 def crankpins(engine: Engine) -> tuple[Crankpin, ...]:
     """Return the crankpins from front to flywheel."""
-    pins = (pin for throw in throws(engine) for pin in throw)
-    return tuple(sorted(pins, key=lambda pin: pin.z))
+    return tuple(
+        Crankpin(tuple(cylinders), *place) for cylinders, *place in engine._core.crankpins()
+    )
 
 
 def bays(engine: Engine) -> tuple[Bay, ...]:
