@@ -737,8 +737,8 @@ def on_shaft_bearings(
         (each.amount * complex(direction(inputs.degrees(each.angle_deg))), each.z)
         for each in shaft.unbalances
     ]
-    scale = (shaft.ratio * inputs.angular_speed(rpm)) ** 2
-    return np.array(_core.shared(forces, front, rear)) * scale
+    loads = np.array(_core.shared(forces, front, rear), dtype=np.complex128)
+    return loads * (shaft.ratio * inputs.angular_speed(rpm)) ** 2
 
 
 def _counted(name: str, count: int) -> Column:

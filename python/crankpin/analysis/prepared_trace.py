@@ -428,7 +428,7 @@ def _line(
 def _fitted(pressure: NDArray[np.float64], volume: NDArray[np.float64]) -> float:
     """Return the exponent that leaves the least sum of squares."""
     curve = np.polynomial.Chebyshev.interpolate(
-        lambda exponents: [_line(pressure, volume, n)[1] for n in exponents],
+        lambda exponents: np.array([_line(pressure, volume, n)[1] for n in exponents]),
         DEGREE_BY_EXPONENT,
         EXPONENTS,
     )

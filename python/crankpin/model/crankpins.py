@@ -61,7 +61,7 @@ def throws(engine: Engine) -> list[list[Crankpin]]:
     where pins are split, and in a boxer.
     """
     return [
-        [Crankpin(tuple(cylinders), *place) for cylinders, *place in throw]
+        [Crankpin(tuple(cylinders), pin_deg, z, crank) for cylinders, pin_deg, z, crank in throw]
         for throw in engine._core.throws()
     ]
 
@@ -69,7 +69,8 @@ def throws(engine: Engine) -> list[list[Crankpin]]:
 def crankpins(engine: Engine) -> tuple[Crankpin, ...]:
     """Return the crankpins from front to flywheel."""
     return tuple(
-        Crankpin(tuple(cylinders), *place) for cylinders, *place in engine._core.crankpins()
+        Crankpin(tuple(cylinders), pin_deg, z, crank)
+        for cylinders, pin_deg, z, crank in engine._core.crankpins()
     )
 
 
