@@ -13,7 +13,7 @@ from crankpin._support.drawing import picture
 from crankpin.analysis.firing import Firing, Gaps
 from crankpin.plot import ticks
 from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, points_of, set_title
-from crankpin.plot.style import background, colours, font_of, foreground, muted, tint, write
+from crankpin.plot.style import background, blend, font_of, foreground, is_dark, muted, write
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -24,6 +24,13 @@ if TYPE_CHECKING:
 
     from crankpin.analysis.gas_exchange import Timing
 
+STROKE_COLOURS = {
+    "power": ("#d55e00", "#e8743b"), "exhaust": ("#9aa0a6", "#7d838a"),
+    "intake": ("#4ba3dc", "#56b4e9"), "compression": ("#e6b800", "#dcb53a"),
+}  # fmt: skip
+"""Colours of strokes on light and dark backgrounds: in any style those of the turning page."""
+LETTER = "#14171b"
+"""Colour of letters on strokes."""
 ALONE = (-0.3, 0.6)
 """Upper edge and height of the strokes in the row of a cylinder, which is 1 high."""
 STROKES = (-0.44, 0.5)
@@ -56,16 +63,18 @@ def _firing(
     if new:
         _make_room(ax, len(rows))
     row_height = room * _row_height(ax, len(rows))
-    inlet, exhaust, compression, power = _inks(ax)
-    faces = {"intake": inlet, "compression": compression, "power": power, "exhaust": exhaust}
+    faces = {name: pair[is_dark(ax)] for name, pair in STROKE_COLOURS.items()}
     place = ALONE if timing is None else STROKES
-    strokes = [  # paler than valves
-        Kind(name, tint(ax, faces[name], 0.45), periods, place, name[0].upper())
+    strokes = [
+        Kind(name, faces[name], periods, place, name[0].upper())
         for name, periods in result.strokes_deg().items()
     ]
     opened = []
     if timing is not None:
         inlet_name, inlets, exhausts = _openings(result, timing)
+        inlet, exhaust = (
+            blend(faces[each], foreground(ax), 0.75) for each in ("intake", "exhaust")
+        )
         opened = [
             Kind(f"{inlet_name} open", inlet, inlets, INLETS),
             Kind("exhaust open", exhaust, exhausts, EXHAUSTS),
@@ -108,12 +117,6 @@ def _openings(
     return "intake", valves["intake"], valves["exhaust"]
 
 
-def _inks(ax: Axes) -> tuple[Any, Any, Any, Any]:
-    """Return the colours of inlet, exhaust, compression and power."""
-    blue, red, _, _, orange = colours(ax, 5)
-    return blue, red, muted(ax, 0.3), orange
-
-
 def _pieces(period: ArrayLike, cycle: float) -> list[tuple[float, float]]:
     """Return start and length of a period; past the end of the cycle it goes on at its start."""
     start, end = np.asarray(period, dtype=np.float64).tolist()
@@ -144,7 +147,8 @@ def _letters(ax: Axes, letter: str, pieces: Iterable[tuple[float, float]], middl
     for start, length in pieces:
         if length >= 45.0:
             at = complex(start + 0.5 * length, middle)
-            write(ax, letter, at, 0j, va="center_baseline", fontsize="x-small")
+            look = {"va": "center_baseline", "fontsize": "x-small", "color": LETTER}
+            write(ax, letter, at, 0j, **look)
 
 
 def _mark_overlaps(

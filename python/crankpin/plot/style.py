@@ -61,6 +61,11 @@ def background(ax: Axes) -> tuple[float, float, float]:
     return red, green, blue
 
 
+def is_dark(ax: Axes) -> bool:
+    """Return whether the background is dark."""
+    return float(np.mean(background(ax))) < 0.5
+
+
 def muted(ax: Axes, strength: float = 0.65) -> tuple[float, float, float]:
     """Return a colour between background (0) and foreground (1), for what is secondary."""
     return tint(ax, foreground(ax), strength)
@@ -68,8 +73,13 @@ def muted(ax: Axes, strength: float = 0.65) -> tuple[float, float, float]:
 
 def tint(ax: Axes, colour: ColorType, strength: float) -> tuple[float, float, float]:
     """Return a colour between background (0) and another one (1)."""
+    return blend(colour, background(ax), strength)
+
+
+def blend(colour: ColorType, other: ColorType, strength: float) -> tuple[float, float, float]:
+    """Return a colour between another one (0) and a first one (1)."""
     mixed = strength * np.array(colors.to_rgb(colour))
-    mixed += (1.0 - strength) * np.array(background(ax))
+    mixed += (1.0 - strength) * np.array(colors.to_rgb(other))
     red, green, blue = mixed.tolist()
     return red, green, blue
 
@@ -117,8 +127,7 @@ def scale(ax: Axes, count: int) -> list[Any]:
 
 def colour_map(ax: Axes) -> colors.Colormap:
     """Return viridis, without its end that is close to the background."""
-    dark = float(np.mean(background(ax))) < 0.5
-    low, high = (0.2, 1.0) if dark else (0.0, 0.92)
+    low, high = (0.2, 1.0) if is_dark(ax) else (0.0, 0.92)
     return colors.ListedColormap(mpl.colormaps["viridis"](np.linspace(low, high, 256)))
 
 
