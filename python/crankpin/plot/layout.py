@@ -361,7 +361,9 @@ def label_y(ax: Axes, *lines: str) -> None:
 def label_bar(bar: Colorbar, text: str) -> None:
     """Label a scale of colours."""
     (text,) = in_units(bar.ax.yaxis, text)
-    bar.set_label(text)
+    bar.set_label(plain_text(text))
+    label = bar.ax.yaxis.label
+    _fit(bar.ax, label, _FittedText(label, [text], bar.ax, "height"))
 
 
 def in_units(axis: Any, *lines: str) -> list[str]:  # noqa: ANN401 - of matplotlib

@@ -131,6 +131,17 @@ def colour_map(ax: Axes) -> colors.Colormap:
     return colors.ListedColormap(mpl.colormaps["viridis"](np.linspace(low, high, 256)))
 
 
+def of_maps() -> str:
+    """Return the scale of colours of maps: that of the style sheet in use, or cividis.
+
+    In place of matplotlib's own viridis: colour-blind readers see the same in it as others.
+    """
+    now: Any = mpl.rcParams
+    own: Any = mpl.rcParamsDefault
+    name = str(now["image.cmap"])
+    return "cividis" if name == own["image.cmap"] else name
+
+
 def series(ax: Axes, count: int, style: Mapping[str, Any] | None = None) -> list[dict[str, Any]]:
     """Return colours and line styles for the next series on axes, as keywords of a line.
 
