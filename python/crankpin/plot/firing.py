@@ -29,8 +29,8 @@ STROKE_COLOURS = {
     "intake": ("#4ba3dc", "#56b4e9"), "compression": ("#e6b800", "#dcb53a"),
 }  # fmt: skip
 """Colours of strokes on light and dark backgrounds: in any style those of the turning page."""
-LETTER = "#14171b"
-"""Colour of letters on strokes."""
+LETTER = "black"
+"""Colour of letters on strokes, in either of their colours."""
 ALONE = (-0.3, 0.6)
 """Upper edge and height of the strokes in the row of a cylinder, which is 1 high."""
 STROKES = (-0.44, 0.5)
@@ -90,7 +90,7 @@ def _firing(
             pieces = _pieces(kind.periods[cylinder - 1], cycle)
             _bars(ax, pieces, row, kind.place, **(looks | style))
             if kind.letter and lettered:
-                _letters(ax, kind.letter, pieces, _middle(row, place))
+                _letters(ax, kind, pieces, _middle(row, place))
         name = f"{kind.letter}: {kind.name}" if kind.letter and lettered else kind.name
         handles.append(Patch(label=name, **(looks | {"edgecolor": "none"} | style)))
     if timing is not None:
@@ -143,12 +143,12 @@ def _middle(row: float, place: tuple[float, float]) -> float:
     return row + top + 0.5 * height
 
 
-def _letters(ax: Axes, letter: str, pieces: Iterable[tuple[float, float]], middle: float) -> None:
+def _letters(ax: Axes, kind: Kind, pieces: Iterable[tuple[float, float]], middle: float) -> None:
     for start, length in pieces:
         if length >= 45.0:
             at = complex(start + 0.5 * length, middle)
             look = {"va": "center_baseline", "fontsize": "x-small", "color": LETTER}
-            write(ax, letter, at, 0j, **look)
+            write(ax, kind.letter, at, 0j, gid=kind.name, **look)
 
 
 def _mark_overlaps(

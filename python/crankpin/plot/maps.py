@@ -13,7 +13,7 @@ from crankpin.plot.layout import Drawn, Panels, label_bar, label_x, label_y, mak
 from crankpin.plot.rows import Row, Rows, along_x, dimension, rows_of, words_of
 from crankpin.plot.style import foreground, of_maps
 from crankpin.plot.ticks import degrees, numeric
-from crankpin.plot.words import drawn_quantity, nonzero_in
+from crankpin.plot.words import drawn_quantity, joined, nonzero_in
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -94,19 +94,25 @@ def order_map(
     (along,) = dims
     orders = sweep.orders or (1,)  # zero, where nothing shakes
     rows, note = _rows(sweep, name, orders, single=ax is not None, by_order=True)
+    peaks = np.stack([row.peaks for row in rows.rows])
+    if sweep.request.orders is None:  # those of a torque may be many more
+        seen = np.flatnonzero(np.moveaxis(peaks, -2, 0).reshape(len(orders), -1).any(axis=1))
+        count = int(seen.max(initial=0)) + 1
+        if count < len(orders):
+            note = joined(note, f"above order {orders[count - 1]:g}: zero")
+        orders, peaks = orders[:count], peaks[..., :count, :]
     words = words_of(sweep)
     values = np.asarray(sweep.coords[along], dtype=np.float64)
     height = 0.7 if len(rows.rows) == 1 else 0.45
     shared: dict[str, Any] = {"sharex": True, "sharey": True, "row_height": height}
     grid = make_panels(ax, figure, len(rows.rows), len(rows.columns), **shared)
-    peaks = np.stack([row.peaks for row in rows.rows])
     norm = logarithmic_scale(peaks) if logarithmic else scale_from_zero(peaks)
-    for row, panels in zip(rows.rows, grid.axes, strict=True):
-        mesh = cells(panels, values, orders, row.peaks, {"norm": norm} | style)
+    for of_row, panels in zip(peaks, grid.axes, strict=True):
+        mesh = cells(panels, values, orders, of_row, {"norm": norm} | style)
     if peaks.any():
         colour_bar(grid.axes.ravel(), mesh, _of_bar(name), peaks)
     _label_all(grid, along, "order", rows)
-    grid.set_title(words.title, words.subtitle(name), rows.columns[0] if grid.single else note)
+    grid.set_title(words.title, words.subtitle(name), rows.columns[0] if grid.single else "", note)
     return grid.drawn
 
 
@@ -220,7 +226,9 @@ def cells(
                 panel.text(middle, order, "zero", color=foreground(panel), **look)
         cells[cells == 0.0] = np.nan
         drawn = {"shading": "nearest", "rasterized": True, "cmap": of_maps()} | options
-        mesh: QuadMesh = panel.pcolormesh(x[in_order], rows, cells, **drawn)
+        # A single row would have no height: one beyond the last, which is not seen.
+        more, places = np.vstack([cells, np.full(len(x), np.nan)]), np.append(rows, rows[-1] + step)
+        mesh: QuadMesh = panel.pcolormesh(x[in_order], places, more, **drawn)
         mesh.set_cmap(mesh.get_cmap().with_extremes(under=BELOW))
         panel.set_ylim(0.5 * step, rows[-1] + 0.5 * step)
         if not peaks.any():

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from matplotlib.axes import Axes
+    from matplotlib.patheffects import AbstractPathEffect
+    from matplotlib.text import Text
     from matplotlib.typing import ColorType
     from numpy.typing import NDArray
 
@@ -204,21 +206,26 @@ def hollow(
     return line
 
 
-def write(ax: Axes, text: str, place: complex, aside: complex, **style: Any) -> None:  # noqa: ANN401
+def write(ax: Axes, text: str, place: complex, aside: complex, **style: Any) -> Text:  # noqa: ANN401
     """Write aside of a point x + iy by a distance in points, centred there but for the style."""
     look = {"ha": "center", "va": "center", "fontsize": "small", "textcoords": "offset points"}
-    ax.annotate(text, (place.real, place.imag), (aside.real, aside.imag), **(look | style))
+    return ax.annotate(text, (place.real, place.imag), (aside.real, aside.imag), **(look | style))
 
 
-def write_at_mark(ax: Axes, x: float, y: float, text: str, *, beside: bool = False) -> None:
+def outlined(ax: Axes) -> list[AbstractPathEffect]:
+    """Return the look of a text that is read over lines: a rim of the colour of the background."""
+    return [withStroke(linewidth=2.5, foreground=background(ax))]
+
+
+def write_at_mark(ax: Axes, x: float, y: float, text: str, *, beside: bool = False) -> Text:
     """Write above a mark, or beside it on the right."""
     low, high = ax.get_xlim()
     part = (x - low) / (high - low)
     within = "left" if part < 0.06 else "right" if part > 0.94 else "center"
     look: dict[str, Any] = {"ha": "left"} if beside else {"ha": within, "va": "bottom"}
-    look["path_effects"] = [withStroke(linewidth=2.5, foreground=background(ax))]
+    look["path_effects"] = outlined(ax)
     aside = 8.0 + 0j if beside else 7.0j
-    write(ax, text, complex(x, y), aside, color=foreground(ax), zorder=5, **look)
+    return write(ax, text, complex(x, y), aside, color=foreground(ax), zorder=5, **look)
 
 
 def entries_of(panels: NDArray[Any], *labels: str) -> list[Line2D]:
