@@ -226,9 +226,10 @@ def cells(
                 panel.text(middle, order, "zero", color=foreground(panel), **look)
         cells[cells == 0.0] = np.nan
         drawn = {"shading": "nearest", "rasterized": True, "cmap": of_maps()} | options
-        # A single row would have no height: one beyond the last, which is not seen.
-        more, places = np.vstack([cells, np.full(len(x), np.nan)]), np.append(rows, rows[-1] + step)
-        mesh: QuadMesh = panel.pcolormesh(x[in_order], places, more, **drawn)
+        places = rows
+        if len(rows) == 1:  # it would have no height: one beyond it, which is not seen
+            places, cells = np.append(rows, 2.0 * rows), np.vstack([cells, np.full(len(x), np.nan)])
+        mesh: QuadMesh = panel.pcolormesh(x[in_order], places, cells, **drawn)
         mesh.set_cmap(mesh.get_cmap().with_extremes(under=BELOW))
         panel.set_ylim(0.5 * step, rows[-1] + 0.5 * step)
         if not peaks.any():
