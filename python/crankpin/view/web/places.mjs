@@ -18,6 +18,7 @@ export function configure(figures, settings) {
   const cylinders = figures.cylinders.map((given) => cylinderAt(figures, settings, given));
   return {
     cylinders,
+    cranks: figures.cranks,
     weights: weights(figures, cylinders),
     shafts: figures.shafts,
     cycle: figures.strokes === 2 ? 360 : 720,
