@@ -94,7 +94,7 @@ impl Engine {
     /// The crankpins of all cranks from front to flywheel.
     #[must_use]
     pub fn crankpins(&self) -> Vec<Crankpin> {
-        let mut pins: Vec<Crankpin> = self.throws().into_iter().flatten().collect();
+        let mut pins = self.throws().concat();
         pins.sort_by(|a, b| a.z.total_cmp(&b.z));
         pins
     }
