@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import html
 from collections.abc import Mapping
 from functools import cached_property
@@ -230,20 +229,16 @@ class Card(Tabled):
         names, places, at = zip(*self.planes, strict=True)
         radii = None if None in at else at
         core = engine_core(self.bob.engine)
-        heads = [
-            Column("factor", ()),
-            Column("plane", ()),
-            Column("z", (), "m"),
-            Column("unbalance", (), "g·mm", decimals=0),
-            Column("add at", (), "°", decimals=1),
-            Column("or drill at", (), "°", decimals=1),
+        heads: list[tuple[str, str, int | None]] = [
+            ("factor", "", None),
+            ("plane", "", None),
+            ("z", "m", None),
+            ("unbalance", "g·mm", 0),
+            ("add at", "°", 1),
+            ("or drill at", "°", 1),
         ]
         if radii is not None:
-            heads += [
-                Column("radius", (), "mm"),
-                Column("weight", (), "g", decimals=1),
-                Column("as heavy metal", (), "g", decimals=1),
-            ]
+            heads += [("radius", "mm", None), ("weight", "g", 1), ("as heavy metal", "g", 1)]
         rows: list[tuple[Any, ...]] = []
         for factor in self.factors:
             share = f"{100.0 * factor:.6g} %"
@@ -256,7 +251,8 @@ class Card(Tabled):
                 rows.append(row)
         cells = zip(*rows, strict=True) if rows else [()] * len(heads)
         columns = [
-            dataclasses.replace(head, values=each) for head, each in zip(heads, cells, strict=True)
+            Column(name, values, unit, decimals=decimals)
+            for (name, unit, decimals), values in zip(heads, cells, strict=True)
         ]
         has = "from nothing"
         if self.balanced_to is not None:
