@@ -226,8 +226,8 @@ class Engine:
     def strokes(self) -> int: ...
     def firing_as(self, firing_order: str, strokes: int) -> Engine: ...
     def with_cycles(
-        self, lists: Sequence[Sequence[Cycle | None]], crankcase: float
-    ) -> list[Engine]: ...
+        self, cycles: Sequence[Cycle], cycle_of: Sequence[int | None], crankcase: float
+    ) -> Engine: ...
     def without_cycles(self) -> Engine: ...
     def fired_as(
         self, other: Engine, cylinders: Sequence[int], crankcase: float | None = None
@@ -353,7 +353,7 @@ class Sweep:
         rod_ratio: _Real | None,
         pin_offset: _Real | None,
         rpm: _Real,
-        cycles: tuple[_Real, _Real, _Real] | None,
+        map: tuple[_Real, _Real, _Real, Sequence[Sequence[Cycle]]] | None,
         orders: Sequence[float] | None,
         rtol: float,
         reference_z: float | None,
