@@ -359,7 +359,7 @@ class Sweep:
         rod_ratio: _Real | None,
         pin_offset: _Real | None,
         rpm: _Real,
-        map: tuple[_Real, _Real, _Real, Sequence[Sequence[Cycle]]] | None,
+        gas_map: tuple[_Real, _Real, _Real, Sequence[Sequence[Cycle]]] | None,
         orders: Sequence[float] | None,
         rtol: float,
         reference_z: float | None,

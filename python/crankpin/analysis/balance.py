@@ -166,7 +166,9 @@ class Balance(ByOrder[float]):
         if what == "peak" and self.within is None and not any(self.request.aside):
             alone: _core.Balance | None = self.__dict__["_core"].alone(one_order(order))
             if alone is not None:  # quicker than the peaks of all orders
-                return _peaks(alone, quantity)[0]
+                planar = KINDS[quantity].planar
+                lengths = np.abs(alone.phasors(quantity, planar))[0]
+                return lengths[0] + lengths[1] if planar else lengths
         return super()._read_order(order, quantity, what)
 
     def _alone(self, order: Order) -> ByOrder[float]:
@@ -193,9 +195,10 @@ class Balance(ByOrder[float]):
             return core.phasors(quantity, False)
         if what in labels.TURNING:
             return core.phasors(quantity, True)[:, int(what == "backward")]
-        if what == "peak":
-            return _peaks(core, quantity)
-        if what == "peak_xy":
+        if what == "peak" and KINDS[quantity].planar:
+            forward, backward = np.abs(core.phasors(quantity, True)).T
+            return np.asarray(forward + backward)
+        if what in ("peak", "peak_xy"):
             return np.asarray(np.abs(self.read(quantity, "phasors")))
         # "zero_bound", "total_peak", "total_peak_xy" and "mean"
         return np.asarray(getattr(core, what)(quantity))
@@ -324,11 +327,3 @@ class Balance(ByOrder[float]):
         which = " of the orders given" if self.request.orders is not None else ""
         title = f"{labels.name_of(self.engine)} {labels.at_speed(self.rpm)}: peaks{which}"
         return Table(title, tuple(columns), labels.not_shown(left_out), loads=self.loads_counted)
-
-
-def _peaks(core: _core.Balance, quantity: str) -> NDArray[np.float64]:
-    """Return the largest magnitude of each order."""
-    if not KINDS[quantity].planar:
-        return np.asarray(np.abs(core.phasors(quantity, False)))
-    forward, backward = np.abs(core.phasors(quantity, True)).T
-    return np.asarray(forward + backward)

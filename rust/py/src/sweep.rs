@@ -25,7 +25,7 @@ pub struct Sweep {
 }
 
 /// Speeds and loads of a map, loads, and cycles.
-type Map<'py> = (
+type GasMap<'py> = (
     PyReadonlyArray1<'py, f64>,
     PyReadonlyArray1<'py, f64>,
     PyReadonlyArray1<'py, f64>,
@@ -96,7 +96,7 @@ impl Sweep {
         rod_ratio: Option<PyReadonlyArray1<'_, f64>>,
         pin_offset: Option<PyReadonlyArray1<'_, f64>>,
         rpm: PyReadonlyArray1<'_, f64>,
-        map: Option<Map<'_>>,
+        gas_map: Option<GasMap<'_>>,
         orders: Option<Vec<OrderNumber>>,
         rtol: f64,
         reference_z: Option<f64>,
@@ -123,7 +123,7 @@ impl Sweep {
         let bank_angle = slice(bank_angle_deg.as_ref())?;
         let (rod_ratio, pin_offset) = (slice(rod_ratio.as_ref())?, slice(pin_offset.as_ref())?);
         let rpm = rpm.as_slice()?;
-        let map = match &map {
+        let map = match &gas_map {
             Some((rpm, loads, load, cycles)) => {
                 let cores = |cycles: &Vec<PyRef<'_, Cycle>>| {
                     cycles.iter().map(|cycle| Arc::clone(&cycle.0)).collect()

@@ -120,14 +120,14 @@ def test_each_point_is_the_balance_of_its_engine(swept: str) -> None:
         np.testing.assert_array_equal(s.moment.peak[place], s.sel(**at).moment.peak)
 
 
-@pytest.mark.parametrize("orders", [HALVES, "auto"])
-def test_maps_that_agree_at_one_point_differ_at_others(orders: Any) -> None:
+@pytest.mark.parametrize("options", [{"orders": HALVES}, {"rtol": 1e-2}])
+def test_maps_that_agree_at_one_point_differ_at_others(options: dict[str, Any]) -> None:
     idle = cp.CycleMap(SPEEDS, LOADS, [[cycle(n, 0.0)] * 3 for n in SPEEDS])
     copy = cp.CycleMap(SPEEDS, LOADS, MAP.cycles)
     plain = engine("v6-90-odd-fire")
     s = cp.sweep(
         plain, rpm=[1000.0, 1700.0], load=[0.0, 0.7], cycle=[MAP, idle, copy, None, idle, MAP],
-        orders=orders,
+        **options,
     )  # fmt: skip
     for k, j in np.ndindex(2, 2):
         fired = s.engine_at(rpm=s.coords["rpm"][k], load=s.coords["load"][j])
