@@ -247,6 +247,9 @@ PICTURES: dict[str, Callable[..., Any]] = {
     "mount-map": lambda **place: (
         MOUNTED.without(cylinder=3).response(range(500, 6001, 20)).plot(kind="map", **place)
     ),
+    "mount-waterfall": lambda **place: (
+        MOUNTED.without(cylinder=3).response(range(500, 6001, 20)).plot(kind="waterfall", **place)
+    ),
     "mount-spectrum": lambda **place: MOUNTED.response(800).plot(mount="rear", **place),
     "mount-design": cp.design_mounts(
         MOUNTED,

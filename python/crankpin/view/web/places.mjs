@@ -78,6 +78,12 @@ function turningPoints(r, l, e) {
   return [Math.asin(e / (l + r)) / DEGREE, 180 + Math.asin(e / (l - r)) / DEGREE];
 }
 
+/** Heights of the piston pin where the piston is highest and lowest. */
+export function extremeHeights(cylinder) {
+  const { crank_radius: r, rod_length: l, pin_offset: e } = cylinder;
+  return turningPoints(r, l, e).map((angle) => pistonHeight(cylinder, unit(angle)));
+}
+
 /** Counterweights on their cranks, and those of balance shafts. */
 function weights(figures, cylinders) {
   const main = { pin_deg: 0, ratio: 1, axis: [0, 0] };

@@ -2,6 +2,7 @@
 
 import { add, multiply, scale, unit } from "./complex.mjs";
 import { fixed, path, place, svg } from "./dom.mjs";
+import { extremeHeights } from "./places.mjs";
 import { Projection, hull } from "./projection.mjs";
 import { STRINGS } from "./strings.mjs";
 
@@ -337,9 +338,8 @@ function dimensions(engine) {
 
 /** Lower end and head of a bore, and where its axis passes its crank's. */
 export function boreEnds(cylinder) {
-  const { crank_radius: r, rod_length: l, pin_offset: e, shift, direction: [dx, dy] } = cylinder;
-  const highest = Math.sqrt((l + r) ** 2 - e ** 2);
-  const lowest = Math.sqrt((l - r) ** 2 - e ** 2);
+  const { crank_radius: r, shift, direction: [dx, dy] } = cylinder;
+  const [highest, lowest] = extremeHeights(cylinder);
   return {
     low: Math.max(lowest - SKIRT * r, 1.1 * r),
     top: highest + (CROWN + HEAD) * r,
