@@ -124,6 +124,12 @@ impl Balance {
         self.0.error_bound.values()
     }
 
+    /// That of one order alone, if it was evaluated here.
+    fn alone(&self, order: OrderNumber) -> PyResult<Option<Self>> {
+        let [order] = convert::orders(&[order])?[..] else { return Ok(None) };
+        Ok(self.0.alone(order).map(Self))
+    }
+
     /// As those of a sweep: along (about) x and y or, of force and moment, forward and backward parts.
     fn phasors<'py>(
         &self,

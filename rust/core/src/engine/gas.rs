@@ -96,15 +96,7 @@ impl Engine {
                 let hint = format!("give the index of a cycle, below {}", gas.cycles.len());
                 return Err(Error::value(format!("cycle_of[{i}]"), cycle, hint));
             };
-            if cycle.strokes() != self.strokes {
-                let hint = format!(
-                    "the engine's strokes are {}: give a cycle of as many, or the engine strokes={}",
-                    self.strokes.number(),
-                    cycle.strokes().number()
-                );
-                let argument = format!("cycle[{i}].strokes");
-                return Err(Error::value(argument, cycle.strokes().number(), hint));
-            }
+            self.check_strokes(i, cycle)?;
             if self.details[i].bore.is_none() {
                 let hint = "gas pressure needs the bore; give bore=… to each Cylinder, m";
                 return Err(Error::value(format!("cylinder[{i}].bore"), "None", hint));
@@ -121,6 +113,29 @@ impl Engine {
             }
         }
         Ok(self)
+    }
+
+    /// Rejects a cycle of other strokes than the engine's, by its place in a list.
+    fn check_strokes(&self, place: usize, cycle: &Cycle) -> Result<()> {
+        if cycle.strokes() == self.strokes {
+            return Ok(());
+        }
+        let hint = format!(
+            "the engine's strokes are {}: give a cycle of as many, or the engine strokes={}",
+            self.strokes.number(),
+            cycle.strokes().number()
+        );
+        Err(Error::value(format!("cycle[{place}].strokes"), cycle.strokes().number(), hint))
+    }
+
+    /// Rejects cycles that cannot replace those of the engine.
+    pub(crate) fn check_cycles(&self, cycles: &[Arc<Cycle>]) -> Result<()> {
+        let own = self.gas.as_ref().map_or(0, |gas| gas.cycles.len());
+        if cycles.len() != own {
+            let hint = format!("give one in place of each cycle of the engine: {own}");
+            return Err(Error::value("cycles", cycles.len(), hint));
+        }
+        cycles.iter().enumerate().try_for_each(|(k, cycle)| self.check_strokes(k, cycle))
     }
 
     /// Area of a piston times its crank radius, m³; none where the bore is not known.
