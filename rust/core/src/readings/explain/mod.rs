@@ -1,6 +1,6 @@
 //! How an engine shakes, as findings and in sentences: what is left, what cancels and why, what would help.
 //!
-//! Imports run downwards: [`finding`] is data, `sums` finds what is to be told of force and moment, `words`
+//! Imports run downwards: [`finding`] is data, `sums` has the findings on force and moment, `words`
 //! are small texts, `sentences` a sentence for each kind of finding.
 
 pub mod finding;
@@ -148,7 +148,7 @@ fn longest_lever(engine: &Engine) -> Result<f64> {
 
 // --- force and moment ---
 
-/// What is to be told of force and moment, of which an order in these units matters.
+/// Findings on force and moment, of which an order in these units matters.
 fn of_vectors(engine: &Engine, rpm: f64, units: [f64; 2], cancel: &Cancel) -> Result<Vec<Finding>> {
     let request = Request { rpm, reference_z: None, torque: false };
     let chosen = balance(engine, &request, &Orders::Auto { rtol: RTOL }, cancel)?;

@@ -52,13 +52,13 @@ fn an_inline_four_shakes_at_twice_its_speed() {
 }
 
 #[test]
-fn hardware_is_told_by_what_it_does() {
+fn hardware_is_named_by_what_it_does() {
     let weight = |amount: f64| Unbalance { amount, angle: angle(180.0), z: 0.0, pin: Some(0) };
     let single = inline(&[0.0], 0.5);
     let half = single.with_counterweights(vec![weight(0.5 * 0.5 * 0.043)]).unwrap();
-    let told = sentences(half.clone(), Some(3000.0));
+    let texts = sentences(half.clone(), Some(3000.0));
     assert_eq!(
-        told[..3],
+        texts[..3],
         [
             "The counterweight removes all of the shaking force of order 1 that turns with the crank: it \
              changes from 2.12 kN to 1.06 kN.",
@@ -70,9 +70,9 @@ fn hardware_is_told_by_what_it_does() {
     // The shaft takes the rest.
     let unbalances = vec![Unbalance { pin: None, angle: angle(270.0), ..weight(0.25 * 0.043) }];
     let shaft = Shaft { name: String::new(), ratio: -1, axis: [0.0; 2], unbalances };
-    let told = sentences(half.with_shafts(vec![shaft]).unwrap(), Some(3000.0));
+    let texts = sentences(half.with_shafts(vec![shaft]).unwrap(), Some(3000.0));
     assert_eq!(
-        told[0],
+        texts[0],
         "The counterweight and the balance shaft remove the whole shaking force of order 1, 2.12 kN: it is \
          exactly zero."
     );
@@ -89,13 +89,13 @@ fn what_turns_against_a_second_crank_is_removed_on_it() {
     };
     let twins = Engine::new("", "", vec![station; 2]).unwrap();
     let cranks = vec![Crank::MAIN, Crank { axis: [0.2, 0.0], ratio: -1 }];
-    let told = sentences(twins.with_cranks(cranks, vec![0, 1]).unwrap(), Some(3000.0)).join("\n");
+    let texts = sentences(twins.with_cranks(cranks, vec![0, 1]).unwrap(), Some(3000.0)).join("\n");
     assert!(
-        told.contains(
+        texts.contains(
             "ounterweights on the cranks could remove all of the shaking force of order 1"
         )
     );
-    assert!(told.contains("what turns with the crank of each piston at order 1"), "{told}");
+    assert!(texts.contains("what turns with the crank of each piston at order 1"), "{texts}");
 }
 
 /// Engines of every kind: a sentence for each finding, the first of them those on force and moment alone.
@@ -130,10 +130,10 @@ fn every_finding_has_a_sentence() {
         let cancel = Cancel::new();
         let [all, vectors] = [Subject::Everything, Subject::Vectors]
             .map(|subject| explain(&engine, rpm, subject, &cancel).unwrap());
-        let told = all.sentences(&all.findings, &Wording::of(&engine));
-        assert_eq!(told.len(), all.findings.len());
+        let texts = all.sentences(&all.findings, &Wording::of(&engine));
+        assert_eq!(texts.len(), all.findings.len());
         assert!(vectors.findings == all.findings[..vectors.findings.len()]);
-        for (finding, text) in all.findings.iter().zip(&told) {
+        for (finding, text) in all.findings.iter().zip(&texts) {
             assert!(text.starts_with(char::is_uppercase) && text.ends_with('.'), "{text}");
             assert!(
                 !text.contains("  ") && !text.contains("NaN") && !text.contains("inf"),
@@ -176,10 +176,10 @@ fn an_engine_fires_as_its_gas_does() {
         let fired = Arc::new(fired.fired_by(cycle, way.in_second_turn()).unwrap());
         let own = Firing::own(&fired, &Cancel::new()).unwrap();
         assert_eq!((own.intervals(), own.later()), (way.intervals(), way.later()));
-        let told = sentences((*fired).clone(), Some(3000.0)).join("\n");
-        assert!(told.contains("Gas pressure (steps) turns the crank with "), "{told}");
+        let texts = sentences((*fired).clone(), Some(3000.0)).join("\n");
+        assert!(texts.contains("Gas pressure (steps) turns the crank with "), "{texts}");
         let intervals: Vec<String> =
             way.intervals().iter().map(|gap| gap.degrees().to_string()).collect();
-        assert!(told.contains(&format!("intervals of {}°", intervals.join("-"))), "{told}");
+        assert!(texts.contains(&format!("intervals of {}°", intervals.join("-"))), "{texts}");
     }
 }
