@@ -19,7 +19,9 @@ __all__ = [
     "Cycle",
     "CycleGrid",
     "Engine",
+    "Explanation",
     "Firing",
+    "FirstOrder",
     "InputError",
     "Objectives",
     "Powertrain",
@@ -37,15 +39,21 @@ __all__ = [
     "check_support",
     "check_timing",
     "closed_form",
+    "corrections",
     "crank_radius_of_stroke",
     "cylinder_harmonics",
     "cylinder_torque_harmonics",
+    "dead_text",
     "estimated_rod_inertia",
     "exact_angle",
+    "explain",
     "fit_shafts",
+    "fit_weights",
+    "gas_text",
     "inline_throws",
-    "least_weights",
+    "masses_on_pins",
     "matched",
+    "mean_inertias",
     "motion",
     "mount_stiffness",
     "near_miss",
@@ -54,6 +62,7 @@ __all__ = [
     "pair_heights",
     "peaks_of_sums",
     "peaks_of_vectors",
+    "piston_travel",
     "places_on_axis",
     "repeats_first",
     "rigid_body",
@@ -63,9 +72,12 @@ __all__ = [
     "star",
     "terms",
     "turning",
+    "turning_points",
     "vanishing",
     "vee_throws",
+    "volume_ratios",
     "waveform",
+    "with_bob_weights",
 ]
 
 __version__: str
@@ -207,6 +219,7 @@ class Engine:
     @property
     def bearings(self) -> list[float]: ...
     def throws(self) -> list[list[tuple[list[int], float, float, int]]]: ...
+    def crankpins(self) -> list[tuple[list[int], float, float, int]]: ...
     def bays(self) -> list[tuple[list[int], list[float], list[float]]]: ...
     def of_bays(self) -> list[Engine]: ...
     @property
@@ -226,8 +239,8 @@ class Engine:
     def strokes(self) -> int: ...
     def firing_as(self, firing_order: str, strokes: int) -> Engine: ...
     def with_cycles(
-        self, lists: Sequence[Sequence[Cycle | None]], crankcase: float
-    ) -> list[Engine]: ...
+        self, cycles: Sequence[Cycle], cycle_of: Sequence[int | None], crankcase: float
+    ) -> Engine: ...
     def without_cycles(self) -> Engine: ...
     def fired_as(
         self, other: Engine, cylinders: Sequence[int], crankcase: float | None = None
@@ -255,16 +268,25 @@ _FreeAxis: TypeAlias = tuple[float | None, float | None]
 
 def turning(engine: Engine, ratio: int) -> _Turning: ...
 def roll_torque(engine: Engine, order: int, rpm: float | None) -> complex: ...
-def least_weights(
+def fit_weights(
+    engine: Engine,
     z: Sequence[float],
-    reference: float,
-    length: float,
-    force: complex | None,
-    moment: complex | None,
     bounds: Sequence[float],
     angles: Sequence[Sequence[float]] | None,
+    parts: Sequence[tuple[str, float | None]],
+    length: float | None,
     minimise: str,
 ) -> tuple[list[tuple[int, int, _Weight]], bool, float]: ...
+def with_bob_weights(engine: Engine, factor: float) -> Engine: ...
+def masses_on_pins(engine: Engine) -> list[tuple[float, float]]: ...
+def corrections(
+    engine: Engine,
+    factor: float,
+    planes: Sequence[float],
+    radii: Sequence[float] | None,
+    oil: float,
+    balanced_to: Sequence[float] | None,
+) -> list[tuple[int, float, float, float, float | None, float | None]]: ...
 def fit_shafts(
     engine: Engine,
     wanted: Sequence[tuple[int, _FreeAxis, Sequence[float] | None, str]],
@@ -298,6 +320,7 @@ class Balance:
     def omitted(self) -> list[int]: ...
     @property
     def error_bound(self) -> list[float]: ...
+    def alone(self, order: float) -> Balance | None: ...
     def phasors(self, name: str, turning: bool) -> _Complex: ...
     def zero_bound(self, name: str) -> _Real: ...
     def total_peak(self, name: str) -> float: ...
@@ -307,6 +330,31 @@ class Balance:
 _WaveformParts: TypeAlias = tuple[
     _Real, _Real, _Real | None, _Real | None, list[_Real] | None, Balance | None
 ]
+
+@final
+class FirstOrder:
+    def __new__(cls, engine: Engine) -> FirstOrder: ...
+    def exists(self, quantity: str) -> bool: ...
+    def half_axes(self, quantity: str, factors: Sequence[float]) -> tuple[_Real, _Real]: ...
+    def least(self, quantity: str) -> float | None: ...
+    def straight(self, quantity: str) -> list[tuple[float, float]]: ...
+    def direction(self, quantity: str, factor: float, sides: tuple[str, str]) -> str: ...
+
+@final
+class Explanation:
+    @property
+    def unit(self) -> float: ...
+    @property
+    def part(self) -> str: ...
+    @property
+    def lever(self) -> float: ...
+    @property
+    def findings(
+        self,
+    ) -> list[tuple[str, str, list[int | float], list[float], str, list[list[int]], bool]]: ...
+    def sentences(
+        self, loads: str, units: Sequence[tuple[str, str, float]], count: int | None = None
+    ) -> list[str]: ...
 
 @final
 class Search:
@@ -353,7 +401,7 @@ class Sweep:
         rod_ratio: _Real | None,
         pin_offset: _Real | None,
         rpm: _Real,
-        cycles: tuple[_Real, _Real, _Real] | None,
+        gas_map: tuple[_Real, _Real, _Real, Sequence[Sequence[Cycle]]] | None,
         orders: Sequence[float] | None,
         rtol: float,
         reference_z: float | None,
@@ -433,6 +481,8 @@ _Groups: TypeAlias = Sequence[Sequence[int]] | None
 @final
 class Firing:
     @staticmethod
+    def own(engine: Engine) -> Firing: ...
+    @staticmethod
     def named(engine: Engine, firing_order: str, strokes: int) -> Firing: ...
     @staticmethod
     def all_named(engine: Engine, firing_order: str, strokes: int) -> list[Firing]: ...
@@ -493,7 +543,10 @@ def check_cylinder(parts: _Parts) -> None: ...
 def crank_radius_of_stroke(given: _Parts) -> float: ...
 def estimated_rod_inertia(mass: float, length: float, to_crankpin: float) -> float: ...
 def rod_parts(rod: tuple[float, float, float, float]) -> tuple[float, float, float]: ...
+def mean_inertias(engine: Engine) -> _Real: ...
 def motion(parts: _Parts, theta_deg: _Real) -> _Real: ...
+def piston_travel(parts: _Parts) -> float: ...
+def turning_points(parts: _Parts) -> list[float]: ...
 def cylinder_harmonics(parts: _Parts, orders: Sequence[int]) -> _Complex: ...
 def cylinder_torque_harmonics(
     parts: _Parts, orders: Sequence[int]
@@ -520,10 +573,16 @@ def terms(
     torque: bool,
     aside: Sequence[float],
 ) -> list[tuple[str, int, Balance]]: ...
+def explain(engine: Engine, rpm: float | None, vectors: bool) -> Explanation: ...
+def gas_text(names: Sequence[str | None], count: int) -> str: ...
+def dead_text(fires: Sequence[bool]) -> str: ...
 def star(
     firing: Firing, halves: Sequence[int], weights: Sequence[float]
 ) -> tuple[_Complex, _Complex, NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]: ...
 def places_on_axis(name: str, axis: _Real, values: _Real) -> tuple[NDArray[np.int64], _Real]: ...
+def volume_ratios(
+    parts: _Parts, bore: float | None, compression_ratio: float, strokes: int, theta_deg: _Real
+) -> _Real: ...
 def repeats_first(argument: str, theta_deg: _Real, period_deg: float) -> bool | None: ...
 def vanishing(
     engine: Engine, halves: Sequence[int], reference_z: float | None, firing: Firing | None

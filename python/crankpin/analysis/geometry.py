@@ -51,8 +51,8 @@ def geometry(engine: Engine, theta_deg: float = 0.0) -> Geometry:
     """Return the places of an engine's parts at a crank angle, by exact kinematics."""
     theta = crank_angle(theta_deg)
     cylinders = engine.cylinders
-    figures = [(each.crank_radius, each.rod_length, each.pin_offset) for each in cylinders]
-    radius, length, offset = np.array(figures).T
+    radius, offset = np.array([(each.crank_radius, each.pin_offset) for each in cylinders]).T
+    highest, lowest = np.array([each._ends for each in cylinders]).T
     along = direction(engine.bank_deg)
     axis, ratio = _cranks(engine)
     # The offset is on the side to which the crankpin swings after top dead centre.
@@ -66,8 +66,8 @@ def geometry(engine: Engine, theta_deg: float = 0.0) -> Geometry:
         foot=foot,
         crankpin=axis + radius * direction(engine.pin_deg + ratio * theta),
         wrist_pin=foot + height * along,
-        lowest=np.sqrt((length - radius) ** 2 - offset**2),
-        highest=np.sqrt((length + radius) ** 2 - offset**2),
+        lowest=lowest,
+        highest=highest,
     )
 
 

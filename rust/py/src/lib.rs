@@ -14,6 +14,7 @@ mod closed_form;
 mod convert;
 mod design;
 mod engine;
+mod explain;
 mod firing;
 mod flywheel;
 mod interrupt;
@@ -40,24 +41,29 @@ mod _core {
     #[pymodule_export]
     use crate::{
         balance::{Balance, angular_speed, balance, terms},
-        balancing::{fit_shafts, least_weights, pair_heights, roll_torque, shared, turning},
+        balancing::{
+            FirstOrder, corrections, fit_shafts, fit_weights, masses_on_pins, pair_heights,
+            roll_torque, shared, turning, with_bob_weights,
+        },
         bearing_loads::BearingLoadsModel,
         closed_form::closed_form,
         convert::{exact_angle, near_miss},
         design::Objectives,
         engine::Engine,
+        explain::{Explanation, dead_text, explain, gas_text},
         firing::{Firing, check_timing, inline_throws, vee_throws},
-        flywheel::CycleGrid,
+        flywheel::{CycleGrid, mean_inertias},
         matching::matched,
         mounts::{
             Powertrain, Response, check_mount, check_support, mount_stiffness, peaks_of_vectors,
             rigid_body,
         },
-        pressure::{Cycle, places_on_axis, repeats_first},
+        pressure::{Cycle, places_on_axis, repeats_first, volume_ratios},
         search::{BankAngles, Search, arrangement},
         slider_crank::{
             centred_table, check_cylinder, crank_radius_of_stroke, cylinder_harmonics,
-            cylinder_torque_harmonics, estimated_rod_inertia, motion, offset_table, rod_parts,
+            cylinder_torque_harmonics, estimated_rod_inertia, motion, offset_table, piston_travel,
+            rod_parts, turning_points,
         },
         sweep::Sweep,
         tolerances::{Tolerances, orders_of_samples, peaks_of_sums},

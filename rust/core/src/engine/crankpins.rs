@@ -42,6 +42,15 @@ pub struct Bay {
 }
 
 impl Bay {
+    /// Places of the webs, m: midway between neighbouring throws and bearings.
+    #[must_use]
+    pub fn webs(&self) -> Vec<f64> {
+        let [front, rear] = self.bearings;
+        let places: Vec<f64> =
+            [front].into_iter().chain(self.throws.iter().copied()).chain([rear]).collect();
+        places.windows(2).map(|pair| (pair[0] + pair[1]) / 2.0).collect()
+    }
+
     /// Place midway between the first throw and the last, m.
     #[must_use]
     pub fn z(&self) -> f64 {
@@ -80,6 +89,14 @@ impl Engine {
         from_front.sort_by(|&a, &b| stations[a].z.total_cmp(&stations[b].z));
         let throws = grouped(&from_front, on_one_throw).into_iter();
         throws.map(|on| grouped(&on, on_one_pin).into_iter().map(crankpin).collect()).collect()
+    }
+
+    /// The crankpins of all cranks from front to flywheel.
+    #[must_use]
+    pub fn crankpins(&self) -> Vec<Crankpin> {
+        let mut pins = self.throws().concat();
+        pins.sort_by(|a, b| a.z.total_cmp(&b.z));
+        pins
     }
 
     /// Places of the throws along a crank, by its index, ascending; those at one place are one.
