@@ -7,6 +7,8 @@
 //! that would lose digits, or the matrix has no inverse, the frequency is left to the factorisation with pivots
 //! of [`Powertrain::motion`].
 
+#![allow(clippy::needless_range_loop, reason = "several arrays are indexed in step")]
+
 use std::array::from_fn;
 
 use nalgebra::{Matrix6, Schur};
@@ -322,8 +324,8 @@ fn is_near(size: f64, least: f64) -> bool {
     size <= LARGEST_SPREAD * least * least
 }
 
-/// Eigenvalues of a complex symmetric matrix, and vectors X with XᵀX = 1, by Jacobi's rotations with complex angles; none
-/// near to where values merge, and their vectors with them.
+/// Eigenvalues of a complex symmetric matrix, and vectors X of which `XᵀX` is one, by Jacobi's rotations with complex
+/// angles; none near to where values merge, and their vectors with them.
 fn complex_modes(matrix: &ComplexMatrix6) -> Option<([Complex64; 6], ComplexMatrix6)> {
     let mut turned = *matrix;
     let mut vectors = ComplexMatrix6::identity();
