@@ -2,10 +2,10 @@
 //!
 //! In coordinates of unit mass they are (K − ω²)x = f. Where K does not depend on frequency, a form of it is made
 //! once: complex modes, of which a frequency takes six quotients, unless they are so near to merging that their
-//! sum would lose digits; then the Schur form K = U T Uᴴ, of which it takes a back substitution. Where it does, K = A + iωB of all mounts with hysteretic and viscous
-//! damping and of the others as they are at a frequency, each takes a factorisation L D Lᵀ without pivots; where
-//! that would lose digits, or the matrix has no inverse, the frequency is left to the factorisation with pivots
-//! of [`Powertrain::motion`].
+//! sum would lose digits; then the Schur form K = U T Uᴴ, of which it takes a back substitution. Where it does,
+//! K = A + iωB of all mounts with hysteretic and viscous damping and of the others as they are at a frequency, each
+//! takes a factorisation L D Lᵀ without pivots; where that would lose digits, or the matrix has no inverse, the
+//! frequency is left to the factorisation with pivots of [`Powertrain::motion`].
 
 #![allow(clippy::needless_range_loop, reason = "several arrays are indexed in step")]
 
