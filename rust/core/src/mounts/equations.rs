@@ -2,10 +2,12 @@
 //!
 //! In coordinates of unit mass they are (K − ω²)x = f. Where K does not depend on frequency, a form of it is made
 //! once: complex modes, of which a frequency takes six quotients, unless they are so near to merging that their
-//! sum would lose digits; then the Schur form K = U T Uᴴ, of which it takes a back substitution. Where it does, K = A + iωB of all mounts with hysteretic and viscous
-//! damping and of the others as they are at a frequency, each takes a factorisation L D Lᵀ without pivots; where
-//! that would lose digits, or the matrix has no inverse, the frequency is left to the factorisation with pivots
-//! of [`Powertrain::motion`].
+//! sum would lose digits; then the Schur form K = U T Uᴴ, of which it takes a back substitution. Where it does,
+//! K = A + iωB of all mounts with hysteretic and viscous damping and of the others as they are at a frequency, each
+//! takes a factorisation L D Lᵀ without pivots; where that would lose digits, or the matrix has no inverse, the
+//! frequency is left to the factorisation with pivots of [`Powertrain::motion`].
+
+#![allow(clippy::needless_range_loop, reason = "several arrays are indexed in step")]
 
 use std::array::from_fn;
 
@@ -322,8 +324,8 @@ fn is_near(size: f64, least: f64) -> bool {
     size <= LARGEST_SPREAD * least * least
 }
 
-/// Eigenvalues of a complex symmetric matrix, and vectors X with XᵀX = 1, by Jacobi's rotations with complex angles; none
-/// near to where values merge, and their vectors with them.
+/// Eigenvalues of a complex symmetric matrix, and vectors X of which `XᵀX` is one, by Jacobi's rotations with complex
+/// angles; none near to where values merge, and their vectors with them.
 fn complex_modes(matrix: &ComplexMatrix6) -> Option<([Complex64; 6], ComplexMatrix6)> {
     let mut turned = *matrix;
     let mut vectors = ComplexMatrix6::identity();

@@ -1,6 +1,6 @@
 //! An engine on many designs of its mounts: natural frequencies, and the largest responses over speed.
 
-#![allow(clippy::needless_range_loop, reason = "lanes of several arrays are indexed in step")]
+#![allow(clippy::needless_range_loop, reason = "several arrays are indexed in step")]
 
 use std::f64::consts::TAU;
 
