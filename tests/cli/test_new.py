@@ -242,6 +242,17 @@ def test_a_firing_order_that_the_crank_does_not_allow_is_dropped(capsys: CAPTURE
     ("line", "message"),
     [
         ("new v6-75", '"v6-75": no such preset; .* build it by crankpin new v6 --bank-angle 75; '),
+        (
+            "new v-twin --throws 0,10,20",
+            "--throws = 0,10,20: v-twin has 2 cylinders, this makes 6; give 1 crankpin, or build it by "
+            "crankpin new vee --bank-angle A",
+        ),
+        (
+            "new i4 --throws 0,120,240",
+            "--throws = 0,120,240: i4 has 4 cylinders, this makes 3; give 4 crankpins, or build it by "
+            "crankpin new inline",
+        ),
+        ("new radial-7 --cylinders 9", "--cylinders = 9: radial-7 has 7 cylinders, this makes 9"),
         ("new vee --bank-angle 75", "new vee needs --throws; see crankpin new --help"),
         ("new lists --banks 90 --z 0", "new lists needs --tdc or --pins; see crankpin new --help"),
         (
@@ -325,3 +336,16 @@ def test_a_file_that_cannot_be_an_engine_s_is_rejected_first(capsys: CAPTURE) ->
     for command in commands:
         line = f"{command} v6-90 --save x.txt"
         assert "--save = 'x.txt': an engine file ends in" in refused(capsys, line)
+
+
+def test_rods_of_scotch_yokes_are_infinite(capsys: CAPTURE) -> None:
+    parts = "--bore 90mm --stroke 90mm --reciprocating-mass 500g"
+    engine = made(capsys, f"single {parts} --rod-length inf")
+    assert engine.cylinders[0].rod_ratio == 0.0
+    assert engine.balance(3000).orders == (1, 2)
+    twin = made(capsys, f"boxer-2 {parts} --rod-length inf,150mm")
+    assert [one.rod_length for one in twin.cylinders] == [float("inf"), 0.15]
+    assert main("new single --stroke 90mm --rod-length inf --rod-mass 500g".split()) == 2
+    assert "--rod-length = inf: give --reciprocating-mass" in capsys.readouterr().err
+    assert main("new single --stroke inf --rod-length 150mm --rod-mass 500g".split()) == 2
+    assert "--stroke = inf: give a finite number" in capsys.readouterr().err

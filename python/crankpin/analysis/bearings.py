@@ -301,7 +301,7 @@ class BearingLoads(Tabled):
             area *= sizes
         return np.asarray(peaks / area)
 
-    def shaft_bearings(self, z: Sequence[float]) -> NDArray[np.float64]:
+    def shaft_bearings(self, z: Sequence[float] | None = None) -> NDArray[np.float64]:
         """Return the load of the two bearings of each balance shaft, N: (n_shafts, 2).
 
         Each unbalance is carried by both in inverse proportion to its distances, as that of a
@@ -310,8 +310,9 @@ class BearingLoads(Tabled):
 
         Parameters
         ----------
-        z : pair of float
-            Places of the bearings along the crank, of all shafts, m.
+        z : pair of float, optional
+            Places of the bearings along the crank, of all shafts, m; by default those of the end
+            main bearings.
 
         Returns
         -------
@@ -323,7 +324,7 @@ class BearingLoads(Tabled):
         InputError
             If there are not two different places.
         """
-        places = inputs.listed_numbers("z", z)
+        places = self._ends if z is None else inputs.listed_numbers("z", z)
         if len(places) != 2 or not np.isfinite(places).all() or places[0] == places[1]:
             raise inputs.rejected("z", z, "give the places of two bearings, m")
         front, rear = places
@@ -340,6 +341,12 @@ class BearingLoads(Tabled):
             for side, share in enumerate((1.0 - behind, behind)):
                 found[k, side] = abs((force * share).sum()) * (shaft.ratio * omega) ** 2
         return found
+
+    @property
+    def _ends(self) -> list[float]:
+        """Places of the end bearings of the main crank, m."""
+        z = self.main_z[self.main_crank == 0]
+        return [float(z.min()), float(z.max())]
 
     def turned(self, load: str = "crankpin", axes: str = "crank") -> NDArray[np.float64]:
         """Return the loads of bearings in axes that turn, N: (n, n_theta, 2).
@@ -713,9 +720,14 @@ class BearingLoads(Tabled):
 
     @property
     def frames(self) -> Frames:
-        """``table``; ``mains``: largest and mean load of each main bearing; ``crankpins``."""
-        pins = {"crankpins": self._of_crankpins} if self._shares_pins else {}
-        return self._frames(mains=self._of_mains, **pins)
+        """``table``; ``mains``: largest and mean load of each main bearing; ``crankpins``; ``shafts``.
+
+        That of the pins is there where some are shared, that of balance shafts with them.
+        """
+        others = {"crankpins": self._of_crankpins} if self._shares_pins else {}
+        if self.engine.shafts:
+            others["shafts"] = self._of_shafts
+        return self._frames(mains=self._of_mains, **others)
 
     @property
     def _shares_pins(self) -> bool:
@@ -728,6 +740,21 @@ class BearingLoads(Tabled):
             (
                 Column("cylinders", tuple(shared)),
                 Column("largest", tuple(self.whole_crankpin_peak().tolist()), "N"),
+            ),
+            loads=self.loads_counted,
+        )
+
+    def _of_shafts(self) -> Table:
+        front, rear = self.shaft_bearings().T.tolist()
+        shafts = self.engine.shafts
+        return Table(
+            "Bearings of balance shafts at the places of the end main bearings; their loads turn with "
+            "them",
+            (
+                Column("shaft", tuple(each.name or k for k, each in enumerate(shafts, start=1))),
+                Column("speed ratio", tuple(each.ratio for each in shafts)),
+                Column("front", tuple(front), "N"),
+                Column("rear", tuple(rear), "N"),
             ),
             loads=self.loads_counted,
         )

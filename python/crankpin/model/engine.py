@@ -596,7 +596,8 @@ class Engine(Builders):
             f"{low:.6g}" if low == high else f"{low:.6g} to {high:.6g}"
             for low, high in zip(parts.min(axis=0), parts.max(axis=0), strict=True)
         )
-        return f"stroke {stroke} m, rod {rod} m, reciprocating mass {mass} kg"
+        rod = "infinite rod" if rod == "inf" else f"rod {rod} m"
+        return f"stroke {stroke} m, {rod}, reciprocating mass {mass} kg"
 
     def _throws_text(self) -> str:
         """Return throws and pin split, where they are defined."""

@@ -41,10 +41,12 @@ impl Engine {
         Self { gas: firing.then_some(gas), ..self.clone() }.with_known_torque()
     }
 
-    /// Whether a cylinder fires: of an engine with cycles those that have one, without any all.
+    /// Whether a cylinder fires: of an engine with cycles those that have one, without any all but
+    /// dummy pistons.
     #[must_use]
     pub fn fires(&self, cylinder: usize) -> bool {
-        self.gas.as_ref().is_none_or(|gas| gas.cycle_of[cylinder].is_some())
+        let has_cycle = self.gas.as_ref().is_none_or(|gas| gas.cycle_of[cylinder].is_some());
+        has_cycle && !self.details[cylinder].dummy
     }
 
     /// Cycle of a cylinder and absolute pressure in the crankcase, Pa, where pressure counts.
@@ -98,6 +100,10 @@ impl Engine {
                 );
                 let argument = format!("cycle[{i}].strokes");
                 return Err(Error::value(argument, cycle.strokes().number(), hint));
+            }
+            if self.details[i].dummy {
+                let hint = "a dummy piston has no gas; give None in its place";
+                return Err(Error::value(format!("cycle[{i}]"), "a cycle", hint));
             }
             if self.details[i].bore.is_none() {
                 let hint = "gas pressure needs the bore; give bore=… to each Cylinder, m";
