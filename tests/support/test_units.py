@@ -135,7 +135,9 @@ def test_energy_goes_with_torque(setting: str, unit: str, joules: float) -> None
     assert shown.unit == unit
     np.testing.assert_allclose(1.0 / shown.factor, joules, rtol=4e-16)
     single = cp.Engine.preset("single", cylinder=cp.Cylinder(0.04, 0.14, 0.4, bore=0.08))
-    flywheel = cp.flywheel(single.replace(firing_order="1").with_cycle(cp.Cycle.example()), 3000, inertia=0.2)
+    flywheel = cp.flywheel(
+        single.replace(firing_order="1").with_cycle(cp.Cycle.example()), 3000, inertia=0.2
+    )
     with cp.units(setting):
         (line,) = (each for each in flywheel.table.text().splitlines() if "energy" in each)
     assert re.search(rf"\b{unit}\b", line), line
