@@ -698,6 +698,6 @@ def test_bearings_of_balance_shafts_carry_their_unbalances(seed: int) -> None:
     )
     assert table["speed ratio"].values == (ratio, 1)
     assert "shafts" not in cp.bearing_loads(I4, 3000).frames
-    assert "Bearings of balance shafts" in repr(loads)
+    assert "Bearings of balance shafts beside" in repr(loads)
     with pytest.raises(cp.InputError, match=r"z = \[0\.1, 0\.1\]: give the places of two"):
         cp.bearing_loads(engine, 3000).shaft_bearings([0.1, 0.1])

@@ -1,7 +1,7 @@
 """Is LaTeX that crankpin writes read by LaTeX: every table of every result, and closed forms?
 
-Where pdflatex is there (``apt-get install texlive-latex-recommended``) all of it is compiled; anywhere
-the mathematics in it is parsed by matplotlib.
+Where pdflatex is there (``apt-get install texlive-latex-recommended``) all of it is compiled;
+anywhere the mathematics in it is parsed by matplotlib.
 """
 
 from __future__ import annotations

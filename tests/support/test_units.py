@@ -122,6 +122,20 @@ def test_a_kind_that_is_not_named_stays() -> None:
     assert units.convert("Hz", units.read(IMPERIAL)) == ("Hz", 1.0)
 
 
+def test_ranges_and_echoes_are_in_the_units_set() -> None:
+    assert units.in_text("strokes 0.0508 to 0.0762 m", units.read("in")) == "strokes 2 to 3 in"
+    assert units.in_text("1 to 2 kg·m² at 3 to 4 °", units.read("g, mm")) == (
+        "1000000000 to 2000000000 g·mm² at 3 to 4 °"
+    )
+    cylinder = cp.Cylinder(0.0254 * 1.9375, 0.0254 * 7.4375, 0.5)
+    longer = cylinder.replace(crank_radius=0.0508)
+    engine = cp.Engine.inline([cylinder, longer], throws_deg=[0, 180], spacing=0.1)
+    with cp.units("in, oz"):
+        assert "stroke 3.875 to 4 in, rod 7.4375 in, reciprocating mass 17.637 oz" in repr(engine)
+        spread = cp.tolerances(engine, 3000, reciprocating_mass=0.05 * 0.028349523125, samples=10)
+        assert "standard deviations: reciprocating mass 0.05 oz" in repr(spread)
+
+
 @pytest.mark.parametrize(
     ("setting", "unit", "joules"),
     [

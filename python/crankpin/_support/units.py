@@ -65,7 +65,7 @@ _SI = "|".join(sorted(
 ))  # fmt: skip
 _UNIT = rf"(?:J|{_SI}|s|rad)[²³]?(?:[·/](?:{_SI}|s|rad)[²³]?)*(?![\w·/²³])"
 _NUMBER = r"[-+−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
-_FIGURE = re.compile(rf"(?<![\w.])({_NUMBER}) ({_UNIT})", re.ASCII)
+_FIGURE = re.compile(rf"(?<![\w.])(?:({_NUMBER}) to )?({_NUMBER}) ({_UNIT})", re.ASCII)
 _VECTOR = re.compile(rf"\(((?:{_NUMBER}(?:, )?)+)\) ({_UNIT})", re.ASCII)
 
 Dimension = tuple[int, ...]
@@ -227,10 +227,12 @@ def convert(unit: str, setting: Mapping[Dimension, str] | None = None) -> Conver
     return Converted(_text(target), float(factor))
 
 
-def figure(value: float, unit: str, digits: int) -> str:
-    """Return a number of significant digits with its unit, as the setting shows it."""
+def figure(value: float, unit: str, digits: int, most: float | None = None) -> str:
+    """Return a number of significant digits, or a range, with its unit, as the setting shows it."""
     shown = convert(unit)
-    return f"{value * shown.factor:.{digits}g} {shown.unit}"
+    ends = [value] if most in (None, value) else [value, most]
+    numbers = " to ".join(f"{end * shown.factor:.{digits}g}" for end in ends if end is not None)
+    return f"{numbers} {shown.unit}"
 
 
 def in_text(text: str, setting: Mapping[Dimension, str] | None = None) -> str:
@@ -246,10 +248,12 @@ def in_text(text: str, setting: Mapping[Dimension, str] | None = None) -> str:
         return f"{float(f'{value:.{digits}g}'):.10g}"
 
     def one(match: re.Match[str]) -> str:
-        shown = convert(match[2], chosen)
-        if shown.unit == match[2]:
+        least, number, unit = match.groups()
+        shown = convert(unit, chosen)
+        if shown.unit == unit:
             return match[0]
-        return f"{written(match[1], shown.factor)} {shown.unit}"
+        begin = f"{written(least, shown.factor)} to " if least else ""
+        return f"{begin}{written(number, shown.factor)} {shown.unit}"
 
     def several(match: re.Match[str]) -> str:
         shown = convert(match[2], chosen)

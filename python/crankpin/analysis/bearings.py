@@ -720,9 +720,9 @@ class BearingLoads(Tabled):
 
     @property
     def frames(self) -> Frames:
-        """``table``; ``mains``: largest and mean load of each main bearing; ``crankpins``; ``shafts``.
+        """``table``; ``mains``: loads of each main bearing; ``crankpins`` and ``shafts``.
 
-        That of the pins is there where some are shared, that of balance shafts with them.
+        The third is there where pins are shared, the fourth where there are balance shafts.
         """
         others = {"crankpins": self._of_crankpins} if self._shares_pins else {}
         if self.engine.shafts:
@@ -748,8 +748,7 @@ class BearingLoads(Tabled):
         front, rear = self.shaft_bearings().T.tolist()
         shafts = self.engine.shafts
         return Table(
-            "Bearings of balance shafts at the places of the end main bearings; their loads turn with "
-            "them",
+            "Bearings of balance shafts beside the end main bearings, whose loads turn with them",
             (
                 Column("shaft", tuple(each.name or k for k, each in enumerate(shafts, start=1))),
                 Column("speed ratio", tuple(each.ratio for each in shafts)),

@@ -351,6 +351,8 @@ class Given:
         self.said = list[str]()
         """What was read in another way than it was typed, for the user to see."""
         self._setting = units.read(self._typed.get("units") or "", "--units")
+        self.written: units.Setting = {}
+        """Units that numbers were typed with, the first of each kind."""
 
     def text(self, flag: str) -> Any:  # noqa: ANN401 - text or None, True or False of a flag
         """Return what was typed."""
@@ -370,6 +372,8 @@ class Given:
         if word is not None:
             own = _factor(word.strip(), unit)
             number, factor = (None, factor) if own is None else (number, own)
+            if (name := units.symbol(word.strip())) is not None and unit in UNITS:
+                self.written.setdefault(UNITS[unit], name)
         elif number is None:
             with contextlib.suppress(InvalidOperation):
                 number = Decimal(typed)

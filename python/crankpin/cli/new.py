@@ -144,8 +144,11 @@ def _new(given: Given) -> str:
     if file is None:
         return engine_files.commented(engine.to_toml())
     engine.save(file)
-    said = units.in_text("".join(f"{note}\n" for note in notes))
-    return f"{engine!r}\n{said}Written to {file}: try {PROG} balance {shlex.quote(str(file))}\n"
+    # An echo: in the units of --units, or else as typed.
+    with units.Shown(given.written | units.current()):
+        said = units.in_text("".join(f"{note}\n" for note in notes))
+        made = repr(engine)
+    return f"{made}\n{said}Written to {file}: try {PROG} balance {shlex.quote(str(file))}\n"
 
 
 def _engine(
