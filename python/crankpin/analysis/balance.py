@@ -11,6 +11,7 @@ from crankpin._support import inputs, labels
 from crankpin._support.drawing import draw
 from crankpin._support.quantities import KINDS, QUANTITIES
 from crankpin._support.tables import Column, Table
+from crankpin._support.warnings import suppressed
 from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.quantity import ALL, one_order
 from crankpin.analysis.request import Request, check_request, engine_core
@@ -186,13 +187,12 @@ class Balance(ByOrder[float]):
 
     def _repr_html_(self) -> str | None:
         """Return the table and, under it, what matters most in words."""
-        from crankpin.analysis.explain import Explanation  # noqa: PLC0415 - made of balances
-
         table = super()._repr_html_()
         if self.request.pairs is not None:
             return table
-        engine = self.engine.replace(reference_z=self.reference_z)
-        return f"{table}{Explanation(engine, self.rpm).html(count=EXPLAINED)}"
+        with suppressed():  # Warned of where the balance was made.
+            explanation = self.engine.replace(reference_z=self.reference_z).explain(self.rpm)
+        return f"{table}{explanation.html(count=EXPLAINED)}"
 
     @overload
     def plot(

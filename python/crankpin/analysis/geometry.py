@@ -60,37 +60,33 @@ def drawn_rod(cylinder: Cylinder) -> float:
     return length if length < math.inf else YOKE * cylinder.crank_radius
 
 
-def _height(cylinder: Cylinder, theta_deg: float) -> float:
-    """Return the piston pin's distance from the crank's axis in pictures, m."""
-    bar = drawn_rod(cylinder) if math.isinf(cylinder.rod_length) else 0.0
-    return bar + float(cylinder.position(theta_deg))
-
-
 def geometry(engine: Engine, theta_deg: float = 0.0) -> Geometry:
     """Return the places of an engine's parts at a crank angle, by exact kinematics."""
     theta = crank_angle(theta_deg)
     cylinders = engine.cylinders
-    figures = [(each.crank_radius, drawn_rod(each), each.pin_offset) for each in cylinders]
-    radius, length, offset = np.array(figures).T
+    radius, offset = np.array([(each.crank_radius, each.pin_offset) for each in cylinders]).T
+    highest, lowest = np.array([each._ends for each in cylinders]).T
+    # The bar of a yoke stands between the piston and the middle of its stroke.
+    yokes = np.isinf([each.rod_length for each in cylinders])
+    bar = np.where(yokes, [drawn_rod(each) for each in cylinders], 0.0)
     along = direction(engine.bank_deg)
     axis, ratio = _cranks(engine)
     # The offset is on the side to which the crankpin swings after top dead centre.
     foot = axis + 1j * np.sign(ratio) * offset * along
     turns = abs(ratio) * (theta - engine.tdc_deg)
-    height = [_height(each, at) for each, at in zip(cylinders, turns.tolist(), strict=True)]
+    height = bar + [float(each.position(at)) for each, at in zip(cylinders, turns, strict=True)]
     crankpin = axis + radius * direction(engine.pin_deg + ratio * theta)
     wrist_pin = foot + height * along
-    yokes = [math.isinf(each.rod_length) for each in cylinders]
     return Geometry(
         theta_deg=theta,
         axis=axis,
         along=along,
         foot=foot,
         crankpin=crankpin,
-        rod_foot=np.where(yokes, wrist_pin - length * along, crankpin),
+        rod_foot=np.where(yokes, wrist_pin - bar * along, crankpin),
         wrist_pin=wrist_pin,
-        lowest=np.sqrt((length - radius) ** 2 - offset**2),
-        highest=np.sqrt((length + radius) ** 2 - offset**2),
+        lowest=lowest + bar,
+        highest=highest + bar,
     )
 
 

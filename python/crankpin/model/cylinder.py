@@ -288,15 +288,7 @@ class Cylinder:
     @property
     def travel(self) -> float:
         """Distance between the ends of the piston's travel, m: the stroke without pin offset."""
-        if self.pin_offset == 0.0:
-            return self.stroke
-        # √((l + r)² − e²) − √((l − r)² − e²), without cancellation.
-        radius, rod, offset = self.crank_radius, self.rod_length, self.pin_offset
-        reach = [
-            math.sqrt((length - offset) * (length + offset))
-            for length in (rod + radius, rod - radius)
-        ]
-        return 4.0 * radius * rod / sum(reach)
+        return _core.piston_travel(self._parts)
 
     def replace(self, **changes: Any) -> Cylinder:  # noqa: ANN401 - numbers, or a Rod
         """Return a copy with some parts changed.
@@ -482,6 +474,11 @@ class Cylinder:
         0.0
         """
         return _core.cylinder_torque_harmonics(self._parts, inputs.explicit_orders(orders))
+
+    @property
+    def _ends(self) -> NDArray[np.float64]:
+        """Piston pin's distance from the crank's axis where it is highest and lowest, m."""
+        return self.position(_core.turning_points(self._parts))
 
     def _motion(self, theta_deg: ArrayLike, column: int) -> NDArray[np.float64]:
         theta = inputs.array("theta_deg", theta_deg)

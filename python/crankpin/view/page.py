@@ -19,10 +19,13 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Spectrum
     from crankpin.analysis.mounts.powertrain import Powertrain
     from crankpin.model.engine import Engine
+    from crankpin.view.figures import Controls
 
 WEB = Path(__file__).parent / "web"
 IMPORT = re.compile(r'^import \{[^}]*\} from "\./(\w+\.mjs)";\n', re.MULTILINE)
-COMMENT = re.compile(r"^\s*(?://[^\n]*|/\*\*.*?\*/)\n", re.MULTILINE | re.DOTALL)
+COMMENT = re.compile(
+    r"^\s*(?://[^\n]*|/\*\*.*?\*/)\n|(?<=[;,]) //[^\n\"]*$", re.MULTILINE | re.DOTALL
+)
 EXPORT = re.compile(r"^export (?=const|class|function)", re.MULTILINE)
 INDENT = re.compile(r"^\s+", re.MULTILINE)
 
@@ -35,10 +38,13 @@ def save_html(
     inertia: float | None = None,
     spectrum: Spectrum | None = None,
     compact: bool = False,
+    controls: Controls = None,
 ) -> None:
     """Write a page in which an engine turns; :meth:`Engine.save_html` documents the arguments."""
     file = inputs.file_path(path, (".html", ".htm"), "a page ends in .html")
-    known = figures(engine, rpm, inertia=inertia, spectrum=spectrum, compact=compact)
+    known = figures(
+        engine, rpm, inertia=inertia, spectrum=spectrum, compact=compact, controls=controls
+    )
     view = "Compact" if compact else "Full"
     text = document(
         engine.name or "Engine",
@@ -78,7 +84,7 @@ def document(
 
 def style(*names: str) -> str:
     """Return the style sheet, with these besides; elements within class ``crankpin`` alone."""
-    return "".join(_read(f"{name}.css") for name in ("view", *names))
+    return "".join(INDENT.sub("", _read(f"{name}.css")) for name in ("view", *names))
 
 
 def module(*entries: str) -> str:

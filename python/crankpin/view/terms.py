@@ -12,6 +12,7 @@ from numpy.polynomial import chebyshev
 from crankpin import _core
 from crankpin._support import inputs
 from crankpin.analysis.request import engine_core
+from crankpin.model.computed_cycles import area
 from crankpin.model.cylinder import rod_length
 
 if TYPE_CHECKING:
@@ -214,12 +215,10 @@ class _Sampler:
             place = self.engine.cylinders.index(cylinder)
             amplitudes = _core.cylinder_harmonics(core.cylinders[place], orders)
             # The volume added per radian is the integral of the piston's acceleration.
-            swept = (
-                _piston_area(cylinder) * cylinder.crank_radius * 1j * amplitudes / np.array(orders)
-            )
+            swept = area(cylinder) * cylinder.crank_radius * 1j * amplitudes / np.array(orders)
             tables[f"swept {place}"] = _Table(orders, powers, swept[:, None, None].view(float))
         torque, mean = tables["torque"], np.zeros((1, 3, 4))
-        mean[0, 0, 2] = _mean_inertia(core)
+        mean[0, 0, 2] = _core.mean_inertias(core).sum()
         values = np.concatenate([mean, torque.values])
         tables["torque"] = _Table([0, *torque.orders], [0, *torque.powers], values)
         return tables
@@ -371,19 +370,6 @@ def _core_at(engine: Engine, ratio: float | None) -> _core.Engine:
     return engine_core(at_rod_ratio(engine, ratio)).without_cycles()
 
 
-def _piston_area(cylinder: Cylinder) -> float:
-    """Return the area of a piston, m²; zero of a bore that is not known."""
-    return 0.25 * math.pi * (cylinder.bore or 0.0) ** 2
-
-
-def _mean_inertia(core: _core.Engine) -> float:
-    """Return the mean moment of inertia of pistons and rods as seen from the crank, kg·m²."""
-    grid = _core.CycleGrid(360.0, np.array([]))
-    none = np.zeros(grid.nodes_deg.shape)
-    (_, moving, _), _ = grid.speed(none, none, core, ONE_RADIAN_PER_SECOND, 1.0, 0.0)
-    return float(moving[:-1].mean())
-
-
 def _sizes(engine: Engine) -> dict[str, float]:
     """Return what the cylinders make one by one: inertia over the square of speed, and gas."""
     cranks, crank_of = engine_core(engine).cranks
@@ -401,6 +387,6 @@ def _sizes(engine: Engine) -> dict[str, float]:
         found["moment"] += force * (abs(z) + abs(engine.reference_z))
         found["torque"] += force * (cylinder.crank_radius + math.hypot(x, y))
         if cycle is not None:
-            swept = _piston_area(cylinder) * cylinder.crank_radius
+            swept = area(cylinder) * cylinder.crank_radius
             found["gas"] += float(cycle.pressure.max()) * swept
     return found

@@ -57,6 +57,10 @@ type Kept = (Option<f64>, Option<f64>, Option<(f64, f64, f64)>, bool);
 /// Numbers of the cylinders on a crankpin, its direction in degrees, its place in m, index of its crank.
 type Pin = (Vec<usize>, f64, f64, usize);
 
+fn pin(pin: Crankpin) -> Pin {
+    (numbers(&pin.cylinders), pin.pin.degrees(), pin.z, pin.crank)
+}
+
 /// Axis and speed ratio of each crankshaft, the main one first, and of each cylinder the index of its own.
 type Cranks = (Vec<(f64, f64, i32)>, Vec<usize>);
 
@@ -387,9 +391,13 @@ impl Engine {
 
     /// Crankpins from front to flywheel, those of one throw a list.
     fn throws(&self) -> Vec<Vec<Pin>> {
-        let pin = |pin: Crankpin| (numbers(&pin.cylinders), pin.pin.degrees(), pin.z, pin.crank);
         let throw = |throw: Vec<Crankpin>| throw.into_iter().map(pin).collect();
         self.0.throws().into_iter().map(throw).collect()
+    }
+
+    /// The crankpins from front to flywheel.
+    fn crankpins(&self) -> Vec<Pin> {
+        self.0.crankpins().into_iter().map(pin).collect()
     }
 
     /// Numbers of the cylinders, places of the throws and of the bearings of each bay of the main crank.

@@ -18,7 +18,7 @@ from crankpin._support.record import read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import over_square
 from crankpin.analysis.balancing import planes as correction_planes
-from crankpin.analysis.balancing.card import Card, weighed, with_parts
+from crankpin.analysis.balancing.card import Card, remarks_by_factor, weighed, with_parts
 from crankpin.analysis.balancing.fitting import LARGEST_FACTOR, check_factor, with_bob_weights
 from crankpin.analysis.balancing.planes import Turning, turning
 from crankpin.analysis.request import engine_core
@@ -381,12 +381,8 @@ class BobWeight(Tabled):
 
     def _by_factor(self) -> Table:
         """Return the residual at the usual factors, and at those of a straight line."""
-        words: dict[float, list[str]] = {float(factor): [] for factor in TABULATED}
-        for factor, text in self._remarkable():
-            # 0.5 comes out as 0.49999999999999994 at times.
-            near = next((each for each in words if abs(each - factor) < ALIKE), factor)
-            words.setdefault(near, []).extend([text] if text else [])
-        listed = sorted(words)
+        remarks = remarks_by_factor(TABULATED, self._remarkable())
+        listed = sorted(remarks)
         # An engine without force or moment of order 1 has no columns of it.
         quantities = [
             name for name in PLANE_VECTORS if any(part.exists for part in self._parts(name))
@@ -398,7 +394,7 @@ class BobWeight(Tabled):
             unit = QUANTITIES[name].unit_over_square
             header += [(f"{name}, longest", unit), ("shortest", unit)]
             columns += [longest, abs(shortest)]
-        names = [(f"{factor:.6g}", ", ".join(words[factor])) for factor in listed]
+        names = [(f"{factor:.6g}", remarks[factor]) for factor in listed]
         title = "Residual of order 1, half axes over ω²"
         return Table.from_rows(title, header, names, np.stack(columns, axis=-1))
 

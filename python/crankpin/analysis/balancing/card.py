@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._support import files, inputs, labels
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
@@ -19,7 +20,7 @@ from crankpin.analysis.sentences import across, turns
 from crankpin.model.shafts import Unbalance
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
     from pathlib import Path
 
     from numpy.typing import NDArray
@@ -111,6 +112,18 @@ def with_parts(engine: Engine, parts: Mapping[str, NDArray[np.float64]]) -> Engi
     return engine.replace(rotating_mass=rounded[ROTATING]) if rounded else engine
 
 
+def remarks_by_factor(
+    factors: Iterable[float], remarks: Iterable[tuple[float, str]]
+) -> dict[float, str]:
+    """Return factors and their remarks, and those of others; factors rounding apart are one."""
+    words: dict[float, list[str]] = {factor: [] for factor in factors}
+    for factor, text in remarks:
+        # 0.5 comes out as 0.49999999999999994 at times.
+        near = next((each for each in words if abs(each - factor) < ROUNDING), factor)
+        words.setdefault(near, []).append(text)
+    return {factor: ", ".join(filter(None, texts)) for factor, texts in words.items()}
+
+
 class Card(Tabled):
     """Card of a balancing shop, made by :meth:`crankpin.types.BobWeight.card`.
 
@@ -182,13 +195,12 @@ class Card(Tabled):
     @cached_property
     def _by_factor(self) -> dict[float, str]:
         """Factors of the card, and those that leave a straight line, with a remark."""
-        found = dict.fromkeys(self.factors, "")
-        for name in PLANE_VECTORS:
-            for factor, _ in self.bob.straight(name):
-                near = next((each for each in found if abs(each - factor) < ROUNDING), factor)
-                words = [found.get(near, ""), f"straight line of the {name}"]
-                found[near] = ", ".join(filter(None, words))
-        return found
+        straight = (
+            (factor, f"straight line of the {name}")
+            for name in PLANE_VECTORS
+            for factor, _ in self.bob.straight(name)
+        )
+        return remarks_by_factor(self.factors, straight)
 
     def _residual(self) -> Table:
         bob, factors = self.bob, sorted(self._by_factor)
@@ -196,7 +208,7 @@ class Card(Tabled):
             Column("factor", tuple(100.0 * each for each in factors), "%"),
             Column("", tuple(self._by_factor[each] for each in factors)),
         ]
-        omega_squared = (self.rpm / labels.UNIT_RPM) ** 2
+        omega_squared = _core.angular_speed(self.rpm) ** 2
         for name in PLANE_VECTORS:
             if not any(part.exists for part in bob._parts(name)):
                 continue

@@ -671,7 +671,7 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         self,
         ax: Axes | None = None,
         *,
-        kind: Literal["cuts", "map", "spectrum"] | None = None,
+        kind: Literal["cuts", "map", "waterfall", "spectrum"] | None = None,
         mount: str | None = None,
         orders: Orders | None = None,
         **options: object,
@@ -682,11 +682,12 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         ----------
         ax : matplotlib.axes.Axes, optional
             Axes to draw on; by default new ones.
-        kind : {"cuts", "map", "spectrum"}, optional
+        kind : {"cuts", "map", "waterfall", "spectrum"}, optional
             ``"cuts"``, the default of several speeds: the longest vector of all orders together and
             of the largest orders over speed; ``"map"``: a row of cells for each order over speed,
-            with the natural frequencies; ``"spectrum"``, that of one speed: peaks along x, y and z
-            over order.
+            with the natural frequencies; ``"waterfall"``: a spectrum over frequency for each speed,
+            one above the other, of at most 40 speeds; ``"spectrum"``, that of one speed: peaks
+            along x, y and z over order.
         mount : str, optional
             Name of a mount; by default the sum of all.
         orders : sequence of float, optional

@@ -18,6 +18,7 @@ export function configure(figures, settings) {
   const cylinders = figures.cylinders.map((given) => cylinderAt(figures, settings, given));
   return {
     cylinders,
+    cranks: figures.cranks,
     weights: weights(figures, cylinders),
     shafts: figures.shafts,
     cycle: figures.strokes === 2 ? 360 : 720,
@@ -79,6 +80,12 @@ function strokes({ firing_deg: firing, strokes: count }, given, delay, rodLength
 /** Degrees after TDC at which the piston is highest and lowest: crank and rod are in line. */
 function turningPoints(r, l, e) {
   return [Math.asin(e / (l + r)) / DEGREE, 180 + Math.asin(e / (l - r)) / DEGREE];
+}
+
+/** Heights of the piston pin where the piston is highest and lowest. */
+export function extremeHeights(cylinder) {
+  const { crank_radius: r, rod_length: l, pin_offset: e } = cylinder;
+  return turningPoints(r, l, e).map((angle) => pistonHeight(cylinder, unit(angle)));
 }
 
 /** Counterweights on their cranks, and those of balance shafts. */

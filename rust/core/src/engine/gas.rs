@@ -1,10 +1,10 @@
 //! Gas pressure in the cylinders of an engine: cycles, and the crank angles at which they fire.
 
-use std::f64::consts::PI;
 use std::sync::Arc;
 
 use super::layout::Strokes;
 use super::{Engine, check_each_cylinder};
+use crate::mechanism::slider_crank::piston_area;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -127,6 +127,6 @@ impl Engine {
     #[must_use]
     pub fn swept_by_radius(&self, cylinder: usize) -> Option<f64> {
         let radius = self.stations[cylinder].cylinder.crank_radius();
-        self.details[cylinder].bore.map(|bore| 0.25 * PI * bore * bore * radius)
+        self.details[cylinder].bore.map(|bore| piston_area(bore) * radius)
     }
 }

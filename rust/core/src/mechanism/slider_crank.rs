@@ -154,6 +154,29 @@ impl Cylinder {
         self.crank_radius / self.rod_length
     }
 
+    /// Crank angles at which the piston is highest and lowest, where rod and crank are in line, degrees.
+    #[must_use]
+    pub fn turning_points_deg(&self) -> [f64; 2] {
+        let past = |length: f64| (self.pin_offset / length).asin().to_degrees();
+        [
+            past(self.rod_length + self.crank_radius),
+            180.0 + past(self.rod_length - self.crank_radius),
+        ]
+    }
+
+    /// Distance between the ends of the piston's travel, m: twice the crank radius without pin offset.
+    #[must_use]
+    pub fn travel(&self) -> f64 {
+        if self.pin_offset == 0.0 {
+            return 2.0 * self.crank_radius;
+        }
+        let (radius, rod, offset) = (self.crank_radius, self.rod_length, self.pin_offset);
+        // √((l + r)² − e²) − √((l − r)² − e²), whose digits would cancel, by the difference of the squares.
+        let [highest, lowest] =
+            [rod + radius, rod - radius].map(|l| ((l - offset) * (l + offset)).sqrt());
+        4.0 * radius * rod / (highest + lowest)
+    }
+
     /// m·r, the size of the first-order force over ω², kg·m.
     #[must_use]
     pub fn first_order(&self) -> f64 {
@@ -194,6 +217,12 @@ impl Cylinder {
             below: reach.plus(-e).over(r),
         }
     }
+}
+
+/// Area of a piston of this bore, m, in m².
+#[must_use]
+pub fn piston_area(bore: f64) -> f64 {
+    0.25 * std::f64::consts::PI * bore * bore
 }
 
 /// A slider-crank in units of its crank radius.
@@ -410,6 +439,21 @@ mod tests {
                     (motion.acceleration - (after - 2.0 * here + before) / (h * h)).abs() < 3e-7
                 );
             }
+        }
+    }
+
+    #[test]
+    fn ends_of_the_travel_are_where_the_piston_turns() {
+        for (rod, offset) in [(0.15, 0.0), (0.15, 0.02), (0.06, -0.004), (0.2, -0.03)] {
+            let cylinder = Cylinder::new(0.05, rod, 1.0, offset).unwrap();
+            let ends = cylinder.turning_points_deg().map(|angle| {
+                let (sin, cos) = angle.to_radians().sin_cos();
+                cylinder.proportions().motion(sin, cos)
+            });
+            // Roundings of some ten operations.
+            assert!(ends.iter().all(|end| end.velocity.abs() < 1e-14), "{ends:?}");
+            let travel = 0.05 * (ends[0].position - ends[1].position);
+            assert_relative_eq!(cylinder.travel(), travel, max_relative = 1e-14);
         }
     }
 

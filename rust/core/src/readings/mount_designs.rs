@@ -8,9 +8,11 @@ use nalgebra::{Matrix3x6, RowVector6, Vector3};
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::mounts::equations::{Equations, LANES, Lane, Lanes6, product, real_product};
+use crate::mounts::equations::{
+    Equations, LANES, Lane, Lanes6, damped_product, product, real_product,
+};
 use crate::mounts::{
-    ComplexVector6, Mount, Orientation, Powertrain, motion_of_point, natural_frequencies,
+    ComplexVector6, Mount, NaturalModes, Orientation, Powertrain, motion_of_point, natural_at,
 };
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -160,10 +162,13 @@ pub fn design_responses(
             let design = task * DESIGNS_PER_TASK + k;
             let of = |error: Error| error.within(&format!("design {design}: "));
             let powertrain = varied(base, variations, design).map_err(of)?;
-            *frequency = natural_frequencies(&powertrain, request.frequency).map_err(of)?;
+            let natural = natural_at(&powertrain, request.frequency).map_err(of)?;
+            if let Some(natural) = &natural {
+                *frequency = natural.frequency();
+            }
             let rms = &mut rms[k * quantities..(k + 1) * quantities];
             let largest = &mut largest[k * quantities * orders..(k + 1) * quantities * orders];
-            shared.evaluate(&powertrain, largest, rms, cancel).map_err(of)?;
+            shared.evaluate(&powertrain, natural.as_ref(), largest, rms, cancel).map_err(of)?;
         }
         Ok(())
     })?;
@@ -261,19 +266,22 @@ impl<'a> Shared<'a> {
     fn evaluate(
         &self,
         powertrain: &Powertrain,
+        natural: Option<&NaturalModes>,
         largest: &mut [[f64; 3]],
         rms: &mut [[f64; 3]],
         cancel: &Cancel,
     ) -> Result<()> {
         let lowest = self.loads.orders.iter().map(|order| order.number()).fold(f64::MAX, f64::min);
         let least = self.loads.omega.iter().copied().fold(f64::MAX, f64::min) * lowest;
-        let equations = Equations::new(powertrain, least)?;
+        let equations = Equations::new(powertrain, least, natural)?;
         let outputs = Outputs::new(powertrain, &equations, &self.request);
         let amplitudes: Vec<[[f64; 6]; 4]> = self
             .amplitudes
             .iter()
             .map(|both| {
-                let [by_square, fixed] = both.map(|load| equations.to * load);
+                let zero = ComplexVector6::zeros();
+                let [by_square, fixed] =
+                    both.map(|load| if load == zero { zero } else { equations.to * load });
                 [
                     by_square.map(|p| p.re),
                     by_square.map(|p| p.im),
@@ -443,16 +451,14 @@ impl ForceRows {
 
     #[inline(always)]
     fn times(&self, solution: &Lanes6, rates: &Lane, stiffnesses: &[[Lane; 2]]) -> [[Lane; 2]; 3] {
-        let mut force = vector(&self.constant, solution);
-        if let Some(viscous) = &self.viscous {
-            for axis in 0..3 {
-                let moved = real_product(&viscous[axis], solution);
-                for l in 0..LANES {
-                    force[axis][0][l] = (-rates[l]).mul_add(moved[1][l], force[axis][0][l]);
-                    force[axis][1][l] = rates[l].mul_add(moved[0][l], force[axis][1][l]);
-                }
-            }
-        }
+        let mut force = match &self.viscous {
+            None => vector(&self.constant, solution),
+            Some(viscous) => [
+                damped_product(&self.constant[0], &viscous[0], rates, solution),
+                damped_product(&self.constant[1], &viscous[1], rates, solution),
+                damped_product(&self.constant[2], &viscous[2], rates, solution),
+            ],
+        };
         for (direction, axis, row) in &self.varying {
             let [re, im] = real_product(row, solution);
             let [k_re, k_im] = &stiffnesses[*direction];

@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::mounts::equations::{Equations, LANES, Lanes6, lanes, product, rows};
-use crate::mounts::{ComplexVector6, Levels, Powertrain, State, Support, grade};
+use crate::mounts::{ComplexVector6, Levels, Powertrain, State, Support, grade, natural_at};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -212,7 +212,12 @@ impl Response {
         }
         let equations = if points > 0 && moves == 0 {
             let rates = (0..points).map(|point| self.omega_of(point));
-            Some(Equations::new(&self.powertrain, rates.fold(f64::MAX, f64::min))?)
+            let natural = natural_at(&self.powertrain, None)?;
+            Some(Equations::new(
+                &self.powertrain,
+                rates.fold(f64::MAX, f64::min),
+                natural.as_ref(),
+            )?)
         } else {
             None
         };
