@@ -90,7 +90,7 @@ LONGEST_FILE: int
 _Parts: TypeAlias = tuple[float, float, float, float, float]
 _Weight: TypeAlias = tuple[float, str, float, int | None]
 _Cranks: TypeAlias = tuple[Sequence[tuple[float, float, int]], Sequence[int]]
-_Kept: TypeAlias = tuple[float | None, float | None, tuple[float, float, float] | None]
+_Kept: TypeAlias = tuple[float | None, float | None, tuple[float, float, float] | None, bool]
 _Shaft: TypeAlias = tuple[str, int, float, float, Sequence[_Weight]]
 _Pairs: TypeAlias = Sequence[tuple[int, complex]]
 _Complex: TypeAlias = NDArray[np.complex128]

@@ -728,5 +728,15 @@ def test_bearings_of_balance_shafts_carry_their_unbalances(seed: int) -> None:
     speed = (ratio * 100 * np.pi) ** 2
     np.testing.assert_allclose(found[0], [abs(force - behind) * speed, abs(behind) * speed])
     assert not found[1].any()
+    loads = cp.bearing_loads(engine, 3000)
+    ends = loads.main_z.min(), loads.main_z.max()
+    table = loads.frames["shafts"]
+    np.testing.assert_array_equal(loads.shaft_bearings(), loads.shaft_bearings(ends))
+    np.testing.assert_array_equal(
+        np.transpose([table["front"].values, table["rear"].values]), loads.shaft_bearings(ends)
+    )
+    assert table["speed ratio"].values == (ratio, 1)
+    assert "shafts" not in cp.bearing_loads(I4, 3000).frames
+    assert "Bearings of balance shafts beside" in repr(loads)
     with pytest.raises(cp.InputError, match=r"z = \[0\.1, 0\.1\]: give the places of two"):
         cp.bearing_loads(engine, 3000).shaft_bearings([0.1, 0.1])

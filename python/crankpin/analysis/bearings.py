@@ -293,7 +293,7 @@ class BearingLoads(Tabled):
             area *= sizes
         return np.asarray(peaks / area)
 
-    def shaft_bearings(self, z: Sequence[float]) -> NDArray[np.float64]:
+    def shaft_bearings(self, z: Sequence[float] | None = None) -> NDArray[np.float64]:
         """Return the load of the two bearings of each balance shaft, N: (n_shafts, 2).
 
         Each unbalance is carried by both in inverse proportion to its distances, as that of a
@@ -302,8 +302,9 @@ class BearingLoads(Tabled):
 
         Parameters
         ----------
-        z : pair of float
-            Places of the bearings along the crank, of all shafts, m.
+        z : pair of float, optional
+            Places of the bearings along the crank, of all shafts, m; by default those of the end
+            main bearings.
 
         Returns
         -------
@@ -315,12 +316,18 @@ class BearingLoads(Tabled):
         InputError
             If there are not two different places.
         """
-        places = inputs.listed_numbers("z", z)
+        places = self._ends if z is None else inputs.listed_numbers("z", z)
         if len(places) != 2 or not np.isfinite(places).all() or places[0] == places[1]:
             raise inputs.rejected("z", z, "give the places of two bearings, m")
         front, rear = places
         loads = [on_shaft_bearings(each, front, rear, self.rpm) for each in self.engine.shafts]
         return np.abs(np.array(loads).reshape(-1, 2))
+
+    @property
+    def _ends(self) -> list[float]:
+        """Places of the end bearings of the main crank, m."""
+        z = self.main_z[self.main_crank == 0]
+        return [float(z.min()), float(z.max())]
 
     def turned(self, load: str = "crankpin", axes: str = "crank") -> NDArray[np.float64]:
         """Return the loads of bearings in axes that turn, N: (n, n_theta, 2).
@@ -695,9 +702,14 @@ class BearingLoads(Tabled):
 
     @property
     def frames(self) -> Frames:
-        """``table``; ``mains``: largest and mean load of each main bearing; ``crankpins``."""
-        pins = {"crankpins": self._of_crankpins} if self._shares_pins else {}
-        return self._frames(mains=self._of_mains, **pins)
+        """``table``; ``mains``: loads of each main bearing; ``crankpins`` and ``shafts``.
+
+        The third is there where pins are shared, the fourth where there are balance shafts.
+        """
+        others = {"crankpins": self._of_crankpins} if self._shares_pins else {}
+        if self.engine.shafts:
+            others["shafts"] = self._of_shafts
+        return self._frames(mains=self._of_mains, **others)
 
     @property
     def _shares_pins(self) -> bool:
@@ -710,6 +722,20 @@ class BearingLoads(Tabled):
             (
                 Column("cylinders", tuple(shared)),
                 Column("largest", tuple(self.whole_crankpin_peak().tolist()), "N"),
+            ),
+            loads=self.loads_counted,
+        )
+
+    def _of_shafts(self) -> Table:
+        front, rear = self.shaft_bearings().T.tolist()
+        shafts = self.engine.shafts
+        return Table(
+            "Bearings of balance shafts beside the end main bearings, whose loads turn with them",
+            (
+                Column("shaft", tuple(each.name or k for k, each in enumerate(shafts, start=1))),
+                Column("speed ratio", tuple(each.ratio for each in shafts)),
+                Column("front", tuple(front), "N"),
+                Column("rear", tuple(rear), "N"),
             ),
             loads=self.loads_counted,
         )

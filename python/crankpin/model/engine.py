@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 
-from crankpin._support import labels
+from crankpin._support import labels, units
 from crankpin._support.drawing import draw, inline_svg
 from crankpin._support.record import AbsentError
 from crankpin._support.tables import Table
@@ -610,12 +610,18 @@ class Engine(Builders):
 
     def _parts_text(self) -> str:
         """Return stroke, rod and reciprocating mass of the cylinders, as ranges if they differ."""
-        parts = np.array(self._core.cylinders) * [2.0, 1.0, 1.0, 1.0, 1.0]
-        stroke, rod, mass, *_ = (
-            f"{low:.6g}" if low == high else f"{low:.6g} to {high:.6g}"
-            for low, high in zip(parts.min(axis=0), parts.max(axis=0), strict=True)
+        parts = np.array(self._core.cylinders)[:, :3] * [2.0, 1.0, 1.0]
+        stroke, rod, mass = (
+            units.figure(least, unit, 6, most)
+            for least, unit, most in zip(
+                parts.min(axis=0).tolist(),
+                ("m", "m", "kg"),
+                parts.max(axis=0).tolist(),
+                strict=True,
+            )
         )
-        return f"stroke {stroke} m, rod {rod} m, reciprocating mass {mass} kg"
+        rod = "infinite rod" if np.isinf(parts[:, 1]).all() else f"rod {rod}"
+        return f"stroke {stroke}, {rod}, reciprocating mass {mass}"
 
     def _throws_text(self) -> str:
         """Return throws and pin split, where they are defined."""

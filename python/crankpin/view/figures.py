@@ -15,6 +15,7 @@ from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.explain import Explanation
 from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
+from crankpin.analysis.geometry import drawn_rod
 from crankpin.analysis.request import engine_core
 from crankpin.view.terms import RodRatios, at_rod_ratio, kinds, listed_orders, terms
 
@@ -149,7 +150,7 @@ def places(engine: Engine, rpm: float) -> dict[str, Any]:
             }
             for shaft in engine.shafts
         ],
-        "firing_deg": engine.firing().angles_deg.tolist() if engine.firing_order else None,
+        "firing_deg": _firing(engine),
         "exhaust_opens_deg": EXHAUST[engine.strokes],
     }
 
@@ -260,7 +261,7 @@ def _block(engine: Engine) -> dict[str, float] | None:
     It is as tall as a crank with its rod, and half of that longer than the cylinders at either end.
     """
     mass = BLOCK * sum(cylinder.reciprocating_mass for cylinder in engine.cylinders)
-    height = max(2.0 * each.crank_radius + each.rod_length for each in engine.cylinders)
+    height = max(2.0 * each.crank_radius + drawn_rod(each) for each in engine.cylinders)
     length = float(np.ptp(engine.z)) + height
     return {"mass": mass, "inertia": mass * (length**2 + height**2) / 12.0} if mass else None
 
@@ -292,7 +293,8 @@ def _cylinders(engine: Engine) -> list[dict[str, Any]]:
             "bank": banks[number],
             "crank": crank_of[number - 1],
             "crank_radius": cylinder.crank_radius,
-            "rod_length": cylinder.rod_length,
+            "rod_length": drawn_rod(cylinder),
+            "yoke": math.isinf(cylinder.rod_length),
             "pin_offset": cylinder.pin_offset,
             "tdc_deg": tdc,
             "bank_deg": bore,
@@ -322,6 +324,14 @@ def _cylinders(engine: Engine) -> list[dict[str, Any]]:
             start=1,
         )
     ]
+
+
+def _firing(engine: Engine) -> list[float | None] | None:
+    """Return when each cylinder fires, None of dummy pistons; None without a firing order."""
+    if not engine.firing_order:
+        return None
+    timed = zip(engine.cylinders, engine.firing().angles_deg.tolist(), strict=True)
+    return [None if cylinder.dummy else angle for cylinder, angle in timed]
 
 
 def _unbalances(unbalances: Iterable[Unbalance]) -> list[dict[str, Any]]:

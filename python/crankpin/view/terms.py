@@ -13,6 +13,7 @@ from crankpin import _core
 from crankpin._support import inputs
 from crankpin.analysis.request import engine_core
 from crankpin.model.computed_cycles import area
+from crankpin.model.cylinder import rod_length
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -100,7 +101,7 @@ def at_rod_ratio(engine: Engine, ratio: float | None) -> Engine:
     changed = {
         cylinder: cylinder
         if cylinder.rod_ratio == ratio
-        else cylinder.replace(rod_length=cylinder.crank_radius / ratio)
+        else cylinder.replace(rod_length=rod_length(cylinder.crank_radius, ratio))
         for cylinder in set(engine.cylinders)
     }
     return engine.replace(cylinder=[changed[cylinder] for cylinder in engine.cylinders])

@@ -51,8 +51,8 @@ pub type Weight = (f64, String, f64, Option<usize>);
 /// The same, its angle read.
 type GivenWeight = (f64, Angle, f64, Option<usize>);
 
-/// Bore, piston mass, and the rod's mass, inertia and place of its centre.
-type Kept = (Option<f64>, Option<f64>, Option<(f64, f64, f64)>);
+/// Bore, piston mass, the rod's mass, inertia and place of its centre, and whether it is a dummy.
+type Kept = (Option<f64>, Option<f64>, Option<(f64, f64, f64)>, bool);
 
 /// Numbers of the cylinders on a crankpin, its direction in degrees, its place in m, index of its crank.
 type Pin = (Vec<usize>, f64, f64, usize);
@@ -424,7 +424,10 @@ impl Engine {
         self.0
             .details()
             .iter()
-            .map(|d| (d.bore, d.piston_mass, d.rod.map(|r| (r.mass, r.inertia, r.to_crankpin))))
+            .map(|d| {
+                let rod = d.rod.map(|r| (r.mass, r.inertia, r.to_crankpin));
+                (d.bore, d.piston_mass, rod, d.dummy)
+            })
             .collect()
     }
 
@@ -436,9 +439,10 @@ impl Engine {
         reference_z: Option<f64>,
     ) -> PyResult<Self> {
         let details = details.into_iter();
-        let details = details.map(|(bore, piston_mass, rod)| Details {
+        let details = details.map(|(bore, piston_mass, rod, dummy)| Details {
             bore,
             piston_mass,
+            dummy,
             rod: rod.map(|(mass, inertia, to_crankpin)| RodFigures { mass, inertia, to_crankpin }),
         });
         let engine = self.0.with_details(details.collect()).and_then(|e| e.with_mains(mains));

@@ -41,11 +41,13 @@ export class Header {
     this.changes.replaceChildren(...said(CHANGES.filter(([, key]) => settings[key] !== own[key]), (key, _, unit) =>
       fixed(html, "span", `changed-${key}`, settings[key], `${short(settings[key], 6)}${unit}`)));
     if (!firing) return;
+    // Dummy pistons have no strokes.
+    const fired = cylinders.filter(({ strokes }) => strokes);
     const fires = ({ strokes: [[, begin]] }) => begin;
     // Rounding must not put one that fires with cylinder 1 last.
     const after = (each) =>
-      Number(reduced(fires(each) - fires(cylinders[0]), cycle).toFixed(9)) % cycle;
-    const found = cylinders.map((each) => ({ number: each.number, after: after(each) }));
+      Number(reduced(fires(each) - fires(fired[0]), cycle).toFixed(9)) % cycle;
+    const found = fired.map((each) => ({ number: each.number, after: after(each) }));
     found.sort((a, b) => a.after - b.after || a.number - b.number);
     const intervals = found.map((each, k) => (found[k + 1]?.after ?? cycle) - each.after);
     const order = found.map(({ number }, k) =>

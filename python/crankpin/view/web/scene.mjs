@@ -195,8 +195,8 @@ export class Scene {
         return this.projection.depth([...add(cylinders[k].axis, scale(direction, 0.5 * length)), z]);
       },
       pose: ({ cylinders }, _strokes, motion) => {
-        const { crankpin, wrist } = cylinders[k];
-        bar.draw([this.at(crankpin, z, motion), this.at(wrist, z, motion)]);
+        const { foot, wrist } = cylinders[k];
+        bar.draw([this.at(foot, z, motion), this.at(wrist, z, motion)]);
       },
     };
   }

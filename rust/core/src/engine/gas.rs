@@ -41,16 +41,19 @@ impl Engine {
         Self { gas: firing.then_some(gas), ..self.clone() }.with_known_torque()
     }
 
-    /// The same engine with one cycle in every cylinder, those that fire in the second turn marked.
+    /// The same engine with one cycle in every cylinder but dummy pistons, those that fire in the second
+    /// turn marked.
     pub fn fired_by(&self, cycle: Arc<Cycle>, later: Vec<bool>) -> Result<Self> {
-        let cycle_of = vec![Some(0); self.stations.len()];
+        let cycle_of = self.details.iter().map(|of| (!of.dummy).then_some(0)).collect();
         self.with_gas(Gas { cycles: vec![cycle], cycle_of, crankcase: ATMOSPHERE, later })
     }
 
-    /// Whether a cylinder fires: of an engine with cycles those that have one, without any all.
+    /// Whether a cylinder fires: of an engine with cycles those that have one, without any all but
+    /// dummy pistons.
     #[must_use]
     pub fn fires(&self, cylinder: usize) -> bool {
-        self.gas.as_ref().is_none_or(|gas| gas.cycle_of[cylinder].is_some())
+        let has_cycle = self.gas.as_ref().is_none_or(|gas| gas.cycle_of[cylinder].is_some());
+        has_cycle && !self.details[cylinder].dummy
     }
 
     /// Cycle of a cylinder and absolute pressure in the crankcase, Pa, where pressure counts.
@@ -97,6 +100,10 @@ impl Engine {
                 return Err(Error::value(format!("cycle_of[{i}]"), cycle, hint));
             };
             self.check_strokes(i, cycle)?;
+            if self.details[i].dummy {
+                let hint = "a dummy piston has no gas; give None in its place";
+                return Err(Error::value(format!("cycle[{i}]"), "a cycle", hint));
+            }
             if self.details[i].bore.is_none() {
                 let hint = "gas pressure needs the bore; give bore=… to each Cylinder, m";
                 return Err(Error::value(format!("cylinder[{i}].bore"), "None", hint));

@@ -51,6 +51,8 @@ pub struct Details {
     pub piston_mass: Option<f64>,
     /// The rod as a body.
     pub rod: Option<RodFigures>,
+    /// Whether the piston is a dummy, which balances and never has gas.
+    pub dummy: bool,
 }
 
 /// A rod of known inertia; its length is that of the cylinder's.
@@ -447,7 +449,7 @@ impl Engine {
     /// The same engine with these figures of its cylinders.
     pub fn with_details(&self, details: Vec<Details>) -> Result<Self> {
         check_each_cylinder("details", details.len(), self.stations.len())?;
-        for Details { bore, piston_mass, rod } in &details {
+        for Details { bore, piston_mass, rod, .. } in &details {
             bore.map(|bore| limits::length("bore", bore)).transpose()?;
             piston_mass.map(|mass| limits::not_negative("piston_mass", mass)).transpose()?;
             if let Some(RodFigures { mass, inertia, to_crankpin }) = *rod {

@@ -429,7 +429,7 @@ impl Cycle {
 /// height h = √(l² − u²) with u = sin θ − e, h·h‴ = 3 sin θ cos θ + u cos θ − 3h′h″.
 #[inline(always)]
 fn jerk(proportions: &Proportions, motion: &Motion, sin: f64, cos: f64) -> f64 {
-    let height = motion.position - cos;
+    let height = proportions.rod / motion.secant;
     let [slope, bend] = [motion.velocity + sin, motion.acceleration + cos];
     sin + (cos * (4.0 * sin - proportions.offset) - 3.0 * slope * bend) / height
 }

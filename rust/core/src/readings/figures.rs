@@ -268,13 +268,22 @@ pub struct Block {
     pub inertia: f64,
 }
 
+/// Length of a rod in pictures, m: an infinite one is the bar of a Scotch yoke, four crank radii long.
+#[must_use]
+pub fn drawn_rod(cylinder: &Cylinder) -> f64 {
+    if cylinder.has_infinite_rod() {
+        return 4.0 * cylinder.crank_radius();
+    }
+    cylinder.rod_length()
+}
+
 /// A bar that stands for the block: as tall as a crank with its rod, and half of that longer than the
 /// cylinders at either end; none where the pistons have no mass.
 #[must_use]
 pub fn block(engine: &Engine) -> Option<Block> {
     let cylinders = || engine.stations().iter().map(|station| station.cylinder);
     let mass = BLOCK * cylinders().map(|c: Cylinder| c.reciprocating_mass()).sum::<f64>();
-    let height = cylinders().map(|c| 2.0 * c.crank_radius() + c.rod_length()).fold(0.0, f64::max);
+    let height = cylinders().map(|c| 2.0 * c.crank_radius() + drawn_rod(&c)).fold(0.0, f64::max);
     let [first, last] = engine.ends();
     let length = last - first + height;
     let inertia = mass * (length * length + height * height) / 12.0;
