@@ -33,6 +33,7 @@ __all__ = [
     "angular_speed",
     "arrangement",
     "balance",
+    "block",
     "centred_table",
     "check_cylinder",
     "check_mount",
@@ -50,6 +51,7 @@ __all__ = [
     "fit_shafts",
     "fit_weights",
     "gas_text",
+    "group_terms",
     "inline_throws",
     "masses_on_pins",
     "matched",
@@ -59,6 +61,7 @@ __all__ = [
     "near_miss",
     "offset_table",
     "orders_of_samples",
+    "orders_that_count",
     "pair_heights",
     "peaks_of_sums",
     "peaks_of_vectors",
@@ -69,6 +72,7 @@ __all__ = [
     "rod_parts",
     "roll_torque",
     "shared",
+    "sizes",
     "star",
     "terms",
     "turning",
@@ -128,6 +132,10 @@ class Cycle:
         figures: Mapping[str, float | None],
     ) -> Cycle: ...
     @staticmethod
+    def example(
+        kind: str, load: float, strokes: int
+    ) -> tuple[str, float, list[tuple[str, float]]]: ...
+    @staticmethod
     def blend(cycles: Sequence[tuple[float, Cycle]], name: str) -> Cycle: ...
     def __len__(self) -> int: ...
     @property
@@ -163,6 +171,10 @@ class Engine:
     @staticmethod
     def vee(parts: _Parts, layout: dict[str, Any]) -> Engine: ...
     @staticmethod
+    def radial(parts: _Parts, layout: dict[str, Any]) -> Engine: ...
+    @staticmethod
+    def radial_firing_order(layout: dict[str, Any], strokes: int) -> str: ...
+    @staticmethod
     def inline_from_firing_order(
         parts: _Parts,
         firing_order: str,
@@ -186,6 +198,7 @@ class Engine:
     def from_json(text: str) -> Engine: ...
     @staticmethod
     def from_state(text: str) -> Engine: ...
+    def filled(self, pattern: str) -> str: ...
     def to_toml(self) -> str: ...
     def to_json(self) -> str: ...
     @property
@@ -564,6 +577,12 @@ def balance(
     spectrum: _Pairs | None,
     torque: bool,
 ) -> Balance: ...
+def block(engine: Engine) -> tuple[float, float] | None: ...
+def group_terms(
+    engine: Engine, cylinders: bool, numbers: Sequence[float], spectrum: _Pairs | None
+) -> tuple[_Complex, _Complex]: ...
+def orders_that_count(engine: Engine) -> list[int]: ...
+def sizes(engine: Engine) -> list[float]: ...
 def terms(
     engine: Engine,
     rpm: float,

@@ -15,6 +15,7 @@ mod convert;
 mod design;
 mod engine;
 mod explain;
+mod figures;
 mod firing;
 mod flywheel;
 mod interrupt;
@@ -50,7 +51,8 @@ mod _core {
         convert::{exact_angle, near_miss},
         design::Objectives,
         engine::Engine,
-        explain::{Explanation, dead_text, explain, gas_text},
+        explain::{Explanation, across, dead_text, explain, gas_text, turns},
+        figures::{block, group_terms, orders_that_count, sizes},
         firing::{Firing, check_timing, inline_throws, vee_throws},
         flywheel::{CycleGrid, mean_inertias},
         matching::matched,

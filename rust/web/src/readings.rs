@@ -3,9 +3,8 @@
 use std::sync::Arc;
 
 use crankpin_core::balance::{Request, TorquePart, Vector};
-use crankpin_core::explain::{self as explanations, Row, Subject, Wording};
 use crankpin_core::layout::Strokes;
-use crankpin_core::pressure::example::{Kind, example};
+use crankpin_core::pressure::example::{Example, Kind};
 use crankpin_core::sweep::{Quantity, Statistic, Sweep, SweepAxes};
 use crankpin_core::{Cancel, Firing, Result, harmonics, memory, waveform as waveforms};
 use serde_json::{Map, Value, json};
@@ -185,7 +184,7 @@ pub fn with_cycle(arguments: &mut Arguments, columns: &mut Columns) -> Result<Va
     let engine = arguments.engine()?.without_gas();
     let kind = arguments.word("kind", &[("petrol", Kind::Petrol), ("diesel", Kind::Diesel)])?;
     let (load, cancel) = (arguments.or("load", 1.0)?, Cancel::new());
-    let cycle = Arc::new(example(kind, load, engine.strokes(), &cancel)?);
+    let cycle = Arc::new(Example::new(kind, load, engine.strokes(), &cancel)?.cycle(&cancel)?);
     let given = cycle.given();
     let (theta, pressure) = (
         columns.column(given.theta_deg.iter().copied()),
@@ -197,26 +196,4 @@ pub fn with_cycle(arguments: &mut Arguments, columns: &mut Columns) -> Result<Va
     answer["theta_deg"] = theta;
     answer["pressure"] = pressure;
     Ok(answer)
-}
-
-/// How an engine shakes, in sentences, and what they say as data.
-pub fn explain(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
-    let engine = Arc::new(arguments.mounted()?.0);
-    let rpm: Option<f64> = arguments.optional("rpm")?;
-    let found = explanations::explain(&engine, rpm, Subject::Everything, &Cancel::new())?;
-    let finding = |Row { kind, vector, orders, values, reason, groups, proved }: Row| {
-        let quantity = vector.map(|vector| match vector {
-            Vector::Force => "force",
-            Vector::Moment => "moment",
-        });
-        json!({
-            "kind": kind, "quantity": quantity, "orders": numbers(&orders), "values": values,
-            "reason": reason, "groups": groups, "proved": proved,
-        })
-    };
-    let findings: Vec<Value> = found.findings.iter().map(|each| finding(each.row())).collect();
-    Ok(json!({
-        "sentences": found.sentences(&found.findings, &Wording::of(&engine)), "findings": findings,
-        "unit": found.unit, "part": found.part.name(), "lever": found.lever,
-    }))
 }

@@ -10,6 +10,7 @@ mod firing_order;
 mod gas;
 pub mod layout;
 pub mod loads;
+mod name;
 pub mod radial;
 mod shaft;
 

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use super::balance::{Balance, Request, TorquePart, Vector};
-use super::flywheel::{CycleGrid, Drive, Evenness};
+use super::flywheel::mean_inertias;
 use super::terms::terms;
 use crate::Complex64;
 use crate::engine::layout::Strokes;
@@ -203,18 +203,7 @@ pub fn swept(
 
 /// Mean moment of inertia of pistons and rods as seen from the crank, kg·m².
 pub fn mean_inertia(engine: &Engine, cancel: &Cancel) -> Result<f64> {
-    let grid = CycleGrid::new(360.0, &[], cancel)?;
-    let none = vec![0.0; grid.nodes_deg.len()];
-    let drive = Drive {
-        grid: &grid,
-        torque: &none,
-        load: &none,
-        engine: Some(&engine.without_gas()),
-        rpm: ONE_RADIAN_PER_SECOND,
-    };
-    let moving = drive.speed(Evenness::Inertia(1.0), cancel)?.moving_inertia;
-    let count = moving.len() - 1;
-    Ok(moving[..count].iter().sum::<f64>() / count as f64)
+    Ok(mean_inertias(engine, cancel)?.iter().sum())
 }
 
 /// What the cylinders make one by one, at order 1 of their crank.
