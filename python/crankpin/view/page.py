@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 WEB = Path(__file__).parent / "web"
-IMPORT = re.compile(r'^import \{[^}]*\} from "\./(\w+\.mjs)";\n', re.MULTILINE)
+IMPORT = re.compile(r'^import \{[^}]*\} from "[./\w]*/(\w+\.mjs)";\n', re.MULTILINE)
 COMMENT = re.compile(r"^\s*(?://[^\n]*|/\*\*.*?\*/)\n", re.MULTILINE | re.DOTALL)
 EXPORT = re.compile(r"^export (?=const|class|function)", re.MULTILINE)
 INDENT = re.compile(r"^\s+", re.MULTILINE)
@@ -81,8 +81,8 @@ def style(*names: str) -> str:
     return "".join(_read(f"{name}.css") for name in ("view", *names))
 
 
-def module(*entries: str) -> str:
-    """Return modules with all that they import, as one module.
+def module(*entries: str, folder: Path = WEB) -> str:
+    """Return modules of a folder or of the pages, with all that they import, as one module.
 
     The modules import each other by name, without renaming, and no two have a name in common: one
     after the other, without ``import`` and ``export``, they are one module. Comments and indents
@@ -93,7 +93,7 @@ def module(*entries: str) -> str:
     def visit(name: str) -> None:
         if name in found:
             return
-        text = _read(name)
+        text = _read(name, folder if (folder / name).exists() else WEB)
         for each in IMPORT.findall(text):
             visit(each)
         found[name] = INDENT.sub("", EXPORT.sub("", COMMENT.sub("", IMPORT.sub("", text))))
@@ -108,5 +108,5 @@ def as_json(value: object) -> str:
     return json.dumps(value, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
 
 
-def _read(name: str) -> str:
-    return (WEB / name).read_text(encoding="utf-8")
+def _read(name: str, folder: Path = WEB) -> str:
+    return (folder / name).read_text(encoding="utf-8")

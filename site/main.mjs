@@ -1,0 +1,29 @@
+// The page: one engine or two, their forms and pictures, what they do, and files.
+
+import { load } from "./core.mjs";
+import { WORDS } from "./words.mjs";
+import { Workbench } from "./workbench.mjs";
+
+/** The bytes of the core, which stand packed in the page. */
+async function coreBytes() {
+  const binary = atob(document.getElementById("core").textContent);
+  const packed = Uint8Array.from(binary, (each) => each.charCodeAt(0));
+  return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+}
+
+async function begin() {
+  const module = await WebAssembly.compile(await coreBytes());
+  const core = await load(module);
+  const script = JSON.parse(document.getElementById("worker").textContent);
+  const workbench = await Workbench.opened(core, module, script);
+  document.body.append(workbench.element);
+  globalThis.workbench = workbench;
+}
+
+begin().catch((error) => {
+  const said = document.createElement("p");
+  said.setAttribute("role", "alert");
+  said.textContent = `${WORDS.noStart} ${error.message}`;
+  document.body.append(said);
+  throw error;
+});

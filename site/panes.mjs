@@ -1,0 +1,17 @@
+// Panes: what an engine does, each asked of the core when it is shown.
+
+import { orders } from "./pane_orders.mjs";
+
+const turning = {
+  key: "turning",
+  title: "Vectors and orbits",
+  make: async ({ bench }) => [bench.parts.dials, bench.parts.phasors],
+};
+
+const curvesOverCrankAngle = {
+  key: "timeline",
+  title: "Over the crank angle",
+  make: async ({ bench }) => [bench.parts.timeline],
+};
+
+export const PANES = [orders, turning, curvesOverCrankAngle];
