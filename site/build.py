@@ -58,15 +58,17 @@ def main() -> None:
 
 def build(wasm: bytes) -> str:
     """Return the page with this core."""
-    script = page.module("main.mjs", folder=HERE)
-    worker = page.module("worker.mjs", folder=HERE)
-    style = page.style() + (HERE / "workbench.css").read_text(encoding="utf-8")
+    drawing = page.modules("full.mjs", "page.mjs")
+    script = page.modules("main.mjs", folder=HERE)
+    style = page.style()
     return Template((HERE / "workbench.html").read_text(encoding="utf-8")).substitute(
-        style=style,
+        turning=style,
+        style=(HERE / "workbench.css").read_text(encoding="utf-8"),
         tables=page.as_json(tables()),
-        worker=page.as_json(worker),
+        worker=page.as_json("\n".join(page.modules("worker.mjs", folder=HERE).values())),
         wasm=base64.b64encode(gzip.compress(wasm, mtime=0)).decode(),
-        script=script,
+        drawing="\n".join(drawing.values()),
+        script="\n".join(text for name, text in script.items() if name not in drawing),
     )
 
 
@@ -81,6 +83,7 @@ def tables() -> dict[str, Any]:
             "hints": HINTS,
         },
         "presets": {name: preset(name) for name in presets.presets()},
+        "page": page.template(),
         "groups": {title: names for title in GROUPS if (names := group(title))},
     }
 
@@ -128,18 +131,18 @@ def preset(name: str) -> dict[str, Any]:
     part = layout.cylinder
     listed = {key: value for key, value in layout.arguments.items() if key not in ("name", "source")}
     kind = layout.builder
+    common = {"name": engine.name, "title": layout.arguments["name"], "source": engine.source}
     fields = {"stroke": _length(part.stroke), "rod_length": _length(part.rod_length),
-              "reciprocating_mass": _mass(part.reciprocating_mass), "name": engine.name}  # fmt: skip
+              "reciprocating_mass": _mass(part.reciprocating_mass)}  # fmt: skip
     if part.bore is not None:
         fields["bore"] = _length(part.bore)
     if kind in ("from_lists", "from_firing_order"):
-        return {"description": presets.presets().descriptions[name], "kind": "lists",
-                "file": engine.to_json(), "fields": {"name": engine.name}}  # fmt: skip
+        return common | {"kind": "lists", "file": engine.to_json(), "fields": {}}
     if kind != "radial" or layout.arguments.get("rows", 1) > 1:
         fields["spacing"] = _length(layout.spacing)
     for key, value in listed.items():
         fields[key] = _text(key, value)
-    return {"description": presets.presets().descriptions[name], "kind": kind, "fields": fields}
+    return common | {"kind": kind, "fields": fields}
 
 
 def _text(key: str, value: object) -> str:

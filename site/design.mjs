@@ -20,7 +20,9 @@ export class Design {
   /** `file` is an engine's file as an object, of the kind `lists`; `extra` what is fitted to the engine. */
   constructor({ kind, fields = {}, file = null, preset = null, extra = null, rpm = SPEED }) {
     Object.assign(this, { kind, file, preset, extra, rpm });
-    this.own = { ...fields };
+    /** Texts of the preset that are no fields. */
+    const { title = "", source = "" } = PRESETS[preset] ?? {};
+    this.texts = { title, source };
     this.fields = { ...DEFAULTS, ...(kind === "lists" && file ? fieldsOf(file) : {}), ...fields };
     this.before = { ...this.fields };
   }
@@ -29,7 +31,7 @@ export class Design {
   static preset(name) {
     if (!Object.hasOwn(PRESETS, name)) throw new TypingError("preset", name, "choose one of the list");
     const { kind, fields, file } = PRESETS[name];
-    return new Design({ kind, fields: blank(kind, fields), file: file && JSON.parse(file), preset: name });
+    return new Design({ kind, fields: file ? fields : blank(kind, fields), file: file && JSON.parse(file), preset: name });
   }
 
   /** An engine of a file of the library, as it writes it. */
@@ -70,7 +72,9 @@ export class Design {
       }
     }
     if (faults.length) throw Object.assign(new Error(faults[0].message), { faults });
-    return this.kind === "lists" ? { file: this.listed(read) } : { call: { kind: this.kind, ...read } };
+    const { title, source } = this.texts;
+    read.name ??= title;
+    return this.kind === "lists" ? { file: this.listed(read) } : { call: { kind: this.kind, source, ...read } };
   }
 
   /** The file with what was typed in place of its own figures. */
@@ -102,7 +106,7 @@ export class Design {
       };
     });
     return JSON.stringify({
-      ...rest, name: read.name ?? "", firing_order: read.firing_order ?? "", strokes: Number(read.strokes), placements,
+      ...rest, name: read.name, firing_order: read.firing_order ?? "", strokes: Number(read.strokes), placements,
     });
   }
 }

@@ -1,5 +1,7 @@
 // Files that the reader opens and saves, by the browser's own means.
 
+import { PAGE } from "./tables.mjs";
+
 /** Longest file that is read, bytes: the core's limit. */
 export const LONGEST_FILE = 1 << 24;
 
@@ -24,4 +26,16 @@ export function csvOf(rows) {
     return /[",\n\r]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
   };
   return rows.map((row) => `${row.map(cell).join(",")}\r\n`).join("");
+}
+
+/** The page that the library saves of an engine: the drawing modules, which this page has too, and figures. */
+export function turningPage(figures) {
+  const escape = (text) => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;");
+  const text = (id) => document.getElementById(id).textContent;
+  const json = JSON.stringify(figures).replaceAll("<", "\\u003c");
+  const filled = {
+    title: escape(figures.name || "Engine"), style: text("turning"), body: "",
+    script: `${text("drawing")}\npage(Full, ${json});`,
+  };
+  return PAGE.replace(/\$(\w+)/g, (_, name) => filled[name]);
 }

@@ -22,19 +22,24 @@ export class Form {
     this.id = `form-${++forms}`;
     this.preset = html("select", { id: `${this.id}-preset`, "data-field": "preset" }, html("option", { value: "" }, WORDS.ownEngine),
       ...Object.entries(GROUPS).map(([label, names]) => html("optgroup", { label },
-        ...names.map((name) => html("option", { value: name }, PRESETS[name].fields.name)))));
+        ...names.map((name) => html("option", { value: name }, PRESETS[name].name)))));
     this.preset.addEventListener("change", () => this.preset.value && chosen(this.preset.value));
     this.kind = html("select", { id: `${this.id}-kind`, "data-field": "kind" },
       ...Object.entries(KINDS).map(([value, { label }]) => html("option", { value }, label)));
     this.kind.addEventListener("change", () => kindChosen(this.kind.value));
     this.said = html("p", { class: "fault whole", role: "alert" });
     this.groups = html("div", {});
+    this.helper = html("p", { class: "helper", "aria-hidden": "true" });
     this.element = html("form", { class: "form", "aria-label": WORDS.engine, autocomplete: "off" },
       html("div", { class: "group" },
         html("div", { class: "entry" }, html("label", { for: this.preset.id }, WORDS.preset), this.preset),
         html("div", { class: "entry" }, html("label", { for: this.kind.id }, WORDS.kind), this.kind),
         this.said),
-      this.groups);
+      this.groups, this.helper);
+    this.element.addEventListener("focusin", ({ target }) => {
+      this.helper.textContent = saidOf(FIELDS[target.dataset.field]);
+    });
+    this.element.addEventListener("focusout", () => { this.helper.textContent = ""; });
     this.element.addEventListener("submit", (event) => event.preventDefault());
   }
 
@@ -51,7 +56,7 @@ export class Form {
   }
 
   entry(name) {
-    const { label, unit, choices, said, range, optional } = FIELDS[name];
+    const { label, unit, choices, said, range } = FIELDS[name];
     const id = `${this.id}-${name}`;
     const control = choices
       ? html("select", { id }, ...Object.entries(choices).map(([value, text]) => html("option", { value }, text)))
@@ -59,9 +64,10 @@ export class Form {
     control.setAttribute("data-field", name);
     control.value = this.design.fields[name] ?? "";
     const fault = html("p", { class: "fault", id: `${id}-fault`, hidden: true });
-    const hint = said ? html("small", { id: `${id}-said` }, optional && unit ? `${said}; ${WORDS.mayBeEmpty}` : said) : "";
+    const hint = said ? html("small", { id: `${id}-said` }, saidOf(FIELDS[name])) : "";
     control.setAttribute("aria-describedby", [said ? `${id}-said` : "", `${id}-fault`].join(" ").trim());
     const typed = () => {
+      this.last = name;
       this.design.fields[name] = control.value;
       if (slide) slide.value = Number.parseFloat(control.value) || 0;
       this.act.changed(name);
@@ -105,9 +111,11 @@ export class Form {
     const of = new Map();
     for (const { argument, message, hint, value } of list) {
       const [bare] = `${argument ?? ""}`.split(/[[. ]/);
-      const name = this.entries.has(bare) ? bare : FIELD_OF[bare];
-      if (this.entries.has(name)) of.set(name, hint ? said(value, hint) : message);
-      else rest.push(message);
+      const own = this.entries.has(bare) ? bare : FIELD_OF[bare];
+      // An error of several figures stands beside the one that was typed.
+      const name = this.entries.has(this.last) && `${value} ${hint}`.includes(this.last) ? this.last : own;
+      if (this.entries.has(name)) of.set(name, inWords(hint ?? message));
+      else rest.push(inWords(message));
     }
     for (const [name, { control, fault }] of this.entries) {
       const text = of.get(name) ?? "";
@@ -120,16 +128,22 @@ export class Form {
     if (this.said.textContent !== whole) this.said.textContent = whole;
   }
 
-  /** Follow a speed, a name or figures that were changed elsewhere. */
-  write(name, text) {
-    const entry = this.entries.get(name);
-    if (entry && entry.control.value !== text) entry.control.value = text;
+  /** The name that the engine has while none is typed. */
+  named(name) {
+    this.entries.get("name").control.placeholder = name;
   }
 }
 
-/** An error beside the field that it is of: what was read, and what to give. */
-function said(value, hint) {
-  return value === undefined || value === null || value === "" ? hint : `${value}: ${hint}`;
+/** What a field means. */
+const saidOf = ({ said, optional, unit } = {}) => (said ? `${said}${optional && unit ? `; ${WORDS.mayBeEmpty}` : ""}` : "");
+
+/** An error beside the field that it is of, in the words of the fields. */
+function inWords(hint) {
+  let text = hint.replaceAll("crank_radius", WORDS.crankRadius);
+  for (const [name, { label }] of Object.entries(FIELDS)) {
+    if (name.includes("_")) text = text.replaceAll(name, label.toLowerCase());
+  }
+  return text;
 }
 
 /** A choice of the units in which plain numbers are read and results are shown. */

@@ -39,11 +39,11 @@ export function quantity(text, unit, plain, argument = "value") {
   const typed = text.trim().replace(DECIMAL_COMMA, "$1.$2");
   const parts = WRITTEN.exec(typed);
   const wrong = (hint) => new TypingError(argument, text.trim(), hint);
-  if (!parts) throw wrong(unit ? `give a number, such as 12 or ${UNITS.examples[unit] ?? `12 ${unit}`}` : "give a number");
+  const units = UNITS.hints[unit];
+  if (!parts) throw wrong(units ? `give a number, such as 12 or with a unit (${units})` : "give a number");
   const word = parts[2]?.trim() || plain;
   const factor = word ? factorOf(word, unit) : "1";
   if (factor === undefined) {
-    const units = UNITS.hints[unit];
     throw wrong(units ? `give a number with a unit of this kind (${units})` : "give a number without a unit");
   }
   const [a, b] = [decimal(parts[1]), decimal(factor)];

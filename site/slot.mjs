@@ -43,6 +43,7 @@ export class Slot {
       this.engine = this.built();
       this.show();
       this.form.faults([]);
+      this.form.named(this.engine.summary.name);
     } catch (error) {
       this.form.faults(error.faults ?? [error]);
     }

@@ -2,7 +2,7 @@
 
 import { Design } from "./design.mjs";
 import { html } from "./dom.mjs";
-import { LONGEST_FILE, fileName, saveFile } from "./files.mjs";
+import { LONGEST_FILE, fileName, saveFile, turningPage } from "./files.mjs";
 import { unitsChoice } from "./form.mjs";
 import { designOf, fragmentOf } from "./fragment.mjs";
 import { Jobs, Outdated } from "./jobs.mjs";
@@ -76,6 +76,8 @@ export class Workbench {
         button(WORDS.open, WORDS.openSaid, () => this.file.click()),
         button(WORDS.save, WORDS.saveSaid, () => this.save()),
         button(WORDS.link, WORDS.linkSaid, () => this.copyLink()),
+        button(WORDS.page, WORDS.pageSaid, () => this.savePage()),
+        button(WORDS.print, WORDS.printSaid, () => print()),
         this.compare, this.choice, this.working));
     this.chooser = html("div", { class: "chooser", role: "tablist", "aria-label": WORDS.engine, hidden: true });
   }
@@ -138,7 +140,7 @@ export class Workbench {
       slot.name = several ? [WORDS.first, WORDS.second][k] : WORDS.engine;
       slot.form.element.setAttribute("aria-label", slot.name);
       slot.form.element.hidden = k !== shown;
-      const tab = html("button", { type: "button", role: "tab", "aria-selected": k === shown, tabindex: k === shown ? 0 : -1 }, slot.name);
+      const tab = html("button", { type: "button", role: "tab", "aria-selected": `${k === shown}`, tabindex: k === shown ? 0 : -1 }, slot.name);
       tab.addEventListener("click", () => this.arrange(k));
       return tab;
     });
@@ -217,6 +219,12 @@ export class Workbench {
   save() {
     const { engine } = this.current;
     if (engine) saveFile(fileName(engine.summary.name, "toml"), engine.toml, "application/toml");
+  }
+
+  savePage() {
+    const { bench, engine } = this.current;
+    const { rpm } = bench.state;
+    if (engine) saveFile(fileName(engine.summary.name, "html"), turningPage({ ...bench.figures, rpm }), "text/html");
   }
 
   async writeAddress() {

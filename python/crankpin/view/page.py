@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 WEB = Path(__file__).parent / "web"
 IMPORT = re.compile(r'^import \{[^}]*\} from "[./\w]*/(\w+\.mjs)";\n', re.MULTILINE)
 COMMENT = re.compile(r"^\s*(?://[^\n]*|/\*\*.*?\*/)\n", re.MULTILINE | re.DOTALL)
-EXPORT = re.compile(r"^export (?=const|class|function)", re.MULTILINE)
+EXPORT = re.compile(r"^export (?=(?:async )?(?:const|class|function))", re.MULTILINE)
 INDENT = re.compile(r"^\s+", re.MULTILINE)
 
 
@@ -68,7 +68,7 @@ def document(
     title: str, entries: Iterable[str], call: str, *, styles: Iterable[str] = (), body: str = ""
 ) -> str:
     """Return a page that loads nothing: modules and what they import, and a call of one."""
-    return Template(_read("page.html")).substitute(
+    return Template(template()).substitute(
         title=html.escape(title),
         style=style(*styles),
         script=f"{module(*entries)}\n{call}",
@@ -76,13 +76,23 @@ def document(
     )
 
 
+def template() -> str:
+    """Return what pages are written into: ``$title``, ``$style``, ``$body`` and ``$script``."""
+    return _read("page.html")
+
+
 def style(*names: str) -> str:
     """Return the style sheet, with these besides; elements within class ``crankpin`` alone."""
     return "".join(_read(f"{name}.css") for name in ("view", *names))
 
 
-def module(*entries: str, folder: Path = WEB) -> str:
-    """Return modules of a folder or of the pages, with all that they import, as one module.
+def module(*entries: str) -> str:
+    """Return modules with all that they import, as one module."""
+    return "\n".join(modules(*entries).values())
+
+
+def modules(*entries: str, folder: Path = WEB) -> dict[str, str]:
+    """Return modules of a folder or of the pages with all that they import, each behind its imports.
 
     The modules import each other by name, without renaming, and no two have a name in common: one
     after the other, without ``import`` and ``export``, they are one module. Comments and indents
@@ -100,7 +110,7 @@ def module(*entries: str, folder: Path = WEB) -> str:
 
     for entry in entries:
         visit(entry)
-    return "\n".join(found.values())
+    return found
 
 
 def as_json(value: object) -> str:
