@@ -30,7 +30,8 @@ export class Bench extends Full {
     this.parts = {
       dials: element.querySelector(".dials"), phasors, timeline, sound: this.sound?.element ?? "",
     };
-    settings.element.replaceChildren(settings.rpm.element, settings.exaggeration.element, settings.orders);
+    const pace = this.transport.element.querySelector(".pace");
+    settings.element.replaceChildren(pace, settings.rpm.element, settings.exaggeration.element, settings.orders);
     this.element = region(title, "turning", element.querySelector(".views"));
   }
 }
