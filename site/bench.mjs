@@ -1,7 +1,10 @@
 // The engine that turns in the workbench: the parts of the whole page, in another arrangement.
 
+import { show } from "./dom.mjs";
 import { Full } from "./full.mjs";
 import { region } from "./panels.mjs";
+import { ownSettings } from "./places.mjs";
+import { STRINGS } from "./strings.mjs";
 
 /** Entries of the state that the reader chose outlast another engine. */
 const KEPT = ["angle_deg", "playing", "reverse", "pace", "step", "side", "space", "exaggeration", "still"];
@@ -34,4 +37,26 @@ export class Bench extends Full {
     settings.element.replaceChildren(pace, settings.rpm.element, settings.exaggeration.element, settings.orders);
     this.element = region(title, "turning", element.querySelector(".views"));
   }
+
+  /** Show another engine with as many parts of each kind as this one, in the same picture; false of any other. */
+  follows(figures) {
+    if (structure(figures) !== structure(this.figures)) return false;
+    this.figures = figures;
+    Object.assign(this.state, ownSettings(figures), this.kept.exaggeration === undefined ? { exaggeration: null } : {});
+    const name = this.header.element.querySelector("[data-name=engine-name]");
+    show(name, figures.name, figures.name || STRINGS.unnamed);
+    this.element.setAttribute("aria-label", figures.name || STRINGS.unnamed);
+    this.configure();
+    this.pose();
+    return true;
+  }
+}
+
+/** What a picture is made of once: another engine that has the same only moves it. */
+function structure({ cylinders, counterweights, shafts, firing_deg: fires, gas, loads, strokes, bank_angle_deg: angle, units }) {
+  return JSON.stringify([
+    cylinders.map(({ bank, crank, cycle }) => [bank, crank, cycle]), new Set(cylinders.map(({ z }) => z)).size,
+    counterweights.length, shafts.map(({ unbalances }) => unbalances.length), Boolean(fires), Boolean(gas), loads, strokes,
+    angle === null, units,
+  ]);
 }

@@ -28,6 +28,8 @@ PAGE = TARGET / "site" / "index.html"
 
 SETTINGS = ("mm, g", "in, oz, lbf", "in, g, lbf")
 """Units that the workbench offers; plain numbers are in them, and results are shown in them."""
+DRAWN = {"force": "N", "moment": "N·m", "torque": "N·m", "orbit": "m", "length": "m", "inertia": "kg·m²"}
+"""Quantities of the turning picture, and the library's units of them."""
 SHOWN = ("m", "kg", "kg·m", "N", "N·m", "kg·m²")
 """Units of the library that are shown in those of the setting."""
 HINTS = {"m": "mm, in", "kg": "g, lb, oz", "rpm": "rpm", "°": "°", "": "%"}
@@ -80,6 +82,7 @@ def tables() -> dict[str, Any]:
             "settings": SETTINGS,
             "typed": typed(),
             "shown": {setting: shown(setting) for setting in SETTINGS},
+            "drawn": {setting: drawn(setting) for setting in SETTINGS[1:]} | {SETTINGS[0]: {}},
             "hints": HINTS,
         },
         "presets": {name: preset(name) for name in presets.presets()},
@@ -110,6 +113,12 @@ def typed() -> dict[str, dict[str, str]]:
 def shown(setting: str) -> dict[str, tuple[str, float]]:
     """Return the unit that a setting shows in place of each, and the factor of its numbers."""
     return {unit: tuple(units.convert(unit, units.read(setting))) for unit in SHOWN}
+
+
+def drawn(setting: str) -> dict[str, tuple[str, float]]:
+    """Return the units in which a setting draws quantities, which else have prefixes as they fit."""
+    chosen = units.read(setting)
+    return {name: tuple(units.convert(unit, chosen)) for name, unit in DRAWN.items()}
 
 
 def group(title: str) -> list[str]:

@@ -137,8 +137,8 @@ export class Form {
 /** What a field means. */
 const saidOf = ({ said, optional, unit } = {}) => (said ? `${said}${optional && unit ? `; ${WORDS.mayBeEmpty}` : ""}` : "");
 
-/** An error beside the field that it is of, in the words of the fields. */
-function inWords(hint) {
+/** An error in the words of the fields. */
+export function inWords(hint) {
   let text = hint.replaceAll("crank_radius", WORDS.crankRadius);
   for (const [name, { label }] of Object.entries(FIELDS)) {
     if (name.includes("_")) text = text.replaceAll(name, label.toLowerCase());

@@ -1,6 +1,6 @@
 // The page: one engine or two, their forms and pictures, what they do, and files.
 
-import { load } from "./core.mjs";
+import { Core } from "./core.mjs";
 import { WORDS } from "./words.mjs";
 import { Workbench } from "./workbench.mjs";
 
@@ -13,7 +13,7 @@ async function coreBytes() {
 
 async function begin() {
   const module = await WebAssembly.compile(await coreBytes());
-  const core = await load(module);
+  const core = new Core(module);
   const script = JSON.parse(document.getElementById("worker").textContent);
   const workbench = await Workbench.opened(core, module, script);
   document.body.append(workbench.element);

@@ -52,7 +52,7 @@ export const orders = {
         series: [{ name, label, values: shown.map((each) => (each[k] ?? 0) * factor) }] };
     };
     return [
-      tableOf({ title: "Peaks by order", columns: COLUMNS, rows: [...shown, whole], units, name: engine.summary.name }),
+      tableOf({ title: "Peaks by order", columns: COLUMNS, rows: [...shown, whole], total: true, units, name: engine.summary.name }),
       ...(shown.length ? [html_row(bars(named(3, "force", "Shaking force, longest")), bars(named(6, "moment", "Rocking moment, longest")),
         ...(torque ? [bars(named(7, "torque", "Roll torque"))] : []))] : []),
     ];

@@ -1,5 +1,6 @@
 // Panes: what an engine does, each asked of the core when it is shown.
 
+import { counterweightsPane, shaftsPane } from "./pane_fits.mjs";
 import { orders } from "./pane_orders.mjs";
 
 const turning = {
@@ -14,4 +15,4 @@ const curvesOverCrankAngle = {
   make: async ({ bench }) => [bench.parts.timeline],
 };
 
-export const PANES = [orders, turning, curvesOverCrankAngle];
+export const PANES = [orders, turning, curvesOverCrankAngle, counterweightsPane, shaftsPane];

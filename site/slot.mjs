@@ -4,13 +4,23 @@ import { Bench } from "./bench.mjs";
 import { Form } from "./form.mjs";
 import { html } from "./dom.mjs";
 import { Design } from "./design.mjs";
+import { UNITS } from "./tables.mjs";
 import { WORDS } from "./words.mjs";
+
+let slots = 0;
+
+/** Controls of the turning page that a bench has; the form has those of the engine. */
+const CONTROLS = ["crank_angle", "rpm", "rocking", "sound", "view"];
 
 export class Slot {
   /** `core` answers at once; `changed` is told when another engine is shown, `speed` of a speed. */
   constructor(core, design, { units, changed, speed }) {
     Object.assign(this, { core, design, units, changed, speed });
+    this.id = ++slots;
     this.engine = null;
+    /** What the reader set in panes: controls by pane, and their values. */
+    this.controls = {};
+    this.settings = {};
     this.form = new Form({
       changed: () => this.later(),
       chosen: (name) => this.take(Object.assign(Design.preset(name), { rpm: this.design.rpm })),
@@ -59,9 +69,27 @@ export class Slot {
     return core.call("read", { engine: JSON.stringify({ ...JSON.parse(found.json), ...design.extra }) });
   }
 
+  /** The engine of the form, without what was fitted to it. */
+  bare() {
+    const { core, design } = this;
+    if (!design.extra) return this.engine;
+    const { counterweights, shafts, ...rest } = JSON.parse(this.engine.json);
+    return core.call("read", { engine: JSON.stringify(rest) });
+  }
+
+  /** Fit counterweights and shafts to the engine, or take them off. */
+  fit(hardware) {
+    this.design.extra = hardware;
+    this.follow();
+  }
+
   show() {
     const { core, design, engine, bench } = this;
-    const figures = core.call("figures", { engine: engine.json, rpm: design.rpm });
+    const figures = {
+      ...core.call("figures", { engine: engine.json, rpm: design.rpm }),
+      controls: CONTROLS, units: UNITS.drawn[this.units],
+    };
+    if (bench?.follows(figures)) return;
     this.bench = new Bench(figures, this.stage, bench?.kept);
     bench?.destroy();
     this.bench.listeners.add((changed) => {

@@ -21,7 +21,7 @@ export function readable(value) {
 }
 
 /** Columns are `{ label, unit }`, rows their values in the library's units; the first column heads its row. */
-export function tableOf({ title, columns, rows, units, name }) {
+export function tableOf({ title, columns, rows, units, name, total = false }) {
   const scaled = columns.map(({ unit }) => (unit ? shownIn(units, unit) : ["", 1]));
   const head = columns.map(({ label }, k) => (scaled[k][0] ? `${label}, ${scaled[k][0]}` : label));
   const values = rows.map((row) => row.map((value, k) => (typeof value === "number" ? value * scaled[k][1] : value)));
@@ -33,7 +33,7 @@ export function tableOf({ title, columns, rows, units, name }) {
       html("table", {}, html("caption", {}, title, " ", save),
         html("thead", {}, html("tr", {}, ...columns.map(({ label }, k) => html("th", { scope: "col" }, label,
           scaled[k][0] ? html("small", {}, ` ${scaled[k][0]}`) : "")))),
-        html("tbody", {}, ...values.map((row, r) => html("tr", {}, ...row.map((value, k) => cell(value, rows[r][k], k, columns[k]))))))));
+        html("tbody", {}, ...values.map((row, r) => html("tr", { class: total && r === values.length - 1 ? "total" : null }, ...row.map((value, k) => cell(value, rows[r][k], k, columns[k]))))))));
 }
 
 function cell(value, own, k, { key }) {

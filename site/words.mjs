@@ -37,5 +37,11 @@ export const WORDS = {
   again: "compute it",
   fromFile: (name) => `opened ${name}`,
   noFile: (name) => `${name} could not be read: `,
+  residual: "Longest vectors, before and after",
+  fit: "Fit it to the engine",
+  unfit: "Take it off",
+  counterweights: "Counterweights on the crankshaft",
+  counterweightsSaid: "They cancel what turns with the crank at order 1, as far as counterweights can; angles are from the right at crank angle 0.",
+  shafts: "Balance shafts",
   footer: "Computed here by crankpin’s own core; nothing is sent or loaded.",
 };

@@ -3,7 +3,7 @@
 import { Design } from "./design.mjs";
 import { html } from "./dom.mjs";
 import { LONGEST_FILE, fileName, saveFile, turningPage } from "./files.mjs";
-import { unitsChoice } from "./form.mjs";
+import { inWords, unitsChoice } from "./form.mjs";
 import { designOf, fragmentOf } from "./fragment.mjs";
 import { Jobs, Outdated } from "./jobs.mjs";
 import { PANES } from "./panes.mjs";
@@ -170,29 +170,47 @@ export class Workbench {
     });
     this.panes.setAttribute("aria-labelledby", `tab-${pane.key}`);
     const turn = this.turn = (this.turn ?? 0) + 1;
+    const slots = this.slots.filter(({ engine }) => engine);
+    const boxes = this.boxes(pane, slots);
     try {
-      const made = await Promise.all(this.slots.filter(({ engine }) => engine).map((slot) => this.made(pane, slot)));
+      const made = await Promise.all(slots.map((slot) => this.made(pane, slot)));
       if (turn !== this.turn) return;
-      this.panes.replaceChildren(...made);
+      boxes.forEach(({ title, results }, k) => {
+        title.textContent = slots.length > 1 ? `${slots[k].name}: ${slots[k].engine.summary.name}` : "";
+        results.replaceChildren(...made[k]);
+      });
     } catch (error) {
       if (!(error instanceof Outdated)) throw error;
-      if (turn === this.turn) this.panes.replaceChildren(html("p", { class: "hint" }, `${WORDS.cancelled} `,
+      if (turn !== this.turn) return;
+      boxes[0].results.replaceChildren(html("p", { class: "hint" }, `${WORDS.cancelled} `,
         button(WORDS.again, WORDS.again, () => this.refresh())));
     }
   }
 
+  /** What results are put into: a title, the pane's controls, which stay while results change, and a place. */
+  boxes(pane, slots) {
+    const same = this.shownBoxes && this.shownBoxes.pane === pane && this.shownBoxes.slots.join() === slots.map(({ id }) => id).join();
+    if (!same) {
+      const boxes = slots.map((slot) => {
+        slot.controls[pane.key] ??= pane.controls?.(slot, { units: () => this.units, again: () => this.refresh() }) ?? "";
+        const [title, results] = [html("h2", {}), html("div", { class: "results" })];
+        return { title, results, element: html("div", { class: `pane ${pane.key}` }, title, slot.controls[pane.key], results) };
+      });
+      this.shownBoxes = { pane, slots: slots.map(({ id }) => id), boxes };
+      this.panes.replaceChildren(...boxes.map(({ element }) => element));
+    }
+    return this.shownBoxes.boxes;
+  }
+
   async made(pane, slot) {
-    const ask = (name, given) => this.jobs.ask(`${this.slots.indexOf(slot)} ${name}`, name, given);
+    const ask = (name, given) => this.jobs.ask(`${slot.id} ${name}`, name, given);
     const tools = { ask, core: this.core, units: this.units, again: () => this.refresh() };
-    let content;
     try {
-      content = await pane.make(slot, tools);
+      return await pane.make(slot, tools);
     } catch (error) {
       if (error instanceof Outdated) throw error;
-      content = [html("p", { class: "fault" }, error.message)];
+      return [html("p", { class: "fault", role: "alert" }, inWords(error.message))];
     }
-    const title = this.slots.length > 1 ? [html("h2", {}, `${slot.name}: ${slot.engine.summary.name}`)] : [];
-    return html("div", { class: `pane ${pane.key}` }, ...title, ...content);
   }
 
   busy(busy) {

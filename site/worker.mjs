@@ -1,15 +1,15 @@
 // The worker's part: calls of the core that may be long.
 
-import { load } from "./core.mjs";
+import { Core } from "./core.mjs";
 
 let core = null;
 
-self.addEventListener("message", async ({ data }) => {
+self.addEventListener("message", ({ data }) => {
   const { module, id, name, given } = data;
-  if (module) core = load(module);
+  if (module) core = new Core(module);
   if (id === undefined) return;
   try {
-    const answer = (await core).call(name, given);
+    const answer = core.call(name, given);
     self.postMessage({ id, answer });
   } catch (error) {
     const { message, argument, value, hint } = error;
