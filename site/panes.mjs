@@ -1,6 +1,7 @@
 // Panes: what an engine does, each asked of the core when it is shown.
 
 import { counterweightsPane, shaftsPane } from "./pane_fits.mjs";
+import { firingPane } from "./pane_firing.mjs";
 import { orders } from "./pane_orders.mjs";
 
 const turning = {
@@ -15,4 +16,4 @@ const curvesOverCrankAngle = {
   make: async ({ bench }) => [bench.parts.timeline],
 };
 
-export const PANES = [orders, turning, curvesOverCrankAngle, counterweightsPane, shaftsPane];
+export const PANES = [orders, turning, curvesOverCrankAngle, firingPane, counterweightsPane, shaftsPane];

@@ -43,5 +43,9 @@ export const WORDS = {
   counterweights: "Counterweights on the crankshaft",
   counterweightsSaid: "They cancel what turns with the crank at order 1, as far as counterweights can; angles are from the right at crank angle 0.",
   shafts: "Balance shafts",
+  firing: "Firing over a cycle, from cylinder 1 on; a line for each bank",
+  firingTable: "Firing",
+  even: "evenly",
+  uneven: (degrees) => `intervals differ by up to ${degrees}°`,
   footer: "Computed here by crankpin’s own core; nothing is sent or loaded.",
 };
