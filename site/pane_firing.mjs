@@ -41,7 +41,7 @@ function strip(engine, firing) {
 
 export const firingPane = {
   key: "firing",
-  title: "Firing and sound",
+  title: "Firing",
   when: ({ summary }) => summary.firing,
   make: async ({ engine, bench }, { units }) => {
     const { firing } = engine.summary;

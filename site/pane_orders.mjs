@@ -39,7 +39,7 @@ function mattering(rows) {
 
 export const orders = {
   key: "orders",
-  title: "Order by order",
+  title: "Orders",
   make: async ({ engine, design }, { core, units }) => {
     const found = core.call("balance", { engine: engine.json, rpm: design.rpm });
     const rows = found.orders.map(row);

@@ -1,19 +1,20 @@
 // Panes: what an engine does, each asked of the core when it is shown.
 
+import { anglesPane } from "./pane_angles.mjs";
 import { counterweightsPane, shaftsPane } from "./pane_fits.mjs";
 import { firingPane } from "./pane_firing.mjs";
 import { orders } from "./pane_orders.mjs";
 
 const turning = {
   key: "turning",
-  title: "Vectors and orbits",
+  title: "Vectors",
   make: async ({ bench }) => [bench.parts.dials, bench.parts.phasors],
 };
 
 const curvesOverCrankAngle = {
   key: "timeline",
-  title: "Over the crank angle",
+  title: "Crank angle",
   make: async ({ bench }) => [bench.parts.timeline],
 };
 
-export const PANES = [orders, turning, curvesOverCrankAngle, firingPane, counterweightsPane, shaftsPane];
+export const PANES = [orders, turning, curvesOverCrankAngle, anglesPane, firingPane, counterweightsPane, shaftsPane];

@@ -39,6 +39,13 @@ export class Slot {
     this.follow();
   }
 
+  /** Type a text into a field in place of the reader. */
+  type(name, text) {
+    this.design.fields[name] = text;
+    this.form.show(this.design, this.units);
+    this.follow();
+  }
+
   /** Follow what is typed, once a frame. */
   later() {
     this.frame ??= requestAnimationFrame(() => {

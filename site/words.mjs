@@ -47,5 +47,12 @@ export const WORDS = {
   firingTable: "Firing",
   even: "evenly",
   uneven: (degrees) => `intervals differ by up to ${degrees}°`,
+  order: "order",
+  held: "While it changes, hold",
+  holds: { pins: "the crankpins", firing: "the firing" },
+  over: { force: "Longest shaking force over bank angle", moment: "Longest rocking moment over bank angle" },
+  bankAngle: "bank angle",
+  own: (angle) => `${Number(angle.toFixed(2))}°`,
+  chooseAngle: "A click on a chart sets the bank angle.",
   footer: "Computed here by crankpin’s own core; nothing is sent or loaded.",
 };
