@@ -52,7 +52,7 @@ pub use readings::balance::{Balance, Orders, Request};
 pub use readings::sweep::Sweep;
 pub use readings::waveform::Waveform;
 pub use readings::{
-    balance, bearing_loads, exact, flywheel, mount_designs, mounted, peaks, sweep, terms,
+    balance, bearing_loads, exact, figures, flywheel, mount_designs, mounted, peaks, sweep, terms,
     tolerances, waveform,
 };
 

@@ -61,6 +61,12 @@ impl Engine {
         self.banks()
     }
 
+    /// Bank angle that can change, degrees: of two banks on one crank.
+    #[must_use]
+    pub fn changeable_bank_angle(&self) -> Option<f64> {
+        self.check_bank_angle_can_change().ok().map(|banks| banks.angle().degrees())
+    }
+
     /// The same engine with its two banks at another angle about the same bisector.
     pub fn with_bank_angle(&self, bank_angle: Angle, hold: Hold) -> Result<Self> {
         bank_angle_in_range(bank_angle.degrees())?;

@@ -9,6 +9,7 @@ pub mod file;
 mod firing_order;
 mod gas;
 pub mod layout;
+pub mod radial;
 mod shaft;
 
 use serde::{Deserialize, Serialize};
