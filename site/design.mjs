@@ -147,13 +147,16 @@ function valueOf(name, text, units, lists) {
   return quantity(typed, field.unit, plain, name);
 }
 
+/** Decimals of degrees that are typed; a number of more was computed, and is no exact one. */
+const TYPED_DECIMALS = 6;
+
 /** Degrees stay a text: the library reads decimals and fractions exactly. */
 function degrees(name, text) {
   const plain = text.replace(/\s*(°|deg|degrees)$/u, "").replace("−", "-");
   if (!/^[-+]?[\d.]+(e[-+]?\d+)?(\/\d+)?$/iu.test(plain)) {
     throw new TypingError(name, text, "give degrees, such as 90, 22.5 or 360/7");
   }
-  return plain;
+  return (plain.split(".")[1] ?? "").length > TYPED_DECIMALS && !plain.includes("/") ? Number(plain) : plain;
 }
 
 function parts(text) {
