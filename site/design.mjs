@@ -64,7 +64,7 @@ export class Design {
     const read = {};
     for (const name of this.names) {
       try {
-        const value = valueOf(name, this.fields[name] ?? "", units, this.kind === "lists");
+        const value = valueOf(name, this.fields[name] ?? "", units, this.kind);
         if (value !== null) read[name] = value;
       } catch (error) {
         if (!(error instanceof TypingError)) throw error;
@@ -124,11 +124,12 @@ function fault(name, value, hint) {
 }
 
 /** The value of a field: a number in the library's unit, a text, a list; null if nothing is typed. */
-function valueOf(name, text, units, lists) {
+function valueOf(name, text, units, kind) {
   const field = FIELDS[name];
   const typed = text.trim();
   if (!typed) {
-    if (field.optional) return null;
+    // The core says where a radial engine needs a spacing: with several rows.
+    if (field.optional || (kind === "radial" && name === "spacing")) return null;
     throw new TypingError(name, typed, `give the ${field.label.toLowerCase()}`);
   }
   if (field.choices) return name === "strokes" ? Number(typed) : typed;
@@ -139,7 +140,7 @@ function valueOf(name, text, units, lists) {
   }
   if (field.unit === "°") return field.listed ? parts(typed).map((each) => degrees(name, each)) : degrees(name, typed);
   const plain = plainUnit(field.unit, units);
-  if (field.listed || lists) {
+  if (field.listed || kind === "lists") {
     const listed = parts(typed);
     const [, last] = /([^\d\s.]+)$/u.exec(listed.at(-1)) ?? [];
     return listed.map((each) => quantity(each, field.unit, last ?? plain, name));
