@@ -5,6 +5,7 @@ import { Full } from "./full.mjs";
 import { region } from "./panels.mjs";
 import { ownSettings } from "./places.mjs";
 import { STRINGS } from "./strings.mjs";
+import { WORDS } from "./words.mjs";
 
 /** Entries of the state that the reader chose outlast another engine. */
 const KEPT = ["angle_deg", "playing", "reverse", "pace", "step", "side", "space", "exaggeration", "still"];
@@ -36,6 +37,11 @@ export class Bench extends Full {
     const pace = this.transport.element.querySelector(".pace");
     settings.element.replaceChildren(pace, settings.rpm.element, settings.exaggeration.element, settings.orders);
     this.element = region(title, "turning", element.querySelector(".views"));
+  }
+
+  crankSpeed(span) {
+    const history = super.crankSpeed(span);
+    return this.figures.flywheel ? history : { ...history, missing: WORDS.noInertia };
   }
 
   /** Show another engine with as many parts of each kind as this one, in the same picture; false of any other. */

@@ -32,7 +32,9 @@ DRAWN = {"force": "N", "moment": "N·m", "torque": "N·m", "orbit": "m", "length
 """Quantities of the turning picture, and the library's units of them."""
 SHOWN = ("m", "kg", "kg·m", "N", "N·m", "kg·m²")
 """Units of the library that are shown in those of the setting."""
-HINTS = {"m": "mm, in", "kg": "g, lb, oz", "rpm": "rpm", "°": "°", "": "%"}
+INERTIAS = ("kg·m²", "kg·m2", "kg·m^2", "kgm²", "kgm2", "kg m²", "kg m2", "g·m²", "lb·ft²", "lb·in²")
+"""Units of moments of inertia that may be typed, of those that the library reads."""
+HINTS = {"m": "mm, in", "kg": "g, lb, oz", "rpm": "rpm", "kg·m²": "kg·m², lb·ft²", "°": "°", "": "%"}
 
 GROUPS = {
     "Singles and twins": ("single", "i2-", "v-twin-", "boxer-2"),
@@ -102,6 +104,11 @@ def typed() -> dict[str, dict[str, str]]:
             if (factor := units.exact(word, arguments.UNITS[unit])) is not None
         }
         for unit in ("m", "kg", "Pa")
+    }
+    found["kg·m²"] = {
+        word: f"{factor:f}"
+        for word in INERTIAS
+        if (factor := units.exact(word, arguments.UNITS["kg·m²"])) is not None
     }
     others: dict[str, dict[str, Decimal]] = arguments.OTHERS
     return found | {

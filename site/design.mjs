@@ -72,9 +72,13 @@ export class Design {
       }
     }
     if (faults.length) throw Object.assign(new Error(faults[0].message), { faults });
+    const { gas, inertia } = read;
+    delete read.gas;
+    delete read.inertia;
+    const more = { gas, inertia: inertia ?? null };
     const { title, source } = this.texts;
     read.name ??= title;
-    return this.kind === "lists" ? { file: this.listed(read) } : { call: { kind: this.kind, source, ...read } };
+    return this.kind === "lists" ? { ...more, file: this.listed(read) } : { ...more, call: { kind: this.kind, source, ...read } };
   }
 
   /** The file with what was typed in place of its own figures. */
@@ -127,7 +131,7 @@ function fault(name, value, hint) {
 function valueOf(name, text, units, kind) {
   const field = FIELDS[name];
   const typed = text.trim();
-  if (!typed) {
+  if (!typed && !field.choices) {
     // The core says where a radial engine needs a spacing: with several rows.
     if (field.optional || (kind === "radial" && name === "spacing")) return null;
     throw new TypingError(name, typed, `give the ${field.label.toLowerCase()}`);

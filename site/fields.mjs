@@ -1,5 +1,10 @@
 // What can be typed of an engine: the arguments of the library's builders, by their names.
 
+/** Example cycles: their kinds and loads. */
+export const GASES = {
+  "petrol 1": "example: petrol, full load", "petrol 0.3": "example: petrol, part load", "diesel 1": "example: diesel, full load",
+};
+
 /** Of each field its label, the library's unit, and what it means; `choices` of those that are chosen. */
 export const FIELDS = {
   name: { label: "Name", text: true, optional: true },
@@ -33,11 +38,15 @@ export const FIELDS = {
   tdc_deg: { label: "Top dead centres", unit: "°", listed: true, said: "crank angle of each cylinder" },
   z: { label: "Places along the crank", unit: "m", listed: true, said: "from the front to the flywheel" },
   firing_order: { label: "Firing order", text: true, optional: true, said: "such as 1-3-4-2" },
+  gas: { label: "Gas pressure", choices: { "": "not counted", ...GASES } },
+  inertia: {
+    label: "Flywheel inertia", unit: "kg·m²", optional: true, said: "moment of inertia that turns with the crank; for its speed over a cycle",
+  },
   strokes: { label: "Cycle", choices: { 4: "four-stroke", 2: "two-stroke" } },
 };
 
 const OF_A_CYLINDER = ["bore", "stroke", "rod_length", "reciprocating_mass", "rotating_mass", "pin_offset"];
-const FIRING = ["firing_order", "strokes"];
+const FIRING = ["firing_order", "strokes", "gas", "inertia"];
 const BANKS = ["spacing", "bank_stagger", "odd_bank", "numbering"];
 
 /** Kinds of engines: builders of the library, and what they take besides the parts of a cylinder. */
@@ -59,5 +68,5 @@ export const groupsOf = (kind) => [
 export const DEFAULTS = {
   name: "", bore: "86 mm", stroke: "86 mm", rod_length: "145 mm", reciprocating_mass: "450 g", spacing: "100 mm",
   throws_deg: "0", bank_angle_deg: "90", cylinders: "7", bank_deg: "90", tdc_deg: "0", z: "0 mm",
-  odd_bank: "right", numbering: "alternating", strokes: "4",
+  odd_bank: "right", numbering: "alternating", strokes: "4", gas: "", inertia: "",
 };

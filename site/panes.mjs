@@ -3,6 +3,8 @@
 import { anglesPane } from "./pane_angles.mjs";
 import { counterweightsPane, shaftsPane } from "./pane_fits.mjs";
 import { firingPane } from "./pane_firing.mjs";
+import { mountsPane } from "./pane_mounts.mjs";
+import { torquePane } from "./pane_torque.mjs";
 import { orders } from "./pane_orders.mjs";
 
 const turning = {
@@ -17,4 +19,4 @@ const curvesOverCrankAngle = {
   make: async ({ bench }) => [bench.parts.timeline],
 };
 
-export const PANES = [orders, turning, curvesOverCrankAngle, anglesPane, firingPane, counterweightsPane, shaftsPane];
+export const PANES = [orders, turning, curvesOverCrankAngle, anglesPane, firingPane, torquePane, counterweightsPane, shaftsPane, mountsPane];

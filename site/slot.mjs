@@ -58,6 +58,7 @@ export class Slot {
   follow() {
     try {
       this.engine = this.built();
+      this.engine.summary.name = this.named(this.engine.summary);
       this.show();
       this.form.faults([]);
       this.form.named(this.engine.summary.name);
@@ -67,13 +68,22 @@ export class Slot {
     this.changed(this);
   }
 
+  /** The engine's name, in which the bank angle and the pins are the engine's own, as the library has it. */
+  named({ name, bank_angle_deg: angle }) {
+    const pins = Number.parseFloat(this.design.fields.pin_split_deg) ? WORDS.pins.split : WORDS.pins.shared;
+    return name.replaceAll("{bank_angle}", angle === null ? "–" : `${Number(angle.toFixed(2))}`).replaceAll("{pins}", pins);
+  }
+
   /** The engine: its files, and what the core says that it is. */
   built() {
     const { core, design } = this;
-    const { call, file } = design.request(this.units);
-    const found = call ? core.call("build", call) : core.call("read", { engine: file });
-    if (!design.extra) return found;
-    return core.call("read", { engine: JSON.stringify({ ...JSON.parse(found.json), ...design.extra }) });
+    const { call, file, gas, inertia } = design.request(this.units);
+    this.inertia = inertia;
+    let found = call ? core.call("build", call) : core.call("read", { engine: file });
+    if (design.extra) found = core.call("read", { engine: JSON.stringify({ ...JSON.parse(found.json), ...design.extra }) });
+    if (!gas) return found;
+    const [kind, load] = gas.split(" ");
+    return core.call("with_cycle", { engine: found.json, kind, load: Number(load) });
   }
 
   /** The engine of the form, without what was fitted to it. */
@@ -93,8 +103,8 @@ export class Slot {
   show() {
     const { core, design, engine, bench } = this;
     const figures = {
-      ...core.call("figures", { engine: engine.json, rpm: design.rpm }),
-      controls: CONTROLS, units: UNITS.drawn[this.units],
+      ...core.call("figures", { engine: engine.json, rpm: design.rpm, inertia: this.inertia }),
+      name: engine.summary.name, controls: CONTROLS, units: UNITS.drawn[this.units],
     };
     if (bench?.follows(figures)) return;
     this.bench = new Bench(figures, this.stage, bench?.kept);
