@@ -102,10 +102,10 @@ export function bars({ title, names, series, across, up }) {
   const width = Math.min((toX(1) - toX(0)) * 0.8 / series.length, 34);
   series.forEach(({ name, values, label }, s) => values.forEach((value, k) => {
     const x = toX(k + 0.5) + (s - series.length / 2) * width;
-    element.append(svg("rect", { class: `bar ${name}`, x: x.toFixed(1), y: toY(value).toFixed(1), width: Math.max(width - 1, 1).toFixed(1), height: (y0 - toY(value)).toFixed(1) },
+    element.append(svg("rect", { class: `column ${name}`, x: x.toFixed(1), y: toY(value).toFixed(1), width: Math.max(width - 1, 1).toFixed(1), height: (y0 - toY(value)).toFixed(1) },
       svg("title", {}, `${label}, ${names[k]}: ${short(value, 3)} ${up}`)));
   }));
   return html("figure", { class: "charted" }, html("figcaption", {}, title), element,
     series.length > 1 ? html("p", { class: "keys" }, ...series.map(({ name, label }) => html("span", {},
-      svg("svg", { viewBox: "0 0 12 12", "aria-hidden": "true" }, svg("rect", { class: `bar ${name}`, width: 12, height: 12, rx: 2 })), label))) : "");
+      svg("svg", { viewBox: "0 0 12 12", "aria-hidden": "true" }, svg("rect", { class: `column ${name}`, width: 12, height: 12, rx: 2 })), label))) : "");
 }

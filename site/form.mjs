@@ -60,7 +60,7 @@ export class Form {
     const id = `${this.id}-${name}`;
     const control = choices
       ? html("select", { id }, ...Object.entries(choices).map(([value, text]) => html("option", { value }, text)))
-      : html("input", { id, type: "text", spellcheck: "false", autocapitalize: "off", inputmode: range ? "decimal" : null });
+      : html("input", { id, type: "text", spellcheck: "false", autocapitalize: "off", inputmode: range ? "decimal" : null, placeholder: " " });
     control.setAttribute("data-field", name);
     control.value = this.design.fields[name] ?? "";
     const fault = html("p", { class: "fault", id: `${id}-fault`, hidden: true });

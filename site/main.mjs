@@ -7,7 +7,9 @@ import { Workbench } from "./workbench.mjs";
 /** The bytes of the core, which stand packed in the page. */
 async function coreBytes() {
   const binary = atob(document.getElementById("core").textContent);
-  const packed = Uint8Array.from(binary, (each) => each.charCodeAt(0));
+  const packed = new Uint8Array(binary.length);
+  // By far the fastest way: it is most of the time until the first engine is seen.
+  for (let k = 0; k < packed.length; k++) packed[k] = binary.charCodeAt(k);
   return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
 }
 

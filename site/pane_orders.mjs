@@ -1,7 +1,9 @@
 // How the engine shakes, order by order: sentences, a table, and a spectrum.
 
 import { bars } from "./chart.mjs";
+import { html } from "./dom.mjs";
 import { shownIn, tableOf } from "./table.mjs";
+import { WORDS } from "./words.mjs";
 
 /** Orders that are shown at most; those above are in the library. */
 const MOST_LISTED_ORDERS = 8;
@@ -52,16 +54,9 @@ export const orders = {
         series: [{ name, label, values: shown.map((each) => (each[k] ?? 0) * factor) }] };
     };
     return [
-      tableOf({ title: "Peaks by order", columns: COLUMNS, rows: [...shown, whole], total: true, units, name: engine.summary.name }),
-      ...(shown.length ? [html_row(bars(named(3, "force", "Shaking force, longest")), bars(named(6, "moment", "Rocking moment, longest")),
+      tableOf({ title: WORDS.peaksAt(design.rpm), columns: COLUMNS, rows: [...shown, whole], total: true, units, name: engine.summary.name }),
+      ...(shown.length ? [html("div", { class: "charts" }, bars(named(3, "force", "Shaking force, longest")), bars(named(6, "moment", "Rocking moment, longest")),
         ...(torque ? [bars(named(7, "torque", "Roll torque"))] : []))] : []),
     ];
   },
 };
-
-function html_row(...figures) {
-  const element = document.createElement("div");
-  element.className = "charts";
-  element.append(...figures);
-  return element;
-}

@@ -17,6 +17,7 @@ export function readable(value) {
   if (typeof value !== "number") return value ?? "–";
   if (!Number.isFinite(value)) return "–";
   if (Math.abs(value) >= 1e4 && Math.abs(value) < 1e9) return signed(value.toFixed(0));
+  if (value && Math.abs(value) < 1e-3) return signed(value.toExponential(2));
   return signed(`${Number(value.toPrecision(SHOWN_DIGITS))}`);
 }
 

@@ -64,5 +64,6 @@ export const WORDS = {
   atRest: "Forces of the mounts at rest",
   noInertia: "type the flywheel’s moment of inertia to see it",
   pins: { shared: "shared pins", split: "split pins" },
+  peaksAt: (rpm) => `Peaks by order at ${Number(rpm.toFixed(3))} rpm`,
   footer: "Computed here by crankpin’s own core; nothing is sent or loaded.",
 };
