@@ -71,7 +71,7 @@ export class Workbench {
       for (const slot of this.slots) slot.setUnits(units);
     });
     this.bar = html("header", { class: "bar" },
-      html("h1", {}, "crankpin", html("small", {}, "workbench")), this.file,
+      html("p", { class: "brand" }, "crankpin", html("small", {}, "workbench")), this.file,
       html("div", { class: "commands" },
         button(WORDS.open, WORDS.openSaid, () => this.file.click()),
         button(WORDS.save, WORDS.saveSaid, () => this.save()),
