@@ -5,17 +5,26 @@ use serde_json::{Map, Value, json};
 
 use crate::answer::{self, Columns};
 use crate::arguments::Arguments;
-use crate::{balance, build, engine, figures};
+use crate::{balance, balancing, build, engine, figures, mounts, readings};
 
 type Call = fn(&mut Arguments, &mut Columns) -> Result<Value>;
 
 /// Every call, for `site/core.mjs` and README.md.
-const CALLS: [(&str, Call); 5] = [
+const CALLS: [(&str, Call); 14] = [
     ("balance", balance::balance),
+    ("balance_shafts", balancing::balance_shafts),
+    ("bank_angles", readings::bank_angles),
     ("build", build::build),
+    ("counterweights", balancing::counterweights),
     ("figures", figures::figures),
+    ("firing", readings::firing),
+    ("harmonics", readings::piston_harmonics),
+    ("mounts", mounts::mounts),
     ("read", engine::read),
+    ("sweep", readings::sweep),
     ("vanishing", engine::vanishing),
+    ("waveform", readings::waveform),
+    ("with_cycle", readings::with_cycle),
 ];
 
 /// Text and doubles of the answer of a call.

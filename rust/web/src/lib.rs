@@ -6,10 +6,13 @@
 mod answer;
 mod arguments;
 mod balance;
+mod balancing;
 mod build;
 mod calls;
 mod engine;
 mod figures;
+mod mounts;
+mod readings;
 
 use std::cell::RefCell;
 

@@ -13,6 +13,7 @@ use nalgebra::{DMatrix, RowVector2};
 use super::least_squares::{RANK_TOLERANCE, least_squares};
 use super::{NEGLIGIBLE, TurningPart, angle_lists, discs, without_rounding};
 use crate::Complex64;
+use crate::engine::{Engine, Unbalance};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::singular_values::SingularValues;
@@ -68,6 +69,37 @@ pub struct FittedWeights {
     pub reached: bool,
     /// Part of the target that they do not exert.
     pub missing: f64,
+}
+
+/// The unbalances at some places that remove the most of an engine's forward force and moment of order 1;
+/// whether they are proved to remove all that weights of any size there could, and the part that is
+/// missing.
+///
+/// Where they cannot remove both, they leave the least |force|² + |moment/length|², the length that of
+/// the longest lever of a plane or a cylinder.
+pub fn external(
+    engine: &Engine,
+    z: &[f64],
+    minimise: Minimise,
+    cancel: &Cancel,
+) -> Result<(Vec<Unbalance>, FittedWeights)> {
+    let reference = engine.reference(None)?;
+    let places = z.iter().copied().chain(engine.stations().iter().map(|station| station.z));
+    let longest = places.map(|z| (z - reference).abs()).fold(0.0, f64::max);
+    let there = super::turning(engine, 1, cancel)?;
+    let request = WeightRequest {
+        z,
+        reference,
+        length: if longest > 0.0 { longest } else { 1.0 },
+        force: Some(-there.force),
+        moment: Some(-there.moment),
+        bounds: &vec![f64::INFINITY; z.len()],
+        angles: None,
+        minimise,
+    };
+    let fitted = least(&request, cancel)?;
+    let each = fitted.list.iter().map(|one| super::shafts::unbalance(one.vector, z[one.plane]));
+    Ok((each.collect::<Result<_>>()?, fitted))
 }
 
 /// Vectors in the cross-section, a row for each plane or for each equation.

@@ -79,6 +79,11 @@ impl Chamber {
         self.travel * self.crank_radius
     }
 
+    /// Indicated mean effective pressure, Pa, of a mean torque over piston area and crank radius.
+    pub(super) fn imep(&self, mean: f64) -> f64 {
+        mean * self.strokes.cycle().degrees().to_radians() / self.travel
+    }
+
     /// Volume over the clearance volume.
     pub(super) fn ratio(&self, angle: f64) -> f64 {
         let unit = cis_degrees(angle);
