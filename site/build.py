@@ -1,7 +1,7 @@
 """Build the workbench: one page that needs a browser alone, from file:// and from any server.
 
-``python site/build.py`` writes ``target/site/index.html`` of the modules in this folder, the modules of the
-turning page, the presets and units of the installed ``crankpin``, and the core as WebAssembly.
+``python site/build.py`` writes ``target/site/index.html`` of the modules in this folder, those of
+the turning page, the presets and units of the installed ``crankpin``, and the core as WebAssembly.
 """
 
 from __future__ import annotations
@@ -28,13 +28,38 @@ PAGE = TARGET / "site" / "index.html"
 
 SETTINGS = ("mm, g", "in, oz, lbf", "in, g, lbf")
 """Units that the workbench offers; plain numbers are in them, and results are shown in them."""
-DRAWN = {"force": "N", "moment": "N·m", "torque": "N·m", "orbit": "m", "length": "m", "inertia": "kg·m²"}
+DRAWN = {
+    "force": "N",
+    "moment": "N·m",
+    "torque": "N·m",
+    "orbit": "m",
+    "length": "m",
+    "inertia": "kg·m²",
+}
 """Quantities of the turning picture, and the library's units of them."""
 SHOWN = ("m", "kg", "kg·m", "N", "N·m", "kg·m²")
 """Units of the library that are shown in those of the setting."""
-INERTIAS = ("kg·m²", "kg·m2", "kg·m^2", "kgm²", "kgm2", "kg m²", "kg m2", "g·m²", "lb·ft²", "lb·in²")
+INERTIAS = (
+    "kg·m²",
+    "kg·m2",
+    "kg·m^2",
+    "kgm²",
+    "kgm2",
+    "kg m²",
+    "kg m2",
+    "g·m²",
+    "lb·ft²",
+    "lb·in²",
+)
 """Units of moments of inertia that may be typed, of those that the library reads."""
-HINTS = {"m": "mm, in", "kg": "g, lb, oz", "rpm": "rpm", "kg·m²": "kg·m², lb·ft²", "°": "°", "": "%"}
+HINTS = {
+    "m": "mm, in",
+    "kg": "g, lb, oz",
+    "rpm": "rpm",
+    "kg·m²": "kg·m², lb·ft²",
+    "°": "°",
+    "": "%",
+}
 
 GROUPS = {
     "Singles and twins": ("single", "i2-", "v-twin-", "boxer-2"),
@@ -123,14 +148,16 @@ def shown(setting: str) -> dict[str, tuple[str, float]]:
 
 
 def drawn(setting: str) -> dict[str, tuple[str, float]]:
-    """Return the units in which a setting draws quantities, which else have prefixes as they fit."""
+    """Return the units in which a setting draws quantities."""
     chosen = units.read(setting)
     return {name: tuple(units.convert(unit, chosen)) for name, unit in DRAWN.items()}
 
 
 def group(title: str) -> list[str]:
     """Return the presets below a heading, each below the first that has it."""
-    before = [start for other in list(GROUPS)[: list(GROUPS).index(title)] for start in GROUPS[other]]
+    before = [
+        start for other in list(GROUPS)[: list(GROUPS).index(title)] for start in GROUPS[other]
+    ]
     return [
         name
         for name in presets.presets()
@@ -145,7 +172,9 @@ def preset(name: str) -> dict[str, Any]:
     layout = presets.layout(name)
     engine = presets.preset(name)
     part = layout.cylinder
-    listed = {key: value for key, value in layout.arguments.items() if key not in ("name", "source")}
+    listed = {
+        key: value for key, value in layout.arguments.items() if key not in ("name", "source")
+    }
     kind = layout.builder
     common = {"name": engine.name, "title": layout.arguments["name"], "source": engine.source}
     fields = {"stroke": _length(part.stroke), "rod_length": _length(part.rod_length),

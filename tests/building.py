@@ -1,4 +1,4 @@
-"""The workbench, built for tests of it: they skip where the core has not been compiled for browsers."""
+"""The workbench, built for tests, which skip where its core is not compiled."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def workbench(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def open_workbench(workbench: Path, open_file: Open) -> Callable[..., Page]:
-    """Open the workbench, with an engine in the fragment if one is named, and wait for its picture."""
+    """Open the workbench, with the engine of a fragment, and wait for its picture."""
 
     def opened(fragment: str = "", **context: object) -> Page:
         page = open_file(workbench, fragment=fragment, **context)

@@ -92,7 +92,7 @@ def module(*entries: str) -> str:
 
 
 def modules(*entries: str, folder: Path = WEB) -> dict[str, str]:
-    """Return modules of a folder or of the pages with all that they import, each behind its imports.
+    """Return modules of a folder, or of pages, with what they import, each behind its imports.
 
     The modules import each other by name, without renaming, and no two have a name in common: one
     after the other, without ``import`` and ``export``, they are one module. Comments and indents
