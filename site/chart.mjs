@@ -3,7 +3,8 @@
 import { html, path, svg } from "./dom.mjs";
 import { short } from "./format.mjs";
 
-const CHART_SIZE = [640, 240];
+/** Pixels before it is scaled: texts stay legible on a phone, and where three charts share a line. */
+const CHART_SIZE = [440, 220];
 const LEFT = 58;
 const RIGHT = 14;
 const TOP = 12;

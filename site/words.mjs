@@ -8,7 +8,7 @@ export const WORDS = {
   ownEngine: "your own",
   kind: "Kind",
   units: "Units of numbers typed without one, and of results",
-  mayBeEmpty: "may be empty",
+  mayBeEmpty: "optional",
   crankRadius: "crank radius, half the stroke,",
   slider: (label) => `${label}, by a slider`,
   faulty: (labels) => `Not yet an engine: ${labels.join(", ")}. The picture shows the last one.`,
