@@ -15,8 +15,7 @@ if TYPE_CHECKING:
     from playwright.sync_api import Page
 
 SITE = Path(__file__).parents[1] / "site"
-NOT_BUILT = "the workbench's core is not built"
-"""How the reason begins for which tests of the workbench are skipped."""
+NOT_BUILT = "the core for browsers is not built: packaging/web"
 
 
 def builder() -> Any:  # noqa: ANN401 - a module
@@ -34,7 +33,7 @@ def workbench(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The page, of the core that was compiled last."""
     build = builder()
     if not build.WASM.exists():
-        pytest.skip(f"{NOT_BUILT}: CONTRIBUTING.md says how")
+        pytest.skip(NOT_BUILT)
     file: Path = tmp_path_factory.mktemp("site") / "index.html"
     file.write_text(build.build(build.WASM.read_bytes()), encoding="utf-8")
     return file

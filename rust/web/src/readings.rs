@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crankpin_core::balance::{Request, TorquePart};
 use crankpin_core::layout::Strokes;
-use crankpin_core::pressure::example::{Kind, example};
+use crankpin_core::pressure::example::{Example, Kind};
 use crankpin_core::sweep::{Quantity, Statistic, Sweep, SweepAxes};
 use crankpin_core::{Cancel, Firing, Result, harmonics, memory, waveform as waveforms};
 use serde_json::{Map, Value, json};
@@ -184,7 +184,7 @@ pub fn with_cycle(arguments: &mut Arguments, columns: &mut Columns) -> Result<Va
     let engine = arguments.engine()?.without_gas();
     let kind = arguments.word("kind", &[("petrol", Kind::Petrol), ("diesel", Kind::Diesel)])?;
     let (load, cancel) = (arguments.or("load", 1.0)?, Cancel::new());
-    let cycle = Arc::new(example(kind, load, engine.strokes(), &cancel)?);
+    let cycle = Arc::new(Example::new(kind, load, engine.strokes(), &cancel)?.cycle(&cancel)?);
     let given = cycle.given();
     let (theta, pressure) = (
         columns.column(given.theta_deg.iter().copied()),

@@ -86,6 +86,35 @@ struct Closed<'a> {
 }
 
 impl Wiebe {
+    /// Figures by name, in the units of the fields.
+    #[must_use]
+    pub fn figures(&self) -> Vec<(&'static str, f64)> {
+        let mut figures = match self.heat {
+            Heat::Given(heat) => vec![("heat", heat)],
+            Heat::Fuel { excess_air, stoichiometric_ratio, heating_value } => vec![
+                ("excess_air", excess_air),
+                ("stoichiometric_ratio", stoichiometric_ratio),
+                ("heating_value", heating_value),
+            ],
+        };
+        figures.extend([
+            ("start_deg", self.start_deg),
+            ("duration_deg", self.duration_deg),
+            ("a", self.a),
+            ("m", self.m),
+            ("gamma", self.gamma),
+            ("intake_pressure", self.intake_pressure),
+            ("exhaust_pressure", self.exhaust_pressure),
+            ("charge_temperature", self.charge_temperature),
+            ("intake_closes_deg", self.intake_closes_deg),
+            ("exhaust_opens_deg", self.exhaust_opens_deg),
+        ]);
+        if let Some(wall) = &self.wall {
+            figures.extend([("wall_temperature", wall.temperature), ("rpm", wall.rpm)]);
+        }
+        figures
+    }
+
     /// The cycle: p·V^γ by collocation at Chebyshev points, panels halved until exact to rounding.
     ///
     /// From exhaust opening to the piston's lowest point pressure falls as a cosine to that of the

@@ -110,68 +110,103 @@ impl Kind {
     }
 }
 
-/// A cycle at a part of full load, down to 0, which is idling.
-///
-/// Indicated mean effective pressure is linear in load, and set by the pressure of the intake (petrol
-/// four-strokes) or by the fuel; other figures are linear in load too.
-///
-/// ```
-/// use crankpin_core::Cancel;
-/// use crankpin_core::layout::Strokes;
-/// use crankpin_core::pressure::example::{Kind, example};
-///
-/// let cycle = example(Kind::Petrol, 1.0, Strokes::Four, &Cancel::new())?;
-/// assert_eq!(cycle.given().name, "example petrol, full load");
-/// # Ok::<(), crankpin_core::Error>(())
-/// ```
-pub fn example(kind: Kind, load: f64, strokes: Strokes, cancel: &Cancel) -> Result<Cycle> {
-    if !(0.0..=1.0).contains(&load) {
-        let hint = "give a part of full load, 0 (idling) to 1";
-        return Err(Error::figure("load", load, hint));
-    }
-    let (bore, cylinder) = (0.086, Cylinder::new(0.043, 0.145, 0.5, 0.0)?);
-    let chamber = Chamber::new(&cylinder, bore, kind.compression_ratio(), strokes)?;
-    let name = format!("example {}, {}", kind.name(), load_in_words(load));
-    let mut full = kind.full_load();
-    if strokes == Strokes::Two {
-        (full.intake_closes_deg, full.exhaust_opens_deg) = (-115.0, 105.0);
-    }
-    let whole = full.cycle(&chamber, name.clone(), cancel)?;
-    if load == 1.0 {
-        return Ok(whole);
-    }
-    let imep = |cycle: &Cycle| -> Result<f64> {
-        let torque = cycle.torque_of(&cylinder.proportions(), ATMOSPHERE, &[], cancel)?;
-        Ok(chamber.imep(torque.mean))
-    };
-    let target = IDLING_IMEP + load * (imep(&whole)? - IDLING_IMEP);
-    let part = between(&kind.idling(&full), &full, load);
-    // A throttle sets the charge of four-strokes with petrol. A two-stroke's cylinder is filled at the
-    // pressure of the exhaust, with less of what burns.
-    let throttled = kind == Kind::Petrol && strokes == Strokes::Four;
-    let with_charge = |charge: f64| {
-        let mut wiebe = part.clone();
-        match &mut wiebe.heat {
-            _ if throttled => wiebe.intake_pressure = full.intake_pressure * charge,
-            Heat::Fuel { excess_air, .. } => *excess_air /= charge,
-            Heat::Given(heat) => *heat *= charge,
+/// A cylinder, its bore, compression ratio and burn, and a name.
+#[derive(Debug, Clone)]
+pub struct Example {
+    /// The cylinder.
+    pub cylinder: Cylinder,
+    /// Diameter of its bore, m.
+    pub bore: f64,
+    /// Largest over smallest volume.
+    pub compression_ratio: f64,
+    /// Strokes of a cycle.
+    pub strokes: Strokes,
+    /// The burn.
+    pub wiebe: Wiebe,
+    /// Which example, and its load.
+    pub name: String,
+}
+
+impl Example {
+    /// An example at a part of full load, down to 0, which is idling.
+    ///
+    /// Indicated mean effective pressure is linear in load, and set by the pressure of the intake (petrol
+    /// four-strokes) or by the fuel; other figures are linear in load too.
+    ///
+    /// ```
+    /// use crankpin_core::Cancel;
+    /// use crankpin_core::layout::Strokes;
+    /// use crankpin_core::pressure::example::{Example, Kind};
+    ///
+    /// let cancel = Cancel::new();
+    /// let petrol = Example::new(Kind::Petrol, 1.0, Strokes::Four, &cancel)?;
+    /// assert_eq!(petrol.cycle(&cancel)?.given().name, "example petrol, full load");
+    /// # Ok::<(), crankpin_core::Error>(())
+    /// ```
+    pub fn new(kind: Kind, load: f64, strokes: Strokes, cancel: &Cancel) -> Result<Self> {
+        if !(0.0..=1.0).contains(&load) {
+            let hint = "give a part of full load, 0 (idling) to 1";
+            return Err(Error::figure("load", load, hint));
         }
-        wiebe.cycle(&chamber, name.clone(), cancel)
-    };
-    // Work is all but linear in the charge: secants converge from anywhere.
-    let (mut charge, mut before): (f64, Option<(f64, f64)>) = (1.0, None);
-    loop {
-        let cycle = with_charge(charge)?;
-        let error = imep(&cycle)? / target - 1.0;
-        if error.abs() < SETTLED {
-            return Ok(cycle);
+        let mut full = Self {
+            cylinder: Cylinder::new(0.043, 0.145, 0.5, 0.0)?,
+            bore: 0.086,
+            compression_ratio: kind.compression_ratio(),
+            strokes,
+            wiebe: kind.full_load(),
+            name: format!("example {}, {}", kind.name(), load_in_words(load)),
+        };
+        if strokes == Strokes::Two {
+            (full.wiebe.intake_closes_deg, full.wiebe.exhaust_opens_deg) = (-115.0, 105.0);
         }
-        let next = before.map_or(0.5, |(earlier, of_earlier)| {
-            let slope = (error - of_earlier) / (charge - earlier);
-            (charge - error / slope).max(LEAST_CHARGE)
-        });
-        before = Some((charge, error));
-        charge = next;
+        if load == 1.0 {
+            return Ok(full);
+        }
+        let target = IDLING_IMEP + load * (full.imep(cancel)? - IDLING_IMEP);
+        let part = between(&kind.idling(&full.wiebe), &full.wiebe, load);
+        // A throttle sets the charge of four-strokes with petrol. A two-stroke's cylinder is filled at
+        // the pressure of the exhaust, with less of what burns.
+        let throttled = kind == Kind::Petrol && strokes == Strokes::Four;
+        let with_charge = |charge: f64| {
+            let mut wiebe = part.clone();
+            match &mut wiebe.heat {
+                _ if throttled => wiebe.intake_pressure = full.wiebe.intake_pressure * charge,
+                Heat::Fuel { excess_air, .. } => *excess_air /= charge,
+                Heat::Given(heat) => *heat *= charge,
+            }
+            Self { wiebe, ..full.clone() }
+        };
+        // Work is all but linear in the charge: secants converge from anywhere.
+        let (mut charge, mut before): (f64, Option<(f64, f64)>) = (1.0, None);
+        loop {
+            let found = with_charge(charge);
+            let error = found.imep(cancel)? / target - 1.0;
+            if error.abs() < SETTLED {
+                return Ok(found);
+            }
+            let next = before.map_or(0.5, |(earlier, of_earlier)| {
+                let slope = (error - of_earlier) / (charge - earlier);
+                (charge - error / slope).max(LEAST_CHARGE)
+            });
+            before = Some((charge, error));
+            charge = next;
+        }
+    }
+
+    fn chamber(&self) -> Result<Chamber> {
+        Chamber::new(&self.cylinder, self.bore, self.compression_ratio, self.strokes)
+    }
+
+    /// The cycle.
+    pub fn cycle(&self, cancel: &Cancel) -> Result<Cycle> {
+        self.wiebe.cycle(&self.chamber()?, self.name.clone(), cancel)
+    }
+
+    /// Indicated mean effective pressure, Pa.
+    fn imep(&self, cancel: &Cancel) -> Result<f64> {
+        let proportions = self.cylinder.proportions();
+        let torque = self.cycle(cancel)?.torque_of(&proportions, ATMOSPHERE, &[], cancel)?;
+        Ok(self.chamber()?.imep(torque.mean))
     }
 }
 

@@ -1,0 +1,454 @@
+"""Is the core in a browser the library's: the same numbers, the same sentences, in bounded memory?
+
+Bits differ for two reasons alone. Processors multiply and add in one step, rounded once, where
+WebAssembly rounds twice; and sines, exponentials and powers are those of another library, a unit in
+the last place from the true value. Both are within the bounds of rounding that results report.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import math
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import crankpin as cp
+import numpy as np
+import pytest
+from crankpin import _core
+from crankpin.model import presets
+from crankpin.view.figures import figures
+from several_cranks import fired_engine, random_engine
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Page
+
+pytestmark = pytest.mark.slow  # a browser
+
+ROOT = Path(__file__).parents[2]
+MODULE = ROOT / "target" / "web" / "crankpin.wasm"
+LOADER = ROOT / "site" / "core.mjs"
+NOT_BUILT = "the core for browsers is not built: packaging/web"
+RPM = 3000.0
+ORDERS = [1, 2, 3, 4, 6, 8]
+CYLINDER = cp.Cylinder(0.043, 0.145, 0.66, bore=0.086)
+
+Calls = list[tuple[str, dict[str, Any]]]
+Ask = Callable[[Calls], list[dict[str, Any]]]
+
+START = """async ([loader, module]) => {
+    const url = URL.createObjectURL(new Blob([loader], { type: "text/javascript" }));
+    const { load } = await import(url);
+    const bytes = Uint8Array.from(atob(module), (letter) => letter.charCodeAt(0));
+    globalThis.core = await load(bytes);
+}"""
+ASK = """(calls) => {
+    const answered = (name, given) => {
+        try {
+            return { result: core.call(name, given) };
+        } catch (error) {
+            const { message, argument, value, hint } = error;
+            return { error: { name: error.name, message, argument, value, hint } };
+        }
+    };
+    const plain = (_, value) => (ArrayBuffer.isView(value) ? [...value] : value);
+    return JSON.stringify(JSON.parse(calls).map(([name, given]) => answered(name, given)), plain);
+}"""
+
+
+@pytest.fixture(scope="module")
+def page(browser: Browser) -> Iterator[Page]:
+    """An empty page that has the core."""
+    if not MODULE.exists():
+        pytest.skip(NOT_BUILT)
+    page = browser.new_page()
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(request.url))
+    page.evaluate(
+        START, [LOADER.read_text("utf-8"), base64.b64encode(MODULE.read_bytes()).decode()]
+    )
+    yield page
+    assert all(url.startswith("blob:") for url in asked)  # nothing leaves
+    page.close()
+
+
+@pytest.fixture(scope="module")
+def ask(page: Page) -> Ask:
+    """Call the core, several times at once."""
+    return lambda calls: json.loads(page.evaluate(ASK, json.dumps(calls)))
+
+
+def results(ask: Ask, calls: Calls) -> list[Any]:
+    answers = ask(calls)
+    assert [answer["error"] for answer in answers if "error" in answer] == []
+    return [answer["result"] for answer in answers]
+
+
+def preset_engines() -> list[cp.Engine]:
+    return [cp.presets()[name] for name in cp.presets()]
+
+
+def random_engines() -> list[cp.Engine]:
+    return [fired_engine(seed) if seed % 4 == 3 else random_engine(seed) for seed in range(200)]
+
+
+def complexes(entry: dict[str, Any], *names: str) -> np.ndarray[Any, np.dtype[np.complex128]]:
+    return np.array([complex(*entry[name]) for name in names])
+
+
+# --- numbers ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("engines", [preset_engines, random_engines])
+def test_balances_are_the_librarys(ask: Ask, engines: Callable[[], list[cp.Engine]]) -> None:
+    listed = engines()
+    calls: Calls = [
+        ("balance", {"engine": each.to_json(), "rpm": RPM, "orders": ORDERS}) for each in listed
+    ]
+    same = 0
+    for engine, found in zip(listed, results(ask, calls), strict=True):
+        expected = _core.balance(engine._core, RPM, ORDERS, 1e-9, None, None, True)
+        for k, entry in enumerate(found["orders"]):
+            assert entry["order"] == ORDERS[k]
+            for name in ("force", "moment"):
+                bound = expected.zero_bound(name)[k]
+                # Sizes of terms are of sines too: to a few units in the last place.
+                assert math.isclose(entry[name]["zero_bound"], bound, rel_tol=1e-14)
+                ours = complexes(entry[name], "forward", "backward", "x", "y")
+                theirs = np.concatenate(
+                    [expected.phasors(name, turning=turning)[k] for turning in (True, False)]
+                )
+                same += int((ours == theirs).all())
+                assert (abs(ours - theirs) <= bound).all()
+            for name in ("torque", "torque.inertia", "torque.gas"):
+                bound = expected.zero_bound(name)[k]
+                crank = f"crank_{name}"
+                theirs = np.array([expected.phasors(n, turning=False)[k] for n in (name, crank)])
+                # Pressure is read between points of a table and integrated: 1e-13 of its torque.
+                size = abs(theirs).max() if name != "torque.inertia" else 0.0
+                ours = complexes(entry[name], "roll", "crank")
+                assert (abs(ours - theirs) <= bound + 1e-12 * size).all()
+    # Most are those of the library to the last bit.
+    assert same > 0.5 * 2 * len(ORDERS) * len(listed)
+
+
+def test_totals_and_chosen_orders_are_the_librarys(ask: Ask) -> None:
+    listed = preset_engines()
+    calls: Calls = [("balance", {"engine": each.to_json(), "rpm": RPM}) for each in listed]
+    for engine, found in zip(listed, results(ask, calls), strict=True):
+        balance = engine.balance(RPM)
+        assert [entry["order"] for entry in found["orders"]] == list(balance.orders)
+        assert found["omitted"] == list(balance.omitted)
+        for name in ("force", "moment"):
+            total, of = found["total"][name], getattr(balance.total, name)
+            size = max(float(getattr(balance, name).peak.sum()), 1e-6)
+            # Extrema of sums whose terms are equal to rounding.
+            assert abs(total["peak"] - of.peak) <= 1e-12 * size
+            assert (abs(np.array(total["peak_xy"]) - of.peak_xy) <= 1e-12 * size).all()
+            bound = getattr(balance.error_bound, name)
+            assert math.isclose(found["error_bound"][name], bound, rel_tol=1e-9, abs_tol=1e-12)
+
+
+def test_what_vanishes_is_proved_alike(ask: Ask) -> None:
+    listed = preset_engines() + [random_engine(seed) for seed in range(40)]
+    calls: Calls = [("vanishing", {"engine": each.to_json()}) for each in listed]
+    names = ("force.x", "force.y", "force.forward", "force.backward", "moment.x", "moment.y")
+    names += ("moment.forward", "moment.backward", "torque", "torque.gas")
+    for engine, found in zip(listed, results(ask, calls), strict=True):
+        vanishes, remains, *_ = _core.vanishing(engine._core, list(range(2, 25, 2)), None, None)
+        for k, entry in enumerate(found["orders"]):
+            verdicts = [entry[name]["verdict"] for name in names]
+            assert [verdict == "vanishes" for verdict in verdicts] == vanishes[k].tolist()
+            assert [verdict == "remains" for verdict in verdicts] == remains[k].tolist()
+
+
+def test_waveforms_and_sweeps_are_the_librarys(ask: Ask) -> None:
+    theta = np.arange(0.0, 721.0, 7.3)
+    listed = [cp.Engine.preset(name) for name in ("i4", "v6-60", "v8-crossplane", "v12-60", "w16")]
+    listed.append(fired_engine(3))
+    angles = np.linspace(0.0, 180.0, 37)
+    for engine in listed:
+        given = {"engine": engine.to_json(), "rpm": RPM}
+        calls: Calls = [
+            ("waveform", given | {"theta_deg": theta.tolist()} | how)
+            for how in ({}, {"orders": ORDERS})
+        ]
+        for found, how in zip(results(ask, calls), (None, ORDERS), strict=True):
+            waveform = engine.waveform(RPM, theta_deg=theta, orders=how)
+            # Of the sizes of single cylinders, of which they are sums.
+            size = max(abs(engine.balance(RPM, orders=[1]).force.zero_bound).max() / 1e-14, 1.0)
+            for name in ("force", "moment"):
+                ours = np.array([found[name]["x"], found[name]["y"]]).T
+                assert abs(ours - waveform.read(name)).max() <= 1e-12 * size
+            torque = waveform.read("torque")
+            assert abs(np.array(found["torque"]) - torque).max() <= 1e-12 * (
+                size + abs(torque).max()
+            )
+        if not hasattr(engine, "bank_angle_deg"):
+            continue
+        for hold in ("pins", "firing"):
+            asked = given | {"bank_angle_deg": angles.tolist(), "hold": hold, "orders": [1, 2]}
+            (found,) = results(ask, [("bank_angles", asked)])
+            swept = cp.sweep(
+                engine,
+                rpm=RPM,
+                bank_angle_deg=angles,
+                hold=hold,
+                orders=[1, 2],  # type: ignore[arg-type]
+            )
+            for name in ("force", "moment"):
+                quantity = getattr(swept, name)
+                for k, n in enumerate((1, 2)):
+                    bound = 2.0 * quantity[n].zero_bound
+                    assert (abs(np.array(found[name][k]) - quantity[n].peak) <= bound).all()
+
+
+def test_harmonics_are_the_librarys(ask: Ask) -> None:
+    ratios = [0.1, 0.25, 1 / 3, 0.5, 0.9, 0.995]
+    cases = [(ratio, offset) for ratio in ratios for offset in (0.0, 0.01)]
+    cases = [(ratio, offset) for ratio, offset in cases if 1 / ratio - offset > 1.0]
+    calls: Calls = [
+        ("harmonics", {"rod_ratio": ratio, "offset": offset, "count": 24})
+        for ratio, offset in cases
+    ]
+    for (ratio, offset), found in zip(cases, results(ask, calls), strict=True):
+        cylinder = cp.Cylinder(1.0, 1.0 / ratio, 1.0, offset)
+        expected = _core.cylinder_harmonics(cylinder._parts, range(1, 25))
+        ours = np.array(found["re"]) + 1j * np.array(found["im"])
+        # Each order is known to some units in its own last place.
+        assert (abs(ours - expected) <= 1e-13 * abs(expected)).all()
+
+
+# --- engines ------------------------------------------------------------------------------------
+
+
+def test_files_are_the_librarys(ask: Ask) -> None:
+    listed = preset_engines() + random_engines()
+    for text in ("to_toml", "to_json"):
+        texts = [getattr(each, text)() for each in listed]
+        found = results(ask, [("read", {"engine": each}) for each in texts])
+        assert [each[text.removeprefix("to_")] for each in found] == texts
+
+
+def test_a_summary_says_what_the_engine_is(ask: Ask) -> None:
+    listed = preset_engines()
+    calls: Calls = [("read", {"engine": each.to_json()}) for each in listed]
+    for engine, found in zip(listed, results(ask, calls), strict=True):
+        summary = found["summary"]
+        assert summary["cylinders"] == len(engine)
+        assert summary["bank_angle_deg"] == getattr(engine, "bank_angle_deg", None)
+        assert summary["pin_deg"] == engine.pin_deg.tolist()
+        assert summary["mains"] == engine.mains.tolist()
+        if engine.firing_order:
+            assert summary["firing"]["text"] == engine.firing_order
+            assert summary["firing"]["angles_deg"] == engine.firing().angles_deg.tolist()
+
+
+def test_builders_are_the_librarys(ask: Ask) -> None:
+    parts = {"stroke": 0.086, "rod_length": 0.145, "reciprocating_mass": 0.66, "bore": 0.086}
+    calls, expected = Calls(), list[cp.Engine]()
+    for name in cp.presets():
+        found = presets.layout(name)
+        arguments = {key: value for key, value in found.arguments.items() if key != "name"}
+        kind = {"from_firing_order": "firing_order"}.get(found.builder, found.builder)
+        if kind not in ("inline", "vee", "flat", "boxer", "radial") or "absent" in arguments:
+            continue
+        calls.append(("build", {"kind": kind, "spacing": found.spacing, **parts, **arguments}))
+        engine = getattr(cp.Engine, found.builder)(CYLINDER, spacing=found.spacing, **arguments)
+        expected.append(engine)
+    assert len(calls) > 30
+    for rows, cylinders in [(1, 7), (2, 14), (2, 18), (4, 28), (2, 12), (3, 9)]:
+        for strokes in (4, 2):
+            figures = {"cylinders": cylinders, "rows": rows, "spacing": 0.2, "strokes": strokes}
+            calls.append(("build", {"kind": "radial", **parts, **figures}))
+            expected.append(cp.Engine.radial(CYLINDER, **figures))  # type: ignore[arg-type]
+    for found, engine in zip(results(ask, calls), expected, strict=True):
+        assert cp.Engine.from_toml(found["toml"]) == engine
+
+
+def test_figures_have_what_the_page_of_the_library_has(ask: Ask) -> None:
+    listed = [*preset_engines(), *(fired_engine(seed) for seed in range(8))]
+    calls: Calls = [("figures", {"engine": each.to_json(), "rpm": RPM}) for each in listed]
+    others = {"rod_ratio", "terms", "flywheel", "sentences", "loads", "name"}
+    for engine, found in zip(listed, results(ask, calls), strict=True):
+        expected = json.loads(json.dumps(figures(engine, RPM, spectrum=None)))
+        assert found.keys() == expected.keys()
+        for name in found.keys() - others:
+            if name == "block":
+                # A product of three figures.
+                for key, value in expected[name].items():
+                    assert math.isclose(found[name][key], value, rel_tol=1e-15)
+            else:
+                assert found[name] == expected[name], name
+        terms, theirs = found["terms"], expected["terms"]
+        assert terms["orders"] == theirs["orders"]
+        assert len(terms["swept"]) == len(theirs["swept"])
+        for name, size in theirs["sizes"].items():
+            assert math.isclose(terms["sizes"][name], size, rel_tol=1e-14), name
+        numbers = list(dict.fromkeys(row[0] for row in terms["planar"]))
+        planar = sum(_core.group_terms(engine._core, moving, numbers, None)[0] for moving in (0, 1))
+        ours = np.zeros((len(numbers), 3, 8))
+        for order, _, _, groups, factor in terms["planar"]:
+            for group, *values in groups:
+                ours[numbers.index(order), group] += factor * np.array(values)
+        size = abs(planar).max(initial=0.0)
+        # Sums of a few terms, each a product of a few figures.
+        assert abs(ours.view(complex) - planar).max(initial=0.0) <= 1e-14 * size
+
+
+# --- parts that are fitted ----------------------------------------------------------------------
+
+
+def test_counterweights_and_shafts_are_the_librarys(ask: Ask) -> None:
+    names = ("single", "i3", "v6-90", "v8-crossplane", "boxer-4", "radial-7")
+    for name in names:
+        engine = cp.Engine.preset(name)
+        given = {"engine": engine.to_json()}
+        weights, shafts = results(
+            ask,
+            [
+                ("counterweights", given),
+                ("balance_shafts", given | {"ratios": [1, -1], "x": [0.1, -0.1], "y": [0, 0]}),
+            ],
+        )
+        pairs = [
+            (weights, cp.counterweights(engine).fitted),
+            (shafts, cp.balance_shafts(engine, [1, -1], x=[0.1, -0.1], y=[0, 0]).fitted),
+        ]
+        for found, expected in pairs:
+            ours = cp.Engine.from_toml(found["toml"])
+            size = engine.balance(RPM, orders=[1]).force.peak.max() + 1.0
+            for quantity in ("force", "moment"):
+                left = [
+                    getattr(each.balance(RPM, orders=[1]), quantity) for each in (ours, expected)
+                ]
+                # Solutions of least squares, to their rounding.
+                assert abs(left[0].forward - left[1].forward).max() <= 1e-9 * size
+                assert abs(left[0].backward - left[1].backward).max() <= 1e-9 * size
+
+
+@pytest.mark.parametrize("load", [1.0, 0.25, 0.0])
+@pytest.mark.parametrize("kind", ["petrol", "diesel"])
+def test_example_cycles_are_the_librarys(
+    ask: Ask, kind: Literal["petrol", "diesel"], load: float
+) -> None:
+    engine = cp.Engine.preset("i4", cylinder=CYLINDER)
+    given = {"engine": engine.to_json(), "kind": kind, "load": load}
+    (found,) = results(ask, [("with_cycle", given)])
+    expected = cp.Cycle.example(kind, load=load)
+    assert len(found["theta_deg"]) == len(expected.theta_deg)
+    # Solved by iteration, with powers of another library.
+    assert np.allclose(found["pressure"], expected.pressure, rtol=1e-9)
+    assert cp.Engine.from_toml(found["toml"]).loads_counted == f"gas: {expected.name}"
+
+
+def test_modes_are_the_librarys(ask: Ask) -> None:
+    engine = cp.Engine.preset("i4")
+    body = cp.RigidBody(mass=150.0, cg=(0, 0.1, 0.2), inertia=np.diag([6.0, 8.5, 3.2]))
+    corners = [(0.3, -0.1, -0.2), (-0.3, -0.1, -0.2), (0.3, -0.1, 0.6), (-0.3, -0.1, 0.6)]
+    mounts = [cp.Mount(at, stiffness=(2e5, 3e5, 1e5), name=f"{k}") for k, at in enumerate(corners)]
+    powertrain = cp.Powertrain(engine, body, mounts)
+    (found,) = results(ask, [("mounts", {"engine": powertrain.to_toml()})])
+    modes = powertrain.modes()
+    assert np.allclose(found["modes"]["frequency"], modes.frequency, rtol=1e-10)
+    other = ask([("mounts", {"engine": engine.to_toml()})])[0]["error"]
+    assert other["argument"] == "powertrain"
+
+
+# --- what is wrong ------------------------------------------------------------------------------
+
+
+def mutated(text: str, seed: int) -> str:
+    """Return a text with some characters exchanged, left out or doubled."""
+    rng = np.random.default_rng(seed)
+    letters = list(text)
+    for _ in range(int(rng.integers(1, 6))):
+        k = int(rng.integers(len(letters)))
+        letters[k] = str(
+            rng.choice(["", letters[k] * 2, "=", "-", "9", '"', "\n", "e", "[", "é", "<"])
+        )
+    return "".join(letters)
+
+
+def test_mutated_files_give_the_librarys_errors(ask: Ask) -> None:
+    texts = [mutated(cp.Engine.preset("v6-60").to_toml(), seed) for seed in range(300)]
+    texts += [mutated(random_engine(3).to_json(), seed) for seed in range(300)]
+    same = 0
+    for text, answer in zip(
+        texts, ask([("read", {"engine": each}) for each in texts]), strict=True
+    ):
+        json_file = text.lstrip().startswith("{")
+        try:
+            engine = cp.Engine.from_json(text) if json_file else cp.Engine.from_toml(text)
+        except cp.InputError as error:
+            expected = {name: getattr(error, name) for name in ("argument", "value", "hint")}
+            expected |= {"name": "InputError", "message": str(error)}
+            same += answer.get("error") == expected
+            continue
+        same += answer["result"]["toml"] == engine.to_toml()
+    assert same == len(texts)
+
+
+def test_wrong_arguments_are_named(ask: Ask) -> None:
+    engine = cp.Engine.preset("v6-60").to_json()
+    wrong: list[tuple[str, dict[str, Any], str]] = [
+        ("balance", {"rpm": -1}, "rpm"),
+        ("balance", {"rpm": "fast"}, "rpm"),
+        ("balance", {}, "rpm"),
+        ("balance", {"rpm": 1, "orders": [0]}, "order"),
+        ("balance", {"rpm": 1, "rtol": 2}, "rtol"),
+        ("balance", {"rpm": 1, "speed": 2}, "argument"),
+        ("bank_angles", {"rpm": 1, "bank_angle_deg": [200], "orders": [1]}, "bank_angle_deg"),
+        ("bank_angles", {"rpm": 1, "bank_angle_deg": [1], "hold": "x", "orders": [1]}, "hold"),
+        ("waveform", {"rpm": 1, "theta_deg": [1e300]}, "theta_deg"),
+        ("sweep", {"rpm": [1.0] * 10, "quantity": "sound"}, "quantity"),
+        ("with_cycle", {"load": 2}, "load"),
+        ("balance_shafts", {"ratios": [0]}, "order"),
+        ("toast", {}, "call"),
+    ]
+    answers = ask([(name, {"engine": engine} | given) for name, given, _ in wrong])
+    for (name, _, argument), answer in zip(wrong, answers, strict=True):
+        error = answer["error"]
+        assert error["name"] == "InputError", name
+        assert argument in error["argument"], (name, error)
+        assert error["hint"]
+    same = ask([("balance", {"engine": engine, "rpm": -1})])[0]["error"]
+    with pytest.raises(cp.InputError) as raised:
+        cp.Engine.preset("v6-60").balance(rpm=-1)
+    assert (same["message"], same["hint"]) == (str(raised.value), raised.value.hint)
+
+
+def test_hostile_names_stay_texts(ask: Ask, page: Page) -> None:
+    names = ["<script>alert(1)</script>", "__proto__", '"; throw 1; //', "\u2028", "é" * 999, "\0x"]
+    engines = [cp.Engine.preset("i4").replace(name=name) for name in names]
+    found = results(ask, [("read", {"engine": each.to_json()}) for each in engines])
+    assert [each["summary"]["name"] for each in found] == names
+    assert page.evaluate("Object.keys({}).length + Object.keys(Object.prototype).length") == 0
+
+
+def test_what_is_too_large_is_an_error_and_the_next_call_works(ask: Ask) -> None:
+    engine = cp.Engine.preset("v6-60").to_json()
+    many = [float(k) for k in range(20_000)]
+    offsets = [1e-6 * k for k in range(2_000)]
+    large = {"engine": engine, "rpm": many, "pin_offset": offsets, "orders": ORDERS}
+    answers = ask([("sweep", large), ("balance", {"engine": engine, "rpm": RPM, "orders": [2]})])
+    assert answers[0]["error"]["name"] == "InputError"
+    assert answers[1]["result"]["orders"][0]["order"] == 2
+
+
+def test_memory_stays_bounded_after_a_thousand_engines(ask: Ask, page: Page) -> None:
+    texts = [each.to_json() for each in random_engines()[:100]]
+
+    def once() -> None:
+        for name in ("figures", "balance"):
+            results(ask, [(name, {"engine": text, "rpm": RPM}) for text in texts])
+
+    once()
+    before = page.evaluate("core.memory")
+    for _ in range(9):
+        once()
+    # The allocator's own fragments: two pages of 64 KiB.
+    assert page.evaluate("core.memory") <= before + 2 * 65536
+    assert before < 32 << 20
