@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import base64
 import gzip
+import json
 from decimal import Decimal
 from pathlib import Path
 from string import Template
@@ -182,7 +183,7 @@ def preset(name: str) -> dict[str, Any]:
     if part.bore is not None:
         fields["bore"] = _length(part.bore)
     if kind in ("from_lists", "from_firing_order"):
-        return common | {"kind": "lists", "file": engine.to_json(), "fields": {}}
+        return common | {"kind": "lists", "file": json.loads(engine.to_json()), "fields": {}}
     if kind != "radial" or layout.arguments.get("rows", 1) > 1:
         fields["spacing"] = _length(layout.spacing)
     for key, value in listed.items():

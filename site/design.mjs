@@ -31,12 +31,17 @@ export class Design {
   static preset(name) {
     if (!Object.hasOwn(PRESETS, name)) throw new TypingError("preset", name, "choose one of the list");
     const { kind, fields, file } = PRESETS[name];
-    return new Design({ kind, fields: file ? fields : blank(kind, fields), file: file && JSON.parse(file), preset: name });
+    return new Design({ kind, fields: file ? fields : blank(kind, fields), file, preset: name });
   }
 
   /** An engine of a file of the library, as it writes it. */
   static file(json) {
     return new Design({ kind: "lists", file: JSON.parse(json) });
+  }
+
+  /** The same design, to be changed by itself. */
+  copy() {
+    return Object.assign(new Design(this), { before: this.before });
   }
 
   /** The same figures as another kind of engine. */

@@ -8,8 +8,8 @@ import { UNITS } from "./tables.mjs";
 /** Longest text that a packed file may have, bytes: as the library's. */
 const MOST_BYTES = 1 << 24;
 
-/** The fragment of a design. */
-export async function fragmentOf(design, units) {
+/** The fragment of designs: of the first one, and the others behind it. */
+export async function fragmentOf([design, ...others], units) {
   const found = new URLSearchParams();
   if (design.preset) found.set("preset", design.preset);
   else found.set("kind", design.kind);
@@ -19,11 +19,12 @@ export async function fragmentOf(design, units) {
   if (design.extra) found.set("extra", await packed(JSON.stringify(design.extra)));
   found.set("rpm", `${design.rpm}`);
   if (units !== UNITS.settings[0]) found.set("units", units);
+  if (others.length) found.set("with", (await fragmentOf(others, units)).slice(1));
   return `#${found}`;
 }
 
-/** The design and the units of a fragment; null of none. */
-export async function designOf(fragment) {
+/** The designs and the units of a fragment; null of none. */
+export async function designsOf(fragment, most = 2) {
   const given = new URLSearchParams(fragment.replace(/^#/, ""));
   const units = UNITS.settings.find((each) => each === given.get("units")) ?? UNITS.settings[0];
   const preset = given.get("preset");
@@ -38,7 +39,8 @@ export async function designOf(fragment) {
   if (given.has("extra")) design.extra = JSON.parse(await unpacked(given.get("extra")));
   const rpm = Number(given.get("rpm"));
   if (given.has("rpm") && rpm >= 0 && rpm <= 1e6) design.rpm = rpm;
-  return { design, units };
+  const others = most > 1 && given.has("with") ? await designsOf(given.get("with"), most - 1) : null;
+  return { designs: [design, ...(others?.designs ?? [])], units };
 }
 
 async function packed(text) {

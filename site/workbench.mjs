@@ -4,7 +4,7 @@ import { Design } from "./design.mjs";
 import { html } from "./dom.mjs";
 import { LONGEST_FILE, fileName, saveFile, turningPage } from "./files.mjs";
 import { inWords, unitsChoice } from "./form.mjs";
-import { designOf, fragmentOf } from "./fragment.mjs";
+import { designsOf, fragmentOf } from "./fragment.mjs";
 import { Jobs, Outdated } from "./jobs.mjs";
 import { PANES } from "./panes.mjs";
 import { Slot } from "./slot.mjs";
@@ -26,14 +26,14 @@ export class Workbench {
     let given = null;
     let trouble = "";
     try {
-      given = await designOf(location.hash);
+      given = await designsOf(location.hash);
     } catch (error) {
       trouble = error.message;
     }
-    return new Workbench(core, module, script, given ?? { design: Design.preset(FIRST_ENGINE), units: UNITS.settings[0] }, trouble);
+    return new Workbench(core, module, script, given ?? { designs: [Design.preset(FIRST_ENGINE)], units: UNITS.settings[0] }, trouble);
   }
 
-  constructor(core, module, script, { design, units }, trouble) {
+  constructor(core, module, script, { designs, units }, trouble) {
     Object.assign(this, { core, units });
     this.jobs = new Jobs(script, module, (busy) => this.busy(busy));
     this.said = html("p", { class: "said", role: "status" }, trouble);
@@ -56,7 +56,8 @@ export class Workbench {
       if (event.dataTransfer.files.length) this.openFile(event.dataTransfer.files[0]);
     });
     addEventListener("hashchange", () => this.followAddress());
-    this.add(design);
+    for (const design of designs) this.add(design);
+    if (designs.length > 1) this.arrange(0);
   }
 
   makeBar() {
@@ -109,8 +110,7 @@ export class Workbench {
   /** Show another engine beside the first: its own figures to begin with. */
   add(design) {
     const [first] = this.slots;
-    const own = design ?? Object.assign(new Design({ ...first.design, fields: { ...first.design.fields } }), {});
-    const slot = new Slot(this.core, own, {
+    const slot = new Slot(this.core, design ?? first.design.copy(), {
       units: this.units,
       changed: (one) => this.changed(one),
       speed: (one) => {
@@ -246,7 +246,7 @@ export class Workbench {
   }
 
   async writeAddress() {
-    const fragment = await fragmentOf(this.current.design, this.units);
+    const fragment = await fragmentOf(this.slots.map(({ design }) => design), this.units);
     if (fragment === location.hash) return;
     this.address = fragment;
     history.replaceState(null, "", fragment);
@@ -266,12 +266,15 @@ export class Workbench {
   async followAddress() {
     if (location.hash === this.address) return;
     try {
-      const given = await designOf(location.hash);
+      const given = await designsOf(location.hash);
       if (!given) return;
+      const [first, second] = given.designs;
       this.units = given.units;
       this.choice.value = given.units;
-      this.current.units = given.units;
-      this.current.take(given.design);
+      while (this.slots.length > 1) this.remove();
+      this.slots[0].units = given.units;
+      this.slots[0].take(first);
+      if (second) this.add(second);
       this.say("");
     } catch (error) {
       this.say(error.message);

@@ -116,6 +116,9 @@ def test_cross_plane_against_flat_plane(open_workbench: Open) -> None:
     assert engine(page, 1).throws_deg.tolist() == presets.preset("v8-flatplane").throws_deg.tolist()
     assert page.locator(".turning").count() == 2
     assert page.locator(".pane.orders").count() == 2
+    page.wait_for_timeout(600)
+    both = open_workbench(page.evaluate("location.hash"))
+    assert [engine(both, k) for k in (0, 1)] == [engine(page, k) for k in (0, 1)]
 
 
 def test_own_file_opened_and_saved(open_workbench: Open, tmp_path: Path) -> None:
