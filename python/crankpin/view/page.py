@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 WEB = Path(__file__).parent / "web"
-IMPORT = re.compile(r'^import \{[^}]*\} from "[./\w]*/(\w+\.mjs)";\n', re.MULTILINE)
+IMPORT = re.compile(r'^import \{[^}]*\} from "\./(\w+\.mjs)";\n', re.MULTILINE)
 COMMENT = re.compile(r"^\s*(?://[^\n]*|/\*\*.*?\*/)\n", re.MULTILINE | re.DOTALL)
 EXPORT = re.compile(r"^export (?=(?:async )?(?:const|class|function))", re.MULTILINE)
 INDENT = re.compile(r"^\s+", re.MULTILINE)
