@@ -29,7 +29,7 @@ export class Bench extends Full {
   build(title) {
     super.build(title);
     const { element, settings } = this;
-    const [phasors, timeline] = element.querySelectorAll("section");
+    const [phasors, timeline] = [this.phasors.element, this.timelineBox].map((each) => each.closest("section"));
     /** What panes show of it. */
     this.parts = {
       dials: element.querySelector(".dials"), phasors, timeline, sound: this.sound?.element ?? "",

@@ -71,7 +71,7 @@ export class Workbench {
       this.units = units;
       for (const slot of this.slots) slot.setUnits(units);
     });
-    this.bar = html("header", { class: "bar" },
+    this.bar = html("div", { class: "bar", role: "banner" },
       html("p", { class: "brand" }, "crankpin", html("small", {}, "workbench")), this.file,
       html("div", { class: "commands" },
         button(WORDS.open, WORDS.openSaid, () => this.file.click()),
