@@ -31,6 +31,7 @@ __all__ = [
     "angular_speed",
     "arrangement",
     "balance",
+    "block",
     "centred_table",
     "check_cylinder",
     "check_mount",
@@ -43,14 +44,17 @@ __all__ = [
     "estimated_rod_inertia",
     "exact_angle",
     "fit_shafts",
+    "group_terms",
     "inline_throws",
     "least_weights",
     "matched",
+    "mean_inertia",
     "motion",
     "mount_stiffness",
     "near_miss",
     "offset_table",
     "orders_of_samples",
+    "orders_that_count",
     "pair_heights",
     "peaks_of_sums",
     "peaks_of_vectors",
@@ -60,6 +64,7 @@ __all__ = [
     "rod_parts",
     "roll_torque",
     "shared",
+    "sizes",
     "star",
     "terms",
     "turning",
@@ -116,6 +121,10 @@ class Cycle:
         figures: Mapping[str, float | None],
     ) -> Cycle: ...
     @staticmethod
+    def example(
+        kind: str, load: float, strokes: int
+    ) -> tuple[str, float, list[tuple[str, float]]]: ...
+    @staticmethod
     def blend(cycles: Sequence[tuple[float, Cycle]], name: str) -> Cycle: ...
     def __len__(self) -> int: ...
     @property
@@ -150,6 +159,10 @@ class Engine:
     def inline(parts: _Parts, layout: dict[str, Any]) -> Engine: ...
     @staticmethod
     def vee(parts: _Parts, layout: dict[str, Any]) -> Engine: ...
+    @staticmethod
+    def radial(parts: _Parts, layout: dict[str, Any]) -> Engine: ...
+    @staticmethod
+    def radial_firing_order(layout: dict[str, Any], strokes: int) -> str: ...
     @staticmethod
     def inline_from_firing_order(
         parts: _Parts,
@@ -511,6 +524,13 @@ def balance(
     spectrum: _Pairs | None,
     torque: bool,
 ) -> Balance: ...
+def block(engine: Engine) -> tuple[float, float] | None: ...
+def group_terms(
+    engine: Engine, cylinders: bool, numbers: Sequence[float], spectrum: _Pairs | None
+) -> tuple[_Complex, _Complex]: ...
+def mean_inertia(engine: Engine) -> float: ...
+def orders_that_count(engine: Engine) -> list[int]: ...
+def sizes(engine: Engine) -> list[float]: ...
 def terms(
     engine: Engine,
     rpm: float,

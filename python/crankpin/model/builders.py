@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import itertools
 import re
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias
 
 from crankpin import _core
-from crankpin._core import MOST_CYLINDERS
 from crankpin._support import inputs
 from crankpin.model import checks
 from crankpin.model import shafts as rotating
@@ -25,8 +23,6 @@ if TYPE_CHECKING:
     from crankpin.model.furnishing import Cylinders
     from crankpin.model.shafts import Shaft, Unbalance
 
-MOST_ROWS = 6
-"""Largest number of rows of a radial, and of banks around a crank."""
 FANS = {"W": (30, 90, 150), "X": (45, 135, 225, 315), "Y": (90, 210, 330), "H": (0, 180)}
 """Usual names of engines with several banks on one crank → directions of the bores."""
 
@@ -535,39 +531,18 @@ class Builders(EngineData):
         (1, 8, 10)
         """
         count, banks = inputs.whole("cylinders", cylinders), inputs.whole("rows", rows)
-        if not 1 <= banks <= MOST_ROWS:
-            hint = f"give 1 to {MOST_ROWS}; Engine.from_lists takes any layout"
-            raise inputs.rejected("rows", banks, hint)
-        if count % banks:
-            hint = f"give a multiple of rows, {banks}: all rows have as many cylinders"
-            raise inputs.rejected("cylinders", count, hint)
-        if count < 3 * banks:
-            hint = "give three or more to each row; two opposed cylinders are Engine.flat"
-            raise inputs.rejected("cylinders", count, hint)
-        if count > MOST_CYLINDERS:
-            raise inputs.rejected("cylinders", count, f"an engine has 1 to {MOST_CYLINDERS}")
-        if spacing is None and banks > 1:
-            raise inputs.rejected("spacing", None, "give the distance between rows, m")
-        distance = 0.0 if spacing is None else pitch(spacing)
-        if distance < 0.0:
-            raise inputs.rejected("spacing", spacing, "give a number that is zero or more")
-        pins = [Fraction(place % banks * 360, banks) for place in range(count)]
-        around = [Fraction(360 * place, count) for place in range(count)]
         one = one_of(cylinder)
-        core = core_of_lists(
-            one,
-            [angle - pin for angle, pin in zip(around, pins, strict=True)],
-            None,
-            [90 + angle for angle in around],
-            [place % banks * distance for place in range(count)],
-            rotating_mass, mains=None, reference_z=None,
-        )  # fmt: skip
-        order = (
-            _radial_order(count, banks, inputs.strokes(strokes))
-            if firing_order is None
-            else firing_order
+        layout = _along_crank(
+            one, (), 0.0 if spacing is None else spacing, rotating_mass, first_tdc_deg
         )
-        engine = cls(core, name, source, order, strokes).with_first_tdc(first_tdc_deg)
+        layout |= {"cylinders": max(count, 0), "rows": max(banks, 0)}
+        layout["spacing"] = None if spacing is None else layout["spacing"]
+        core = _kept(_core.Engine.radial(parts(one), layout), one)
+        checks.angles(first_tdc_deg=first_tdc_deg)
+        order = firing_order
+        if order is None:
+            order = _core.Engine.radial_firing_order(layout, inputs.strokes(strokes))
+        engine = cls(core, name, source, order, strokes)
         along = 0.0 if spacing is None else spacing
         return furnished(engine, cylinder, along, rotating_mass)
 
@@ -810,34 +785,6 @@ class Builders(EngineData):
             checks.intervals(order, [inputs.degrees(each) for each in fired[1]], taken)
         engine = cls(core, name, source, allowed(core, order, strokes), strokes)
         return furnished(engine, cylinder, spacing, rotating_mass, stagger)
-
-
-def _radial_order(cylinders: int, rows: int, strokes: int) -> str:
-    """Return the even firing order of a radial; empty if there is none.
-
-    In a four-stroke each row fires at every second of its top dead centres. Cylinders of several
-    rows that reach theirs together fire a turn apart, or together if their number is odd.
-    """
-    if strokes == 4 and cylinders // rows % 2 == 0:
-        return ""
-    turn = cylinders * rows  # in whole parts of it
-    tdcs = [(place * rows - place % rows * cylinders) % turn for place in range(cylinders)]
-    best: list[list[int]] = []
-    # The first cylinder fires at once; any row may begin a turn later.
-    for later in itertools.product((0, 1), repeat=rows - 1) if strokes == 4 else [(0,) * rows]:
-        fired: dict[int, list[int]] = {}
-        for place, tdc in enumerate(tdcs):
-            row = place % rows
-            own = sorted(tdcs[row::rows])
-            turns = (own.index(tdc) + (0, *later)[row]) % 2 if strokes == 4 else 0
-            fired.setdefault(tdc + turns * turn, []).append(place + 1)
-        times = sorted(fired)
-        groups, cycle = [fired[time] for time in times], turn * (2 if strokes == 4 else 1)
-        pairs = zip(times, [*times[1:], times[0] + cycle], strict=True)
-        even = len({then - now for now, then in pairs}) == 1 == len({*map(len, groups)})
-        if even and len(groups) > len(best):
-            best = groups
-    return "-".join("+".join(map(str, group)) for group in best)
 
 
 def _banks(

@@ -9,66 +9,13 @@ from typing import TYPE_CHECKING, Any, Final, Literal, Self, TypedDict
 from crankpin import _core
 from crankpin._core import ATMOSPHERE
 from crankpin._support import inputs
-from crankpin._support.warnings import suppressed
 from crankpin.model.cylinder import Cylinder
 
 if TYPE_CHECKING:
     from typing import Unpack
 
-EXAMPLES: Final[Mapping[str, Mapping[str, Any]]] = {
-    "petrol": {
-        "compression_ratio": 10.5,
-        "excess_air": 1.0,
-        "start_deg": -18.0,
-        "duration_deg": 52.0,
-        "m": 2.0,
-        "gamma": 1.3,
-        "intake_pressure": 0.95e5,
-        "exhaust_pressure": 1.05e5,
-        "charge_temperature": 350.0,
-        "wall_temperature": 440.0,
-        "rpm": 3000.0,
-    },
-    "diesel": {
-        "compression_ratio": 16.5,
-        "excess_air": 1.7,
-        "stoichiometric_ratio": 14.5,
-        "heating_value": 42.7e6,
-        "start_deg": -6.0,
-        "duration_deg": 70.0,
-        "m": 0.8,
-        "gamma": 1.33,
-        "intake_pressure": 1.9e5,
-        "exhaust_pressure": 1.8e5,
-        "charge_temperature": 360.0,
-        "wall_temperature": 470.0,
-        "rpm": 2000.0,
-    },
-}
-"""Figures of the Wiebe cycles of :meth:`Cycle.example` at full load: of no engine in particular."""
-IDLING: Final[Mapping[str, Mapping[str, float]]] = {
-    "petrol": {
-        "start_deg": -24.0,
-        "duration_deg": 75.0,
-        "exhaust_pressure": 1.02e5,
-        "wall_temperature": 390.0,
-        "rpm": 800.0,
-    },
-    "diesel": {
-        "start_deg": -3.0,
-        "duration_deg": 40.0,
-        "intake_pressure": 1.0e5,
-        "exhaust_pressure": 1.04e5,
-        "charge_temperature": 335.0,
-        "wall_temperature": 390.0,
-        "rpm": 700.0,
-    },
-}
-"""Those of the figures that are others where the engine idles; between, they are linear in load."""
-IDLING_IMEP: Final = 1.2e5
-"""Indicated mean effective pressure of the examples that idle, Pa: that of friction."""
-SETTLED: Final = 1e-10
-"""Relative difference from its mean effective pressure at which an example's load is found."""
+EXAMPLES: Final = ("petrol", "diesel")
+"""Names of the cycles of :meth:`Cycle.example`."""
 
 
 class IdealOptions(TypedDict, total=False):
@@ -441,43 +388,10 @@ class ComputedCycles:
         >>> part.name, round(part.imep(cylinder) / 1e5, 1)
         ('example petrol, 10 % load', 2.3)
         """
-        full = EXAMPLES[inputs.one_of("kind", kind, EXAMPLES)]
-        part = inputs.number("load", load)
-        if not 0.0 <= part <= 1.0:
-            raise inputs.rejected("load", load, "give a part of full load, 0 (idling) to 1")
+        name, figures = example(kind, load, strokes)
         cylinder = Cylinder(0.043, 0.145, 0.5, bore=0.086)
-        named = "full load" if part == 1.0 else f"{100.0 * part:.4g} % load" if part else "idling"
-
-        options: dict[str, Any] = {"strokes": strokes, "name": f"example {kind}, {named}"}
-        found: Any = cls.wiebe(cylinder, **full, **options)  # which has imep
-        if part == 1.0:
-            return found  # type: ignore[no-any-return]
-        figures = dict(full)
-        for each, idling in IDLING[kind].items():
-            figures[each] = idling + part * (full[each] - idling)
-        # A throttle sets the charge of four-strokes with petrol. A two-stroke's cylinder is filled
-        # at the pressure of the exhaust, with less of what burns.
-        throttled = kind == "petrol" and inputs.strokes(strokes) == 4
-        name = "intake_pressure" if throttled else "excess_air"
-        target = IDLING_IMEP + part * (found.imep(cylinder) - IDLING_IMEP)
-        whole = figures[name]
-        points = list[tuple[float, float]]()
-        charge = 1.0
-        with suppressed():
-            # Work is all but linear in the charge: secants converge from anywhere.
-            while True:
-                figures[name] = whole * charge if throttled else whole / charge
-                found = cls.wiebe(cylinder, **figures, **options)
-                error = found.imep(cylinder) / target - 1.0
-                if abs(error) < SETTLED:
-                    return found  # type: ignore[no-any-return]
-                points = [*points[-1:], (charge, error)]
-                if len(points) == 1:
-                    charge = 0.5
-                    continue
-                (before, of_before), (charge, _) = points
-                slope = (error - of_before) / (charge - before)
-                charge = max(charge - error / slope, 0.01)
+        found: Any = cls.wiebe(cylinder, strokes=strokes, name=name, **figures)
+        return found  # type: ignore[no-any-return]
 
     @classmethod
     def _computed(
@@ -499,6 +413,14 @@ class ComputedCycles:
         known = {name: each for name, each in (said | checked).items() if each is not None}
         listed = ", ".join(f"{name} {each:.6g}" for name, each in known.items())
         return cls._of(core, f"Computed, not measured: {kind} cycle, in SI units {listed}")
+
+
+def example(kind: str, load: float = 1.0, strokes: int = 4) -> tuple[str, dict[str, float]]:
+    """Return the name of an example and its figures, the arguments of :meth:`Cycle.wiebe`."""
+    name, ratio, figures = _core.Cycle.example(
+        inputs.one_of("kind", kind, EXAMPLES), inputs.number("load", load), inputs.strokes(strokes)
+    )
+    return name, {"compression_ratio": ratio, **dict(figures)}
 
 
 def area(cylinder: Cylinder) -> float:

@@ -13,7 +13,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from crankpin._support.tables import Column, Table
-from crankpin.model.computed_cycles import EXAMPLES
+from crankpin.model.computed_cycles import example
 from crankpin.model.cycle import Cycle
 from crankpin.model.cylinder import Cylinder
 
@@ -45,8 +45,7 @@ class Stated(NamedTuple):
     """Arguments of :meth:`Cycle.wiebe`."""
 
 
-_PETROL = dict(EXAMPLES["petrol"])
-_DIESEL = dict(EXAMPLES["diesel"])
+_PETROL, _DIESEL = (example(kind)[1] for kind in ("petrol", "diesel"))
 _CAR = (0.086, 0.086)
 
 STATED: Final = {

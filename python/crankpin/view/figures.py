@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin.analysis.balance import mean_piston_speed
@@ -36,8 +37,6 @@ PRESSURE_STEP = 0.5
 """Degrees between the samples of a cycle, between which a page interpolates."""
 EXHAUST = {4: float(ValveTiming().exhaust_opens_deg), 2: float(PortTiming().exhaust_opens_deg)}
 """Angle at which exhausts open, before the piston is lowest, degrees, by strokes: ordinary ones."""
-BLOCK = 50.0
-"""Mass of the block, which is not known, over that of the pistons: 90 kg for two litres."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -103,10 +102,9 @@ def figures(
     Settings.of(engine, rpm).check(engine)
     inputs.warn_of_units(mean_piston_speed(engine, float(rpm)))
     pairs = inputs.spectrum(spectrum)
-    banks = None if _bank_angle(engine) is None else [each["bank"] for each in _cylinders(engine)]
     return {
         **places(engine, rpm),
-        "terms": terms(engine, banks, pairs),
+        "terms": terms(engine, pairs),
         "block": _block(engine),
         "gas": _gas(engine),
         "loads": labels.in_words(labels.SPECTRUM_GIVEN if pairs else engine.loads_counted),
@@ -216,14 +214,9 @@ def _speeds(
 
 
 def _block(engine: Engine) -> dict[str, float] | None:
-    """Return mass, kg, and inertia, kg·m², of a bar that stands for the block; None without a mass.
-
-    It is as tall as a crank with its rod, and half of that longer than the cylinders at either end.
-    """
-    mass = BLOCK * sum(cylinder.reciprocating_mass for cylinder in engine.cylinders)
-    height = max(2.0 * each.crank_radius + each.rod_length for each in engine.cylinders)
-    length = float(np.ptp(engine.z)) + height
-    return {"mass": mass, "inertia": mass * (length**2 + height**2) / 12.0} if mass else None
+    """Return mass, kg, and inertia, kg·m², of a bar that stands for the block, or None."""
+    bar = _core.block(engine_core(engine))
+    return None if bar is None else {"mass": bar[0], "inertia": bar[1]}
 
 
 def _gas(engine: Engine) -> dict[str, Any] | None:

@@ -14,7 +14,7 @@ from crankpin._support import inputs
 from crankpin.analysis.request import engine_core
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Iterable, Sequence
 
     from numpy.typing import NDArray
 
@@ -29,17 +29,14 @@ TURNING = 0.9
 """Part of the largest rod ratio at which the crank turns that a page reaches at most."""
 ROUNDING = 1e-13
 """Sums and coefficients below this part of what they are added to are rounding, and left out."""
-REST = 1e-12
-"""Orders of which a cylinder's terms are below this part of its largest are left out."""
-MOST_ORDERS = 384
-"""Orders that are enough, but for rods hardly longer than their crank; at most twice as many."""
 FEWEST_POINTS, MOST_POINTS = 16, 512
 """Rod ratios at which terms are computed: twice as many until their polynomials have converged."""
 DIGITS = 13
 """Decimals of values of parts that stand still."""
 ONE_RADIAN_PER_SECOND = 1.0 / _core.angular_speed(1.0)
 """Speed, rpm, at which loads of inertia are those over the square of the speed."""
-PLANAR = ("force", "moment")
+SIZES = ("force", "moment", "torque", "gas")
+"""What the cylinders make one by one: inertia over the square of speed, and gas."""
 
 Complex: TypeAlias = "NDArray[np.complex128]"
 Real: TypeAlias = "NDArray[np.float64]"
@@ -112,9 +109,7 @@ def listed_orders(engine: Engine, spectrum: Iterable[int] | None) -> list[int]:
     return sorted({*range(1, HIGHEST_ORDER + 1), *shafts, *given})
 
 
-def terms(
-    engine: Engine, banks: Sequence[int] | None, pairs: Sequence[tuple[int, complex]] | None
-) -> dict[str, Any]:
+def terms(engine: Engine, pairs: Sequence[tuple[int, complex]] | None) -> dict[str, Any]:
     """Return the terms of an engine as a page has them, over the square of the crank's speed.
 
     ``planar`` has forward and backward parts of force and moment; ``torque`` the roll torque and,
@@ -126,14 +121,11 @@ def terms(
     ----------
     engine
         Engine at its own settings.
-    banks
-        Bank of each cylinder, 0 or 1, of an engine whose bank angle changes: each is a group, and
-        what stands still is the third. None makes one group of all parts.
     pairs
         Spectrum in place of the pistons' own amplitudes; no torque follows from it.
     """
     ratios = RodRatios.of(engine)
-    sampler = _Sampler(engine, banks, pairs, _orders(engine, ratios, pairs))
+    sampler = _Sampler(engine, pairs, _orders(engine, ratios, pairs))
     own = sampler.moving(None) if ratios.common is None else None
     count = FEWEST_POINTS if pairs is None else 1
     while True:
@@ -158,7 +150,7 @@ def terms(
         "planar": tables.pop("planar"),
         "torque": tables.pop("torque", None),
         "swept": list(tables.values()),
-        "sizes": _sizes(engine),
+        "sizes": dict(zip(SIZES, _core.sizes(engine_core(engine)), strict=True)),
         "orders": listed_orders(engine, None if pairs is None else [n for n, _ in pairs]),
     }
 
@@ -185,14 +177,9 @@ class _Sampler:
     """Terms of an engine at different rod ratios, summed over groups of parts."""
 
     def __init__(
-        self,
-        engine: Engine,
-        banks: Sequence[int] | None,
-        pairs: Sequence[tuple[int, complex]] | None,
-        orders: list[int],
+        self, engine: Engine, pairs: Sequence[tuple[int, complex]] | None, orders: list[int]
     ) -> None:
         self.engine = engine
-        self.banks = banks
         self.pairs = pairs
         self.orders = orders
         self.fired = engine.cycles is not None and pairs is None
@@ -218,7 +205,7 @@ class _Sampler:
             )
             tables[f"swept {place}"] = _Table(orders, powers, swept[:, None, None].view(float))
         torque, mean = tables["torque"], np.zeros((1, 3, 4))
-        mean[0, 0, 2] = _mean_inertia(core)
+        mean[0, 0, 2] = _core.mean_inertia(core)
         values = np.concatenate([mean, torque.values])
         tables["torque"] = _Table([0, *torque.orders], [0, *torque.powers], values)
         return tables
@@ -237,51 +224,14 @@ class _Sampler:
         }
 
     def _tables(self, core: _core.Engine, *, cylinders: bool) -> dict[str, _Table]:
-        torque, plane = self.pairs is None, self.engine.reference_z
-        parts = [
-            (self._group(name, index), part)
-            for name, index, part in _core.terms(
-                core, ONE_RADIAN_PER_SECOND, self.orders, plane, self.pairs, torque, (0.0, 0.0)
-            )
-            if (name == "cylinder") == cylinders
-        ]
+        planar, torque = _core.group_terms(core, cylinders, self.orders, self.pairs)
         powers = [0 if self.pairs else min(n, HIGHEST_ORDER) - 1 for n in self.multiples]
-        planar = self._summed(parts, _planar)
-        tables = {"planar": _Table(self.orders, powers, planar, relative=True)}
-        if torque:
-            read = self._both if self.fired else _roll
+        tables = {"planar": _Table(self.orders, powers, planar.view(float), relative=True)}
+        if self.pairs is None:
+            read = torque if self.fired else torque[:, :, :1].copy()
             powers = [max(0, power - 1) for power in powers]
-            tables["torque"] = _Table(self.orders, powers, self._summed(parts, read))
+            tables["torque"] = _Table(self.orders, powers, read.view(float))
         return tables
-
-    def _group(self, name: str, index: int) -> int:
-        if self.banks is None:
-            return 0
-        if name == "cylinder":
-            return self.banks[index]
-        pin = self.engine.counterweights[index].pin if name == "counterweight" else None
-        return 2 if pin is None else self.banks[pin - 1]
-
-    def _both(self, part: _core.Balance) -> Complex:
-        """Return roll torque and moment of inertia: the crank's torque is −½ of its slope."""
-        crank = part.phasors("crank_torque.inertia", turning=False)
-        return np.concatenate([_roll(part), 2j * crank[:, None] / np.c_[self.orders]], axis=1)
-
-    def _summed(
-        self, parts: list[tuple[int, _core.Balance]], read: Callable[[_core.Balance], Complex]
-    ) -> Real:
-        """Return the sums of groups by order: what cancels within a group is zero."""
-        if not parts:
-            return np.zeros((len(self.orders), 3, 2))
-        groups = np.array([group for group, _ in parts])
-        terms = np.stack([read(part) for _, part in parts])
-        sums = np.zeros((len(self.orders), 3, terms.shape[2]), complex)
-        for group in set(groups.tolist()):
-            own = terms[groups == group]
-            total = own.sum(axis=0)
-            total[abs(total) <= ROUNDING * abs(own).sum(axis=0)] = 0.0
-            sums[:, group] = total
-        return sums.view(float)
 
 
 def _factored(table: _Table, values: Real, q: Real, own: Real | None) -> tuple[list[Row], bool]:
@@ -339,30 +289,11 @@ def _orders(
     turning = {*speeds, *(abs(shaft.ratio) for shaft in engine.shafts)}
     if pairs is not None:
         return sorted({n * speed for n, _ in pairs for speed in speeds} | turning)
-    furthest = _core_at(engine, ratios.most)
-    count = HIGHEST_ORDER
-    while True:
-        tried = list(range(1, 2 * count + 1))
-        parts = _core.terms(furthest, ONE_RADIAN_PER_SECOND, tried, None, None, True, (0.0, 0.0))
-        own = [part for name, _, part in parts if name == "cylinder"]
-        sizes = np.array([[abs(_planar(p)[:, :2]).sum(1), abs(_roll(p)[:, 0])] for p in own])
-        kept = (sizes > REST * sizes.max(axis=2, keepdims=True)).any(axis=(0, 1))
-        last = int(np.flatnonzero(kept).max(initial=0)) + 1
-        if last <= count or count >= MOST_ORDERS:
-            return sorted({*range(1, max(last, HIGHEST_ORDER) + 1), *turning})
-        count *= 2
+    return _core.orders_that_count(_core_at(engine, ratios.most))
 
 
 def _speeds(engine: Engine) -> set[int]:
     return {abs(ratio) for _, _, ratio in engine_core(engine).cranks[0]}
-
-
-def _planar(part: _core.Balance) -> Complex:
-    return np.concatenate([part.phasors(name, turning=True) for name in PLANAR], axis=1)
-
-
-def _roll(part: _core.Balance) -> Complex:
-    return part.phasors("torque.inertia", turning=False)[:, None]
 
 
 def _core_at(engine: Engine, ratio: float | None) -> _core.Engine:
@@ -373,33 +304,3 @@ def _core_at(engine: Engine, ratio: float | None) -> _core.Engine:
 def _piston_area(cylinder: Cylinder) -> float:
     """Return the area of a piston, m²; zero of a bore that is not known."""
     return 0.25 * math.pi * (cylinder.bore or 0.0) ** 2
-
-
-def _mean_inertia(core: _core.Engine) -> float:
-    """Return the mean moment of inertia of pistons and rods as seen from the crank, kg·m²."""
-    grid = _core.CycleGrid(360.0, np.array([]))
-    none = np.zeros(grid.nodes_deg.shape)
-    (_, moving, _), _ = grid.speed(none, none, core, ONE_RADIAN_PER_SECOND, 1.0, 0.0)
-    return float(moving[:-1].mean())
-
-
-def _sizes(engine: Engine) -> dict[str, float]:
-    """Return what the cylinders make one by one: inertia over the square of speed, and gas."""
-    cranks, crank_of = engine_core(engine).cranks
-    speeds = sorted(_speeds(engine))
-    core = engine_core(engine).without_cycles()
-    found = dict.fromkeys((*PLANAR, "torque", "gas"), 0.0)
-    terms = _core.terms(core, ONE_RADIAN_PER_SECOND, speeds, None, None, False, (0.0, 0.0))
-    cycles = engine.cycles or (None,) * len(engine)
-    for (*_, part), cylinder, crank, cycle, z in zip(
-        terms, engine.cylinders, crank_of, cycles, engine.z.tolist(), strict=False
-    ):
-        x, y, ratio = cranks[crank]
-        force = float(abs(_planar(part)[speeds.index(abs(ratio)), :2]).sum())
-        found["force"] += force
-        found["moment"] += force * (abs(z) + abs(engine.reference_z))
-        found["torque"] += force * (cylinder.crank_radius + math.hypot(x, y))
-        if cycle is not None:
-            swept = _piston_area(cylinder) * cylinder.crank_radius
-            found["gas"] += float(cycle.pressure.max()) * swept
-    return found

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::array::frozen;
 use crankpin_core as core;
 use crankpin_core::engine::crankpins::Crankpin;
+use crankpin_core::engine::radial::Radial;
 use crankpin_core::engine::{
     Crank, Details, Gas, Hold, RodFigures, Shaft, Station, Unbalance, file,
 };
@@ -176,6 +177,23 @@ impl<'py> FromPyObject<'_, 'py> for InlineLayout {
     }
 }
 
+/// Where the cylinders of a radial stand.
+struct RadialLayout(Radial);
+
+impl<'py> FromPyObject<'_, 'py> for RadialLayout {
+    type Error = PyErr;
+
+    fn extract(layout: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        Ok(Self(Radial {
+            cylinders: entry(&layout, "cylinders")?,
+            rows: entry(&layout, "rows")?,
+            spacing: entry(&layout, "spacing")?,
+            rotating_mass: entry(&layout, "rotating_mass")?,
+            first_tdc: entry::<Angle>(&layout, "first_tdc")?.0,
+        }))
+    }
+}
+
 #[guarded]
 #[pymethods]
 impl Engine {
@@ -245,6 +263,17 @@ impl Engine {
     #[staticmethod]
     fn vee(parts: Parts, layout: VeeLayout) -> PyResult<Self> {
         layout.0.engine(cylinder(parts)?).or_raise().map(Self::from)
+    }
+
+    #[staticmethod]
+    fn radial(parts: Parts, layout: RadialLayout) -> PyResult<Self> {
+        layout.0.engine(cylinder(parts)?).or_raise().map(Self::from)
+    }
+
+    /// The even firing order of a radial; empty if there is none.
+    #[staticmethod]
+    fn radial_firing_order(layout: RadialLayout, strokes: u32) -> PyResult<String> {
+        Ok(layout.0.firing_order(Strokes::from_number(strokes).or_raise()?))
     }
 
     #[staticmethod]

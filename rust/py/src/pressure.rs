@@ -9,6 +9,7 @@ use crankpin_core::layout::Strokes;
 use crankpin_core::pressure::Given;
 use crankpin_core::pressure::burn::{Heat, WallLoss, Wiebe};
 use crankpin_core::pressure::chamber::{Chamber, Ideal};
+use crankpin_core::pressure::example::{Example, Kind};
 use crankpin_core::pressure::map::between;
 use crankpin_core::{Complex64, order};
 use crankpin_macros::guarded;
@@ -16,7 +17,7 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::convert::{OrRaise, Parts, cylinder, orders_of_halves};
-use crate::engine::entry;
+use crate::engine::{choice, entry};
 use crate::interrupt;
 
 /// Points of a cycle, checked, and what interpolates between them.
@@ -171,6 +172,20 @@ impl Cycle {
             wall,
         };
         interrupt::run(py, |cancel| wiebe.cycle(&chamber, name, cancel)).map(Self::from)
+    }
+
+    /// Figures of a computed cycle to begin with: name, compression ratio, and those of [`Self::wiebe`].
+    #[staticmethod]
+    fn example(
+        py: Python<'_>,
+        kind: &str,
+        load: f64,
+        strokes: u32,
+    ) -> PyResult<(String, f64, Vec<(&'static str, f64)>)> {
+        let kind = choice("kind", kind, &[("petrol", Kind::Petrol), ("diesel", Kind::Diesel)])?;
+        let strokes = Strokes::from_number(strokes).or_raise()?;
+        let found = interrupt::run(py, |cancel| Example::new(kind, load, strokes, cancel))?;
+        Ok((found.name, found.compression_ratio, found.wiebe.figures()))
     }
 
     /// Weighted sum of cycles.

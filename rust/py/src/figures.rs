@@ -1,0 +1,74 @@
+//! What a picture of a turning engine is made of.
+
+use crankpin_core::figures::{self, GROUPS, Parts};
+use crankpin_core::{Complex64, Order};
+use crankpin_macros::guarded;
+use ndarray::Array3;
+use numpy::PyArray3;
+use pyo3::prelude::*;
+
+use crate::array::writeable;
+use crate::convert::{OrderNumber, numbers, orders};
+use crate::engine::Engine;
+use crate::interrupt;
+
+type Table<'py> = Bound<'py, PyArray3<Complex64>>;
+
+/// Terms over ω² by order, group and component: forward and backward parts of force and moment, then roll
+/// torque and moment of inertia; of the cylinders, or of what no rod moves.
+#[guarded]
+#[pyfunction]
+pub fn group_terms<'py>(
+    engine: &Bound<'py, Engine>,
+    cylinders: bool,
+    numbers: Vec<OrderNumber>,
+    spectrum: Option<Vec<(u32, Complex64)>>,
+) -> PyResult<(Table<'py>, Table<'py>)> {
+    let py = engine.py();
+    let orders = orders(&numbers)?;
+    let torque = spectrum.is_none();
+    let engine = engine.get().with_spectrum(spectrum)?;
+    let parts = if cylinders { Parts::Moving } else { Parts::Standing };
+    let found =
+        interrupt::run(py, |cancel| figures::group_terms(&engine, parts, &orders, torque, cancel))?;
+    let planar =
+        Array3::from_shape_fn((found.len(), GROUPS, 4), |(k, group, j)| found[k][group].planar[j]);
+    let torques = Array3::from_shape_fn((found.len(), GROUPS, 2), |(k, group, j)| {
+        let terms = &found[k][group];
+        if j == 0 { terms.roll } else { terms.inertia }
+    });
+    Ok((writeable(py, planar)?, writeable(py, torques)?))
+}
+
+/// Orders of the cylinders that are more than a rest, of their cranks, and of shafts.
+#[guarded]
+#[pyfunction]
+pub fn orders_that_count(engine: &Bound<'_, Engine>) -> PyResult<Vec<OrderNumber>> {
+    let core = &engine.get().0;
+    let found = interrupt::run(engine.py(), |cancel| figures::orders(core, cancel))?;
+    Ok(numbers(&found))
+}
+
+/// Mean moment of inertia of pistons and rods as seen from the crank, kg·m².
+#[guarded]
+#[pyfunction]
+pub fn mean_inertia(engine: &Bound<'_, Engine>) -> PyResult<f64> {
+    let core = &engine.get().0;
+    interrupt::run(engine.py(), |cancel| figures::mean_inertia(core, cancel))
+}
+
+/// What the cylinders make one by one: force, moment, torque of inertia and of gas.
+#[guarded]
+#[pyfunction]
+pub fn sizes(engine: &Bound<'_, Engine>) -> PyResult<[f64; 4]> {
+    let core = &engine.get().0;
+    let found = interrupt::run(engine.py(), |cancel| figures::sizes(core, cancel))?;
+    Ok([found.force, found.moment, found.torque, found.gas])
+}
+
+/// Mass and moment of inertia of a bar that stands for the block.
+#[guarded]
+#[pyfunction]
+pub fn block(engine: &Engine) -> Option<(f64, f64)> {
+    figures::block(&engine.0).map(|bar| (bar.mass, bar.inertia))
+}
