@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import crankpin as cp
 import pytest
+from building import SITE
 from crankpin.model import presets
 
 if TYPE_CHECKING:
@@ -276,3 +277,21 @@ def test_nothing_is_wider_than_a_phone(open_workbench: Open) -> None:
         page.wait_for_timeout(200)
         assert page.evaluate("document.documentElement.scrollWidth") <= 390, tab.inner_text()
     assert json.loads(page.evaluate("JSON.stringify(workbench.slots.length)")) == 1
+
+
+def test_links_of_the_manual_make_engines(open_workbench: Open) -> None:
+    folder = SITE.parent / "docs"
+    links = [
+        line.split()[1]
+        for file in folder.rglob("*.md")
+        for line in file.read_text("utf-8").splitlines()
+        if line.startswith("```{workbench} ")
+    ]
+    assert len(links) > 4
+    page = open_workbench(f"#{links[0]}")
+    for link in links:
+        page.evaluate("link => { location.hash = link; }", link)
+        page.wait_for_timeout(700)
+        assert page.locator(".fault:visible, .said:visible").all_inner_texts() == [], link
+        preset = dict(part.split("=") for part in link.split("&"))["preset"]
+        assert page.evaluate("workbench.slots[0].design.preset") == preset
