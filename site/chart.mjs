@@ -3,8 +3,10 @@
 import { html, path, svg } from "./dom.mjs";
 import { short } from "./format.mjs";
 
-/** Pixels before it is scaled: texts stay legible on a phone, and where three charts share a line. */
+/** Pixels before it is scaled: texts stay legible on a phone, and where charts share a line. */
 const CHART_SIZE = [440, 220];
+const WIDE_SIZE = [860, 260];
+const WIDE_SCREEN = "(min-width: 900px)";
 const LEFT = 58;
 const RIGHT = 14;
 const TOP = 12;
@@ -29,8 +31,8 @@ export function anglesTicks(low, high) {
 }
 
 /** The frame of a chart: its scales, its axes, and where to draw. */
-function framed({ title, x: [left, right], y: [low, high], across, up, ticks, described }) {
-  const [width, height] = CHART_SIZE;
+function framed({ title, x: [left, right], y: [low, high], across, up, ticks, described, wide = false }) {
+  const [width, height] = wide && matchMedia(WIDE_SCREEN).matches ? WIDE_SIZE : CHART_SIZE;
   const [x0, x1] = [LEFT, width - RIGHT];
   const [y0, y1] = [height - BOTTOM, TOP];
   const toX = (value) => x0 + ((x1 - x0) * (value - left)) / (right - left || 1);
@@ -53,7 +55,7 @@ function framed({ title, x: [left, right], y: [low, high], across, up, ticks, de
 }
 
 /** Curves: each a class, a label and values at `x`; `marks` are values of x with a line and a text. */
-export function curves({ title, x, lines, across, up, ticks, marks = [], about = false, closed = null, choose = null }) {
+export function curves({ title, x, lines, across, up, ticks, marks = [], about = false, wide = false, choose = null }) {
   const finite = lines.flatMap(({ values }) => Array.from(values)).filter(Number.isFinite);
   const top = Math.max(...finite, 0);
   const bottom = about ? Math.min(...finite, 0) : 0;
@@ -62,7 +64,7 @@ export function curves({ title, x, lines, across, up, ticks, marks = [], about =
   const described = `${title}. ${lines.map(({ label, values }) =>
     `${label}: ${short(Math.min(...values), 4)} to ${short(Math.max(...values), 4)} ${up}`).join("; ")}`;
   const frame = framed({
-    title, described, x: [from, to], y: [about ? bottom - pad : 0, top + pad], across, up,
+    title, described, wide, x: [from, to], y: [about ? bottom - pad : 0, top + pad], across, up,
     ticks: ticks ?? ticksOf(from, to).map((value) => [value, short(value, 9)]),
   });
   const { element, toX, toY, y0, y1 } = frame;
@@ -89,7 +91,7 @@ export function curves({ title, x, lines, across, up, ticks, marks = [], about =
       if (value >= from && value <= to) choose(value);
     });
   }
-  return html("figure", { class: "charted" }, html("figcaption", {}, title), element, lines.length > 1 || closed ? keys : "");
+  return html("figure", { class: "charted" }, html("figcaption", {}, title), element, lines.length > 1 ? keys : "");
 }
 
 /** Bars side by side for each entry of `names`. */

@@ -36,7 +36,7 @@ export const torquePane = {
     const largest = Math.max(...rows.map(([, value]) => value));
     return [
       curves({
-        title: WORDS.torqueOver, x: theta, lines, across: WORDS.crankAngle, up: unit, about: true,
+        title: WORDS.torqueOver, x: theta, lines, across: WORDS.crankAngle, up: unit, about: true, wide: true,
         ticks: anglesTicks(0, theta.at(-1)).map((angle) => [angle, `${angle}°`]),
       }),
       tableOf({

@@ -295,3 +295,41 @@ def test_links_of_the_manual_make_engines(open_workbench: Open) -> None:
         assert page.locator(".fault:visible, .said:visible").all_inner_texts() == [], link
         preset = dict(part.split("=") for part in link.split("&"))["preset"]
         assert page.evaluate("workbench.slots[0].design.preset") == preset
+
+
+def test_many_engines_take_no_more_memory_than_few(open_workbench: Open) -> None:
+    page = open_workbench("#preset=v8-crossplane")
+    typed = """count => {
+        const [slot] = workbench.slots;
+        for (let k = 0; k < count; k++) {
+            slot.design.fields.stroke = `${70 + (k % 30)} mm`;
+            slot.design.fields.throws_deg = k % 2 ? "0, 90, 270, 180" : "0, 180, 180, 0, 90";
+            slot.design.fields.firing_order = "";
+            slot.follow();
+        }
+        return [workbench.core.memory, document.querySelectorAll("*").length];
+    }"""
+    few = page.evaluate(typed, 20)
+    assert page.evaluate(typed, 300) == few
+
+
+def test_long_work_can_be_cancelled(open_workbench: Open) -> None:
+    page = open_workbench("#preset=v8-crossplane")
+    answer = page.evaluate("""async () => {
+        const theta_deg = Array.from({ length: 2e6 }, (_, k) => k / 1e3);
+        const engine = workbench.slots[0].engine.json;
+        const asked = workbench.jobs.ask("test", "waveform", { engine, rpm: 3000, theta_deg });
+        setTimeout(() => workbench.jobs.cancel(), 50);
+        return asked.then(() => "answered", (error) => error.constructor.name);
+    }""")
+    assert answer == "Outdated"
+    again = """() => workbench.jobs.ask("test", "read", { engine: workbench.slots[0].engine.json })
+        .then(({ summary }) => summary.cylinders)"""
+    assert page.evaluate(again) == 8
+
+
+def test_sizes_beyond_limits_are_errors(open_workbench: Open) -> None:
+    page = open_workbench("#preset=i4")
+    type_in(page, firing_order="", throws_deg=", ".join(["0"] * 9000))
+    (said,) = faults(page)
+    assert "cylinders" in said
