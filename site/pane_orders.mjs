@@ -39,6 +39,17 @@ function mattering(rows) {
   return rows.filter((each) => share(each) > SMALLEST_SHARE).slice(0, MOST_LISTED_ORDERS);
 }
 
+/** How the engine shakes, in sentences; none of a core that does not explain. */
+function explained(core, engine, rpm) {
+  try {
+    const { sentences } = core.call("explain", { engine: engine.json, rpm });
+    return html("ul", { class: "explained" }, ...sentences.map((text) => html("li", {}, text)));
+  } catch (error) {
+    if (error.argument === "call") return "";
+    throw error;
+  }
+}
+
 export const orders = {
   key: "orders",
   title: "Orders",
@@ -54,7 +65,7 @@ export const orders = {
         series: [{ name, label, values: shown.map((each) => (each[k] ?? 0) * factor) }] };
     };
     return [
-      tableOf({ title: WORDS.peaksAt(design.rpm), columns: COLUMNS, rows: [...shown, whole], total: true, units, name: engine.summary.name }),
+      explained(core, engine, design.rpm), tableOf({ title: WORDS.peaksAt(design.rpm), columns: COLUMNS, rows: [...shown, whole], total: true, units, name: engine.summary.name }),
       ...(shown.length ? [html("div", { class: "charts" }, bars(named(3, "force", "Shaking force, longest")), bars(named(6, "moment", "Rocking moment, longest")),
         ...(torque ? [bars(named(7, "torque", "Roll torque"))] : []))] : []),
     ];
