@@ -31,7 +31,7 @@ export function anglesTicks(low, high) {
 }
 
 /** The frame of a chart: its scales, its axes, and where to draw. */
-function framed({ title, x: [left, right], y: [low, high], across, up, ticks, described, wide = false }) {
+function framed({ title, x: [left, right], y: [low, high], across, ticks, described, wide = false }) {
   const [width, height] = wide && matchMedia(WIDE_SCREEN).matches ? WIDE_SIZE : CHART_SIZE;
   const [x0, x1] = [LEFT, width - RIGHT];
   const [y0, y1] = [height - BOTTOM, TOP];
@@ -49,8 +49,7 @@ function framed({ title, x: [left, right], y: [low, high], across, up, ticks, de
       svg("text", { class: "tick", x, y: y0 + 16, "text-anchor": "middle" }, text));
   }
   element.append(svg("path", { class: "frame", d: `M${x0} ${y1}V${y0}H${x1}` }),
-    svg("text", { class: "axis", x: x1, y: height - 3, "text-anchor": "end" }, across),
-    svg("text", { class: "axis", x: x0 + 6, y: y1 + 8 }, up));
+    svg("text", { class: "axis", x: x1, y: height - 3, "text-anchor": "end" }, across));
   return { element, toX, toY, x0, x1, y0, y1 };
 }
 
@@ -64,7 +63,7 @@ export function curves({ title, x, lines, across, up, ticks, marks = [], about =
   const described = `${title}. ${lines.map(({ label, values }) =>
     `${label}: ${short(Math.min(...values), 4)} to ${short(Math.max(...values), 4)} ${up}`).join("; ")}`;
   const frame = framed({
-    title, described, wide, x: [from, to], y: [about ? bottom - pad : 0, top + pad], across, up,
+    title, described, wide, x: [from, to], y: [about ? bottom - pad : 0, top + pad], across,
     ticks: ticks ?? ticksOf(from, to).map((value) => [value, short(value, 9)]),
   });
   const { element, toX, toY, y0, y1 } = frame;
@@ -91,7 +90,7 @@ export function curves({ title, x, lines, across, up, ticks, marks = [], about =
       if (value >= from && value <= to) choose(value);
     });
   }
-  return html("figure", { class: "charted" }, html("figcaption", {}, title), element, lines.length > 1 ? keys : "");
+  return html("figure", { class: "charted" }, html("figcaption", {}, `${title}, ${up}`), element, lines.length > 1 ? keys : "");
 }
 
 /** Bars side by side for each entry of `names`. */
@@ -100,7 +99,7 @@ export function bars({ title, names, series, across, up }) {
   const described = `${title}. ${names.map((name, k) =>
     `${name}: ${series.map(({ label, values }) => `${label} ${short(values[k], 2)} ${up}`).join(", ")}`).join("; ")}`;
   const { element, toX, toY, y0 } = framed({
-    title, described, x: [0, names.length], y: [0, top * 1.05 || 1], across, up, ticks: names.map((name, k) => [k + 0.5, name]),
+    title, described, x: [0, names.length], y: [0, top * 1.05 || 1], across, ticks: names.map((name, k) => [k + 0.5, name]),
   });
   const width = Math.min((toX(1) - toX(0)) * 0.8 / series.length, 34);
   series.forEach(({ name, values, label }, s) => values.forEach((value, k) => {
@@ -108,7 +107,7 @@ export function bars({ title, names, series, across, up }) {
     element.append(svg("rect", { class: `column ${name}`, x: x.toFixed(1), y: toY(value).toFixed(1), width: Math.max(width - 1, 1).toFixed(1), height: (y0 - toY(value)).toFixed(1) },
       svg("title", {}, `${label}, ${names[k]}: ${short(value, 3)} ${up}`)));
   }));
-  return html("figure", { class: "charted" }, html("figcaption", {}, title), element,
+  return html("figure", { class: "charted" }, html("figcaption", {}, `${title}, ${up}`), element,
     series.length > 1 ? html("p", { class: "keys" }, ...series.map(({ name, label }) => html("span", {},
       svg("svg", { viewBox: "0 0 12 12", "aria-hidden": "true" }, svg("rect", { class: `column ${name}`, width: 12, height: 12, rx: 2 })), label))) : "");
 }

@@ -11,6 +11,8 @@ const ANGLES = Array.from({ length: 361 }, (_, k) => k / 2);
 
 const LINES = ["first", "second", "third", "fourth"];
 const ANGLE_ORDERS = [1, 2, 4];
+/** Forces, N, and moments below this are rounding. */
+const NONE_AT_ALL = 1e-9;
 const UNITS_OF = { force: "N", moment: "N·m" };
 
 export const anglesPane = {
@@ -32,7 +34,8 @@ export const anglesPane = {
       const lines = ANGLE_ORDERS.map((order, k) => ({
         name: LINES[k], label: `${WORDS.order} ${order}`, values: found[quantity][k].map((value) => value * factor),
       }));
-      return curves({
+      const none = lines.every(({ values }) => values.every((value) => value < NONE_AT_ALL));
+      return none ? html("figure", { class: "charted" }, html("figcaption", {}, WORDS.over[quantity]), html("p", {}, WORDS.zeroEverywhere)) : curves({
         title: WORDS.over[quantity], x: ANGLES, lines, across: WORDS.bankAngle, up: unit, choose,
         ticks: anglesTicks(0, 180).map((angle) => [angle, `${angle}°`]), marks: [{ at: own, text: WORDS.own(own) }],
       });

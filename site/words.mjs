@@ -65,5 +65,6 @@ export const WORDS = {
   noInertia: "type the flywheel’s moment of inertia to see it",
   pins: { shared: "shared pins", split: "split pins" },
   peaksAt: (rpm) => `Peaks by order at ${Number(rpm.toFixed(3))} rpm`,
+  zeroEverywhere: "Zero at every bank angle, for the orders 1, 2 and 4.",
   footer: "Computed here by crankpin’s own core; nothing is sent or loaded.",
 };
