@@ -12,6 +12,9 @@ let slots = 0;
 /** Controls of the turning page that a bench has; the form has those of the engine. */
 const CONTROLS = ["crank_angle", "rpm", "rocking", "sound", "view"];
 
+/** Cylinders of an engine that is drawn, at most: the library takes more. */
+const MOST_DRAWN = 64;
+
 export class Slot {
   /** `core` answers at once; `changed` is told when another engine is shown, `speed` of a speed. */
   constructor(core, design, { units, changed, speed }) {
@@ -57,7 +60,9 @@ export class Slot {
   /** Build the engine of what is typed and show it; errors stand beside their fields. */
   follow() {
     try {
-      this.engine = this.built();
+      const built = this.built();
+      if (built.summary.cylinders > MOST_DRAWN) throw new Error(WORDS.tooMany(built.summary.cylinders, MOST_DRAWN));
+      this.engine = built;
       this.engine.summary.name = this.named(this.engine.summary);
       this.show();
       this.form.faults([]);

@@ -66,5 +66,6 @@ export const WORDS = {
   pins: { shared: "shared pins", split: "split pins" },
   peaksAt: (rpm) => `Peaks by order at ${Number(rpm.toFixed(3))} rpm`,
   zeroEverywhere: "Zero at every bank angle, for the orders 1, 2 and 4.",
+  tooMany: (count, most) => `${count} cylinders: the workbench draws up to ${most}; the library takes more.`,
   footer: "Computed here by crankpin’s own core; nothing is sent or loaded.",
 };
