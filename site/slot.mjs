@@ -16,9 +16,9 @@ const CONTROLS = ["crank_angle", "rpm", "rocking", "sound", "view"];
 const MOST_DRAWN = 64;
 
 export class Slot {
-  /** `core` answers at once; `changed` is told when another engine is shown, `speed` of a speed. */
-  constructor(core, design, { units, changed, speed }) {
-    Object.assign(this, { core, design, units, changed, speed });
+  /** `core` answers at once; `changed` is told when another engine is shown, `speed` of a speed, `turned` of a turn. */
+  constructor(core, design, { units, changed, speed, turned }) {
+    Object.assign(this, { core, design, units, changed, speed, turned });
     this.id = ++slots;
     this.engine = null;
     /** What the reader set in panes: controls by pane, and their values. */
@@ -115,10 +115,17 @@ export class Slot {
     this.bench = new Bench(figures, this.stage, bench?.kept);
     bench?.destroy();
     this.bench.listeners.add((changed) => {
+      this.turned(this, changed);
       if (!changed.includes("rpm")) return;
       design.rpm = this.bench.state.rpm;
       this.speed(this);
     });
+  }
+
+  /** Turn with another engine, whose crank drives this one's. */
+  turnWith({ bench: { state: { angle_deg: angle, playing } } }) {
+    if (playing) this.bench?.set({ playing: false });
+    this.bench?.set({ angle_deg: angle });
   }
 
   /** Run at another speed. */

@@ -117,6 +117,10 @@ export class Workbench {
         for (const other of this.slots) if (other !== one) other.turnAt(one.design.rpm);
         this.changed(one);
       },
+      turned: (one, changed) => {
+        if (!changed.includes("angle_deg") && !changed.includes("playing")) return;
+        for (const other of this.slots) if (other !== one) other.turnWith(one);
+      },
     });
     this.slots.push(slot);
     this.forms.append(slot.form.element);

@@ -116,6 +116,8 @@ def test_cross_plane_against_flat_plane(open_workbench: Open) -> None:
     assert engine(page, 0).firing_order == presets.preset("v8-crossplane").firing_order
     assert engine(page, 1).throws_deg.tolist() == presets.preset("v8-flatplane").throws_deg.tolist()
     assert page.locator(".turning").count() == 2
+    page.evaluate("workbench.slots[1].bench.set({ angle_deg: 75 })")
+    assert page.evaluate("workbench.slots[0].bench.state.angle_deg") == 75
     assert page.locator(".pane.orders").count() == 2
     page.wait_for_timeout(600)
     both = open_workbench(page.evaluate("location.hash"))
