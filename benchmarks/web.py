@@ -2,7 +2,7 @@
 
     python benchmarks/web.py [--quick] [--out FOLDER]
 
-Calls as a page makes them: texts of arguments read and answers made are in the times. Least of several
+Calls as a page makes them: reading arguments and writing answers count. Least of several
 rounds in turns, in Chromium. Needs ``packaging/web``.
 """
 

@@ -19,6 +19,7 @@ __all__ = [
     "Cycle",
     "CycleGrid",
     "Engine",
+    "Explanation",
     "Firing",
     "InputError",
     "Objectives",
@@ -28,6 +29,7 @@ __all__ = [
     "Sweep",
     "Tolerances",
     "__version__",
+    "across",
     "angular_speed",
     "arrangement",
     "balance",
@@ -41,9 +43,12 @@ __all__ = [
     "crank_radius_of_stroke",
     "cylinder_harmonics",
     "cylinder_torque_harmonics",
+    "dead_text",
     "estimated_rod_inertia",
     "exact_angle",
+    "explain",
     "fit_shafts",
+    "gas_text",
     "group_terms",
     "inline_throws",
     "least_weights",
@@ -68,6 +73,7 @@ __all__ = [
     "star",
     "terms",
     "turning",
+    "turns",
     "vanishing",
     "vee_throws",
     "waveform",
@@ -187,6 +193,7 @@ class Engine:
     def from_json(text: str) -> Engine: ...
     @staticmethod
     def from_state(text: str) -> Engine: ...
+    def filled(self, pattern: str) -> str: ...
     def to_toml(self) -> str: ...
     def to_json(self) -> str: ...
     @property
@@ -322,6 +329,22 @@ _WaveformParts: TypeAlias = tuple[
 ]
 
 @final
+class Explanation:
+    @property
+    def unit(self) -> float: ...
+    @property
+    def part(self) -> str: ...
+    @property
+    def lever(self) -> float: ...
+    @property
+    def findings(
+        self,
+    ) -> list[tuple[str, str, list[int | float], list[float], str, list[list[int]], bool]]: ...
+    def sentences(
+        self, loads: str, units: Sequence[tuple[str, str, float]], count: int | None = None
+    ) -> list[str]: ...
+
+@final
 class Search:
     def __new__(
         cls,
@@ -446,6 +469,8 @@ _Groups: TypeAlias = Sequence[Sequence[int]] | None
 @final
 class Firing:
     @staticmethod
+    def own(engine: Engine) -> Firing: ...
+    @staticmethod
     def named(engine: Engine, firing_order: str, strokes: int) -> Firing: ...
     @staticmethod
     def all_named(engine: Engine, firing_order: str, strokes: int) -> list[Firing]: ...
@@ -540,6 +565,11 @@ def terms(
     torque: bool,
     aside: Sequence[float],
 ) -> list[tuple[str, int, Balance]]: ...
+def explain(engine: Engine, rpm: float | None, vectors: bool) -> Explanation: ...
+def gas_text(names: Sequence[str | None], count: int) -> str: ...
+def dead_text(fires: Sequence[bool]) -> str: ...
+def across(direction_deg: float, sides: tuple[str, str]) -> str: ...
+def turns(minor: float) -> str: ...
 def star(
     firing: Firing, halves: Sequence[int], weights: Sequence[float]
 ) -> tuple[_Complex, _Complex, NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]: ...

@@ -29,8 +29,8 @@ _CoreEngine: TypeAlias = _core.Engine
 Cranks: TypeAlias = tuple[Sequence[tuple[float, float, int]], Sequence[int]]
 """Axis and speed ratio of each crankshaft, and the index of each cylinder's own."""
 
-BANK_ANGLE, PINS = "{bank_angle}", "{pins}"
-"""Placeholders of names: the bank angle in degrees, and "shared pins" or "split pins"."""
+BANK_ANGLE = "{bank_angle}"
+"""Placeholder of names: the bank angle in degrees."""
 KEPT: Final = "kept"
 """Default of arguments of ``replace`` for which None means something."""
 
@@ -123,14 +123,7 @@ class EngineData:
 
     def _named(self, pattern: str) -> str:
         """Return a name with its placeholders filled in."""
-        if BANK_ANGLE in pattern:
-            angle = f"{self.bank_angle_deg:.2f}" if len(self.banks) == 2 else "–"
-            short = angle.rstrip("0").rstrip(".") if "." in angle else angle
-            pattern = pattern.replace(BANK_ANGLE, short)
-        if PINS in pattern:
-            split = np.any(getattr(self, "pin_split_deg", False))
-            pattern = pattern.replace(PINS, "split pins" if split else "shared pins")
-        return pattern
+        return self._core.filled(pattern)
 
     @property
     def source(self) -> str:

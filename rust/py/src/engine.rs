@@ -332,6 +332,11 @@ impl Engine {
         self.0.name()
     }
 
+    /// A text with its placeholders filled in.
+    fn filled(&self, pattern: &str) -> String {
+        self.0.filled(pattern)
+    }
+
     #[getter]
     fn source(&self) -> &str {
         self.0.source()

@@ -14,6 +14,7 @@ mod closed_form;
 mod convert;
 mod design;
 mod engine;
+mod explain;
 mod figures;
 mod firing;
 mod flywheel;
@@ -47,6 +48,7 @@ mod _core {
         convert::{exact_angle, near_miss},
         design::Objectives,
         engine::Engine,
+        explain::{Explanation, across, dead_text, explain, gas_text, turns},
         figures::{block, group_terms, mean_inertia, orders_that_count, sizes},
         firing::{Firing, check_timing, inline_throws, vee_throws},
         flywheel::CycleGrid,

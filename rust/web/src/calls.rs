@@ -5,17 +5,19 @@ use serde_json::{Map, Value, json};
 
 use crate::answer::{self, Columns};
 use crate::arguments::Arguments;
-use crate::{balance, balancing, build, engine, figures, mounts, readings};
+use crate::{balance, balancing, build, engine, figures, mounts, readings, words};
 
 type Call = fn(&mut Arguments, &mut Columns) -> Result<Value>;
 
 /// Every call, for `site/core.mjs` and README.md.
-const CALLS: [(&str, Call); 14] = [
+const CALLS: [(&str, Call); 16] = [
     ("balance", balance::balance),
     ("balance_shafts", balancing::balance_shafts),
     ("bank_angles", readings::bank_angles),
+    ("bob_weights", words::bob_weights),
     ("build", build::build),
     ("counterweights", balancing::counterweights),
+    ("explain", words::explain),
     ("figures", figures::figures),
     ("firing", readings::firing),
     ("harmonics", readings::piston_harmonics),

@@ -37,7 +37,7 @@ fn summary(engine: &Engine, powertrain: Option<&Powertrain>) -> Result<Value> {
     let cranks =
         engine.cranks().iter().map(|c| json!({ "x": c.axis[0], "y": c.axis[1], "ratio": c.ratio }));
     Ok(json!({
-        "name": engine.name(), "source": engine.source(), "cylinders": count,
+        "name": engine.shown_name(), "source": engine.source(), "cylinders": count,
         "strokes": engine.strokes().number(), "firing_order": engine.firing_order(), "firing": firing,
         "tdc_deg": degrees(stations.iter().map(|p| p.tdc)),
         "bank_deg": degrees(stations.iter().map(|p| p.bank)),

@@ -12,6 +12,7 @@ use serde_json::{Value, json};
 use crate::answer::{Columns, degrees, orders as numbers};
 use crate::arguments::Arguments;
 use crate::engine::firing_of;
+use crate::words::sentences_of;
 
 /// An engine's figures, what its reader may set, and the terms of each order; the rod ratio is its own.
 pub fn figures(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
@@ -31,15 +32,19 @@ pub fn figures(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
         let [x, y] = shaft.axis;
         json!({ "ratio": shaft.ratio, "x": x, "y": y, "unbalances": unbalances(&shaft.unbalances) })
     });
+    let loads = engine.loads_counted();
+    let loads: String =
+        loads.chars().take(1).flat_map(char::to_uppercase).chain(loads.chars().skip(1)).collect();
+    let sentences = sentences_of(&engine, (rpm > 0.0).then_some(rpm), false)?;
     let block = block(&engine).map(|bar| json!({ "mass": bar.mass, "inertia": bar.inertia }));
     Ok(json!({
-        "name": engine.name(), "strokes": engine.strokes().number(), "rpm": rpm,
+        "name": engine.shown_name(), "strokes": engine.strokes().number(), "rpm": rpm,
         "reference_z": engine.reference(None)?, "bank_angle_deg": engine.changeable_bank_angle(),
         "rod_ratio": null, "cranks": cranks.collect::<Vec<_>>(), "cylinders": cylinders(&engine),
         "counterweights": unbalances(engine.counterweights()), "shafts": shafts.collect::<Vec<_>>(),
         "firing_deg": firing, "exhaust_opens_deg": exhaust_opens_deg(engine.strokes()),
-        "terms": terms(&engine, &cancel)?, "block": block, "gas": gas(&engine), "loads": "",
-        "flywheel": inertia, "compact": false, "sentences": [],
+        "terms": terms(&engine, &cancel)?, "block": block, "gas": gas(&engine), "loads": loads,
+        "flywheel": inertia, "compact": false, "sentences": sentences,
     }))
 }
 

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._support import files, inputs, labels
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balancing.counterweights import counterweights
-from crankpin.analysis.sentences import across, turns
 from crankpin.model.shafts import Unbalance
 
 if TYPE_CHECKING:
@@ -218,9 +218,9 @@ class Card(Tabled):
         tilt = self.bob._direction_deg(quantity, factor)
         longest, shortest = self.bob.half_axes(quantity, factor)
         if tilt is None:
-            return turns(shortest) if longest else "–"
+            return _core.turns(float(shortest)) if longest else "–"
         # A moment about x moves the ends up and down.
-        return across(tilt if quantity == "force" else tilt - 90.0, self.sides)
+        return _core.across(tilt if quantity == "force" else tilt - 90.0, self.sides)
 
     def _correction(self) -> Table:
         places = {name: z for name, z, _ in self.planes}

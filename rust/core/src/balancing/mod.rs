@@ -5,6 +5,7 @@
 //! kg·m²: over ω².
 
 mod angle_lists;
+pub mod bob_weight;
 mod discs;
 mod least_squares;
 pub mod shafts;

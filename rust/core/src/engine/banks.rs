@@ -37,6 +37,14 @@ impl Banks {
 }
 
 impl Engine {
+    /// The cylinders of each bank, by index.
+    #[must_use]
+    pub fn cylinders_of_banks(&self) -> Vec<Vec<usize>> {
+        let mut banks = vec![Vec::new(); self.bank_directions().len()];
+        self.bank_of.iter().enumerate().for_each(|(i, &bank)| banks[bank].push(i));
+        banks
+    }
+
     /// The two banks of a vee.
     pub fn banks(&self) -> Result<Banks> {
         let directions = self.bank_directions();

@@ -9,6 +9,8 @@ pub mod file;
 mod firing_order;
 mod gas;
 pub mod layout;
+pub mod loads;
+mod name;
 pub mod radial;
 mod shaft;
 

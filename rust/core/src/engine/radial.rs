@@ -106,7 +106,7 @@ impl Radial {
                 let row = place % rows;
                 let before =
                     (row..cylinders).step_by(rows).filter(|&other| tdc(other) < tdc(place));
-                let begun_later = row > 0 && later >> (rows - 1 - row) & 1 == 1;
+                let begun_later = row > 0 && (later >> (rows - 1 - row)) & 1 == 1;
                 let turns = if four { (before.count() + usize::from(begun_later)) % 2 } else { 0 };
                 fired.entry(tdc(place) + turns * turn).or_default().push(place + 1);
             }

@@ -21,8 +21,9 @@ pub const LONGEST_NAME: usize = 10_000;
 pub const HIGHEST_ORDER: u32 = 10_000;
 /// Maximum length of an axis: a gibibyte of numbers.
 pub const LONGEST_AXIS: usize = 1 << 27;
-/// Largest result, in bytes, that one call returns.
-pub const LARGEST_RESULT: u128 = 1 << 32;
+/// Largest result, in bytes, that one call returns; in WebAssembly, whose memory ends at 4 GiB and never
+/// shrinks, much less.
+pub const LARGEST_RESULT: u128 = if cfg!(target_family = "wasm") { 1 << 28 } else { 1 << 32 };
 
 /// A finite figure of at most [`LARGEST`].
 pub fn finite(argument: &str, value: f64) -> Result<f64> {

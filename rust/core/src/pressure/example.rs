@@ -7,6 +7,7 @@ use crate::engine::layout::Strokes;
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::figure::significant;
 use crate::pressure::ATMOSPHERE;
 
 /// Indicated mean effective pressure of the examples that idle, Pa: that of friction.
@@ -217,12 +218,7 @@ fn load_in_words(load: f64) -> String {
     if load == 0.0 {
         return "idling".to_owned();
     }
-    // Four significant digits, as short as they are.
-    let percent = 100.0 * load;
-    let decimals = (3 - percent.log10().floor() as i32).max(0) as usize;
-    let text = format!("{percent:.decimals$}");
-    let text = if decimals > 0 { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
-    format!("{text} % load")
+    format!("{} % load", significant(100.0 * load, 4))
 }
 
 /// Figures between idling and full load.

@@ -1,0 +1,54 @@
+//! What there is to say of an engine, in sentences.
+
+use std::sync::Arc;
+
+use crankpin_core::balance::Vector;
+use crankpin_core::balancing::bob_weight::{FirstOrder, masses_on, with_bob_weights};
+use crankpin_core::explain::{Subject, Wording, explain as of};
+use crankpin_core::{Cancel, Engine, Result};
+use serde_json::{Map, Value, json};
+
+use crate::answer::Columns;
+use crate::arguments::Arguments;
+use crate::engine::written;
+
+/// How an engine shakes, what matters most first; at a speed, or relative to one piston.
+pub fn explain(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
+    let engine = arguments.mounted()?.0;
+    let (rpm, vectors) = (arguments.optional("rpm")?, arguments.or("vectors", false)?);
+    Ok(json!(sentences_of(&engine, rpm, vectors)?))
+}
+
+/// Sentences on an engine, or on its force and moment alone.
+pub fn sentences_of(engine: &Engine, rpm: Option<f64>, vectors: bool) -> Result<Vec<String>> {
+    let subject = if vectors { Subject::Vectors } else { Subject::Everything };
+    let found = of(&Arc::new(engine.clone()), rpm, subject, &Cancel::new())?;
+    Ok(found.sentences(&found.findings, &Wording::of(engine)))
+}
+
+/// Masses on each crankpin, what order 1 keeps by balance factor, and the engine with counterweights opposite
+/// its crankpins.
+pub fn bob_weights(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
+    let (engine, powertrain) = arguments.mounted()?;
+    let factor = arguments.or("factor", 0.5)?;
+    let first = FirstOrder::new(&engine, &Cancel::new())?;
+    let pins = engine.throws().into_iter().flatten().map(|pin| {
+        let [rotating, reciprocating] = masses_on(&engine, &pin);
+        let cylinders: Vec<usize> = pin.cylinders.iter().map(|k| k + 1).collect();
+        json!({
+            "cylinders": cylinders, "z": pin.z, "rotating": rotating, "reciprocating": reciprocating,
+        })
+    });
+    let vectors = [("force", Vector::Force), ("moment", Vector::Moment)].map(|(name, vector)| {
+        let entry = json!({
+            "exists": first.exists(vector), "half_axes": first.half_axes(vector, factor),
+            "least": first.least(vector), "straight": first.straight(vector),
+            "direction_deg": first.direction_deg(vector, factor),
+        });
+        (name.to_owned(), entry)
+    });
+    let mut answer = written(&with_bob_weights(&engine, factor)?, powertrain.as_ref())?;
+    answer["pins"] = pins.collect();
+    answer["order_1"] = Value::Object(Map::from_iter(vectors));
+    Ok(answer)
+}
