@@ -25,7 +25,7 @@ export function paneFields(slot, key, fields, { units, again }) {
       const typed = control.value.trim();
       if (choices) return typed;
       const one = (part) => quantity(part, unit, plainUnit(unit, units()), name);
-      return listed ? typed.split(/[\s,;]+/u).filter(Boolean).map(one) : typed ? one(typed) : null;
+      return listed ? typed.split(/\s*[,;]\s*/u).filter(Boolean).map(one) : typed ? one(typed) : null;
     };
     const follow = () => {
       try {

@@ -1,6 +1,7 @@
 // Panes: what an engine does, each asked of the core when it is shown.
 
 import { anglesPane } from "./pane_angles.mjs";
+import { bobPane } from "./pane_bob.mjs";
 import { counterweightsPane, shaftsPane } from "./pane_fits.mjs";
 import { firingPane } from "./pane_firing.mjs";
 import { mountsPane } from "./pane_mounts.mjs";
@@ -19,4 +20,4 @@ const curvesOverCrankAngle = {
   make: async ({ bench }) => [bench.parts.timeline],
 };
 
-export const PANES = [orders, turning, curvesOverCrankAngle, anglesPane, firingPane, torquePane, counterweightsPane, shaftsPane, mountsPane];
+export const PANES = [orders, turning, curvesOverCrankAngle, anglesPane, firingPane, torquePane, bobPane, counterweightsPane, shaftsPane, mountsPane];

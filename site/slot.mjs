@@ -63,7 +63,6 @@ export class Slot {
       const built = this.built();
       if (built.summary.cylinders > MOST_DRAWN) throw new Error(WORDS.tooMany(built.summary.cylinders, MOST_DRAWN));
       this.engine = built;
-      this.engine.summary.name = this.named(this.engine.summary);
       this.show();
       this.form.faults([]);
       this.form.named(this.engine.summary.name);
@@ -71,12 +70,6 @@ export class Slot {
       this.form.faults(error.faults ?? [error]);
     }
     this.changed(this);
-  }
-
-  /** The engine's name, in which the bank angle and the pins are the engine's own, as the library has it. */
-  named({ name, bank_angle_deg: angle }) {
-    const pins = Number.parseFloat(this.design.fields.pin_split_deg) ? WORDS.pins.split : WORDS.pins.shared;
-    return name.replaceAll("{bank_angle}", angle === null ? "–" : `${Number(angle.toFixed(2))}`).replaceAll("{pins}", pins);
   }
 
   /** The engine: its files, and what the core says that it is. */
@@ -109,7 +102,7 @@ export class Slot {
     const { core, design, engine, bench } = this;
     const figures = {
       ...core.call("figures", { engine: engine.json, rpm: design.rpm, inertia: this.inertia }),
-      name: engine.summary.name, controls: CONTROLS, units: UNITS.drawn[this.units],
+      controls: CONTROLS, units: UNITS.drawn[this.units],
     };
     if (bench?.follows(figures)) return;
     this.bench = new Bench(figures, this.stage, bench?.kept);

@@ -340,3 +340,20 @@ def test_sizes_beyond_limits_are_errors(open_workbench: Open, count: int, words:
     type_in(page, firing_order="", throws_deg=", ".join(["0"] * count))
     page.wait_for_timeout(600)
     assert words in page.locator(".fault.whole").inner_text()
+
+
+def test_bob_weights_at_50_and_52_percent(open_workbench: Open) -> None:
+    page = open_workbench("#preset=v8-crossplane&reciprocating_mass=620+g&rotating_mass=550+g")
+    page.get_by_role("tab", name="Bob weight").click()
+    page.wait_for_selector("td[data-name=bob-weight]")
+    cells = page.locator("td[data-name=bob-weight]").all()
+    shown = [float(cell.get_attribute("data-value") or "nan") for cell in cells]
+    v8 = engine(page)
+    masses = [cp.bob_weight(v8, factor=factor).grams[0] / 1000 for factor in (0.5, 0.52)]
+    assert shown[:2] == pytest.approx(masses, rel=1e-14)
+
+
+def test_sentences_are_the_library_s(open_workbench: Open) -> None:
+    page = open_workbench("#preset=i4")
+    shown = page.locator(".explained li").all_inner_texts()
+    assert shown == list(engine(page).explain(rpm=3000).sentences)
