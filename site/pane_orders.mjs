@@ -11,6 +11,9 @@ const MOST_LISTED_ORDERS = 8;
 /** Orders whose peaks are all below this part of the largest are not shown: as in the library. */
 const SMALLEST_SHARE = 1e-6;
 
+/** Sentences that are shown before the reader asks for the others. */
+const FIRST_SENTENCES = 3;
+
 const COLUMNS = [
   { label: "order", key: "order" },
   { label: "force x", unit: "N", key: "force-x" }, { label: "force y", unit: "N", key: "force-y" },
@@ -42,7 +45,10 @@ function mattering(rows) {
 /** How the engine shakes, in sentences. */
 function explained(core, engine, rpm) {
   const sentences = core.call("explain", rpm > 0 ? { engine: engine.json, rpm } : { engine: engine.json });
-  return html("ul", { class: "explained" }, ...sentences.map((text) => html("li", {}, text)));
+  const list = (few) => html("ul", { class: "explained" }, ...few.map((text) => html("li", {}, text)));
+  const rest = sentences.slice(FIRST_SENTENCES);
+  return html("div", {}, list(sentences.slice(0, FIRST_SENTENCES)),
+    rest.length ? html("details", {}, html("summary", {}, WORDS.more), list(rest)) : "");
 }
 
 export const orders = {

@@ -72,5 +72,6 @@ export const WORDS = {
   vectors: { force: "shaking force", moment: "rocking moment" },
   leastAt: (name, factor) => `The longest ${name} of order 1 is the smallest at ${factor}.`,
   straightAt: (name, factor, degrees) => `At ${factor} the ${name} is along a straight line, at ${degrees}° from the right.`,
+  more: "more sentences",
   footer: "Computed here by crankpin’s own core; nothing is sent or loaded.",
 };

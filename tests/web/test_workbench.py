@@ -355,5 +355,5 @@ def test_bob_weights_at_50_and_52_percent(open_workbench: Open) -> None:
 
 def test_sentences_are_the_library_s(open_workbench: Open) -> None:
     page = open_workbench("#preset=i4")
-    shown = page.locator(".explained li").all_inner_texts()
+    shown = page.locator(".explained li").all_text_contents()
     assert shown == list(engine(page).explain(rpm=3000).sentences)
