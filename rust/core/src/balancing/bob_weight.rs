@@ -30,12 +30,18 @@ const ROUNDING_OF_ALL: f64 = 1e-15;
 pub fn with_bob_weights(engine: &Engine, factor: f64) -> Result<Engine> {
     let weight = |(i, station): (usize, &crate::Station)| {
         let gear = &station.cylinder;
-        let mass = station.rotating_mass + factor * gear.reciprocating_mass();
+        let mass = bob_weight([station.rotating_mass, gear.reciprocating_mass()], factor);
         let (amount, angle) = (mass * gear.crank_radius(), Angle::HALF_TURN);
         Unbalance { amount, angle, z: station.z, pin: Some(i) }
     };
     let weights = engine.stations().iter().enumerate().map(weight);
     engine.with_counterweights(weights.filter(|weight| weight.amount >= SMALLEST).collect())
+}
+
+/// Bob weight, kg, of a rotating and a reciprocating mass: all of the one and a share of the other.
+#[must_use]
+pub fn bob_weight([rotating, reciprocating]: [f64; 2], factor: f64) -> f64 {
+    rotating + factor * reciprocating
 }
 
 /// Rotating and reciprocating mass of the rods and pistons on a crankpin, kg.
