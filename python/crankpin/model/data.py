@@ -610,7 +610,9 @@ class EngineData:
         if all(core is None for core in cores):
             inputs.only_with("cycle", crankcase=crankcase)
         below = other._below_pistons(crankcase)
-        (fired,) = self._core.with_cycles([cores], below)
+        distinct = [core for core in dict.fromkeys(cores) if core is not None]
+        cycle_of = [None if core is None else distinct.index(core) for core in cores]
+        fired = self._core.with_cycles(distinct, cycle_of, below)
         checks.crankcase(below)
         _warn_of_work(each, self.cylinders)
         return type(self)(fired)

@@ -461,31 +461,21 @@ impl Engine {
         (0..count).map(|i| self.0.bank_of(i)).map(|k| if right == 1 { 1 - k } else { k }).collect()
     }
 
-    /// The engine with each of some lists of a cycle of each cylinder, or none, and a crankcase pressure,
+    /// The engine with cycles, the index of that of each cylinder, or none, and a crankcase pressure,
     /// firing in its own firing order.
     fn with_cycles(
         &self,
         py: Python<'_>,
-        lists: Vec<Vec<Option<PyRef<'_, Cycle>>>>,
+        cycles: Vec<PyRef<'_, Cycle>>,
+        cycle_of: Vec<Option<usize>>,
         crankcase: f64,
-    ) -> PyResult<Vec<Self>> {
+    ) -> PyResult<Self> {
         // The camshaft is that of the whole engine, also where some cylinders do not fire.
         let whole = Arc::new(self.0.without_gas());
         let firing = interrupt::run(py, |cancel| core::Firing::own(&whole, cancel))?;
-        let fired = |cycles: Vec<Option<PyRef<'_, Cycle>>>| {
-            let mut known: Vec<Arc<core::Cycle>> = Vec::new();
-            let mut index = |cycle: PyRef<'_, Cycle>| {
-                let is_it = |other: &Arc<_>| Arc::ptr_eq(other, &cycle.0) || *other == cycle.0;
-                known.iter().position(is_it).unwrap_or_else(|| {
-                    known.push(Arc::clone(&cycle.0));
-                    known.len() - 1
-                })
-            };
-            let cycle_of = cycles.into_iter().map(|cycle| cycle.map(&mut index)).collect();
-            let gas = Gas { cycles: known, cycle_of, crankcase, later: firing.in_second_turn() };
-            self.0.with_gas(gas).or_raise().map(Self::from)
-        };
-        lists.into_iter().map(fired).collect()
+        let cycles = cycles.iter().map(|cycle| Arc::clone(&cycle.0)).collect();
+        let gas = Gas { cycles, cycle_of, crankcase, later: firing.in_second_turn() };
+        self.0.with_gas(gas).or_raise().map(Self::from)
     }
 
     /// The engine with what another has of pressure in some of its cylinders, by index, above that

@@ -8,7 +8,7 @@ use crate::mechanism::slider_crank::piston_area;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
-use crate::pressure::Cycle;
+use crate::pressure::{ATMOSPHERE, Cycle};
 
 /// Pressure in the cylinders of an engine.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,6 +39,12 @@ impl Engine {
         limits::not_negative("crankcase", gas.crankcase)?;
         let firing = gas.cycle_of.iter().any(Option::is_some);
         Self { gas: firing.then_some(gas), ..self.clone() }.with_known_torque()
+    }
+
+    /// The same engine with one cycle in every cylinder, those that fire in the second turn marked.
+    pub fn fired_by(&self, cycle: Arc<Cycle>, later: Vec<bool>) -> Result<Self> {
+        let cycle_of = vec![Some(0); self.stations.len()];
+        self.with_gas(Gas { cycles: vec![cycle], cycle_of, crankcase: ATMOSPHERE, later })
     }
 
     /// Whether a cylinder fires: of an engine with cycles those that have one, without any all.
@@ -90,15 +96,7 @@ impl Engine {
                 let hint = format!("give the index of a cycle, below {}", gas.cycles.len());
                 return Err(Error::value(format!("cycle_of[{i}]"), cycle, hint));
             };
-            if cycle.strokes() != self.strokes {
-                let hint = format!(
-                    "the engine's strokes are {}: give a cycle of as many, or the engine strokes={}",
-                    self.strokes.number(),
-                    cycle.strokes().number()
-                );
-                let argument = format!("cycle[{i}].strokes");
-                return Err(Error::value(argument, cycle.strokes().number(), hint));
-            }
+            self.check_strokes(i, cycle)?;
             if self.details[i].bore.is_none() {
                 let hint = "gas pressure needs the bore; give bore=… to each Cylinder, m";
                 return Err(Error::value(format!("cylinder[{i}].bore"), "None", hint));
@@ -115,6 +113,29 @@ impl Engine {
             }
         }
         Ok(self)
+    }
+
+    /// Rejects a cycle of other strokes than the engine's, by its place in a list.
+    fn check_strokes(&self, place: usize, cycle: &Cycle) -> Result<()> {
+        if cycle.strokes() == self.strokes {
+            return Ok(());
+        }
+        let hint = format!(
+            "the engine's strokes are {}: give a cycle of as many, or the engine strokes={}",
+            self.strokes.number(),
+            cycle.strokes().number()
+        );
+        Err(Error::value(format!("cycle[{place}].strokes"), cycle.strokes().number(), hint))
+    }
+
+    /// Rejects cycles that cannot replace those of the engine.
+    pub(crate) fn check_cycles(&self, cycles: &[Arc<Cycle>]) -> Result<()> {
+        let own = self.gas.as_ref().map_or(0, |gas| gas.cycles.len());
+        if cycles.len() != own {
+            let hint = format!("give one in place of each cycle of the engine: {own}");
+            return Err(Error::value("cycles", cycles.len(), hint));
+        }
+        cycles.iter().enumerate().try_for_each(|(k, cycle)| self.check_strokes(k, cycle))
     }
 
     /// Area of a piston times its crank radius, m³; none where the bore is not known.

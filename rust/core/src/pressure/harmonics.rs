@@ -13,7 +13,7 @@ use crate::numbers::error::Result;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::numbers::quadrature::gauss_legendre;
-use crate::numbers::simd::{sin_cos_degrees, vectorised};
+use crate::numbers::simd::{MultiplyAdd, sin_cos_degrees, vectorised};
 
 /// Torque on a crank over piston area and crank radius, Pa.
 #[derive(Debug, Clone, PartialEq)]
@@ -247,6 +247,32 @@ impl Cycle {
 
     /// Torque, and if wanted twice the mean squares of its slope and bend: infinite where it jumps, or its
     /// slope.
+    /// Whether [`Self::torque_of`] has been integrated, and is kept.
+    pub(crate) fn keeps_torque_of(
+        &self,
+        proportions: &Proportions,
+        crankcase: f64,
+        orders: &[Order],
+    ) -> bool {
+        self.kept::<false, _>(proportions, crankcase, orders, |_| ()).is_some()
+    }
+
+    /// Something of the torque that was integrated last, if it is this one.
+    fn kept<const SQUARES: bool, T>(
+        &self,
+        proportions: &Proportions,
+        crankcase: f64,
+        orders: &[Order],
+        something: impl FnOnce(&Integrated) -> T,
+    ) -> Option<T> {
+        // None waits for a lock: a forked child has no thread that would release it.
+        let last = self.last_torques.0[usize::from(SQUARES)].try_lock().ok()?;
+        let is_it = |kept: &&Integrated| {
+            kept.proportions == *proportions && kept.crankcase == crankcase && kept.orders == orders
+        };
+        last.as_ref().filter(is_it).map(something)
+    }
+
     fn integrate<const SQUARES: bool>(
         &self,
         proportions: &Proportions,
@@ -254,18 +280,10 @@ impl Cycle {
         orders: &[Order],
         cancel: &Cancel,
     ) -> Result<(GasTorque, [f64; 2])> {
-        // None waits for a lock: a forked child has no thread that would release it.
-        let last = self.last_torques.0[usize::from(SQUARES)].try_lock();
-        let known = last.as_ref().ok().and_then(|last| (**last).as_ref());
-        let is_it = |known: &&Integrated| {
-            known.proportions == *proportions
-                && known.crankcase == crankcase
-                && known.orders == orders
-        };
-        if let Some(Integrated { torque, squares, .. }) = known.filter(is_it) {
-            return Ok((torque.clone(), *squares));
+        let copied = |kept: &Integrated| (kept.torque.clone(), kept.squares);
+        if let Some(kept) = self.kept::<SQUARES, _>(proportions, crankcase, orders, copied) {
+            return Ok(kept);
         }
-        drop(last);
         let (torque, squares) =
             self.integrated::<SQUARES>(proportions, crankcase, orders, cancel)?;
         if let Ok(mut last) = self.last_torques.0[usize::from(SQUARES)].try_lock() {
@@ -492,13 +510,13 @@ impl Powers {
                 let (c, s): (&Lanes, &Lanes) = (c, s);
                 for k in 0..SUMMED_SIDE_BY_SIDE {
                     let before = cos[k];
-                    cos[k] = before.mul_add(c[k], -(sin[k] * s[k]));
-                    sin[k] = before.mul_add(s[k], sin[k] * c[k]);
+                    cos[k] = before.multiply_add(c[k], -(sin[k] * s[k]));
+                    sin[k] = before.multiply_add(s[k], sin[k] * c[k]);
                 }
             }
             for k in 0..SUMMED_SIDE_BY_SIDE {
-                re[k] = weighted[k].mul_add(cos[k], re[k]);
-                im[k] = (-weighted[k]).mul_add(sin[k], im[k]);
+                re[k] = weighted[k].multiply_add(cos[k], re[k]);
+                im[k] = (-weighted[k]).multiply_add(sin[k], im[k]);
             }
         }
         Complex64::new(re.iter().sum(), im.iter().sum())
