@@ -19,7 +19,9 @@ __all__ = [
     "Cycle",
     "CycleGrid",
     "Engine",
+    "Explanation",
     "Firing",
+    "FirstOrder",
     "InputError",
     "Objectives",
     "Powertrain",
@@ -37,14 +39,19 @@ __all__ = [
     "check_support",
     "check_timing",
     "closed_form",
+    "corrections",
     "crank_radius_of_stroke",
     "cylinder_harmonics",
     "cylinder_torque_harmonics",
+    "dead_text",
     "estimated_rod_inertia",
     "exact_angle",
+    "explain",
     "fit_shafts",
+    "fit_weights",
+    "gas_text",
     "inline_throws",
-    "least_weights",
+    "masses_on_pins",
     "matched",
     "mean_inertias",
     "motion",
@@ -70,6 +77,7 @@ __all__ = [
     "vee_throws",
     "volume_ratios",
     "waveform",
+    "with_bob_weights",
 ]
 
 __version__: str
@@ -260,16 +268,25 @@ _FreeAxis: TypeAlias = tuple[float | None, float | None]
 
 def turning(engine: Engine, ratio: int) -> _Turning: ...
 def roll_torque(engine: Engine, order: int, rpm: float | None) -> complex: ...
-def least_weights(
+def fit_weights(
+    engine: Engine,
     z: Sequence[float],
-    reference: float,
-    length: float,
-    force: complex | None,
-    moment: complex | None,
     bounds: Sequence[float],
     angles: Sequence[Sequence[float]] | None,
+    parts: Sequence[tuple[str, float | None]],
+    length: float | None,
     minimise: str,
 ) -> tuple[list[tuple[int, int, _Weight]], bool, float]: ...
+def with_bob_weights(engine: Engine, factor: float) -> Engine: ...
+def masses_on_pins(engine: Engine) -> list[tuple[float, float]]: ...
+def corrections(
+    engine: Engine,
+    factor: float,
+    planes: Sequence[float],
+    radii: Sequence[float] | None,
+    oil: float,
+    balanced_to: Sequence[float] | None,
+) -> list[tuple[int, float, float, float, float | None, float | None]]: ...
 def fit_shafts(
     engine: Engine,
     wanted: Sequence[tuple[int, _FreeAxis, Sequence[float] | None, str]],
@@ -313,6 +330,31 @@ class Balance:
 _WaveformParts: TypeAlias = tuple[
     _Real, _Real, _Real | None, _Real | None, list[_Real] | None, Balance | None
 ]
+
+@final
+class FirstOrder:
+    def __new__(cls, engine: Engine) -> FirstOrder: ...
+    def exists(self, quantity: str) -> bool: ...
+    def half_axes(self, quantity: str, factors: Sequence[float]) -> tuple[_Real, _Real]: ...
+    def least(self, quantity: str) -> float | None: ...
+    def straight(self, quantity: str) -> list[tuple[float, float]]: ...
+    def direction(self, quantity: str, factor: float, sides: tuple[str, str]) -> str: ...
+
+@final
+class Explanation:
+    @property
+    def unit(self) -> float: ...
+    @property
+    def part(self) -> str: ...
+    @property
+    def lever(self) -> float: ...
+    @property
+    def findings(
+        self,
+    ) -> list[tuple[str, str, list[int | float], list[float], str, list[list[int]], bool]]: ...
+    def sentences(
+        self, loads: str, units: Sequence[tuple[str, str, float]], count: int | None = None
+    ) -> list[str]: ...
 
 @final
 class Search:
@@ -439,6 +481,8 @@ _Groups: TypeAlias = Sequence[Sequence[int]] | None
 @final
 class Firing:
     @staticmethod
+    def own(engine: Engine) -> Firing: ...
+    @staticmethod
     def named(engine: Engine, firing_order: str, strokes: int) -> Firing: ...
     @staticmethod
     def all_named(engine: Engine, firing_order: str, strokes: int) -> list[Firing]: ...
@@ -529,6 +573,9 @@ def terms(
     torque: bool,
     aside: Sequence[float],
 ) -> list[tuple[str, int, Balance]]: ...
+def explain(engine: Engine, rpm: float | None, vectors: bool) -> Explanation: ...
+def gas_text(names: Sequence[str | None], count: int) -> str: ...
+def dead_text(fires: Sequence[bool]) -> str: ...
 def star(
     firing: Firing, halves: Sequence[int], weights: Sequence[float]
 ) -> tuple[_Complex, _Complex, NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]: ...
@@ -631,10 +678,10 @@ class Response:
     def omitted(self) -> list[float]: ...
     @property
     def error_bound(self) -> list[float]: ...
-    def loads(self) -> _Complex: ...
+    def loads(self, about: tuple[float, float, float] | None) -> _Complex: ...
     def motions(self) -> _Complex: ...
     def mount_forces(self) -> _Complex: ...
-    def support_loads(self) -> _Complex: ...
+    def support_loads(self, about: tuple[float, float, float] | None) -> _Complex: ...
     def subframe_motions(self) -> _Complex: ...
     def ground_forces(self) -> _Complex: ...
     def at(self, point: Sequence[float] | str, derivative: str, of_subframe: bool) -> _Complex: ...

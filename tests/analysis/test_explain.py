@@ -18,7 +18,6 @@ import crankpin as cp
 import numpy as np
 import pytest
 from conftest import html_of
-from crankpin.analysis import sentences
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import time_domain
@@ -614,25 +613,6 @@ def test_pistons_that_pull_nothing_do_not_pull_together() -> None:
     assert "pull together" in found  # at order 2
 
 
-@pytest.mark.parametrize(
-    ("value", "up", "expected"),
-    [
-        (999.4, False, "999 N"),
-        (999.6, False, "1 kN"),
-        (12345.0, False, "12.3 kN"),
-        (2.5e6, False, "2.5 MN"),
-        (0.001234, False, "0.00123 N"),
-        (5.61, True, "5.7 N"),
-        (5.6, True, "5.6 N"),
-        (1010.0, True, "1.1 kN"),
-    ],
-)
-def test_figures_have_three_digits_and_bounds_are_rounded_up(
-    value: float, up: bool, expected: str
-) -> None:
-    assert sentences.figure(value, "N", up=up) == expected
-
-
 def test_a_balance_shows_the_sentences_that_matter_most_under_its_table() -> None:
     engine = cp.Engine.preset("v6-60")
     found = html_of(engine.balance(RPM))
@@ -650,6 +630,7 @@ def test_an_explanation_is_text_html_and_a_record() -> None:
     assert str(found) == "\n".join(found.sentences)
     assert repr(found) == f"V8 90°, cross-plane at 6000 rpm\n{found}"
     assert found._repr_html_().count("<li>") == len(found.sentences)
+    assert found.html(count=0) == "<ul></ul>"
     assert "piston&#x27;s" in V8.explain()._repr_html_()
     assert found == V8.explain(6000) != V8.explain(3000)
     for rpm in (-1.0, math.nan, "fast", True):

@@ -107,8 +107,8 @@ def assert_seen(ax: Axes) -> None:
     figure: Any = ax.get_figure(root=True)
     for text in [*ax.texts, ax.title, *ax.get_xticklabels(), *ax.get_yticklabels()]:
         behind = ax.get_facecolor() if text in ax.texts else figure.get_facecolor()
-        if text.get_gid() in STROKE_COLOURS:  # a letter on a stroke
-            behind = STROKE_COLOURS[text.get_gid()][is_dark(ax)]
+        if (name := text.get_gid()) in STROKE_COLOURS:  # a letter on a stroke
+            behind = STROKE_COLOURS[str(name)][is_dark(ax)]
         assert abs(grey(text.get_color()) - grey(behind)) > 0.4
 
 

@@ -188,7 +188,7 @@ def test_a_map_of_orders_ends_at_the_last_that_is_not_zero() -> None:
     v8 = cp.Engine.preset("v8-crossplane", cylinder=cp.Cylinder(0.043, 0.145, 0.5, bore=0.086))
     swept = cp.sweep(v8.with_cycle(cp.Cycle.example()), rpm=[2000, 4000, 6000])
     panels = swept.plot(kind="orders", quantity="moment")
-    last = max(order for order in swept.orders if swept[order].moment.peak.any())
+    last = max(int(order) for order in swept.orders if swept[order].moment.peak.any())
     assert last < max(swept.orders)
     for panel in panels.flat:
         figure_of(panels).canvas.draw()

@@ -13,6 +13,8 @@ from matplotlib.collections import QuadMesh
 from matplotlib.colors import LogNorm
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from matplotlib.axes import Axes
 
 CYLINDER = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
@@ -135,7 +137,7 @@ def test_over_speed_there_is_a_map_of_orders(part: Any) -> None:  # noqa: ANN401
     excitation = cp.torsional_excitation(FIRED, SPEEDS, orders=[0.5, 2, 3.5])
     ax = excitation.plot(part=part, cylinder=2)
     mesh = mesh_of(ax)
-    cells = np.ma.filled(np.ma.asarray(mesh.get_array()), np.nan)
+    cells: Any = np.ma.filled(np.ma.asarray(mesh.get_array()), np.nan)
     of = {None: excitation.torque, "gas": np.array([excitation.gas] * 3)}
     expected = abs(of.get(part, excitation.inertia)[:, 1])[np.argsort(SPEEDS)].T
     for row, order in enumerate((0.5, 2, 3.5)):
@@ -150,7 +152,7 @@ def test_over_speed_there_is_a_map_of_orders(part: Any) -> None:  # noqa: ANN401
 def test_what_is_not_there_is_rejected() -> None:
     excitation = cp.torsional_excitation(FIRED, rpm=3000)
     bare = cp.operating_map(BARE, SPEEDS)
-    for draw, message in (
+    rejected: list[tuple[Callable[[], object], str]] = [
         (lambda: excitation.plot(cylinder=5), "cylinder = 5: give 1 to 4"),
         (lambda: excitation.plot(cylinder=0), "cylinder = 0"),
         (lambda: excitation.plot(part="oil"), "part = 'oil': give"),  # type: ignore[arg-type]
@@ -159,7 +161,8 @@ def test_what_is_not_there_is_rejected() -> None:
             lambda: bare.plot(quantity="irregularity"),
             "quantity = 'irregularity': needs the inertia",
         ),
-    ):
+    ]
+    for draw, message in rejected:
         with pytest.raises(cp.InputError, match=message):
             draw()
     assert plt.get_fignums() == []

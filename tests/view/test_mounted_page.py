@@ -247,7 +247,8 @@ def test_a_phone_s_width_needs_no_scrolling(open_engine: Open, engine: cp.Engine
     # All six numbers of each mount are seen, none beyond an edge.
     hidden = page.eval_on_selector_all(
         ".scrolls, .scrolls :is(td, th button)",
-        "found => found.filter(each => each.scrollWidth > each.clientWidth).map(each => each.outerHTML)",
+        """found => found.filter(each => each.scrollWidth > each.clientWidth)
+            .map(each => each.outerHTML)""",
     )
     assert hidden == []
     odd = page.eval_on_selector_all(

@@ -793,7 +793,7 @@ def test_nothing_jumps_as_settings_change(open_engine: Open, name: str, width: i
     tops = page.evaluate(TOPS)
     vee = getattr(engine, "bank_angle_deg", None) is not None
     for _ in range(12):
-        state = {
+        state: dict[str, object] = {
             "rpm": float(random.choice([0, 700, 12345])),
             "rod_ratio": float(random.uniform(0.05, 0.69)),
         }

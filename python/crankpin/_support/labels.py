@@ -136,23 +136,13 @@ def gas_text(names: Sequence[str | None], count: int = 1) -> str:
     count
         Number of different cycles.
     """
-    if all(name is None for name in names):
-        return "without gas pressure"
-    named = [name for name in dict.fromkeys(printable(each or "") for each in names) if name]
-    words = cut(", ".join(named)) or "unnamed cycle"
-    if count > max(1, len(named)):
-        words = f"{count} cycles, {words}" if named else f"{count} cycles"
-    dead = dead_text(names)
-    return f"gas: {words}{'; ' * bool(dead)}{dead}"
+    named = [None if name is None else printable(name) for name in names]
+    return _core.gas_text(named, count)
 
 
 def dead_text(cycles: Iterable[object]) -> str:
     """Return ``cylinder 3 does not fire``, or nothing if no cylinder's cycle is None."""
-    dead = [str(number) for number, cycle in enumerate(cycles, start=1) if cycle is None]
-    if not dead:
-        return ""
-    verb = "cylinder {} does" if len(dead) == 1 else "cylinders {} do"
-    return f"{verb.format(cut(', '.join(dead), 30))} not fire"
+    return _core.dead_text([cycle is not None for cycle in cycles])
 
 
 def loads_of(engines: Sequence[Titled], titles: Sequence[str]) -> str:

@@ -363,11 +363,8 @@ class Firing(Tabled):
 def firing(engine: Engine, firing_order: str | Iterable[int] | None, strokes: int | None) -> Firing:
     """Return the way of a fired engine, or the most even in an order; see :meth:`Engine.firing`."""
     text, count = _order_and_strokes(engine, firing_order, strokes)
-    if firing_order is None and engine.fired and count == engine.strokes:
-        for way in _core.Firing.all_named(engine._core, text, count):
-            turns = ((way.angles_deg - engine.firing_deg) / 360.0).round() % 2.0
-            if not np.ptp(turns):
-                return Firing._of(way, engine)
+    if firing_order is None and count == engine.strokes:
+        return Firing._of(_core.Firing.own(engine._core), engine)
     return Firing._of(_core.Firing.named(engine._core, text, count), engine)
 
 

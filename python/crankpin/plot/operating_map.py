@@ -74,9 +74,10 @@ def _map(
     style: dict[str, Any],
 ) -> None:
     columns, rows = np.argsort(rpm, kind="stable"), np.argsort(load, kind="stable")
-    options = {"shading": "nearest", "norm": scale_from_zero(values), "rasterized": True}
+    options: dict[str, Any] = {"shading": "nearest", "norm": scale_from_zero(values)}
+    options |= {"rasterized": True, "cmap": of_maps()} | style
     cells = values.T[np.ix_(rows, columns)]
-    mesh = ax.pcolormesh(rpm[columns], load[rows], cells, **(options | {"cmap": of_maps()} | style))
+    mesh = ax.pcolormesh(rpm[columns], load[rows], cells, **options)
     if values.any():
         colour_bar([ax], mesh, text, values)
     else:
@@ -96,9 +97,9 @@ def _curve(
 ) -> None:
     in_order = np.argsort(along, kind="stable")
     (look,) = series(ax, 1, style)
-    named = {"gid": SERIES, "label": label or f"_{count_series(ax)}"}
-    dot = {"marker": "o"} if len(along) == 1 else {}
-    ax.plot(along[in_order], values[in_order], **named, **(dot | look))
+    drawn: dict[str, Any] = {"gid": SERIES, "label": label or f"_{count_series(ax)}"}
+    drawn |= {"marker": "o"} if len(along) == 1 else {}
+    ax.plot(along[in_order], values[in_order], **(drawn | look))
     numeric(ax.xaxis)
     numeric(ax.yaxis)
     lines = [line for line in ax.lines if line.get_gid() == SERIES]

@@ -9,7 +9,7 @@
 //! - [`engine`]: running gears, banks and shafts in their places, layouts, files;
 //! - [`wrench`] and `load`: every load of an engine in one list, superposed order by order;
 //! - [`readings`] of that list: balances, waveforms and their peaks, bearing loads, sweeps, tolerances,
-//!   exact answers;
+//!   exact answers, explanations in words;
 //! - [`balancing`]: counterweights and balance shafts fitted to an engine;
 //! - [`firing`] and [`search`].
 //!
@@ -52,8 +52,8 @@ pub use readings::balance::{Balance, Orders, Request};
 pub use readings::sweep::Sweep;
 pub use readings::waveform::Waveform;
 pub use readings::{
-    balance, bearing_loads, exact, flywheel, mount_designs, mounted, peaks, sweep, terms,
-    tolerances, waveform,
+    balance, bearing_loads, exact, explain, figures, flywheel, mount_designs, mounted, peaks,
+    sweep, terms, tolerances, waveform,
 };
 
 /// Complex numbers as ndarray and `NumPy` share them.

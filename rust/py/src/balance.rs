@@ -100,7 +100,8 @@ pub fn torque(quantity: &str) -> PyResult<(TorquePart, bool)> {
     Ok((part.or_raise()?, quantity.starts_with("crank")))
 }
 
-fn vector(quantity: &str) -> PyResult<Vector> {
+/// Force or moment by its name.
+pub fn vector(quantity: &str) -> PyResult<Vector> {
     choice("quantity", quantity, &[("force", Vector::Force), ("moment", Vector::Moment)])
 }
 

@@ -58,6 +58,13 @@ impl Firing {
         interrupt::run(py, |cancel| core::Firing::named(&engine, &order, strokes, cancel)).map(Self)
     }
 
+    /// That by which an engine fires.
+    #[staticmethod]
+    fn own(engine: &Bound<'_, Engine>) -> PyResult<Self> {
+        let core = &engine.get().0;
+        interrupt::run(engine.py(), |cancel| core::Firing::own(core, cancel)).map(Self)
+    }
+
     #[staticmethod]
     fn all_named(engine: &Engine, firing_order: &str, strokes: u32) -> PyResult<Vec<Self>> {
         let strokes = Strokes::from_number(strokes).or_raise()?;

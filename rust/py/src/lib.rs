@@ -14,6 +14,7 @@ mod closed_form;
 mod convert;
 mod design;
 mod engine;
+mod explain;
 mod firing;
 mod flywheel;
 mod interrupt;
@@ -40,12 +41,16 @@ mod _core {
     #[pymodule_export]
     use crate::{
         balance::{Balance, angular_speed, balance, terms},
-        balancing::{fit_shafts, least_weights, pair_heights, roll_torque, shared, turning},
+        balancing::{
+            FirstOrder, corrections, fit_shafts, fit_weights, masses_on_pins, pair_heights,
+            roll_torque, shared, turning, with_bob_weights,
+        },
         bearing_loads::BearingLoadsModel,
         closed_form::closed_form,
         convert::{exact_angle, near_miss},
         design::Objectives,
         engine::Engine,
+        explain::{Explanation, dead_text, explain, gas_text},
         firing::{Firing, check_timing, inline_throws, vee_throws},
         flywheel::{CycleGrid, mean_inertias},
         matching::matched,

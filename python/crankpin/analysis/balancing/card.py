@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import html
 from collections.abc import Mapping
 from functools import cached_property
@@ -15,12 +16,10 @@ from crankpin._support import files, inputs, labels
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.tables import Column, Table
-from crankpin.analysis.balancing.counterweights import counterweights
-from crankpin.analysis.sentences import across, turns
-from crankpin.model.shafts import Unbalance
+from crankpin.analysis.request import engine_core
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable
     from pathlib import Path
 
     from numpy.typing import NDArray
@@ -39,8 +38,6 @@ PARTS = {
 }
 """Part of a cylinder that is weighed → what it counts as."""
 RECIPROCATING, ROTATING = "reciprocating", "rotating"
-STEEL, HEAVY_METAL = 7.85, 17.0
-"""Densities of a crankshaft and of the tungsten alloy pressed into its holes, g/cm³."""
 G_MM = 1e6
 """Gram millimetres to a kg·m."""
 ROUNDING = 1e-12
@@ -210,7 +207,7 @@ class Card(Tabled):
         ]
         omega_squared = _core.angular_speed(self.rpm) ** 2
         for name in PLANE_VECTORS:
-            if not any(part.exists for part in bob._parts(name)):
+            if not bob._first_order.exists(name):
                 continue
             longest, shortest = (omega_squared * each for each in bob.half_axes(name, factors))
             shortest[abs(shortest) < ROUNDING * longest.max()] = 0.0
@@ -227,43 +224,40 @@ class Card(Tabled):
 
     def _direction(self, quantity: str, factor: float) -> str:
         """Return in words which way the longest half axis points, of a moment which way ends go."""
-        tilt = self.bob._direction_deg(quantity, factor)
-        longest, shortest = self.bob.half_axes(quantity, factor)
-        if tilt is None:
-            return turns(shortest) if longest else "–"
-        # A moment about x moves the ends up and down.
-        return across(tilt if quantity == "force" else tilt - 90.0, self.sides)
+        return self.bob._first_order.direction(quantity, factor, self.sides)
 
     def _correction(self) -> Table:
-        places = {name: z for name, z, _ in self.planes}
-        radii = {name: radius for name, _, radius in self.planes}
-        rows: list[tuple[Any, ...]] = []
-        engine = _weighted(self.bob, self.balanced_to)
-        for factor in self.factors:
-            fit = counterweights(engine, planes=places, factor=factor)
-            for plane, each in fit.by_plane:
-                angle = inputs.degrees(each.angle_deg)
-                amount, radius = G_MM * each.amount, radii[plane]
-                share = f"{100.0 * factor:.6g} %"
-                rows.append((share, plane, each.z, amount, angle, (angle + 180.0) % 360.0, radius))
-        found: list[tuple[Any, ...]] = list(zip(*rows, strict=True)) if rows else [()] * 7
-        shares, names, z, amounts, adding, drilling, at = found
-        columns = [
-            Column("factor", shares),
-            Column("plane", names),
-            Column("z", z, "m"),
-            Column("unbalance", amounts, "g·mm", decimals=0),
-            Column("add at", adding, "°", decimals=1),
-            Column("or drill at", drilling, "°", decimals=1),
+        names, places, at = zip(*self.planes, strict=True)
+        radii = None if None in at else at
+        core = engine_core(self.bob.engine)
+        heads = [
+            Column("factor", ()),
+            Column("plane", ()),
+            Column("z", (), "m"),
+            Column("unbalance", (), "g·mm", decimals=0),
+            Column("add at", (), "°", decimals=1),
+            Column("or drill at", (), "°", decimals=1),
         ]
-        if any(radii.values()):
-            net = [a / (1e3 * r) for a, r in zip(amounts, at, strict=True)]
-            slugs = [each * HEAVY_METAL / (HEAVY_METAL - STEEL) for each in net]
-            columns += [
-                Column("radius", tuple(1e3 * r for r in at), "mm"),
-                Column("weight", tuple(net), "g", decimals=1),
-                Column("as heavy metal", tuple(slugs), "g", decimals=1),
+        if radii is not None:
+            heads += [
+                Column("radius", (), "mm"),
+                Column("weight", (), "g", decimals=1),
+                Column("as heavy metal", (), "g", decimals=1),
             ]
+        rows: list[tuple[Any, ...]] = []
+        for factor in self.factors:
+            share = f"{100.0 * factor:.6g} %"
+            for plane, amount, adding, drilling, mass, slug in _core.corrections(
+                core, factor, places, radii, self.bob.oil, self.balanced_to
+            ):
+                row = (share, names[plane], places[plane], G_MM * amount, adding, drilling)
+                if radii is not None and mass is not None and slug is not None:
+                    row += (1e3 * radii[plane], 1e3 * mass, 1e3 * slug)
+                rows.append(row)
+        cells = zip(*rows, strict=True) if rows else [()] * len(heads)
+        columns = [
+            dataclasses.replace(head, values=each) for head, each in zip(heads, cells, strict=True)
+        ]
         has = "from nothing"
         if self.balanced_to is not None:
             has = "from the bob weight it has"
@@ -292,24 +286,3 @@ class Card(Tabled):
         files.write(
             file, PAGE.substitute(title=html.escape(title), tables=self.frames._repr_html_())
         )
-
-
-def _weighted(bob: BobWeight, balanced_to: Sequence[float] | None) -> Engine:
-    """Return the engine with the oil of its crankpins, and what its crankshaft has now."""
-    engine, masses = bob.engine, bob.engine.rotating_mass.copy()
-    for pin in bob.crankpins:
-        masses[pin.cylinders[0] - 1] += bob.oil
-    engine = engine.replace(rotating_mass=masses)
-    if balanced_to is None:
-        return engine
-    weights = [
-        Unbalance(
-            mass * engine.cylinders[pin.cylinders[0] - 1].crank_radius,
-            pin.z,
-            180,
-            pin=pin.cylinders[0],
-        )
-        for pin, mass in zip(bob.crankpins, balanced_to, strict=True)
-        if mass
-    ]
-    return engine.with_counterweights(weights)

@@ -37,6 +37,14 @@ impl Banks {
 }
 
 impl Engine {
+    /// The cylinders of each bank, by index.
+    #[must_use]
+    pub fn cylinders_of_banks(&self) -> Vec<Vec<usize>> {
+        let mut banks = vec![Vec::new(); self.bank_directions().len()];
+        self.bank_of.iter().enumerate().for_each(|(i, &bank)| banks[bank].push(i));
+        banks
+    }
+
     /// The two banks of a vee.
     pub fn banks(&self) -> Result<Banks> {
         let directions = self.bank_directions();
@@ -59,6 +67,12 @@ impl Engine {
     pub(crate) fn check_bank_angle_can_change(&self) -> Result<Banks> {
         self.check_one_crank("a change of bank_angle_deg")?;
         self.banks()
+    }
+
+    /// Bank angle that can change, degrees: of two banks on one crank.
+    #[must_use]
+    pub fn changeable_bank_angle(&self) -> Option<f64> {
+        self.check_bank_angle_can_change().ok().map(|banks| banks.angle().degrees())
     }
 
     /// The same engine with its two banks at another angle about the same bisector.

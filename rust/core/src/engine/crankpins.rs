@@ -42,6 +42,15 @@ pub struct Bay {
 }
 
 impl Bay {
+    /// Places of the webs, m: midway between neighbouring throws and bearings.
+    #[must_use]
+    pub fn webs(&self) -> Vec<f64> {
+        let [front, rear] = self.bearings;
+        let places: Vec<f64> =
+            [front].into_iter().chain(self.throws.iter().copied()).chain([rear]).collect();
+        places.windows(2).map(|pair| (pair[0] + pair[1]) / 2.0).collect()
+    }
+
     /// Place midway between the first throw and the last, m.
     #[must_use]
     pub fn z(&self) -> f64 {

@@ -8,7 +8,7 @@ use crate::mechanism::slider_crank::piston_area;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
-use crate::pressure::Cycle;
+use crate::pressure::{ATMOSPHERE, Cycle};
 
 /// Pressure in the cylinders of an engine.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,6 +39,12 @@ impl Engine {
         limits::not_negative("crankcase", gas.crankcase)?;
         let firing = gas.cycle_of.iter().any(Option::is_some);
         Self { gas: firing.then_some(gas), ..self.clone() }.with_known_torque()
+    }
+
+    /// The same engine with one cycle in every cylinder, those that fire in the second turn marked.
+    pub fn fired_by(&self, cycle: Arc<Cycle>, later: Vec<bool>) -> Result<Self> {
+        let cycle_of = vec![Some(0); self.stations.len()];
+        self.with_gas(Gas { cycles: vec![cycle], cycle_of, crankcase: ATMOSPHERE, later })
     }
 
     /// Whether a cylinder fires: of an engine with cycles those that have one, without any all.

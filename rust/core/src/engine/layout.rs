@@ -310,7 +310,7 @@ fn part(index: usize, degrees: i64, count: usize) -> Angle {
 }
 
 /// One mass for each cylinder; a single one is for all.
-fn per_cylinder(masses: &[f64], cylinders: usize) -> Result<Vec<f64>> {
+pub(super) fn per_cylinder(masses: &[f64], cylinders: usize) -> Result<Vec<f64>> {
     for (i, &mass) in masses.iter().enumerate() {
         limits::not_negative(&format!("rotating_mass[{i}]"), mass)?;
     }

@@ -9,6 +9,8 @@ pub mod file;
 mod firing_order;
 mod gas;
 pub mod layout;
+pub mod loads;
+pub mod radial;
 mod shaft;
 
 use serde::{Deserialize, Serialize};
@@ -408,6 +410,16 @@ impl Engine {
         let engine = Self { cranks, crank_of, ..self.clone() };
         engine.check_throws_between(&engine.mains)?;
         engine.with_known_torque()
+    }
+
+    /// The same engine with these masses at its crankpins, one for each cylinder, kg.
+    pub fn with_rotating_masses(&self, masses: &[f64]) -> Result<Self> {
+        check_each_cylinder("rotating_mass", masses.len(), self.stations.len())?;
+        let mut engine = self.clone();
+        for (i, (station, &mass)) in engine.stations.iter_mut().zip(masses).enumerate() {
+            station.rotating_mass = limits::not_negative(&format!("rotating_mass[{i}]"), mass)?;
+        }
+        Ok(engine)
     }
 
     /// The same engine with these counterweights on the crankshaft instead of those it has.

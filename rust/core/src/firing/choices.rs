@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::highest_points::highest_points;
 use super::schedule::Firing;
-use crate::engine::Engine;
+use crate::engine::{Engine, Gas};
 use crate::layout::{FiringOrder, Strokes};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result, shorten};
@@ -88,11 +88,25 @@ impl Firing {
         Err(Error::value("firing_order", order, hint))
     }
 
-    /// The schedule by which an engine fires: the most even one in its own firing order, or the only one.
+    /// The schedule by which an engine fires: that of its gas, the most even one in its own firing order,
+    /// or the only one.
     pub fn own(engine: &Arc<Engine>, cancel: &Cancel) -> Result<Self> {
         let strokes = engine.strokes();
         if !engine.firing_order().is_empty() {
-            return Self::named(engine, &engine.firing_order().parse()?, strokes, cancel);
+            let order = engine.firing_order().parse()?;
+            let of_gas = |gas: &Gas| {
+                // Whichever turn is called the first.
+                let same = |way: &Self| {
+                    let turned: Vec<bool> =
+                        way.in_second_turn().iter().zip(&gas.later).map(|(a, b)| a != b).collect();
+                    turned.iter().all(|each| *each == turned[0])
+                };
+                Ok(Self::all_named(engine, &order, strokes)?.into_iter().find(same))
+            };
+            return match engine.gas().map_or(Ok(None), of_gas)? {
+                Some(way) => Ok(way),
+                None => Self::named(engine, &order, strokes, cancel),
+            };
         }
         let mut hint = "the engine has none; give it one, such as 1-3-4-2".to_owned();
         if can_list(engine.stations().len(), strokes) {

@@ -19,11 +19,7 @@ impl Firing {
     /// The cylinders of each bank, by index.
     #[must_use]
     pub fn banks(&self) -> Vec<Vec<usize>> {
-        let mut banks = vec![Vec::new(); self.engine().bank_directions().len()];
-        for i in 0..self.engine().stations().len() {
-            banks[self.engine().bank_of(i)].push(i);
-        }
-        banks
+        self.engine().cylinders_of_banks()
     }
 
     /// The groups given by cylinder number, or the banks, by index.

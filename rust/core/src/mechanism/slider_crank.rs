@@ -73,6 +73,16 @@ impl Cylinder {
         pin_offset: f64,
     ) -> Result<Self> {
         limits::length("bore", bore)?;
+        Self::from_stroke(stroke, rod_length, reciprocating_mass, pin_offset)
+    }
+
+    /// From the stroke in place of the crank radius, m.
+    pub fn from_stroke(
+        stroke: f64,
+        rod_length: f64,
+        reciprocating_mass: f64,
+        pin_offset: f64,
+    ) -> Result<Self> {
         limits::length("stroke", stroke)?;
         Self::new(0.5 * stroke, rod_length, reciprocating_mass, pin_offset)
     }

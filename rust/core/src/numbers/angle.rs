@@ -17,6 +17,7 @@ use std::str::FromStr;
 
 use crate::Complex64;
 use crate::numbers::decimal::{self, WITHIN_ULP, ulp};
+use crate::numbers::double::fused;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::rational::{self, nearest};
 
@@ -247,7 +248,7 @@ pub fn cis_degrees(degrees: f64) -> Complex64 {
 pub(crate) fn cis_multiple(degrees: f64, n: i64) -> Complex64 {
     // n·degrees as an exact sum of two doubles, each reduced by itself.
     let product = degrees * n as f64;
-    let rest = degrees.mul_add(n as f64, -product);
+    let rest = fused(degrees, n as f64, -product);
     let base = cis_degrees(product);
     if rest == 0.0 { base } else { base * cis_degrees(rest) }
 }

@@ -1,5 +1,7 @@
 //! Polynomials by their values at Chebyshev points, and Chebyshev series.
 
+use crate::numbers::simd::MultiplyAdd;
+
 /// Chebyshev point `k` of a degree, descending from 1.
 pub(crate) fn node(k: usize, degree: usize) -> f64 {
     // By the sine, so that they are symmetric.
@@ -39,12 +41,12 @@ pub(crate) fn values<const N: usize>(coefficients: &[f64], x: &[f64; N]) -> [f64
     let [mut b, mut b_before] = [[0.0; N]; 2];
     for &c in coefficients[1..].iter().rev() {
         for i in 0..N {
-            let next = (2.0 * x[i]).mul_add(b[i], c - b_before[i]);
+            let next = (2.0 * x[i]).multiply_add(b[i], c - b_before[i]);
             (b_before[i], b[i]) = (b[i], next);
         }
     }
     for i in 0..N {
-        b[i] = x[i].mul_add(b[i], coefficients[0] - b_before[i]);
+        b[i] = x[i].multiply_add(b[i], coefficients[0] - b_before[i]);
     }
     b
 }

@@ -4,10 +4,11 @@ use std::ops::Range;
 
 use crate::numbers::angle::LARGEST_ANGLE;
 use crate::numbers::cancel::Cancel;
+use crate::numbers::double::fused;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::order::Order;
-use crate::numbers::simd::{ROUND, sin_cos_degrees, vectorised};
+use crate::numbers::simd::{MultiplyAdd, ROUND, sin_cos_degrees, vectorised};
 
 /// Fewest points of a table over crank angle that is known to be one of a whole cycle.
 pub const FEWEST_POINTS: usize = 8;
@@ -78,8 +79,9 @@ impl CrankAngles {
                     // rad, whose square is nothing.
                     let pairs = cos.iter_mut().zip(sin).zip(&product).zip(reduced);
                     for (((cos, sin), product), θ) in pairs {
-                        let rest = n.mul_add(*θ, -product).to_radians();
-                        (*cos, *sin) = (rest.mul_add(-*sin, *cos), rest.mul_add(*cos, *sin));
+                        let rest = fused(n, *θ, -product).to_radians();
+                        (*cos, *sin) =
+                            (rest.multiply_add(-*sin, *cos), rest.multiply_add(*cos, *sin));
                     }
                 }
             },

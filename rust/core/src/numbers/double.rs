@@ -1,5 +1,24 @@
 //! Numbers of twice a double's digits: the unevaluated sum of two.
 
+/// `a · b + c` rounded once, or as near as without a machine that rounds so: exact where the sum of the
+/// rounded product and `c` is, but for underflow.
+///
+/// WebAssembly has no such machine, and what stands in for it takes as long as dozens of operations.
+#[must_use]
+#[inline(always)]
+pub fn fused(a: f64, b: f64, c: f64) -> f64 {
+    /// Times a double leaves the upper half of its digits (Dekker, Veltkamp).
+    const SPLITTER: f64 = 134_217_729.0;
+    if cfg!(not(target_family = "wasm")) {
+        return a.mul_add(b, c);
+    }
+    let upper = |x: f64| SPLITTER * x - (SPLITTER * x - x);
+    let product = a * b;
+    let [(a, rest_of_a), (b, rest_of_b)] = [a, b].map(|x| (upper(x), x - upper(x)));
+    let lost = ((a * b - product) + a * rest_of_b + rest_of_a * b) + rest_of_a * rest_of_b;
+    (product + c) + lost
+}
+
 /// `high + low`, with `low` below half a unit in the last place of `high`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Double {
@@ -24,7 +43,7 @@ impl Double {
     #[inline]
     pub fn product(a: f64, b: f64) -> Self {
         let high = a * b;
-        Self { high, low: a.mul_add(b, -high) }
+        Self { high, low: fused(a, b, -high) }
     }
 
     /// Plus a double, to twice its digits.
@@ -48,7 +67,7 @@ impl Double {
     #[inline]
     pub fn over(self, x: f64) -> Self {
         let quotient = self.high / x;
-        let rest = (-quotient).mul_add(x, self.high) + self.low;
+        let rest = fused(-quotient, x, self.high) + self.low;
         Self::sum(quotient, rest / x)
     }
 }

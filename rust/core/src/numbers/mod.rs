@@ -7,6 +7,7 @@ pub mod crank_angles;
 pub mod decimal;
 pub mod double;
 pub mod error;
+pub mod figure;
 pub mod limits;
 pub mod memory;
 pub mod order;

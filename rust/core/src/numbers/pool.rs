@@ -136,6 +136,10 @@ impl Lease {
     /// An idle pool of this process, or a new one: the n-th has 1/n of the threads of the first, for
     /// the others are busy. None if no thread can be started.
     fn take() -> Option<Self> {
+        // WebAssembly has neither threads nor processes.
+        if cfg!(target_family = "wasm") {
+            return None;
+        }
         let process = process::id();
         let threads = {
             let mut pools = lock()?;

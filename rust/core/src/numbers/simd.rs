@@ -1,10 +1,41 @@
 //! Loops compiled for the widest vectors of the machine they run on.
 
+use pulp::Simd;
+
 /// Run a loop, compiled once for each instruction set, with the best that this machine has. All
 /// the loop calls must be inlined into it, or they are compiled for the baseline only.
 #[inline]
 pub(crate) fn vectorised<R>(work: impl FnOnce() -> R) -> R {
     pulp::Arch::new().dispatch(work)
+}
+
+/// The vector of a run of numbers that begins at a multiple of its own length.
+#[inline(always)]
+pub(crate) fn vector<S: Simd>(of: &[f64], at: usize) -> S::f64s {
+    S::as_simd_f64s(of).0[at]
+}
+
+/// The same, to write to.
+#[inline(always)]
+pub(crate) fn vector_mut<S: Simd>(of: &mut [f64], at: usize) -> &mut S::f64s {
+    &mut S::as_mut_simd_f64s(of).0[at]
+}
+
+/// Multiplication and addition in loops: in one step, rounded once, where machines have it.
+pub(crate) trait MultiplyAdd {
+    /// This times `factor`, plus `summand`.
+    fn multiply_add(self, factor: Self, summand: Self) -> Self;
+}
+
+impl MultiplyAdd for f64 {
+    #[inline(always)]
+    fn multiply_add(self, factor: Self, summand: Self) -> Self {
+        // WebAssembly has not, and one step in software takes as long as dozens.
+        if cfg!(target_family = "wasm") {
+            return self * factor + summand;
+        }
+        self.mul_add(factor, summand)
+    }
 }
 
 /// 1.5·2⁵²: adding and taking it away rounds to the nearest whole number.
@@ -40,11 +71,11 @@ pub(crate) fn sin_cos_degrees(degrees: &[f64], sin: &mut [f64], cos: &mut [f64])
         ];
         let (mut of_sin, mut of_cos) = (s[0], c[0]);
         for k in 1..6 {
-            of_sin = square.mul_add(of_sin, s[k]);
-            of_cos = square.mul_add(of_cos, c[k]);
+            of_sin = square.multiply_add(of_sin, s[k]);
+            of_cos = square.multiply_add(of_cos, c[k]);
         }
-        let s = (x * square).mul_add(of_sin, x);
-        let c = (square * square).mul_add(of_cos, (-0.5_f64).mul_add(square, 1.0));
+        let s = (x * square).multiply_add(of_sin, x);
+        let c = (square * square).multiply_add(of_cos, (-0.5_f64).multiply_add(square, 1.0));
         // Quarters modulo 4 as −2, −1, 0, 1 (or 2): odd ones exchange sine and cosine.
         let rest = quarters - 4.0 * ((quarters * 0.25 + ROUND) - ROUND);
         let odd = rest.abs() == 1.0;

@@ -13,7 +13,7 @@ use crate::numbers::error::Result;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::numbers::quadrature::gauss_legendre;
-use crate::numbers::simd::{sin_cos_degrees, vectorised};
+use crate::numbers::simd::{MultiplyAdd, sin_cos_degrees, vectorised};
 
 /// Torque on a crank over piston area and crank radius, Pa.
 #[derive(Debug, Clone, PartialEq)]
@@ -510,13 +510,13 @@ impl Powers {
                 let (c, s): (&Lanes, &Lanes) = (c, s);
                 for k in 0..SUMMED_SIDE_BY_SIDE {
                     let before = cos[k];
-                    cos[k] = before.mul_add(c[k], -(sin[k] * s[k]));
-                    sin[k] = before.mul_add(s[k], sin[k] * c[k]);
+                    cos[k] = before.multiply_add(c[k], -(sin[k] * s[k]));
+                    sin[k] = before.multiply_add(s[k], sin[k] * c[k]);
                 }
             }
             for k in 0..SUMMED_SIDE_BY_SIDE {
-                re[k] = weighted[k].mul_add(cos[k], re[k]);
-                im[k] = (-weighted[k]).mul_add(sin[k], im[k]);
+                re[k] = weighted[k].multiply_add(cos[k], re[k]);
+                im[k] = (-weighted[k]).multiply_add(sin[k], im[k]);
             }
         }
         Complex64::new(re.iter().sum(), im.iter().sum())

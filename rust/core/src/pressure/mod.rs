@@ -6,6 +6,7 @@
 
 pub mod burn;
 pub mod chamber;
+pub mod example;
 mod harmonics;
 mod interpolant;
 pub mod map;

@@ -12,6 +12,9 @@ use crate::readings::choice::{self, Chosen, OrderSums};
 use crate::readings::peaks::PeakFinder;
 use crate::wrench::{Planar, Torque, Wrench, rounding};
 
+/// Crank speed at which ω is 1 rad/s.
+pub const UNIT_RPM: f64 = 30.0 / std::f64::consts::PI;
+
 /// Which orders to report.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Orders {

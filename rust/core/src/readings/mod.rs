@@ -6,6 +6,8 @@ pub mod balance;
 pub mod bearing_loads;
 mod choice;
 pub mod exact;
+pub mod explain;
+pub mod figures;
 pub mod flywheel;
 pub mod mount_designs;
 pub mod mounted;

@@ -11,12 +11,13 @@ use super::roots::{NEGLIGIBLE_LOG, Root};
 use crate::Complex64;
 use crate::mechanism::slider_crank::Proportions;
 use crate::numbers::cancel::Cancel;
+use crate::numbers::double::fused;
 use crate::numbers::error::Result;
 use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::order::{self, Order};
 use crate::numbers::pool;
-use crate::numbers::simd::vectorised;
+use crate::numbers::simd::{MultiplyAdd, vectorised};
 
 /// Up to this order repeated multiplication to the power below it is within 2e-15.
 const LARGEST_PLAIN_ORDER: u32 = 16;
@@ -168,9 +169,9 @@ fn lanes_of_rows(
     let (mut of_p, mut of_square) = ([0.0; RATIOS_SIDE_BY_SIDE], [0.0; RATIOS_SIDE_BY_SIDE]);
     for lane in 0..RATIOS_SIDE_BY_SIDE {
         let (λ, p, square) = (rod_ratios[lane], p[lane], square[lane]);
-        let rest = p.mul_add(p, -square);
+        let rest = fused(p, p, -square);
         // Residual of λ(1 + p²) = 2p, where λ − 2p is exact, and a step of Newton's method.
-        let residual = λ.mul_add(square, λ - 2.0 * p) + λ * rest;
+        let residual = fused(λ, square, λ - 2.0 * p) + λ * rest;
         of_p[lane] = residual / ((2.0 - 2.0 * λ * p) * p);
         of_square[lane] = rest / square;
     }
@@ -204,7 +205,7 @@ fn lanes_of_rows(
             let (degree, squares) = (f64::from(n - 1), f64::from(squares));
             for lane in 0..RATIOS_SIDE_BY_SIDE {
                 let correction = degree * of_p[lane] + squares * of_square[lane];
-                power[lane] = power[lane].mul_add(correction, power[lane]);
+                power[lane] = power[lane].multiply_add(correction, power[lane]);
             }
         } else {
             for lane in 0..RATIOS_SIDE_BY_SIDE {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::*;
 use crate::engine::Station;
 use crate::mechanism::slider_crank::Cylinder;
+use crate::mounts::equations::{lanes, rows};
 use crate::mounts::tests::random;
 use crate::mounts::{InertiaTrack, MountFigures};
 use crate::numbers::angle::Angle;
@@ -170,14 +171,10 @@ fn modes_that_merge_lose_no_digits() {
     let equations = Equations::new(&merged, 90.0, natural.as_ref()).unwrap();
     assert!(equations.is_triangular());
     let load = nalgebra::Vector6::new(1.0, 0.3, 0.0, 0.0, 0.0, 0.0).map(Complex64::from);
-    let start = equations.to * load;
-    let mut solution: Lanes6 = [
-        std::array::from_fn(|k| [start[k].re; LANES]),
-        std::array::from_fn(|k| [start[k].im; LANES]),
-    ];
-    assert_eq!(equations.solve(&[90.0; LANES], &[], &mut solution), [true; LANES]);
-    let moved = equations.from
-        * ComplexVector6::from_fn(|k, _| Complex64::new(solution[0][k][0], solution[1][k][0]));
+    let turns = [rows(&equations.to), rows(&equations.from)];
+    let (is_solved, moved) = equations.motions(&turns, &[90.0; LANES], &[], &lanes(&[load]));
+    assert_eq!(is_solved, [true; LANES]);
+    let moved = ComplexVector6::from_fn(|k, _| Complex64::new(moved[0][k][0], moved[1][k][0]));
     // Cramer's rule of the two.
     let [p, q] = [a - 8100.0, c - 8100.0];
     let determinant = p * q - b * b;

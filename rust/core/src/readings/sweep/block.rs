@@ -4,6 +4,7 @@ use std::array::from_fn;
 
 use super::factors::{Coefficients, Padded, Waves};
 use crate::Complex64;
+use crate::numbers::simd::MultiplyAdd;
 use crate::wrench::snapped;
 
 /// Rows evaluated side by side.
@@ -110,7 +111,8 @@ impl Block {
                     let of_sin = point.of(coefficients, first + 2);
                     let rest = point.of(coefficients, first + 4);
                     for i in 0..ROWS_SIDE_BY_SIDE {
-                        out[i] = cos[i].mul_add(of_cos[i], sin[i].mul_add(of_sin[i], rest[i]));
+                        out[i] =
+                            cos[i].multiply_add(of_cos[i], sin[i].multiply_add(of_sin[i], rest[i]));
                     }
                 }
             }
@@ -196,7 +198,7 @@ impl Sums {
 /// Length of a phasor, 0 where it is within a bound.
 #[inline(always)]
 fn magnitude(re: f64, im: f64, bound: f64) -> f64 {
-    let square = re.mul_add(re, im * im);
+    let square = re.multiply_add(re, im * im);
     if square > bound * bound { square.sqrt() } else { 0.0 }
 }
 

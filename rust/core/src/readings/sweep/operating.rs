@@ -13,7 +13,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
 use crate::numbers::pool;
-use crate::numbers::simd::vectorised;
+use crate::numbers::simd::{MultiplyAdd, vectorised};
 use crate::pressure::map::{Between, between};
 use crate::readings::balance::TorquePart;
 
@@ -313,7 +313,7 @@ impl Operating<'_, Complex64> {
             |place, room, out| {
                 self.row(place, &mut room.at_speed, &mut room.row)?;
                 for (out, phasor) in out.iter_mut().zip(&room.row) {
-                    *out = phasor.re.mul_add(phasor.re, phasor.im * phasor.im).sqrt();
+                    *out = phasor.re.multiply_add(phasor.re, phasor.im * phasor.im).sqrt();
                 }
                 Ok(())
             },

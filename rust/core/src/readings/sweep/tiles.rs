@@ -8,6 +8,7 @@ use std::ops::Range;
 use crate::Complex64;
 use crate::numbers::crank_angles::{CrankAngles, parts};
 use crate::numbers::order::Order;
+use crate::numbers::simd::MultiplyAdd;
 
 /// Crank angles of a tile.
 pub(super) const TILE: usize = 256;
@@ -100,7 +101,7 @@ impl Tiles {
                 for (weights, numbers) in &of_tile {
                     for (sum, number) in sums.iter_mut().zip(&numbers[block]) {
                         for (sum, weight) in sum.iter_mut().zip(weights) {
-                            *sum = weight.mul_add(*number, *sum);
+                            *sum = weight.multiply_add(*number, *sum);
                         }
                     }
                 }

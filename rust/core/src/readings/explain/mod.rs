@@ -1,0 +1,280 @@
+//! How an engine shakes, as findings and in sentences: what is left, what cancels and why, what would help.
+//!
+//! Imports run downwards: [`finding`] is data, `sums` finds what is to be told of force and moment, `words`
+//! are small texts, `sentences` a sentence for each kind of finding.
+
+pub mod finding;
+mod sentences;
+mod sums;
+pub mod words;
+
+use std::sync::Arc;
+
+pub use self::finding::{Finding, Row};
+pub use self::sentences::Wording;
+use self::sums::{Sums, proofs_of};
+use crate::engine::{Engine, Unbalance};
+use crate::firing::Firing;
+use crate::mechanism::harmonics;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::Result;
+use crate::numbers::figure::rounded;
+use crate::numbers::order::Order;
+use crate::readings::balance::{
+    Balance, Orders, Request, TorquePart, UNIT_RPM, Vector, angular_speed, balance,
+};
+use crate::readings::exact::vanishing::{ProofQuantity, QUANTITIES, Verdict, vanishing_of};
+use crate::readings::terms::terms;
+
+/// Highest order whose cancelling is explained.
+const HIGHEST: u32 = 12;
+/// Orders are mentioned from this part of one piston's first-order force, at the longest lever.
+const MATTERS: f64 = 0.01;
+/// Orders of gas torque that are mentioned.
+const GAS_ORDERS: usize = 2;
+/// Tolerance by which the orders of a balance are chosen.
+const RTOL: f64 = 1e-9;
+
+/// What to explain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Subject {
+    /// Force and moment.
+    Vectors,
+    /// Torque and firing too.
+    Everything,
+}
+
+/// How an engine shakes, what matters most first.
+///
+/// ```
+/// # let four = crankpin_core::engine::file::from_toml(
+/// #     "schema = 1
+/// #     cylinder = { crank_radius = 0.043, rod_length = 0.145, reciprocating_mass = 0.66 }
+/// #     placements = [
+/// #         { tdc_deg = 0, bank_deg = 90, z = 0 }, { tdc_deg = 180, bank_deg = 90, z = 0.1 },
+/// #         { tdc_deg = 180, bank_deg = 90, z = 0.2 }, { tdc_deg = 0, bank_deg = 90, z = 0.3 },
+/// #     ]",
+/// # )?;
+/// use std::sync::Arc;
+///
+/// use crankpin_core::Cancel;
+/// use crankpin_core::explain::{Subject, Wording, explain};
+///
+/// let four = Arc::new(four);
+/// let found = explain(&four, Some(6000.0), Subject::Everything, &Cancel::new())?;
+/// assert_eq!(
+///     found.sentences(&found.findings, &Wording::of(&four))[0],
+///     "Order 2 leaves a shaking force of 13.6 kN, up and down: all four pistons pull together."
+/// );
+/// # Ok::<(), crankpin_core::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Explanation {
+    engine: Arc<Engine>,
+    /// Crank speed; none for figures relative to one piston's first-order force.
+    pub rpm: Option<f64>,
+    /// First-order force of the strongest piston, or of a throw; 0 without both. Without a speed over ω².
+    pub unit: f64,
+    /// The part that makes it: a throw where pistons are not worth mention beside it.
+    pub part: Part,
+    /// Longest lever of a cylinder or an unbalance about the reference plane, m.
+    pub lever: f64,
+    /// What matters most first.
+    pub findings: Vec<Finding>,
+}
+
+/// Part whose first-order force others are relative to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// A piston.
+    Piston,
+    /// A throw with what rotates at it.
+    Throw,
+}
+
+impl Part {
+    /// In a word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Piston => "piston",
+            Self::Throw => "throw",
+        }
+    }
+}
+
+/// Explain how an engine shakes.
+pub fn explain(
+    engine: &Arc<Engine>,
+    rpm: Option<f64>,
+    subject: Subject,
+    cancel: &Cancel,
+) -> Result<Explanation> {
+    let speed = rpm.unwrap_or(UNIT_RPM);
+    let omega = angular_speed(speed)?;
+    let (over_square, part) = strongest(engine, cancel)?;
+    let (unit, lever) = (omega * omega * over_square, longest_lever(engine)?);
+    let mut findings = of_vectors(engine, speed, [unit, unit * lever], cancel)?;
+    if subject == Subject::Everything {
+        findings.extend(torques(engine, speed, cancel)?);
+        findings.extend(firing(engine, cancel)?);
+        findings.extend(shared_pins(engine));
+    }
+    Ok(Explanation { engine: Arc::clone(engine), rpm, unit, part, lever, findings })
+}
+
+// --- what figures are relative to ---
+
+/// First-order force over ω² of the strongest piston, or of a throw.
+fn strongest(engine: &Engine, cancel: &Cancel) -> Result<(f64, Part)> {
+    let mut pistons: f64 = 0.0;
+    for gear in engine.gears() {
+        let first = harmonics::coefficients(&gear.proportions(), &[1], cancel)?[0];
+        pistons = pistons.max(gear.reciprocating_mass() * gear.crank_radius() * first.norm());
+    }
+    let throws = engine.stations().iter().map(|at| at.rotating_mass * at.cylinder.crank_radius());
+    let throws = throws.fold(0.0, f64::max);
+    Ok(if pistons > MATTERS * throws { (pistons, Part::Piston) } else { (throws, Part::Throw) })
+}
+
+fn longest_lever(engine: &Engine) -> Result<f64> {
+    let reference = engine.reference(None)?;
+    let on_shafts = engine.shafts().iter().flat_map(|shaft| &shaft.unbalances);
+    let unbalances = engine.counterweights().iter().chain(on_shafts);
+    let places = engine.stations().iter().map(|station| station.z);
+    let places = places.chain(unbalances.map(|unbalance: &Unbalance| unbalance.z));
+    Ok(places.map(|z| (z - reference).abs()).fold(0.0, f64::max))
+}
+
+// --- force and moment ---
+
+/// What is to be told of force and moment, of which an order in these units matters.
+fn of_vectors(engine: &Engine, rpm: f64, units: [f64; 2], cancel: &Cancel) -> Result<Vec<Finding>> {
+    let request = Request { rpm, reference_z: None, torque: false };
+    let chosen = balance(engine, &request, &Orders::Auto { rtol: RTOL }, cancel)?;
+    let mut orders =
+        [chosen.orders, (1..=HIGHEST).map(Order::whole).collect::<Result<_>>()?].concat();
+    orders.sort_unstable();
+    orders.dedup();
+    let whole = balance(engine, &request, &Orders::Given(orders.clone()), cancel)?;
+    let parts = terms(engine, &request, [0.0; 2], &orders, cancel)?;
+    let proofs = vanishing_of(&QUANTITIES[..8], engine, &orders, None, None, cancel)?.verdicts;
+    let reference = engine.reference(None)?;
+    let levers: Vec<f64> = engine.stations().iter().map(|place| place.z - reference).collect();
+    let sums = |vector: Vector, unit: f64| {
+        let proofs = proofs.iter().map(|verdicts| proofs_of(verdicts, vector)).collect();
+        Sums::new(engine, &levers, (vector, unit), &whole, &parts, proofs)
+    };
+    let both = [sums(Vector::Force, units[0]), sums(Vector::Moment, units[1])];
+
+    let mut found: Vec<Finding> = both.iter().flat_map(Sums::of_hardware).collect();
+    let mut shaking: Vec<(&Sums, usize)> =
+        both.iter().flat_map(|sums| sums.shaking().map(move |k| (sums, k))).collect();
+    // Of equals forces first, and lower orders.
+    let share = |(sums, k): &(&Sums, usize)| rounded(sums.share(*k), 6);
+    shaking.sort_by(|a, b| share(b).total_cmp(&share(a)));
+    let mut weights = bob_weights(engine);
+    for (sums, k) in &shaking {
+        found.push(sums.left(*k));
+        let remedy = sums.remedy(*k);
+        let by_weights = matches!(remedy, Some(Finding::Remedy { weights, .. }) if weights != finding::Weights::No);
+        found.extend(remedy);
+        found.extend(weights.take_if(|_| by_weights));
+    }
+    let made: Vec<bool> = (0..orders.len()).map(|k| both[0].is_made(k)).collect();
+    let banks = engine.cylinders_of_banks();
+    found.extend(both.iter().flat_map(|sums| sums.cancelling(&made, &banks)));
+    let [force, moment, _] = chosen.error_bound.values();
+    found.push(Finding::Rest {
+        mentioned: shaking.iter().map(|&(_, k)| orders[k]).collect(),
+        bounds: [both[0].rest() + force, both[1].rest() + moment],
+    });
+    Ok(found)
+}
+
+/// The bob weight that removes what turns with a crank: half of the pistons'.
+fn bob_weights(engine: &Engine) -> Option<Finding> {
+    let offset = engine.gears().iter().any(|gear| gear.pin_offset() != 0.0);
+    let is_of_crank = |ratio: i32| engine.cranks().iter().any(|crank| crank.ratio == ratio);
+    // Other cranks have their first order elsewhere.
+    let fast = engine.cranks().iter().any(|crank| crank.ratio.abs() != 1);
+    if offset || fast || engine.shafts().iter().any(|shaft| is_of_crank(shaft.ratio)) {
+        return None;
+    }
+    Some(Finding::BobWeights { one_sense: !is_of_crank(-1) })
+}
+
+// --- torque and firing ---
+
+/// The largest orders of roll torque: of inertia, and of gas if it counts.
+fn torques(engine: &Engine, rpm: f64, cancel: &Cancel) -> Result<Vec<Finding>> {
+    let request = Request { rpm, reference_z: None, torque: true };
+    let found = balance(engine, &request, &Orders::Auto { rtol: RTOL }, cancel)?;
+    let by_size = |peak: &dyn Fn(&Balance, usize) -> f64| {
+        let peaks = found.orders.iter().enumerate().map(|(k, &order)| (order, peak(&found, k)));
+        let mut peaks: Vec<(Order, f64)> = peaks.filter(|(_, peak)| *peak > 0.0).collect();
+        peaks.sort_by(|a, b| b.1.total_cmp(&a.1));
+        peaks
+    };
+    let inertia = by_size(&|found, k| found.torque(TorquePart::Inertia, k).roll.norm());
+    let mut findings = Vec::new();
+    if let Some(&(order, peak)) = inertia.first() {
+        findings.push(Finding::InertiaTorque { order, peak });
+    }
+    let mut largest = by_size(&|found, k| found.torque(TorquePart::Gas, k).crank.norm());
+    if !largest.is_empty() {
+        largest.truncate(GAS_ORDERS);
+        let [_, mean] = found.mean(TorquePart::Gas);
+        findings.push(Finding::GasTorque { mean, largest });
+    }
+    Ok(findings)
+}
+
+/// How the engine fires, and the orders of gas torque that this leaves.
+fn firing(engine: &Arc<Engine>, cancel: &Cancel) -> Result<Vec<Finding>> {
+    if engine.firing_order().is_empty() {
+        return Ok(Vec::new());
+    }
+    let fires = Firing::own(engine, cancel)?;
+    let (even, order) = (fires.even(), fires.fired().to_vec());
+    let intervals_deg = fires.intervals().iter().map(|interval| interval.degrees()).collect();
+    let mut found = vec![Finding::Fires { order: order.clone(), intervals_deg, even }];
+    if engine.cranks().iter().any(|crank| crank.ratio < 0) {
+        return Ok(found); // what cancels on the block is not what cancels on the crank
+    }
+    let in_two_turns = 4 * order.len() as u32 / engine.strokes().number();
+    let orders = (1..=in_two_turns).map(Order::from_halves).collect::<Result<Vec<_>>>()?;
+    let gas = [ProofQuantity::GasTorque];
+    let proofs = vanishing_of(&gas, engine, &orders, None, Some(&fires), cancel)?.verdicts;
+    let gas = proofs.iter().map(|verdicts| verdicts[QUANTITIES.len() - 1]);
+    if gas.clone().any(|verdict| verdict == Verdict::Undecided) {
+        return Ok(found);
+    }
+    let remaining = orders.iter().zip(gas).filter(|(_, verdict)| *verdict == Verdict::Remains);
+    let orders: Vec<Order> = remaining.map(|(order, _)| *order).collect();
+    if !orders.is_empty() {
+        found.push(Finding::GasOrders { orders, firing: order, even });
+    }
+    Ok(found)
+}
+
+/// The rows of a radial, whose articulated rods are not modelled.
+fn shared_pins(engine: &Engine) -> Option<Finding> {
+    /// Parts of a degree that pins at one place differ by less than.
+    const SAME_PIN: f64 = 1e6;
+    let mut pins: Vec<((f64, f64, usize), Vec<usize>)> = Vec::new();
+    for (i, station) in engine.stations().iter().enumerate() {
+        let pin = (engine.pin(i).degrees() * SAME_PIN).round_ties_even();
+        let place = (station.z, pin, engine.crank_of(i));
+        match pins.iter_mut().find(|(other, _)| *other == place) {
+            Some((_, row)) => row.push(i),
+            None => pins.push((place, vec![i])),
+        }
+    }
+    let rows: Vec<Vec<usize>> =
+        pins.into_iter().map(|(_, row)| row).filter(|row| row.len() > 2).collect();
+    (!rows.is_empty()).then_some(Finding::Articulated { rows })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,355 @@
+//! What each part of an engine adds to force or moment, and the findings that follow from it.
+
+use super::MATTERS;
+use super::finding::{Acting, Finding, Reason, Weights};
+use crate::Complex64;
+use crate::engine::{Engine, Origin};
+use crate::numbers::order::Order;
+use crate::readings::balance::{Balance, Vector};
+use crate::readings::exact::vanishing::Verdict;
+use crate::wrench::Planar;
+
+/// Phasors that differ by less of the largest are taken for equal.
+const ROUNDING: f64 = 1e-9;
+/// Highest order for which balance shafts are named: faster ones are hardly built.
+const REMOVABLE: u32 = 2;
+/// Steps of phases that are as good as equal.
+const SAME_PULLS: f64 = 1e-6;
+
+/// Forward and backward part.
+type Parts = [Complex64; 2];
+
+/// Verdicts on the sums of a vector: along x, along y, forward, backward.
+pub(super) type Proofs = [Verdict; 4];
+
+/// Force or moment of an engine: its orders, and what each part adds to them.
+pub(super) struct Sums<'a> {
+    engine: &'a Engine,
+    /// Places of the cylinders from the reference plane, m.
+    levers: &'a [f64],
+    vector: Vector,
+    /// One piston's first-order force, or that at the longest lever.
+    size: f64,
+    orders: &'a [Order],
+    proofs: Vec<Proofs>,
+    whole: Vec<Parts>,
+    tilts_deg: Vec<f64>,
+    peaks: Vec<f64>,
+    /// Of each cylinder, order by order.
+    cylinders: Vec<Vec<Parts>>,
+    /// Of counterweights and of balance shafts, where there are any.
+    hardware: [Option<Vec<Parts>>; 2],
+}
+
+fn parts_of(planar: &Planar) -> Parts {
+    [planar.forward, planar.backward()]
+}
+
+fn sizes([forward, backward]: Parts) -> [f64; 2] {
+    [forward.norm(), backward.norm()]
+}
+
+fn larger(parts: Parts) -> f64 {
+    let [forward, backward] = sizes(parts);
+    forward.max(backward)
+}
+
+fn plus(a: Parts, b: Parts) -> Parts {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+/// Direction of the longest half axis of an ellipse, degrees in (−90, 90]; 0 for a circle.
+fn tilt_deg([forward, backward]: Parts) -> f64 {
+    let (f, b) = (forward.norm(), backward.norm());
+    if f == 0.0 || b == 0.0 {
+        return 0.0;
+    }
+    // Half the sum of the phases; of the two directions of the axis the upper one.
+    let tilt = ((forward / f) * (backward / b)).arg() / 2.0;
+    if tilt <= -std::f64::consts::FRAC_PI_2 { 90.0 } else { tilt.to_degrees() }
+}
+
+impl<'a> Sums<'a> {
+    /// Of a balance, what each part adds to it, and the proofs of its orders.
+    pub fn new(
+        engine: &'a Engine,
+        levers: &'a [f64],
+        (vector, size): (Vector, f64),
+        balance: &'a Balance,
+        terms: &[(Origin, Balance)],
+        proofs: Vec<Proofs>,
+    ) -> Self {
+        let count = balance.orders.len();
+        let of = |balance: &Balance| -> Vec<Parts> {
+            (0..count).map(|k| parts_of(balance.planar(vector, k))).collect()
+        };
+        let mut cylinders = Vec::new();
+        let mut hardware = [const { None }; 2];
+        for (origin, part) in terms {
+            let group = match origin {
+                Origin::Cylinder(_) => {
+                    cylinders.push(of(part));
+                    continue;
+                }
+                Origin::Counterweight(_) => 0,
+                Origin::Shaft(_) => 1,
+            };
+            let sums = hardware[group].get_or_insert_with(|| vec![Parts::default(); count]);
+            sums.iter_mut().zip(of(part)).for_each(|(sum, added)| *sum = plus(*sum, added));
+        }
+        let whole = of(balance);
+        let peaks = (0..count).map(|k| balance.planar(vector, k).peak()).collect();
+        let tilts_deg = whole.iter().map(|&parts| tilt_deg(parts)).collect();
+        let orders = &balance.orders;
+        Self {
+            engine,
+            levers,
+            vector,
+            size,
+            orders,
+            proofs,
+            whole,
+            tilts_deg,
+            peaks,
+            cylinders,
+            hardware,
+        }
+    }
+
+    /// Whether an order is worth mention.
+    fn shakes(&self, k: usize) -> bool {
+        self.peaks[k] > MATTERS * self.size && self.peaks[k] > 0.0
+    }
+
+    /// Places of the orders that are worth mention.
+    pub fn shaking(&self) -> impl Iterator<Item = usize> {
+        (0..self.orders.len()).filter(|&k| self.shakes(k))
+    }
+
+    /// Sum of the peaks of the others.
+    pub fn rest(&self) -> f64 {
+        (0..self.orders.len()).filter(|&k| !self.shakes(k)).fold(0.0, |sum, k| sum + self.peaks[k])
+    }
+
+    /// How large an order is, in units; infinite of shafts without pistons.
+    pub fn share(&self, k: usize) -> f64 {
+        if self.size == 0.0 { f64::INFINITY } else { self.peaks[k] / self.size }
+    }
+
+    /// Whether pistons make an order, of which this is the force.
+    pub fn is_made(&self, k: usize) -> bool {
+        let made: f64 = self.cylinders.iter().flat_map(|of_orders| sizes(of_orders[k])).sum();
+        made > MATTERS * self.size
+    }
+
+    /// What counterweights and shafts do.
+    pub fn of_hardware(&self) -> impl Iterator<Item = Finding> {
+        (0..self.orders.len()).filter_map(|k| self.hardware_of(k))
+    }
+
+    fn hardware_of(&self, k: usize) -> Option<Finding> {
+        let acts = |added: &Option<Vec<Parts>>| {
+            let added = added.as_ref()?[k];
+            (sizes(added).iter().sum::<f64>() > MATTERS * self.size).then_some(added)
+        };
+        let (acting, added) = match self.hardware.each_ref().map(acts) {
+            [None, None] => return None,
+            [Some(weights), None] => (Acting::Counterweights, vec![weights]),
+            [None, Some(shafts)] => (Acting::Shafts, vec![shafts]),
+            [Some(weights), Some(shafts)] => (Acting::Both, vec![weights, shafts]),
+        };
+        let all = added.iter().fold(Parts::default(), |sum, &parts| plus(sum, parts));
+        let least = ROUNDING * added.iter().map(|&parts| larger(parts)).fold(0.0, f64::max);
+        let without = [0, 1].map(|sense| self.whole[k][sense] - all[sense]);
+        let before = sizes(without).map(|part| if part <= least { 0.0 } else { part });
+        let after = sizes(self.whole[k]);
+        let mut gone =
+            (0..2).filter(|&sense| before[sense] != 0.0 && after[sense] == 0.0).peekable();
+        let proved = gone.peek().is_some()
+            && gone.all(|sense| self.proofs[k][2 + sense] == Verdict::Vanishes);
+        let (vector, order) = (self.vector, self.orders[k]);
+        Some(Finding::Hardware { vector, order, before, after, acting, proved })
+    }
+
+    /// What an order leaves.
+    pub fn left(&self, k: usize) -> Finding {
+        Finding::Shakes {
+            vector: self.vector,
+            order: self.orders[k],
+            parts: sizes(self.whole[k]),
+            tilt_deg: self.tilts_deg[k],
+            together: self.vector == Vector::Force && self.pull_together(k),
+        }
+    }
+
+    /// What would remove it.
+    pub fn remedy(&self, k: usize) -> Option<Finding> {
+        let order = self.orders[k].as_whole().filter(|&order| order <= REMOVABLE)? as i32;
+        let [forward, backward] = sizes(self.whole[k]);
+        let parts = [(order, forward), (-order, backward)];
+        // A part that would not be mentioned alone is not worth hardware of its own; a weight on a crank
+        // turns with it.
+        let worth = parts.map(|(_, part)| part > MATTERS * self.size);
+        if worth == [false; 2] {
+            return None;
+        }
+        let is_of_crank = |ratio: i32| {
+            let of = |i: usize| self.engine.cranks()[self.engine.crank_of(i)].ratio;
+            ratio == 1 || (0..self.cylinders.len()).any(|i| of(i) == ratio)
+        };
+        let weighed = [0, 1].map(|sense| worth[sense] && is_of_crank(parts[sense].0));
+        let reached = if weighed == [false; 2] { worth } else { weighed };
+        let kept = (0..2).filter(|&sense| !reached[sense]);
+        let kept = kept.fold(0.0, |sum, sense| sum + parts[sense].1);
+        let shafts = (0..2).filter(|&sense| worth[sense] && !weighed[sense]);
+        let weights = match weighed {
+            [false, false] => Weights::No,
+            [true, false] if order == 1 => Weights::OnMain,
+            _ => Weights::OnOthers,
+        };
+        Some(Finding::Remedy {
+            vector: self.vector,
+            order: self.orders[k],
+            kept,
+            shafts: shafts.map(|sense| parts[sense].0).collect(),
+            weights,
+        })
+    }
+
+    /// Whether all pistons pull at once, each along its own bore.
+    fn pull_together(&self, k: usize) -> bool {
+        let pulls: Vec<Complex64> = (0..self.cylinders.len()).map(|i| self.pull(k, i)).collect();
+        let sizes = || pulls.iter().map(|pull| pull.norm());
+        let largest = sizes().fold(0.0, f64::max);
+        let together = pulls.iter().sum::<Complex64>().norm();
+        pulls.len() > 1
+            && largest > 0.0
+            && (sizes().sum::<f64>() - together).abs() <= ROUNDING * largest
+    }
+
+    /// Half the pull of a piston along its bore.
+    fn pull(&self, k: usize, cylinder: usize) -> Complex64 {
+        let [forward, backward] = self.cylinders[cylinder][k];
+        let along = self.engine.stations()[cylinder].bank.cis(-1);
+        // What rotates has no part that turns against its own crank.
+        if self.engine.cranks()[self.engine.crank_of(cylinder)].ratio > 0 {
+            (backward * along).conj()
+        } else {
+            forward * along
+        }
+    }
+
+    // --- why orders cancel ---
+
+    /// Why orders are zero that pistons make, those of one reason together.
+    pub fn cancelling(&self, made: &[bool], banks: &[Vec<usize>]) -> Vec<Finding> {
+        let mut found: Vec<Finding> = Vec::new();
+        let all: Vec<usize> = (0..self.cylinders.len()).collect();
+        for k in 0..self.orders.len() {
+            if !made[k] || self.peaks[k] != 0.0 || !self.cancel(k, &all) {
+                continue;
+            }
+            let (why, groups) = self.reason(k, banks);
+            let is_proved = self.proofs[k][..2] == [Verdict::Vanishes; 2];
+            let same = found.iter_mut().find_map(|finding| match finding {
+                Finding::Cancels { orders, reason, pairs, proved, .. } => {
+                    (*reason == why && *pairs == groups && *proved == is_proved).then_some(orders)
+                }
+                _ => None,
+            });
+            match same {
+                Some(orders) => orders.push(self.orders[k]),
+                None => found.push(Finding::Cancels {
+                    vector: self.vector,
+                    orders: vec![self.orders[k]],
+                    reason: why,
+                    pairs: groups,
+                    proved: is_proved,
+                }),
+            }
+        }
+        found
+    }
+
+    fn largest(&self, k: usize) -> f64 {
+        self.cylinders.iter().map(|of_orders| larger(of_orders[k])).fold(0.0, f64::max)
+    }
+
+    /// Whether some cylinders cancel each other.
+    fn cancel(&self, k: usize, members: &[usize]) -> bool {
+        let added = members.iter().map(|&i| self.cylinders[i][k]);
+        larger(added.fold(Parts::default(), plus)) <= ROUNDING * self.largest(k)
+    }
+
+    /// Why the cylinders' sum is zero, and which cylinders cancel in pairs.
+    fn reason(&self, k: usize, banks: &[Vec<usize>]) -> (Reason, Vec<[usize; 2]>) {
+        if self.largest(k) == 0.0 {
+            return (Reason::Plane, Vec::new());
+        }
+        if let Some(pairs) = self.pairs(k) {
+            let longest = self.levers.iter().fold(0.0, |most: f64, lever| most.max(lever.abs()));
+            let is_mirrored = |&[one, other]: &[usize; 2]| {
+                (self.levers[one] + self.levers[other]).abs() <= ROUNDING * longest
+            };
+            let mirrored = self.vector == Vector::Moment && pairs.iter().all(is_mirrored);
+            return (if mirrored { Reason::Mirrored } else { Reason::Pairs }, pairs);
+        }
+        let reason = if !banks.iter().all(|bank| self.cancel(k, bank)) {
+            Reason::Between
+        } else if self.vector == Vector::Force && banks.iter().all(|bank| self.pull_evenly(k, bank))
+        {
+            Reason::Evenly
+        } else {
+            Reason::Each
+        };
+        (reason, Vec::new())
+    }
+
+    /// Whether the pistons of a bank pull as strongly, at even intervals.
+    fn pull_evenly(&self, k: usize, bank: &[usize]) -> bool {
+        let pulls: Vec<Complex64> = bank.iter().map(|&i| self.pull(k, i)).collect();
+        let largest = pulls.iter().map(|pull| pull.norm()).fold(0.0, f64::max);
+        let first = pulls[0] / largest;
+        if first.norm() <= SAME_PULLS {
+            return false; // one that does not pull
+        }
+        let key = |pull: Complex64| {
+            let turned = pull / largest / first / SAME_PULLS;
+            [turned.re.round_ties_even() as i64, turned.im.round_ties_even() as i64]
+        };
+        let mut counts = std::collections::BTreeMap::new();
+        pulls.iter().for_each(|&pull| *counts.entry(key(pull)).or_insert(0) += 1);
+        let power = |pull: Complex64| pull.powu(counts.len() as u32);
+        let same = |&pull: &Complex64| (power(pull / largest) - power(first)).norm() <= SAME_PULLS;
+        let times = counts.values().next();
+        counts.values().all(|count| Some(count) == times) && pulls.iter().all(same)
+    }
+
+    /// Pairs of cylinders that cancel: of one bank, or moments at opposite levers.
+    fn pairs(&self, k: usize) -> Option<Vec<[usize; 2]>> {
+        let least = ROUNDING * self.largest(k);
+        let far = |one: usize, other: usize| match self.vector {
+            Vector::Moment => (self.levers[one] + self.levers[other]).abs(),
+            Vector::Force => f64::from(self.engine.bank_of(one) != self.engine.bank_of(other)),
+        };
+        let adds = |&i: &usize| larger(self.cylinders[i][k]) > least;
+        let mut free: Vec<usize> = (0..self.cylinders.len()).filter(adds).collect();
+        let mut pairs = Vec::new();
+        while let [one, rest @ ..] = &free[..] {
+            let one = *one;
+            let opposite = rest.iter().copied().filter(|&other| {
+                larger(plus(self.cylinders[one][k], self.cylinders[other][k])) <= least
+            });
+            let other = opposite.min_by(|&a, &b| far(one, a).total_cmp(&far(one, b)))?;
+            free.retain(|&i| i != one && i != other);
+            pairs.push([one, other]);
+        }
+        Some(pairs)
+    }
+}
+
+/// The verdicts on the sums of a vector, of those of an order.
+pub(super) fn proofs_of(verdicts: &[Verdict; 10], vector: Vector) -> Proofs {
+    let first = if vector == Vector::Force { 0 } else { 4 };
+    std::array::from_fn(|k| verdicts[first + k])
+}

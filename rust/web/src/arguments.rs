@@ -1,0 +1,113 @@
+//! Arguments of a call, by name.
+
+use crankpin_core::engine::{Hold, file};
+use crankpin_core::mounts::Powertrain;
+use crankpin_core::{Angle, Engine, Error, Order, Result, Spectrum};
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value};
+
+/// Those that are not read yet.
+pub struct Arguments(pub Map<String, Value>);
+
+impl Arguments {
+    /// An argument that may be left out, or null.
+    pub fn optional<T: DeserializeOwned>(&mut self, name: &str) -> Result<Option<T>> {
+        let Some(value) = self.0.remove(name).filter(|value| !value.is_null()) else {
+            return Ok(None);
+        };
+        let read = T::deserialize(&value);
+        read.map(Some).map_err(|error| Error::value(name, value, error.to_string()))
+    }
+
+    /// An argument with a default.
+    pub fn or<T: DeserializeOwned>(&mut self, name: &str, default: T) -> Result<T> {
+        Ok(self.optional(name)?.unwrap_or(default))
+    }
+
+    /// An argument that must be given.
+    pub fn required<T: DeserializeOwned>(&mut self, name: &str) -> Result<T> {
+        self.optional(name)?.ok_or_else(|| Error::value(name, "none", "is required"))
+    }
+
+    /// Whether an argument is given.
+    pub fn has(&self, name: &str) -> bool {
+        self.0.get(name).is_some_and(|value| !value.is_null())
+    }
+
+    /// Arguments that are an object of their own.
+    pub fn nested(&mut self, name: &str) -> Result<Self> {
+        self.required(name).map(Self)
+    }
+
+    /// Rejects what the call did not read.
+    pub fn finished(self) -> Result<()> {
+        let Some(name) = self.0.keys().next() else { return Ok(()) };
+        Err(Error::value("argument", name, "is not one of this call"))
+    }
+
+    /// One of a few words.
+    pub fn word<T: Copy>(&mut self, name: &str, words: &[(&str, T)]) -> Result<T> {
+        let word: String = self.or(name, words[0].0.to_owned())?;
+        words.iter().find(|(known, _)| *known == word).map(|(_, value)| *value).ok_or_else(|| {
+            let words: Vec<String> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
+            Error::value(name, format!("\"{word}\""), format!("give {}", words.join(" or ")))
+        })
+    }
+
+    /// The engine of a file's text, and its body on mounts, if there is one.
+    pub fn mounted(&mut self) -> Result<(Engine, Option<Powertrain>)> {
+        let text: Value = self.required("engine")?;
+        let text = text.as_str().map_or_else(|| text.to_string(), str::to_owned);
+        if text.trim_start().starts_with('{') {
+            return file::mounted_from_json(&text);
+        }
+        file::mounted_from_toml(&text)
+    }
+
+    /// The engine of a file's text, with a force given for every cylinder, if there is one.
+    pub fn engine(&mut self) -> Result<Engine> {
+        let engine = self.mounted()?.0;
+        let Some(terms) = self.optional::<Vec<(u32, [f64; 2])>>("spectrum")? else {
+            return Ok(engine);
+        };
+        let terms =
+            terms.into_iter().map(|(n, [re, im])| (n, crankpin_core::Complex64::new(re, im)));
+        Ok(engine.with_spectrum(Spectrum::new(terms)?))
+    }
+
+    /// Orders, if they are given.
+    pub fn orders(&mut self) -> Result<Option<Vec<Order>>> {
+        let numbers: Option<Vec<f64>> = self.optional("orders")?;
+        numbers.map(|list| list.into_iter().map(Order::from_number).collect()).transpose()
+    }
+
+    /// Degrees, a number or a text.
+    pub fn angle(&mut self, name: &str) -> Result<Option<Angle>> {
+        self.optional::<Value>(name)?.map(|value| angle(name, &value)).transpose()
+    }
+
+    /// A list of degrees, numbers or texts.
+    pub fn angles(&mut self, name: &str) -> Result<Option<Vec<Angle>>> {
+        let Some(values) = self.optional::<Vec<Value>>(name)? else { return Ok(None) };
+        let angles =
+            values.iter().enumerate().map(|(i, value)| angle(&format!("{name}[{i}]"), value));
+        angles.collect::<Result<_>>().map(Some)
+    }
+
+    /// What a change of bank angle holds.
+    pub fn hold(&mut self) -> Result<Hold> {
+        self.word("hold", &[("pins", Hold::Pins), ("firing", Hold::Firing)])
+    }
+}
+
+fn angle(name: &str, value: &Value) -> Result<Angle> {
+    let angle = match value {
+        Value::String(text) => text.parse(),
+        _ => {
+            let hint = "give degrees, a number or a text such as \"360/7\"";
+            let number = value.as_f64().ok_or_else(|| Error::value(name, value, hint))?;
+            Angle::from_degrees(number)
+        }
+    };
+    angle.map_err(|error| error.named(name))
+}

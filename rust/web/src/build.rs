@@ -1,0 +1,153 @@
+//! Engines by their kind, from the few figures by which people know them.
+
+use std::sync::Arc;
+
+use crankpin_core::engine::Details;
+use crankpin_core::engine::radial::Radial;
+use crankpin_core::layout::{FiringOrder, FiringRule, Inline, Numbering, Side, Strokes, Vee};
+use crankpin_core::{Angle, Cancel, Cylinder, Engine, Error, Firing, Result};
+use serde_json::Value;
+
+use crate::answer::Columns;
+use crate::arguments::Arguments;
+use crate::engine::written;
+
+#[derive(Clone, Copy)]
+enum Kind {
+    Inline,
+    Vee,
+    Flat,
+    Boxer,
+    Radial,
+    FiringOrder,
+}
+
+const KINDS: [(&str, Kind); 6] = [
+    ("inline", Kind::Inline),
+    ("vee", Kind::Vee),
+    ("flat", Kind::Flat),
+    ("boxer", Kind::Boxer),
+    ("radial", Kind::Radial),
+    ("firing_order", Kind::FiringOrder),
+];
+
+/// An engine of a kind, as the library's builders make it.
+pub fn build(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
+    let kind = arguments.word("kind", &KINDS)?;
+    let (cylinder, details) = cylinder(arguments)?;
+    let strokes = Strokes::from_number(arguments.or("strokes", 4)?)?;
+    let order: Option<String> = arguments.optional("firing_order")?;
+    let (engine, order) = match kind {
+        Kind::Inline => (inline(arguments)?.engine(cylinder)?, order.unwrap_or_default()),
+        Kind::Vee | Kind::Flat | Kind::Boxer => {
+            (vee(arguments, kind)?.engine(cylinder)?, order.unwrap_or_default())
+        }
+        Kind::Radial => {
+            let radial = radial(arguments)?;
+            let even = || radial.firing_order(strokes);
+            (radial.engine(cylinder)?, order.unwrap_or_else(even))
+        }
+        Kind::FiringOrder => {
+            let order = order.ok_or_else(|| Error::value("firing_order", "none", "is required"))?;
+            (fired_so(arguments, cylinder, &order.parse()?, strokes)?, order)
+        }
+    };
+    let count = engine.stations().len();
+    let engine = engine.with_details(vec![details; count])?;
+    let name: String = arguments.or("name", String::new())?;
+    let engine = engine.named(name, arguments.or("source", String::new())?)?;
+    written(&fired_as(engine, &order, strokes)?, None)
+}
+
+/// The engine with a firing order that its crank allows.
+fn fired_as(engine: Engine, order: &str, strokes: Strokes) -> Result<Engine> {
+    if order.is_empty() {
+        return engine.firing_as("", strokes);
+    }
+    let engine = Arc::new(engine);
+    let firing = Firing::named(&engine, &order.parse()?, strokes, &Cancel::new())?;
+    engine.firing_as(firing.to_string(), strokes)
+}
+
+fn cylinder(arguments: &mut Arguments) -> Result<(Cylinder, Details)> {
+    let stroke: f64 = arguments.required("stroke")?;
+    let cylinder = Cylinder::from_stroke(
+        stroke,
+        arguments.required("rod_length")?,
+        arguments.required("reciprocating_mass")?,
+        arguments.or("pin_offset", 0.0)?,
+    )?;
+    Ok((cylinder, Details { bore: arguments.optional("bore")?, ..Details::default() }))
+}
+
+fn masses(arguments: &mut Arguments) -> Result<Vec<f64>> {
+    Ok(match arguments.optional::<Value>("rotating_mass")? {
+        None => Vec::new(),
+        Some(Value::Array(list)) => list.iter().filter_map(Value::as_f64).collect(),
+        Some(value) => value.as_f64().into_iter().collect(),
+    })
+}
+
+fn inline(arguments: &mut Arguments) -> Result<Inline> {
+    Ok(Inline {
+        throws: arguments.angles("throws_deg")?.unwrap_or_default(),
+        spacing: arguments.or("spacing", 0.0)?,
+        rotating_mass: masses(arguments)?,
+        first_tdc: arguments.angle("first_tdc_deg")?.unwrap_or(Angle::ZERO),
+    })
+}
+
+fn vee(arguments: &mut Arguments, kind: Kind) -> Result<Vee> {
+    let Inline { throws, spacing, rotating_mass, first_tdc } = inline(arguments)?;
+    let (bank_angle, pin_split) = match kind {
+        Kind::Flat => (Angle::HALF_TURN, Angle::ZERO),
+        Kind::Boxer => (Angle::HALF_TURN, Angle::HALF_TURN),
+        _ => {
+            let angle = arguments.angle("bank_angle_deg")?;
+            let none = || Error::value("bank_angle_deg", "none", "is required");
+            (angle.ok_or_else(none)?, arguments.angle("pin_split_deg")?.unwrap_or(Angle::ZERO))
+        }
+    };
+    Ok(Vee {
+        bank_angle,
+        throws,
+        spacing,
+        pin_split,
+        bank_stagger: arguments.or("bank_stagger", 0.0)?,
+        rotating_mass,
+        numbering: arguments.word(
+            "numbering",
+            &[("alternating", Numbering::Alternating), ("by-bank", Numbering::ByBank)],
+        )?,
+        first_bank: arguments.word("odd_bank", &[("right", Side::Right), ("left", Side::Left)])?,
+        first_tdc,
+    })
+}
+
+fn radial(arguments: &mut Arguments) -> Result<Radial> {
+    Ok(Radial {
+        cylinders: arguments.or("cylinders", 7)?,
+        rows: arguments.or("rows", 1)?,
+        spacing: arguments.optional("spacing")?,
+        rotating_mass: masses(arguments)?,
+        first_tdc: arguments.angle("first_tdc_deg")?.unwrap_or(Angle::ZERO),
+    })
+}
+
+/// The engine that fires in an order: a vee with a bank angle, an inline engine without.
+fn fired_so(
+    arguments: &mut Arguments,
+    cylinder: Cylinder,
+    order: &FiringOrder,
+    strokes: Strokes,
+) -> Result<Engine> {
+    let rule = match arguments.angles("intervals_deg")? {
+        Some(intervals) => FiringRule::Intervals(strokes, intervals),
+        None => FiringRule::Even(strokes),
+    };
+    if arguments.has("bank_angle_deg") {
+        order.vee(cylinder, &rule, &vee(arguments, Kind::FiringOrder)?)
+    } else {
+        order.inline(cylinder, &rule, &inline(arguments)?)
+    }
+}

@@ -1,0 +1,222 @@
+//! Waveforms, sweeps, harmonics, and when an engine fires.
+
+use std::sync::Arc;
+
+use crankpin_core::balance::{Request, TorquePart, Vector};
+use crankpin_core::explain::{self as explanations, Row, Subject, Wording};
+use crankpin_core::layout::Strokes;
+use crankpin_core::pressure::example::{Kind, example};
+use crankpin_core::sweep::{Quantity, Statistic, Sweep, SweepAxes};
+use crankpin_core::{Cancel, Firing, Result, harmonics, memory, waveform as waveforms};
+use serde_json::{Map, Value, json};
+
+use crate::answer::{Columns, degrees, orders as numbers};
+use crate::arguments::Arguments;
+use crate::balance::{RTOL, requested};
+use crate::engine::{firing_of, written};
+
+/// Force, moment and torques over crank angle, from exact kinematics or, of orders that are given, as their sum.
+pub fn waveform(arguments: &mut Arguments, columns: &mut Columns) -> Result<Value> {
+    let theta: Vec<f64> = arguments.required("theta_deg")?;
+    let summed = arguments.has("orders") || arguments.has("rtol");
+    let engine = arguments.engine()?;
+    let request = Request {
+        rpm: arguments.required("rpm")?,
+        reference_z: arguments.optional("reference_z")?,
+        torque: arguments.or("torque", true)?,
+    };
+    let (orders, cancel) = (requested(arguments)?, Cancel::new());
+    let found = if summed {
+        waveforms::from_orders(&engine, &request, &theta, &orders, &cancel)?
+    } else {
+        waveforms::exact(&engine, &request, &theta, &cancel)?
+    };
+    let mut answer = Map::new();
+    for (name, values) in [("force", &found.force), ("moment", &found.moment)] {
+        let [x, y] = [0, 1].map(|axis| columns.column(values.column(axis).iter().copied()));
+        answer.insert(name.into(), json!({ "x": x, "y": y }));
+    }
+    let [gas, crank_gas] =
+        found.gas.map_or([None, None], |[roll, crank]| [Some(roll), Some(crank)]);
+    let torques = [
+        ("torque", found.torque),
+        ("crank_torque", found.crank_torque),
+        ("torque.gas", gas),
+        ("crank_torque.gas", crank_gas),
+    ];
+    for (name, values) in torques {
+        if let Some(values) = values {
+            answer.insert(name.into(), columns.column(values));
+        }
+    }
+    Ok(Value::Object(answer))
+}
+
+/// Harmonics of a piston's acceleration over m·r·ω², orders 1 to a number of them.
+pub fn piston_harmonics(arguments: &mut Arguments, columns: &mut Columns) -> Result<Value> {
+    let ratio: f64 = arguments.required("rod_ratio")?;
+    // A crank of one metre: its rod is as many as the ratio goes into one.
+    let proportions =
+        crankpin_core::slider_crank::Proportions::new(ratio, arguments.or("offset", 0.0)?)?;
+    let count: u32 = arguments.required("count")?;
+    let orders: Vec<u32> = (1..=count).collect();
+    let found = harmonics::coefficients(&proportions, &orders, &Cancel::new())?;
+    let (re, im) = (found.iter().map(|a| a.re), found.iter().map(|a| a.im));
+    Ok(json!({ "re": columns.column(re), "im": columns.column(im) }))
+}
+
+const QUANTITIES: [(&str, Quantity); 6] = [
+    ("force", Quantity::Force),
+    ("moment", Quantity::Moment),
+    ("torque", Quantity::Torque(TorquePart::Whole)),
+    ("torque.inertia", Quantity::Torque(TorquePart::Inertia)),
+    ("torque.gas", Quantity::Torque(TorquePart::Gas)),
+    ("crank_torque", Quantity::CrankTorque(TorquePart::Whole)),
+];
+const FIGURES: [(&str, Statistic); 6] = [
+    ("length", Statistic::Length),
+    ("amplitude", Statistic::Amplitude),
+    ("sum", Statistic::Sum),
+    ("length of sum", Statistic::LengthOfSum),
+    ("zero bound", Statistic::ZeroBound),
+    ("mean", Statistic::Mean),
+];
+
+fn swept(arguments: &mut Arguments, cancel: &Cancel) -> Result<Sweep> {
+    let engine = Arc::new(arguments.engine()?);
+    let angles: Option<Vec<f64>> = arguments.optional("bank_angle_deg")?;
+    let hold = arguments.hold()?;
+    let rpm = match arguments.required::<Value>("rpm")? {
+        Value::Array(list) => list.iter().filter_map(Value::as_f64).collect(),
+        value => value.as_f64().into_iter().collect(),
+    };
+    let axes = SweepAxes {
+        bank_angle: angles.map(|angles| (angles, hold)),
+        rod_ratio: arguments.optional("rod_ratio")?,
+        pin_offset: arguments.optional("pin_offset")?,
+        rpm,
+        map: None,
+    };
+    let reference = arguments.optional("reference_z")?;
+    let rtol = arguments.or("rtol", RTOL)?;
+    match arguments.orders()? {
+        Some(orders) => Sweep::new(vec![engine], axes, orders, reference, cancel),
+        None => Sweep::within(
+            rtol,
+            vec![engine],
+            axes,
+            reference,
+            arguments.or("torque", false)?,
+            cancel,
+        ),
+    }
+}
+
+fn values(
+    sweep: &Sweep,
+    quantity: Quantity,
+    figure: Statistic,
+    cancel: &Cancel,
+) -> Result<Vec<f64>> {
+    sweep.check_size(quantity, figure, size_of::<f64>())?;
+    let mut out = memory::zeros(sweep.result_shape(quantity, figure).into_iter().product())?;
+    sweep.write_peaks(quantity, figure, &mut out, cancel)?;
+    Ok(out)
+}
+
+/// One quantity over bank angle, rod ratio, pin offset and speed.
+pub fn sweep(arguments: &mut Arguments, columns: &mut Columns) -> Result<Value> {
+    let quantity = arguments.word("quantity", &QUANTITIES)?;
+    let figure = arguments.word("figure", &FIGURES)?;
+    let cancel = Cancel::new();
+    let sweep = swept(arguments, &cancel)?;
+    let values = values(&sweep, quantity, figure, &cancel)?;
+    let bounds = sweep.error_bound().values();
+    Ok(json!({
+        "shape": sweep.result_shape(quantity, figure), "orders": numbers(sweep.orders()),
+        "values": columns.column(values), "omitted": numbers(sweep.omitted()), "error_bound": bounds,
+    }))
+}
+
+/// Peaks of force and moment over bank angle, a column for each order.
+pub fn bank_angles(arguments: &mut Arguments, columns: &mut Columns) -> Result<Value> {
+    let cancel = Cancel::new();
+    let sweep = swept(arguments, &cancel)?;
+    let count = sweep.orders().len();
+    let mut answer = Map::new();
+    for (name, quantity) in [("force", Quantity::Force), ("moment", Quantity::Moment)] {
+        let values = values(&sweep, quantity, Statistic::Length, &cancel)?;
+        let of_order = |k: usize| columns.column(values.iter().skip(k).step_by(count).copied());
+        answer.insert(name.into(), (0..count).map(of_order).collect());
+    }
+    answer.insert("orders".into(), numbers(sweep.orders()).into());
+    Ok(Value::Object(answer))
+}
+
+/// When the cylinders fire, in the engine's own firing order or another.
+pub fn firing(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
+    let engine = arguments.engine()?;
+    let strokes = Strokes::from_number(arguments.or("strokes", engine.strokes().number())?)?;
+    let firing = match arguments.optional::<String>("firing_order")? {
+        Some(order) => Firing::named(&Arc::new(engine), &order.parse()?, strokes, &Cancel::new())?,
+        None => firing_of(&engine)?,
+    };
+    let groups = firing.banks();
+    let gaps = |gaps: &Vec<crankpin_core::firing::Gap>| -> Vec<Value> {
+        let each = gaps.iter();
+        each.map(|gap| json!({ "before": gap.before + 1, "after": gap.after + 1, "gap_deg": gap.gap.degrees() }))
+            .collect()
+    };
+    let periods = firing.stroke_periods().into_iter().map(|(name, periods)| {
+        let each: Vec<_> = periods.iter().map(|period| degrees(*period)).collect();
+        (name.to_owned(), json!(each))
+    });
+    Ok(json!({
+        "text": firing.to_string(), "order": firing.fired().iter().map(|k| k + 1).collect::<Vec<_>>(),
+        "angles_deg": degrees(firing.angles()),
+        "intervals_deg": degrees(firing.intervals().iter().copied()), "even": firing.even(),
+        "unevenness_deg": firing.unevenness(), "gaps": firing.gaps(&groups).iter().map(gaps).collect::<Vec<_>>(),
+        "strokes": periods.collect::<Map<_, _>>(),
+    }))
+}
+
+/// The engine with an example cycle in all its cylinders, and the cycle's pressure.
+pub fn with_cycle(arguments: &mut Arguments, columns: &mut Columns) -> Result<Value> {
+    let engine = arguments.engine()?.without_gas();
+    let kind = arguments.word("kind", &[("petrol", Kind::Petrol), ("diesel", Kind::Diesel)])?;
+    let (load, cancel) = (arguments.or("load", 1.0)?, Cancel::new());
+    let cycle = Arc::new(example(kind, load, engine.strokes(), &cancel)?);
+    let given = cycle.given();
+    let (theta, pressure) = (
+        columns.column(given.theta_deg.iter().copied()),
+        columns.column(given.pressure.iter().copied()),
+    );
+    let firing = firing_of(&engine)?;
+    let engine = engine.fired_by(cycle, firing.in_second_turn())?;
+    let mut answer = written(&engine, None)?;
+    answer["theta_deg"] = theta;
+    answer["pressure"] = pressure;
+    Ok(answer)
+}
+
+/// How an engine shakes, in sentences, and what they say as data.
+pub fn explain(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
+    let engine = Arc::new(arguments.mounted()?.0);
+    let rpm: Option<f64> = arguments.optional("rpm")?;
+    let found = explanations::explain(&engine, rpm, Subject::Everything, &Cancel::new())?;
+    let finding = |Row { kind, vector, orders, values, reason, groups, proved }: Row| {
+        let quantity = vector.map(|vector| match vector {
+            Vector::Force => "force",
+            Vector::Moment => "moment",
+        });
+        json!({
+            "kind": kind, "quantity": quantity, "orders": numbers(&orders), "values": values,
+            "reason": reason, "groups": groups, "proved": proved,
+        })
+    };
+    let findings: Vec<Value> = found.findings.iter().map(|each| finding(each.row())).collect();
+    Ok(json!({
+        "sentences": found.sentences(&found.findings, &Wording::of(&engine)), "findings": findings,
+        "unit": found.unit, "part": found.part.name(), "lever": found.lever,
+    }))
+}
