@@ -39,6 +39,9 @@ TUTORIALS = Path(__file__).parent / "tutorials"
 """Folder of the notebooks' copies: Sphinx reads nothing outside its own."""
 NOTEBOOKS = Path(__file__).parents[1] / "notebooks"
 THUMBNAILS = GALLERY / "thumbnails"
+WORKBENCH = Path(__file__).parents[1] / "target" / "site" / "index.html"
+"""The page of ``site/build.py``, of which the manual has a copy if it is built."""
+WORKBENCH_COPY = "workbench.html"
 FLAT = 180.0
 LAYOUTS = ("inline", "vee", "flat", "W", "radial")
 REMAINS = {
@@ -73,6 +76,10 @@ Without gas pressure, at {rpm:g} rpm (`engine.balance(rpm={rpm:g})`):
 <iframe class="turning" src="turning/compact/{name}.html" loading="lazy"
 title="{engine.name}, turning"></iframe>
 <p><a href="turning/{name}.html">The whole page</a></p>
+```
+
+```{{workbench}} preset={name}
+Open it in the workbench
 ```
 
 `engine.save_html("{name}.html")` writes the whole page, `engine.view()` shows it in a notebook;
@@ -133,6 +140,24 @@ class Picture(SphinxDirective):
         drawn = nodes.image(uri=f"/gallery/drawn/{file.name}", alt=f"Picture drawn by {said}")
         self.set_source_info(drawn)
         return [shown, drawn]
+
+
+class Workbench(SphinxDirective):
+    """A link to the workbench with an engine in it; nothing in a manual without a workbench."""
+
+    required_arguments = 1
+    final_argument_whitespace = True
+    has_content = True
+
+    def run(self) -> list[nodes.Node]:
+        """Return the link: the engine is behind the #."""
+        if not WORKBENCH.exists():
+            return []
+        up = "../" * self.env.docname.count("/")
+        address = f"{up}{WORKBENCH_COPY}#{self.arguments[0]}"
+        text = " ".join(self.content)
+        link = nodes.reference(text, text, refuri=address, internal=False)
+        return [nodes.paragraph("", "", link)]
 
 
 class Commands(SphinxDirective):
@@ -291,6 +316,8 @@ def _write(file: Path, text: str) -> None:
 def make_turning(app: Sphinx, failed: Exception | None) -> None:
     """Write the pages in which the presets turn, and copy what hangs on the wall."""
     if failed is None and app.builder.format == "html":
+        if WORKBENCH.exists():
+            shutil.copy(WORKBENCH, Path(app.outdir) / WORKBENCH_COPY)
         shutil.copytree(THUMBNAILS, Path(app.outdir) / "gallery" / "thumbnails", dirs_exist_ok=True)
         folder = Path(app.outdir) / "gallery" / "turning"
         gallery.save_gallery(folder, rpm=RPM)
@@ -340,6 +367,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     mpl.use("Agg")
     NumpyDocstring._consume_inline_attribute = whole_docstring  # type: ignore[method-assign]
     app.add_directive("picture", Picture)
+    app.add_directive("workbench", Workbench)
     app.add_directive("commands", Commands)
     app.add_directive("engine-file", EngineFile)
     app.add_html_math_renderer("mathml", (formula, None), (formula_block, None))

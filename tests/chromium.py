@@ -50,7 +50,7 @@ def open_file(browser: Browser) -> Iterator[Open]:
     contexts = []
     troubles: list[str] = []
 
-    def opened(file: Path, **context: object) -> Page:
+    def opened(file: Path, *, fragment: str = "", **context: object) -> Page:
         size = {"width": 1280, "height": 1000}
         options: dict[str, Any] = {"viewport": size} | context
         contexts.append(browser.new_context(**options))
@@ -59,7 +59,7 @@ def open_file(browser: Browser) -> Iterator[Open]:
         page.on("pageerror", lambda error: troubles.append(f"{error}"))
         asked: list[str] = []
         page.on("request", lambda request: asked.append(request.url))
-        page.goto(file.as_uri())
+        page.goto(file.as_uri() + fragment)
         page.asked = asked  # type: ignore[attr-defined]
         return page
 

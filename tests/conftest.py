@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import crankpin as cp
+from building import open_workbench, workbench  # noqa: F401 - fixtures
 from chromium import browser, open_engine, open_file  # noqa: F401 - fixtures
 from extras import pytest_make_collect_report, pytest_runtest_makereport  # noqa: F401 - hooks
 from rederivation import ijesc

@@ -41,3 +41,19 @@ def radial() -> cp.Engine:
         rotating_mass=0.2,
         name="Radial-9",
     )
+
+
+def square_four() -> cp.Engine:
+    """Return four cylinders on two cranks that turn against each other."""
+    return cp.Engine.from_toml(
+        """
+        schema = 1
+        cranks = [{ x = 0.12, y = 0, ratio = -1 }]
+        placements = [
+          { tdc_deg = 0, bank_deg = 90, z = 0 }, { tdc_deg = 180, bank_deg = 90, z = 0.1 },
+          { tdc_deg = 180, bank_deg = 90, z = 0, crank = 1 },
+          { tdc_deg = 0, bank_deg = 90, z = 0.1, crank = 1 },
+        ]
+        cylinder = { crank_radius = 0.025, rod_length = 0.1, reciprocating_mass = 0.25 }
+        """
+    )

@@ -372,6 +372,24 @@ def test_sweeps_reach_the_tolerance_everywhere(
             assert bound <= rtol * scale * (1.0 + 1e-12)
 
 
+@examples
+@given(engines(), TOLERANCES)
+def test_an_order_that_was_left_out_is_read_as_if_it_were_given(
+    engine: cp.Engine, rtol: float
+) -> None:
+    b = engine.balance(RPM, orders="auto", rtol=rtol)
+    for order in range(1, 9):
+        alone = engine.balance(RPM, orders=[order])
+        assert b._alone(order).orders == alone.orders
+        for name in ("force", "moment", "torque", "crank_torque"):
+            one, given_alone = getattr(b[order], name), getattr(alone, name)
+            bound = given_alone.zero_bound[0]  # of the rounding of either
+            assert one.zero_bound == pytest.approx(bound, rel=1e-12)
+            assert np.abs(np.asarray(one) - np.asarray(given_alone)[0]).max() <= 2.0 * bound
+            assert one.peak == pytest.approx(given_alone.peak[0], abs=4.0 * bound)
+            assert one.peak == b._alone(order).read(name, "peak")[0]
+
+
 def test_a_sweep_of_one_point_is_a_balance() -> None:
     i4 = cp.Engine.preset("i4")
     for rtol in (1e-2, 1e-6, 1e-12):

@@ -650,6 +650,45 @@ def test_a_shared_crankpin_carries_all_of_its_rods(name: str) -> None:
     assert ("crankpins" in loads.frames) == (len(alone) < len(loads.crankpins))
 
 
+@pytest.mark.filterwarnings("ignore:theta_deg. pressure peaks")
+@pytest.mark.parametrize("seed", range(6))
+def test_the_peak_of_a_shared_crankpin_is_that_of_a_fine_grid(seed: int) -> None:
+    """Also where narrow peaks of pressure are far from the largest load at whole degrees."""
+    rng = np.random.default_rng([11, seed])
+    cylinder = cp.Cylinder(0.043, 0.145, 0.5, 0.004, bore=0.086)
+    engine = cp.Engine.vee(
+        cylinder, bank_angle_deg=90.0, throws_deg=[0.0, 120.0, 240.0], spacing=0.1
+    )
+    engine = engine.replace(firing_order=engine.firing_orders()[0].order)
+    cycles = [spiked(rng), cp.Cycle.example(), None, spiked(rng), spiked(rng), None]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)  # of pressures that no engine has
+        engine = engine.with_cycle(cycles)
+    rpm = float(rng.uniform(500.0, 4000.0))
+    loads = cp.bearing_loads(engine, rpm)
+    assert {len(pin) for pin in loads.crankpins} == {2}
+    knots = np.concatenate(
+        [
+            start + cycle.theta_deg
+            for start, cycle in zip(engine.firing_deg, cycles, strict=True)
+            if cycle is not None
+        ]
+    )
+    theta, step = with_sides(np.arange(0.0, 720.0, 0.02), knots), 0.02
+    largest = cp.bearing_loads(engine, rpm, theta).whole_crankpin_peak()
+    for pin, peak in enumerate(loads.whole_crankpin_peak()):
+        near, width = theta, step
+        for _ in range(4):
+            vectors = cp.bearing_loads(engine, rpm, near).whole_crankpin[pin]
+            best = near[np.argsort(-np.hypot(*vectors.T))[:20]]
+            near = with_sides((best[:, None] + np.linspace(-width, width, 41)).ravel(), knots)
+            width /= 20.0
+        found = cp.bearing_loads(engine, rpm, near).whole_crankpin_peak()[pin]
+        # As in the test of each rod's peaks.
+        assert peak == pytest.approx(found, rel=3e-8)
+        assert peak >= max(found, largest[pin]) * (1.0 - 1e-12)
+
+
 def test_specific_loads_are_over_width_and_diameter() -> None:
     loads = cp.bearing_loads(I4, 6000)
     expected = loads.peak("main") / (0.02 * 0.05)
@@ -689,5 +728,15 @@ def test_bearings_of_balance_shafts_carry_their_unbalances(seed: int) -> None:
     speed = (ratio * 100 * np.pi) ** 2
     np.testing.assert_allclose(found[0], [abs(force - behind) * speed, abs(behind) * speed])
     assert not found[1].any()
+    loads = cp.bearing_loads(engine, 3000)
+    ends = loads.main_z.min(), loads.main_z.max()
+    table = loads.frames["shafts"]
+    np.testing.assert_array_equal(loads.shaft_bearings(), loads.shaft_bearings(ends))
+    np.testing.assert_array_equal(
+        np.transpose([table["front"].values, table["rear"].values]), loads.shaft_bearings(ends)
+    )
+    assert table["speed ratio"].values == (ratio, 1)
+    assert "shafts" not in cp.bearing_loads(I4, 3000).frames
+    assert "Bearings of balance shafts beside" in repr(loads)
     with pytest.raises(cp.InputError, match=r"z = \[0\.1, 0\.1\]: give the places of two"):
         cp.bearing_loads(engine, 3000).shaft_bearings([0.1, 0.1])

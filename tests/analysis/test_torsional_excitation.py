@@ -12,6 +12,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from numpy.typing import NDArray  # noqa: TC002 - read by tests of signatures
+from several_cranks import random_engine
 
 CYLINDER = cp.Cylinder(0.043, 0.145, 0.5, pin_offset=0.002, bore=0.086)
 I4 = cp.Engine.preset("i4", cylinder=CYLINDER).with_cycle(cp.Cycle.example())
@@ -104,6 +105,25 @@ def test_reciprocating_inertia_is_the_mean_of_what_moves(seed: int) -> None:
     long = cp.Cylinder(0.043, 1e4, 0.5)
     plain = cp.torsional_excitation(cp.Engine.preset("i3", cylinder=long), rpm=3000)
     np.testing.assert_allclose(plain.reciprocating_inertia, 0.5 * 0.5 * 0.043**2, rtol=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_reciprocating_inertia_is_that_seen_from_the_main_crank(seed: int) -> None:
+    """Twice the mean kinetic energy of piston and rod over the square of the main crank's speed."""
+    engine = random_engine(seed)
+    found = cp.torsional_excitation(engine, 1000, orders=[1]).reciprocating_inertia
+    theta = np.arange(3600) / 10.0
+    speed = 30.0 / np.pi  # 1 rad/s
+    cranks, crank_of = engine._core.cranks
+    for cylinder, crank, inertia in zip(engine.cylinders, crank_of, found, strict=True):
+        velocity = cylinder.velocity(theta, speed)
+        across = cylinder.crank_radius * np.cos(np.radians(theta))
+        swing = across / (cylinder.position(theta) - across)
+        energy = cylinder.reciprocating_mass * velocity**2 + cylinder.rod_inertia_excess * swing**2
+        expected = cranks[crank][2] ** 2 * energy.mean()
+        # Means of smooth functions of a turn; where masses and rods cancel, of either part.
+        size = cylinder.reciprocating_mass * cylinder.crank_radius**2 + 1e-3
+        assert inertia == pytest.approx(expected, rel=1e-12, abs=1e-13 * size)
 
 
 def test_tangential_pressures_are_those_of_the_cycle() -> None:

@@ -242,6 +242,15 @@ def test_a_firing_order_that_the_crank_does_not_allow_is_dropped(capsys: CAPTURE
     ("line", "message"),
     [
         ("new v6-75", '"v6-75": no such preset; .* build it by crankpin new v6 --bank-angle 75; '),
+        (
+            "new v-twin --throws 0,10,20",
+            "--throws = 0,10,20: v-twin has 2 cylinders, this makes 6; give 1 crankpin, or ",
+        ),
+        (
+            "new i4 --throws 0,120,240",
+            "--throws = 0,120,240: i4 has 4 cylinders, this makes 3; give 4 crankpins, ",
+        ),
+        ("new radial-7 --cylinders 9", "--cylinders = 9: radial-7 has 7 cylinders, this makes 9"),
         ("new vee --bank-angle 75", "new vee needs --throws; see crankpin new --help"),
         ("new lists --banks 90 --z 0", "new lists needs --tdc or --pins; see crankpin new --help"),
         (
@@ -325,3 +334,27 @@ def test_a_file_that_cannot_be_an_engine_s_is_rejected_first(capsys: CAPTURE) ->
     for command in commands:
         line = f"{command} v6-90 --save x.txt"
         assert "--save = 'x.txt': an engine file ends in" in refused(capsys, line)
+
+
+def test_rods_of_scotch_yokes_are_infinite(capsys: CAPTURE) -> None:
+    parts = "--bore 90mm --stroke 90mm --reciprocating-mass 500g"
+    engine = made(capsys, f"single {parts} --rod-length inf")
+    assert engine.cylinders[0].rod_ratio == 0.0
+    assert engine.balance(3000).orders == (1, 2)
+    twin = made(capsys, f"boxer-2 {parts} --rod-length inf,150mm")
+    assert [one.rod_length for one in twin.cylinders] == [float("inf"), 0.15]
+    line = "new single --stroke 90mm --rod-length inf --rod-mass 500g"
+    assert refused(capsys, line).startswith("--rod-length = inf: give --reciprocating-mass")
+    line = "new single --stroke inf --rod-length 150mm --rod-mass 500g"
+    assert refused(capsys, line) == "--stroke = inf: give a finite number"
+
+
+def test_an_engine_is_told_in_the_units_that_were_typed(capsys: CAPTURE) -> None:
+    typed = ["new", "single", "--bore", '3 1/2"', "--stroke", '3 13/16"', "--rod-length", '7 7/16"']
+    typed += ["--piston-mass", "17oz", "--rod-mass", "1 1/4lb", "-o", "single.toml", "--force"]
+    assert main(typed) == 0
+    told = capsys.readouterr().out
+    assert "stroke 3.8125 in, rod 7.4375 in, reciprocating mass 23.6667 oz" in told
+    assert main([*typed, "--units", "mm,g"]) == 0
+    told = capsys.readouterr().out
+    assert "stroke 96.8375 mm, rod 188.913 mm, reciprocating mass 670.939 g" in told

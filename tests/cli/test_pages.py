@@ -28,6 +28,19 @@ def test_view_writes_a_compact_page(tmp_path: Path) -> None:
     assert theirs.read_text(encoding="utf-8") == ours.read_text(encoding="utf-8")
 
 
+@pytest.mark.parametrize(
+    ("typed", "given"), [("rpm,bank_angle", ["rpm", "bank_angle"]), ("none", ()), ("rpm", "rpm")]
+)
+def test_view_takes_controls_and_units(tmp_path: Path, typed: str, given: list[str]) -> None:
+    ours, theirs = tmp_path / "ours.html", tmp_path / "theirs.html"
+    with cp.units("g, mm, lbf"):
+        cp.Engine.preset("v6-60").save_html(ours, controls=given)
+    argv = ["view", "v6-60", "--out", f"{theirs}", "--controls", typed, "--units", "g,mm,lbf"]
+    assert main(argv) == 0
+    assert theirs.read_bytes() == ours.read_bytes()
+    assert '"lbf"' in theirs.read_text(encoding="utf-8")
+
+
 def test_view_takes_a_spectrum_and_a_file(tmp_path: Path) -> None:
     engine = cp.Engine.preset("i4")
     engine.save(tmp_path / "i4.toml")

@@ -93,9 +93,21 @@ def test_quoted_numbers_utf_16_and_names_above_units_are_read(tmp_path: Path) ->
         cycle = cp.Cycle.load(path, name="bench")
         np.testing.assert_allclose(cycle.pressure, PRESSURE, rtol=1e-10)
         assert cycle == cp.Cycle.load(path, columns=("angle", "bar"), name="bench")
-    path.write_bytes(text.encode("utf-16-le"))
+    path.write_bytes(b"\0" + text.encode("utf-16"))
     with pytest.raises(cp.InputError, match="NUL bytes and is no text"):
         cp.Cycle.load(path)
+
+
+@pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be"])
+@pytest.mark.parametrize("header", ["Winkel [°]", "угол поворота коленчатого вала [deg]", ""])
+def test_utf_16_needs_no_byte_order_mark(tmp_path: Path, encoding: str, header: str) -> None:
+    lines = [f"{angle:g};{p / 1e5:.8g}" for angle, p in zip(THETA, PRESSURE, strict=True)]
+    above = [f"{header};absolute pressure [bar]"] if header else []
+    text = "\r\n".join([*above, *lines]).replace(".", ",")
+    path = tmp_path / "bench.txt"
+    path.write_bytes(text.encode(encoding))
+    cycle = cp.Cycle.load(path, angle_unit="deg", pressure_unit="bar", gauge=False)
+    np.testing.assert_allclose(cycle.pressure, PRESSURE, rtol=1e-6)
 
 
 RANDOM = np.random.default_rng(4)

@@ -152,6 +152,11 @@ ON_TILTED = MOUNTED.replace(
     )
 )
 
+PETROL = cp.Engine.preset("i4", cylinder=cp.Cylinder(0.043, 0.145, 0.5, bore=0.086))
+PART_LOAD = cp.CycleMap(
+    [1000, 6000], [0, 1], [[cp.Cycle.example(load=each) for each in (0, 1)]] * 2
+)
+
 PICTURES: dict[str, Callable[..., Any]] = {
     "cancelled": _of_one_panel(lambda ax: _cancelled(1200.0, ax=ax)),
     "cancelled-over-speed": _of_one_panel(lambda ax: _cancelled(np.arange(800, 5001, 50.0), ax=ax)),
@@ -242,6 +247,9 @@ PICTURES: dict[str, Callable[..., Any]] = {
     "mount-map": lambda **place: (
         MOUNTED.without(cylinder=3).response(range(500, 6001, 20)).plot(kind="map", **place)
     ),
+    "mount-waterfall": lambda **place: (
+        MOUNTED.without(cylinder=3).response(range(500, 6001, 20)).plot(kind="waterfall", **place)
+    ),
     "mount-spectrum": lambda **place: MOUNTED.response(800).plot(mount="rear", **place),
     "mount-design": cp.design_mounts(
         MOUNTED,
@@ -256,5 +264,15 @@ PICTURES: dict[str, Callable[..., Any]] = {
     "designs": V10S.plot,
     "tolerances": SPREAD.plot,
     "tolerance-shares": lambda **place: SPREAD.plot(kind="shares", **place),
+    "operating-map": lambda **place: cp.operating_map(
+        PETROL, np.arange(1000, 6001, 500), cycle=PART_LOAD, load=[0, 0.25, 0.5, 0.75, 1]
+    ).plot(**place),
+    "operating-curves": lambda **place: cp.operating_map(PETROL, np.arange(1000, 7001, 500)).plot(
+        quantity="crankpin", **place
+    ),
+    "torsional-excitation": lambda **place: cp.torsional_excitation(FIRED, 3000).plot(**place),
+    "torsional-map": lambda **place: cp.torsional_excitation(FIRED, np.arange(600, 6001, 200)).plot(
+        **place
+    ),
     "comparison": lambda **place: cp.compare(I4, FITTED, rpm=5000).plot(quantity="force", **place),
 }

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
 import matplotlib as mpl
 import numpy as np
 import pytest
+from crankpin.view.page import WEB
 from matplotlib import pyplot as plt
 from matplotlib.collections import PolyCollection
 
@@ -140,6 +142,28 @@ def test_marks_are_seen_on_a_dark_background() -> None:
         ax = V8.plot()
     (fires,) = (line for line in ax.lines if line.get_label() == "fires")
     assert mpl.colors.to_hex(fires.get_color()) == "#ffffff"
+
+
+@pytest.mark.parametrize(
+    ("style", "scheme"), [("default", 0), ("dark_background", 1), ("ggplot", 0)]
+)
+def test_strokes_have_the_colours_of_the_page(style: str, scheme: int) -> None:
+    css = (WEB / "view.css").read_text(encoding="utf-8")
+    expected = {
+        name: pair[scheme]
+        for name, *pair in re.findall(r"--(\w+): light-dark\((#\w{6}), (#\w{6})\)", css)
+        if name in V8.strokes_deg()
+    }
+    assert len(expected) == 4
+    with plt.style.context(style):
+        legend = V8.plot().get_legend()
+    assert legend is not None
+    drawn_in = {
+        text.get_text().rpartition(": ")[2]: mpl.colors.to_hex(handle.get_facecolor())
+        for handle, text in zip(legend.legend_handles, legend.get_texts(), strict=True)
+        if isinstance(handle, mpl.patches.Patch)
+    }
+    assert drawn_in == expected
 
 
 def test_strokes_alone_stand_in_the_middle_of_their_rows() -> None:

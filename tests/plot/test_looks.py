@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import matplotlib as mpl
 import numpy as np
 import pytest
+from crankpin.plot.firing import STROKE_COLOURS
+from crankpin.plot.style import is_dark
 from matplotlib import colors
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
@@ -105,6 +107,8 @@ def assert_seen(ax: Axes) -> None:
     figure: Any = ax.get_figure(root=True)
     for text in [*ax.texts, ax.title, *ax.get_xticklabels(), *ax.get_yticklabels()]:
         behind = ax.get_facecolor() if text in ax.texts else figure.get_facecolor()
+        if (name := text.get_gid()) in STROKE_COLOURS:  # a letter on a stroke
+            behind = STROKE_COLOURS[str(name)][is_dark(ax)]
         assert abs(grey(text.get_color()) - grey(behind)) > 0.4
 
 

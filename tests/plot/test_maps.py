@@ -181,3 +181,28 @@ def test_map_of_nothing_is_drawn() -> None:
     figure_of(s.plot(kind="orders", quantity="force")).canvas.draw()
     s = cp.sweep(V6, rpm=[1000, 2000], rod_ratio=[0.2, 0.3], orders=[1])
     figure_of(s.plot(kind="map", quantity="force")).canvas.draw()
+
+
+def test_a_map_of_orders_ends_at_the_last_that_is_not_zero() -> None:
+    """Orders of gas torque are many, those of the moment that is drawn few."""
+    v8 = cp.Engine.preset("v8-crossplane", cylinder=cp.Cylinder(0.043, 0.145, 0.5, bore=0.086))
+    swept = cp.sweep(v8.with_cycle(cp.Cycle.example()), rpm=[2000, 4000, 6000])
+    panels = swept.plot(kind="orders", quantity="moment")
+    last = max(int(order) for order in swept.orders if swept[order].moment.peak.any())
+    assert last < max(swept.orders)
+    for panel in panels.flat:
+        figure_of(panels).canvas.draw()
+        assert panel.get_ylim() == (0.5, last + 0.5)
+        drawn = np.ma.filled(cells(panel), np.nan)[last - 1]
+        np.testing.assert_array_equal(np.sort(drawn), drawn)
+        mesh = panel.collections[0]
+        heights = np.diff(np.asarray(mesh.get_coordinates())[:, 0, 1])
+        assert (heights > 0.0).all()
+    assert f"above order {last}: zero" in figure_of(panels)._suptitle.get_text().replace("\n", " ")
+    given = cp.sweep(v8, rpm=[2000, 4000], orders=[1, 2, 3]).plot(kind="orders", quantity="moment")
+    assert given[0, 0].get_ylim() == (0.5, 3.5)
+
+
+def test_maps_of_sweeps_are_in_cividis() -> None:
+    for panels in (over_two().plot(), cp.sweep(V6, rpm=[1000, 2000]).plot(kind="orders")):
+        assert {panel.collections[0].get_cmap().name for panel in panels.flat} == {"cividis"}

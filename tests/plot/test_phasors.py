@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import pickle
 from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
@@ -155,3 +156,19 @@ def test_style_is_passed_on_to_the_arrows() -> None:
     axes = I4.balance(3000).plot(kind="phasors", quantity="force", linewidth=3.0)
     widths = {patch.get_linewidth() for patch in axes[0, 0].patches}
     assert widths == {3.0}
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_names_of_many_arrows_do_not_cover_each_other(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    engine = cp.Engine.preset(str(random.choice(["v12-60", "v16-45", "w16", "v10-90"])))
+    with plt.rc_context({"figure.figsize": (3.5, 2.7), "font.size": 8}):
+        panels = engine.balance(float(random.uniform(2000, 8000))).plot(kind="phasors")
+        figure = panels[0, 0].figure
+        figure.draw_without_rendering()
+        for panel in panels.flat:
+            boxes = [text.get_window_extent() for text in panel.texts if text.get_visible()]
+            assert boxes
+            for k, box in enumerate(boxes):
+                assert not any(box.overlaps(other) for other in boxes[:k])
+        assert pickle.loads(pickle.dumps(figure))  # noqa: S301 - of this process

@@ -8,6 +8,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
+from matplotlib.collections import LineCollection
 from matplotlib.patches import Rectangle
 
 if TYPE_CHECKING:
@@ -74,6 +75,48 @@ def test_a_map_has_a_row_of_cells_for_each_order_and_its_modes() -> None:
         np.testing.assert_allclose(speed * multiple / 60.0, frequency)
 
 
+def stems_of(ax: Axes) -> LineCollection:
+    (stems,) = (
+        each
+        for each in ax.collections
+        if isinstance(each, LineCollection) and each.get_array() is not None
+    )
+    return stems
+
+
+def test_a_waterfall_has_a_spectrum_of_each_speed_above_the_one_before() -> None:
+    ax = RUN_UP.plot(kind="waterfall", mount="left", orders=[0.5, 2])
+    stems = stems_of(ax)
+    force = RUN_UP.mount_force["left"]
+    expected = {
+        (order * rpm / 60.0, rpm): peak
+        for order in (0.5, 2)
+        for rpm, peak in zip(RUN_UP.rpm, force[order].peak, strict=True)
+    }
+    largest = max(expected.values())
+    drawn: Any = stems.get_array()
+    for (foot, tip), colour in zip(stems.get_segments(), drawn, strict=True):
+        peak = expected.pop((float(foot[0]), float(foot[1])))
+        assert foot[0] == tip[0]
+        assert colour == peak
+        # Three decades are four steps of 100 rpm high.
+        height = 400.0 * max(0.0, 1.0 + np.log10(peak / largest) / 3.0)
+        np.testing.assert_allclose(tip[1] - foot[1], height, rtol=1e-9, atol=1e-9)
+    assert not expected
+    modes = [line.get_xdata()[0] for line in ax.lines]
+    np.testing.assert_array_equal(modes, RUN_UP.powertrain.modes().frequency)
+    assert [text.get_text() for text in ax.texts] in (["0.5", "2"], ["2", "0.5"])
+
+
+def test_a_waterfall_of_many_speeds_draws_forty_and_of_nothing_none() -> None:
+    rpm = np.random.default_rng(4).permutation(np.arange(600.0, 3001.0, 10.0))
+    ax = MOUNTED.response(rpm, orders=[2]).plot(kind="waterfall")
+    speeds = {float(foot[1]) for foot, _ in stems_of(ax).get_segments()}
+    assert (len(speeds), min(speeds), max(speeds)) == (40, 600.0, 3000.0)
+    still = MOUNTED.response(rpm[:3], orders=[1]).plot(kind="waterfall")
+    assert [text.get_text() for text in still.texts] == ["zero throughout"]
+
+
 def test_a_spectrum_has_bars_along_each_axis() -> None:
     one = RUN_UP.sel(rpm=800)
     ax = one.plot(orders=[0.5, 1, 2])
@@ -87,6 +130,11 @@ def test_unfit_pictures_are_rejected() -> None:
         RUN_UP.plot(kind="spectrum")
     with pytest.raises(cp.InputError, match=r"kind = 'map': needs several speeds"):
         RUN_UP.sel(rpm=800).plot(kind="map")
+    for kind in ("map", "waterfall"):
+        with pytest.raises(cp.InputError, match=rf"label = 'a': a {kind} has no legend"):
+            RUN_UP.plot(kind=kind, label="a")
+        with pytest.raises(cp.InputError, match=rf"kind = '{kind}': needs two different speeds"):
+            MOUNTED.response([800.0, 800.0]).plot(kind=kind)
     with pytest.raises(cp.InputError, match=r"mount = 'reer'"):
         RUN_UP.plot(mount="reer")
     assert not plt.get_fignums()

@@ -153,7 +153,7 @@ def test_latex_has_every_cell_between_rules(name: str) -> None:
                 if re.fullmatch(r"-?[\d.]+(e[-+]\d+)?", text):
                     figure = re.sub(r" \\times 10\^\{(-?\d+)\}", r"e\1", cell.strip("$"))
                     assert float(figure) == float(text)
-        assert not set(latex) & set("°·²³ωθλ→−≠≤₂₁\t")
+        assert not set(latex) & set("°·²³ωθλπ→−≠≤₂₁\t")
         assert (table.loads == "") or f"{table.loads[1:6]}" in latex
 
 

@@ -233,7 +233,7 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (ranked_search, "spacing", NAN, "NaN"),
     (ranked_search, "refine", True, "True"),
     (proportions, "rod_ratio", [0.3, 1.0], "1"),
-    (proportions, "rod_ratio", [0.0], "0"),
+    (proportions, "rod_ratio", [-0.1], "-0.1"),
     (proportions, "rod_ratio", NAN, "NaN"),
     (proportions, "pin_offset", [0.0, 0.1], "0.1"),
     (proportions, "pin_offset", NAN, "NaN"),

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 ROOT = Path(__file__).parents[2]
 FOLDERS = {
     "python/crankpin": ("*.py", "*strings.mjs"), "docs": ("*.md",), "notebooks": ("*.ipynb",),
+    "site": ("words.mjs", "fields.mjs", "*.py"),
     "rust/core/src": ("*.rs",), "rust/py/src": ("*.rs",), ".": ("*.md",),
 }  # fmt: skip
 """Folder → names of the files whose prose is checked, in it and, but for the root, below it."""

@@ -122,6 +122,42 @@ def test_a_kind_that_is_not_named_stays() -> None:
     assert units.convert("Hz", units.read(IMPERIAL)) == ("Hz", 1.0)
 
 
+def test_ranges_and_echoes_are_in_the_units_set() -> None:
+    assert units.in_text("strokes 0.0508 to 0.0762 m", units.read("in")) == "strokes 2 to 3 in"
+    assert units.in_text("1 to 2 kg·m² at 3 to 4 °", units.read("g, mm")) == (
+        "1000000000 to 2000000000 g·mm² at 3 to 4 °"
+    )
+    cylinder = cp.Cylinder(0.0254 * 1.9375, 0.0254 * 7.4375, 0.5)
+    longer = cylinder.replace(crank_radius=0.0508)
+    engine = cp.Engine.inline([cylinder, longer], throws_deg=[0, 180], spacing=0.1)
+    with cp.units("in, oz"):
+        assert "stroke 3.875 to 4 in, rod 7.4375 in, reciprocating mass 17.637 oz" in repr(engine)
+        spread = cp.tolerances(engine, 3000, reciprocating_mass=0.05 * 0.028349523125, samples=10)
+        assert "standard deviations: reciprocating mass 0.05 oz" in repr(spread)
+
+
+@pytest.mark.parametrize(
+    ("setting", "unit", "joules"),
+    [
+        ("g, mm", "J", 1.0), ("N·m", "J", 1.0), ("kN", "kJ", 1e3), ("MN, mm", "MJ", 1e6),
+        ("lbf", "ft·lbf", 1.3558179483314004), ("oz, in, lbf", "ft·lbf", 1.3558179483314004),
+        ("lbf·in", "in·lbf", 0.1129848290276167), ("kgf", "kgf·m", 9.80665),
+    ],
+)  # fmt: skip
+def test_energy_goes_with_torque(setting: str, unit: str, joules: float) -> None:
+    shown = units.convert("J", units.read(setting))
+    assert shown.unit == unit
+    np.testing.assert_allclose(1.0 / shown.factor, joules, rtol=4e-16)
+    single = cp.Engine.preset("single", cylinder=cp.Cylinder(0.04, 0.14, 0.4, bore=0.08))
+    flywheel = cp.flywheel(
+        single.replace(firing_order="1").with_cycle(cp.Cycle.example()), 3000, inertia=0.2
+    )
+    with cp.units(setting):
+        (line,) = (each for each in flywheel.table.text().splitlines() if "energy" in each)
+    assert re.search(rf"\b{unit}\b", line), line
+    assert units.in_text("it swings by 120 J", units.read("lbf")) == "it swings by 88.5 ft·lbf"
+
+
 def test_the_setting_ends_with_its_block_and_changes_no_result() -> None:
     balance = OBJECTS["Balance"]
     before, text = balance.force.peak.copy(), repr(balance)

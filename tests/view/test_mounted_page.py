@@ -244,6 +244,13 @@ def test_names_stay_text(open_engine: Open) -> None:
 def test_a_phone_s_width_needs_no_scrolling(open_engine: Open, engine: cp.Engine) -> None:
     page = open_engine(CAR.replace(engine=engine), viewport={"width": 360, "height": 740})
     assert page.evaluate("document.documentElement.scrollWidth") <= 360
+    # All six numbers of each mount are seen, none beyond an edge.
+    hidden = page.eval_on_selector_all(
+        ".scrolls, .scrolls :is(td, th button)",
+        """found => found.filter(each => each.scrollWidth > each.clientWidth)
+            .map(each => each.outerHTML)""",
+    )
+    assert hidden == []
     odd = page.eval_on_selector_all(
         ".crankpin *",
         """found => found.flatMap(each => [...each.attributes]).filter(({ value }) =>

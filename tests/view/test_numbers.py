@@ -8,6 +8,7 @@ one is far above that, and far below a digit that is shown.
 from __future__ import annotations
 
 import itertools
+import math
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +16,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from chromium import Open, values
+from crankpin.analysis.geometry import YOKE
 from several_cranks import fired_engine, random_engine
 from view_engines import everything, radial
 
@@ -106,6 +108,33 @@ def test_any_angle(open_engine: Open, name: str) -> None:
     for angle in ANGLES:
         field.fill(f"{angle}")
         assert_agree(page, engine, rpm, angle)
+
+
+def test_yokes_and_dummy_pistons_turn(open_engine: Open) -> None:
+    """An infinite rod is the bar of a Scotch yoke; a dummy piston has no strokes."""
+    yoke = cp.Cylinder(0.045, math.inf, 0.5)
+    rod = cp.Cylinder(0.045, 0.15, 0.4, dummy=True)
+    engine = cp.Engine.vee(
+        [rod, yoke], bank_angle_deg=90, throws_deg=[0], spacing=0.1, firing_order="2"
+    )
+    page = open_engine(engine, rpm=3000)
+    failed = list[str]()
+    page.on("pageerror", lambda error: failed.append(str(error)))
+    wave = engine.waveform(3000, theta_deg=ANGLES)
+    size = sizes(engine, 3000)["force"]
+    for k, angle in enumerate(ANGLES):
+        page.evaluate("angle => crankpin.set({ angle_deg: angle })", angle)
+        found = values(page, "[data-name]:not([data-name=tick])")
+        shown = [found["force-x"], found["force-y"]]
+        np.testing.assert_allclose(shown, wave.force[k], rtol=0, atol=WITHIN * size)
+        heights = [
+            float(c.position(angle % 360 - t))
+            for c, t in zip(engine.cylinders, engine.tdc_deg, strict=True)
+        ]
+        heights[1] += YOKE * 0.045
+        np.testing.assert_allclose([found["piston-1"], found["piston-2"]], heights, rtol=WITHIN)
+    assert page.locator("[data-name=firing-order]").text_content() == "2"
+    assert failed == []
 
 
 @pytest.mark.parametrize("name", ["v6-60", "vr6", "v8-crossplane", "boxer-6", "everything"])

@@ -11,9 +11,11 @@ import crankpin as cp
 import numpy as np
 import pytest
 from chromium import Open, values
+from conftest import CYLINDER
+from crankpin._support import units
 from crankpin.view.figures import figures
 from crankpin.view.page import WEB
-from view_engines import everything, radial
+from view_engines import everything, radial, square_four
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -392,14 +394,15 @@ def test_engine_follows_its_settings(open_engine: Open) -> None:
 
 def test_title_names_changed_settings(open_engine: Open) -> None:
     page = open_engine(cp.Engine.preset("v6-60"))
-    title = page.locator("h1")
-    own = title.text_content()
+    own = page.locator("h1").text_content()
+    changes = page.locator("header > :last-child")
     page.get_by_label("bank angle", exact=True).fill("90")
-    assert title.text_content() == page.title() == f"{own} → bank angle 90°"
+    assert changes.text_content() == " → bank angle 90°"
+    assert page.title() == f"{own} → bank angle 90°"
     page.locator("[data-name=rod-ratio]").fill("0.25")
-    assert title.text_content() == f"{own} → bank angle 90°, rod ratio 0.25"
+    assert changes.text_content() == " → bank angle 90°, rod ratio 0.25"
     page.get_by_label("bank angle", exact=True).fill("60")
-    assert title.text_content() == f"{own} → rod ratio 0.25"
+    assert page.title() == f"{own} → rod ratio 0.25"
 
 
 def test_a_rejected_value_is_answered_by_the_range(open_engine: Open) -> None:
@@ -624,6 +627,247 @@ def test_light_and_dark(open_engine: Open) -> None:
     assert brightness(dark_ink) > brightness(dark_paper) + 500
 
 
+# --- the engine as it is ------------------------------------------------------------------------
+
+
+def test_each_crank_is_drawn_with_its_sense(open_engine: Open) -> None:
+    page = open_engine(square_four())
+    circles = page.eval_on_selector_all(
+        ".pin-circle",
+        "found => found.map((each) => ['cx', 'cy', 'r'].map((name) => +each.getAttribute(name)))",
+    )
+    (x0, y0, r0), (x1, y1, r1) = circles
+    assert (x1 - x0) / r0 == pytest.approx(0.12 / 0.025)
+    assert (y0, r0) == (y1, r1)
+    tips = [
+        [float(part) for part in re.findall(r"-?\d+\.\d+", each.get_attribute("d") or "")]
+        for each in page.locator(".sense").all()
+    ]
+    for k, value in enumerate(tips[0]):  # the other is the image in a mirror
+        if k not in (2, 3):  # radii
+            other = tips[1][k]
+            assert value == pytest.approx(other) or value - x0 == pytest.approx(
+                x1 - other, abs=0.02
+            )
+    assert len(tips) == 2
+    for frame in (".cross", ".left", ".isometric, .oblique"):
+        journals = page.eval_on_selector_all(
+            f".scene:is({frame}) .journal .core",
+            "found => found.map(each => each.getAttribute('d'))",
+        )
+        assert len(journals) == 6  # between two throws, and at both ends, of each crank
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_numbers_of_bores_stand_above_the_highest(open_engine: Open, seed: int) -> None:
+    random = np.random.default_rng(seed)
+    cylinders = [
+        CYLINDER.replace(crank_radius=radius, rod_length=rod)
+        for radius, rod in zip(
+            random.uniform(0.02, 0.06, 3), random.uniform(0.12, 0.3, 3), strict=True
+        )
+    ]
+    engine = cp.Engine.from_lists(
+        cylinders, bank_deg=[90, 90, 90], pin_deg=[90, 210, 330], z=[-0.1, 0, 0.1]
+    )
+    page = open_engine(engine)
+    box = """found => found.map((each) => each.getBoundingClientRect())
+        .map(({ top, bottom }) => [top, bottom])"""
+    bores = page.eval_on_selector_all(".scene.cross .bore", box)
+    ((_, bottom),) = page.eval_on_selector_all(".bore-numbers", box)
+    assert bottom <= min(top for top, _ in bores)
+
+
+@pytest.mark.parametrize("name", ["i4", "v8-crossplane", "w16", "radial-9"])
+def test_no_words_stand_over_the_engine(open_engine: Open, name: str) -> None:
+    page = open_engine(cp.Engine.preset(name))
+    texts = page.locator(".scene:not(.cross) text:not(.on-piston)")
+    assert texts.count() == 0
+    ends = page.locator(".views .legend")
+    assert ends.text_content() == "frontflywheel end"
+
+
+def test_weights_have_a_thickness_from_the_side(open_engine: Open) -> None:
+    page = open_engine(everything())
+    for frame in ("cross", "left"):
+        sizes = page.eval_on_selector_all(
+            f".scene.{frame} .weight",
+            """found => found.map((each) => each.getBBox())
+                .map(({ width, height }) => [width, height])""",
+        )
+        assert len(sizes) == 4
+        assert min(min(size) for size in sizes) > 1
+
+
+# --- controls and units -------------------------------------------------------------------------
+
+LABELS = {
+    "crank_angle": "turn the crank",
+    "rpm": "engine speed",
+    "rod_ratio": "rod ratio",
+    "bank_angle": "bank angle",
+    "rocking": "exaggeration of the rocking",
+    "sound": "sound",
+    "view": "side of the engine",
+}
+"""Label of a control by its name; the first of several."""
+SETS: list[tuple[dict[str, object], list[str]]] = [
+    ({}, list(LABELS)),
+    ({"controls": "none"}, []),
+    ({"controls": ()}, []),
+    ({"controls": "rpm"}, ["rpm"]),
+    ({"controls": ["bank_angle", "rpm", "rpm"]}, ["bank_angle", "rpm"]),
+    ({"controls": ("sound", "view", "rocking")}, ["rocking", "sound", "view"]),
+    ({"compact": True, "controls": ["rod_ratio", "crank_angle"]}, ["rod_ratio", "crank_angle"]),
+    ({"compact": True, "controls": "none"}, []),
+]
+
+
+@pytest.mark.parametrize(("save", "shown"), SETS)
+def test_a_page_has_the_controls_named(
+    open_engine: Open, save: dict[str, object], shown: list[str]
+) -> None:
+    page = open_engine(V8, save=save)
+    places = {}
+    for name, label in LABELS.items():
+        found = page.get_by_label(label, exact=name != "sound")
+        if found.count() and found.is_visible() and found.is_enabled():
+            places[name] = found.bounding_box()
+    assert sorted(places) == sorted(shown)
+    inputs = page.locator(".crankpin :is(button, input, select:enabled):visible")
+    assert bool(inputs.count()) == bool(shown)
+    # The engine is above the first of them, and turns by keys and by hand.
+    below = page.locator(".views").bounding_box()
+    assert below is not None
+    for name, box in places.items():
+        assert box is not None
+        assert name == "view" or box["y"] >= below["y"] + below["height"] - 1
+    page.keyboard.press("ArrowRight")
+    assert angle(page) == 1
+    freeze(page)
+    page.keyboard.press("Space")
+    page.clock.run_for(500)
+    assert angle(page) > 20
+
+
+def test_controls_stand_in_the_order_of_their_names(open_engine: Open) -> None:
+    page = open_engine(V8, save={"controls": ["bank_angle", "rod_ratio", "rpm"]})
+    sliders = page.locator(".settings input[type=range]").all()
+    labels = [each.get_attribute("aria-label") for each in sliders]
+    assert labels == ["bank angle", "rod ratio", "engine speed"]
+
+
+@pytest.mark.parametrize(
+    ("engine", "options", "message"),
+    [
+        (
+            V8,
+            {"controls": "bankangle"},
+            r'^controls = .bankangle.: give .*did you mean "bank_angle"',
+        ),
+        (V8, {"controls": 3}, r"^controls = 3: give names"),
+        (V8, {"controls": [1]}, r"^controls = 1: give"),
+        (V8, {"controls": ["rpm", "none"]}, r"^controls = .none.: give"),
+        (cp.Engine.preset("i4"), {"controls": ["bank_angle"]}, r"bank_angle.: this page has crank"),
+        (V8, {"controls": "sound", "compact": True}, r"sound.: this page has crank_angle, rpm"),
+    ],
+)
+def test_controls_that_a_page_has_not_are_rejected(
+    tmp_path: Path, engine: cp.Engine, options: dict[str, object], message: str
+) -> None:
+    with pytest.raises(cp.InputError, match=message):
+        engine.save_html(tmp_path / "engine.html", **options)  # type: ignore[arg-type]
+
+
+TOPS = """() => [".views", ".settings", ".sound", ".sentences", ".dials", "section"]
+    .map((each) => document.querySelector(each)).filter((each) => each && !each.hidden)
+    .map((each) => Math.round(each.getBoundingClientRect().top + scrollY))"""
+"""Heights of the parts of a page, but for the last."""
+
+
+@pytest.mark.parametrize("width", [1280, 390])
+@pytest.mark.parametrize("name", ["v6-60", "v8-crossplane", "w16", "i3", "radial-9"])
+def test_nothing_jumps_as_settings_change(open_engine: Open, name: str, width: int) -> None:
+    engine, random = cp.Engine.preset(name), np.random.default_rng(len(name) + width)
+    page = open_engine(engine, viewport={"width": width, "height": 900})
+    tops = page.evaluate(TOPS)
+    vee = getattr(engine, "bank_angle_deg", None) is not None
+    for _ in range(12):
+        state: dict[str, object] = {
+            "rpm": float(random.choice([0, 700, 12345])),
+            "rod_ratio": float(random.uniform(0.05, 0.69)),
+        }
+        if vee and name != "w16":
+            state |= {
+                "bank_angle_deg": float(random.integers(0, 361)) / 2,
+                "hold": str(random.choice(["pins", "firing"])),
+            }
+        page.evaluate("(state) => crankpin.set(state)", state)
+        assert page.evaluate(TOPS) == tops, state
+    field = page.locator("[data-name=rod-ratio]")
+    field.fill("7")
+    field.press("Enter")
+    assert page.locator(".limits:visible").count() == 1
+    assert page.evaluate(TOPS) == tops
+
+
+def test_numbers_are_shown_in_the_units_that_are_set(open_engine: Open) -> None:
+    fired = cp.Engine.preset("i4").with_cycle(cp.Cycle.example())
+    own = values(open_engine(fired))
+    with cp.units("oz, in, lbf, psi"):
+        page = open_engine(fired)
+    assert values(page) == own  # of SI
+    shown = {
+        "force-longest": ("lbf", 0.45359237 * 9.80665),
+        "torque-longest": ("lbf·ft", 0.45359237 * 9.80665 * 0.3048),
+        "orbit-longest": ("in", 0.0254),
+        "force-forward-2": ("lbf", 0.45359237 * 9.80665),
+        "piston-1": ("in", 0.0254),
+        "inertia": ("oz·in²", 0.45359237 / 16 * 0.0254**2),
+    }
+    for name, (unit, factor) in shown.items():
+        text = page.locator(f"[data-name={name}]").text_content()
+        assert text is not None
+        number, _, written = text.partition(" ")
+        assert written == unit
+        # Four digits of the largest, three of a moment of inertia.
+        assert float(number) * factor == pytest.approx(own[name], rel=6e-3, abs=1e-5 * factor)
+    axes = page.locator(".timeline .tick").all_text_contents()
+    assert {"lbf", "lbf·ft", "psi"} <= {*axes}
+    assert not {"N", "kN", "N·m", "kPa", "MPa"} & {*axes}
+    sentences = " ".join(page.locator("[data-name=sentence]").all_text_contents())
+    assert " lbf" in sentences
+    assert " N" not in sentences
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_every_text_of_a_number_is_its_value_in_the_unit(open_engine: Open, seed: int) -> None:
+    random = np.random.default_rng(seed)
+    setting = {
+        "force": str(random.choice(["lbf", "kgf", "kN", "N"])),
+        "length": str(random.choice(["mm", "in", "ft", "m"])),
+    }
+    engine = cp.Engine.preset(str(random.choice(["v6-60", "i3", "v8-crossplane"])))
+    with cp.units(", ".join(setting.values())):
+        page = open_engine(engine, rpm=float(random.uniform(500, 9000)))
+    page.get_by_label("crank angle").fill("77")
+    seen = page.eval_on_selector_all(
+        "output[data-name^=force], output[data-name^=moment], .height",
+        "found => found.map(each => [each.dataset.name, each.dataset.value, each.textContent])",
+    )
+    assert len(seen) >= 4 + len(engine)
+    for name, value, text in seen:
+        number, _, unit = text.partition(" ")
+        si = {"force": "N", "moment": "N·m"}.get(name.partition("-")[0], "m")
+        with cp.units(", ".join(setting.values())):
+            converted = units.convert(si)
+        assert unit == converted.unit or converted.factor == 1.0
+        if converted.factor != 1.0:
+            digits = len(number.partition(".")[2])
+            expected = float(value) * converted.factor
+            assert abs(float(number.replace("−", "-")) - expected) <= 0.51 * 10.0**-digits
+
+
 # --- compact ------------------------------------------------------------------------------------
 
 SIZES = [(640, 360), (960, 540), (1280, 720), (360, 740), (480, 300)]
@@ -631,8 +875,11 @@ SIZES = [(640, 360), (960, 540), (1280, 720), (360, 740), (480, 300)]
 
 
 @pytest.mark.parametrize("engine", [V16, cp.Engine.preset("i4"), everything(), radial()])
-def test_a_compact_page_fits_a_slide(open_engine: Open, engine: cp.Engine) -> None:
-    page = open_engine(engine, save={"compact": True})
+@pytest.mark.parametrize("every", [False, True])
+def test_a_compact_page_fits_a_slide(open_engine: Open, engine: cp.Engine, every: bool) -> None:
+    names = ["crank_angle", "rpm", "rod_ratio", "view"]
+    names += ["bank_angle"] if getattr(engine, "bank_angle_deg", None) is not None else []
+    page = open_engine(engine, save={"compact": True, "controls": names if every else None})
     page.get_by_label("vector shown").select_option("torque")
     for size in SIZES:
         assert_fits(page, *size)

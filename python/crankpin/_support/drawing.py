@@ -6,11 +6,16 @@ import functools
 import inspect
 import re
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
 from crankpin._support import inputs, optional
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure, SubFigure
+    from numpy.typing import NDArray
 
 _UNKNOWN = re.compile(r"(?:unexpected keyword|multiple values for) argument '(\w+)'")
 
@@ -50,6 +55,46 @@ def draw(result: object, ax: object = None, **options: object) -> Any:  # noqa: 
     for finisher in finishers:
         finisher(np.ravel(drawn)[0].get_figure(root=True))
     return drawn
+
+
+class TwoPanels:
+    """Base class of results whose picture has two panels, one above the other."""
+
+    @overload
+    def plot(self, ax: Axes, *, figure: None = None, **style: object) -> Axes: ...
+
+    @overload
+    def plot(
+        self, ax: None = None, *, figure: Figure | SubFigure | None = None, **style: object
+    ) -> NDArray[Any]: ...
+
+    def plot(
+        self, ax: Axes | None = None, *, figure: Figure | SubFigure | None = None, **style: object
+    ) -> Axes | NDArray[Any]:
+        """Draw the two panels of the picture, or with ``ax`` one of them alone; return the axes.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes for one panel alone; by default both are drawn in a new figure.
+        figure : Figure or SubFigure, optional
+            Figure or SubFigure for the panels.
+        **style : dict, optional
+            ``label`` and properties of matplotlib lines.
+
+        Returns
+        -------
+        matplotlib.axes.Axes or ndarray of Axes
+            The axes; of both panels an array.
+
+        Raises
+        ------
+        InputError
+            If ``ax`` and ``figure`` are both given.
+        ImportError
+            If matplotlib is not installed.
+        """
+        return draw(self, ax, figure=figure, **style)  # type: ignore[no-any-return]
 
 
 @functools.singledispatch

@@ -388,7 +388,9 @@ def degrees(angle: Angle) -> float:
     return float(numerator) / float(denominator or 1)
 
 
-def firing_order(name: str, values: object, banks: Sequence[int] = ()) -> str:
+def firing_order(
+    name: str, values: object, banks: Sequence[int] = (), dummies: Collection[int] = ()
+) -> str:
     """Return a firing order as text, by cylinder numbers.
 
     Parameters
@@ -399,6 +401,8 @@ def firing_order(name: str, values: object, banks: Sequence[int] = ()) -> str:
         Numbers, or text: ``"1-3-4-2"``, ``"1342"``, or by banks, ``"A1-B1-A2"`` and ``"1L-2R"``.
     banks
         Bank of each cylinder, an index: where letters of banks can be read.
+    dummies
+        Numbers of dummy pistons, which have no place in it.
     """
     hint = "give cylinder numbers, such as '1-3-4-2' or [1, 3, 4, 2]"
     if not isinstance(values, str):
@@ -407,7 +411,8 @@ def firing_order(name: str, values: object, banks: Sequence[int] = ()) -> str:
     plain = typed.strip()
     if len(plain) <= len(DIGITS) and sorted(plain) == list(DIGITS[: len(plain)]):
         return "-".join(plain)
-    return _by_banks(name, typed, banks) if banks and _LETTERS.search(plain) else typed
+    by_banks = banks and _LETTERS.search(plain)
+    return _by_banks(name, typed, banks, dummies) if by_banks else typed
 
 
 DIGITS = "123456789"
@@ -419,7 +424,7 @@ _SIDES = {"R": 0, "L": 1}
 """Letter of a side, seen from the flywheel → index of the bank."""
 
 
-def _by_banks(name: str, typed: str, banks: Sequence[int]) -> str:
+def _by_banks(name: str, typed: str, banks: Sequence[int], dummies: Collection[int]) -> str:
     """Return a firing order by cylinder numbers: A is the bank of cylinder 1, 2 its second one."""
     letters = {(m["before"] or m["after"]).upper() for m in _LETTERS.finditer(typed)}
     order = dict.fromkeys([banks[0], *sorted(set(banks))])  # A first, then front to rear
@@ -437,9 +442,10 @@ def _by_banks(name: str, typed: str, banks: Sequence[int]) -> str:
         return str(members[place - 1])
 
     by_numbers = _LETTERS.sub(number, typed)
-    if sorted(map(int, re.findall(r"\d+", by_numbers))) != [*range(1, len(banks) + 1)]:
+    firing = [number for number in range(1, len(banks) + 1) if number not in dummies]
+    if sorted(map(int, re.findall(r"\d+", by_numbers))) != firing:
         # Rejected here: what follows would name numbers that were not typed.
-        raise rejected(name, typed, f"name each of the engine's {len(banks)} cylinders once")
+        raise rejected(name, typed, f"name each of the engine's {len(firing)} cylinders once")
     return by_numbers
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -16,7 +15,7 @@ if TYPE_CHECKING:
 
     from crankpin._support.inputs import Order
 
-UNIT_RPM = 30.0 / math.pi
+UNIT_RPM = 1.0 / _core.angular_speed(1.0)
 """Crank speed at which ω is 1 rad/s."""
 
 TURNING = {"forward": "with the crank", "backward": "against the crank"}

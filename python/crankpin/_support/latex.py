@@ -18,10 +18,16 @@ SPECIAL = {
     "<": r"\textless{}", ">": r"\textgreater{}", "|": r"\textbar{}",
 }  # fmt: skip
 """What LaTeX takes for commands, or sets as other characters."""
+GREEK = (
+    "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda",
+    "mu", "nu", "xi", "pi", "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi", "omega",
+)  # fmt: skip
 SYMBOLS = {
     "−": "-", "±": r"\pm", "·": r"\cdot", "×": r"\times", "→": r"\rightarrow",
-    "≠": r"\neq", "≤": r"\leq", "≥": r"\geq", "θ": r"\theta", "λ": r"\lambda", "ω": r"\omega",
-    "Ω": r"\Omega", "κ": r"\kappa", "°": r"^\circ", "½": r"\frac{1}{2}", "∞": r"\infty",
+    "≠": r"\neq", "≤": r"\leq", "≥": r"\geq", "√": r"\surd", "Ω": r"\Omega", "Δ": r"\Delta",
+    "Σ": r"\Sigma", "°": r"^\circ", "½": r"\frac{1}{2}", "∞": r"\infty", "′": r"^\prime",
+    "″": r"^{\prime\prime}", "ₙ": "_n", "ₖ": "_k",
+    **{letter: rf"\{name}" for letter, name in zip("αβγδεζηθικλμνξπρστυφχψω", GREEK, strict=True)},
     **{"⁰¹²³⁴⁵⁶⁷⁸⁹"[k]: f"^{k}" for k in range(10)},
     **{"₀₁₂₃₄₅₆₇₈₉"[k]: f"_{k}" for k in range(10)},
 }  # fmt: skip
@@ -36,6 +42,12 @@ def escaped(text: str) -> str:
     return labels.printable(text).translate(ESCAPES)
 
 
+def in_mathematics(text: str) -> str:
+    """Return a text as it stands in a formula: words as text, symbols as mathematics."""
+    words = escaped(text).split("$")  # by turns words and symbols
+    return "".join(part if k % 2 else rf"\text{{{part}}}" for k, part in enumerate(words) if part)
+
+
 def _cell(text: str) -> str:
     """Return a cell; a number with a sign or an exponent in mathematics."""
     match = NUMBER.fullmatch(text)
@@ -45,6 +57,12 @@ def _cell(text: str) -> str:
     if exponent is None:
         return f"${text}$" if text.startswith("-") else text
     return rf"${figure} \times 10^{{{int(exponent)}}}$"
+
+
+def _row(cells: Iterable[str]) -> str:
+    """Return a row; one that begins with a bracket or a star is no option of the line before it."""
+    row = " & ".join(cells)
+    return ("{}" if row.startswith(("[", "*")) else "") + row + r" \\"
 
 
 def table(
@@ -69,7 +87,7 @@ def table(
     columns
         ``l`` or ``r`` for each column.
     """
-    lines = [" & ".join(map(_cell, row)) + r" \\" for row in rows]
+    lines = [_row(map(_cell, row)) for row in rows]
     caption = [rf"\caption{{{escaped(title)}}}"] if title else []
     return "\n".join(
         [
@@ -78,7 +96,7 @@ def table(
             *caption,
             rf"\begin{{tabular}}{{{columns}}}",
             r"\toprule",
-            " & ".join(map(escaped, heads)) + r" \\",
+            _row(map(escaped, heads)),
             r"\midrule",
             *lines,
             r"\bottomrule",

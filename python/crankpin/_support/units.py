@@ -28,6 +28,10 @@ LENGTHS = {
     "in": Decimal("0.0254"), "ft": Decimal("0.3048"),
 }  # fmt: skip
 """Unit of length → m."""
+ENERGIES = {
+    "N·m": "J", "kN·m": "kJ", "MN·m": "MJ", "lbf·ft": "ft·lbf", "lbf·in": "in·lbf",
+}  # fmt: skip
+"""Unit of torque → that of energy beside it, where they have different names."""
 GRAVITY = Decimal("9.80665")
 FORCES = {
     "N": Decimal(1), "kN": Decimal(1000), "MN": Decimal(10**6),
@@ -59,9 +63,9 @@ _EXPONENTS = {"": 1, "²": 2, "³": 3, "2": 2, "3": 3, "^2": 2, "^3": 3}
 _SI = "|".join(sorted(
     ("kg", "g", "mg", "m", "cm", "mm", "µm", "N", "kN", "MN", *PRESSURES), key=len, reverse=True
 ))  # fmt: skip
-_UNIT = rf"(?:{_SI}|s|rad)[²³]?(?:[·/](?:{_SI}|s|rad)[²³]?)*(?![\w·/²³])"
+_UNIT = rf"(?:J|{_SI}|s|rad)[²³]?(?:[·/](?:{_SI}|s|rad)[²³]?)*(?![\w·/²³])"
 _NUMBER = r"[-+−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
-_FIGURE = re.compile(rf"(?<![\w.])({_NUMBER}) ({_UNIT})", re.ASCII)
+_FIGURE = re.compile(rf"(?<![\w.])(?:({_NUMBER}) to )?({_NUMBER}) ({_UNIT})", re.ASCII)
 _VECTOR = re.compile(rf"\(((?:{_NUMBER}(?:, )?)+)\) ({_UNIT})", re.ASCII)
 
 Dimension = tuple[int, ...]
@@ -108,7 +112,8 @@ def units(text: str = "") -> Shown:
         Units of mass (``kg``, ``g``, ``lb``, ``oz``), length (``m``, ``mm``, ``in``, ``ft``), force
         (``N``, ``kN``, ``lbf``, ``kgf``) and pressure (``Pa``, ``bar``, ``psi``), and products such
         as ``oz·in`` or ``lbf·ft``, separated by commas. A kind that is not named stays as it is;
-        with ``lbf`` torques are in lbf·ft, unless a product is named. Empty for what results have.
+        with ``lbf`` torques are in lbf·ft and energies in ft·lbf, unless a product is named. Empty
+        for what results have.
 
     Returns
     -------
@@ -197,6 +202,9 @@ def convert(unit: str, setting: Mapping[Dimension, str] | None = None) -> Conver
     same = Converted(unit, 1.0)
     if not chosen or not unit:
         return same
+    if unit == "J":
+        shown = convert("N·m", chosen)
+        return Converted(ENERGIES.get(shown.unit, shown.unit), shown.factor)
     try:
         terms = _terms(unit)
         dimension = _dimension(terms)
@@ -219,10 +227,12 @@ def convert(unit: str, setting: Mapping[Dimension, str] | None = None) -> Conver
     return Converted(_text(target), float(factor))
 
 
-def figure(value: float, unit: str, digits: int) -> str:
-    """Return a number of significant digits with its unit, as the setting shows it."""
+def figure(value: float, unit: str, digits: int, most: float | None = None) -> str:
+    """Return a number of significant digits, or a range, with its unit, as the setting shows it."""
     shown = convert(unit)
-    return f"{value * shown.factor:.{digits}g} {shown.unit}"
+    ends = [value] if most in (None, value) else [value, most]
+    numbers = " to ".join(f"{end * shown.factor:.{digits}g}" for end in ends if end is not None)
+    return f"{numbers} {shown.unit}"
 
 
 def in_text(text: str, setting: Mapping[Dimension, str] | None = None) -> str:
@@ -238,10 +248,12 @@ def in_text(text: str, setting: Mapping[Dimension, str] | None = None) -> str:
         return f"{float(f'{value:.{digits}g}'):.10g}"
 
     def one(match: re.Match[str]) -> str:
-        shown = convert(match[2], chosen)
-        if shown.unit == match[2]:
+        least, number, unit = match.groups()
+        shown = convert(unit, chosen)
+        if shown.unit == unit:
             return match[0]
-        return f"{written(match[1], shown.factor)} {shown.unit}"
+        begin = f"{written(least, shown.factor)} to " if least else ""
+        return f"{begin}{written(number, shown.factor)} {shown.unit}"
 
     def several(match: re.Match[str]) -> str:
         shown = convert(match[2], chosen)

@@ -11,6 +11,7 @@ from crankpin._support import inputs, labels
 from crankpin._support.drawing import draw
 from crankpin._support.quantities import KINDS, QUANTITIES
 from crankpin._support.tables import Column, Table
+from crankpin._support.warnings import suppressed
 from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.quantity import ALL, one_order
 from crankpin.analysis.request import Request, check_request, engine_core
@@ -161,6 +162,26 @@ class Balance(ByOrder[float]):
         parts = {"inertia": slice(8, 9), "gas": slice(9, 10), "": slice(8, 10 if self.fired else 9)}
         return bool(vanishes[at.get(whole, parts[part])].all())
 
+    def _read_order(self, order: Order, quantity: str, what: str) -> Any:  # noqa: ANN401 - as read
+        if what == "peak" and self.within is None and not any(self.request.aside):
+            alone: _core.Balance | None = self.__dict__["_core"].alone(one_order(order))
+            if alone is not None:  # quicker than the peaks of all orders
+                planar = KINDS[quantity].planar
+                lengths = np.abs(alone.phasors(quantity, planar))[0]
+                return lengths[0] + lengths[1] if planar else lengths
+        return super()._read_order(order, quantity, what)
+
+    def _alone(self, order: Order) -> ByOrder[float]:
+        core = None if self.within is not None else self.__dict__["_core"].alone(order)
+        if core is None or order in self._kept:
+            return super()._alone(order)
+        # What was evaluated as orders were chosen is not computed again.
+        alone = object.__new__(type(self))
+        request = self.request.at_orders((order,))
+        own = {"engine": self.engine, "rpm": self.rpm, "request": request, "within": None}
+        alone.__dict__.update(own, _core=core)
+        return self._kept.setdefault(order, alone)  # type: ignore[no-any-return]
+
     def _about_point(self, quantity: str, what: str) -> NDArray[Any]:
         if self.within is None:
             return super()._about_point(quantity, what)
@@ -186,13 +207,12 @@ class Balance(ByOrder[float]):
 
     def _repr_html_(self) -> str | None:
         """Return the table and, under it, what matters most in words."""
-        from crankpin.analysis.explain import Explanation  # noqa: PLC0415 - made of balances
-
         table = super()._repr_html_()
         if self.request.pairs is not None:
             return table
-        engine = self.engine.replace(reference_z=self.reference_z)
-        return f"{table}{Explanation(engine, self.rpm).html(count=EXPLAINED)}"
+        with suppressed():  # Warned of where the balance was made.
+            explanation = self.engine.replace(reference_z=self.reference_z).explain(self.rpm)
+        return f"{table}{explanation.html(count=EXPLAINED)}"
 
     @overload
     def plot(

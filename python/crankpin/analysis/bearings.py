@@ -17,6 +17,7 @@ from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import warn
 from crankpin.analysis.balance import mean_piston_speed
+from crankpin.analysis.geometry import direction
 from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import crankpins
 
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin.model.engine import Engine
+    from crankpin.model.shafts import Shaft
 
 AXES = ("engine", "crank", "rod")
 """Axes in which vectors are given: fixed in the engine, or turning with crank or rod."""
@@ -233,33 +235,23 @@ class BearingLoads(Tabled):
         What the pin itself carries, in the order of ``crankpins``; each rod's bearing carries its
         own part, ``crankpin``.
         """
-        return read_only(self._of_pins(self.crankpin))
-
-    def _of_pins(self, loads: NDArray[np.float64]) -> NDArray[np.float64]:
-        return np.array(
-            [sum(loads[number - 1] for number in numbers) for numbers in self.crankpins]
-        )
+        rods = self.crankpin
+        return read_only(np.array([sum(rods[k - 1] for k in pin) for pin in self.crankpins]))
 
     def whole_crankpin_peak(self) -> NDArray[np.float64]:
         """Return the largest magnitude of the force on each crankpin as a whole, N.
 
-        Of the whole cycle, at any angle: that of the crank angles, and between their neighbours
-        at steps a hundred times smaller; where crank angles were given, at these.
+        Of the whole cycle, at any angle; where crank angles were given, at these.
 
         Returns
         -------
         ndarray of float, shape (n_crankpins,)
             Largest magnitudes, N.
         """
-        sizes = np.hypot(self.whole_crankpin[..., 0], self.whole_crankpin[..., 1])
-        largest = sizes.max(axis=1, initial=0.0)
         if self.at_any_angle:
-            for pin, at in enumerate(self.theta_deg[sizes.argmax(axis=1)]):
-                fine = at + np.linspace(-1.0, 1.0, 201)
-                loads = dict(zip(LOADS, self._core.loads(fine), strict=True))["crankpin"]
-                x, y = self._of_pins(loads)[pin].T
-                largest[pin] = max(largest[pin], float(np.hypot(x, y).max()))
-        return np.asarray(largest)
+            return self._extremes["whole_crankpin"][:, 1]
+        sizes = np.hypot(self.whole_crankpin[..., 0], self.whole_crankpin[..., 1])
+        return np.asarray(sizes.max(axis=1, initial=0.0))
 
     def specific(self, load: str, *, width: ArrayLike, diameter: ArrayLike) -> NDArray[np.float64]:
         """Return the largest load of each bearing over its projected area, Pa: (n,).
@@ -301,7 +293,7 @@ class BearingLoads(Tabled):
             area *= sizes
         return np.asarray(peaks / area)
 
-    def shaft_bearings(self, z: Sequence[float]) -> NDArray[np.float64]:
+    def shaft_bearings(self, z: Sequence[float] | None = None) -> NDArray[np.float64]:
         """Return the load of the two bearings of each balance shaft, N: (n_shafts, 2).
 
         Each unbalance is carried by both in inverse proportion to its distances, as that of a
@@ -310,8 +302,9 @@ class BearingLoads(Tabled):
 
         Parameters
         ----------
-        z : pair of float
-            Places of the bearings along the crank, of all shafts, m.
+        z : pair of float, optional
+            Places of the bearings along the crank, of all shafts, m; by default those of the end
+            main bearings.
 
         Returns
         -------
@@ -323,23 +316,18 @@ class BearingLoads(Tabled):
         InputError
             If there are not two different places.
         """
-        places = inputs.listed_numbers("z", z)
+        places = self._ends if z is None else inputs.listed_numbers("z", z)
         if len(places) != 2 or not np.isfinite(places).all() or places[0] == places[1]:
             raise inputs.rejected("z", z, "give the places of two bearings, m")
         front, rear = places
-        omega = inputs.angular_speed(self.rpm)
-        found = np.zeros((len(self.engine.shafts), 2))
-        for k, shaft in enumerate(self.engine.shafts):
-            force = np.array(
-                [
-                    each.amount * np.exp(1j * np.radians(inputs.degrees(each.angle_deg)))
-                    for each in shaft.unbalances
-                ]
-            )
-            behind = np.array([(each.z - front) / (rear - front) for each in shaft.unbalances])
-            for side, share in enumerate((1.0 - behind, behind)):
-                found[k, side] = abs((force * share).sum()) * (shaft.ratio * omega) ** 2
-        return found
+        loads = [on_shaft_bearings(each, front, rear, self.rpm) for each in self.engine.shafts]
+        return np.abs(np.array(loads).reshape(-1, 2))
+
+    @property
+    def _ends(self) -> list[float]:
+        """Places of the end bearings of the main crank, m."""
+        z = self.main_z[self.main_crank == 0]
+        return [float(z.min()), float(z.max())]
 
     def turned(self, load: str = "crankpin", axes: str = "crank") -> NDArray[np.float64]:
         """Return the loads of bearings in axes that turn, N: (n, n_theta, 2).
@@ -444,7 +432,8 @@ class BearingLoads(Tabled):
 
     @cached_property
     def _extremes(self) -> dict[str, NDArray[np.float64]]:
-        return dict(zip(LOADS, self._core.extremes(180 * self.engine.strokes), strict=True))
+        extremes = self._core.extremes(180 * self.engine.strokes)
+        return dict(zip([*LOADS, "whole_crankpin"], extremes, strict=True))
 
     def mean(self, load: str) -> NDArray[np.float64]:
         """Return the mean magnitude of a load over the crank angles, N: (n,).
@@ -713,9 +702,14 @@ class BearingLoads(Tabled):
 
     @property
     def frames(self) -> Frames:
-        """``table``; ``mains``: largest and mean load of each main bearing; ``crankpins``."""
-        pins = {"crankpins": self._of_crankpins} if self._shares_pins else {}
-        return self._frames(mains=self._of_mains, **pins)
+        """``table``; ``mains``: loads of each main bearing; ``crankpins`` and ``shafts``.
+
+        The third is there where pins are shared, the fourth where there are balance shafts.
+        """
+        others = {"crankpins": self._of_crankpins} if self._shares_pins else {}
+        if self.engine.shafts:
+            others["shafts"] = self._of_shafts
+        return self._frames(mains=self._of_mains, **others)
 
     @property
     def _shares_pins(self) -> bool:
@@ -728,6 +722,20 @@ class BearingLoads(Tabled):
             (
                 Column("cylinders", tuple(shared)),
                 Column("largest", tuple(self.whole_crankpin_peak().tolist()), "N"),
+            ),
+            loads=self.loads_counted,
+        )
+
+    def _of_shafts(self) -> Table:
+        front, rear = self.shaft_bearings().T.tolist()
+        shafts = self.engine.shafts
+        return Table(
+            "Bearings of balance shafts beside the end main bearings, whose loads turn with them",
+            (
+                Column("shaft", tuple(each.name or k for k, each in enumerate(shafts, start=1))),
+                Column("speed ratio", tuple(each.ratio for each in shafts)),
+                Column("front", tuple(front), "N"),
+                Column("rear", tuple(rear), "N"),
             ),
             loads=self.loads_counted,
         )
@@ -745,6 +753,18 @@ class BearingLoads(Tabled):
             ),
             loads=self.loads_counted,
         )
+
+
+def on_shaft_bearings(
+    shaft: Shaft, front: float, rear: float, rpm: float
+) -> NDArray[np.complex128]:
+    """Return what a balance shaft puts on its two bearings at θ = 0, x + iy, N."""
+    forces = [
+        (each.amount * complex(direction(inputs.degrees(each.angle_deg))), each.z)
+        for each in shaft.unbalances
+    ]
+    loads = np.array(_core.shared(forces, front, rear), dtype=np.complex128)
+    return loads * (shaft.ratio * inputs.angular_speed(rpm)) ** 2
 
 
 def _counted(name: str, count: int) -> Column:

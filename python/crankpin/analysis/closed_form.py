@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from crankpin import _core
-from crankpin._support import inputs, labels, optional, units
+from crankpin._support import inputs, labels, latex, optional, units
 from crankpin._support.frames import Tabled
 from crankpin._support.quantities import COMPONENTS, QUANTITIES
 from crankpin._support.tables import Table
@@ -352,7 +352,7 @@ class ClosedForm(Tabled):
             if terms:
                 rows.append(f"&= {sp.latex(getattr(self, f'{axis}_sum'))}")
         rows.append(rf"\max |{letter}| &= {sp.latex(self.peak)}")
-        rows.append(rf"&\text{{{self.units_text}}}")
+        rows.append(f"&{latex.in_mathematics(self.units_text)}")
         body = " \\\\ ".join(rows)
         return rf"$\displaystyle \begin{{aligned}} {body} \end{{aligned}}$"
 

@@ -1,4 +1,4 @@
-"""What is told of an engine, as data."""
+"""Facts about an engine, as data."""
 
 from __future__ import annotations
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, overload
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
-from crankpin._support.drawing import draw
+from crankpin._support.drawing import TwoPanels
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.request import engine_core
@@ -21,8 +21,6 @@ from crankpin.model.data import EngineData
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure, SubFigure
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order
@@ -193,10 +191,11 @@ def flywheel(
     )
 
 
-class Flywheel(Tabled):
+class Flywheel(TwoPanels, Tabled):
     """Speed of a crank over a cycle, with the moment of inertia that turns with it.
 
-    Made by :func:`crankpin.flywheel`.
+    ``plot`` draws torque over the cycle with its mean, and below it the speed, which stands alone
+    on axes that were given. Made by :func:`crankpin.flywheel`.
 
     Examples
     --------
@@ -387,42 +386,6 @@ class Flywheel(Tabled):
         """Title of table and picture."""
         name = "turning-moment diagram" if self.engine is None else labels.name_of(self.engine)
         return f"{labels.cut(name)}: speed over a cycle at {self.rpm:g} rpm"
-
-    @overload
-    def plot(self, ax: Axes, *, figure: None = None, **style: object) -> Axes: ...
-
-    @overload
-    def plot(
-        self, ax: None = None, *, figure: Figure | SubFigure | None = None, **style: object
-    ) -> NDArray[Any]: ...
-
-    def plot(
-        self, ax: Axes | None = None, *, figure: Figure | SubFigure | None = None, **style: object
-    ) -> Axes | NDArray[Any]:
-        """Draw torque over the cycle with its mean, and below it the speed; return the axes.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes for the speed alone; by default both panels are drawn in a new figure.
-        figure : Figure or SubFigure, optional
-            Figure or SubFigure for the panels.
-        **style : dict, optional
-            ``label`` and properties of matplotlib lines.
-
-        Returns
-        -------
-        matplotlib.axes.Axes or ndarray of Axes
-            The axes; of both panels an array.
-
-        Raises
-        ------
-        InputError
-            If ``ax`` and ``figure`` are both given.
-        ImportError
-            If matplotlib is not installed.
-        """
-        return draw(self, ax, figure=figure, **style)  # type: ignore[no-any-return]
 
 
 # --- torque over crank angle ---------------------------------------------------------------------

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -12,6 +13,7 @@ from crankpin._support import inputs
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from crankpin.model.cylinder import Cylinder
     from crankpin.model.engine import Engine
     from crankpin.model.shafts import Unbalance
 
@@ -19,6 +21,9 @@ WIDEST_BORE = 0.9
 """Assumed bore over the distance to the next cylinder of the bank, at most: walls need the rest."""
 NARROWEST_BORE = 0.6
 """Assumed bore over stroke, at least: engines whose spacing is not to scale stay readable."""
+
+YOKE = 4.0
+"""Length of the bar by which an infinite rod is drawn, crank radii."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -39,6 +44,8 @@ class Geometry:
     """Points of the bores' axes nearest to the crank's axis, m; on it without pin offset."""
     crankpin: NDArray[np.complex128]
     """Crankpins, m."""
+    rod_foot: NDArray[np.complex128]
+    """Lower ends of the rods, m: the crankpins, but of the bars of Scotch yokes."""
     wrist_pin: NDArray[np.complex128]
     """Piston pins, m."""
     lowest: NDArray[np.float64]
@@ -47,27 +54,39 @@ class Geometry:
     """Largest distance of the piston pin from the foot over a turn, m."""
 
 
+def drawn_rod(cylinder: Cylinder) -> float:
+    """Return the length of a rod in pictures, m: an infinite one is the bar of a Scotch yoke."""
+    length = cylinder.rod_length
+    return length if length < math.inf else YOKE * cylinder.crank_radius
+
+
 def geometry(engine: Engine, theta_deg: float = 0.0) -> Geometry:
     """Return the places of an engine's parts at a crank angle, by exact kinematics."""
     theta = crank_angle(theta_deg)
     cylinders = engine.cylinders
-    figures = [(each.crank_radius, each.rod_length, each.pin_offset) for each in cylinders]
-    radius, length, offset = np.array(figures).T
+    radius, offset = np.array([(each.crank_radius, each.pin_offset) for each in cylinders]).T
+    highest, lowest = np.array([each._ends for each in cylinders]).T
+    # The bar of a yoke stands between the piston and the middle of its stroke.
+    yokes = np.isinf([each.rod_length for each in cylinders])
+    bar = np.where(yokes, [drawn_rod(each) for each in cylinders], 0.0)
     along = direction(engine.bank_deg)
     axis, ratio = _cranks(engine)
     # The offset is on the side to which the crankpin swings after top dead centre.
     foot = axis + 1j * np.sign(ratio) * offset * along
     turns = abs(ratio) * (theta - engine.tdc_deg)
-    height = [float(each.position(at)) for each, at in zip(cylinders, turns, strict=True)]
+    height = bar + [float(each.position(at)) for each, at in zip(cylinders, turns, strict=True)]
+    crankpin = axis + radius * direction(engine.pin_deg + ratio * theta)
+    wrist_pin = foot + height * along
     return Geometry(
         theta_deg=theta,
         axis=axis,
         along=along,
         foot=foot,
-        crankpin=axis + radius * direction(engine.pin_deg + ratio * theta),
-        wrist_pin=foot + height * along,
-        lowest=np.sqrt((length - radius) ** 2 - offset**2),
-        highest=np.sqrt((length + radius) ** 2 - offset**2),
+        crankpin=crankpin,
+        rod_foot=np.where(yokes, wrist_pin - bar * along, crankpin),
+        wrist_pin=wrist_pin,
+        lowest=lowest + bar,
+        highest=highest + bar,
     )
 
 

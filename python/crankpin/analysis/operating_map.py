@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.quantities import LOADS
 from crankpin._support.tables import Column, Table
@@ -22,6 +23,7 @@ from crankpin.model import checks
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin.model.cycle_map import CycleMap
@@ -179,6 +181,56 @@ class OperatingMap(Tabled):
             If there is no such load.
         """
         return self.peaks[inputs.one_of("load", load, LOADS)]
+
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        quantity: Literal[
+            "main",
+            "crankpin",
+            "wrist_pin",
+            "side_thrust",
+            "rod_force",
+            "gas_force",
+            "irregularity",
+            "swing_deg",
+        ] = "main",
+        **style: object,
+    ) -> Axes:
+        """Draw a quantity over speed and load; return the axes.
+
+        A map, or a curve where there is one load or one speed.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on; by default new ones.
+        quantity : str, default "main"
+            A load of :meth:`peak`, the largest of all bearings or cylinders, or
+            ``"irregularity"`` or ``"swing_deg"``.
+        **style : dict, optional
+            Properties of ``pcolormesh``, such as ``cmap``; of a curve ``label`` and properties of
+            matplotlib lines.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes.
+
+        Raises
+        ------
+        InputError
+            If there is no such quantity, or none without ``inertia``.
+        ImportError
+            If matplotlib is not installed.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> ax = cp.operating_map(cp.Engine.preset("i4"), range(1000, 7000, 500)).plot()
+        """
+        return draw(self, ax, quantity=quantity, **style)  # type: ignore[no-any-return]
 
     @property
     def table(self) -> Table:

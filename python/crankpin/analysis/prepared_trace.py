@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import functools
-import math
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._support import inputs, labels, units
-from crankpin._support.drawing import draw
+from crankpin._support.drawing import TwoPanels
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed, warn
@@ -18,8 +18,6 @@ from crankpin.model.cycle import Cycle
 from crankpin.model.traces import SHOWN_ORDERS, Traces
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure, SubFigure
     from numpy.typing import NDArray
 
     from crankpin.model.cylinder import Cylinder
@@ -39,7 +37,8 @@ COMPRESSION = (-100.0, -60.0)
 before heat loss, a spark or injection count."""
 EXPONENTS = (1.15, 1.45)
 """Range in which the exponent of compression is fitted: air has 1.4, rich mixtures 1.25."""
-GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
+DEGREE_BY_EXPONENT = 16
+"""Degree of the polynomial through what is left at exponents of that range: exact to rounding."""
 STEEPNESS = 4
 """Order of the Butterworth filter."""
 NOISY = 0.005
@@ -163,7 +162,7 @@ def prepare_trace(
             said = f"intake at {reference / 1e5:.4g} bar"
         elif exponent is not None:
             window = _window(stages[-1], COMPRESSION if window_deg is None else window_deg, 3)
-            volume = _volumes(cylinder, compression_ratio, stages[-1].theta_deg[window])
+            volume = _volumes(stages[-1], cylinder, compression_ratio, window)
             offsets, said = _polytropic(stages[-1].pressure[:, window], volume, exponent)
         if intake_pressure is not None or exponent is not None:
             stages.append(stages[-1].replace(pressure=stages[-1].pressure + offsets[:, None]))
@@ -197,10 +196,11 @@ def _warn(found: PreparedTrace) -> None:
         )
 
 
-class PreparedTrace(Tabled):
+class PreparedTrace(TwoPanels, Tabled):
     """Measured pressure before and after each step of its preparation.
 
-    Made by :func:`crankpin.prepare_trace`.
+    ``plot`` draws the mean before and after, in the band of cycles, and below it the change; on
+    axes that were given the pressures alone. Made by :func:`crankpin.prepare_trace`.
     """
 
     cylinder: Cylinder
@@ -303,42 +303,6 @@ class PreparedTrace(Tabled):
         name = labels.printable(self.traces.name) or "Traces"
         return f"{labels.cut(name)}, {len(self.traces)} cycles"
 
-    @overload
-    def plot(self, ax: Axes, *, figure: None = None, **style: object) -> Axes: ...
-
-    @overload
-    def plot(
-        self, ax: None = None, *, figure: Figure | SubFigure | None = None, **style: object
-    ) -> NDArray[Any]: ...
-
-    def plot(
-        self, ax: Axes | None = None, *, figure: Figure | SubFigure | None = None, **style: object
-    ) -> Axes | NDArray[Any]:
-        """Draw the mean pressure before and after, in the band of cycles, and below the change.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes for the pressures alone; by default both panels are drawn in a new figure.
-        figure : Figure or SubFigure, optional
-            Figure or SubFigure for the panels.
-        **style : dict, optional
-            ``label`` and properties of matplotlib lines.
-
-        Returns
-        -------
-        matplotlib.axes.Axes or ndarray of Axes
-            The axes; of both panels an array.
-
-        Raises
-        ------
-        InputError
-            If ``ax`` and ``figure`` are both given.
-        ImportError
-            If matplotlib is not installed.
-        """
-        return draw(self, ax, figure=figure, **style)  # type: ignore[no-any-return]
-
 
 # --- steps ----------------------------------------------------------------------------------------
 
@@ -425,17 +389,13 @@ def _reference(intake_pressure: object, at_deg: NDArray[np.float64]) -> float:
 
 
 def _volumes(
-    cylinder: Cylinder, compression_ratio: float | None, theta_deg: NDArray[np.float64]
+    traces: Traces, cylinder: Cylinder, compression_ratio: float | None, window: NDArray[np.bool_]
 ) -> NDArray[np.float64]:
-    """Return the volume over the smallest one at crank angles."""
+    """Return the volume over the smallest one at the points of a window."""
     if compression_ratio is None:
         raise inputs.rejected("compression_ratio", None, "a polytropic compression needs it")
-    ratio = inputs.finite("compression_ratio", compression_ratio)
-    if not ratio > 1.0:
-        raise inputs.rejected("compression_ratio", ratio, "give the largest over smallest volume")
-    rod, offset = cylinder.rod_length + cylinder.crank_radius, cylinder.pin_offset
-    down = math.sqrt((rod - offset) * (rod + offset)) - cylinder.position(theta_deg)
-    return np.asarray(1.0 + (ratio - 1.0) * down / cylinder.travel)
+    ratio, at = inputs.finite("compression_ratio", compression_ratio), traces.theta_deg[window]
+    return _core.volume_ratios(cylinder._parts, cylinder.bore, ratio, traces.strokes, at)
 
 
 def _polytropic(
@@ -466,15 +426,15 @@ def _line(
 
 
 def _fitted(pressure: NDArray[np.float64], volume: NDArray[np.float64]) -> float:
-    """Return the exponent that leaves the least, by golden sections."""
-    low, high = EXPONENTS
-    while high - low > 1e-6:
-        width = GOLDEN * (high - low)
-        if _line(pressure, volume, high - width)[1] < _line(pressure, volume, low + width)[1]:
-            high = low + width
-        else:
-            low = high - width
-    n = 0.5 * (low + high)
+    """Return the exponent that leaves the least sum of squares."""
+    curve = np.polynomial.Chebyshev.interpolate(
+        lambda exponents: np.array([_line(pressure, volume, n)[1] for n in exponents]),
+        DEGREE_BY_EXPONENT,
+        EXPONENTS,
+    )
+    roots = curve.deriv().roots()
+    real = roots.real[abs(roots.imag) < 1e-9]
+    n = float(min(np.clip([*EXPONENTS, *real], *EXPONENTS), key=curve))
     if min(n - EXPONENTS[0], EXPONENTS[1] - n) < 1e-3:
         fault = f"is {n:.3f} at best, an end of {EXPONENTS[0]:g} to {EXPONENTS[1]:g}"
         hint = "the window has no compression, or noise: give a number"

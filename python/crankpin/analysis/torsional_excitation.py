@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import functools
 from itertools import product
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
@@ -20,16 +22,14 @@ from crankpin.model.computed_cycles import area
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order
-    from crankpin.model.cylinder import Cylinder
     from crankpin.model.engine import Engine
 
 HIGHEST = 12
 """Highest order by default, as in the tables of classification societies."""
-TURN = np.arange(720) / 2.0
-"""Crank angles, degrees, over which a mean of a smooth function of a turn is exact to rounding."""
 
 
 class TorsionalExcitation(Tabled):
@@ -73,10 +73,11 @@ class TorsionalExcitation(Tabled):
     def reciprocating_inertia(self) -> NDArray[np.float64]:
         """Mean moment of inertia of each cylinder's piston and rod, kg·m²: (n_cylinders,).
 
-        Its kinetic energy is, on average over a turn, that of a disk of this inertia on the crank:
-        near ½·m·r² of the reciprocating mass. The rotating mass of the rod comes on top.
+        Its kinetic energy is, on average over a turn, that of a disk of this inertia on the main
+        crank: near ½·m·r² of the reciprocating mass, on a crank of another speed times the square
+        of its ratio. The rotating mass of the rod comes on top.
         """
-        return read_only(np.array([_mean_inertia(each) for each in self.engine.cylinders]))
+        return _core.mean_inertias(engine_core(self.engine))
 
     @property
     def tangential_pressure(self) -> NDArray[np.complex128]:
@@ -98,6 +99,54 @@ class TorsionalExcitation(Tabled):
     def _fired(self) -> list[bool]:
         cycles = self.engine.cycles
         return [each is not None for each in cycles or [None] * len(self.engine)]
+
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        cylinder: int = 1,
+        part: Literal["gas", "inertia", "torque"] | None = None,
+        log: bool | None = None,
+        **style: object,
+    ) -> Axes:
+        """Draw the amplitudes of one cylinder's torque; return the axes.
+
+        At one speed over order, at several a map over speed and order.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on; by default new ones.
+        cylinder : int, default 1
+            Number of the cylinder.
+        part : {"gas", "inertia", "torque"}, optional
+            Part of the torque; by default all three at one speed, and their sum at several.
+        log : bool, optional
+            Whether amplitudes are on a logarithmic scale; by default those of a map.
+        **style : dict, optional
+            ``label`` and properties of matplotlib lines; of a map properties of ``pcolormesh``,
+            such as ``cmap``.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes.
+
+        Raises
+        ------
+        InputError
+            If there is no such cylinder or part.
+        ImportError
+            If matplotlib is not installed.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> excitation = cp.torsional_excitation(cp.Engine.preset("i4"), rpm=3000)
+        >>> ax = excitation.plot()
+        """
+        options = {"cylinder": cylinder, "part": part, "log": log}
+        return draw(self, ax, **options, **style)  # type: ignore[no-any-return]
 
     @property
     def table(self) -> Table:
@@ -266,13 +315,3 @@ def torsional_excitation(
         np.multiply.outer(scales, inertia) if several else inertia,
         np.array(means or [0.0] * len(engine)),
     )
-
-
-def _mean_inertia(cylinder: Cylinder) -> float:
-    """Return the mean over a turn of (m·x′² + I·φ′²), kg·m², φ the angle of the rod."""
-    of_one = 1.0 / inputs.angular_speed(1.0)  # rpm of 1 rad/s
-    velocity = cylinder.velocity(TURN, of_one)
-    across = cylinder.crank_radius * np.cos(np.radians(TURN))
-    swing = across / (cylinder.position(TURN) - across)  # the rod's height is l·cos φ
-    energy = cylinder.reciprocating_mass * velocity**2
-    return float((energy + cylinder.rod_inertia_excess * swing**2).mean())

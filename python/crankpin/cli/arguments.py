@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import math
 import re
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, TypeAlias
+from unicodedata import normalize
 
 import numpy as np
 
@@ -51,6 +53,10 @@ OTHERS: dict[str, dict[str, Decimal]] = {
 """Unit that the library takes, empty for ratios → units that are no mass, length or force."""
 
 NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\D.*)?", re.ASCII)
+FRACTION = re.compile(
+    r"([-+]?)(?:(\d+)(?:\s+|\s*-\s*))?(\d+)/(\d*[1-9]\d*)(?:\s*([^\d\s/].*))?", re.ASCII
+)
+"""A fraction, or a whole number and one, as rules in inches have them: 3 7/16in, 3-7/16", 1/2."""
 COMMA = re.compile(r"([-+]?\d+),(\d+)(\s*[^\d\s,.:=][^,:=]*)?")
 """A number with a comma for its decimal point, as in most of Europe."""
 MOST_DECIMALS = 2
@@ -345,21 +351,36 @@ class Given:
         self.said = list[str]()
         """What was read in another way than it was typed, for the user to see."""
         self._setting = units.read(self._typed.get("units") or "", "--units")
+        self.written: units.Setting = {}
+        """Units that numbers were typed with, the first of each kind."""
 
     def text(self, flag: str) -> Any:  # noqa: ANN401 - text or None, True or False of a flag
         """Return what was typed."""
         return self._typed[flag.removeprefix("--").replace("-", "_")]
 
-    def decimal(self, flag: str, text: str, unit: str, what: str = "a number") -> Decimal:
-        """Return a finite number, typed with a unit or without, in the library's unit."""
+    def decimal(
+        self, flag: str, text: str, unit: str, what: str = "a number", *, infinite: bool = False
+    ) -> Decimal:
+        """Return a number, typed with a unit or without, in the library's unit.
+
+        It is finite, or ``inf`` where that is allowed.
+        """
         typed, factor = text.strip(), self._plain(unit)
-        parts = NUMBER.fullmatch(typed)
-        if parts and parts[2] is not None and (own := _factor(parts[2].strip(), unit)) is not None:
-            typed, factor = parts[1], own
-        try:
-            number = Decimal(typed)
-        except InvalidOperation:
-            raise rejected(flag, text, f"give {what}{_hint(typed, unit)}") from None
+        number, word = _fraction(typed) if unit in UNITS else (None, None)
+        if number is None and (parts := NUMBER.fullmatch(typed)):
+            number, word = Decimal(parts[1]), parts[2]
+        if word is not None:
+            own = _factor(word.strip(), unit)
+            number, factor = (None, factor) if own is None else (number, own)
+            if (name := units.symbol(word.strip())) is not None and unit in UNITS:
+                self.written.setdefault(UNITS[unit], name)
+        elif number is None:
+            with contextlib.suppress(InvalidOperation):
+                number = Decimal(typed)
+        if number is None:
+            raise rejected(flag, text, f"give {what}{_hint(typed, unit)}")
+        if infinite and number == Decimal("inf"):
+            return number
         # Decimals go far beyond floats; with these the arithmetic below could not overflow.
         if not number.is_finite() or not math.isfinite(float(number)):
             raise rejected(flag, text, "give a finite number")
@@ -377,7 +398,7 @@ class Given:
     def echo(self, flag: str, unit: str) -> str:
         """Return what was typed, with the unit that a plain number has."""
         text: str = self.text(flag)
-        own = re.search(r"[^\d\s.,=:eE+-]", text)
+        own = re.search(r"[^\d\s.,=:eE+/-]", text)
         return text if own else f"{text} {units.convert(unit, self._setting).unit}"
 
     def _one(self, flag: str) -> str:
@@ -401,12 +422,14 @@ class Given:
         """Return the number of an option, if it is given."""
         return None if self.text(flag) is None else self.number(flag, unit)
 
-    def numbers(self, flag: str, unit: str = "") -> list[float] | None:
+    def numbers(self, flag: str, unit: str = "", *, infinite: bool = False) -> list[float] | None:
         """Return a list of numbers, if it is given."""
         text = self.text(flag)
-        return None if text is None else self.listed(flag, text, unit)
+        return None if text is None else self.listed(flag, text, unit, infinite=infinite)
 
-    def listed(self, flag: str, text: str, unit: str = "") -> list[float]:
+    def listed(
+        self, flag: str, text: str, unit: str = "", *, infinite: bool = False
+    ) -> list[float]:
         """Return the numbers of a text, separated by commas."""
         match = COMMA.fullmatch(text.strip())
         # Behind both numbers of a list there is a unit, or behind none; zero needs none.
@@ -415,7 +438,9 @@ class Given:
                 hint = f"write {match[1]}.{match[2]}{match[3]}, or the unit behind both"
                 raise rejected(flag, text, hint)
             text = self._point(flag, match)
-        return [float(self.decimal(flag, part, unit)) for part in text.split(",")]
+        return [
+            float(self.decimal(flag, part, unit, infinite=infinite)) for part in text.split(",")
+        ]
 
     def whole(self, flag: str) -> int:
         """Return a whole number."""
@@ -550,6 +575,18 @@ class Given:
             hint = "it is there already; give another name, or --force to replace it"
             raise rejected(flag, str(file), hint)
         return file
+
+
+def _fraction(typed: str) -> tuple[Decimal | None, str | None]:
+    """Return a number that is written as a fraction, and the word behind it; None for others."""
+    # ½ is 1⁄2, and 3½ has a whole number before it.
+    spelt = re.sub(r"(\d?)([¼-¾⅐-⅞])", lambda m: f"{m[1]} {normalize('NFKC', m[2])}", typed)
+    match = FRACTION.fullmatch(spelt.replace("⁄", "/").strip())
+    if match is None:
+        return None, None
+    sign, whole, above, below, word = match.groups()
+    value = Decimal(whole or 0) + Decimal(above) / Decimal(below)
+    return (-value if sign == "-" else value), word
 
 
 def _factor(word: str, unit: str) -> Decimal | None:

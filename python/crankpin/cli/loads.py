@@ -101,7 +101,7 @@ def _torque(given: Given) -> Shown:
         help="axes of a polar picture (default: %(default)s)",
     ),
     "--units",
-    option("--frame", choices=("table", "mains", "crankpins")),
+    option("--frame", choices=("table", "mains", "crankpins", "shafts")),
     "--csv --plot",
     example="bearings i4 --rpm 6000 --load crankpin --axes crank --plot pin.png",
     note="Main bearings share the loads between them by the lever rule.",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import itertools
+import math
 import shlex
 import textwrap
 from fractions import Fraction
@@ -73,7 +74,7 @@ LAYOUT: dict[str, tuple[str, str, str]] = {
 LENGTHS = {
     "--bore": "diameter of the bore",
     "--stroke": "stroke",
-    "--rod-length": "rod length between the centres",
+    "--rod-length": "rod length between the centres, or inf of a Scotch yoke",
     "--pin-offset": "offset of the piston pin's path from the crank axis (default: 0)",
     "--rod-centre": "from the big end's centre to the rod's centre of mass (default: a third of "
     "the rod, so that one third of its mass moves with the piston)",
@@ -87,6 +88,10 @@ MASSES = {
     "--rotating-mass": "all that turns with the crankpin, of one cylinder (default: rod's share)",
 }
 """Options of one cylinder's parts → their help; a list has a figure for each cylinder."""
+
+
+COUNTING = ("--throws", "--cylinders", "--firing-order", "--banks", "--tdc", "--pins", "--rows")
+"""Options that set the number of cylinders."""
 
 
 def _wrapped(names: Iterable[str]) -> str:
@@ -108,6 +113,9 @@ METAVARS = {
     option("kind", metavar="KIND", help="such as v-twin, v6, boxer-4, radial, inline"),
     *(option(flag, group=PARTS, metavar="LENGTH,…", help=what) for flag, what in LENGTHS.items()),
     *(option(flag, group=PARTS, metavar="MASS,…", help=what) for flag, what in MASSES.items()),
+    option(
+        "--dummy", group=PARTS, metavar="N,…", help="dummy pistons, which balance and do not fire"
+    ),
     *(
         option(flag, group=SHAPE, metavar=METAVARS.get(how, "A"), help=what)
         for flag, (_, how, what) in LAYOUT.items()
@@ -136,8 +144,11 @@ def _new(given: Given) -> str:
     if file is None:
         return engine_files.commented(engine.to_toml())
     engine.save(file)
-    said = units.in_text("".join(f"{note}\n" for note in notes))
-    return f"{engine!r}\n{said}Written to {file}: try {PROG} balance {shlex.quote(str(file))}\n"
+    # An echo: in the units of --units, or else as typed.
+    with units.Shown(given.written | units.current()):
+        said = units.in_text("".join(f"{note}\n" for note in notes))
+        made = repr(engine)
+    return f"{made}\n{said}Written to {file}: try {PROG} balance {shlex.quote(str(file))}\n"
 
 
 def _engine(
@@ -154,6 +165,7 @@ def _engine(
         changes["rotating_mass"] = rotating
     if "pin_split_deg" in changes or "bank_angle_deg" in changes:
         changes |= _split(base, changes)
+    dummies = _dummies(given, base)
     spacing = changes.pop("spacing", None)
     if spacing is None:
         along = base.builder != "from_lists" or "places" in base.arguments
@@ -166,12 +178,16 @@ def _engine(
     order = base.arguments.get("firing_order", "")
     required = base.builder == "from_firing_order"
     known = bool(order) and "firing_order" not in changes and not required
+    named = changes.pop("firing_order", None) if dummies else None
     changes["source"] = shlex.join([PROG, *given.typed])
     if (name := given.text("--name")) is not None or {"throws_deg", "strokes"} & changes.keys():
         changes["name"] = name or ""
     engine = base.build(
         cylinder or base.cylinder, spacing, **changes | ({"firing_order": ""} if known else {})
     )
+    if dummies:
+        engine = _with_dummies(given, engine, dummies, named)
+    _check_count(given, kind, base, engine)
     if known and len(engine) == order.replace("+", "-").count("-") + 1:
         engine = engine.replace(firing_order=allowed(engine._core, order, engine.strokes))
     if not engine.firing_order:
@@ -179,6 +195,47 @@ def _engine(
     if len({*engine.z.tolist()}) == 1:
         notes[:] = [note for note in notes if not note.startswith("Spacing")]
     return engine
+
+
+def _check_count(given: Given, kind: str, base: presets.Layout, engine: Engine) -> None:
+    """Reject an option that makes another number of cylinders than the name of the layout says."""
+    if kind in BUILDERS or given.text("--absent") is not None:
+        return
+    whole = base.build(base.cylinder, base.spacing)
+    if len(engine) == len(whole):
+        return
+    flag = next((each for each in COUNTING if given.text(each) is not None), "--throws")
+    hint = f"{kind} has {len(whole)} cylinders, this makes {len(engine)}"
+    if base.builder in ("vee", "flat", "boxer", "inline"):
+        throws = len(base.arguments["throws_deg"])
+        plain = base.builder if base.builder != "vee" else "vee --bank-angle A"
+        hint += f"; give {throws} crankpin{'s' * (throws > 1)}, or build it by {PROG} new {plain}"
+    raise rejected(flag, given.text(flag), hint)
+
+
+def _dummies(given: Given, base: presets.Layout) -> list[int]:
+    """Return the numbers of dummy pistons."""
+    if given.text("--dummy") is None:
+        return []
+    if base.builder == "from_firing_order":
+        hint = "crankpins follow from cylinders that fire; give a layout by its --throws"
+        raise rejected("--dummy", given.text("--dummy"), hint)
+    return given.whole_numbers("--dummy", "give numbers of cylinders, such as 2")
+
+
+def _with_dummies(
+    given: Given, engine: Engine, dummies: list[int], firing_order: str | None
+) -> Engine:
+    """Return an engine some of whose pistons are dummies, in the firing order of the others."""
+    for number in dummies:
+        if not 1 <= number <= len(engine):
+            hint = f"the engine has cylinders 1 to {len(engine)}"
+            raise rejected("--dummy", given.text("--dummy"), hint)
+    numbered = enumerate(engine.cylinders, start=1)
+    return engine.replace(
+        cylinder=[one.replace(dummy=number in dummies) for number, one in numbered],
+        firing_order=firing_order,
+    )
 
 
 def _layout(kind: str) -> presets.Layout:
@@ -276,7 +333,7 @@ def _parts(
 
     None stands for nominal parts.
     """
-    lengths = {flag: given.numbers(flag, "m") for flag in LENGTHS}
+    lengths = {flag: given.numbers(flag, "m", infinite=flag == "--rod-length") for flag in LENGTHS}
     masses = {flag: given.numbers(flag, "kg") for flag in MASSES}
     typed = {flag: each for flag, each in (lengths | masses).items() if each is not None}
     count = max((len(each) for each in typed.values()), default=1)
@@ -323,6 +380,11 @@ def _parts_of_one(
             hint = "cannot be combined with --reciprocating-mass, which includes it"
             raise rejected(other[0], given.text(other[0]), hint)
         return Cylinder(stroke / 2.0, length, moving, **common), rotating
+    if length == math.inf:
+        hint = (
+            "give --reciprocating-mass, with the yoke in it; an infinite rod has no ends to weigh"
+        )
+        raise rejected("--rod-length", given.text("--rod-length"), hint)
     rod = _rod(length, lengths["--rod-centre"], masses, notes)
     if masses["--piston-mass"] is None:
         hint = "a cylinder of your own needs --piston-mass, or --reciprocating-mass"

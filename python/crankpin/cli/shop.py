@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -151,11 +152,7 @@ def _two_plane(given: Given) -> Shown:
 
 def _is_plain(text: str) -> bool:
     """Return whether a number has no unit."""
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
+    return re.search(r"[^\d\s.eE+/-]", text) is None
 
 
 @command(

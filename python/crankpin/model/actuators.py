@@ -138,15 +138,13 @@ class Actuator(Input):
         InputError
             If a figure is no number, or a frequency not above zero.
         """
-        share = self._motor_share(_frequency(frequency))
+        share = np.abs(self._motor_share(_frequency(frequency)))
         return np.asarray(np.abs(inputs.array("force", force)) * share)
 
-    def _motor_share(self, frequency: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the motor's force over that on the powertrain."""
-        if self.resonance is None:
-            return np.ones(frequency.shape)
-        ratio = self.resonance / frequency
-        return np.asarray(np.hypot(1.0 - ratio**2, 2.0 * self.damping_ratio * ratio))
+    def _motor_share(self, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
+        """Return the motor's force over that on the powertrain, where this does not move."""
+        ratio = (self.resonance or 0.0) / frequency
+        return np.asarray(1.0 - ratio**2 - 2j * self.damping_ratio * ratio)
 
     def largest_force(self, frequency: ArrayLike) -> NDArray[np.float64]:
         """Return the largest force on the powertrain that motor and stroke allow, N.
@@ -170,7 +168,7 @@ class Actuator(Input):
         limit = np.full(given.shape, np.inf)
         if self.force is not None:
             with np.errstate(divide="ignore"):  # at an undamped resonance the stroke is the limit
-                limit = self.force / self._motor_share(given)
+                limit = self.force / np.abs(self._motor_share(given))
         if self.mass is not None and self.stroke is not None:
             limit = np.minimum(limit, self.mass * self.stroke * (2.0 * np.pi * given) ** 2)
         return limit

@@ -219,8 +219,8 @@ class Builders(EngineData):
         layout = _along_crank(one, throws_deg, spacing, rotating_mass, first_tdc_deg)
         core = _kept(_core.Engine.inline(parts(one), layout), one)
         checks.angles(throws_deg=throws_deg, first_tdc_deg=first_tdc_deg)
-        engine = cls(core, name, source, firing_order, strokes)
-        return furnished(engine, cylinder, spacing, rotating_mass)
+        engine = cls(core, name, source, "", strokes)
+        return furnished(engine, cylinder, spacing, rotating_mass, 0.0, firing_order)
 
     @classmethod
     def vee(
@@ -320,12 +320,12 @@ class Builders(EngineData):
         )  # fmt: skip
         checks.pin_split(core, layout["pin_split"])
         if not missing:
-            engine = cls(core, name, source, firing_order, strokes)
-            return furnished(engine, cylinder, spacing, rotating_mass, stagger)
+            engine = cls(core, name, source, "", strokes)
+            return furnished(engine, cylinder, spacing, rotating_mass, stagger, firing_order)
         engine = furnished(cls(core, name, source), one, spacing, masses, stagger)
-        engine = cls(without(engine._core, one, missing), name, source, firing_order, strokes)
+        engine = cls(without(engine._core, one, missing), name, source, "", strokes)
         engine = engine.with_first_tdc(first_tdc_deg)
-        engine = furnished(engine, cylinder, 0.0, rotating_mass)
+        engine = furnished(engine, cylinder, 0.0, rotating_mass, 0.0, firing_order)
         return engine if rotating_mass is None else engine.replace(rotating_mass=rotating_mass)
 
     @classmethod
@@ -542,9 +542,9 @@ class Builders(EngineData):
         order = firing_order
         if order is None:
             order = _core.Engine.radial_firing_order(layout, inputs.strokes(strokes))
-        engine = cls(core, name, source, order, strokes)
+        engine = cls(core, name, source, "", strokes)
         along = 0.0 if spacing is None else spacing
-        return furnished(engine, cylinder, along, rotating_mass)
+        return furnished(engine, cylinder, along, rotating_mass, 0.0, order)
 
     @classmethod
     def from_banks(
@@ -632,11 +632,9 @@ class Builders(EngineData):
             bank=[k for k in range(len(banks)) for _ in pins],
         )
         engine = cls(core, name, source, "", strokes).with_first_tdc(first_tdc_deg)
-        unknown = isinstance(firing_order, str) and not firing_order
-        engine = engine if unknown else engine.replace(firing_order=firing_order)
         if inputs.is_listed(spacing) and bank_stagger:
             raise inputs.rejected("bank_stagger", bank_stagger, "give one spacing with it")
-        return furnished(engine, cylinder, spacing, rotating_mass)
+        return furnished(engine, cylinder, spacing, rotating_mass, 0.0, firing_order)
 
     @classmethod
     def from_firing_order(
@@ -783,8 +781,9 @@ class Builders(EngineData):
         if fired[1] is not None:
             taken = _core.Firing.named(core, order, strokes)
             checks.intervals(order, [inputs.degrees(each) for each in fired[1]], taken)
-        engine = cls(core, name, source, allowed(core, order, strokes), strokes)
-        return furnished(engine, cylinder, spacing, rotating_mass, stagger)
+        engine = cls(core, name, source, "", strokes)
+        known = allowed(core, order, strokes)
+        return furnished(engine, cylinder, spacing, rotating_mass, stagger, known)
 
 
 def _banks(

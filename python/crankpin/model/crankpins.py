@@ -68,8 +68,10 @@ def throws(engine: Engine) -> list[list[Crankpin]]:
 
 def crankpins(engine: Engine) -> tuple[Crankpin, ...]:
     """Return the crankpins from front to flywheel."""
-    pins = (pin for throw in throws(engine) for pin in throw)
-    return tuple(sorted(pins, key=lambda pin: pin.z))
+    return tuple(
+        Crankpin(tuple(cylinders), pin_deg, z, crank)
+        for cylinders, pin_deg, z, crank in engine._core.crankpins()
+    )
 
 
 def bays(engine: Engine) -> tuple[Bay, ...]:

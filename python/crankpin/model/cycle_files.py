@@ -352,6 +352,11 @@ def _encoding(beginning: bytes) -> str:
     for mark, encoding in _MARKS:
         if beginning.startswith(mark):
             return encoding
+    # Of UTF-16 text every second byte is zero, but of signs that no number has.
+    halves = beginning[::2], beginning[1::2]
+    for k, encoding in enumerate(("utf-16-be", "utf-16-le")):
+        if 2 * halves[k].count(0) > len(halves[k]) and not halves[1 - k].count(0):
+            return encoding
     if b"\0" in beginning[:1000]:
         raise inputs.faulty("path", "has NUL bytes and is no text", "export it as text, UTF-8")
     try:

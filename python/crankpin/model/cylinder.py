@@ -24,7 +24,7 @@ LARGEST_LENGTH = 1e30
 """Largest length that the core takes, m."""
 
 _Parts: TypeAlias = tuple[float, float, float, float, float]
-_Details: TypeAlias = tuple[float | None, float | None, tuple[float, float, float] | None]
+_Details: TypeAlias = tuple[float | None, float | None, tuple[float, float, float] | None, bool]
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -42,7 +42,8 @@ class Cylinder:
     crank_radius : float
         Crank radius r, half the stroke, m.
     rod_length : float
-        Rod length l between its centres, m; r < l − ``|pin_offset|``.
+        Rod length l between its centres, m; r < l − ``|pin_offset|``. ``math.inf`` is that of a
+        Scotch yoke, whose piston moves by r cos θ: it has neither pin offset nor rod inertia.
     reciprocating_mass : float
         Mass that moves with the piston, kg.
     pin_offset : float, default 0.0
@@ -59,6 +60,9 @@ class Cylinder:
         mass; None where it is not known.
     rod : Rod, optional
         The rod of which :meth:`from_rod` made it; None where it is not known.
+    dummy : bool, default False
+        True for a dummy piston, a mass that balances others: it has no gas pressure, and no place
+        in firing orders.
 
     Raises
     ------
@@ -88,6 +92,7 @@ class Cylinder:
     bore: float | None = None
     piston_mass: float | None = None
     rod: Rod | None = None
+    dummy: bool = False
 
     __array_ufunc__: ClassVar[None] = None
     """None, so that NumPy leaves comparison and arithmetic with arrays to the cylinder."""
@@ -210,7 +215,8 @@ class Cylinder:
         )
 
     def __post_init__(self) -> None:
-        for field in dataclasses.fields(self)[:-1]:
+        inputs.flag("dummy", self.dummy)
+        for field in dataclasses.fields(self)[:-2]:
             given = getattr(self, field.name)
             if given is not None or field.default is not None:
                 object.__setattr__(self, field.name, inputs.number(field.name, given))
@@ -244,20 +250,20 @@ class Cylinder:
     @classmethod
     def _of(cls, parts: _Parts, details: _Details) -> Cylinder:
         """Return the cylinder of what the core has, without warnings: it was made before."""
-        bore, piston_mass, figures = details
+        bore, piston_mass, figures, dummy = details
         rod = None
         if figures is not None:
             mass, inertia, to_crankpin = figures
             rod = Rod(mass, inertia, parts[1], to_crankpin)
         with suppressed():
-            return cls(*parts, bore=bore, piston_mass=piston_mass, rod=rod)
+            return cls(*parts, bore=bore, piston_mass=piston_mass, rod=rod, dummy=dummy)
 
     @property
     def _details(self) -> _Details:
         """What the core keeps and does not compute with."""
         rod = self.rod
         figures = None if rod is None else (rod.mass, rod.inertia, rod.to_crankpin)
-        return self.bore, self.piston_mass, figures
+        return self.bore, self.piston_mass, figures, self.dummy
 
     @property
     def _parts(self) -> _Parts:
@@ -271,7 +277,7 @@ class Cylinder:
 
     @property
     def rod_ratio(self) -> float:
-        """λ = r/l, crank radius over rod length."""
+        """λ = r/l, crank radius over rod length; zero of an infinite rod."""
         return self.crank_radius / self.rod_length
 
     @property
@@ -282,15 +288,7 @@ class Cylinder:
     @property
     def travel(self) -> float:
         """Distance between the ends of the piston's travel, m: the stroke without pin offset."""
-        if self.pin_offset == 0.0:
-            return self.stroke
-        # √((l + r)² − e²) − √((l − r)² − e²), without cancellation.
-        radius, rod, offset = self.crank_radius, self.rod_length, self.pin_offset
-        reach = [
-            math.sqrt((length - offset) * (length + offset))
-            for length in (rod + radius, rod - radius)
-        ]
-        return 4.0 * radius * rod / sum(reach)
+        return _core.piston_travel(self._parts)
 
     def replace(self, **changes: Any) -> Cylinder:  # noqa: ANN401 - numbers, or a Rod
         """Return a copy with some parts changed.
@@ -321,7 +319,8 @@ class Cylinder:
             if whole["piston_mass"] is None:
                 hint = "give piston_mass too: it is not known what the rod's part was"
                 raise inputs.rejected("rod", whole["rod"], hint)
-            return Cylinder.from_rod(**whole)
+            made = Cylinder.from_rod(**{k: v for k, v in whole.items() if k != "dummy"})
+            return dataclasses.replace(made, dummy=whole.get("dummy", self.dummy))
         try:
             return dataclasses.replace(self, **changes)
         except TypeError as error:
@@ -330,7 +329,8 @@ class Cylinder:
     def position(self, theta_deg: ArrayLike) -> NDArray[np.float64]:
         """Return the piston pin's distance from the crank's axis along the bore, m.
 
-        Exact: ``r cos θ + √(l² − (r sin θ − e)²)``.
+        Exact: ``r cos θ + √(l² − (r sin θ − e)²)``. Of an infinite rod it is that from the middle
+        of the stroke, ``r cos θ``.
 
         Parameters
         ----------
@@ -475,6 +475,11 @@ class Cylinder:
         """
         return _core.cylinder_torque_harmonics(self._parts, inputs.explicit_orders(orders))
 
+    @property
+    def _ends(self) -> NDArray[np.float64]:
+        """Piston pin's distance from the crank's axis where it is highest and lowest, m."""
+        return self.position(_core.turning_points(self._parts))
+
     def _motion(self, theta_deg: ArrayLike, column: int) -> NDArray[np.float64]:
         theta = inputs.array("theta_deg", theta_deg)
         return _core.motion(self._parts, theta.ravel())[:, column].reshape(theta.shape)
@@ -580,6 +585,11 @@ class Rod(Input):
         return _core.rod_parts(self._figures)[2]
 
 
+def rod_length(crank_radius: float, rod_ratio: float) -> float:
+    """Return the rod length at a rod ratio, m, which is infinite at 0."""
+    return crank_radius / rod_ratio if rod_ratio else math.inf
+
+
 @overload
 def slider_crank_harmonics(
     rod_ratio: ArrayLike,
@@ -599,7 +609,7 @@ def slider_crank_harmonics(
     *,
     rtol: float | None = None,
 ) -> NDArray[Any]:
-    """Return the harmonics aₙ of a slider-crank's inertia force, exact for any 0 < λ < 1.
+    """Return the harmonics aₙ of a slider-crank's inertia force, exact for any 0 ≤ λ < 1.
 
     The force along the bore is ``m r ω² Re Σ aₙ exp(in(θ − tdc))``; a₁ = 1 and a₂ ≈ λ. Every order
     has full relative accuracy: the coefficients come from the factors of
@@ -608,7 +618,7 @@ def slider_crank_harmonics(
     Parameters
     ----------
     rod_ratio : array_like
-        λ = crank radius / rod length; any shape.
+        λ = crank radius / rod length, 0 of an infinite rod; any shape.
     orders : int or sequence of int
         Whole multiples of crank speed.
     pin_offset_ratio : array_like, optional
@@ -627,7 +637,7 @@ def slider_crank_harmonics(
     Raises
     ------
     InputError
-        If a rod ratio is not between 0 and 1, an offset keeps the crank from turning, or ``rtol``
+        If a rod ratio is below 0, or 1 or more, an offset keeps the crank from turning, or ``rtol``
         is out of range.
 
     Examples

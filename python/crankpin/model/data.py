@@ -57,7 +57,7 @@ class EngineData:
             )
         title, origin = inputs.text("name", name), inputs.text("source", source)
         count = inputs.strokes(strokes)
-        order = inputs.firing_order("firing_order", firing_order, core.bank)
+        order = inputs.firing_order("firing_order", firing_order, core.bank, _dummies(core))
         if order:
             core = core.firing_as(_core.Firing.named(core, order, count).text, count)
         elif count != 4:
@@ -371,9 +371,9 @@ class EngineData:
     ) -> Self:
         """Return a copy with some lists changed; see :meth:`from_lists`.
 
-        A firing order that the changed crank does not allow is dropped, unless it is given. A
-        cylinder with another ``rod`` brings its big end as rotating mass, unless the engine's
-        differs from the big end of the rod that it had.
+        A firing order that the changed crank does not allow is dropped, unless it is given; dummy
+        pistons leave it, and have no cycle. A cylinder with another ``rod`` brings its big end as
+        rotating mass, unless the engine's differs from the big end of the rod that it had.
 
         Parameters
         ----------
@@ -450,8 +450,11 @@ class EngineData:
         if cycles is None:
             inputs.only_with("cycle", crankcase=crankcase)
             return changed
-        pins_kept = tdc_deg is None and pin_deg is None and count == self.strokes
-        if _is_kept(cycle) and pins_kept and firing_order is None:
+        as_before = tdc_deg is None and pin_deg is None and count == self.strokes
+        if _is_kept(cycle) and (dummies := _dummies(core)) != _dummies(self._core):
+            cycles = [None if k in dummies else one for k, one in enumerate(cycles, start=1)]
+            as_before = False
+        if _is_kept(cycle) and as_before and firing_order is None:
             # Each cylinder fires in the turn in which it did, whether or not its order was dropped.
             below = self._below_pistons(crankcase)
             fired = changed._core.fired_as(self._core, list(range(len(self))), below)
@@ -551,8 +554,9 @@ class EngineData:
         Parameters
         ----------
         cycle : Cycle, sequence of Cycle or None, or None
-            Pressure over a cycle, for all cylinders or one for each; None for a cylinder without
-            gas load, as with its valves open. None for an engine without gas pressure.
+            Pressure over a cycle, for all cylinders but dummy pistons, or one for each; None for a
+            cylinder without gas load, as with its valves open. None for an engine without gas
+            pressure.
         crankcase : float, optional
             Absolute pressure below the pistons, Pa; by default what the engine has, or that of the
             atmosphere.
@@ -595,7 +599,11 @@ class EngineData:
             return type(self)(self._core.without_cycles())
         hint = "give a crankpin.Cycle, or one or None for each cylinder"
         same = isinstance(cycle, Cycle)
-        each: list[Any] = [cycle] * len(self) if same else inputs.items("cycle", cycle, hint)
+        each: list[Any] = (
+            [None if one.dummy else cycle for one in self.cylinders]
+            if same
+            else inputs.items("cycle", cycle, hint)
+        )
         for k, one in enumerate(each):
             if not (one is None or isinstance(one, Cycle)):
                 raise inputs.rejected(f"cycle[{k}]", one, hint)
@@ -603,7 +611,9 @@ class EngineData:
         if all(core is None for core in cores):
             inputs.only_with("cycle", crankcase=crankcase)
         below = other._below_pistons(crankcase)
-        (fired,) = self._core.with_cycles([cores], below)
+        distinct = [core for core in dict.fromkeys(cores) if core is not None]
+        cycle_of = [None if core is None else distinct.index(core) for core in cores]
+        fired = self._core.with_cycles(distinct, cycle_of, below)
         checks.crankcase(below)
         _warn_of_work(each, self.cylinders)
         return type(self)(fired)
@@ -878,10 +888,22 @@ def parts(cylinder: object) -> tuple[float, float, float, float, float]:
     return cylinder._parts
 
 
+def _dummies(core: _CoreEngine) -> set[int]:
+    """Return the numbers of dummy pistons."""
+    return {number for number, (*_, dummy) in enumerate(core.details, start=1) if dummy}
+
+
 def allowed(core: _CoreEngine, firing_order: str, strokes: int) -> str:
-    """Return a firing order, or an empty text if the crank does not allow it."""
-    possible = firing_order and _core.Firing.all_named(core, firing_order, strokes)
-    return firing_order if possible else ""
+    """Return a firing order without dummy pistons; an empty text if the crank does not allow it."""
+    dummies = {str(number) for number in _dummies(core)}
+    groups = ([each for each in group.split("+") if each not in dummies]
+              for group in firing_order.split("-"))  # fmt: skip
+    order = "-".join("+".join(group) for group in groups if group)
+    try:
+        possible = order and _core.Firing.all_named(core, order, strokes)
+    except _core.InputError:  # it lacks a piston that was a dummy
+        return ""
+    return order if possible else ""
 
 
 def _warn_of_work(cycles: Sequence[Cycle | None], cylinders: Sequence[Cylinder]) -> None:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from types import FunctionType
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 
-from crankpin._support import labels
+from crankpin._support import labels, units
 from crankpin._support.drawing import draw, inline_svg
 from crankpin._support.record import AbsentError
 from crankpin._support.tables import Table
@@ -471,6 +471,7 @@ class Engine(Builders):
         inertia: float | None = None,
         spectrum: Spectrum | None = None,
         compact: bool = False,
+        controls: str | Sequence[str] | None = None,
     ) -> EngineWidget:
         """Return the engine turning, as a widget for notebooks (needs anywidget).
 
@@ -491,6 +492,11 @@ class Engine(Builders):
         compact : bool, default False
             Whether to show the cross-section and one vector alone, with three controls: for a
             lecture, 640 by 360 pixels.
+        controls : str or sequence of str, optional
+            Names of the controls that are shown, in this order, or one name: ``"crank_angle"``,
+            ``"rpm"``, ``"rod_ratio"``, ``"bank_angle"``, ``"rocking"``, ``"sound"``, and ``"view"``
+            for the choices above the pictures. ``"none"`` or an empty sequence leaves the pictures
+            alone, in which the crank can still be turned. By default all that the page has.
 
         Returns
         -------
@@ -506,7 +512,9 @@ class Engine(Builders):
         """
         from crankpin.view.widget import EngineWidget
 
-        return EngineWidget(self, rpm, inertia=inertia, spectrum=spectrum, compact=compact)
+        return EngineWidget(
+            self, rpm, inertia=inertia, spectrum=spectrum, compact=compact, controls=controls
+        )
 
     def save_html(
         self,
@@ -516,6 +524,7 @@ class Engine(Builders):
         inertia: float | None = None,
         spectrum: Spectrum | None = None,
         compact: bool = False,
+        controls: str | Sequence[str] | None = None,
     ) -> None:
         """Write the engine turning, as a page that needs a browser alone and loads nothing.
 
@@ -531,6 +540,8 @@ class Engine(Builders):
             As in :meth:`view`.
         compact : bool, default False
             As in :meth:`view`; a compact page fills its window, such as a frame on a slide.
+        controls : str or sequence of str, optional
+            As in :meth:`view`.
 
         Raises
         ------
@@ -541,7 +552,15 @@ class Engine(Builders):
         """
         from crankpin.view.page import save_html
 
-        save_html(self, path, rpm=rpm, inertia=inertia, spectrum=spectrum, compact=compact)
+        save_html(
+            self,
+            path,
+            rpm=rpm,
+            inertia=inertia,
+            spectrum=spectrum,
+            compact=compact,
+            controls=controls,
+        )
 
     # --- text and pictures ----------------------------------------------------------------------
 
@@ -591,12 +610,18 @@ class Engine(Builders):
 
     def _parts_text(self) -> str:
         """Return stroke, rod and reciprocating mass of the cylinders, as ranges if they differ."""
-        parts = np.array(self._core.cylinders) * [2.0, 1.0, 1.0, 1.0, 1.0]
-        stroke, rod, mass, *_ = (
-            f"{low:.6g}" if low == high else f"{low:.6g} to {high:.6g}"
-            for low, high in zip(parts.min(axis=0), parts.max(axis=0), strict=True)
+        parts = np.array(self._core.cylinders)[:, :3] * [2.0, 1.0, 1.0]
+        stroke, rod, mass = (
+            units.figure(least, unit, 6, most)
+            for least, unit, most in zip(
+                parts.min(axis=0).tolist(),
+                ("m", "m", "kg"),
+                parts.max(axis=0).tolist(),
+                strict=True,
+            )
         )
-        return f"stroke {stroke} m, rod {rod} m, reciprocating mass {mass} kg"
+        rod = "infinite rod" if np.isinf(parts[:, 1]).all() else f"rod {rod}"
+        return f"stroke {stroke}, {rod}, reciprocating mass {mass}"
 
     def _throws_text(self) -> str:
         """Return throws and pin split, where they are defined."""

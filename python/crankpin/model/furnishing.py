@@ -50,13 +50,14 @@ def furnished(
     spacing: ArrayLike,
     rotating_mass: ArrayLike | None,
     stagger: float = 0.0,
+    firing_order: str | Iterable[int] = "",
 ) -> Built:
     """Return an engine of one cylinder and even spacing with the parts and places of each.
 
     Parameters
     ----------
     engine
-        The engine; of unequal spacing it has no bank stagger.
+        The engine, without a firing order; of unequal spacing it has no bank stagger.
     cylinder
         Parts of all cylinders, of each, or of each bank by name.
     spacing
@@ -65,9 +66,11 @@ def furnished(
         As given to the builder, kg; None for that of the rods.
     stagger
         How far the left bank stands behind the right, m.
+    firing_order
+        Its firing order, in which dummy pistons have no place.
     """
     if not inputs.is_listed(spacing) and isinstance(cylinder, Cylinder):
-        return engine
+        return _fired(engine, firing_order)
     each, z = _each(engine, cylinder), engine.z
     if inputs.is_listed(spacing):
         listed = inputs.listed_numbers("spacing", spacing)
@@ -78,7 +81,11 @@ def furnished(
         behind = np.isin(np.arange(len(z)) + 1, engine.banks.get("left", ()))
         z = np.concatenate([[0.0], np.cumsum(listed)])[throw] + stagger * behind
     masses = None if rotating_mass is not None else [big_end(one) for one in each]
-    return engine.replace(cylinder=each, z=z, rotating_mass=masses)
+    return _fired(engine.replace(cylinder=each, z=z, rotating_mass=masses), firing_order)
+
+
+def _fired(engine: Built, firing_order: str | Iterable[int]) -> Built:
+    return type(engine)(engine._core, "", "", firing_order, engine.strokes)
 
 
 def _each(engine: EngineData, cylinder: object) -> list[Cylinder]:

@@ -139,9 +139,9 @@ class Traces(Tabled, Input):
         Columns are separated by commas, semicolons, tabs or blanks; decimal commas are recognised
         unless columns are separated by commas too. Lines before the numbers, and lines that begin
         with ``#``, ``%`` or ``!``, are comments; the last before the numbers is the header, with
-        the one above it if that has as many cells. Text is UTF-8, Latin-1, or UTF-16 with a byte
-        order mark; long files are read piece by piece. ``origin`` says what was read, and what of
-        it is stated by the header or by arguments, or assumed.
+        the one above it if that has as many cells. Text is UTF-8, UTF-16 or Latin-1; long files
+        are read piece by piece. ``origin`` says what was read, and what of it is stated by the
+        header or by arguments, or assumed.
 
         Parameters
         ----------

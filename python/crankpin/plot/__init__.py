@@ -16,9 +16,11 @@ from crankpin.plot import (  # noqa: F401 - they register their pictures
     firing,
     mount_designs,
     mounts,
+    operating_map,
     phasors,
     ranking,
     sweep,
     tolerances,
+    torsional_excitation,
     waveform,
 )

@@ -97,16 +97,16 @@ def spectrum(
         label = labels.name_of(result.engine)
     styles = series(ax, peaks.shape[1], style)
     for k, text in enumerate(series_names(drawn, label)):
-        _stems(ax, orders, peaks[:, k], text, styles[k])
-    _beside_each_other(ax)
-    _scale(ax, logarithmic=logarithmic, orders_given=orders_given)
+        stems(ax, orders, peaks[:, k], text, styles[k])
+    beside_each_other(ax)
+    scale_spectrum(ax, logarithmic=logarithmic, orders_given=orders_given)
     label_x(ax, "order (multiples of crank speed)")
     label_y(ax, with_unit(name, peak=True))
     add_legend(ax, last=ZERO)
     return ax
 
 
-def _stems(
+def stems(
     ax: Axes, orders: NDArray[Any], peaks: NDArray[Any], text: str, style: dict[str, Any]
 ) -> None:
     """Draw one series: a line up to each peak, a marker there, a hollow circle for zero."""
@@ -122,7 +122,7 @@ def _stems(
     hollow(ax, zeros, np.zeros_like(zeros), line.get_color(), label=name, **look)
 
 
-def _beside_each_other(ax: Axes) -> None:
+def beside_each_other(ax: Axes) -> None:
     """Shift the stems of all series on the axes, so that those of an order stand about it."""
     # A picture of another kind on the same axes has series without circles of zeros.
     pairs = [pair for pair in pairwise(ax.lines) if pair[1].get_gid() == ZEROS]
@@ -142,7 +142,8 @@ def _beside_each_other(ax: Axes) -> None:
         zeros.set_transform(ax.get_xaxis_transform() + shift)
 
 
-def _scale(ax: Axes, *, logarithmic: bool, orders_given: bool) -> None:
+def scale_spectrum(ax: Axes, *, logarithmic: bool, orders_given: bool) -> None:
+    """Let the axes of a spectrum begin at zero, or the vertical one be logarithmic."""
     drawn = [line for line in ax.lines if line.get_gid() == SERIES]
     along = np.concatenate([line.get_xdata() for line in drawn])
     heights = np.concatenate([line.get_ydata() for line in drawn])

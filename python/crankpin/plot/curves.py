@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 
 from crankpin._support import inputs
 from crankpin._support.quantities import QUANTITIES
-from crankpin.plot.layout import Drawn, label_x, label_y, make_panels, note_zero
+from crankpin.plot.layout import Drawn, keep_apart, label_x, label_y, make_panels, note_zero
 from crankpin.plot.rows import Rows, Words, along_x, at, dimension, rows_of, values_of, words_of
 from crankpin.plot.style import (
     DASHES,
@@ -316,8 +316,8 @@ def mark(
             colour = curve.style["color"]
             ring(ax, zeros, np.zeros_like(zeros), colour, "o", ZERO, transform=on_axis)
             marked |= dict.fromkeys(zeros.tolist(), "")
-    for place in sorted(marked)[:MOST_MARKS]:
-        write_at_mark(ax, place, 0.0, at(along, place))
+    places = sorted(marked)[:MOST_MARKS]
+    keep_apart(ax, [write_at_mark(ax, place, 0.0, at(along, place)) for place in places])
     if not least or not peaks.size or peaks.min() == 0.0:
         return
     best = np.argwhere(peaks == peaks.min())

@@ -142,10 +142,8 @@ def _prepared(
 
 def _swept(cylinder: Cylinder, theta_deg: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the volume between the piston and its highest point, cm³."""
-    bore_area = area(cylinder)
-    rod, offset = cylinder.rod_length + cylinder.crank_radius, cylinder.pin_offset
-    highest = np.sqrt((rod - offset) * (rod + offset))
-    return np.asarray(1e6 * bore_area * (highest - cylinder.position(theta_deg)))
+    highest, _ = cylinder._ends
+    return np.asarray(1e6 * area(cylinder) * (highest - cylinder.position(theta_deg)))
 
 
 @picture.register(Flywheel)

@@ -13,7 +13,7 @@ from crankpin._support.drawing import picture
 from crankpin.analysis.firing import Firing, Gaps
 from crankpin.plot import ticks
 from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, points_of, set_title
-from crankpin.plot.style import background, colours, font_of, foreground, muted, tint, write
+from crankpin.plot.style import background, blend, font_of, foreground, is_dark, muted, write
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -24,6 +24,13 @@ if TYPE_CHECKING:
 
     from crankpin.analysis.gas_exchange import Timing
 
+STROKE_COLOURS = {
+    "power": ("#d55e00", "#e8743b"), "exhaust": ("#9aa0a6", "#7d838a"),
+    "intake": ("#4ba3dc", "#56b4e9"), "compression": ("#e6b800", "#dcb53a"),
+}  # fmt: skip
+"""Colours of strokes on light and dark backgrounds: in any style those of the turning page."""
+LETTER = "black"
+"""Colour of letters on strokes, in either of their colours."""
 ALONE = (-0.3, 0.6)
 """Upper edge and height of the strokes in the row of a cylinder, which is 1 high."""
 STROKES = (-0.44, 0.5)
@@ -56,16 +63,18 @@ def _firing(
     if new:
         _make_room(ax, len(rows))
     row_height = room * _row_height(ax, len(rows))
-    inlet, exhaust, compression, power = _inks(ax)
-    faces = {"intake": inlet, "compression": compression, "power": power, "exhaust": exhaust}
+    faces = {name: pair[is_dark(ax)] for name, pair in STROKE_COLOURS.items()}
     place = ALONE if timing is None else STROKES
-    strokes = [  # paler than valves
-        Kind(name, tint(ax, faces[name], 0.45), periods, place, name[0].upper())
+    strokes = [
+        Kind(name, faces[name], periods, place, name[0].upper())
         for name, periods in result.strokes_deg().items()
     ]
     opened = []
     if timing is not None:
         inlet_name, inlets, exhausts = _openings(result, timing)
+        inlet, exhaust = (
+            blend(faces[each], foreground(ax), 0.75) for each in ("intake", "exhaust")
+        )
         opened = [
             Kind(f"{inlet_name} open", inlet, inlets, INLETS),
             Kind("exhaust open", exhaust, exhausts, EXHAUSTS),
@@ -81,7 +90,7 @@ def _firing(
             pieces = _pieces(kind.periods[cylinder - 1], cycle)
             _bars(ax, pieces, row, kind.place, **(looks | style))
             if kind.letter and lettered:
-                _letters(ax, kind.letter, pieces, _middle(row, place))
+                _letters(ax, kind, pieces, _middle(row, place))
         name = f"{kind.letter}: {kind.name}" if kind.letter and lettered else kind.name
         handles.append(Patch(label=name, **(looks | {"edgecolor": "none"} | style)))
     if timing is not None:
@@ -106,12 +115,6 @@ def _openings(
         return "transfer", ports["transfer"], ports["exhaust"]
     valves = result.valves(timing)  # type: ignore[arg-type]
     return "intake", valves["intake"], valves["exhaust"]
-
-
-def _inks(ax: Axes) -> tuple[Any, Any, Any, Any]:
-    """Return the colours of inlet, exhaust, compression and power."""
-    blue, red, _, _, orange = colours(ax, 5)
-    return blue, red, muted(ax, 0.3), orange
 
 
 def _pieces(period: ArrayLike, cycle: float) -> list[tuple[float, float]]:
@@ -140,11 +143,12 @@ def _middle(row: float, place: tuple[float, float]) -> float:
     return row + top + 0.5 * height
 
 
-def _letters(ax: Axes, letter: str, pieces: Iterable[tuple[float, float]], middle: float) -> None:
+def _letters(ax: Axes, kind: Kind, pieces: Iterable[tuple[float, float]], middle: float) -> None:
     for start, length in pieces:
         if length >= 45.0:
             at = complex(start + 0.5 * length, middle)
-            write(ax, letter, at, 0j, va="center_baseline", fontsize="x-small")
+            look = {"va": "center_baseline", "fontsize": "x-small", "color": LETTER}
+            write(ax, kind.letter, at, 0j, gid=kind.name, **look)
 
 
 def _mark_overlaps(

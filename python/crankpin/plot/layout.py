@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.text import Text
-from matplotlib.transforms import ScaledTranslation
+from matplotlib.transforms import Bbox, ScaledTranslation
 
 from crankpin._support import inputs, units
 from crankpin._support.drawing import picture
@@ -361,7 +361,9 @@ def label_y(ax: Axes, *lines: str) -> None:
 def label_bar(bar: Colorbar, text: str) -> None:
     """Label a scale of colours."""
     (text,) = in_units(bar.ax.yaxis, text)
-    bar.set_label(text)
+    bar.set_label(plain_text(text))
+    label = bar.ax.yaxis.label
+    _fit(bar.ax, label, _FittedText(label, [text], bar.ax, "height"))
 
 
 def in_units(axis: Any, *lines: str) -> list[str]:  # noqa: ANN401 - of matplotlib
@@ -382,6 +384,32 @@ def note_zero(ax: Axes, color: ColorType | None = None) -> None:
     ink = muted(ax) if color is None else color
     text = ax.text(0.5, 0.56, "zero throughout", transform=ax.transAxes, color=ink)
     text.set_horizontalalignment("center")
+
+
+def keep_apart(ax: Axes, texts: Sequence[Text]) -> None:
+    """Hide texts that would overlap one before them, wherever the figure is drawn."""
+    if len(texts) > 1:
+        _fit(ax, texts[0], _Apart(texts))
+
+
+@dataclasses.dataclass
+class _Apart:
+    """Texts of which those are shown that overlap none before them."""
+
+    texts: Sequence[Text]
+
+    def __call__(self) -> bool:
+        boxes: list[Bbox] = []
+        changed = False
+        for text in self.texts:
+            before = text.get_visible()
+            text.set_visible(True)  # the extent of hidden texts is nothing
+            box = text.get_window_extent()
+            shown = not any(box.overlaps(other) for other in boxes)
+            boxes += [box] if shown else []
+            text.set_visible(shown)
+            changed |= shown != before
+        return changed
 
 
 # --- legends ------------------------------------------------------------------------------------

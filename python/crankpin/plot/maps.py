@@ -11,9 +11,9 @@ from crankpin._support import inputs
 from crankpin._support.quantities import QUANTITIES
 from crankpin.plot.layout import Drawn, Panels, label_bar, label_x, label_y, make_panels, note_zero
 from crankpin.plot.rows import Row, Rows, along_x, dimension, rows_of, words_of
-from crankpin.plot.style import foreground
+from crankpin.plot.style import foreground, of_maps
 from crankpin.plot.ticks import degrees, numeric
-from crankpin.plot.words import drawn_quantity, nonzero_in
+from crankpin.plot.words import drawn_quantity, joined, nonzero_in
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -51,7 +51,7 @@ def heat_map(
     Orders have a scale of colours each, engines one that they share.
     """
     name = drawn_quantity(quantity, nonzero_in(sweep.total))
-    scale = _logarithmic if inputs.flag("log", log) else _from_zero
+    scale = logarithmic_scale if inputs.flag("log", log) else scale_from_zero
     along, up = _axes_of(sweep, x)
     rows, note = _rows(sweep, name, orders, single=ax is not None)
     words = words_of(sweep)
@@ -94,19 +94,25 @@ def order_map(
     (along,) = dims
     orders = sweep.orders or (1,)  # zero, where nothing shakes
     rows, note = _rows(sweep, name, orders, single=ax is not None, by_order=True)
+    peaks = np.stack([row.peaks for row in rows.rows])
+    if sweep.request.orders is None:  # those of a torque may be many more
+        seen = np.flatnonzero(np.moveaxis(peaks, -2, 0).reshape(len(orders), -1).any(axis=1))
+        count = int(seen.max(initial=0)) + 1
+        if count < len(orders):
+            note = joined(note, f"above order {orders[count - 1]:g}: zero")
+        orders, peaks = orders[:count], peaks[..., :count, :]
     words = words_of(sweep)
     values = np.asarray(sweep.coords[along], dtype=np.float64)
     height = 0.7 if len(rows.rows) == 1 else 0.45
     shared: dict[str, Any] = {"sharex": True, "sharey": True, "row_height": height}
     grid = make_panels(ax, figure, len(rows.rows), len(rows.columns), **shared)
-    peaks = np.stack([row.peaks for row in rows.rows])
-    norm = _logarithmic(peaks) if logarithmic else _from_zero(peaks)
-    for row, panels in zip(rows.rows, grid.axes, strict=True):
-        mesh = _cells(panels, values, orders, row.peaks, {"norm": norm} | style)
+    norm = logarithmic_scale(peaks) if logarithmic else scale_from_zero(peaks)
+    for of_row, panels in zip(peaks, grid.axes, strict=True):
+        mesh = cells(panels, values, orders, of_row, {"norm": norm} | style)
     if peaks.any():
-        _colour_bar(grid.axes.ravel(), mesh, name, peaks)
+        colour_bar(grid.axes.ravel(), mesh, _of_bar(name), peaks)
     _label_all(grid, along, "order", rows)
-    grid.set_title(words.title, words.subtitle(name), rows.columns[0] if grid.single else note)
+    grid.set_title(words.title, words.subtitle(name), rows.columns[0] if grid.single else "", note)
     return grid.drawn
 
 
@@ -167,7 +173,7 @@ def _heat(
     dotted = False
     x, y = coords
     columns, lines = np.argsort(x, kind="stable"), np.argsort(y, kind="stable")
-    options = {"shading": "nearest", "norm": norm, "rasterized": True}
+    options = {"shading": "nearest", "norm": norm, "rasterized": True, "cmap": of_maps()}
     for k, panel in enumerate(panels):
         of_panel = peaks[..., k]
         # A logarithmic scale has no zero.
@@ -181,16 +187,16 @@ def _heat(
         if not peaks.any():
             note_zero(panel, color="white")
     if peaks.any():  # a scale of nothing would mislead
-        _colour_bar(panels, mesh, quantity, peaks)
+        colour_bar(panels, mesh, _of_bar(quantity), peaks)
     return dotted
 
 
-def _from_zero(peaks: NDArray[np.float64]) -> Normalize:
+def scale_from_zero(peaks: NDArray[np.float64]) -> Normalize:
     """Return a scale of colours from zero to the largest peak."""
     return Normalize(0.0, float(peaks.max(initial=0.0)) or 1.0)
 
 
-def _logarithmic(peaks: NDArray[np.float64]) -> LogNorm:
+def logarithmic_scale(peaks: NDArray[np.float64]) -> LogNorm:
     """Return a scale of colours from the smallest peak that is not negligible to the largest."""
     nonzero = peaks[peaks > 0.0]
     largest = float(nonzero.max(initial=0.0)) or 1.0
@@ -198,7 +204,7 @@ def _logarithmic(peaks: NDArray[np.float64]) -> LogNorm:
     return LogNorm(min(smallest, 0.1 * largest), largest)
 
 
-def _cells(
+def cells(
     panels: Sequence[Axes] | NDArray[Any],
     x: NDArray[np.float64],
     orders: Sequence[Order],
@@ -219,8 +225,11 @@ def _cells(
                 middle = float(np.mean([x.min(), x.max()]))
                 panel.text(middle, order, "zero", color=foreground(panel), **look)
         cells[cells == 0.0] = np.nan
-        drawn = {"shading": "nearest", "rasterized": True} | options
-        mesh: QuadMesh = panel.pcolormesh(x[in_order], rows, cells, **drawn)
+        drawn = {"shading": "nearest", "rasterized": True, "cmap": of_maps()} | options
+        places = rows
+        if len(rows) == 1:  # it would have no height: one beyond it, which is not seen
+            places, cells = np.append(rows, 2.0 * rows), np.vstack([cells, np.full(len(x), np.nan)])
+        mesh: QuadMesh = panel.pcolormesh(x[in_order], places, cells, **drawn)
         mesh.set_cmap(mesh.get_cmap().with_extremes(under=BELOW))
         panel.set_ylim(0.5 * step, rows[-1] + 0.5 * step)
         if not peaks.any():
@@ -228,15 +237,19 @@ def _cells(
     return mesh
 
 
-def _colour_bar(
-    panels: Sequence[Axes] | NDArray[Any], mesh: QuadMesh, quantity: str, peaks: NDArray[np.float64]
+def _of_bar(quantity: str) -> str:
+    return f"peak, {QUANTITIES[quantity].unit}"
+
+
+def colour_bar(
+    panels: Sequence[Axes] | NDArray[Any], mesh: QuadMesh, label: str, peaks: NDArray[np.float64]
 ) -> None:
     """Draw the scale of colours of peaks, pointed where some are below it."""
     below = ((peaks > 0.0) & (peaks < (mesh.norm.vmin or 0.0))).any()
     extend = "min" if below else "neither"
     figure = panels[0].get_figure(root=False)
     bar = figure.colorbar(mesh, ax=list(panels), aspect=25, pad=0.02, extend=extend)  # type: ignore[union-attr]
-    label_bar(bar, f"peak, {QUANTITIES[quantity].unit}")
+    label_bar(bar, label)
     bar.outline.set_visible(False)
     if not isinstance(mesh.norm, LogNorm):
         numeric(bar.ax.yaxis)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.collections import LineCollection
 from matplotlib.colors import LinearSegmentedColormap, LogNorm
 from matplotlib.patches import Rectangle
 
@@ -22,7 +23,16 @@ from crankpin.plot.layout import (
     set_title,
 )
 from crankpin.plot.maps import RANGE
-from crankpin.plot.style import SERIES, background, colours, foreground, muted, series, tint
+from crankpin.plot.style import (
+    SERIES,
+    background,
+    colour_map,
+    colours,
+    foreground,
+    muted,
+    series,
+    tint,
+)
 from crankpin.plot.ticks import from_zero, numeric, span
 from crankpin.plot.words import joined, number, rounded
 
@@ -35,8 +45,14 @@ if TYPE_CHECKING:
 
 MOST_CURVES = 5
 """Number of orders drawn over speed where they were not given: those of the largest peaks."""
+MOST_SPECTRA = 40
+"""Number of speeds whose spectra a waterfall draws."""
+TALLEST = 4.0
+"""Height of the largest peak of a waterfall, in steps from one spectrum to the next."""
 DEEPEST = 0.6
 """Strength of the colour that stands for all of the energy."""
+APART = 1.3
+"""Ratio of frequencies within which a waterfall names one order alone."""
 AT = 20.0
 """Frequency at which a map takes stiffness that depends on it, Hz."""
 SEEN = 1e-3
@@ -84,7 +100,7 @@ def _response(
     label: str | None = None,
     **style: object,
 ) -> Axes:
-    kinds = {"cuts": _cuts, "map": _map, "spectrum": _spectrum}
+    kinds = {"cuts": _cuts, "map": _map, "waterfall": _waterfall, "spectrum": _spectrum}
     several = bool(result.dims)
     chosen = inputs.one_of("kind", kind or ("cuts" if several else "spectrum"), kinds)
     if several == (chosen == "spectrum"):
@@ -163,11 +179,7 @@ def _map(
     style: dict[str, Any],
 ) -> str:
     """Draw a row of cells for each order over speed; the modes' frequencies across them."""
-    if label is not None:
-        raise inputs.rejected("label", label, "a map has no legend of several results")
-    rpm = np.asarray(result.rpm)
-    if len(np.unique(rpm)) < 2:
-        raise inputs.rejected("kind", "map", "needs two different speeds or more")
+    rpm = _speeds(result, "map", label)
     columns = np.argsort(rpm, kind="stable")
     peaks = np.array([np.asarray(force[order].peak)[columns] for order in orders])
     _speed_axis(ax)
@@ -187,16 +199,101 @@ def _map(
     bar = ax.get_figure(root=False).colorbar(mesh, ax=ax, aspect=25, pad=0.02)  # type: ignore[union-attr]
     label_bar(bar, "peak, N")
     bar.outline.set_visible(False)
-    modes = result.powertrain.modes(AT if result.powertrain._varies else None)
+    frequencies, note = _natural(result)
     fine = np.linspace(max(float(rpm.min()), 1.0), float(rpm.max()), 400)
-    for frequency in modes.frequency[modes.frequency > 0.0]:
+    for frequency in frequencies:
         look: dict[str, Any] = {"color": "black", "linewidth": 0.9, "linestyle": (0, (4, 2))}
         ax.plot(fine, 60.0 * frequency / fine, gid="crankpin modes", **look)
     ax.set_xlim(float(rpm.min()), float(rpm.max()))
     ax.set_ylim(0.5 * step, rows[-1] + 0.5 * step)
     numeric(ax.yaxis, whole=True)
-    at = f", with the stiffness at {AT:g} Hz" if result.powertrain._varies else ""
-    return f"dashed: natural frequencies{at}"
+    return note
+
+
+def _speeds(result: MountResponse, kind: str, label: str | None) -> NDArray[np.float64]:
+    """Return the speeds of a picture that has no legend and takes two speeds or more."""
+    if label is not None:
+        raise inputs.rejected("label", label, f"a {kind} has no legend of several results")
+    rpm = np.asarray(result.rpm)
+    if len(np.unique(rpm)) < 2:
+        raise inputs.rejected("kind", kind, "needs two different speeds or more")
+    return rpm
+
+
+def _natural(result: MountResponse) -> tuple[NDArray[np.float64], str]:
+    """Return the natural frequencies above zero, Hz, and a note on the lines that are drawn."""
+    varies = result.powertrain._varies
+    frequency = result.powertrain.modes(AT if varies else None).frequency
+    at = f", with the stiffness at {AT:g} Hz" if varies else ""
+    return frequency[frequency > 0.0], f"dashed: natural frequencies{at}"
+
+
+def _waterfall(
+    ax: Axes,
+    result: MountResponse,
+    force: VectorQuantity,
+    orders: tuple[Order, ...],
+    label: str | None,
+    style: dict[str, Any],
+) -> str:
+    """Draw the spectrum over frequency of each speed, a step above that of the one below it."""
+    every = _speeds(result, "waterfall", label)
+    _, first = np.unique(every, return_index=True)
+    picked = first[
+        np.unique(np.linspace(0, len(first) - 1, min(MOST_SPECTRA, len(first))).round().astype(int))
+    ]
+    rpm = every[picked]
+    peaks = np.array([np.asarray(force[order].peak)[picked] for order in orders])
+    _speed_axis(ax)
+    label_x(ax, "frequency, Hz")
+    label_y(ax, "crank speed, rpm")
+    if not peaks.any():
+        note_zero(ax)
+        return ""
+    frequency = np.multiply.outer(np.array(orders, dtype=np.float64), rpm / 60.0)
+    step = float(rpm[-1] - rpm[0]) / (len(rpm) - 1)
+    largest = float(peaks.max())
+    norm = LogNorm(SEEN * largest, largest, clip=True)
+    tips = rpm + TALLEST * step * np.asarray(norm(peaks))
+    natural, note = _natural(result)
+    seen = frequency[frequency > 0.0]
+    left, right = 0.9 * min(float(seen.min()), *natural), 1.1 * float(seen.max())
+    base: dict[str, Any] = {"color": muted(ax, 0.2), "linewidth": 0.6, "zorder": 1}
+    ax.hlines(rpm, left, right, **base)
+    feet = np.broadcast_to(rpm, tips.shape)
+    ends = np.stack([np.stack([frequency, feet], -1), np.stack([frequency, tips], -1)], -2)
+    # The least on top of nothing: the largest are drawn last.
+    along = np.argsort(peaks, axis=None, kind="stable")
+    options: dict[str, Any] = {"cmap": colour_map(ax), "norm": norm}
+    options |= {"linewidth": 1.6, "zorder": 2.0} | style
+    stems = LineCollection(ends.reshape(-1, 2, 2)[along], **options)
+    stems.set_array(peaks.ravel()[along])
+    ax.add_collection(stems)
+    bar = ax.get_figure(root=False).colorbar(stems, ax=ax, aspect=25, pad=0.02)  # type: ignore[union-attr]
+    label_bar(bar, "peak, N")
+    bar.outline.set_visible(False)
+    for each in natural[natural < right]:
+        look: dict[str, Any] = {"color": muted(ax, 0.7), "linewidth": 0.9, "linestyle": (0, (4, 2))}
+        ax.axvline(float(each), gid="crankpin modes", zorder=1.5, **look)
+    _name_orders(ax, orders, peaks, np.stack([frequency[:, -1], tips[:, -1] + 0.2 * step]))
+    ax.set_xscale("log")
+    ax.set_xlim(left, right)
+    low, high = float(rpm[0]), float(tips.max())
+    ax.set_ylim(low - 0.5 * step, high + 0.1 * (high - low))
+    return note
+
+
+def _name_orders(
+    ax: Axes, orders: tuple[Order, ...], peaks: NDArray[np.float64], ends: NDArray[np.float64]
+) -> None:
+    """Write the largest orders above their ends, as far as these are apart."""
+    taken: list[float] = []
+    look: dict[str, Any] = {"ha": "center", "va": "bottom", "color": foreground(ax)}
+    for k in np.argsort(-peaks.max(axis=1), kind="stable"):
+        frequency, height = map(float, ends[:, k])
+        if all(max(frequency / other, other / frequency) > APART for other in taken):
+            taken.append(frequency)
+            ax.text(frequency, height, f"{orders[k]}", fontsize="small", **look)
 
 
 def _spectrum(

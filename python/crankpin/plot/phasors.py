@@ -23,6 +23,7 @@ from crankpin.plot.layout import (
     add_legend,
     axes_or_new,
     inches_of,
+    keep_apart,
     label_x,
     label_y,
     make_panels,
@@ -34,7 +35,7 @@ from crankpin.plot.layout import (
 )
 from crankpin.plot.plane import make_plane_panels
 from crankpin.plot.shapes import listed, outside
-from crankpin.plot.style import colours, foreground, muted, write
+from crankpin.plot.style import colours, foreground, muted, outlined, write
 from crankpin.plot.words import drawn_quantity, joined, loads_of, nonzero_in, number, rounded
 
 if TYPE_CHECKING:
@@ -174,8 +175,10 @@ def _name(ax: Axes, names: Sequence[tuple[str, complex, complex]]) -> None:
                 break
         else:
             written.append(([text], length, place, aside))
-    for texts, _, place, aside in written:
-        write(ax, ", ".join(texts), place, aside)
+    look = {"path_effects": outlined(ax), "zorder": 5}
+    keep_apart(
+        ax, [write(ax, ", ".join(t), place, aside, **look) for t, _, place, aside in written]
+    )
 
 
 def arrow(ax: Axes, start: complex, end: complex, shift: complex, **style: Any) -> None:  # noqa: ANN401

@@ -18,7 +18,16 @@ from crankpin.plot.layout import (
     note_zero,
     width_for,
 )
-from crankpin.plot.style import SERIES, colour_map, count_series, foreground, muted, series, write
+from crankpin.plot.style import (
+    SERIES,
+    colour_map,
+    count_series,
+    foreground,
+    muted,
+    outlined,
+    series,
+    write,
+)
 from crankpin.plot.ticks import numeric
 from crankpin.plot.words import drawn_quantity, in_degrees, nonzero_in
 
@@ -176,7 +185,8 @@ def _annotate(ax: Axes, point: complex, text: str, direction: complex) -> None:
     outward = direction / abs(direction) if direction else 1.0 + 0.0j
     ha = "center" if abs(outward.real) < 0.5 else "left" if outward.real > 0.0 else "right"
     va = "center" if abs(outward.imag) < 0.5 else "bottom" if outward.imag > 0.0 else "top"
-    write(ax, text, point, 11.0 * outward, ha=ha, va=va, color=foreground(ax))
+    look: dict[str, Any] = {"ha": ha, "va": va, "color": foreground(ax), "zorder": 5}
+    write(ax, text, point, 11.0 * outward, path_effects=outlined(ax), **look)
 
 
 def make_plane_panels(figure: object, count: int, height: float = 1.0) -> Panels:

@@ -40,6 +40,8 @@ if TYPE_CHECKING:
 POINTS = 181
 """Bank angles of a design's curve, besides those of the designs."""
 BEST, DESIGN = "best bank angle", "design"
+MANY = 300
+"""Number of dots beyond which they are smaller."""
 FORBIDDEN = "needs a pin split that is not allowed"
 
 
@@ -219,7 +221,10 @@ def _search(
     name = f"V{result.cylinders}"
     set_title(ax, name, without)
     (look,) = series(ax, 1, style)
-    dots: dict[str, Any] = {"marker": "o", "markersize": 3.2} | look | {"linestyle": ""}
+    # Hundreds of them would cover each other.
+    size = 3.2 if len(arrangements) <= MANY else 1.2
+    dots: dict[str, Any] = {"marker": "o", "markersize": size, "markeredgewidth": 0.0}
+    dots |= look | {"linestyle": ""}
     ax.plot(angles, heights, gid=SERIES, clip_on=False, label=label or name, **dots)
     _dress(
         ax,

@@ -121,7 +121,7 @@ def _moving_parts(
         low, high = -SKIRT * bores[k], CROWN * bores[k]
         outlines += [
             box(wrist, at.along[k], 0.97 * bores[k], low, high),
-            bar(pin, wrist, 1.3 * width, 1.5 * eye),
+            bar(at.rod_foot[k], wrist, 1.3 * width, 1.5 * eye),
             disc(wrist, 0.5 * eye),
             disc(pin, 0.5 * width),
         ]

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from matplotlib.axes import Axes
+    from matplotlib.patheffects import AbstractPathEffect
+    from matplotlib.text import Text
     from matplotlib.typing import ColorType
     from numpy.typing import NDArray
 
@@ -61,6 +63,11 @@ def background(ax: Axes) -> tuple[float, float, float]:
     return red, green, blue
 
 
+def is_dark(ax: Axes) -> bool:
+    """Return whether the background is dark."""
+    return float(np.mean(background(ax))) < 0.5
+
+
 def muted(ax: Axes, strength: float = 0.65) -> tuple[float, float, float]:
     """Return a colour between background (0) and foreground (1), for what is secondary."""
     return tint(ax, foreground(ax), strength)
@@ -68,8 +75,13 @@ def muted(ax: Axes, strength: float = 0.65) -> tuple[float, float, float]:
 
 def tint(ax: Axes, colour: ColorType, strength: float) -> tuple[float, float, float]:
     """Return a colour between background (0) and another one (1)."""
+    return blend(colour, background(ax), strength)
+
+
+def blend(colour: ColorType, other: ColorType, strength: float) -> tuple[float, float, float]:
+    """Return a colour between another one (0) and a first one (1)."""
     mixed = strength * np.array(colors.to_rgb(colour))
-    mixed += (1.0 - strength) * np.array(background(ax))
+    mixed += (1.0 - strength) * np.array(colors.to_rgb(other))
     red, green, blue = mixed.tolist()
     return red, green, blue
 
@@ -117,9 +129,19 @@ def scale(ax: Axes, count: int) -> list[Any]:
 
 def colour_map(ax: Axes) -> colors.Colormap:
     """Return viridis, without its end that is close to the background."""
-    dark = float(np.mean(background(ax))) < 0.5
-    low, high = (0.2, 1.0) if dark else (0.0, 0.92)
+    low, high = (0.2, 1.0) if is_dark(ax) else (0.0, 0.92)
     return colors.ListedColormap(mpl.colormaps["viridis"](np.linspace(low, high, 256)))
+
+
+def of_maps() -> str:
+    """Return the scale of colours of maps: that of the style sheet in use, or cividis.
+
+    In place of matplotlib's own viridis: colour-blind readers see the same in it as others.
+    """
+    now: Any = mpl.rcParams
+    own: Any = mpl.rcParamsDefault
+    name = str(now["image.cmap"])
+    return "cividis" if name == own["image.cmap"] else name
 
 
 def series(ax: Axes, count: int, style: Mapping[str, Any] | None = None) -> list[dict[str, Any]]:
@@ -184,21 +206,26 @@ def hollow(
     return line
 
 
-def write(ax: Axes, text: str, place: complex, aside: complex, **style: Any) -> None:  # noqa: ANN401
+def write(ax: Axes, text: str, place: complex, aside: complex, **style: Any) -> Text:  # noqa: ANN401
     """Write aside of a point x + iy by a distance in points, centred there but for the style."""
     look = {"ha": "center", "va": "center", "fontsize": "small", "textcoords": "offset points"}
-    ax.annotate(text, (place.real, place.imag), (aside.real, aside.imag), **(look | style))
+    return ax.annotate(text, (place.real, place.imag), (aside.real, aside.imag), **(look | style))
 
 
-def write_at_mark(ax: Axes, x: float, y: float, text: str, *, beside: bool = False) -> None:
+def outlined(ax: Axes) -> list[AbstractPathEffect]:
+    """Return the look of a text that is read over lines: a rim of the colour of the background."""
+    return [withStroke(linewidth=2.5, foreground=background(ax))]
+
+
+def write_at_mark(ax: Axes, x: float, y: float, text: str, *, beside: bool = False) -> Text:
     """Write above a mark, or beside it on the right."""
     low, high = ax.get_xlim()
     part = (x - low) / (high - low)
     within = "left" if part < 0.06 else "right" if part > 0.94 else "center"
     look: dict[str, Any] = {"ha": "left"} if beside else {"ha": within, "va": "bottom"}
-    look["path_effects"] = [withStroke(linewidth=2.5, foreground=background(ax))]
+    look["path_effects"] = outlined(ax)
     aside = 8.0 + 0j if beside else 7.0j
-    write(ax, text, complex(x, y), aside, color=foreground(ax), zorder=5, **look)
+    return write(ax, text, complex(x, y), aside, color=foreground(ax), zorder=5, **look)
 
 
 def entries_of(panels: NDArray[Any], *labels: str) -> list[Line2D]:

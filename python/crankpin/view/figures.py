@@ -4,22 +4,24 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
+from crankpin._support.quantities import QUANTITIES
 from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.explain import Explanation
 from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
+from crankpin.analysis.geometry import drawn_rod
 from crankpin.analysis.request import engine_core
 from crankpin.view.terms import RodRatios, at_rod_ratio, kinds, listed_orders, terms
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from numpy.typing import NDArray
 
@@ -29,6 +31,9 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine, Hold
     from crankpin.model.shafts import Unbalance
 
+Controls: TypeAlias = "str | Sequence[str] | None"
+"""Names of controls, or one; None for all."""
+CONTROLS = ("crank_angle", "rpm", "rod_ratio", "bank_angle", "rocking", "sound", "view")
 CURVE_STEP = 2.0
 """Degrees between the samples of a curve."""
 IRREGULARITY = 0.01
@@ -91,6 +96,7 @@ def figures(
     spectrum: Spectrum | None,
     inertia: float | None = None,
     compact: bool = False,
+    controls: Controls = None,
 ) -> dict[str, Any]:
     """Return an engine as plain lists and numbers: metres, kilograms, degrees.
 
@@ -110,7 +116,11 @@ def figures(
         "loads": labels.in_words(labels.SPECTRUM_GIVEN if pairs else engine.loads_counted),
         "flywheel": None if pairs is not None else _inertia(engine, float(rpm), inertia),
         "compact": inputs.flag("compact", compact),
-        "sentences": [] if compact or pairs else Explanation(engine, float(rpm) or None).sentences,
+        "controls": _controls(engine, controls, compact=compact),
+        "units": _units(),
+        "sentences": []
+        if compact or pairs
+        else [units.in_text(each) for each in Explanation(engine, float(rpm) or None).sentences],
     }
 
 
@@ -138,7 +148,7 @@ def places(engine: Engine, rpm: float) -> dict[str, Any]:
             }
             for shaft in engine.shafts
         ],
-        "firing_deg": engine.firing().angles_deg.tolist() if engine.firing_order else None,
+        "firing_deg": _firing(engine),
         "exhaust_opens_deg": EXHAUST[engine.strokes],
     }
 
@@ -188,6 +198,36 @@ def _bank_angle(engine: Engine) -> float | None:
     """Return the bank angle that a page can set, degrees: of two banks on one crank."""
     several = len(engine_core(engine).cranks[0]) > 1
     return None if several else getattr(engine, "bank_angle_deg", None)
+
+
+def _controls(engine: Engine, controls: Controls, *, compact: bool) -> list[str]:
+    """Return the names of the controls that a page has, in their order.
+
+    By default a compact page has three and its choice of a vector.
+    """
+    vee = _bank_angle(engine) is not None
+    has = {
+        "bank_angle": vee, "rocking": not compact, "sound": not compact and engine.firing_order,
+    }  # fmt: skip
+    known = [name for name in CONTROLS if has.get(name, True)]
+    if controls is None:
+        return [name for name in known if not (compact and vee and name == "rod_ratio")]
+    named = [controls] if isinstance(controls, str) else controls
+    listed = inputs.items("controls", named, f'give names, of {", ".join(known)}, or "none"')
+    if listed == ["none"]:
+        return []
+    for name in listed:
+        if inputs.one_of("controls", name, CONTROLS) not in known:
+            raise inputs.rejected("controls", name, f"this page has {', '.join(known)}")
+    return list(dict.fromkeys(listed))
+
+
+def _units() -> dict[str, units.Converted]:
+    """Return the units of a page that are not its own, with their factors, by quantity."""
+    own = {name: QUANTITIES[name].unit for name in ("force", "moment", "torque")}
+    own |= {"orbit": "m", "length": "m", "pressure": "Pa", "inertia": "kg·m²"}
+    shown = {name: units.convert(unit) for name, unit in own.items()}
+    return {name: each for name, each in shown.items() if each.unit != own[name]}
 
 
 def _inertia(engine: Engine, rpm: float, inertia: float | None) -> float | None:
@@ -246,7 +286,8 @@ def _cylinders(engine: Engine) -> list[dict[str, Any]]:
             "bank": banks[number],
             "crank": crank_of[number - 1],
             "crank_radius": cylinder.crank_radius,
-            "rod_length": cylinder.rod_length,
+            "rod_length": drawn_rod(cylinder),
+            "yoke": math.isinf(cylinder.rod_length),
             "pin_offset": cylinder.pin_offset,
             "tdc_deg": tdc,
             "bank_deg": bore,
@@ -276,6 +317,14 @@ def _cylinders(engine: Engine) -> list[dict[str, Any]]:
             start=1,
         )
     ]
+
+
+def _firing(engine: Engine) -> list[float | None] | None:
+    """Return when each cylinder fires, None of dummy pistons; None without a firing order."""
+    if not engine.firing_order:
+        return None
+    timed = zip(engine.cylinders, engine.firing().angles_deg.tolist(), strict=True)
+    return [None if cylinder.dummy else angle for cylinder, angle in timed]
 
 
 def _unbalances(unbalances: Iterable[Unbalance]) -> list[dict[str, Any]]:

@@ -19,11 +19,14 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Spectrum
     from crankpin.analysis.mounts.powertrain import Powertrain
     from crankpin.model.engine import Engine
+    from crankpin.view.figures import Controls
 
 WEB = Path(__file__).parent / "web"
 IMPORT = re.compile(r'^import \{[^}]*\} from "\./(\w+\.mjs)";\n', re.MULTILINE)
-COMMENT = re.compile(r"^\s*(?://[^\n]*|/\*\*.*?\*/)\n", re.MULTILINE | re.DOTALL)
-EXPORT = re.compile(r"^export (?=const|class|function)", re.MULTILINE)
+COMMENT = re.compile(
+    r"^\s*(?://[^\n]*|/\*\*.*?\*/)\n|(?<=[;,]) //[^\n\"]*$", re.MULTILINE | re.DOTALL
+)
+EXPORT = re.compile(r"^export (?=(?:async )?(?:const|class|function))", re.MULTILINE)
 INDENT = re.compile(r"^\s+", re.MULTILINE)
 
 
@@ -35,10 +38,13 @@ def save_html(
     inertia: float | None = None,
     spectrum: Spectrum | None = None,
     compact: bool = False,
+    controls: Controls = None,
 ) -> None:
     """Write a page in which an engine turns; :meth:`Engine.save_html` documents the arguments."""
     file = inputs.file_path(path, (".html", ".htm"), "a page ends in .html")
-    known = figures(engine, rpm, inertia=inertia, spectrum=spectrum, compact=compact)
+    known = figures(
+        engine, rpm, inertia=inertia, spectrum=spectrum, compact=compact, controls=controls
+    )
     view = "Compact" if compact else "Full"
     text = document(
         engine.name or "Engine",
@@ -68,7 +74,7 @@ def document(
     title: str, entries: Iterable[str], call: str, *, styles: Iterable[str] = (), body: str = ""
 ) -> str:
     """Return a page that loads nothing: modules and what they import, and a call of one."""
-    return Template(_read("page.html")).substitute(
+    return Template(template()).substitute(
         title=html.escape(title),
         style=style(*styles),
         script=f"{module(*entries)}\n{call}",
@@ -76,13 +82,23 @@ def document(
     )
 
 
+def template() -> str:
+    """Return what pages are written into: ``$title``, ``$style``, ``$body`` and ``$script``."""
+    return _read("page.html")
+
+
 def style(*names: str) -> str:
     """Return the style sheet, with these besides; elements within class ``crankpin`` alone."""
-    return "".join(_read(f"{name}.css") for name in ("view", *names))
+    return "".join(INDENT.sub("", _read(f"{name}.css")) for name in ("view", *names))
 
 
 def module(*entries: str) -> str:
-    """Return modules with all that they import, as one module.
+    """Return modules with all that they import, as one module."""
+    return "\n".join(modules(*entries).values())
+
+
+def modules(*entries: str, folder: Path = WEB) -> dict[str, str]:
+    """Return modules of a folder, or of pages, with what they import, each behind its imports.
 
     The modules import each other by name, without renaming, and no two have a name in common: one
     after the other, without ``import`` and ``export``, they are one module. Comments and indents
@@ -93,14 +109,14 @@ def module(*entries: str) -> str:
     def visit(name: str) -> None:
         if name in found:
             return
-        text = _read(name)
+        text = _read(name, folder if (folder / name).exists() else WEB)
         for each in IMPORT.findall(text):
             visit(each)
         found[name] = INDENT.sub("", EXPORT.sub("", COMMENT.sub("", IMPORT.sub("", text))))
 
     for entry in entries:
         visit(entry)
-    return "\n".join(found.values())
+    return found
 
 
 def as_json(value: object) -> str:
@@ -108,5 +124,5 @@ def as_json(value: object) -> str:
     return json.dumps(value, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
 
 
-def _read(name: str) -> str:
-    return (WEB / name).read_text(encoding="utf-8")
+def _read(name: str, folder: Path = WEB) -> str:
+    return (folder / name).read_text(encoding="utf-8")

@@ -12,6 +12,8 @@ from numpy.polynomial import chebyshev
 from crankpin import _core
 from crankpin._support import inputs
 from crankpin.analysis.request import engine_core
+from crankpin.model.computed_cycles import area
+from crankpin.model.cylinder import rod_length
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -96,7 +98,7 @@ def at_rod_ratio(engine: Engine, ratio: float | None) -> Engine:
     changed = {
         cylinder: cylinder
         if cylinder.rod_ratio == ratio
-        else cylinder.replace(rod_length=cylinder.crank_radius / ratio)
+        else cylinder.replace(rod_length=rod_length(cylinder.crank_radius, ratio))
         for cylinder in set(engine.cylinders)
     }
     return engine.replace(cylinder=[changed[cylinder] for cylinder in engine.cylinders])
@@ -200,12 +202,10 @@ class _Sampler:
             place = self.engine.cylinders.index(cylinder)
             amplitudes = _core.cylinder_harmonics(core.cylinders[place], orders)
             # The volume added per radian is the integral of the piston's acceleration.
-            swept = (
-                _piston_area(cylinder) * cylinder.crank_radius * 1j * amplitudes / np.array(orders)
-            )
+            swept = area(cylinder) * cylinder.crank_radius * 1j * amplitudes / np.array(orders)
             tables[f"swept {place}"] = _Table(orders, powers, swept[:, None, None].view(float))
         torque, mean = tables["torque"], np.zeros((1, 3, 4))
-        mean[0, 0, 2] = _core.mean_inertia(core)
+        mean[0, 0, 2] = _core.mean_inertias(core).sum()
         values = np.concatenate([mean, torque.values])
         tables["torque"] = _Table([0, *torque.orders], [0, *torque.powers], values)
         return tables
@@ -301,6 +301,3 @@ def _core_at(engine: Engine, ratio: float | None) -> _core.Engine:
     return engine_core(at_rod_ratio(engine, ratio)).without_cycles()
 
 
-def _piston_area(cylinder: Cylinder) -> float:
-    """Return the area of a piston, m²; zero of a bore that is not known."""
-    return 0.25 * math.pi * (cylinder.bore or 0.0) ** 2

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Spectrum
     from crankpin.analysis.mounts.powertrain import Powertrain
     from crankpin.model.engine import Engine
+    from crankpin.view.figures import Controls
 
 optional.library("anywidget")  # says what to install, as the imports would not
 
@@ -57,9 +58,12 @@ class EngineWidget(anywidget.AnyWidget):
         inertia: float | None = None,
         spectrum: Spectrum | None = None,
         compact: bool = False,
+        controls: Controls = None,
     ) -> None:
         self._engine = engine
-        known = figures(engine, rpm, inertia=inertia, spectrum=spectrum, compact=compact)
+        known = figures(
+            engine, rpm, inertia=inertia, spectrum=spectrum, compact=compact, controls=controls
+        )
         self._loads: dict[str, Any] = {"spectrum": spectrum, "inertia": known["flywheel"]}
         super().__init__(**dataclasses.asdict(Settings.of(engine, rpm)))
         self.set_trait("figures", known)

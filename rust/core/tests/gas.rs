@@ -193,22 +193,35 @@ fn sweeps_of_a_map_weigh_the_torques_of_its_cycles() {
     let (strokes, ratios) = ([0.08, 0.1], [0.25, 0.3]);
     let nodes = || (0..3).flat_map(|speed| [0, 1].map(|load| (speed, load)));
     let swept = |strokes: &[f64], ratios: &[f64]| {
-        let engines = strokes.iter().flat_map(|&stroke| {
-            nodes().map(move |(speed, load)| made(stroke, 0.2, factor(speed, load)))
-        });
-        let map = MapAxes { rpm: speeds.to_vec(), loads: loads.to_vec(), load: vec![1.0, 0.4] };
-        let axes = SweepAxes {
-            rod_ratio: Some(ratios.to_vec()),
-            rpm: swept_rpm.to_vec(),
-            map: Some(map),
-            ..SweepAxes::default()
-        };
+        // Those of the engines do not count.
+        let engines: Vec<_> = strokes.iter().map(|&stroke| made(stroke, 0.2, 7.0)).collect();
+        let cycles: Vec<_> = nodes()
+            .map(|(speed, load)| made(0.1, 0.2, factor(speed, load)).gas().unwrap().cycles.clone())
+            .collect();
         let orders = common::whole(&[1, 2, 4]);
-        let engines: Vec<_> = engines.collect();
-        let one_missing = engines[1..].to_vec();
-        let refused = Sweep::new(one_missing, axes.clone(), orders.clone(), None, &Cancel::new());
-        assert!(refused.unwrap_err().to_string().starts_with("engines = "));
-        Sweep::new(engines, axes, orders, None, &Cancel::new()).unwrap()
+        let sweep = |cycles: &[Vec<Arc<Cycle>>]| {
+            let map = MapAxes {
+                rpm: speeds.to_vec(),
+                loads: loads.to_vec(),
+                cycles: cycles.to_vec(),
+                load: vec![1.0, 0.4],
+            };
+            let axes = SweepAxes {
+                rod_ratio: Some(ratios.to_vec()),
+                rpm: swept_rpm.to_vec(),
+                map: Some(map),
+                ..SweepAxes::default()
+            };
+            Sweep::new(engines.clone(), axes, orders.clone(), None, &Cancel::new())
+        };
+        let refused = |cycles: &[Vec<Arc<Cycle>>]| sweep(cycles).unwrap_err().to_string();
+        assert!(refused(&cycles[1..]).starts_with("cycles = 5"));
+        let twice: Vec<_> = cycles.iter().map(|cycles| [&cycles[..]; 2].concat()).collect();
+        assert!(refused(&twice).starts_with("cycles = 2"));
+        let mut other = cycles.clone();
+        other[4] = vec![cycle_of(2, pressure)];
+        assert!(refused(&other).starts_with("cycle[0].strokes = 2"));
+        sweep(&cycles).unwrap()
     };
     let (orders, cancel) = (common::whole(&[1, 2, 4]), Cancel::new());
     let sweep = swept(&strokes, &ratios);

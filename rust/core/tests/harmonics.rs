@@ -273,3 +273,56 @@ fn odd_torque_orders_with_an_offset_take_no_longer_than_even_ones() {
     // Measured: 0.8 times as long; 4000 times with a sum of n powers for order n.
     assert!(odd < 5.0 * even, "{odd} s for odd orders, {even} s for even ones");
 }
+
+#[test]
+fn an_infinite_rod_is_the_limit_of_long_ones() {
+    let orders: Vec<u32> = (1..=24).collect();
+    let cancel = Cancel::new();
+    let proportions = |ratio| Proportions::new(ratio, 0.0).unwrap();
+    let of = |ratio: f64| {
+        let proportions = proportions(ratio);
+        let masses = torque::torque(&proportions, &orders, &cancel).unwrap();
+        let rods = rod::torque(&proportions, &orders, &cancel).unwrap();
+        let force = coefficients(&proportions, &orders, &cancel).unwrap();
+        [force, masses.roll, masses.crank, rods.roll, rods.crank].concat()
+    };
+    for ratio in [1e-9, 1e-12, 1e-30] {
+        for (long, infinite) in of(ratio).into_iter().zip(of(0.0)) {
+            // The first order of the rod goes with λ, and two roundings of the others.
+            assert!((long - infinite).norm() <= 2.0 * ratio + 1e-15, "{ratio}: {long} {infinite}");
+        }
+        for crank in [(0.6, 0.8), (-0.8, 0.6), (1.0, 0.0)] {
+            let motion = |ratio| proportions(ratio).motion(crank.0, crank.1);
+            let (long, infinite) = (motion(ratio), motion(0.0));
+            assert!((long.velocity - infinite.velocity).abs() <= ratio);
+            assert!((long.acceleration - infinite.acceleration).abs() <= ratio);
+            assert!((long.slope - infinite.slope).abs() <= ratio);
+            assert!((long.secant - infinite.secant).abs() <= ratio + 1e-15);
+        }
+    }
+    // Only order 1 of the force and order 2 of the torque are there, exactly, and in tables alike.
+    let [first, second] = [1, 2].map(|n| orders.iter().map(|&k| if k == n { 1.0 } else { 0.0 }));
+    let force: Vec<f64> = first.collect();
+    let roll: Vec<f64> = second.map(|one: f64| -0.5 * one).collect();
+    let known = of(0.0);
+    assert!(known.iter().zip(&force).all(|(z, &f)| (z.re, z.im) == (f, 0.0)));
+    assert!(known[24..].iter().zip(&roll).all(|(z, &t)| (z.re, z.im) == (0.0, t)));
+    let ratios = [0.0, 0.3, 0.0, 0.995];
+    let table = table::centred_table(&ratios, &orders, &cancel).unwrap();
+    let mut rolls = vec![0.0; ratios.len() * orders.len()];
+    table::write_centred_roll(&ratios, &orders, &mut rolls, &cancel).unwrap();
+    for row in [0, 2] {
+        assert_eq!(table.row(row).to_vec(), force);
+        let own = &rolls[row * orders.len()..][..orders.len()];
+        assert!(own.iter().zip(&roll).all(|(value, known)| (value - known).abs() == 0.0));
+    }
+    let pair = table::centred_table(&ratios[1..2], &orders, &cancel).unwrap();
+    assert_eq!(table.row(1), pair.row(0));
+    // And bounds of the orders left out.
+    let infinite = proportions(0.0);
+    for (highest, force, masses) in [(0, 1.0, 0.5), (1, 0.0, 0.5), (2, 0.0, 0.0), (9, 0.0, 0.0)] {
+        assert_eq!(harmonics::tail_bound(&infinite, highest), Some(force));
+        assert_eq!(torque::tail_bound(&infinite, highest), Some(masses));
+        assert_eq!(rod::tail_bound(&infinite, highest), Some(0.0));
+    }
+}

@@ -9,11 +9,12 @@ use common::{InArrays, angle};
 use crankpin_core::balance::{Balance, Request, TorquePart, Vector};
 use crankpin_core::engine::{Details, Gas, Origin};
 use crankpin_core::exact::vanishing::{QUANTITIES, Verdict, vanishing};
+use crankpin_core::flywheel::{CycleGrid, Drive, Evenness};
 use crankpin_core::pressure::Given;
 use crankpin_core::sweep::{Quantity, Statistic, SweepAxes};
 use crankpin_core::{
-    Cancel, Complex64, Crank, Cycle, Cylinder, Engine, Order, Orders, Station, Sweep, Unbalance,
-    balance, terms,
+    Cancel, Complex64, Crank, Cycle, Cylinder, Engine, Order, Orders, Spectrum, Station, Sweep,
+    Unbalance, balance, terms, waveform,
 };
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -175,13 +176,20 @@ proptest! {
 
     #[test]
     fn terms_add_up_to_the_balance_about_any_point(
-        engine in weighted(engines()), aside in [-0.5..0.5, -0.5..0.5]
+        engine in fired(weighted(engines())), aside in [-0.5..0.5, -0.5..0.5]
     ) {
         let whole = of(&engine);
         let terms = terms::terms(&engine, &REQUEST, aside, &orders(), &Cancel::new()).unwrap();
         let count = engine.stations().len();
         prop_assert_eq!(terms[count - 1].0, Origin::Cylinder(count - 1));
         prop_assert_eq!(terms.len(), count + engine.counterweights().len() + engine.shafts().len());
+        for on in [0, 1] {
+            let means: Vec<f64> = terms.iter().map(|(_, t)| t.mean(TorquePart::Whole)[on]).collect();
+            let size: f64 = means.iter().map(|mean| mean.abs()).sum();
+            let mean = whole.mean(TorquePart::Whole)[on];
+            // Roundings of a sum of seven terms.
+            prop_assert!((means.iter().sum::<f64>() - mean).abs() <= 1e-14 * size);
+        }
         for k in 0..orders().len() {
             let mut sums = [Complex64::default(); 6];
             let mut bound = bounds(&whole, k);
@@ -197,6 +205,55 @@ proptest! {
             for ((sum, expected), bound) in sums.into_iter().zip(expected).zip(bound) {
                 prop_assert!((sum - expected).norm() <= bound, "{k} {sum} {expected} {bound}");
             }
+        }
+    }
+
+    #[test]
+    fn inertia_torque_is_the_slope_of_the_moving_inertia(engine in engines()) {
+        let (grid, cancel) = (CycleGrid::new(360.0, &[], &Cancel::new()).unwrap(), Cancel::new());
+        let none = vec![0.0; grid.nodes_deg.len()];
+        let drive = Drive {
+            grid: &grid, torque: &none, load: &none, engine: Some(&engine), rpm: REQUEST.rpm,
+        };
+        let run = drive.speed(Evenness::Inertia(1e6), &cancel).unwrap();
+        let exact = waveform::exact(&engine, &REQUEST, &grid.edges_deg, &cancel).unwrap();
+        let expected = exact.crank_torque.unwrap();
+        let size = expected.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
+        for (torque, expected) in run.inertia_torque.iter().zip(&expected) {
+            // Some ten roundings of what cancels between cylinders.
+            prop_assert!((torque - expected).abs() <= 1e-9 * size, "{torque} {expected}");
+        }
+    }
+
+    #[test]
+    fn a_spectrum_acts_at_multiples_of_the_speed_of_its_crank(
+        engine in engines(), amplitudes in [(-1.0..1.0, -1.0..1.0), (-1.0..1.0, -1.0..1.0)]
+    ) {
+        let amplitudes = amplitudes.map(|(re, im): (f64, f64)| Complex64::new(re, im));
+        let spectrum = Spectrum::new((1..).zip(amplitudes)).unwrap();
+        let given = engine.with_spectrum(spectrum);
+        let auto = Orders::Auto { rtol: 1e-12 };
+        let found = balance::balance(&given, &REQUEST, &auto, &Cancel::new()).unwrap();
+        let square = (REQUEST.rpm * std::f64::consts::TAU / 60.0).powi(2);
+        for order in 1..=4 {
+            let (mut expected, mut size) = (Complex64::default(), 0.0);
+            for (i, station) in engine.stations().iter().enumerate() {
+                let ratio = engine.cranks()[engine.crank_of(i)].ratio;
+                let speed = ratio.unsigned_abs();
+                let own = (order % speed == 0).then_some((order / speed) as usize);
+                let of_piston = own.and_then(|n| amplitudes.get(n - 1)).copied();
+                let turning = station.rotating_mass * station.cylinder.crank_radius();
+                let turning = if ratio == order as i32 { turning } else { 0.0 };
+                let lag = station.bank.degrees() - f64::from(order) * station.tdc.degrees();
+                let weight = f64::from(ratio * ratio) * square;
+                let amplitude = 0.5 * of_piston.unwrap_or_default() + turning;
+                expected += Complex64::cis(lag.to_radians()) * amplitude * weight;
+                size += (2.0 + station.rotating_mass) * weight;
+            }
+            let at = found.orders.iter().position(|&one| one == Order::whole(order).unwrap());
+            let force = at.map_or(Complex64::default(), |k| found.planar(Vector::Force, k).forward);
+            // Degrees of phases to radians, and orders below the tolerance.
+            prop_assert!((force - expected).norm() <= 1e-11 * size, "{order} {force} {expected}");
         }
     }
 

@@ -100,7 +100,8 @@ pub fn torque(quantity: &str) -> PyResult<(TorquePart, bool)> {
     Ok((part.or_raise()?, quantity.starts_with("crank")))
 }
 
-fn vector(quantity: &str) -> PyResult<Vector> {
+/// Force or moment by its name.
+pub fn vector(quantity: &str) -> PyResult<Vector> {
     choice("quantity", quantity, &[("force", Vector::Force), ("moment", Vector::Moment)])
 }
 
@@ -121,6 +122,12 @@ impl Balance {
     #[getter]
     fn error_bound(&self) -> [f64; 3] {
         self.0.error_bound.values()
+    }
+
+    /// That of one order alone, if it was evaluated here.
+    fn alone(&self, order: OrderNumber) -> PyResult<Option<Self>> {
+        let [order] = convert::orders(&[order])?[..] else { return Ok(None) };
+        Ok(self.0.alone(order).map(Self))
     }
 
     /// As those of a sweep: along (about) x and y or, of force and moment, forward and backward parts.

@@ -1,18 +1,24 @@
 //! Counterweights and balance shafts.
 
-use crankpin_core::balancing;
 use crankpin_core::balancing::shafts::{self, Remove};
-use crankpin_core::balancing::weights::{self, Minimise};
+use crankpin_core::balancing::weights::{self, Minimise, Target};
+use crankpin_core::balancing::{self, bob_weight, card};
 use crankpin_core::{Complex64, Order};
 use crankpin_macros::guarded;
+use ndarray::Array1;
+use numpy::PyArray1;
 use pyo3::prelude::*;
 
+use crate::array::frozen;
+use crate::balance::vector;
 use crate::convert::OrRaise;
 use crate::engine::{Engine, Weight, choice, weight};
 use crate::interrupt;
 
 /// Plane, place among its angles, and weight.
 type PlacedWeight = (usize, usize, Weight);
+/// Figures by factor.
+type Column<'py> = Bound<'py, PyArray1<f64>>;
 /// Force and moment over ω².
 type Pair = (Complex64, Complex64);
 /// x and y of an axis, None where free.
@@ -44,44 +50,130 @@ pub fn roll_torque(
     interrupt::run(engine.py(), |cancel| balancing::roll_torque(core, order, rpm, cancel))
 }
 
-/// Plane, place among its angles and weight of each, whether they are proved to exert what was wanted,
-/// and the part of it that is missing.
+/// Weights that remove the most of an engine's forward force and moment: plane, place among its angles and
+/// weight of each, whether they are proved to exert what was wanted, and the part of it that is missing.
+///
+/// `parts` are the names of what matters, each with the share of the reciprocating mass to balance, none for
+/// all.
 #[guarded]
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "the wrapper in Python has defaults for them")]
-pub fn least_weights(
-    py: Python<'_>,
+pub fn fit_weights(
+    engine: &Bound<'_, Engine>,
     z: Vec<f64>,
-    reference: f64,
-    length: f64,
-    force: Option<Complex64>,
-    moment: Option<Complex64>,
     bounds: Vec<f64>,
     angles: Option<Vec<Vec<f64>>>,
+    parts: Vec<(String, Option<f64>)>,
+    length: Option<f64>,
     minimise: &str,
 ) -> PyResult<(Vec<PlacedWeight>, bool, f64)> {
     let words = [("squares", Minimise::Squares), ("largest", Minimise::Largest)];
     let minimise = choice("minimise", minimise, &words)?;
-    let found = interrupt::run(py, |cancel| {
-        let angles = angles.as_deref();
-        let (z, bounds) = (z.as_slice(), bounds.as_slice());
-        let request = weights::WeightRequest {
-            z,
-            reference,
-            length,
-            force,
-            moment,
-            bounds,
-            angles,
-            minimise,
-        };
-        weights::least(&request, cancel)
+    let target = |name: &str| match parts.iter().find(|(part, _)| part == name) {
+        None => Target::Ignored,
+        Some((_, None)) => Target::All,
+        Some((_, Some(factor))) => Target::Share(*factor),
+    };
+    let (force, moment) = (target("force"), target("moment"));
+    let core = &engine.get().0;
+    let (unbalances, found) = interrupt::run(engine.py(), |cancel| {
+        let (z, bounds, angles) = (z.as_slice(), bounds.as_slice(), angles.as_deref());
+        let fit = weights::Fit { z, bounds, angles, force, moment, length, minimise };
+        weights::external(core, &fit, cancel)
     })?;
-    let each = found.list.iter().map(|one| {
-        let unbalance = shafts::unbalance(one.vector, z[one.plane]).or_raise()?;
-        Ok((one.plane, one.angle, weight(&unbalance)))
-    });
-    Ok((each.collect::<PyResult<_>>()?, found.reached, found.missing))
+    let each = found.list.iter().zip(&unbalances);
+    let each = each.map(|(placed, unbalance)| (placed.plane, placed.angle, weight(unbalance)));
+    Ok((each.collect(), found.reached, found.missing))
+}
+
+/// The engine with counterweights that balance a bob weight of this factor at each crankpin.
+#[guarded]
+#[pyfunction]
+pub fn with_bob_weights(engine: &Engine, factor: f64) -> PyResult<Engine> {
+    bob_weight::with_bob_weights(&engine.0, factor).or_raise().map(Engine::from)
+}
+
+/// Rotating and reciprocating mass on each crankpin, from front to flywheel, kg.
+#[guarded]
+#[pyfunction]
+pub fn masses_on_pins(engine: &Engine) -> Vec<(f64, f64)> {
+    card::pins(&engine.0).iter().map(|pin| (pin.rotating, pin.reciprocating)).collect()
+}
+
+/// Plane, amount, angle at which to add and to drill, mass at the radius and in heavy metal.
+type Correction = (usize, f64, f64, f64, Option<f64>, Option<f64>);
+
+/// Corrections in planes that balance a crankshaft to a factor.
+#[guarded]
+#[pyfunction]
+pub fn corrections(
+    engine: &Bound<'_, Engine>,
+    factor: f64,
+    planes: Vec<f64>,
+    radii: Option<Vec<f64>>,
+    oil: f64,
+    balanced_to: Option<Vec<f64>>,
+) -> PyResult<Vec<Correction>> {
+    let core = &engine.get().0;
+    let found = interrupt::run(engine.py(), |cancel| {
+        let (planes, radii) = (planes.as_slice(), radii.as_deref());
+        let balanced_to = balanced_to.as_deref();
+        let request = card::CorrectionRequest { planes, radii, oil, balanced_to };
+        card::corrections(core, factor, &request, cancel)
+    })?;
+    let row = |each: &card::Correction| {
+        let (add, drill) = (each.unbalance.angle.degrees(), each.drilled_at.degrees());
+        (each.plane, each.unbalance.amount, add, drill, each.mass, each.heavy_metal)
+    };
+    Ok(found.iter().map(row).collect())
+}
+
+/// Force and moment of order 1 by balance factor.
+#[pyclass(frozen, module = "crankpin._core")]
+pub struct FirstOrder(bob_weight::FirstOrder);
+
+#[guarded]
+#[pymethods]
+impl FirstOrder {
+    #[new]
+    fn new(engine: &Bound<'_, Engine>) -> PyResult<Self> {
+        let core = &engine.get().0;
+        let work = |cancel: &_| bob_weight::FirstOrder::new(core, cancel);
+        interrupt::run(engine.py(), work).map(Self)
+    }
+
+    /// Whether it is not zero at every factor.
+    fn exists(&self, quantity: &str) -> PyResult<bool> {
+        Ok(self.0.exists(vector(quantity)?))
+    }
+
+    /// Longest and shortest half axis by factor.
+    fn half_axes<'py>(
+        &self,
+        py: Python<'py>,
+        quantity: &str,
+        factors: Vec<f64>,
+    ) -> PyResult<(Column<'py>, Column<'py>)> {
+        let vector = vector(quantity)?;
+        let axes: Vec<_> = factors.iter().map(|&k| self.0.half_axes(vector, k)).collect();
+        let column = |k: usize| frozen(py, axes.iter().map(|each| each[k]).collect::<Array1<_>>());
+        Ok((column(0)?, column(1)?))
+    }
+
+    /// Factor of the least longest vector.
+    fn least(&self, quantity: &str) -> PyResult<Option<f64>> {
+        Ok(self.0.least(vector(quantity)?))
+    }
+
+    /// Factors that leave a straight line, and its direction.
+    fn straight(&self, quantity: &str) -> PyResult<Vec<(f64, f64)>> {
+        Ok(self.0.straight(vector(quantity)?))
+    }
+
+    /// Direction of the longest half axis in words; `sides` is what is on the right and on the left.
+    fn direction(&self, quantity: &str, factor: f64, sides: (String, String)) -> PyResult<String> {
+        Ok(self.0.direction(vector(quantity)?, factor, [&sides.0, &sides.1]))
+    }
 }
 
 /// Shafts that remove their parts of orders, and the distance of places beyond reach, m.

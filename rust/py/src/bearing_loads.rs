@@ -26,8 +26,8 @@ type Loads<'py> = (
     Bound<'py, PyArray2<f64>>,
 );
 
-/// Least and largest of each row of the same.
-type LoadExtremes<'py> = [Bound<'py, PyArray2<f64>>; 6];
+/// Least and largest of each row of the same, and of each crankpin with all of its rods.
+type LoadExtremes<'py> = [Bound<'py, PyArray2<f64>>; 7];
 
 #[guarded]
 #[pymethods]
@@ -110,10 +110,11 @@ impl BearingLoadsModel {
     /// Least and largest loads over a cycle, degrees, as `loads` has them; magnitudes of vectors.
     fn extremes<'py>(&self, py: Python<'py>, cycle_deg: u32) -> PyResult<LoadExtremes<'py>> {
         let found = interrupt::run(py, |cancel| self.0.extremes(cycle_deg, cancel))?;
-        let Extremes { crankpin, wrist_pin, main, side_thrust, rod, gas } = found;
+        let Extremes { crankpin, wrist_pin, main, side_thrust, rod, gas, whole_crankpin } = found;
         let [crankpin, wrist_pin, main] = [crankpin, wrist_pin, main].map(|rows| frozen(py, rows));
         let [side_thrust, rod, gas] = [side_thrust, rod, gas].map(|rows| frozen(py, rows));
-        Ok([crankpin?, wrist_pin?, main?, side_thrust?, rod?, gas?])
+        let whole_crankpin = frozen(py, whole_crankpin)?;
+        Ok([crankpin?, wrist_pin?, main?, side_thrust?, rod?, gas?, whole_crankpin])
     }
 
     /// Ranges of crank angles in which each rod is in tension, degrees of a cycle.

@@ -52,11 +52,15 @@ pub type Weight = (f64, String, f64, Option<usize>);
 /// The same, its angle read.
 type GivenWeight = (f64, Angle, f64, Option<usize>);
 
-/// Bore, piston mass, and the rod's mass, inertia and place of its centre.
-type Kept = (Option<f64>, Option<f64>, Option<(f64, f64, f64)>);
+/// Bore, piston mass, the rod's mass, inertia and place of its centre, and whether it is a dummy.
+type Kept = (Option<f64>, Option<f64>, Option<(f64, f64, f64)>, bool);
 
 /// Numbers of the cylinders on a crankpin, its direction in degrees, its place in m, index of its crank.
 type Pin = (Vec<usize>, f64, f64, usize);
+
+fn pin(pin: Crankpin) -> Pin {
+    (numbers(&pin.cylinders), pin.pin.degrees(), pin.z, pin.crank)
+}
 
 /// Axis and speed ratio of each crankshaft, the main one first, and of each cylinder the index of its own.
 type Cranks = (Vec<(f64, f64, i32)>, Vec<usize>);
@@ -421,9 +425,13 @@ impl Engine {
 
     /// Crankpins from front to flywheel, those of one throw a list.
     fn throws(&self) -> Vec<Vec<Pin>> {
-        let pin = |pin: Crankpin| (numbers(&pin.cylinders), pin.pin.degrees(), pin.z, pin.crank);
         let throw = |throw: Vec<Crankpin>| throw.into_iter().map(pin).collect();
         self.0.throws().into_iter().map(throw).collect()
+    }
+
+    /// The crankpins from front to flywheel.
+    fn crankpins(&self) -> Vec<Pin> {
+        self.0.crankpins().into_iter().map(pin).collect()
     }
 
     /// Numbers of the cylinders, places of the throws and of the bearings of each bay of the main crank.
@@ -450,7 +458,10 @@ impl Engine {
         self.0
             .details()
             .iter()
-            .map(|d| (d.bore, d.piston_mass, d.rod.map(|r| (r.mass, r.inertia, r.to_crankpin))))
+            .map(|d| {
+                let rod = d.rod.map(|r| (r.mass, r.inertia, r.to_crankpin));
+                (d.bore, d.piston_mass, rod, d.dummy)
+            })
             .collect()
     }
 
@@ -462,9 +473,10 @@ impl Engine {
         reference_z: Option<f64>,
     ) -> PyResult<Self> {
         let details = details.into_iter();
-        let details = details.map(|(bore, piston_mass, rod)| Details {
+        let details = details.map(|(bore, piston_mass, rod, dummy)| Details {
             bore,
             piston_mass,
+            dummy,
             rod: rod.map(|(mass, inertia, to_crankpin)| RodFigures { mass, inertia, to_crankpin }),
         });
         let engine = self.0.with_details(details.collect()).and_then(|e| e.with_mains(mains));
@@ -487,31 +499,21 @@ impl Engine {
         (0..count).map(|i| self.0.bank_of(i)).map(|k| if right == 1 { 1 - k } else { k }).collect()
     }
 
-    /// The engine with each of some lists of a cycle of each cylinder, or none, and a crankcase pressure,
+    /// The engine with cycles, the index of that of each cylinder, or none, and a crankcase pressure,
     /// firing in its own firing order.
     fn with_cycles(
         &self,
         py: Python<'_>,
-        lists: Vec<Vec<Option<PyRef<'_, Cycle>>>>,
+        cycles: Vec<PyRef<'_, Cycle>>,
+        cycle_of: Vec<Option<usize>>,
         crankcase: f64,
-    ) -> PyResult<Vec<Self>> {
+    ) -> PyResult<Self> {
         // The camshaft is that of the whole engine, also where some cylinders do not fire.
         let whole = Arc::new(self.0.without_gas());
         let firing = interrupt::run(py, |cancel| core::Firing::own(&whole, cancel))?;
-        let fired = |cycles: Vec<Option<PyRef<'_, Cycle>>>| {
-            let mut known: Vec<Arc<core::Cycle>> = Vec::new();
-            let mut index = |cycle: PyRef<'_, Cycle>| {
-                let is_it = |other: &Arc<_>| Arc::ptr_eq(other, &cycle.0) || *other == cycle.0;
-                known.iter().position(is_it).unwrap_or_else(|| {
-                    known.push(Arc::clone(&cycle.0));
-                    known.len() - 1
-                })
-            };
-            let cycle_of = cycles.into_iter().map(|cycle| cycle.map(&mut index)).collect();
-            let gas = Gas { cycles: known, cycle_of, crankcase, later: firing.in_second_turn() };
-            self.0.with_gas(gas).or_raise().map(Self::from)
-        };
-        lists.into_iter().map(fired).collect()
+        let cycles = cycles.iter().map(|cycle| Arc::clone(&cycle.0)).collect();
+        let gas = Gas { cycles, cycle_of, crankcase, later: firing.in_second_turn() };
+        self.0.with_gas(gas).or_raise().map(Self::from)
     }
 
     /// The engine with what another has of pressure in some of its cylinders, by index, above that

@@ -2,7 +2,7 @@
 
 use crankpin_core::balance::Vector;
 use crankpin_core::engine::loads;
-use crankpin_core::explain::{self as core, Row, Subject, Wording, words};
+use crankpin_core::explain::{self as core, Row, Subject, Wording};
 use crankpin_macros::guarded;
 use pyo3::prelude::*;
 
@@ -104,18 +104,4 @@ pub fn gas_text(names: Vec<Option<String>>, count: usize) -> String {
 #[pyfunction]
 pub fn dead_text(fires: Vec<bool>) -> String {
     loads::dead_text(fires.into_iter())
-}
-
-/// A line across the engine in words; `sides` is what is on the right and on the left.
-#[guarded]
-#[pyfunction]
-pub fn across(direction_deg: f64, sides: (String, String)) -> String {
-    words::across(direction_deg, [&sides.0, &sides.1])
-}
-
-/// How a vector of constant size turns, in words.
-#[guarded]
-#[pyfunction]
-pub fn turns(minor: f64) -> String {
-    words::turns(minor)
 }

@@ -49,14 +49,6 @@ pub fn orders_that_count(engine: &Bound<'_, Engine>) -> PyResult<Vec<OrderNumber
     Ok(numbers(&found))
 }
 
-/// Mean moment of inertia of pistons and rods as seen from the crank, kg·m².
-#[guarded]
-#[pyfunction]
-pub fn mean_inertia(engine: &Bound<'_, Engine>) -> PyResult<f64> {
-    let core = &engine.get().0;
-    interrupt::run(engine.py(), |cancel| figures::mean_inertia(core, cancel))
-}
-
 /// What the cylinders make one by one: force, moment, torque of inertia and of gas.
 #[guarded]
 #[pyfunction]

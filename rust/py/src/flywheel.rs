@@ -17,6 +17,18 @@ pub struct CycleGrid(flywheel::CycleGrid);
 /// mean torque, acceleration, lowest and highest speed, and the two approximations of the irregularity.
 type Speed<'py> = ([Bound<'py, PyArray1<f64>>; 3], [f64; 9]);
 
+/// Mean moment of inertia over a turn of each cylinder's piston and rod as seen from the main crank, kg·m².
+#[guarded]
+#[pyfunction]
+pub fn mean_inertias<'py>(
+    py: Python<'py>,
+    engine: &Bound<'py, Engine>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let engine = &*engine.get().0;
+    let found = interrupt::run(py, |cancel| flywheel::mean_inertias(engine, cancel))?;
+    frozen(py, found.into())
+}
+
 #[guarded]
 #[pymethods]
 impl CycleGrid {

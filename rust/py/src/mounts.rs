@@ -473,6 +473,17 @@ impl Response {
         let shape = [&[self.speeds, self.core.orders().len()], rest].concat();
         frozen(py, memory::array("response", shape, values).or_raise()?)
     }
+
+    /// Loads about the CG, with moments about a point if one is given.
+    fn loads_about<'py>(
+        &self,
+        py: Python<'py>,
+        about: Option<[f64; 3]>,
+        loads: &[nalgebra::SVector<Complex64, 6>],
+    ) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
+        let moved = about.map(|point| self.core.about(point, loads));
+        self.shaped(py, side_by_side(moved.as_deref().unwrap_or(loads)), &[6])
+    }
 }
 
 /// Numbers of vectors side by side.
@@ -499,9 +510,13 @@ impl Response {
         self.core.error_bound().values()
     }
 
-    /// The engine's load about the CG: (`n_rpm`, `n_orders`, 6).
-    fn loads<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
-        self.shaped(py, side_by_side(self.core.loads()), &[6])
+    /// The engine's load about the CG, or a point: (`n_rpm`, `n_orders`, 6).
+    fn loads<'py>(
+        &self,
+        py: Python<'py>,
+        about: Option<[f64; 3]>,
+    ) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
+        self.loads_about(py, about, self.core.loads())
     }
 
     /// Displacement of the CG and rotation: (`n_rpm`, `n_orders`, 6).
@@ -515,10 +530,14 @@ impl Response {
         self.shaped(py, forces.into_flattened(), &[self.mounts, 3])
     }
 
-    /// Their sum, and that of their moments about the CG: (`n_rpm`, `n_orders`, 6).
-    fn support_loads<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
+    /// Their sum, and that of their moments about the CG, or a point: (`n_rpm`, `n_orders`, 6).
+    fn support_loads<'py>(
+        &self,
+        py: Python<'py>,
+        about: Option<[f64; 3]>,
+    ) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
         let sums = interrupt::run(py, |cancel| self.core.support_loads(cancel))?;
-        self.shaped(py, side_by_side(&sums), &[6])
+        self.loads_about(py, about, &sums)
     }
 
     /// Motion of a subframe's CG and rotation: (`n_rpm`, `n_orders`, 6).

@@ -39,6 +39,28 @@ impl Hash for Cycle {
     }
 }
 
+/// Volume over a piston at crank angles, degrees, over the clearance volume.
+#[guarded]
+#[pyfunction]
+pub fn volume_ratios<'py>(
+    py: Python<'py>,
+    parts: Parts,
+    bore: f64,
+    compression_ratio: f64,
+    strokes: u32,
+    theta_deg: PyReadonlyArray1<'_, f64>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let chamber = chamber(parts, bore, compression_ratio, strokes)?;
+    let thetas = theta_deg.as_slice()?;
+    interrupt::written(py, [thetas.len()], None, |out, cancel| {
+        core::crank_angles::check(thetas, cancel)?;
+        for (ratio, &theta) in out.iter_mut().zip(thetas) {
+            *ratio = chamber.ratio(theta);
+        }
+        Ok(())
+    })
+}
+
 type PlacesOnAxis<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<f64>>);
 
 /// Places of values among the speeds or loads of a map: the lower neighbour of each, and the weight of the

@@ -49,6 +49,20 @@ pub fn rod_parts(rod: (f64, f64, f64, f64)) -> PyResult<(f64, f64, f64)> {
     Ok((rod.reciprocating_mass(), rod.rotating_mass(), rod.inertia_excess()))
 }
 
+/// Distance between the ends of a piston's travel, m.
+#[guarded]
+#[pyfunction]
+pub fn piston_travel(parts: Parts) -> PyResult<f64> {
+    Ok(cylinder(parts)?.travel())
+}
+
+/// Crank angles at which a piston is highest and lowest, degrees.
+#[guarded]
+#[pyfunction]
+pub fn turning_points(parts: Parts) -> PyResult<[f64; 2]> {
+    Ok(cylinder(parts)?.turning_points_deg())
+}
+
 /// Position (m), velocity (m/rad) and acceleration (m/rad²) at crank angles: columns of (n, 3).
 #[guarded]
 #[pyfunction]

@@ -1,5 +1,7 @@
 //! Sweeps.
 
+use std::sync::Arc;
+
 use crankpin_core as core;
 use crankpin_core::sweep::{MapAxes, Quantity, Statistic, SweepAxes};
 use crankpin_core::{Cancel, Complex64, Error, memory};
@@ -11,6 +13,7 @@ use crate::balance;
 use crate::convert::{self, OrRaise, OrderNumber, numbers, python_error};
 use crate::engine::{Engine, choice, hold};
 use crate::interrupt;
+use crate::pressure::Cycle;
 use crate::waveform::CrankAngles;
 
 /// Engines and axes, checked.
@@ -20,6 +23,14 @@ pub struct Sweep {
     /// Which of engine, bank angle, rod ratio, pin offset, speed and load are dimensions of the result.
     swept: [bool; 6],
 }
+
+/// Speeds and loads of a map, loads, and cycles.
+type GasMap<'py> = (
+    PyReadonlyArray1<'py, f64>,
+    PyReadonlyArray1<'py, f64>,
+    PyReadonlyArray1<'py, f64>,
+    Vec<Vec<PyRef<'py, Cycle>>>,
+);
 
 fn quantity(name: &str) -> PyResult<Quantity> {
     match name {
@@ -85,7 +96,7 @@ impl Sweep {
         rod_ratio: Option<PyReadonlyArray1<'_, f64>>,
         pin_offset: Option<PyReadonlyArray1<'_, f64>>,
         rpm: PyReadonlyArray1<'_, f64>,
-        cycles: Option<[PyReadonlyArray1<'_, f64>; 3]>,
+        gas_map: Option<GasMap<'_>>,
         orders: Option<Vec<OrderNumber>>,
         rtol: f64,
         reference_z: Option<f64>,
@@ -112,9 +123,13 @@ impl Sweep {
         let bank_angle = slice(bank_angle_deg.as_ref())?;
         let (rod_ratio, pin_offset) = (slice(rod_ratio.as_ref())?, slice(pin_offset.as_ref())?);
         let rpm = rpm.as_slice()?;
-        let map = match &cycles {
-            Some([rpm, loads, load]) => {
-                Some([rpm.as_slice()?, loads.as_slice()?, load.as_slice()?])
+        let map = match &gas_map {
+            Some((rpm, loads, load, cycles)) => {
+                let cores = |cycles: &Vec<PyRef<'_, Cycle>>| {
+                    cycles.iter().map(|cycle| Arc::clone(&cycle.0)).collect()
+                };
+                let cycles: Vec<Vec<_>> = cycles.iter().map(cores).collect();
+                Some(([rpm.as_slice()?, loads.as_slice()?, load.as_slice()?], cycles))
             }
             None => None,
         };
@@ -127,7 +142,8 @@ impl Sweep {
                 pin_offset: list(pin_offset)?,
                 rpm: memory::copied(rpm, cancel)?,
                 map: match map {
-                    Some([rpm, loads, load]) => Some(MapAxes {
+                    Some(([rpm, loads, load], cycles)) => Some(MapAxes {
+                        cycles,
                         rpm: memory::copied(rpm, cancel)?,
                         loads: memory::copied(loads, cancel)?,
                         load: memory::copied(load, cancel)?,

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use crankpin_core::figures::{
-    GROUPS, GroupTerms, Parts, Sizes, block, exhaust_opens_deg, fired_kinds, group_terms,
-    listed_orders, mean_inertia, orders, pressures, sizes, swept,
+    GROUPS, GroupTerms, Parts, Sizes, block, drawn_rod, exhaust_opens_deg, fired_kinds,
+    group_terms, listed_orders, mean_inertia, orders, pressures, sizes, swept,
 };
 use crankpin_core::{Cancel, Complex64, Engine, Order, Result, Unbalance};
 use serde_json::{Value, json};
@@ -66,7 +66,7 @@ fn cylinders(engine: &Engine) -> Vec<Value> {
         let mut entry = json!({
             "number": i + 1, "bank": if right == 1 { 1 - bank } else { bank }, "crank": crank,
             "crank_radius": station.cylinder.crank_radius(),
-            "rod_length": station.cylinder.rod_length(), "pin_offset": station.cylinder.pin_offset(),
+            "rod_length": drawn_rod(&station.cylinder), "yoke": station.cylinder.has_infinite_rod(), "pin_offset": station.cylinder.pin_offset(),
             "tdc_deg": station.tdc.degrees(), "bank_deg": station.bank.degrees(), "z": station.z,
             "cycle": null,
         });

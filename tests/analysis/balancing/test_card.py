@@ -44,6 +44,26 @@ def test_bob_weights_by_hand() -> None:
     assert set(card.table["share"].values) == {"48, 50, 52 %", "100 %"}
 
 
+@pytest.mark.parametrize("seed", range(10))
+def test_factors_that_are_rounding_apart_are_one(seed: int) -> None:
+    """In the card as in the bob weights' own table, whose remarks stand at one factor."""
+    rng = np.random.default_rng(seed)
+    angle = float(rng.choice([60.0, 90.0, 120.0, 180.0, *rng.uniform(20.0, 170.0, 4)]))
+    twin = cp.Engine.vee(
+        cp.Cylinder(0.04, 0.14, 0.5), bank_angle_deg=angle, throws_deg=[0.0], spacing=0.1
+    )
+    bob = cp.bob_weight(twin)
+    own = [0.5, *(factor + rng.uniform(0.0, 1e-13) for factor, _ in bob.straight("force"))]
+    for frame, name in ((bob.card(own).frames["residual"], "factor"), (bob.frames["factors"], "")):
+        listed = np.array([float(each) for each in frame.columns[0].values])
+        scale = 100.0 if name else 1.0
+        assert (np.diff(listed) > 1e-9 * scale).all()
+        for factor, _ in bob.straight("force"):
+            at = int(abs(listed - scale * factor).argmin())
+            words = frame.columns[1].values[at]
+            assert words.count("straight line of the force") + words.count("force along") == 1
+
+
 def test_the_couple_that_two_per_cent_leaves_by_hand() -> None:
     """Four per cent of √10 a m r ω², the couple of throws at 0°, 90°, 270°, 180°."""
     card = card_of_a_v8()

@@ -145,3 +145,45 @@ def test_motion_is_reciprocal_across_two_stages(seed: int) -> None:
     back = other.at("block").displacement.xyz[:, 0] @ block_along
     # Two factorisations of the same dozen of equations, the second one after a subtraction.
     assert back == pytest.approx(there, rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_moments_about_a_point_are_those_of_the_balance_and_of_the_mounts(seed: int) -> None:
+    p, rpm = random_case(seed)
+    r = p.response(rpm, orders=[1, 2, 4])
+    point = tuple(np.random.default_rng(seed).uniform(-0.4, 0.4, 3))
+    moved = r.about(point)
+    b = p.engine.balance(rpm[0], orders=[1, 2, 4]).about(point)
+    moments = [[b[n].moment.x, b[n].moment.y, b[n].torque.phasor] for n in r.orders]
+    size = np.abs(moved.load[0]).max()
+    # Some roundings of forces times arms below a metre.
+    np.testing.assert_allclose(moved.load[0, :, 3:], moments, rtol=0, atol=1e-13 * size)
+    np.testing.assert_array_equal(moved.load[..., :3], r.load[..., :3])
+    forces = np.stack([r.mount_force[name].xyz for name in p.names], axis=-2)
+    arms = np.array([mount.at for mount in p.mounts]) - np.array(point)
+    sums = np.cross(arms, forces).sum(axis=-2)
+    size = np.abs(moved.support_load).max()
+    np.testing.assert_allclose(moved.support_load[..., 3:], sums, rtol=0, atol=1e-12 * size)
+    np.testing.assert_array_equal(moved.motion, r.motion)
+    assert moved.sel(rpm=rpm[1])[2].load.tolist() == moved[2].load[1].tolist()
+    assert r.about(p.body.cg).load.tolist() == r.load.tolist()
+    auto = p.response(rpm, rtol=1e-3)
+    bound, about = auto.error_bound, auto.about(point).error_bound
+    assert about["force"] == bound["force"]
+    assert about["moment"] >= bound["moment"]
+    assert str(tuple(map(float, point))) in moved.sel(rpm=rpm[0]).frames["loads"].title
+
+
+def test_power_is_a_frame_whose_columns_balance() -> None:
+    p, rpm = random_case(3)
+    one = p.response(rpm[0], orders=[1, 2, 4])
+    frame = one.frames["power"]
+    assert frame["order"].values == (1, 2, 4, "all")
+    put_in = np.array(frame["put in"].values)
+    lost = np.array([frame[name].values for name in p.names])
+    np.testing.assert_array_equal(put_in[:-1], one.power_in)
+    np.testing.assert_array_equal(lost[:, :-1].T, one.power_lost)
+    np.testing.assert_allclose(put_in[-1], lost[:, -1].sum(), rtol=1e-10)
+    assert "passed on" not in frame
+    raft = cp.Subframe(p.body, p.mounts)
+    assert "passed on" in p.on(raft).response(rpm[0], orders=[2]).frames["power"]

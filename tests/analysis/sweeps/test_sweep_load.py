@@ -120,6 +120,25 @@ def test_each_point_is_the_balance_of_its_engine(swept: str) -> None:
         np.testing.assert_array_equal(s.moment.peak[place], s.sel(**at).moment.peak)
 
 
+@pytest.mark.parametrize("options", [{"orders": HALVES}, {"rtol": 1e-2}])
+def test_maps_that_agree_at_one_point_differ_at_others(options: dict[str, Any]) -> None:
+    idle = cp.CycleMap(SPEEDS, LOADS, [[cycle(n, 0.0)] * 3 for n in SPEEDS])
+    copy = cp.CycleMap(SPEEDS, LOADS, MAP.cycles)
+    plain = engine("v6-90-odd-fire")
+    s = cp.sweep(
+        plain, rpm=[1000.0, 1700.0], load=[0.0, 0.7], cycle=[MAP, idle, copy, None, idle, MAP],
+        **options,
+    )  # fmt: skip
+    for k, j in np.ndindex(2, 2):
+        fired = s.engine_at(rpm=s.coords["rpm"][k], load=s.coords["load"][j])
+        alone = fired.balance(s.coords["rpm"][k], orders=s.orders)
+        scale = alone.read("crank_torque.gas", "peak").max() + abs(alone.crank_torque.mean)
+        for what in ("phasors", "mean"):
+            found, expected = s.read("crank_torque", what)[k, j], alone.read("crank_torque", what)
+            # As above.
+            np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-11 * scale)
+
+
 def test_orders_left_out_are_within_their_bound_at_every_point() -> None:
     rpm, load = [1000.0, 1700.0, 6000.0], [0.0, 0.2, 0.7, 1.0]
     s = cp.sweep(engine("v8-crossplane"), rpm=rpm, load=load, cycle=MAP, rtol=1e-2)

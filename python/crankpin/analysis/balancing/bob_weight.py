@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
@@ -18,9 +18,8 @@ from crankpin._support.record import read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import over_square
 from crankpin.analysis.balancing import planes as correction_planes
-from crankpin.analysis.balancing.card import Card, weighed, with_parts
-from crankpin.analysis.balancing.fitting import LARGEST_FACTOR, check_factor, with_bob_weights
-from crankpin.analysis.balancing.planes import Turning, turning
+from crankpin.analysis.balancing.card import Card, remarks_by_factor, weighed, with_parts
+from crankpin.analysis.balancing.fitting import check_factor, with_bob_weights
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks
 from crankpin.model.crankpins import Crankpin, crankpins
@@ -38,11 +37,7 @@ if TYPE_CHECKING:
 
 TABULATED = (0.0, 0.5, 1.0)
 """Factors in the table of residuals."""
-ALIKE = 1e-12
-"""Factors that differ by less, and relative figures below, are rounding."""
 SIDES = 'give two texts, such as ("right", "left")'
-HALVINGS = 60
-"""Of an interval of factors, to the last digits of a double."""
 
 
 def bob_weight(
@@ -154,17 +149,16 @@ class BobWeight(Tabled):
     @property
     def rotating(self) -> NDArray[np.float64]:
         """Rotating mass of each crankpin's rods, without oil, kg: (n_crankpins,)."""
-        return self._of_pins(self.engine.rotating_mass)
+        return read_only(self._masses[:, 0])
 
     @property
     def reciprocating(self) -> NDArray[np.float64]:
         """Reciprocating mass on each crankpin, kg: (n_crankpins,)."""
-        return self._of_pins([each.reciprocating_mass for each in self.engine.cylinders])
+        return read_only(self._masses[:, 1])
 
-    def _of_pins(self, masses: ArrayLike) -> NDArray[np.float64]:
-        listed = np.asarray(masses)
-        pins = [[number - 1 for number in pin.cylinders] for pin in self.crankpins]
-        return read_only(np.array([listed[members].sum() for members in pins]))
+    @cached_property
+    def _masses(self) -> NDArray[np.float64]:
+        return np.array(_core.masses_on_pins(engine_core(self.engine)))
 
     @property
     def mass(self) -> NDArray[np.float64]:
@@ -202,29 +196,9 @@ class BobWeight(Tabled):
         return over_square(self.fitted, [1])
 
     @cached_property
-    def _first_order(self) -> dict[str, tuple[Part, Part]]:
-        """Forward and backward part of force and of moment, over ω².
-
-        A bob weight changes the part that turns with its own crank.
-        """
-        ratios = {ratio for _, _, ratio in self.engine._core.cranks[0]}
-        engines = [with_bob_weights(self.engine, factor) for factor in (0.0, 1.0)]
-        sizes = self._sizes(engines[1])
-        senses = []
-        for sense in (1, -1):
-            pairs = zip(*(turning(engine, sense) for engine in engines), sizes, strict=True)
-            weighed = sense in ratios
-            senses.append(
-                [Part(one, other - one if weighed else 0j, size) for one, other, size in pairs]
-            )
-        return dict(zip(Turning._fields, zip(*senses, strict=True), strict=True))
-
-    def _sizes(self, weighted: Engine) -> tuple[float, float]:
-        """Return the sums of all magnitudes that force and moment are the difference of."""
-        amounts = np.array([each.amount for each in weighted.counterweights])
-        places = np.array([each.z for each in weighted.counterweights])
-        levers = np.abs(places - self.engine.reference_z)
-        return float(amounts.sum()), float((amounts * levers).sum())
+    def _first_order(self) -> _core.FirstOrder:
+        """Force and moment of order 1 by factor, over ω²."""
+        return _core.FirstOrder(engine_core(self.engine))
 
     def half_axes(self, quantity: str, factor: ArrayLike) -> tuple[Any, Any]:
         """Return the longest and shortest half axis of order 1 by balance factor, over ω².
@@ -254,14 +228,14 @@ class BobWeight(Tabled):
         InputError
             If there is no such quantity, or a factor is not from 0 to 10.
         """
-        parts = self._parts(quantity)
+        name = _vector(quantity)
         factors = inputs.array("factor", factor)
         check_factor("factor", factors)
-        forward, backward = (abs(part.at(factors)) for part in parts)
-        longest, shortest = forward + backward, forward - backward
-        rounding = np.maximum(1e-14 * longest, 1e-15 * (1.0 + factors) * parts[0].size)
-        found = (longest, np.where(abs(shortest) < rounding, 0.0, shortest))
-        return read_only(found) if factors.ndim else (float(found[0]), float(found[1]))
+        longest, shortest = (
+            read_only(axis.reshape(factors.shape))
+            for axis in self._first_order.half_axes(name, factors.ravel().tolist())
+        )
+        return (longest, shortest) if factors.ndim else (float(longest), float(shortest))
 
     def least(self, quantity: str) -> float | None:
         """Return the factor of the least longest vector: 0.5 on one crankshaft, without pin offset.
@@ -284,18 +258,7 @@ class BobWeight(Tabled):
         InputError
             If there is no such quantity.
         """
-        weighed = [part for part in self._parts(quantity) if part.change]
-        if not weighed:
-            return None
-        # The sum of two convex sizes is least between the factors at which either is.
-        low, high = min(part.nearest for part in weighed), max(part.nearest for part in weighed)
-        for _ in range(HALVINGS if high - low > ALIKE else 0):
-            middle = 0.5 * (low + high)
-            if sum(part.slope(middle) for part in weighed) > 0.0:
-                high = middle
-            else:
-                low = middle
-        return min(max(low, 0.0), LARGEST_FACTOR)
+        return self._first_order.least(_vector(quantity))
 
     def straight(self, quantity: str) -> tuple[tuple[float, float], ...]:
         """Return the factors that leave a vector along a straight line, and its direction.
@@ -319,27 +282,7 @@ class BobWeight(Tabled):
         InputError
             If there is no such quantity.
         """
-        forward, backward = self._parts(quantity)
-        found = []
-        for factor in _of_one_size(forward, backward):
-            tilt = self._direction_deg(quantity, factor)
-            if 0.0 <= factor <= LARGEST_FACTOR and tilt is not None:
-                found.append((factor, tilt))
-        return tuple(found)
-
-    def _direction_deg(self, quantity: str, factor: float) -> float | None:
-        """Return the direction of the longest half axis, degrees from +x in (−90, 90].
-
-        None where either part vanishes: a circle has no longest half axis.
-        """
-        one, other = (complex(part.at(np.array(factor))) for part in self._parts(quantity))
-        if min(abs(one), abs(other)) <= ALIKE * max(abs(one), abs(other)):
-            return None
-        tilt = round(float(np.angle(one * other, deg=True)) / 2.0, 9)
-        return 90.0 if tilt <= -90.0 else tilt + 0.0  # no −0
-
-    def _parts(self, quantity: str) -> tuple[Part, Part]:
-        return self._first_order[inputs.one_of("quantity", quantity, ["force", "moment"])]
+        return tuple(self._first_order.straight(_vector(quantity)))
 
     # --- tables ---------------------------------------------------------------------------------
 
@@ -381,16 +324,10 @@ class BobWeight(Tabled):
 
     def _by_factor(self) -> Table:
         """Return the residual at the usual factors, and at those of a straight line."""
-        words: dict[float, list[str]] = {float(factor): [] for factor in TABULATED}
-        for factor, text in self._remarkable():
-            # 0.5 comes out as 0.49999999999999994 at times.
-            near = next((each for each in words if abs(each - factor) < ALIKE), factor)
-            words.setdefault(near, []).extend([text] if text else [])
-        listed = sorted(words)
+        remarks = remarks_by_factor(TABULATED, self._remarkable())
+        listed = sorted(remarks)
         # An engine without force or moment of order 1 has no columns of it.
-        quantities = [
-            name for name in PLANE_VECTORS if any(part.exists for part in self._parts(name))
-        ]
+        quantities = [name for name in PLANE_VECTORS if self._first_order.exists(name)]
         header: list[str | tuple[str, str]] = ["factor", ""]
         columns = []
         for name in quantities or ["moment"]:
@@ -398,7 +335,7 @@ class BobWeight(Tabled):
             unit = QUANTITIES[name].unit_over_square
             header += [(f"{name}, longest", unit), ("shortest", unit)]
             columns += [longest, abs(shortest)]
-        names = [(f"{factor:.6g}", ", ".join(words[factor])) for factor in listed]
+        names = [(f"{factor:.6g}", remarks[factor]) for factor in listed]
         title = "Residual of order 1, half axes over ω²"
         return Table.from_rows(title, header, names, np.stack(columns, axis=-1))
 
@@ -520,75 +457,9 @@ class BobWeight(Tabled):
         return draw(self, ax, quantity=quantity, **style)  # type: ignore[no-any-return]
 
 
-class Part(NamedTuple):
-    """Part of a vector that turns in one sense, by balance factor."""
-
-    start: complex
-    """At factor 0."""
-    change: complex
-    """To factor 1."""
-    size: float
-    """Sum of the magnitudes that cancel in it."""
-
-    def at(self, factor: NDArray[np.float64]) -> NDArray[np.complex128]:
-        """Return the part by factor, rounding of one that vanishes as zero."""
-        part = self.start + factor * self.change
-        # What is left of many figures that cancel is as large as the rounding of their sum.
-        none = np.abs(part) < np.maximum(
-            1e-14 * (abs(self.start) + np.abs(factor * self.change)),
-            1e-15 * (1.0 + factor) * self.size,
-        )
-        return np.where(none, 0.0, part)
-
-    @property
-    def exists(self) -> bool:
-        """True unless it is zero at any factor."""
-        return bool(self.start or self.change)
-
-    @property
-    def nearest(self) -> float:
-        """Factor at which the part is smallest."""
-        return -(self.start / self.change).real  # no square, which would underflow
-
-    def slope(self, factor: float) -> float:
-        """Return the change of its size per unit of factor."""
-        part = self.start + factor * self.change
-        return (part.conjugate() / abs(part) * self.change).real if part else 0.0
-
-
-def _of_one_size(forward: Part, backward: Part) -> list[float]:
-    """Return the factors at which two parts have one size, unless all have."""
-    if forward.change and backward.change:
-        # |forward|² − |backward|² is quadratic in the factor.
-        unit = max(abs(part.change) for part in (forward, backward))  # squares would underflow
-        pairs = [
-            (part.start / unit, part.change / unit, sign)
-            for part, sign in ((forward, 1.0), (backward, -1.0))
-        ]
-        terms = [
-            [sign * abs(change) ** 2 for _, change, sign in pairs],
-            [2.0 * sign * (start.conjugate() * change).real for start, change, sign in pairs],
-            [sign * abs(start) ** 2 for start, _, sign in pairs],
-        ]
-        largest = max(abs(each) for pair in terms for each in pair)
-        sums = [sum(pair) if abs(sum(pair)) > ALIKE * largest else 0.0 for pair in terms]
-        if not any(sums):
-            return []
-        found = [each for each in np.roots(sums) if abs(each.imag) <= ALIKE * abs(each)]
-        return sorted({float(each.real) for each in found})
-    moving, still = (forward, backward) if forward.change else (backward, forward)
-    if not moving.change or not still.start:
-        return []
-    # |start + κ·change| = |still|, about the factor at which the left side is least.
-    middle = moving.nearest
-    least = abs(moving.start + middle * moving.change)
-    under, over = abs(still.start) - least, abs(still.start) + least
-    if under < 0.0:
-        return []
-    apart = math.sqrt(under / abs(moving.change)) * math.sqrt(over / abs(moving.change))
-    # A root of zero comes out beside it.
-    roots = [0.0 if abs(each) < ALIKE else each for each in (middle - apart, middle + apart)]
-    return list(dict.fromkeys(roots))
+def _vector(quantity: object) -> str:
+    """Return the name of a vector, or raise an InputError."""
+    return inputs.one_of("quantity", quantity, ["force", "moment"])
 
 
 def _positive(name: str, values: ArrayLike, count: int, hint: str) -> list[Any]:

@@ -15,11 +15,10 @@ from crankpin._support import files, inputs, labels
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.tables import Column, Table
-from crankpin.analysis.balancing.counterweights import counterweights
-from crankpin.model.shafts import Unbalance
+from crankpin.analysis.request import engine_core
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable
     from pathlib import Path
 
     from numpy.typing import NDArray
@@ -38,8 +37,6 @@ PARTS = {
 }
 """Part of a cylinder that is weighed → what it counts as."""
 RECIPROCATING, ROTATING = "reciprocating", "rotating"
-STEEL, HEAVY_METAL = 7.85, 17.0
-"""Densities of a crankshaft and of the tungsten alloy pressed into its holes, g/cm³."""
 G_MM = 1e6
 """Gram millimetres to a kg·m."""
 ROUNDING = 1e-12
@@ -109,6 +106,18 @@ def with_parts(engine: Engine, parts: Mapping[str, NDArray[np.float64]]) -> Engi
         kept = rounded.get(ROTATING, engine.rotating_mass.tolist())
         return engine.replace(cylinder=moving, rotating_mass=kept)
     return engine.replace(rotating_mass=rounded[ROTATING]) if rounded else engine
+
+
+def remarks_by_factor(
+    factors: Iterable[float], remarks: Iterable[tuple[float, str]]
+) -> dict[float, str]:
+    """Return factors and their remarks, and those of others; factors rounding apart are one."""
+    words: dict[float, list[str]] = {factor: [] for factor in factors}
+    for factor, text in remarks:
+        # 0.5 comes out as 0.49999999999999994 at times.
+        near = next((each for each in words if abs(each - factor) < ROUNDING), factor)
+        words.setdefault(near, []).append(text)
+    return {factor: ", ".join(filter(None, texts)) for factor, texts in words.items()}
 
 
 class Card(Tabled):
@@ -182,13 +191,12 @@ class Card(Tabled):
     @cached_property
     def _by_factor(self) -> dict[float, str]:
         """Factors of the card, and those that leave a straight line, with a remark."""
-        found = dict.fromkeys(self.factors, "")
-        for name in PLANE_VECTORS:
-            for factor, _ in self.bob.straight(name):
-                near = next((each for each in found if abs(each - factor) < ROUNDING), factor)
-                words = [found.get(near, ""), f"straight line of the {name}"]
-                found[near] = ", ".join(filter(None, words))
-        return found
+        straight = (
+            (factor, f"straight line of the {name}")
+            for name in PLANE_VECTORS
+            for factor, _ in self.bob.straight(name)
+        )
+        return remarks_by_factor(self.factors, straight)
 
     def _residual(self) -> Table:
         bob, factors = self.bob, sorted(self._by_factor)
@@ -196,9 +204,9 @@ class Card(Tabled):
             Column("factor", tuple(100.0 * each for each in factors), "%"),
             Column("", tuple(self._by_factor[each] for each in factors)),
         ]
-        omega_squared = (self.rpm / labels.UNIT_RPM) ** 2
+        omega_squared = _core.angular_speed(self.rpm) ** 2
         for name in PLANE_VECTORS:
-            if not any(part.exists for part in bob._parts(name)):
+            if not bob._first_order.exists(name):
                 continue
             longest, shortest = (omega_squared * each for each in bob.half_axes(name, factors))
             shortest[abs(shortest) < ROUNDING * longest.max()] = 0.0
@@ -215,43 +223,37 @@ class Card(Tabled):
 
     def _direction(self, quantity: str, factor: float) -> str:
         """Return in words which way the longest half axis points, of a moment which way ends go."""
-        tilt = self.bob._direction_deg(quantity, factor)
-        longest, shortest = self.bob.half_axes(quantity, factor)
-        if tilt is None:
-            return _core.turns(float(shortest)) if longest else "–"
-        # A moment about x moves the ends up and down.
-        return _core.across(tilt if quantity == "force" else tilt - 90.0, self.sides)
+        return self.bob._first_order.direction(quantity, factor, self.sides)
 
     def _correction(self) -> Table:
-        places = {name: z for name, z, _ in self.planes}
-        radii = {name: radius for name, _, radius in self.planes}
-        rows: list[tuple[Any, ...]] = []
-        engine = _weighted(self.bob, self.balanced_to)
-        for factor in self.factors:
-            fit = counterweights(engine, planes=places, factor=factor)
-            for plane, each in fit.by_plane:
-                angle = inputs.degrees(each.angle_deg)
-                amount, radius = G_MM * each.amount, radii[plane]
-                share = f"{100.0 * factor:.6g} %"
-                rows.append((share, plane, each.z, amount, angle, (angle + 180.0) % 360.0, radius))
-        found: list[tuple[Any, ...]] = list(zip(*rows, strict=True)) if rows else [()] * 7
-        shares, names, z, amounts, adding, drilling, at = found
-        columns = [
-            Column("factor", shares),
-            Column("plane", names),
-            Column("z", z, "m"),
-            Column("unbalance", amounts, "g·mm", decimals=0),
-            Column("add at", adding, "°", decimals=1),
-            Column("or drill at", drilling, "°", decimals=1),
+        names, places, at = zip(*self.planes, strict=True)
+        radii = None if None in at else at
+        core = engine_core(self.bob.engine)
+        heads: list[tuple[str, str, int | None]] = [
+            ("factor", "", None),
+            ("plane", "", None),
+            ("z", "m", None),
+            ("unbalance", "g·mm", 0),
+            ("add at", "°", 1),
+            ("or drill at", "°", 1),
         ]
-        if any(radii.values()):
-            net = [a / (1e3 * r) for a, r in zip(amounts, at, strict=True)]
-            slugs = [each * HEAVY_METAL / (HEAVY_METAL - STEEL) for each in net]
-            columns += [
-                Column("radius", tuple(1e3 * r for r in at), "mm"),
-                Column("weight", tuple(net), "g", decimals=1),
-                Column("as heavy metal", tuple(slugs), "g", decimals=1),
-            ]
+        if radii is not None:
+            heads += [("radius", "mm", None), ("weight", "g", 1), ("as heavy metal", "g", 1)]
+        rows: list[tuple[Any, ...]] = []
+        for factor in self.factors:
+            share = f"{100.0 * factor:.6g} %"
+            for plane, amount, adding, drilling, mass, slug in _core.corrections(
+                core, factor, places, radii, self.bob.oil, self.balanced_to
+            ):
+                row = (share, names[plane], places[plane], G_MM * amount, adding, drilling)
+                if radii is not None and mass is not None and slug is not None:
+                    row += (1e3 * radii[plane], 1e3 * mass, 1e3 * slug)
+                rows.append(row)
+        cells = zip(*rows, strict=True) if rows else [()] * len(heads)
+        columns = [
+            Column(name, values, unit, decimals=decimals)
+            for (name, unit, decimals), values in zip(heads, cells, strict=True)
+        ]
         has = "from nothing"
         if self.balanced_to is not None:
             has = "from the bob weight it has"
@@ -280,24 +282,3 @@ class Card(Tabled):
         files.write(
             file, PAGE.substitute(title=html.escape(title), tables=self.frames._repr_html_())
         )
-
-
-def _weighted(bob: BobWeight, balanced_to: Sequence[float] | None) -> Engine:
-    """Return the engine with the oil of its crankpins, and what its crankshaft has now."""
-    engine, masses = bob.engine, bob.engine.rotating_mass.copy()
-    for pin in bob.crankpins:
-        masses[pin.cylinders[0] - 1] += bob.oil
-    engine = engine.replace(rotating_mass=masses)
-    if balanced_to is None:
-        return engine
-    weights = [
-        Unbalance(
-            mass * engine.cylinders[pin.cylinders[0] - 1].crank_radius,
-            pin.z,
-            180,
-            pin=pin.cylinders[0],
-        )
-        for pin, mass in zip(bob.crankpins, balanced_to, strict=True)
-        if mass
-    ]
-    return engine.with_counterweights(weights)

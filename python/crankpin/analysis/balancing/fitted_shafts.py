@@ -17,7 +17,7 @@ from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import Listed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import Balance, balance
-from crankpin.analysis.geometry import direction
+from crankpin.analysis.bearings import on_shaft_bearings
 from crankpin.model.shafts import Shaft
 
 if TYPE_CHECKING:
@@ -177,17 +177,12 @@ class BalanceShafts(Listed[Shaft], Tabled):
         >>> abs(fit.bearing_loads(rpm=6000)).round(1)
         array([[2205.2, 2205.2]])
         """
-        square = inputs.angular_speed(rpm) ** 2
         loads = []
         for shaft, bearings in zip(self.hardware, self.bearings, strict=True):
             if bearings is None:
                 hint = "give bearings=(z_front, z_rear) to balance_shafts"
                 raise inputs.rejected("bearings", None, hint)
-            forces = [
-                (each.amount * complex(direction(inputs.degrees(each.angle_deg))), each.z)
-                for each in shaft.unbalances
-            ]
-            loads.append(np.array(_core.shared(forces, *bearings)) * shaft.ratio**2 * square)
+            loads.append(on_shaft_bearings(shaft, *bearings, rpm))
         return read_only(np.array(loads))
 
     # --- tables and pictures --------------------------------------------------------------------

@@ -16,21 +16,18 @@ from crankpin._support import inputs
 from crankpin._support.quantities import PLANE_VECTORS
 from crankpin._support.record import read_only
 from crankpin.analysis.balancing.planes import turning
+from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import bays
 from crankpin.model.engine import Engine
-from crankpin.model.shafts import Unbalance, unbalance_of
+from crankpin.model.shafts import unbalance_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin.model.crankpins import Bay
+    from crankpin.model.shafts import Unbalance
 
 LARGEST_FACTOR = 10.0
-SMALLEST = 1e-30
-"""Smallest unbalance that engines take, kg·m."""
-NOTHING = 1e-14
-"""Part of two figures below which their difference is rounding."""
-
 Target: TypeAlias = Literal["external", "internal"]
 Minimise: TypeAlias = Literal["squares", "largest"]
 
@@ -109,13 +106,7 @@ def with_bob_weights(engine: Engine, factor: float) -> Engine:
     They are opposite the crankpins, in place of the counterweights that it has: all of the rotating
     and ``factor`` of the reciprocating mass.
     """
-    masses = zip(engine.cylinders, engine.rotating_mass.tolist(), engine.z.tolist(), strict=True)
-    weights = []
-    for number, (parts, rotating, z) in enumerate(masses, start=1):
-        amount = (rotating + factor * parts.reciprocating_mass) * parts.crank_radius
-        if amount >= SMALLEST:
-            weights.append(Unbalance(amount, z, 180, pin=number))
-    return engine.with_counterweights(weights)
+    return Engine(_core.with_bob_weights(engine_core(engine), factor))
 
 
 # --- the whole engine ---------------------------------------------------------------------------
@@ -129,31 +120,19 @@ def external(
     fit: Fit,
 ) -> Fitted:
     """Return the weights that remove the most of an engine's forward force and moment."""
-    plane = engine.reference_z
     names, places = list(planes), list(planes.values())
-    levers = np.append(places, engine.z) - plane
-    length = fit.length or float(np.abs(levers).max()) or 1.0
-    there = turning(engine, 1)._asdict()
-    wanted: dict[str, complex] = {}
-    for name, factor in fit.parts:
-        left = turning(left_by(engine, factor), 1)._asdict()[name] if factor is not None else 0j
-        change = left - there[name]
-        # Two figures that agree leave their rounding, not a weight.
-        wanted[name] = 0j if abs(change) <= NOTHING * (abs(left) + abs(there[name])) else change
     allowed = None
     if angles is not None:
         allowed = [
             np.deg2rad([inputs.degrees(angle) for angle in angles[name]]).tolist() for name in names
         ]
-    limits = [bounds[name] for name in names]
-    found, reached, missing = _core.least_weights(
+    found, reached, missing = _core.fit_weights(
+        engine_core(engine),
         places,
-        plane,
-        length,
-        wanted.get("force"),
-        wanted.get("moment"),
-        limits,
+        [bounds[name] for name in names],
         allowed,
+        fit.parts,
+        fit.length,
         fit.minimise,
     )
     unbalances = []

@@ -61,8 +61,7 @@ class DesignResponses(Tabled):
         vary = []
         for name, figures in self.vary.items():
             for figure, values in figures.items():
-                rows = np.zeros((len(values), 3))
-                rows[:] = values if values.ndim == 2 else values[:, None]
+                rows = values if values.ndim == 2 else np.repeat(values[:, None], 3, axis=1)
                 vary.append((names.index(name), figure, rows))
         found = self.powertrain._core.designs(
             self.powertrain.engine._core,
@@ -272,7 +271,7 @@ def designs(
     found = DesignResponses(
         powertrain, MappingProxyType(values), speeds, request, is_each, places, given
     )
-    inputs.warn_of_units(mean_piston_speed(powertrain.engine, float(np.max(speeds))))
+    inputs.warn_of_units(mean_piston_speed(powertrain.engine, float(speeds.max())))
     return found
 
 
@@ -298,4 +297,4 @@ def _values(mount: Mount, figure: str, given: ArrayLike) -> NDArray[np.float64]:
         raise inputs.faulty(name, f"has shape {values.shape}", hint)
     if "stiffness" in figure:
         checks.mount(mount.name, mount.at, (float(values.min()), float(values.max())))
-    return read_only(np.array(values))
+    return read_only(np.array(values, order="C"))

@@ -75,11 +75,9 @@ class VelocityFeedback(Tabled):
         receptance = alone._vectors(("at", one.at, "powertrain", "displacement"))[:, 0] @ np.array(
             one.direction
         )
-        omega, mass = 2.0 * np.pi * frequency, float(one.mass or 0.0)
-        natural = 2.0 * np.pi * float(one.resonance or 0.0)
-        spring = mass * (natural**2 + 2j * one.damping_ratio * natural * omega)
-        found = 1j * omega * receptance
-        return np.asarray(found / (1.0 - spring / (mass * omega**2) + spring * receptance))
+        omega, share = 2.0 * np.pi * frequency, one._motor_share(frequency)
+        spring = float(one.mass or 0.0) * omega**2 * (1.0 - share)
+        return np.asarray(1j * omega * receptance / (share + spring * receptance))
 
     def _margin(
         self, grid: NDArray[np.float64], mobility: NDArray[np.complex128]

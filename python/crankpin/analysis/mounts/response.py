@@ -16,6 +16,7 @@ from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.mounts.vectors import Source, VectorQuantity, of_order
 from crankpin.analysis.quantity import ALL, Key, Keyed, order_key
 from crankpin.analysis.request import Request, check_request
+from crankpin.model import checks
 from crankpin.model.mounts import _vector
 from crankpin.model.supports import Subframe
 
@@ -268,7 +269,7 @@ class OrderResponse(MountQuantities, Tabled):
 
     @property
     def load(self) -> NDArray[np.complex128]:
-        """Load of the engine about the CG, N and N·m: (…, n_loads)."""
+        """Load of the engine, N and N·m: (…, n_loads)."""
         return self._of("load")  # type: ignore[no-any-return]
 
     @property
@@ -373,10 +374,15 @@ class MountResponse(MountQuantities, Keyed, Tabled):
     def error_bound(self) -> Mapping[str, float]:
         """Quantity → bound of what omitted orders add to the engine's load at the highest speed.
 
-        ``"force"``, N, ``"moment"`` and ``"torque"`` about the CG, N·m.
+        ``"force"``, N, ``"moment"`` and ``"torque"`` about the CG, or the point of :meth:`about`,
+        N·m.
         """
-        names = ("force", "moment", "torque")
-        return MappingProxyType(dict(zip(names, self._core.error_bound, strict=True)))
+        force, moment, torque = self._core.error_bound
+        cg = self.powertrain.body.cg
+        arm = np.subtract(cg, self._point or cg)
+        moment += float(np.linalg.norm(arm)) * force
+        torque += float(np.hypot(arm[0], arm[1])) * force
+        return MappingProxyType({"force": force, "moment": moment, "torque": torque})
 
     @property
     def dims(self) -> tuple[str, ...]:
@@ -426,10 +432,61 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         """Return one order, or with ``"all"`` all of ``orders`` together."""
         return OrderResponse(self, order_key(order))
 
+    def about(self, point: ArrayLike | None = None, *, z: float | None = None) -> Self:
+        """Return the same response with moments of loads about another point than the CG.
+
+        Parameters
+        ----------
+        point : float or array_like, shape (3,), optional
+            Position z along the crank, or (x, y, z) in the engine's axes, m.
+        z : float, optional
+            Position along the crank, m, by name.
+
+        Returns
+        -------
+        MountResponse
+            The response, whose ``load``, ``support_load``, ``transmissibility`` and ``error_bound``
+            have moments about the point.
+
+        Raises
+        ------
+        InputError
+            If both are given or none, or one is no position.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> body = cp.RigidBody(mass=150, cg=(0, 0.06, 0.15), inertia=(7, 8, 4.5))
+        >>> mounts = [
+        ...     cp.Mount(name, at=at, stiffness=2e5)
+        ...     for name, at in [("a", (0.3, 0, 0)), ("b", (-0.3, 0, 0)), ("c", (0, 0, 0.7))]
+        ... ]
+        >>> r = cp.Powertrain(cp.Engine.preset("i4"), body, mounts).response(3000)
+        >>> pitch = [abs(each[2].load[3]).round(1) for each in (r, r.about(z=0.0))]
+        >>> pitch == [0.0, 347.6]
+        True
+        """
+        inputs.only_one_of(point=point, z=z)
+        name = "z" if point is None else "point"
+        request = self.request.about(name, z if point is None else point)
+        core = self.powertrain.engine._core
+        checks.place(core, name, request.reference_z)
+        checks.place(core, name, *request.aside, middle=0.0)
+        return changed(self, request=request)
+
+    @property
+    def _point(self) -> tuple[float, float, float] | None:
+        """Point about which moments are; None for the CG."""
+        z = self.request.reference_z
+        return None if z is None else (*self.request.aside, z)
+
     @property
     def load(self) -> NDArray[np.complex128]:
-        """Load of the engine about the CG, force, N, and moment, N·m: (…, n_orders, n_loads)."""
-        return self._read("load", self._core.loads)
+        """Load of the engine, force, N, and moment, N·m: (…, n_orders, n_loads).
+
+        Moments are about the CG, or the point of :meth:`about`.
+        """
+        return self._read("load", lambda: self._core.loads(self._point))
 
     @property
     def motion(self) -> NDArray[np.complex128]:
@@ -444,11 +501,11 @@ class MountResponse(MountQuantities, Keyed, Tabled):
 
     @property
     def support_load(self) -> NDArray[np.complex128]:
-        """Sum of the mounts' forces on what carries them, N, and moments about the CG, N·m.
+        """Sum of the mounts' forces on what carries them, N, and moments, N·m.
 
-        Of shape (…, n_orders, n_loads).
+        Moments are about the CG, or the point of :meth:`about`. Of shape (…, n_orders, n_loads).
         """
-        return self._read("support", self._core.support_loads)
+        return self._read("support", lambda: self._core.support_loads(self._point))
 
     @property
     def transmissibility(self) -> NDArray[np.float64]:
@@ -664,14 +721,19 @@ class MountResponse(MountQuantities, Keyed, Tabled):
 
     @property
     def frames(self) -> Frames:
-        """``table``; at one speed ``loads``: those of the engine, on the body, and their ratio."""
-        return self._frames() if self.dims else self._frames(loads=self._of_loads)
+        """``table``; at one speed ``loads``: those of the engine, on the body, and their ratio.
+
+        And ``power``: what the engine puts in, and what each mount dissipates.
+        """
+        if self.dims:
+            return self._frames()
+        return self._frames(loads=self._of_loads, power=self._of_power)
 
     def plot(
         self,
         ax: Axes | None = None,
         *,
-        kind: Literal["cuts", "map", "spectrum"] | None = None,
+        kind: Literal["cuts", "map", "waterfall", "spectrum"] | None = None,
         mount: str | None = None,
         orders: Orders | None = None,
         **options: object,
@@ -682,11 +744,12 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         ----------
         ax : matplotlib.axes.Axes, optional
             Axes to draw on; by default new ones.
-        kind : {"cuts", "map", "spectrum"}, optional
+        kind : {"cuts", "map", "waterfall", "spectrum"}, optional
             ``"cuts"``, the default of several speeds: the longest vector of all orders together and
             of the largest orders over speed; ``"map"``: a row of cells for each order over speed,
-            with the natural frequencies; ``"spectrum"``, that of one speed: peaks along x, y and z
-            over order.
+            with the natural frequencies; ``"waterfall"``: a spectrum over frequency for each speed,
+            one above the other, of at most 40 speeds; ``"spectrum"``, that of one speed: peaks
+            along x, y and z over order.
         mount : str, optional
             Name of a mount; by default the sum of all.
         orders : sequence of float, optional
@@ -735,7 +798,23 @@ class MountResponse(MountQuantities, Keyed, Tabled):
             columns.append(Column(f"|{name}| on the body", tuple(np.abs(support).tolist()), unit))
             listed = (None if np.isnan(each) else each for each in ratio.tolist())
             columns.append(Column(f"T {name}", tuple(listed)))
-        title = self._title("loads about the CG")
+        at = "the CG" if self._point is None else f"{self._point} m"
+        title = self._title(f"loads about {at}")
+        return Table(title, tuple(columns), note, loads=self.loads_counted)
+
+    def _of_power(self) -> Table:
+        places, note = self._shown()
+
+        def listed(values: NDArray[np.float64]) -> tuple[float, ...]:
+            return (*values[places].tolist(), float(values.sum()))
+
+        columns = [Column("order", (*(self.orders[k] for k in places), ALL))]
+        columns.append(Column("put in", listed(self.power_in), "W"))
+        for name, lost in zip(self.powertrain.names, self.power_lost.T, strict=True):
+            columns.append(Column(name, listed(lost), "W"))
+        if self.powertrain.support is not None:
+            columns.append(Column("passed on", listed(self.power_passed), "W"))
+        title = self._title("mean power that the engine puts in, and that each mount dissipates")
         return Table(title, tuple(columns), note, loads=self.loads_counted)
 
     def _dataset(self) -> xr.Dataset:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
@@ -70,30 +71,42 @@ class GasMap(Record):
         names = ["cycle map" if each is not None else None for each in self.maps]
         return labels.gas_text(names, len(distinct))
 
-    def fired(self, engines: Sequence[Engine]) -> list[_core.Engine]:
-        """Return each engine with each cycle, load by load of one speed after the other."""
+    @cached_property
+    def _distinct(self) -> list[CycleMap]:
+        """Maps that differ."""
+        distinct: list[CycleMap] = []
+        for each in self.maps:
+            if each is not None and each not in distinct:
+                distinct.append(each)
+        return distinct
+
+    @cached_property
+    def _cycles(self) -> list[list[_core.Cycle]]:
+        """Cycle of each map that differs, load by load of one speed after the other."""
         shape = np.ndindex(len(self.first.rpm), len(self.first.load))
-        of_cylinders = [
-            [None if each is None else each.cycles[k][j]._core for each in self.maps]
-            for k, j in shape
-        ]
+        return [[each.cycles[k][j]._core for each in self._distinct] for k, j in shape]
+
+    def fired(self, engines: Sequence[Engine]) -> list[_core.Engine]:
+        """Return each engine with the cycles of the lowest speed and load."""
+        places = self._distinct.index
+        cycle_of = [None if each is None else places(each) for each in self.maps]
         return [
-            core
-            for engine in engines
-            for core in engine._core.with_cycles(
-                [self._of_each(cycles, engine) for cycles in of_cylinders],
+            engine._core.with_cycles(
+                self._cycles[0],
+                self._of_each(cycle_of, engine),
                 engine._below_pistons(self.crankcase),
             )
+            for engine in engines
         ]
 
-    def places(self, load: NDArray[np.float64] | None) -> tuple[Any, Any, Any]:
-        """Return speeds and loads of the cycles, and the loads of the sweep."""
+    def places(self, load: NDArray[np.float64] | None) -> tuple[Any, Any, Any, Any]:
+        """Return speeds, loads and cycles of the maps, the loads of the sweep before these."""
         if load is None:
             low, high = self.first.load[[0, -1]]
             raise inputs.rejected(
                 "load", None, f"give loads from {low:g} to {high:g}, those of cycle"
             )
-        return self.first.rpm, self.first.load, load
+        return self.first.rpm, self.first.load, load, self._cycles
 
     def at(self, engine: Engine, rpm: float, load: float) -> Engine:
         """Return an engine with its cycles at a speed and a load."""

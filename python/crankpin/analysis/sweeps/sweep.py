@@ -25,6 +25,7 @@ from crankpin.analysis.sweeps import dask
 from crankpin.analysis.sweeps.gas import GasMap
 from crankpin.analysis.sweeps.waveform import SweepWaveform
 from crankpin.model import checks
+from crankpin.model.cylinder import rod_length
 from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
@@ -485,7 +486,7 @@ class Sweep(ByOrder[Any]):
         for cylinder in engine.cylinders:
             changed = {}
             if "rod_ratio" in at:
-                changed["rod_length"] = cylinder.crank_radius / float(at["rod_ratio"][0])
+                changed["rod_length"] = rod_length(cylinder.crank_radius, float(at["rod_ratio"][0]))
             if "pin_offset" in at:
                 changed["pin_offset"] = float(at["pin_offset"][0])
             changes.append(cylinder.replace(**changed))

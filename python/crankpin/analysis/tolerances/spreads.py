@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import crankpins
 from crankpin.model.shafts import Unbalance
@@ -97,9 +97,8 @@ class Spreads:
         for name in self.given:
             spreads = self.values[FIGURES.index(name)]
             title, unit = labels.TOLERANCES[name]
-            low, high = min(spreads), max(spreads)
-            number = f"{high:.4g}" if low == high else f"{low:.4g} to {high:.4g}"
-            parts.append(f"{title} {number} {unit}".replace(" °", "°"))
+            shown = units.figure(min(spreads), unit, 4, max(spreads))
+            parts.append(f"{title} {shown}".replace(" °", "°"))
         return f"{SPREADS[self.distribution]}: {', '.join(parts)}"
 
 

@@ -1,6 +1,6 @@
 // The page for a slide or the output of a lecture's cell: the cross-section and one vector.
 
-import { choice } from "./controls.mjs";
+import { choice, chosen } from "./controls.mjs";
 import { html } from "./dom.mjs";
 import { panel, region } from "./panels.mjs";
 import { STILL, Scene } from "./scene.mjs";
@@ -25,15 +25,16 @@ export class Compact extends View {
     this.lists = {
       force: readouts.listOf("force"), moment: readouts.listOf("moment"), torque: readouts.listOfTorque(),
     };
-    this.choice = choice("dial", Object.fromEntries(DIALS.map((name) => [name, STRINGS[name]])), this);
+    this.choice = choice("dial", Object.fromEntries(DIALS.map((name) => [name, STRINGS[name]])), this,
+      !figures.controls.includes("view"));
     this.panel = panel(this.choice);
-    const vee = figures.bank_angle_deg !== null;
     this.element = region(title, "compact", this.header.element,
       html("div", { class: "views" },
         panel(STRINGS.crossSection, readouts.angle, this.scenes[0].element), this.panel),
-      html("div", { class: "settings" },
-        html("div", { class: "setting" }, transport.play, transport.slider),
-        settings.rpm.element, (vee ? settings.bank : settings.rod).element));
+      chosen(figures, {
+        crank_angle: html("div", { class: "setting" }, transport.play, transport.slider),
+        rpm: settings.rpm.element, bank_angle: settings.bank.element, rod_ratio: settings.rod.element,
+      }));
   }
 
   changed(keys) {

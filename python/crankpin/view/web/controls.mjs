@@ -1,6 +1,7 @@
 // The reader's controls: the crank angle and how it plays, and the engine's settings.
 
 import { fixed, html, numbered, show, svg } from "./dom.mjs";
+import { MOST_ORDERS } from "./orders.mjs";
 import { STRINGS } from "./strings.mjs";
 
 /** Exaggerations of the rocking; the first is none. */
@@ -105,11 +106,10 @@ export class Settings {
     this.orders = html("span", {
       class: "rocking-orders", role: "group", "aria-label": STRINGS.rockingOrders,
     });
-    const vee = figures.bank_angle_deg !== null;
-    this.element = html("div", { class: "settings" },
-      this.rpm.element, this.rod.element, ...(vee ? [this.bank.element, held] : []),
-      this.exaggeration.element, this.orders,
-    );
+    this.element = chosen(figures, {
+      rpm: [this.rpm.element], rod_ratio: [this.rod.element], bank_angle: [this.bank.element, held],
+      rocking: [this.exaggeration.element, this.orders],
+    });
   }
 
   /** Offer the orders that rock the engine. */
@@ -129,7 +129,9 @@ export class Settings {
       show(number, order, `${order}`);
       return [box, html("label", {}, box, `${STRINGS.order} `, number)];
     });
-    this.orders.replaceChildren(...this.boxes.map(([, label]) => label));
+    // As many places at any settings, so that nothing jumps.
+    const empty = Array.from({ length: MOST_ORDERS - orders.length }, () => html("label", {}));
+    this.orders.replaceChildren(...this.boxes.map(([, label]) => label), ...empty);
   }
 
   show(state) {
@@ -140,6 +142,13 @@ export class Settings {
     this.exaggeration.show(state.exaggeration);
     for (const [box] of this.boxes ?? []) box.checked = !state.still.has(Number(box.value));
   }
+}
+
+/** A box with the controls that a page has, in their order, of elements by the names of controls. */
+export function chosen({ controls }, elements) {
+  const box = html("div", { class: "settings" }, ...controls.flatMap((name) => elements[name] ?? []));
+  box.hidden = !box.childNodes.length;
+  return box;
 }
 
 /** By how much motion is drawn larger than it is. */
@@ -192,9 +201,9 @@ export function pair(label, described, name, least, most, step, unit, act, settl
   };
 }
 
-/** A choice of one entry of the view's state. */
-export function choice(key, names, view) {
-  const element = html("select", { "aria-label": STRINGS.choices[key] },
+/** A choice of one entry of the view's state; of a disabled one the present name is a text. */
+export function choice(key, names, view, disabled = false) {
+  const element = html("select", { "aria-label": STRINGS.choices[key], disabled },
     ...Object.entries(names).map(([value, name]) => html("option", { value }, name)));
   element.value = view.state[key];
   element.addEventListener("change", () => view.set({ [key]: element.value }));

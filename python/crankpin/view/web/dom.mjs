@@ -49,3 +49,21 @@ export function place(element, [x, y]) {
   element.setAttribute("x", x.toFixed(2));
   element.setAttribute("y", y.toFixed(2));
 }
+
+/** Put a circle at a place in pixels. */
+export function centre(circle, [x, y]) {
+  circle.setAttribute("cx", x.toFixed(2));
+  circle.setAttribute("cy", y.toFixed(2));
+}
+
+/** Act on a pointer from where it is pressed, which `begins`, to where it is let go. */
+export function dragged(element, act) {
+  let held = false;
+  element.addEventListener("pointerdown", (event) => {
+    held = true;
+    element.setPointerCapture(event.pointerId);
+    act(event, true);
+  });
+  element.addEventListener("pointermove", (event) => held && act(event, false));
+  for (const end of ["pointerup", "pointercancel"]) element.addEventListener(end, () => { held = false; });
+}

@@ -5,15 +5,16 @@ const DIGITS = 4;
 
 const PREFIXES = [[1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"]];
 
-/** A way of writing values up to `largest`: text without the unit, and the unit. */
+/** A way of writing values up to `largest`: text without the unit, and the unit, prefixed if it has no factor. */
 export function scaleFor(largest, unit) {
+  const [name, own] = [unit].flat();
   // Thousands from ten thousand on: 9999 N reads better than 9.999 kN.
-  const [factor, prefix] = largest > 0
+  const [factor, prefix] = own ? [1 / own, ""] : largest > 0
     ? PREFIXES.find(([size]) => largest >= (size > 1 ? 10 * size : size)) ?? PREFIXES.at(-1)
     : [1, ""];
   const places = largest > 0 ? DIGITS - 1 - Math.floor(Math.log10(largest / factor)) : 0;
   const decimals = Math.min(Math.max(places, 0), 9);
-  return { unit: `${prefix}${unit}`, text: (value) => signed((value / factor).toFixed(decimals)) };
+  return { unit: `${prefix}${name}`, text: (value) => signed((value / factor).toFixed(decimals)) };
 }
 
 /** A way of writing values from `low` to `high` in a unit, with three digits of what they differ by. */

@@ -3,7 +3,7 @@
 import { scale, unit } from "./complex.mjs";
 import { choice } from "./controls.mjs";
 import { html, numbered, show } from "./dom.mjs";
-import { Ends } from "./ends.mjs";
+import { ENDS, Ends } from "./ends.mjs";
 import { roundBelow, scaleFor, short } from "./format.mjs";
 import { frames } from "./frames.mjs";
 import { legend, panel, region, section } from "./panels.mjs";
@@ -31,41 +31,43 @@ export class Full extends View {
       new Scene(side, [480, 345], [14, 20]),
       new Scene(space, [480, 345], [14, 22]),
     ];
-    this.frames = [choice("side", STRINGS.side, this), choice("space", STRINGS.space, this)];
+    const fixed = !figures.controls.includes("view");
+    this.frames = ["side", "space"].map((key) => choice(key, STRINGS[key], this, fixed));
     this.ends = new Ends(this.scenes[2]);
     this.force = new Arrow(STRINGS.force, "force");
     this.moment = new Arrow(STRINGS.moment, "moment");
-    this.orbits = new Orbits(STRINGS.crankEnds, ["front", "flywheel"]);
+    this.orbits = new Orbits(STRINGS.crankEnds, ENDS);
     this.twist = new Twist(STRINGS.torque);
-    this.phasors = new Phasors();
+    this.phasors = new Phasors(this.units);
     this.timeline = new Timeline((within) => {
       const { angle_deg: angle } = this.state;
       const { cycle } = this.engine;
       this.set({ angle_deg: Math.floor(angle / cycle) * cycle + within, playing: false });
-    });
+    }, this.units.length);
     this.timelineBox = html("div", { class: "timeline-box" }, this.timeline.element);
     this.stretched = numbered(html, "span", "stretch");
     this.stretchedLine = html("p", { class: "hint" }, `${STRINGS.stretched} `, this.stretched);
     this.sentences = new Sentences(figures);
-    this.sound = figures.firing_deg ? new Sound(figures.exhaust_opens_deg) : null;
+    this.sound = figures.controls.includes("sound") ? new Sound(figures.exhaust_opens_deg) : null;
     this.element = region(title, "",
       this.header.element,
       html("div", { class: "views" },
         panel(STRINGS.crossSection, this.readouts.angle, this.scenes[0].element),
         panel(this.frames[0], this.scenes[1].element),
-        panel(this.frames[1], this.scenes[2].element)),
+        panel(this.frames[1], this.scenes[2].element, legend(ENDS, STRINGS.ends))),
       this.stretchedLine,
-      this.transport.element, this.settings.element,
+      figures.controls.includes("crank_angle") ? this.transport.element : "", this.settings.element,
       this.sound ? this.sound.element : "",
       this.sentences.element,
       html("div", { class: "dials" }, ...this.dials()),
-      section(STRINGS.orders, legend(["forward", "backward"], STRINGS.legend), this.phasors.element),
       section(STRINGS.timeline,
         figures.firing_deg ? legend(STROKES
           .filter((name) => figures.strokes === 4 || name === "power" || name === "compression"),
         STRINGS.strokes) : "",
         legend(figures.firing_deg ? ["fires", "tdc"] : ["tdc"], STRINGS.marks),
         this.timelineBox),
+      // The last, as its height changes with the orders that matter.
+      section(STRINGS.orders, legend(["forward", "backward"], STRINGS.legend), this.phasors.element),
       html("p", { class: "hint" }, `${STRINGS.block} ${STRINGS.ownScales}`),
       html("p", { class: "hint" }, STRINGS.keys),
     );
@@ -82,7 +84,7 @@ export class Full extends View {
     return [
       panel(STRINGS.force, this.force.element, readouts.listOf("force")),
       panel(STRINGS.moment, this.moment.element, readouts.listOf("moment")),
-      panel(STRINGS.crankEnds, this.orbits.element, legend(["front", "flywheel"], STRINGS.ends),
+      panel(STRINGS.crankEnds, this.orbits.element, legend(ENDS, STRINGS.ends),
         readouts.listOfOrbits()),
       panel(STRINGS.torque, this.twist.element, readouts.listOfTorque()),
     ];
@@ -176,7 +178,7 @@ export class Full extends View {
     const angles = Array.from({ length: span / 2 + 1 }, (_, k) => 2 * k);
     return {
       title: STRINGS.pressure, range: [0, largest], missing: "",
-      scale: scaleFor(largest, STRINGS.units.pressure),
+      scale: scaleFor(largest, this.units.pressure),
       curves: fired.map((k) => ({
         name: "pressure", span, value: (pose) => pose.pressures[k],
         samples: angles.map((angle) => numbers.pressureAt(numbers.gas[k], angle)),

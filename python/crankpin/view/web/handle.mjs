@@ -1,7 +1,7 @@
 // What the cross-section has besides the engine: numbers of pins and bores, and the crank as a handle.
 
 import { DEGREE, reduced } from "./complex.mjs";
-import { fixed, place, svg } from "./dom.mjs";
+import { centre, dragged, fixed, place, svg } from "./dom.mjs";
 import { boreEnds } from "./scene.mjs";
 
 const PIN_NUMBER = 13; // pixels beyond the pin's circle
@@ -15,10 +15,9 @@ export class Handle {
   constructor(scene, angle, turnTo) {
     this.scene = scene;
     this.hit = svg("circle", { class: "handle" });
-    this.circle = svg("circle", { class: "pin-circle" });
-    this.sense = svg("path", { class: "sense" });
+    this.senses = svg("g");
     this.numbers = svg("g");
-    scene.overlay.append(this.circle, this.sense, this.numbers, this.hit);
+    scene.overlay.append(this.senses, this.numbers, this.hit);
     this.drag(angle, turnTo);
   }
 
@@ -27,25 +26,27 @@ export class Handle {
     const [cx, cy] = projection.point([0, 0, 0]);
     const reach = dimensions.radius * projection.scale;
     this.centre = [cx, cy];
-    for (const circle of [this.hit, this.circle]) {
-      circle.setAttribute("cx", cx);
-      circle.setAttribute("cy", cy);
-    }
-    this.circle.setAttribute("r", reach);
+    centre(this.hit, this.centre);
     this.hit.setAttribute("r", 1.7 * reach);
-    this.sense.setAttribute("d", senseArrow(cx, cy, 1.62 * reach));
     this.pins = pinNumbers(engine);
+    const outside = PIN_NUMBER + LINE * (1.5 + Math.max(0, ...this.pins.map(({ level }) => level)));
+    this.senses.replaceChildren(...engine.cranks.flatMap(({ x, y, ratio }) => {
+      const [px, py] = projection.point([x, y, 0]);
+      return [svg("circle", { class: "pin-circle", cx: px, cy: py, r: reach }),
+        svg("path", { class: "sense", d: senseArrow(px, py, reach + outside, Math.sign(ratio)) })];
+    }));
     this.axes = engine.cylinders.map(({ axis }) => axis);
-    const bores = boreGroups(engine).map(({ numbers, cylinder }) => {
-      const [dx, dy] = cylinder.direction;
-      const { top, axis } = boreEnds(cylinder);
+    const bores = boreGroups(engine).map((group) => {
+      const [dx, dy] = group[0].direction;
+      const { axis } = boreEnds(group[0]);
+      const top = Math.max(...group.map((each) => boreEnds(each).top));
       const [headX, headY] = projection.point([axis[0] + top * dx, axis[1] + top * dy, 0]);
       const anchor = Math.abs(dx) < 0.05 ? "middle" : dx > 0 ? "start" : "end";
       const text = svg("text", { class: "bore-numbers", "text-anchor": anchor });
       const [x, y] = [headX + BORE_NUMBER * dx, headY - BORE_NUMBER * dy + 4];
-      const lines = Math.ceil(numbers.length / MOST_IN_LINE);
+      const lines = Math.ceil(group.length / MOST_IN_LINE);
       for (let k = 0; k < lines; k++) {
-        const part = numbers.slice(k * MOST_IN_LINE, (k + 1) * MOST_IN_LINE);
+        const part = group.slice(k * MOST_IN_LINE, (k + 1) * MOST_IN_LINE);
         const line = svg("tspan", {}, ...listed(part));
         place(line, [x, y - (lines - 1 - k) * LINE]);
         text.append(line);
@@ -68,31 +69,26 @@ export class Handle {
   }
 
   drag(angle, turnTo) {
-    let last = null;
-    let reached = 0;
+    let last;
+    let reached;
     const pointed = (event) => {
       // The picture may be scaled: back from the screen to its own pixels.
       const at = new DOMPoint(event.clientX, event.clientY)
         .matrixTransform(this.scene.element.getScreenCTM().inverse());
       return Math.atan2(this.centre[1] - at.y, at.x - this.centre[0]) / DEGREE;
     };
-    this.hit.addEventListener("pointerdown", (event) => {
-      last = pointed(event);
-      reached = angle();
-      this.hit.setPointerCapture(event.pointerId);
-      event.preventDefault();
-    });
-    this.hit.addEventListener("pointermove", (event) => {
-      if (last === null) return;
+    dragged(this.hit, (event, begins) => {
       const now = pointed(event);
-      const turned = now - last;
+      if (begins) {
+        reached = angle();
+        event.preventDefault();
+      } else {
+        const turned = now - last;
+        reached += turned - 360 * Math.round(turned / 360);
+        turnTo(Number(reached.toFixed(1)));
+      }
       last = now;
-      reached += turned - 360 * Math.round(turned / 360);
-      turnTo(Number(reached.toFixed(1)));
     });
-    for (const end of ["pointerup", "pointercancel"]) {
-      this.hit.addEventListener(end, () => { last = null; });
-    }
   }
 }
 
@@ -101,13 +97,12 @@ function pinNumbers({ cylinders }) {
   const groups = grouped(cylinders, ({ pin, crank, crank_radius: r }) =>
     [crank, ...pin.map((part) => (part * r).toFixed(9))].join(" "));
   if (groups.length === 1) return [];
-  const angle = ({ cylinder }) => reduced(cylinder.pin_deg);
-  groups.sort((a, b) => angle(a) - angle(b));
+  const around = ([{ crank, pin_deg: angle }]) => 1e3 * crank + reduced(angle);
+  groups.sort((a, b) => around(a) - around(b));
   let level = 0;
   return groups.map((group, k) => {
-    level = k && angle(group) - angle(groups[k - 1]) < CLOSE ? (level + 1) % 3 : 0;
-    const text = svg("text", { class: "pin-numbers" }, ...listed(group.numbers));
-    return { first: group.first, level, text };
+    level = k && around(group) - around(groups[k - 1]) < CLOSE ? (level + 1) % 3 : 0;
+    return { first: group[0].number - 1, level, text: svg("text", { class: "pin-numbers" }, ...listed(group)) };
   });
 }
 
@@ -118,27 +113,23 @@ function boreGroups({ cylinders }) {
 }
 
 function grouped(cylinders, keyOf) {
-  const groups = new Map();
-  cylinders.forEach((cylinder, first) => {
-    const key = keyOf(cylinder);
-    if (!groups.has(key)) groups.set(key, { numbers: [], first, cylinder });
-    groups.get(key).numbers.push(cylinder.number);
-  });
-  return [...groups.values()];
+  const groups = {};
+  for (const each of cylinders) (groups[keyOf(each)] ??= []).push(each);
+  return Object.values(groups);
 }
 
-function listed(numbers) {
-  return numbers.flatMap((number, k) => [
+function listed(group) {
+  return group.flatMap(({ number }, k) => [
     ...(k ? [" "] : []), fixed(svg, "tspan", "cylinder", number, `${number}`),
   ]);
 }
 
-/** An arc with a head, counter-clockwise. */
-function senseArrow(cx, cy, r) {
+/** An arc with a head, counter-clockwise; clockwise, its image in the mirror, with a sense of −1. */
+function senseArrow(cx, cy, r, sense) {
   const at = (degrees, by = 0) => {
     const angle = degrees * DEGREE;
-    return [cx + (r + by) * Math.cos(angle), cy - (r + by) * Math.sin(angle)]
+    return [cx + sense * (r + by) * Math.cos(angle), cy - (r + by) * Math.sin(angle)]
       .map((part) => part.toFixed(2)).join(" ");
   };
-  return `M${at(-62)}A${r} ${r} 0 0 0 ${at(-28)}M${at(-38, -5)}L${at(-28)}L${at(-37, 5)}`;
+  return `M${at(-62)}A${r} ${r} 0 0 ${sense > 0 ? 0 : 1} ${at(-28)}M${at(-38, -5)}L${at(-28)}L${at(-37, 5)}`;
 }

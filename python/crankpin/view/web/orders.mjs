@@ -2,6 +2,9 @@
 
 import { magnitude } from "./complex.mjs";
 
+/** Orders that are shown at most. */
+export const MOST_ORDERS = 6;
+
 /** Orders whose peaks are all below this part of the largest are not shown: as in the library. */
 const NEGLIGIBLE = 1e-6;
 

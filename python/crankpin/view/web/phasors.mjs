@@ -12,7 +12,8 @@ const QUANTITIES = ["force", "moment"];
 const PARTS = ["forward", "backward"];
 
 export class Phasors {
-  constructor() {
+  constructor(units = STRINGS.units) {
+    this.units = units;
     this.element = html("div", { class: "phasors" });
     this.cards = [];
   }
@@ -23,7 +24,7 @@ export class Phasors {
     const same = orders.length === this.cards.length
       && orders.every(({ order }, k) => order === this.cards[k].order);
     if (!same) {
-      this.cards = orders.map(({ order }) => new Card(order));
+      this.cards = orders.map(({ order }) => new Card(order, this.units));
       const none = html("p", {}, STRINGS.noOrders);
       this.element.replaceChildren(...(orders.length ? this.cards.map((c) => c.element) : [none]));
     }
@@ -36,9 +37,9 @@ export class Phasors {
 }
 
 class Card {
-  constructor(order) {
+  constructor(order, units) {
     this.order = order;
-    this.pictures = QUANTITIES.map((quantity) => new Picture(order, quantity));
+    this.pictures = QUANTITIES.map((quantity) => new Picture(order, quantity, units[quantity]));
     this.element = html("div", { class: "card" },
       html("h3", {}, `${STRINGS.order} `, fixed(html, "span", "order", order, `${order}`)),
       html("div", { class: "pictures" }, ...this.pictures.map((each) => each.element)));
@@ -55,7 +56,8 @@ class Card {
 }
 
 class Picture {
-  constructor(order, quantity) {
+  constructor(order, quantity, unit) {
+    this.unit = unit;
     this.quantity = quantity;
     const label = `${STRINGS[quantity]}, ${STRINGS.order} ${order}`;
     this.dial = new Dial(label, { size: 100, radius: 44, axes: false });
@@ -70,7 +72,7 @@ class Picture {
   layout({ forward, backward }, whole) {
     this.parts = [forward, backward];
     const reach = longest({ forward, backward });
-    const scale = scaleFor(reach, STRINGS.units[this.quantity]);
+    const scale = scaleFor(reach, this.unit);
     this.dial.reach(reach, whole);
     const points = Array.from({ length: 73 }, (_, k) => {
       const [cos, sin] = [Math.cos((k * Math.PI) / 36), Math.sin((k * Math.PI) / 36)];

@@ -18,6 +18,7 @@ export function configure(figures, settings) {
   const cylinders = figures.cylinders.map((given) => cylinderAt(figures, settings, given));
   return {
     cylinders,
+    cranks: figures.cranks,
     weights: weights(figures, cylinders),
     shafts: figures.shafts,
     cycle: figures.strokes === 2 ? 360 : 720,
@@ -29,7 +30,10 @@ export function configure(figures, settings) {
 function cylinderAt(figures, settings, given) {
   const { crank_radius: r, pin_offset: e } = given;
   const { x, y, ratio } = figures.cranks[given.crank];
-  const l = settings.rod_ratio === figures.rod_ratio ? given.rod_length : r / settings.rod_ratio;
+  const own = settings.rod_ratio === figures.rod_ratio;
+  const l = own ? given.rod_length : r / settings.rod_ratio;
+  // An infinite rod is drawn as the bar of a Scotch yoke, which stays on the bore's axis.
+  const yoke = own && given.yoke;
   const { turned, delay } = shiftOf(figures, settings, given.bank);
   const bankDeg = given.bank_deg + turned;
   const tdcDeg = given.tdc_deg + delay;
@@ -37,6 +41,7 @@ function cylinderAt(figures, settings, given) {
   return {
     ...given,
     rod_length: l,
+    yoke,
     tdc_deg: tdcDeg,
     pin_deg: pinDeg,
     ratio,
@@ -55,7 +60,7 @@ function cylinderAt(figures, settings, given) {
  * order is not known. Strokes go from one turning point of the piston to the next.
  */
 function strokes({ firing_deg: firing, strokes: count }, given, delay, rodLength) {
-  if (!firing) return null;
+  if (!firing || firing[given.number - 1] === null) return null;
   const [highest, lowest] = turningPoints(given.crank_radius, rodLength, given.pin_offset);
   const [before] = turningPoints(given.crank_radius, given.rod_length, given.pin_offset);
   const cycle = count === 2 ? 360 : 720;
@@ -75,6 +80,12 @@ function strokes({ firing_deg: firing, strokes: count }, given, delay, rodLength
 /** Degrees after TDC at which the piston is highest and lowest: crank and rod are in line. */
 function turningPoints(r, l, e) {
   return [Math.asin(e / (l + r)) / DEGREE, 180 + Math.asin(e / (l - r)) / DEGREE];
+}
+
+/** Heights of the piston pin where the piston is highest and lowest. */
+export function extremeHeights(cylinder) {
+  const { crank_radius: r, rod_length: l, pin_offset: e } = cylinder;
+  return turningPoints(r, l, e).map((angle) => pistonHeight(cylinder, unit(angle)));
 }
 
 /** Counterweights on their cranks, and those of balance shafts. */
@@ -123,11 +134,14 @@ function cylinderPlaces(cylinder, crank) {
   // The path of the piston pin lies left of the bore's direction by the offset, on a crank that turns as
   // the main one does.
   const wrist = add(axis, [height * dx - cylinder.shift * dy, height * dy + cylinder.shift * dx]);
-  return { height, crankpin, wrist };
+  const foot = cylinder.yoke
+    ? add(axis, scale(cylinder.direction, height - cylinder.rod_length)) : crankpin;
+  return { height, crankpin, foot, wrist };
 }
 
 /** Height of the piston pin along its bore: that of the crankpin and that of the rod above it. */
-function pistonHeight({ crank_radius: r, rod_length: l, pin_offset: e }, [cos, sin]) {
+function pistonHeight({ crank_radius: r, rod_length: l, pin_offset: e, yoke }, [cos, sin]) {
+  if (yoke) return r * cos + l;
   // 1 − sin θ and 1 + sin θ, the smaller one from cos² θ: the rod may be barely long enough.
   const [toAbove, toBelow] = sin > 0
     ? [(cos * cos) / (1 + sin), 1 + sin]

@@ -23,6 +23,24 @@ const FRAMES = {
   oblique: seen([0.22, 0.55, 0.8], [0, 1, 0]),
 };
 
+/** The convex outline of points. */
+export function hull(points) {
+  const sorted = [...points].sort(([a, b], [c, d]) => a - c || b - d);
+  const chain = (along) => {
+    const kept = [];
+    for (const [x, y] of along) {
+      const turns = () => {
+        const [[a, b], [c, d]] = kept.slice(-2);
+        return cross([c - a, d - b], [x - a, y - b]) > 0;
+      };
+      while (kept.length > 1 && !turns()) kept.pop();
+      kept.push([x, y]);
+    }
+    return kept.slice(0, -1);
+  };
+  return [...chain(sorted), ...chain(sorted.reverse())];
+}
+
 /** A projection: metres to pixels of a picture, y downwards. */
 export class Projection {
   constructor(name) {

@@ -8,7 +8,8 @@ const VECTORS = ["force", "moment"];
 const AXES = ["x", "y"];
 
 export class Readouts {
-  constructor() {
+  constructor(units = STRINGS.units) {
+    this.units = units;
     const output = (name) => numbered(html, "output", name, { "aria-live": "off" });
     this.angle = output("crank-angle");
     this.torque = output("torque");
@@ -59,7 +60,7 @@ export class Readouts {
 
   /** Choose unit and digits of one quantity. */
   choose(quantity, largest) {
-    this.scales[quantity] = scaleFor(largest, STRINGS.units[quantity]);
+    this.scales[quantity] = scaleFor(largest, this.units[quantity]);
     this.write(this.longest[quantity], quantity, largest);
   }
 
@@ -72,7 +73,8 @@ export class Readouts {
     const { speed: elements } = this;
     const share = (high - low) / mean;
     show(elements.irregularity, share, `${Number((100 * share).toPrecision(3))} %`);
-    show(elements.inertia, inertia, `${Number(inertia.toPrecision(3))} kg·m²`);
+    const [unit, factor = 1] = this.units.inertia;
+    show(elements.inertia, inertia, `${Number((factor * inertia).toPrecision(3))} ${unit}`);
   }
 
   pose({ thetaDeg, torque, speed, ...vectors }) {

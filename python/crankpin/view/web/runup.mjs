@@ -1,6 +1,6 @@
 // Force or motion over engine speed, on axes of decades, with the modes that an order crosses.
 
-import { fixed, path, place, show, numbered, svg } from "./dom.mjs";
+import { dragged, fixed, path, place, show, numbered, svg } from "./dom.mjs";
 import { scaleFor } from "./format.mjs";
 import { MOUNT_STRINGS } from "./mount_strings.mjs";
 import { STRINGS } from "./strings.mjs";
@@ -25,20 +25,12 @@ export class RunUp {
     this.note = svg("text", { class: "note" });
     this.element = svg("svg", { class: "run-up", role: "img", "aria-label": MOUNT_STRINGS.runUpDescribed, height: HIGH },
       this.grid, this.frame, this.marks, ...this.lines, this.cursor, this.note);
-    let held = false;
-    const point = (event) => {
+    dragged(this.element, (event) => {
       const box = this.element.getBoundingClientRect();
       const share = (event.clientX - box.left - MARGIN.left) / (this.right - MARGIN.left);
       const [low, high] = this.range;
       choose(Math.round(low * (high / low) ** Math.min(Math.max(share, 0), 1)));
-    };
-    this.element.addEventListener("pointerdown", (event) => {
-      held = true;
-      this.element.setPointerCapture(event.pointerId);
-      point(event);
     });
-    this.element.addEventListener("pointermove", (event) => held && point(event));
-    for (const end of ["pointerup", "pointercancel"]) this.element.addEventListener(end, () => { held = false; });
   }
 
   /**

@@ -2,7 +2,8 @@
 
 import { add, multiply, scale, unit } from "./complex.mjs";
 import { fixed, path, place, svg } from "./dom.mjs";
-import { Projection } from "./projection.mjs";
+import { extremeHeights } from "./places.mjs";
+import { Projection, hull } from "./projection.mjs";
 import { STRINGS } from "./strings.mjs";
 
 // What inertia does not depend on, in crank radii: chosen to look like an engine.
@@ -96,10 +97,10 @@ export class Scene {
   // Each part is an element, how it is laid out (which returns its depth), and how it is posed.
 
   parts({ cylinders, shafts, weights }) {
-    const gaps = new Set(cylinders.map((each) => each.z)).size + 1;
+    const { places } = this.dimensions;
     return [
       ...cylinders.flatMap((_, k) => [this.bore(k), this.throw(k), this.rod(k), this.piston(k)]),
-      ...Array.from({ length: gaps }, (_, k) => this.journal(k)),
+      ...places.flatMap((of, crank) => [...of, 0].map((_, k) => this.journal(crank, k))),
       ...shafts.map((_, k) => this.shaft(k)),
       ...weights.map((_, k) => this.weight(k)),
     ];
@@ -194,8 +195,8 @@ export class Scene {
         return this.projection.depth([...add(cylinders[k].axis, scale(direction, 0.5 * length)), z]);
       },
       pose: ({ cylinders }, _strokes, motion) => {
-        const { crankpin, wrist } = cylinders[k];
-        bar.draw([this.at(crankpin, z, motion), this.at(wrist, z, motion)]);
+        const { foot, wrist } = cylinders[k];
+        bar.draw([this.at(foot, z, motion), this.at(wrist, z, motion)]);
       },
     };
   }
@@ -223,23 +224,26 @@ export class Scene {
     };
   }
 
-  /** The crank's axis between two throws, or beyond the first and the last. */
-  journal(k) {
+  /** A crank's axis between two throws, or beyond the first and the last. */
+  journal(crank, k) {
     const bar = new Bar("journal");
+    let axis;
     let start;
     let stop;
     return {
       kind: "journal",
       element: bar.element,
-      layout: () => {
-        const { places, halfThrow, ends, radius } = this.dimensions;
+      layout: ({ cranks }) => {
+        const { halfThrow, ends, radius } = this.dimensions;
+        const places = this.dimensions.places[crank];
+        axis = [cranks[crank].x, cranks[crank].y];
         start = k ? places[k - 1] + halfThrow : ends[0];
         stop = k < places.length ? places[k] - halfThrow : ends[1];
         bar.width = 0.52 * radius * this.projection.scale;
-        return this.projection.depth([0, 0, 0.5 * (start + stop)]);
+        return this.projection.depth([...axis, 0.5 * (start + stop)]);
       },
       pose: (_pose, _strokes, motion) =>
-        bar.draw([this.at([0, 0], start, motion), this.at([0, 0], stop, motion)]),
+        bar.draw([this.at(axis, start, motion), this.at(axis, stop, motion)]),
     };
   }
 
@@ -280,7 +284,9 @@ export class Scene {
       },
       pose: ({ weights }, _strokes, motion) => {
         const points = [axis, ...rim.map((by) => add(axis, scale(multiply(weights[k], by), reach)))];
-        element.setAttribute("d", path(points.map((point) => this.at(point, z, motion)), true));
+        const thick = 0.4 * this.dimensions.halfThrow;
+        const faces = [z - thick, z + thick].flatMap((at) => points.map((point) => this.at(point, at, motion)));
+        element.setAttribute("d", path(hull(faces), true));
       },
     };
   }
@@ -312,27 +318,28 @@ class Bar {
 }
 
 function dimensions(engine) {
-  const { cylinders, weights } = engine;
+  const { cranks, cylinders, weights } = engine;
   const radius = Math.max(...cylinders.map((each) => each.crank_radius));
-  const places = [...new Set(cylinders.map((each) => each.z))].sort((a, b) => a - b);
+  const distinct = (some) => [...new Set(some.map((each) => each.z))].sort((a, b) => a - b);
+  const all = distinct([...cylinders, ...weights]);
+  /** Where the throws of each crank stand. */
+  const places = cranks.map((_, k) => distinct(cylinders.filter(({ crank }) => crank === k)));
   const stretch = stretchAlong(engine);
-  const gaps = places.slice(1).map((z, k) => z - places[k]);
+  const gaps = places.flatMap((of) => of.slice(1).map((z, k) => z - of[k]));
   const halfThrow = 0.3 * Math.min(BORE * radius / stretch, ...gaps);
   const overhang = (0.75 * BORE * radius) / stretch;
-  const all = [...places, ...weights.map((each) => each.z)];
   const largestWeight = {};
   for (const { kind, amount } of weights) {
     largestWeight[kind] = Math.max(largestWeight[kind] ?? 0, amount);
   }
-  const ends = [Math.min(...all) - overhang, Math.max(...all) + overhang];
+  const ends = [all[0] - overhang, all.at(-1) + overhang];
   return { radius, places, stretch, halfThrow, ends, largestWeight };
 }
 
 /** Lower end and head of a bore, and where its axis passes its crank's. */
 export function boreEnds(cylinder) {
-  const { crank_radius: r, rod_length: l, pin_offset: e, shift, direction: [dx, dy] } = cylinder;
-  const highest = Math.sqrt((l + r) ** 2 - e ** 2);
-  const lowest = Math.sqrt((l - r) ** 2 - e ** 2);
+  const { crank_radius: r, shift, direction: [dx, dy] } = cylinder;
+  const [highest, lowest] = extremeHeights(cylinder);
   return {
     low: Math.max(lowest - SKIRT * r, 1.1 * r),
     top: highest + (CROWN + HEAD) * r,

@@ -18,6 +18,7 @@ export function openings({ cylinders, cycle }, before) {
   const banks = [];
   for (const { bank, direction: [side], strokes } of cylinders) {
     banks[bank] ??= { side, angles: [] };
+    if (!strokes) continue; // a dummy piston
     // It opens at the end of the power stroke, a little before.
     banks[bank].angles.push(reduced(strokes[0][2] - before, cycle));
   }

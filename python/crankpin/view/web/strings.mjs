@@ -82,7 +82,9 @@ export const STRINGS = {
   every: (degrees) => `(every ${degrees}°)`,
   intervals: (degrees) => `(intervals ${degrees}°)`,
   keys: "Keys: space plays and stops, ← → step, shift ten times as far, R reverses, home returns to the start",
-  units: { force: "N", moment: "N·m", torque: "N·m", orbit: "m", pressure: "Pa" },
+  units: {
+    force: ["N"], moment: ["N·m"], torque: ["N·m"], orbit: ["m"], pressure: ["Pa"], inertia: ["kg·m²"], length: ["mm", 1e3],
+  },
   rpm: "rpm",
   millimetres: "mm",
   degrees: "°",

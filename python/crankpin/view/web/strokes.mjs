@@ -10,7 +10,8 @@ export const STROKES = ["power", "exhaust", "intake", "compression"];
 
 /** Marks of one kind are one path for all cylinders: hundreds of elements would take their time. */
 export class Strokes {
-  constructor(cylinders) {
+  constructor(cylinders, unit = STRINGS.units.length) {
+    this.unit = unit;
     this.paths = Object.fromEntries(["zero-line", ...STROKES, "tdc", "fires"].map((name) =>
       [name, svg("path", { class: STROKES.includes(name) ? `stroke ${name}` : name })]));
     this.numbers = cylinders.map(({ number }) =>
@@ -57,9 +58,12 @@ export class Strokes {
 
   /** Write the pistons' heights. */
   pose({ cylinders }) {
+    const [name, factor] = this.unit;
+    // To a hundredth of a millimetre, or finer.
+    const decimals = Math.max(0, Math.ceil(5 - Math.log10(factor)));
     this.heights.forEach((element, k) => {
       const { height } = cylinders[k];
-      show(element, height, `${(height * 1e3).toFixed(2)} ${STRINGS.millimetres}`);
+      show(element, height, `${(height * factor).toFixed(decimals)} ${name}`);
     });
   }
 }

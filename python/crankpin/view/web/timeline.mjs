@@ -1,7 +1,7 @@
 // Histories of force, moment and torque over a cycle, above the strokes of each cylinder: one cursor.
 
 import { reduced } from "./complex.mjs";
-import { fixed, svg } from "./dom.mjs";
+import { dragged, fixed, svg } from "./dom.mjs";
 import { HEIGHT, History } from "./history.mjs";
 import { STRINGS } from "./strings.mjs";
 import { ROW, Strokes } from "./strokes.mjs";
@@ -11,8 +11,9 @@ const AXIS = 22;
 const NARROW = 560;
 
 export class Timeline {
-  /** `turnTo` is told of the angle within the cycle that the reader points at. */
-  constructor(turnTo) {
+  /** `turnTo` is told of the angle within the cycle that the reader points at; pistons' heights are in `unit`. */
+  constructor(turnTo, unit) {
+    this.unit = unit;
     this.element = svg("svg", {
       class: "timeline", role: "img", "aria-label": STRINGS.timelineDescribed,
     });
@@ -25,7 +26,7 @@ export class Timeline {
   layout({ cycle, cylinders }, histories, width) {
     if (!this.histories) {
       this.histories = histories.map((each) => new History(each));
-      this.strokes = new Strokes(cylinders);
+      this.strokes = new Strokes(cylinders, this.unit);
       this.element.append(this.axis, ...this.histories.map((each) => each.element),
         this.strokes.element, this.cursor);
     }
@@ -75,20 +76,10 @@ export class Timeline {
   }
 
   scrub(turnTo) {
-    const point = (event) => {
+    dragged(this.element, (event) => {
       const box = this.element.getBoundingClientRect();
       const share = (event.clientX - box.left - this.left) / (this.right - this.left);
       turnTo(Math.round(Math.min(Math.max(share, 0), 1) * this.cycle));
-    };
-    let held = false;
-    this.element.addEventListener("pointerdown", (event) => {
-      held = true;
-      this.element.setPointerCapture(event.pointerId);
-      point(event);
     });
-    this.element.addEventListener("pointermove", (event) => held && point(event));
-    for (const end of ["pointerup", "pointercancel"]) {
-      this.element.addEventListener(end, () => { held = false; });
-    }
   }
 }

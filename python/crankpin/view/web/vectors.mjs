@@ -1,7 +1,7 @@
 // A vector now, and the curve that its tip traces over a turn.
 
 import { unit } from "./complex.mjs";
-import { path, svg } from "./dom.mjs";
+import { centre, path, svg } from "./dom.mjs";
 
 const SIZE = 200;
 const RADIUS = 84;
@@ -97,11 +97,7 @@ export class Orbits {
   }
 
   pose(points) {
-    this.parts.forEach(({ dot }, k) => {
-      const [x, y] = this.dial.at(points[k]);
-      dot.setAttribute("cx", x.toFixed(2));
-      dot.setAttribute("cy", y.toFixed(2));
-    });
+    this.parts.forEach(({ dot }, k) => centre(dot, this.dial.at(points[k])));
   }
 }
 

@@ -3,16 +3,13 @@
 import { reduced } from "./complex.mjs";
 import { Settings } from "./controls.mjs";
 import { Numbers } from "./numbers.mjs";
-import { shown } from "./orders.mjs";
+import { MOST_ORDERS, shown } from "./orders.mjs";
 import { configure, ownSettings, placesAt, strokesAt } from "./places.mjs";
 import { Readouts } from "./readouts.mjs";
 import { between, extremeValues } from "./speed.mjs";
 import { peaks, turn } from "./turn.mjs";
 import { Turning } from "./turning.mjs";
 import { STRINGS } from "./strings.mjs";
-
-/** Orders that are shown at most. */
-const MOST_ORDERS = 6;
 
 /** The state's entries that change the engine. */
 const SETTINGS = ["rpm", "bank_angle_deg", "rod_ratio", "hold"];
@@ -36,7 +33,9 @@ export class View extends Turning {
 
   /** Make the parts that both pages have; a subclass makes `element` of them. */
   build() {
-    this.readouts = new Readouts();
+    /** Units by quantity: a name, which takes a prefix, or a name and the factor from SI. */
+    this.units = { ...STRINGS.units, ...this.figures.units };
+    this.readouts = new Readouts(this.units);
     this.settings = new Settings(this);
   }
 

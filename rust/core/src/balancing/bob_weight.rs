@@ -11,7 +11,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::figure::rounded;
 use crate::numbers::limits::SMALLEST;
-use crate::readings::balance::Vector;
+use crate::readings::balance::{Vector, angular_speed};
 use crate::readings::explain::words::{across, turns};
 
 /// Largest share of the reciprocating mass that is balanced.
@@ -30,12 +30,18 @@ const ROUNDING_OF_ALL: f64 = 1e-15;
 pub fn with_bob_weights(engine: &Engine, factor: f64) -> Result<Engine> {
     let weight = |(i, station): (usize, &crate::Station)| {
         let gear = &station.cylinder;
-        let mass = station.rotating_mass + factor * gear.reciprocating_mass();
+        let mass = bob_weight([station.rotating_mass, gear.reciprocating_mass()], factor);
         let (amount, angle) = (mass * gear.crank_radius(), Angle::HALF_TURN);
         Unbalance { amount, angle, z: station.z, pin: Some(i) }
     };
     let weights = engine.stations().iter().enumerate().map(weight);
     engine.with_counterweights(weights.filter(|weight| weight.amount >= SMALLEST).collect())
+}
+
+/// Bob weight, kg, of a rotating and a reciprocating mass: all of the one and a share of the other.
+#[must_use]
+pub fn bob_weight([rotating, reciprocating]: [f64; 2], factor: f64) -> f64 {
+    rotating + factor * reciprocating
 }
 
 /// Rotating and reciprocating mass of the rods and pistons on a crankpin, kg.
@@ -169,6 +175,12 @@ impl FirstOrder {
         [longest, if shortest.abs() < least { 0.0 } else { shortest }]
     }
 
+    /// The half axes at a crank speed, N or N·m.
+    pub fn half_axes_at(&self, vector: Vector, factor: f64, rpm: f64) -> Result<[f64; 2]> {
+        let omega = angular_speed(rpm)?;
+        Ok(self.half_axes(vector, factor).map(|axis| omega * omega * axis))
+    }
+
     /// Factor of the least longest vector, from 0 to [`LARGEST_FACTOR`]; none if it makes no difference.
     #[must_use]
     pub fn least(&self, vector: Vector) -> Option<f64> {
@@ -282,4 +294,47 @@ fn roots([square, linear, constant]: [f64; 3]) -> Vec<f64> {
     found.sort_by(f64::total_cmp);
     found.dedup();
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quadratics_have_their_real_roots() {
+        let of = |terms| roots(terms);
+        assert_eq!(of([1.0, -3.0, 2.0]), [1.0, 2.0]);
+        assert_eq!(of([1.0, 2.0, -3.0]), [-3.0, 1.0]);
+        assert_eq!(of([1.0, -1.0, 0.0]), [0.0, 1.0]);
+        assert_eq!(of([2.0, 0.0, -8.0]), [-2.0, 2.0]);
+        assert_eq!((of([1.0, -2.0, 1.0]), of([3.0, 0.0, 0.0])), (vec![1.0], vec![0.0]));
+        assert_eq!((of([0.0, 2.0, -1.0]), of([0.0, 2.0, 0.0])), (vec![0.5], vec![0.0]));
+        assert!(of([1.0, 0.0, 1.0]).is_empty() && of([0.0, 0.0, 1.0]).is_empty());
+    }
+
+    #[test]
+    fn parts_of_one_size_and_the_least_of_their_sum() {
+        let part = |start: f64, change: f64| Part {
+            start: Complex64::new(start, 0.0),
+            change: Complex64::new(0.0, change),
+            size: 0.0,
+        };
+        // |1 + 2iκ| is 1 and more, and 3 at √2.
+        let found = of_one_size(&part(1.0, 2.0), &part(3.0, 0.0));
+        assert!(
+            found.iter().zip([-2.0_f64.sqrt(), 2.0_f64.sqrt()]).all(|(a, b)| (a - b).abs() < 1e-15)
+        );
+        assert_eq!(found.len(), 2);
+        assert!(of_one_size(&part(3.0, 2.0), &part(1.0, 0.0)).is_empty());
+        assert!(of_one_size(&part(1.0, 0.0), &part(1.0, 0.0)).is_empty());
+        // Both change: 1 + 4κ² = 9 + κ².
+        let found = of_one_size(&part(1.0, 2.0), &part(3.0, 1.0));
+        assert!((found[1] - (8.0_f64 / 3.0).sqrt()).abs() < 1e-15 && found[0] == -found[1]);
+        let both =
+            FirstOrder { force: [part(1.0, 2.0), part(3.0, 1.0)], moment: [Part::default(); 2] };
+        assert_eq!((both.least(Vector::Force), both.least(Vector::Moment)), (Some(0.0), None));
+        assert!(both.exists(Vector::Force) && !both.exists(Vector::Moment));
+        assert_eq!(both.half_axes(Vector::Force, 0.0), [4.0, -2.0]);
+        assert_eq!(both.direction(Vector::Moment, 0.5, ["right", "left"]), "–");
+    }
 }

@@ -6,6 +6,7 @@
 
 mod angle_lists;
 pub mod bob_weight;
+pub mod card;
 mod discs;
 mod least_squares;
 pub mod shafts;
@@ -17,7 +18,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits::SMALLEST;
 use crate::numbers::order::Order;
-use crate::readings::balance::{Orders, Request, angular_speed, balance};
+use crate::readings::balance::{Orders, Request, UNIT_RPM, angular_speed, balance};
 use crate::wrench::Wrench;
 
 /// Force and moment that turn with a shaft, x + iy at θ = 0, over ω².
@@ -76,9 +77,7 @@ fn roll_of(engine: &Engine, wrench: &Wrench, rpm: Option<f64>) -> Result<Complex
 }
 
 fn over_square(engine: &Engine, order: Order, torque: bool, cancel: &Cancel) -> Result<Wrench> {
-    // 1 rad/s
-    let rpm = 30.0 / std::f64::consts::PI;
-    let request = Request { rpm, reference_z: None, torque };
+    let request = Request { rpm: UNIT_RPM, reference_z: None, torque };
     let found = balance(engine, &request, &Orders::Given(vec![order]), cancel)?;
     Ok(found.wrenches[0])
 }

@@ -8,6 +8,7 @@ use super::least_squares::least_squares;
 use super::{NEGLIGIBLE, TurningPart, half_length, over_square, weights};
 use crate::Complex64;
 use crate::engine::{Engine, Shaft, Unbalance};
+use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -239,10 +240,12 @@ fn fitted(ratio: i32, unbalances: Vec<Unbalance>, reference: f64) -> Fitted {
     Fitted { shaft, exerts }
 }
 
-/// Length of an engine, m: along the crank or of a crank and its rod, whichever is the larger.
+/// Length of an engine, m: along the crank or of a crank and its rod, whichever is the larger; of an
+/// infinite rod the crank alone counts.
 fn size(engine: &Engine) -> f64 {
     let [first, last] = engine.ends();
-    let reach = engine.gears().iter().map(|gear| gear.crank_radius() + gear.rod_length());
+    let rod = |gear: &Cylinder| if gear.has_infinite_rod() { 0.0 } else { gear.rod_length() };
+    let reach = engine.gears().iter().map(|gear| gear.crank_radius() + rod(gear));
     reach.fold(last - first, f64::max)
 }
 
@@ -250,7 +253,6 @@ fn size(engine: &Engine) -> f64 {
 mod tests {
     use super::*;
     use crate::engine::Station;
-    use crate::mechanism::slider_crank::Cylinder;
 
     fn single() -> Engine {
         let cylinder = Cylinder::new(0.04, 0.14, 0.5, 0.0).unwrap();

@@ -10,8 +10,10 @@
 
 use nalgebra::{DMatrix, RowVector2};
 
+use super::bob_weight::with_bob_weights;
 use super::least_squares::{RANK_TOLERANCE, least_squares};
-use super::{NEGLIGIBLE, TurningPart, angle_lists, discs, without_rounding};
+use super::shafts::unbalance;
+use super::{NEGLIGIBLE, TurningPart, angle_lists, discs, turning, without_rounding};
 use crate::Complex64;
 use crate::engine::{Engine, Unbalance};
 use crate::numbers::cancel::Cancel;
@@ -71,34 +73,81 @@ pub struct FittedWeights {
     pub missing: f64,
 }
 
+/// What weights are to do to a force or moment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Target {
+    /// It does not matter.
+    Ignored,
+    /// All of it is to go.
+    All,
+    /// It is to be what bob weights of this share of the reciprocating mass leave.
+    Share(f64),
+}
+
+/// Weights that are wanted of an engine.
+#[derive(Debug, Clone)]
+pub struct Fit<'a> {
+    /// Places of the planes, m.
+    pub z: &'a [f64],
+    /// Largest mass·radius of each plane, kg·m; infinite for none.
+    pub bounds: &'a [f64],
+    /// Angles allowed in each plane, radians; None for any.
+    pub angles: Option<&'a [Vec<f64>]>,
+    /// What is to be done to the force.
+    pub force: Target,
+    /// What is to be done to the moment.
+    pub moment: Target,
+    /// Length over which a moment counts as much as a force, m; by default the longest lever of a plane or
+    /// a cylinder.
+    pub length: Option<f64>,
+    /// What is minimised of weights that do the same.
+    pub minimise: Minimise,
+}
+
+/// Part of two figures below which their difference is rounding.
+const NOTHING: f64 = 1e-14;
+
 /// The unbalances at some places that remove the most of an engine's forward force and moment of order 1;
 /// whether they are proved to remove all that weights of any size there could, and the part that is
 /// missing.
 ///
-/// Where they cannot remove both, they leave the least |force|² + |moment/length|², the length that of
-/// the longest lever of a plane or a cylinder.
+/// Where they cannot remove both, they leave the least |force|² + |moment/length|².
 pub fn external(
     engine: &Engine,
-    z: &[f64],
-    minimise: Minimise,
+    fit: &Fit,
     cancel: &Cancel,
 ) -> Result<(Vec<Unbalance>, FittedWeights)> {
     let reference = engine.reference(None)?;
-    let places = z.iter().copied().chain(engine.stations().iter().map(|station| station.z));
+    let places = fit.z.iter().copied().chain(engine.stations().iter().map(|station| station.z));
     let longest = places.map(|z| (z - reference).abs()).fold(0.0, f64::max);
-    let there = super::turning(engine, 1, cancel)?;
+    let there = turning(engine, 1, cancel)?;
+    let wanted = |target, part: fn(&TurningPart) -> Complex64| -> Result<_> {
+        let left = match target {
+            Target::Ignored => return Ok(None),
+            Target::All => Complex64::default(),
+            // Shafts stay: what weights on the crank are to leave is its own.
+            Target::Share(factor) => {
+                let balanced = with_bob_weights(engine, factor)?.with_shafts(Vec::new())?;
+                part(&turning(&balanced, 1, cancel)?)
+            }
+        };
+        let change = left - part(&there);
+        // Two figures that agree leave their rounding, not a weight.
+        let is_none = change.norm() <= NOTHING * (left.norm() + part(&there).norm());
+        Ok(Some(if is_none { Complex64::default() } else { change }))
+    };
     let request = WeightRequest {
-        z,
+        z: fit.z,
         reference,
-        length: if longest > 0.0 { longest } else { 1.0 },
-        force: Some(-there.force),
-        moment: Some(-there.moment),
-        bounds: &vec![f64::INFINITY; z.len()],
-        angles: None,
-        minimise,
+        length: fit.length.unwrap_or(if longest > 0.0 { longest } else { 1.0 }),
+        force: wanted(fit.force, |part| part.force)?,
+        moment: wanted(fit.moment, |part| part.moment)?,
+        bounds: fit.bounds,
+        angles: fit.angles,
+        minimise: fit.minimise,
     };
     let fitted = least(&request, cancel)?;
-    let each = fitted.list.iter().map(|one| super::shafts::unbalance(one.vector, z[one.plane]));
+    let each = fitted.list.iter().map(|one| unbalance(one.vector, fit.z[one.plane]));
     Ok((each.collect::<Result<_>>()?, fitted))
 }
 

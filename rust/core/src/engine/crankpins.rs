@@ -91,6 +91,14 @@ impl Engine {
         throws.map(|on| grouped(&on, on_one_pin).into_iter().map(crankpin).collect()).collect()
     }
 
+    /// The crankpins of all cranks from front to flywheel.
+    #[must_use]
+    pub fn crankpins(&self) -> Vec<Crankpin> {
+        let mut pins = self.throws().concat();
+        pins.sort_by(|a, b| a.z.total_cmp(&b.z));
+        pins
+    }
+
     /// Places of the throws along a crank, by its index, ascending; those at one place are one.
     #[must_use]
     pub fn throw_places(&self, crank: usize) -> Vec<ThrowPlace> {

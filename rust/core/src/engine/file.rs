@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::layout::Strokes;
 use super::{Crank, Details, Engine, Gas, RodFigures, Shaft, Station, Unbalance};
@@ -71,6 +71,8 @@ struct OtherCrank {
 #[serde(deny_unknown_fields)]
 struct PartsEntry {
     crank_radius: f64,
+    /// Null in JSON, which has no infinite numbers, is an infinite rod.
+    #[serde(deserialize_with = "number_or_infinite")]
     rod_length: f64,
     reciprocating_mass: f64,
     #[serde(default)]
@@ -83,6 +85,14 @@ struct PartsEntry {
     piston_mass: Option<f64>,
     #[serde(default, skip_serializing_if = "is_default")]
     rod: Option<RodFigures>,
+    /// Whether the piston balances and never has gas.
+    #[serde(default, skip_serializing_if = "is_default")]
+    dummy: bool,
+}
+
+/// A number, as which null is infinite.
+fn number_or_infinite<'de, D: Deserializer<'de>>(text: D) -> std::result::Result<f64, D::Error> {
+    Ok(Option::deserialize(text)?.unwrap_or(f64::INFINITY))
 }
 
 fn four() -> u32 {
@@ -225,6 +235,7 @@ impl PartsEntry {
             bore: details.bore,
             piston_mass: details.piston_mass,
             rod: details.rod,
+            dummy: details.dummy,
         }
     }
 
@@ -234,7 +245,8 @@ impl PartsEntry {
     }
 
     fn details(&self) -> Details {
-        Details { bore: self.bore, piston_mass: self.piston_mass, rod: self.rod }
+        let Self { bore, piston_mass, rod, dummy, .. } = *self;
+        Details { bore, piston_mass, rod, dummy }
     }
 }
 
@@ -622,6 +634,7 @@ mod tests {
                 let engine =
                     Engine::new(name, "", stations).unwrap().firing_as("1", Strokes::Two).unwrap();
                 let details = |i: usize| Details {
+                    dummy: i.is_multiple_of(4),
                     bore: i.is_multiple_of(2).then_some(0.08),
                     piston_mass: i.is_multiple_of(3).then_some(0.3),
                     rod: i.is_multiple_of(5).then_some(RodFigures {

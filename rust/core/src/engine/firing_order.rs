@@ -9,38 +9,68 @@ use crate::numbers::limits;
 const BETWEEN: [char; 9] =
     ['-', ',', ' ', '\u{2010}', '\u{2011}', '\u{2012}', '\u{2013}', '\u{2014}', '\u{2212}'];
 
+const NAMED: &str = "name every cylinder from 1 to the number of cylinders once, such as 1-3-4-2";
+
 /// The order in which cylinders fire, by number from 1, such as 1-3-4-2, or 1+4-2+3 for cylinders that
-/// fire together.
+/// fire together. Dummy pistons are not in it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FiringOrder(Vec<Vec<usize>>);
 
 impl FiringOrder {
-    /// Each cylinder from 1 to the number of them once, in groups that fire together.
+    /// Cylinders by number from 1, each once, in groups that fire together.
     pub fn new(groups: Vec<Vec<usize>>) -> Result<Self> {
         let mut sorted = groups.concat();
         sorted.sort_unstable();
-        let count = sorted.len();
-        let twice = sorted.windows(2).find(|pair| pair[0] == pair[1]);
-        let missing = (1..=count).find(|number| sorted.binary_search(number).is_err());
-        let fault = twice
-            .map(|pair| (pair[0], "there twice"))
-            .or_else(|| missing.map(|number| (number, "missing")));
-        let listed = count > 0 && fault.is_none();
+        let twice = sorted.windows(2).find(|pair| pair[0] == pair[1]).map(|pair| pair[0]);
+        let numbers = 1..=limits::MOST_CYLINDERS;
         let order = Self(groups);
-        if !listed || count > limits::MOST_CYLINDERS {
-            let named =
-                "name every cylinder from 1 to the number of cylinders once, such as 1-3-4-2";
-            let hint = match fault {
-                Some(_) if count == 1 => {
-                    let digits: Vec<_> = order.to_string().chars().map(String::from).collect();
-                    format!("write '-' between cylinders: {}", digits.join("-"))
-                }
-                Some((number, fault)) => format!("{number} is {fault}; {named}"),
-                None => named.to_owned(),
-            };
-            return Err(Error::value("firing_order", order, hint));
+        let outside = sorted.iter().find(|number| !numbers.contains(number));
+        let hint = match (twice, outside) {
+            (Some(number), _) => format!("{number} is there twice; {NAMED}"),
+            (None, Some(_)) => order.dashed(),
+            _ if sorted.is_empty() => NAMED.to_owned(),
+            _ => return Ok(order),
+        };
+        Err(Error::value("firing_order", order, hint))
+    }
+
+    /// Rejects an order that does not name every cylinder that fires, and no other, by whether each of
+    /// the engine's is a dummy.
+    pub(crate) fn check_names_all(&self, dummies: &[bool]) -> Result<()> {
+        let firing = dummies.iter().filter(|dummy| !**dummy).count();
+        let which = if firing < dummies.len() { " that fire" } else { "" };
+        self.check(dummies, &format!("name each of the engine's {firing} cylinders{which} once"))
+    }
+
+    /// Rejects an order that leaves out a cylinder below the highest that it names.
+    pub(crate) fn check_complete(&self) -> Result<()> {
+        self.check(&vec![false; self.cylinders().len()], NAMED)
+    }
+
+    fn check(&self, dummies: &[bool], named: &str) -> Result<()> {
+        let cylinders = self.cylinders();
+        let fires = |number: usize| dummies.get(number - 1).is_some_and(|dummy| !dummy);
+        let missing = (1..=dummies.len()).find(|n| fires(*n) && !cylinders.contains(n));
+        let other = cylinders.iter().find(|&&number| !fires(number));
+        let hint = match (missing, other) {
+            (None, None) => return Ok(()),
+            (_, Some(&number)) if number <= dummies.len() => {
+                format!("{number} is a dummy piston, which does not fire; leave it out")
+            }
+            (_, Some(_)) if cylinders.len() == 1 => self.dashed(),
+            (Some(number), _) => format!("{number} is missing; {named}"),
+            (None, Some(_)) => named.to_owned(),
+        };
+        Err(Error::value("firing_order", self, hint))
+    }
+
+    /// A hint for digits that nothing separates.
+    fn dashed(&self) -> String {
+        let digits: Vec<_> = self.to_string().chars().map(String::from).collect();
+        if self.cylinders().len() > 1 || digits.len() == 1 {
+            return NAMED.to_owned();
         }
-        Ok(order)
+        format!("write '-' between cylinders: {}", digits.join("-"))
     }
 
     /// The cylinders by number from 1, in the order in which they fire.
@@ -55,11 +85,11 @@ impl FiringOrder {
         self.0.iter().any(|group| group.len() > 1)
     }
 
-    /// The cylinders by index from 0, and where one fires together with the one before it; from the
-    /// first cylinder on, as is the custom, for an order has no beginning.
-    pub(crate) fn rotated(&self) -> (Vec<usize>, Vec<bool>) {
+    /// The cylinders by index from 0, and where one fires together with the one before it; from a
+    /// cylinder on, by index, for an order has no beginning.
+    pub(crate) fn rotated(&self, first: usize) -> (Vec<usize>, Vec<bool>) {
         let mut groups = self.0.clone();
-        let first = groups.iter().position(|group| group.contains(&1)).unwrap_or(0);
+        let first = groups.iter().position(|group| group.contains(&(first + 1))).unwrap_or(0);
         groups.rotate_left(first);
         for group in &mut groups {
             group.sort_unstable();
@@ -103,10 +133,32 @@ mod tests {
     fn orders_that_are_none_are_refused() {
         let hint = |text: &str| text.parse::<FiringOrder>().unwrap_err().to_string();
         assert!(hint("145236").ends_with("write '-' between cylinders: 1-4-5-2-3-6"));
+        let order: FiringOrder = "145".parse().unwrap();
+        let missing = order.check_complete().unwrap_err().to_string();
+        assert!(missing.ends_with("write '-' between cylinders: 1-4-5"), "{missing}");
         assert!(hint("1L-3R-2L-4R").contains("letters of banks are not read"));
-        for bad in ["", "-", "+", "1+", "1-1", "1+1", "1-+2", "0-1", "1-3", "2-3", "1-x"] {
+        for bad in ["", "-", "+", "1+", "1-1", "1+1", "1-+2", "0-1", "1-x"] {
             assert!(bad.parse::<FiringOrder>().is_err(), "{bad}");
         }
+        for bad in ["1-3", "2-3", "2"] {
+            assert!(bad.parse::<FiringOrder>().unwrap().check_complete().is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn orders_name_all_but_dummy_pistons() {
+        let order: FiringOrder = "1-3".parse().unwrap();
+        assert_eq!(order.check_names_all(&[false, true, false]), Ok(()));
+        let hint = |dummies: &[bool]| order.check_names_all(dummies).unwrap_err().to_string();
+        assert!(hint(&[false; 3]).contains("2 is missing"));
+        assert!(
+            hint(&[false, false])
+                .ends_with("2 is missing; name each of the engine's 2 cylinders once")
+        );
+        assert!(
+            hint(&[false, true]).ends_with("name each of the engine's 1 cylinders that fire once")
+        );
+        assert!(hint(&[false, true, true]).contains("3 is a dummy piston"));
     }
 
     #[test]
@@ -114,7 +166,7 @@ mod tests {
         let order: FiringOrder = "3+2 4,1-5-6".parse().unwrap();
         assert_eq!(order.to_string(), "3+2-4-1-5-6");
         assert_eq!("3+2 – 4‐1—5−6".parse(), Ok(order.clone()));
-        let (cylinders, together) = order.rotated();
+        let (cylinders, together) = order.rotated(0);
         assert_eq!(cylinders, [0, 4, 5, 1, 2, 3]);
         assert_eq!(together, [false, false, false, false, true, false]);
     }

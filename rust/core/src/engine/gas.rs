@@ -1,10 +1,10 @@
 //! Gas pressure in the cylinders of an engine: cycles, and the crank angles at which they fire.
 
-use std::f64::consts::PI;
 use std::sync::Arc;
 
 use super::layout::Strokes;
 use super::{Engine, check_each_cylinder};
+use crate::mechanism::slider_crank::piston_area;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -41,16 +41,19 @@ impl Engine {
         Self { gas: firing.then_some(gas), ..self.clone() }.with_known_torque()
     }
 
-    /// The same engine with one cycle in every cylinder, those that fire in the second turn marked.
+    /// The same engine with one cycle in every cylinder but dummy pistons, those that fire in the second
+    /// turn marked.
     pub fn fired_by(&self, cycle: Arc<Cycle>, later: Vec<bool>) -> Result<Self> {
-        let cycle_of = vec![Some(0); self.stations.len()];
+        let cycle_of = self.details.iter().map(|of| (!of.dummy).then_some(0)).collect();
         self.with_gas(Gas { cycles: vec![cycle], cycle_of, crankcase: ATMOSPHERE, later })
     }
 
-    /// Whether a cylinder fires: of an engine with cycles those that have one, without any all.
+    /// Whether a cylinder fires: of an engine with cycles those that have one, without any all but
+    /// dummy pistons.
     #[must_use]
     pub fn fires(&self, cylinder: usize) -> bool {
-        self.gas.as_ref().is_none_or(|gas| gas.cycle_of[cylinder].is_some())
+        let has_cycle = self.gas.as_ref().is_none_or(|gas| gas.cycle_of[cylinder].is_some());
+        has_cycle && !self.details[cylinder].dummy
     }
 
     /// Cycle of a cylinder and absolute pressure in the crankcase, Pa, where pressure counts.
@@ -96,14 +99,10 @@ impl Engine {
                 let hint = format!("give the index of a cycle, below {}", gas.cycles.len());
                 return Err(Error::value(format!("cycle_of[{i}]"), cycle, hint));
             };
-            if cycle.strokes() != self.strokes {
-                let hint = format!(
-                    "the engine's strokes are {}: give a cycle of as many, or the engine strokes={}",
-                    self.strokes.number(),
-                    cycle.strokes().number()
-                );
-                let argument = format!("cycle[{i}].strokes");
-                return Err(Error::value(argument, cycle.strokes().number(), hint));
+            self.check_strokes(i, cycle)?;
+            if self.details[i].dummy {
+                let hint = "a dummy piston has no gas; give None in its place";
+                return Err(Error::value(format!("cycle[{i}]"), "a cycle", hint));
             }
             if self.details[i].bore.is_none() {
                 let hint = "gas pressure needs the bore; give bore=… to each Cylinder, m";
@@ -123,10 +122,33 @@ impl Engine {
         Ok(self)
     }
 
+    /// Rejects a cycle of other strokes than the engine's, by its place in a list.
+    fn check_strokes(&self, place: usize, cycle: &Cycle) -> Result<()> {
+        if cycle.strokes() == self.strokes {
+            return Ok(());
+        }
+        let hint = format!(
+            "the engine's strokes are {}: give a cycle of as many, or the engine strokes={}",
+            self.strokes.number(),
+            cycle.strokes().number()
+        );
+        Err(Error::value(format!("cycle[{place}].strokes"), cycle.strokes().number(), hint))
+    }
+
+    /// Rejects cycles that cannot replace those of the engine.
+    pub(crate) fn check_cycles(&self, cycles: &[Arc<Cycle>]) -> Result<()> {
+        let own = self.gas.as_ref().map_or(0, |gas| gas.cycles.len());
+        if cycles.len() != own {
+            let hint = format!("give one in place of each cycle of the engine: {own}");
+            return Err(Error::value("cycles", cycles.len(), hint));
+        }
+        cycles.iter().enumerate().try_for_each(|(k, cycle)| self.check_strokes(k, cycle))
+    }
+
     /// Area of a piston times its crank radius, m³; none where the bore is not known.
     #[must_use]
     pub fn swept_by_radius(&self, cylinder: usize) -> Option<f64> {
         let radius = self.stations[cylinder].cylinder.crank_radius();
-        self.details[cylinder].bore.map(|bore| 0.25 * PI * bore * bore * radius)
+        self.details[cylinder].bore.map(|bore| piston_area(bore) * radius)
     }
 }

@@ -199,6 +199,7 @@ pub(crate) struct Seat {
 impl FiringOrder {
     /// Crank angles after the first firing at which the first, second … fire.
     fn times(&self, rule: &FiringRule) -> Result<Vec<Angle>> {
+        self.check_complete()?;
         if self.has_groups() {
             let hint = "give an order without '+', or Engine.from_lists all top dead centres: pins \
                         are computed of cylinders that fire one after the other";
@@ -278,7 +279,8 @@ impl FiringOrder {
             );
             return Err(Error::value("firing_order", self.to_string(), hint));
         }
-        let (ranks, times) = (self.ranks(), self.times(rule)?);
+        let times = self.times(rule)?;
+        let ranks = self.ranks();
         let seats = layout.seats(count)?;
         // An order has no beginning: from cylinder 1 on.
         let since_first = |rank: usize| (rank + count - ranks[0]) % count;

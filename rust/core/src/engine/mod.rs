@@ -52,6 +52,8 @@ pub struct Details {
     pub piston_mass: Option<f64>,
     /// The rod as a body.
     pub rod: Option<RodFigures>,
+    /// Whether the piston is a dummy, which balances and never has gas.
+    pub dummy: bool,
 }
 
 /// A rod of known inertia; its length is that of the cylinder's.
@@ -413,6 +415,16 @@ impl Engine {
         engine.with_known_torque()
     }
 
+    /// The same engine with these masses at its crankpins, one for each cylinder, kg.
+    pub fn with_rotating_masses(&self, masses: &[f64]) -> Result<Self> {
+        check_each_cylinder("rotating_mass", masses.len(), self.stations.len())?;
+        let mut engine = self.clone();
+        for (i, (station, &mass)) in engine.stations.iter_mut().zip(masses).enumerate() {
+            station.rotating_mass = limits::not_negative(&format!("rotating_mass[{i}]"), mass)?;
+        }
+        Ok(engine)
+    }
+
     /// The same engine with these counterweights on the crankshaft instead of those it has.
     pub fn with_counterweights(&self, counterweights: Vec<Unbalance>) -> Result<Self> {
         shaft::check_count("counterweights", counterweights.len())?;
@@ -438,7 +450,7 @@ impl Engine {
     /// The same engine with these figures of its cylinders.
     pub fn with_details(&self, details: Vec<Details>) -> Result<Self> {
         check_each_cylinder("details", details.len(), self.stations.len())?;
-        for Details { bore, piston_mass, rod } in &details {
+        for Details { bore, piston_mass, rod, .. } in &details {
             bore.map(|bore| limits::length("bore", bore)).transpose()?;
             piston_mass.map(|mass| limits::not_negative("piston_mass", mass)).transpose()?;
             if let Some(RodFigures { mass, inertia, to_crankpin }) = *rod {

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::sync::Arc;
 
 use super::highest_points::highest_points;
-use super::schedule::Firing;
+use super::schedule::{Firing, firing};
 use crate::engine::{Engine, Gas};
 use crate::layout::{FiringOrder, Strokes};
 use crate::numbers::cancel::Cancel;
@@ -25,11 +25,12 @@ impl Firing {
     ) -> Result<Vec<Self>> {
         let highest = highest_points(engine);
         let count = highest.len();
-        let (cylinders, together) = order.rotated();
-        if cylinders.len() != count {
-            let hint = format!("name each of the engine's {count} cylinders once");
-            return Err(Error::value("firing_order", order, hint));
-        }
+        let dummies: Vec<bool> = engine.details().iter().map(|details| details.dummy).collect();
+        order.check_names_all(&dummies)?;
+        // From that whose piston is highest first.
+        let first =
+            firing(engine).min_by(|&a, &b| highest[a].degrees().total_cmp(&highest[b].degrees()));
+        let (cylinders, together) = order.rotated(first.unwrap_or(0));
         // Within a turn cylinders fire as they reach the top; the order may go back to an earlier
         // top once, where the second turn begins.
         let mut second_turn_at = Vec::new();
@@ -46,9 +47,9 @@ impl Firing {
         let splits: Vec<usize> = match (strokes, &second_turn_at[..]) {
             (Strokes::Four, &[split]) => vec![split],
             (Strokes::Four, []) => {
-                (1..=count).filter(|&k| together.get(k) != Some(&true)).collect()
+                (1..=cylinders.len()).filter(|&k| together.get(k) != Some(&true)).collect()
             }
-            (Strokes::Two, []) => vec![count],
+            (Strokes::Two, []) => vec![cylinders.len()],
             _ => Vec::new(),
         };
         let mut found: Vec<Self> = splits
@@ -75,13 +76,12 @@ impl Firing {
         if let Some(found) = Self::all_named(engine, order, strokes)?.into_iter().next() {
             return Ok(found);
         }
-        let count = engine.stations().len();
-        let later = vec![false; count];
+        let later = vec![false; engine.stations().len()];
         let within_a_turn = Self::assemble(engine, &highest_points(engine), Strokes::Two, &later);
         let sequence = shorten(&within_a_turn.to_string().replace('-', ", "));
         let mut hint =
             format!("this crank cannot fire in this order: its TDC sequence is {sequence}");
-        if can_list(count, strokes) {
+        if can_list(firing(engine).count(), strokes) {
             let possible = Self::all(engine, strokes, cancel)?;
             hint = format!("{hint}. Possible orders, most even first: {}", listed(&possible));
         }
@@ -97,8 +97,9 @@ impl Firing {
             let of_gas = |gas: &Gas| {
                 // Whichever turn is called the first.
                 let same = |way: &Self| {
+                    let second = way.in_second_turn();
                     let turned: Vec<bool> =
-                        way.in_second_turn().iter().zip(&gas.later).map(|(a, b)| a != b).collect();
+                        firing(engine).map(|i| second[i] != gas.later[i]).collect();
                     turned.iter().all(|each| *each == turned[0])
                 };
                 Ok(Self::all_named(engine, &order, strokes)?.into_iter().find(same))
@@ -109,7 +110,7 @@ impl Firing {
             };
         }
         let mut hint = "the engine has none; give it one, such as 1-3-4-2".to_owned();
-        if can_list(engine.stations().len(), strokes) {
+        if can_list(firing(engine).count(), strokes) {
             let mut possible = Self::all(engine, strokes, cancel)?;
             if possible.len() == 1 {
                 return Ok(possible.swap_remove(0));
@@ -122,7 +123,9 @@ impl Firing {
     /// Every schedule for an engine to fire, the most even first.
     pub fn all(engine: &Arc<Engine>, strokes: Strokes, cancel: &Cancel) -> Result<Vec<Self>> {
         let highest = highest_points(engine);
-        let count = highest.len();
+        // The first begins the cycle, whose turns are those of the others.
+        let others: Vec<usize> = firing(engine).skip(1).collect();
+        let count = others.len() + 1;
         if !can_list(count, strokes) {
             let hint = format!(
                 "all firing orders are listed for up to {MOST_LISTED} cylinders, 2 to the power of {}; \
@@ -135,8 +138,10 @@ impl Firing {
         let mut found = memory::with_capacity(choices)?;
         for choice in 0..choices {
             cancel.check()?;
-            let bit = |i: usize| (choice << 1).checked_shr(i as u32).unwrap_or(0) & 1 == 1;
-            let later: Vec<bool> = (0..count).map(bit).collect();
+            let mut later = vec![false; highest.len()];
+            for (k, &cylinder) in (0..).zip(&others) {
+                later[cylinder] = choice.checked_shr(k).unwrap_or(0) & 1 == 1;
+            }
             found.push(Self::assemble(engine, &highest, strokes, &later));
         }
         most_even_first(&mut found);

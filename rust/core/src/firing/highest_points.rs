@@ -33,15 +33,13 @@ pub(super) fn highest_points(engine: &Engine) -> Vec<Angle> {
 
 /// Degrees after top dead centre at which crank and rod are in line.
 pub(super) fn highest_after_tdc(station: &Station) -> f64 {
-    let part = station.cylinder;
-    (part.pin_offset() / (part.rod_length() + part.crank_radius())).asin().to_degrees()
+    station.cylinder.turning_points_deg()[0]
 }
 
 /// From a piston's highest to its lowest point: half a turn but for a pin offset.
 pub(super) fn top_to_bottom(station: &Station) -> Angle {
-    let part = station.cylinder;
-    let lowest = (part.pin_offset() / (part.rod_length() - part.crank_radius())).asin();
-    Angle::HALF_TURN + degrees(lowest.to_degrees() - highest_after_tdc(station))
+    let [highest, lowest] = station.cylinder.turning_points_deg();
+    Angle::HALF_TURN + degrees(lowest - 180.0 - highest)
 }
 
 /// An angle from degrees that are in range, such as those of an arc sine.

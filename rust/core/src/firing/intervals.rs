@@ -27,7 +27,8 @@ impl Firing {
         let Some(given) = given else {
             return Ok(self.banks());
         };
-        let mut seen = vec![false; self.order().len()];
+        let count = self.engine().stations().len();
+        let mut seen = vec![false; count];
         for (k, group) in given.iter().enumerate() {
             if group.is_empty() {
                 let hint = "name at least one cylinder in each group";
@@ -37,8 +38,7 @@ impl Firing {
                 match number.checked_sub(1).and_then(|i| seen.get_mut(i)) {
                     Some(seen) if !*seen => *seen = true,
                     _ => {
-                        let hint =
-                            format!("name cylinders from 1 to {}, each once", self.order().len());
+                        let hint = format!("name cylinders from 1 to {count}, each once");
                         return Err(Error::value(format!("groups[{k}]"), number, hint));
                     }
                 }

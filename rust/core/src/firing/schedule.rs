@@ -38,7 +38,7 @@ pub struct Firing {
     strokes: Strokes,
     /// Crank angles after the first cylinder's firing, within a cycle.
     pub(super) times: Vec<Angle>,
-    /// All cylinders, as the crank and the camshaft have them.
+    /// All cylinders but dummy pistons, as the crank and the camshaft have them.
     order: Vec<usize>,
     /// Those of them that fire.
     fired: Vec<usize>,
@@ -51,7 +51,11 @@ impl Firing {
     /// cylinder.
     pub fn with_later(engine: &Arc<Engine>, strokes: Strokes, later: &[bool]) -> Result<Self> {
         let count = engine.stations().len();
-        if later.len() != count || later[0] || (strokes == Strokes::Two && later.contains(&true)) {
+        let first = firing(engine).next().unwrap_or(0);
+        if later.len() != count
+            || later[first]
+            || (strokes == Strokes::Two && later.contains(&true))
+        {
             let hint = "give 0 or 1 for each cylinder, 0 for the first and in a two-stroke";
             return Err(Error::value("revolutions", format!("{later:?}"), hint));
         }
@@ -66,7 +70,7 @@ impl Firing {
     ) -> Self {
         let times: Vec<Angle> =
             highest.iter().zip(later).map(|(&highest, &later)| highest + turn_if(later)).collect();
-        let mut order: Vec<usize> = (0..times.len()).collect();
+        let mut order: Vec<usize> = firing(engine).collect();
         order.sort_by(|&a, &b| times[a].partial_cmp(&times[b]).unwrap_or(Ordering::Equal));
         let fired: Vec<usize> = order.iter().copied().filter(|&i| engine.fires(i)).collect();
         let cycle = strokes.cycle();
@@ -104,8 +108,8 @@ impl Firing {
         self.strokes
     }
 
-    /// Cylinders by index, from the first on, whether or not they fire; those at top dead centre
-    /// together by number.
+    /// Cylinders by index, from the first on, whether or not they fire, but no dummy pistons; those at
+    /// top dead centre together by number.
     #[must_use]
     pub fn order(&self) -> &[usize] {
         &self.order
@@ -186,6 +190,11 @@ impl Firing {
     }
 }
 
+/// Cylinders by index that a firing order names: all but dummy pistons.
+pub(super) fn firing(engine: &Engine) -> impl Iterator<Item = usize> {
+    (0..).zip(engine.details()).filter(|(_, details)| !details.dummy).map(|(i, _)| i)
+}
+
 /// A whole turn for what comes a turn later, else none.
 fn turn_if(later: bool) -> Angle {
     Angle::whole_turns(later.into())
@@ -208,9 +217,10 @@ impl std::fmt::Display for Firing {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::{engine, intervals, vee};
-    use super::super::*;
-    use crate::layout::{FiringOrder, Side, Strokes};
+    use super::super::tests::{cylinder, engine, intervals, placed, vee};
+    use super::*;
+    use crate::engine::Details;
+    use crate::layout::{FiringOrder, Side};
     use crate::numbers::cancel::Cancel;
 
     #[test]
@@ -224,5 +234,48 @@ mod tests {
         let gaps = firing.gaps(&firing.banks());
         let left: Vec<f64> = gaps[0].iter().map(|gap| gap.gap.degrees()).collect();
         assert_eq!(left, [270.0, 180.0, 90.0, 180.0]); // 1-3-5-7
+    }
+
+    /// An engine without its dummy pistons fires as it does with them, wherever they stand.
+    #[test]
+    fn dummy_pistons_have_no_place_in_a_firing_order() {
+        let tdcs = [0.0, 77.0, 180.0, 180.0, 33.5, 0.0];
+        let dummies = [false, true, false, false, true, false];
+        let with = |order: &[usize]| -> (Arc<Engine>, Arc<Engine>) {
+            let placed = |kept: &[usize]| {
+                let places: Vec<_> = kept.iter().map(|&k| (cylinder(0.0), tdcs[k], 90.0)).collect();
+                let engine = placed(&places);
+                let details =
+                    kept.iter().map(|&k| Details { dummy: dummies[k], ..Details::default() });
+                Arc::new(engine.with_details(details.collect()).unwrap())
+            };
+            let firing: Vec<usize> = order.iter().copied().filter(|&k| !dummies[k]).collect();
+            (placed(order), placed(&firing))
+        };
+        for order in [[0, 1, 2, 3, 4, 5], [1, 0, 4, 2, 3, 5], [4, 1, 5, 3, 2, 0]] {
+            let (all, firing) = with(&order);
+            for strokes in [Strokes::Four, Strokes::Two] {
+                let known = Firing::all(&firing, strokes, &Cancel::new()).unwrap();
+                let found = Firing::all(&all, strokes, &Cancel::new()).unwrap();
+                assert_eq!(found.len(), known.len());
+                // Beginnings of cycles may differ by a turn.
+                let sorted = |firings: &[Firing]| {
+                    let mut each: Vec<String> =
+                        firings.iter().map(|firing| format!("{:?}", intervals(firing))).collect();
+                    each.sort();
+                    each
+                };
+                assert_eq!(sorted(&found), sorted(&known));
+                for firing in &found {
+                    let named: FiringOrder = firing.to_string().parse().unwrap();
+                    assert_eq!(named.cylinders().len(), 4);
+                    let again = Firing::all_named(&all, &named, strokes).unwrap();
+                    assert!(again.iter().any(|one| intervals(one) == intervals(firing)));
+                }
+            }
+            let complete: FiringOrder = "1-2-3-4-5-6".parse().unwrap();
+            let error = Firing::all_named(&all, &complete, Strokes::Four).unwrap_err().to_string();
+            assert!(error.contains("is a dummy piston"), "{error}");
+        }
     }
 }

@@ -23,6 +23,8 @@ pub(super) struct GasPressure {
     /// On a crank as fast as the main one, whose cycles these are.
     pub mechanism: Mechanism,
     pub cycle: Arc<Cycle>,
+    /// Its place among the cycles of the engine: those of a map may be equal at some speed and load alone.
+    pub place: usize,
     /// Absolute pressure in the crankcase, Pa.
     pub crankcase: f64,
     /// Harmonics ½, 1, 1½ … as far as they are known.
@@ -31,8 +33,9 @@ pub(super) struct GasPressure {
 
 impl PartialEq for GasPressure {
     fn eq(&self, other: &Self) -> bool {
-        let Self { mechanism, cycle, crankcase, known } = self;
-        (mechanism, crankcase, known) == (&other.mechanism, &other.crankcase, &other.known)
+        let Self { mechanism, cycle, place, crankcase, known } = self;
+        (mechanism, place, crankcase, known)
+            == (&other.mechanism, &other.place, &other.crankcase, &other.known)
             // Mostly it is one table, whose numbers need not be compared.
             && (Arc::ptr_eq(cycle, &other.cycle) || *cycle == other.cycle)
     }
@@ -53,6 +56,12 @@ impl Source for GasPressure {
 
     fn mechanism(&self) -> Option<&Mechanism> {
         Some(&self.mechanism)
+    }
+
+    fn is_integrated(&self, orders: &[Order]) -> bool {
+        let Self { mechanism, cycle, crankcase, known, .. } = self;
+        known.as_ref().and_then(|known| known.at(orders)).is_none()
+            && !cycle.keeps_torque_of(&mechanism.proportions, *crankcase, orders)
     }
 
     /// The forces are internal, so that either torque balances the other.
@@ -100,7 +109,9 @@ impl Source for GasPressure {
 
     fn at_point(&self, point: &Point) -> Result<Arc<dyn Source>> {
         let mechanism = self.mechanism.replaced(point.rod_ratio, point.pin_offset)?;
-        Ok(Arc::new(Self { mechanism, known: None, ..self.clone() }))
+        let cycle = point.cycles.map_or(&self.cycle, |cycles| &cycles[self.place]);
+        let (cycle, known) = (Arc::clone(cycle), None);
+        Ok(Arc::new(Self { mechanism, cycle, known, ..*self }))
     }
 
     fn exact(&self) -> ExactFactor {

@@ -65,10 +65,11 @@ impl LoadList {
             return loads;
         }
         for i in cylinders.clone() {
-            let pressure = engine.pressure_of(i).zip(engine.swept_by_radius(i));
-            if let Some(((cycle, crankcase), roll)) = pressure {
-                let mechanism = mechanism(i);
-                let gas = GasPressure { mechanism, cycle, crankcase, known: None };
+            let cycle = engine.gas().and_then(|gas| Some((gas, gas.cycle_of[i]?)));
+            if let Some(((gas, place), roll)) = cycle.zip(engine.swept_by_radius(i)) {
+                let (mechanism, cycle) = (mechanism(i), Arc::clone(&gas.cycles[place]));
+                let crankcase = gas.crankcase;
+                let gas = GasPressure { mechanism, cycle, place, crankcase, known: None };
                 let mut place = along_bore(i);
                 if gas.parts().repeats == Repeats::EveryTwoTurns {
                     place.phase = engine.firing_phase(i).half();

@@ -12,6 +12,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
+use crate::pressure::Cycle;
 
 /// How a source acts at its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -105,12 +106,14 @@ pub(crate) enum ExactFactor {
     Unknown,
 }
 
-/// A point of a sweep: what it replaces of a mechanism.
+/// A point of a sweep: what it replaces of a mechanism, and of pressure.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Point {
+pub(crate) struct Point<'a> {
     pub rod_ratio: Option<f64>,
     /// m.
     pub pin_offset: Option<f64>,
+    /// One in place of each of the cycles of an engine.
+    pub cycles: Option<&'a [Arc<Cycle>]>,
 }
 
 /// A source that keeps its amplitudes at orders ½, 1, 1½ … up to one, and bounds of what those above each
@@ -133,6 +136,13 @@ pub(crate) trait Source: Debug + Send + Sync + Any {
     fn force(&self, orders: &[Order], cancel: &Cancel) -> Result<Vec<Complex64>> {
         cancel.check()?;
         Ok(vec![Complex64::default(); orders.len()])
+    }
+
+    /// Whether its torque at these orders is to be integrated: that takes as long as waking another
+    /// thread.
+    fn is_integrated(&self, orders: &[Order]) -> bool {
+        let _ = orders;
+        false
     }
 
     /// Amplitudes of its torque on the block and on the main crank, and their means.

@@ -200,7 +200,13 @@ fn pressure_under_a_piston_is_a_load_of_the_other_sign() {
     let above = loads.list.clone();
     for load in above.iter().filter(|load| load.parts.scaling == Scaling::Given) {
         let mechanism = *loads.source(load).mechanism().unwrap();
-        let gas = GasPressure { mechanism, cycle: Arc::clone(&cycle), crankcase: 0.0, known: None };
+        let gas = GasPressure {
+            mechanism,
+            cycle: Arc::clone(&cycle),
+            place: 0,
+            crankcase: 0.0,
+            known: None,
+        };
         loads.push(load.place, gas, 0.0, -0.8 * load.roll);
     }
     let degrees: Vec<f64> = (0..200).map(|k| 3.7 * f64::from(k)).collect();

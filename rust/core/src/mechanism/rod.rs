@@ -87,6 +87,9 @@ impl Swing {
     /// Where the crank stands so.
     #[inline(always)]
     pub fn new(proportions: &Proportions, crank: &CrankPosition) -> Self {
+        if proportions.has_infinite_rod() {
+            return Self { velocity: 0.0, acceleration: 0.0 };
+        }
         let (above, below) = (proportions.above.high, proportions.below.high);
         let CrankPosition { sin, cos, to_above, to_below, .. } = *crank;
         let height_squared = (above + to_above) * (below + to_below);

@@ -3,10 +3,16 @@
 //! The piston stands at `x(θ) = r cos θ + √(l² − (r sin θ − e)²)` along its bore, θ measured from
 //! the angle at which the crankpin points along the bore; e > 0 lies on the side to which the
 //! crankpin swings after that.
+//!
+//! A rod may be infinite, as that of a Scotch yoke: λ = r/l is zero, and the piston moves by r cos θ
+//! about the middle of its stroke.
 
 use crate::numbers::double::Double;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
+
+/// Why an infinite rod takes neither offset nor inertia.
+const NEVER_LEANS: &str = "leave it out: an infinite rod never leans";
 
 /// The moving parts of one cylinder. Rotating mass belongs to the throw: see [`crate::engine`].
 ///
@@ -32,6 +38,8 @@ pub struct Cylinder {
 
 impl Cylinder {
     /// Crank radius, rod length and pin offset in m, reciprocating mass in kg.
+    ///
+    /// An infinite rod never leans: it has no pin offset.
     pub fn new(
         crank_radius: f64,
         rod_length: f64,
@@ -39,7 +47,9 @@ impl Cylinder {
         pin_offset: f64,
     ) -> Result<Self> {
         limits::length("crank_radius", crank_radius)?;
-        limits::length("rod_length", rod_length)?;
+        if rod_length != f64::INFINITY {
+            limits::length("rod_length", rod_length)?;
+        }
         limits::not_negative("reciprocating_mass", reciprocating_mass)?;
         limits::finite("pin_offset", pin_offset)?;
         let cylinder = Self {
@@ -49,6 +59,9 @@ impl Cylinder {
             pin_offset,
             rod_inertia_excess: 0.0,
         };
+        if cylinder.has_infinite_rod() && pin_offset != 0.0 {
+            return Err(Error::figure("pin_offset", pin_offset, NEVER_LEANS));
+        }
         let reach = rod_length - pin_offset.abs();
         if crank_radius >= reach {
             let value = format!(
@@ -91,6 +104,9 @@ impl Cylinder {
     /// its ends: I − m·a·b in kg·m², a and b the distances of the rod's m from them. Mostly below 0.
     pub fn with_rod_inertia_excess(self, excess: f64) -> Result<Self> {
         limits::inertia("rod_inertia_excess", excess)?;
+        if self.has_infinite_rod() && excess != 0.0 {
+            return Err(Error::figure("rod_inertia_excess", excess, NEVER_LEANS));
+        }
         Ok(Self { rod_inertia_excess: excess, ..self })
     }
 
@@ -136,10 +152,39 @@ impl Cylinder {
         self.rod_inertia_excess != 0.0
     }
 
-    /// λ = r/l.
+    /// Whether its rod is infinite, as that of a Scotch yoke.
+    #[must_use]
+    pub fn has_infinite_rod(&self) -> bool {
+        self.rod_length == f64::INFINITY
+    }
+
+    /// λ = r/l, zero of an infinite rod.
     #[must_use]
     pub fn rod_ratio(&self) -> f64 {
         self.crank_radius / self.rod_length
+    }
+
+    /// Crank angles at which the piston is highest and lowest, where rod and crank are in line, degrees.
+    #[must_use]
+    pub fn turning_points_deg(&self) -> [f64; 2] {
+        let past = |length: f64| (self.pin_offset / length).asin().to_degrees();
+        [
+            past(self.rod_length + self.crank_radius),
+            180.0 + past(self.rod_length - self.crank_radius),
+        ]
+    }
+
+    /// Distance between the ends of the piston's travel, m: twice the crank radius without pin offset.
+    #[must_use]
+    pub fn travel(&self) -> f64 {
+        if self.pin_offset == 0.0 {
+            return 2.0 * self.crank_radius;
+        }
+        let (radius, rod, offset) = (self.crank_radius, self.rod_length, self.pin_offset);
+        // √((l + r)² − e²) − √((l − r)² − e²), whose digits would cancel, by the difference of the squares.
+        let [highest, lowest] =
+            [rod + radius, rod - radius].map(|l| ((l - offset) * (l + offset)).sqrt());
+        4.0 * radius * rod / (highest + lowest)
     }
 
     /// m·r, the size of the first-order force over ω², kg·m.
@@ -171,6 +216,9 @@ impl Cylinder {
     #[must_use]
     pub fn proportions(&self) -> Proportions {
         let Self { crank_radius: r, rod_length: l, pin_offset: e, .. } = *self;
+        if self.has_infinite_rod() {
+            return Proportions::INFINITE_ROD;
+        }
         let reach = Double::sum(l, -r);
         Proportions {
             rod: l / r,
@@ -181,6 +229,12 @@ impl Cylinder {
     }
 }
 
+/// Area of a piston of this bore, m, in m².
+#[must_use]
+pub fn piston_area(bore: f64) -> f64 {
+    0.25 * std::f64::consts::PI * bore * bore
+}
+
 /// A slider-crank in units of its crank radius.
 ///
 /// The rod's reach beyond the crank on either side is kept by itself: near the crank that cannot
@@ -188,7 +242,7 @@ impl Cylinder {
 /// the digits, since order n goes with its n-th power.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Proportions {
-    /// l/r.
+    /// l/r, which may be infinite.
     pub rod: f64,
     /// e/r.
     pub offset: f64,
@@ -199,10 +253,24 @@ pub struct Proportions {
 }
 
 impl Proportions {
-    /// From λ = r/l and e/r.
+    /// Those of a Scotch yoke.
+    const INFINITE_ROD: Self = Self {
+        rod: f64::INFINITY,
+        offset: 0.0,
+        above: Double { high: f64::INFINITY, low: 0.0 },
+        below: Double { high: f64::INFINITY, low: 0.0 },
+    };
+
+    /// From λ = r/l, zero of an infinite rod, and e/r.
     pub fn new(rod_ratio: f64, offset: f64) -> Result<Self> {
         Self::check_rod_ratio(rod_ratio)?;
         limits::finite("pin_offset_ratio", offset)?;
+        if rod_ratio == 0.0 {
+            return match offset {
+                0.0 => Ok(Self::INFINITE_ROD),
+                _ => Err(Error::figure("pin_offset_ratio", offset, NEVER_LEANS)),
+            };
+        }
         let reach = Double::sum(1.0, -rod_ratio);
         let shift = Double::product(offset, rod_ratio);
         let above = reach.plus(shift.high).plus(shift.low).over(rod_ratio);
@@ -218,11 +286,18 @@ impl Proportions {
         Ok(Self { rod: 1.0 / rod_ratio, offset, above, below })
     }
 
-    /// Check that λ = r/l is in range: 0 < λ < 1.
+    /// Whether the rod is infinite, as that of a Scotch yoke.
+    #[must_use]
+    #[inline(always)]
+    pub fn has_infinite_rod(&self) -> bool {
+        self.rod == f64::INFINITY
+    }
+
+    /// Check that λ = r/l is in range: 0 ≤ λ < 1, zero of an infinite rod.
     // Inlined: tables check every ratio in a loop.
     #[inline]
     pub fn check_rod_ratio(rod_ratio: f64) -> Result<()> {
-        if (limits::SMALLEST..1.0).contains(&rod_ratio) {
+        if rod_ratio == 0.0 || (limits::SMALLEST..1.0).contains(&rod_ratio) {
             return Ok(());
         }
         Err(Self::rod_ratio_out_of_range(rod_ratio))
@@ -231,7 +306,9 @@ impl Proportions {
     #[cold]
     fn rod_ratio_out_of_range(rod_ratio: f64) -> Error {
         let least = limits::SMALLEST;
-        let hint = format!("give crank radius over rod length, at least {least:e} and less than 1");
+        let hint = format!(
+            "give crank radius over rod length, at least {least:e} and less than 1, or 0 of an infinite rod"
+        );
         Error::figure("rod_ratio", rod_ratio, hint)
     }
 
@@ -247,6 +324,10 @@ impl Proportions {
     #[inline(always)]
     pub(crate) fn motion_at(&self, crank: &CrankPosition) -> Motion {
         let CrankPosition { sin, cos, squared, to_above, to_below } = *crank;
+        if self.has_infinite_rod() {
+            let [position, velocity, acceleration] = [cos, -sin, -cos];
+            return Motion { position, velocity, acceleration, slope: 0.0, secant: 1.0 };
+        }
         let height_squared = (self.above.high + to_above) * (self.below.high + to_below);
         let height = height_squared.sqrt();
         let lateral = sin - self.offset;
@@ -294,7 +375,7 @@ impl CrankPosition {
 /// Where the piston is and how it moves, in crank radii; derivatives by crank angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motion {
-    /// x/r.
+    /// x/r, of an infinite rod from the middle of the stroke.
     pub position: f64,
     /// (dx/dθ)/r.
     pub velocity: f64,
@@ -318,6 +399,26 @@ mod tests {
         let motion = proportions.motion(0.6, 0.8);
         assert_relative_eq!(motion.velocity, -0.6, max_relative = 1e-11);
         assert_relative_eq!(motion.acceleration, -0.8, max_relative = 1e-11);
+    }
+
+    #[test]
+    fn an_infinite_rod_moves_its_piston_as_a_scotch_yoke_does() {
+        let cylinder = Cylinder::new(0.05, f64::INFINITY, 0.5, 0.0).unwrap();
+        assert_eq!((cylinder.rod_ratio(), cylinder.has_infinite_rod()), (0.0, true));
+        let proportions = cylinder.proportions();
+        assert_eq!(proportions, Proportions::new(0.0, 0.0).unwrap());
+        let known =
+            Motion { position: 0.8, velocity: -0.6, acceleration: -0.8, slope: 0.0, secant: 1.0 };
+        assert_eq!(proportions.motion(0.6, 0.8), known);
+        for (cylinder, name) in [
+            (Cylinder::new(0.05, f64::INFINITY, 0.5, 0.01), "pin_offset = 0.01"),
+            (cylinder.with_rod_inertia_excess(-2e-3), "rod_inertia_excess = -0.002"),
+            (Cylinder::new(0.05, f64::NEG_INFINITY, 0.5, 0.0), "rod_length = -inf"),
+            (Cylinder::new(f64::INFINITY, f64::INFINITY, 0.5, 0.0), "crank_radius = inf"),
+        ] {
+            assert!(cylinder.unwrap_err().to_string().starts_with(name), "{name}");
+        }
+        assert!(Proportions::new(0.0, 0.01).is_err());
     }
 
     #[test]
@@ -348,6 +449,21 @@ mod tests {
                     (motion.acceleration - (after - 2.0 * here + before) / (h * h)).abs() < 3e-7
                 );
             }
+        }
+    }
+
+    #[test]
+    fn ends_of_the_travel_are_where_the_piston_turns() {
+        for (rod, offset) in [(0.15, 0.0), (0.15, 0.02), (0.06, -0.004), (0.2, -0.03)] {
+            let cylinder = Cylinder::new(0.05, rod, 1.0, offset).unwrap();
+            let ends = cylinder.turning_points_deg().map(|angle| {
+                let (sin, cos) = angle.to_radians().sin_cos();
+                cylinder.proportions().motion(sin, cos)
+            });
+            // Roundings of some ten operations.
+            assert!(ends.iter().all(|end| end.velocity.abs() < 1e-14), "{ends:?}");
+            let travel = 0.05 * (ends[0].position - ends[1].position);
+            assert_relative_eq!(cylinder.travel(), travel, max_relative = 1e-14);
         }
     }
 
@@ -390,7 +506,7 @@ mod tests {
         assert!(Cylinder::new(0.05, f64::NAN, 0.5, 0.0).is_err());
         assert!(Cylinder::new(0.05, 0.15, -0.5, 0.0).is_err());
         assert!(Cylinder::new(0.05, 0.15, 0.5, 0.099).is_ok());
-        for ratio in [1.0, 2.0, 0.0, -0.3, f64::NAN] {
+        for ratio in [1.0, 2.0, 1e-31, -0.3, f64::NAN] {
             assert!(Proportions::check_rod_ratio(ratio).is_err(), "{ratio}");
         }
         assert!(Proportions::check_rod_ratio(0.3).is_ok());

@@ -2,12 +2,9 @@
 
 use nalgebra::{Vector3, Vector6};
 
-use super::modes::{NaturalModes, dynamic, natural};
-use super::{Powertrain, real};
+use super::modes::{dynamic, natural};
+use super::{Powertrain, ROUNDINGS, real};
 use crate::numbers::error::{Error, Result};
-
-/// Roundings of a number that sums of a dozen products, and turns of Jacobi's method, make.
-const ROUNDINGS: f64 = 16.0;
 
 /// Torque roll axis, elastic roll axis, and where they are.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,7 +56,7 @@ pub fn axes(powertrain: &Powertrain, frequency: Option<f64>) -> Result<RollAxes>
     let modes = natural(powertrain, &real(&stiffnesses))?;
     modes.require_support(powertrain)?;
     let load = Vector6::new(0.0, 0.0, 0.0, 0.0, 0.0, 1.0);
-    let (motion, rounding) = (modes.flexed(&load), flexed_rounding(powertrain, &modes, &load)?);
+    let (motion, rounding) = (modes.flexed(&load), modes.flexed_rounding(powertrain, &load)?);
     let part = |from: usize| {
         let rows = |of: &Vector6<f64>| Vector3::new(of[from], of[from + 1], of[from + 2]);
         Bounded::new(rows(&motion), rows(&rounding))
@@ -137,23 +134,6 @@ impl Bounded {
         let value = self.value.dot(&other.value);
         if value.abs() <= of_errors + 3.0 * f64::EPSILON * a.dot(&b) { 0.0 } else { value }
     }
-}
-
-/// Bound of what rounding makes of each part of K⁻¹f: in coordinates of unit mass, of `K = AᵀA` with `A` known to some
-/// roundings of its norm.
-fn flexed_rounding(
-    powertrain: &Powertrain,
-    modes: &NaturalModes,
-    load: &Vector6<f64>,
-) -> Result<Vector6<f64>> {
-    let (least, most) = (modes.omega[0], modes.omega[5]);
-    let along = modes.shapes.tr_mul(load);
-    let weighted = |power: i32| Vector6::from_fn(|k, _| along[k] / modes.omega[k].powi(power));
-    let [moved, strained] = [weighted(2).norm(), weighted(1).norm()];
-    let roundings = ROUNDINGS * powertrain.mounts().len() as f64 * f64::EPSILON;
-    let bound = roundings * (most / least) * (moved + strained / least);
-    let unit = powertrain.unit_mass()?;
-    Ok(Vector6::from_fn(|row, _| unit.row(row).norm() * bound))
 }
 
 /// Angle between two directions, degrees; of small angles too every digit is right.

@@ -21,8 +21,8 @@ use nalgebra::{Cholesky, Matrix3x6, Vector3};
 pub use self::axes::{ElasticAxis, RollAxes, axes};
 pub use self::body::{Products, RigidBody};
 pub use self::footprint::support_polygon;
-pub(crate) use self::modes::natural_frequencies;
 pub use self::modes::{FreeMotion, Modes, modes};
+pub(crate) use self::modes::{NaturalModes, natural_at};
 pub use self::mount::{Mount, MountFigures, Orientation, motion_of_point};
 pub use self::robustness::{MountTolerances, Robustness, robustness};
 pub use self::severity::{GRADES, Levels, grade};
@@ -36,6 +36,8 @@ use crate::numbers::error::{Error, Result};
 pub const MOST_MOUNTS: usize = 1000;
 /// Least over largest pivot of a matrix that has an inverse.
 const LEAST_PIVOT: f64 = 1e-14;
+/// Roundings of a number that sums of a dozen products, and turns of Jacobi's method, make.
+const ROUNDINGS: f64 = 16.0;
 
 /// Complex 6 × 6 matrix of the motion.
 pub type ComplexMatrix6 = nalgebra::Matrix6<Complex64>;

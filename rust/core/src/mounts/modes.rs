@@ -5,18 +5,20 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{DMatrix, Matrix6, SMatrix, Schur, Vector3, Vector6};
+use nalgebra::{Matrix3x6, Matrix6, SMatrix, Schur, Vector3, Vector6};
 
 use super::{ComplexMatrix6, Powertrain, real};
 use crate::Complex64;
 use crate::numbers::error::{Error, Result};
-use crate::numbers::singular_values::SingularValues;
+use crate::numbers::singular_values::{right_vectors, scale_of};
 
 /// Relative difference of two frequencies within which rounding of the figures decides which shapes of
 /// their common plane are modes.
 const EQUAL_FREQUENCIES: f64 = 1e-9;
 /// Singular value over the largest, for each row and column, that rounding makes of zero.
 const RANK_ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// Mounts whose rows are reduced at once.
+const AT_ONCE: usize = 4;
 /// Steps of the complex eigenvalues' iteration; a dozen suffice.
 const MOST_STEPS: usize = 500;
 
@@ -67,28 +69,28 @@ pub struct Modes {
 /// Natural modes with these stiffnesses along the mounts' axes, none below zero.
 pub(crate) fn natural(powertrain: &Powertrain, stiffnesses: &[[f64; 3]]) -> Result<NaturalModes> {
     let unit = powertrain.unit_mass()?;
-    let mut factor = DMatrix::zeros(3 * stiffnesses.len(), 6);
-    for (k, (deflection, along)) in powertrain.deflections().iter().zip(stiffnesses).enumerate() {
-        let turned = deflection * unit;
-        for (axis, stiffness) in along.iter().enumerate() {
-            factor.row_mut(3 * k + axis).copy_from(&(turned.row(axis) * stiffness.sqrt()));
+    let turned = |mount: usize| {
+        let mut rows = powertrain.deflections()[mount] * unit;
+        for (mut row, stiffness) in rows.row_iter_mut().zip(stiffnesses[mount]) {
+            row *= stiffness.sqrt();
         }
-    }
-    let size = (factor.nrows() * factor.ncols()) as f64;
-    let found = SingularValues::of(&factor);
-    let rank = found.rank(RANK_ROUNDING * size);
-    let known: Vec<Vector6<f64>> =
-        (0..rank).map(|k| Vector6::from_fn(|j, _| found.right[(k, j)])).collect();
+        rows
+    };
+    let size = (3 * stiffnesses.len() * 6) as f64;
+    let (values, vectors) = right_vectors(&triangle(stiffnesses.len(), turned));
+    let rank = values.iter().take_while(|&&v| v > RANK_ROUNDING * size * values[0]).count();
     let free = 6 - rank;
     let mut omega = [0.0; 6];
     let mut turns = Matrix6::zeros();
-    for (column, direction) in complement(&known).into_iter().enumerate() {
-        turns.set_column(column, &direction);
+    for k in 0..rank {
+        omega[5 - k] = values[k];
+        turns.set_column(5 - k, &vectors.column(k));
     }
-    for (k, direction) in known.iter().enumerate() {
-        let column = 5 - k;
-        omega[column] = found.values[k];
-        turns.set_column(column, direction);
+    if free > 0 {
+        let known: Vec<Vector6<f64>> = (0..rank).map(|k| vectors.column(k).into()).collect();
+        for (column, direction) in complement(&known).into_iter().enumerate() {
+            turns.set_column(column, &direction);
+        }
     }
     let mut shapes = unit * turns;
     for mut shape in shapes.column_iter_mut() {
@@ -101,16 +103,31 @@ pub(crate) fn natural(powertrain: &Powertrain, stiffnesses: &[[f64; 3]]) -> Resu
     Ok(NaturalModes { omega, shapes, free })
 }
 
-/// Natural frequencies, Hz, ascending; NaN where the stiffness depends on frequency and none is given.
-pub(crate) fn natural_frequencies(
+/// Triangular factor of the rows of all mounts, by reflections.
+fn triangle(mounts: usize, rows: impl Fn(usize) -> Matrix3x6<f64>) -> Matrix6<f64> {
+    let scale = scale_of((0..mounts).map(|mount| rows(mount).amax()).fold(0.0, f64::max));
+    let mut triangle = Matrix6::zeros();
+    for first in (0..mounts).step_by(AT_ONCE) {
+        let mut stacked = SMatrix::<f64, { 6 + 3 * AT_ONCE }, 6>::zeros();
+        stacked.fixed_view_mut::<6, 6>(0, 0).copy_from(&triangle);
+        for (k, mount) in (first..mounts.min(first + AT_ONCE)).enumerate() {
+            stacked.fixed_view_mut::<3, 6>(6 + 3 * k, 0).copy_from(&(rows(mount) / scale));
+        }
+        triangle = stacked.qr().r();
+    }
+    triangle * scale
+}
+
+/// Natural modes with the stiffness at a frequency, Hz; none where it depends on that and none is given.
+pub(crate) fn natural_at(
     powertrain: &Powertrain,
     frequency: Option<f64>,
-) -> Result<[f64; 6]> {
+) -> Result<Option<NaturalModes>> {
     if frequency.is_none() && powertrain.mounts().iter().any(|mount| mount.dynamic().varies()) {
-        return Ok([f64::NAN; 6]);
+        return Ok(None);
     }
     let (_, stiffnesses) = dynamic(powertrain, frequency)?;
-    Ok(natural(powertrain, &real(&stiffnesses))?.omega.map(|omega| omega / TAU))
+    natural(powertrain, &real(&stiffnesses)).map(Some)
 }
 
 /// Directions at right angles to some orthonormal ones, and to each other.
@@ -133,6 +150,32 @@ fn complement(known: &[Vector6<f64>]) -> Vec<Vector6<f64>> {
 }
 
 impl NaturalModes {
+    /// Hz, ascending.
+    pub fn frequency(&self) -> [f64; 6] {
+        self.omega.map(|omega| omega / TAU)
+    }
+
+    /// Complex stiffness in coordinates of these modes, which diagonalise its real part.
+    pub fn diagonalised(
+        &self,
+        powertrain: &Powertrain,
+        stiffnesses: &[[Complex64; 3]],
+    ) -> ComplexMatrix6 {
+        let mut damping = Matrix6::zeros();
+        for (deflection, along) in powertrain.deflections().iter().zip(stiffnesses) {
+            let turned = deflection * self.shapes;
+            for (row, stiffness) in turned.row_iter().zip(along) {
+                damping.syger(stiffness.im, &row.transpose(), &row.transpose(), 1.0);
+            }
+        }
+        damping.fill_upper_triangle_with_lower_triangle();
+        let mut matrix = damping.map(|im| Complex64::new(0.0, im));
+        for mode in 0..6 {
+            matrix[(mode, mode)].re = self.omega[mode].powi(2);
+        }
+        matrix
+    }
+
     /// Index of the first mode of the same frequency, within rounding.
     pub fn groups(&self) -> [usize; 6] {
         let mut group = [0; 6];
@@ -228,7 +271,7 @@ pub fn modes(powertrain: &Powertrain, frequency: Option<f64>) -> Result<Modes> {
     }
     let (loss_factor, damped_frequency) = damped(powertrain, &natural, omega, &stiffnesses)?;
     Ok(Modes {
-        frequency: natural.omega.map(|omega| omega / TAU),
+        frequency: natural.frequency(),
         free: natural.free_motions(powertrain),
         shapes: natural.shapes,
         energy,
@@ -329,15 +372,7 @@ fn eigenvalues(
     natural: &NaturalModes,
     stiffnesses: &[[Complex64; 3]],
 ) -> Result<Vec<Complex64>> {
-    // The damping of what the natural modes diagonalise.
-    let shapes: ComplexMatrix6 = natural.shapes.map(Complex64::from);
-    let mut matrix = shapes.transpose() * powertrain.assembled(stiffnesses) * shapes;
-    for mode in 0..6 {
-        matrix[(mode, mode)].re = natural.omega[mode].powi(2);
-        for other in (0..6).filter(|&other| other != mode) {
-            matrix[(mode, other)].re = 0.0;
-        }
-    }
+    let matrix = natural.diagonalised(powertrain, stiffnesses);
     let scale = natural.omega[5].powi(2);
     let schur: Schur<Complex64, _> =
         Schur::try_new(matrix / Complex64::from(scale), f64::EPSILON, MOST_STEPS).ok_or_else(

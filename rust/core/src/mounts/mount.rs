@@ -63,12 +63,13 @@ impl Mount {
     /// A mount of these figures.
     pub fn new(figures: MountFigures) -> Result<Self> {
         limits::name("name", &figures.name)?;
-        for (k, place) in figures.at.into_iter().enumerate() {
-            limits::finite(&format!("at[{k}]"), place)?;
+        for (name, place) in ["at[0]", "at[1]", "at[2]"].into_iter().zip(figures.at) {
+            limits::finite(name, place)?;
         }
         let axes = figures.orientation.axes()?;
-        for (k, stiffness) in figures.stiffness.into_iter().enumerate() {
-            limits::not_negative(&format!("stiffness[{k}]"), stiffness)?;
+        let names = ["stiffness[0]", "stiffness[1]", "stiffness[2]"];
+        for (name, stiffness) in names.into_iter().zip(figures.stiffness) {
+            limits::not_negative(name, stiffness)?;
         }
         let dynamic = figures.dynamic()?;
         dynamic.check()?;

@@ -121,15 +121,20 @@ impl Dynamic {
         match self {
             Self::Table(table) => table.check(),
             Self::Constant { stiffness, loss_factor, damping, track } => {
-                for axis in 0..3 {
-                    limits::not_negative(&format!("dynamic_stiffness[{axis}]"), stiffness[axis])?;
+                // Names at hand: mounts are made by the million.
+                let names = [
+                    ["dynamic_stiffness[0]", "loss_factor[0]", "damping[0]"],
+                    ["dynamic_stiffness[1]", "loss_factor[1]", "damping[1]"],
+                    ["dynamic_stiffness[2]", "loss_factor[2]", "damping[2]"],
+                ];
+                for (axis, [of_stiffness, of_loss, of_damping]) in names.into_iter().enumerate() {
+                    limits::not_negative(of_stiffness, stiffness[axis])?;
                     let [loss, viscous] = [loss_factor[axis], damping[axis]];
                     if loss < 0.0 {
-                        let argument = format!("loss_factor[{axis}]");
-                        return Err(Error::figure(argument, loss, LOSS_HINT));
+                        return Err(Error::figure(of_loss, loss, LOSS_HINT));
                     }
-                    limits::distance(&format!("loss_factor[{axis}]"), loss)?;
-                    limits::distance(&format!("damping[{axis}]"), viscous)?;
+                    limits::distance(of_loss, loss)?;
+                    limits::distance(of_damping, viscous)?;
                 }
                 track.iter().try_for_each(InertiaTrack::check)
             }

@@ -118,6 +118,60 @@ fn three_mounts_carry_by_statics_alone() {
 }
 
 #[test]
+fn forces_that_symmetry_forbids_are_zero_and_small_ones_are_not() {
+    let mut number = draws(41);
+    for _ in 0..200 {
+        let mut positive = |least: f64| least + 0.5 * (1.0 + number());
+        let scale = 10.0_f64.powf(8.0 * positive(0.0) - 4.0);
+        let moments = [positive(1.0), positive(1.0), positive(1.0)].map(|m| 5.0 * m * scale);
+        let body = diagonal(100.0 * scale * positive(1.0), moments);
+        // A mirror image on the other side of the plane of the crank and the weight.
+        let pairs: Vec<_> = (0..2)
+            .map(|k| {
+                let z = if k == 0 { 0.3 } else { -0.4 } * positive(0.5);
+                let at = [0.3 * positive(0.5), -0.4 * positive(0.0), z];
+                let stiffness = [0; 3].map(|_| 1e5 * scale * positive(0.2));
+                (at, stiffness, 90.0 * positive(0.0))
+            })
+            .collect();
+        let mounted = |shift: f64| {
+            let mounts = pairs.iter().enumerate().flat_map(|(k, &(at, stiffness, tilt))| {
+                [1.0, -1.0].map(|side| {
+                    let place = [side * at[0] + if k == 0 { shift } else { 0.0 }, at[1], at[2]];
+                    let orientation = Orientation::Tilt(90.0 + side * (tilt - 90.0));
+                    let name = format!("{k} {side}");
+                    MountFigures { orientation, ..mount(&name, place, stiffness) }
+                })
+            });
+            powertrain(body, mounts)
+        };
+        let rest = |of: &Powertrain| {
+            let thrust = [[0.0, 0.0, 50.0 * scale], [0.0, -0.1, 0.0]];
+            at_rest(of, [0.0, -9.8, 0.0], 100.0 * scale, thrust).unwrap()
+        };
+        let found = rest(&mounted(0.0));
+        for cause in [0, 2] {
+            let [x, _, _, _, yaw, roll] = found.displacement[cause];
+            assert_eq!([x, yaw, roll], [0.0; 3]);
+            // Forces along x are those of the tilt, against each other.
+            for pair in found.force[cause].as_chunks::<2>().0 {
+                let size = pair[0].iter().map(|f| f.abs()).fold(0.0, f64::max);
+                assert!((pair[0][0] + pair[1][0]).abs() <= 1e-12 * size);
+            }
+        }
+        let [_, y, z, pitch, _, _] = found.displacement[1];
+        assert_eq!([y, z, pitch], [0.0; 3]);
+        // A micrometre to the side.
+        let moved = rest(&mounted(1e-6)).displacement[0];
+        assert!([moved[0], moved[4], moved[5]].iter().all(|part| *part != 0.0), "{moved:?}");
+    }
+    let upright = at_rest(&four_mounts(0.0), [0.0, -9.8, 0.0], 100.0, [[0.0; 3]; 2]).unwrap();
+    for (weight, torque) in upright.force[0].iter().zip(&upright.force[1]) {
+        assert!(weight[0] == 0.0 && weight[1] < 0.0 && weight[2] == 0.0 && torque[2] == 0.0);
+    }
+}
+
+#[test]
 fn equal_frequencies_are_a_group_whatever_one_mount_differs_by() {
     let body = diagonal(100.0, [9.0, 18.0, 9.0]);
     let places = [[0.3, 0.3], [-0.3, 0.3], [0.3, -0.3], [-0.3, -0.3]];

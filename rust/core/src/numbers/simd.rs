@@ -1,5 +1,7 @@
 //! Loops compiled for the widest vectors of the machine they run on.
 
+use pulp::Simd;
+
 /// Run a loop, compiled once for each instruction set, with the best that this machine has. All
 /// the loop calls must be inlined into it, or they are compiled for the baseline only.
 #[inline]
@@ -9,6 +11,18 @@ pub(crate) fn vectorised<R>(work: impl FnOnce() -> R) -> R {
         return work();
     }
     pulp::Arch::new().dispatch(work)
+}
+
+/// The vector of a run of numbers that begins at a multiple of its own length.
+#[inline(always)]
+pub(crate) fn vector<S: Simd>(of: &[f64], at: usize) -> S::f64s {
+    S::as_simd_f64s(of).0[at]
+}
+
+/// The same, to write to.
+#[inline(always)]
+pub(crate) fn vector_mut<S: Simd>(of: &mut [f64], at: usize) -> &mut S::f64s {
+    &mut S::as_mut_simd_f64s(of).0[at]
 }
 
 /// Multiplication and addition in loops: in one step, rounded once, where machines have it.

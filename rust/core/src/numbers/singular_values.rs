@@ -3,7 +3,7 @@
 //! It recomposes nearly singular matrices to rounding, which the SVD of `nalgebra` 0.35 does not: it
 //! misses some 2×2 matrices with dependent columns by 10 % and more.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, SMatrix};
 
 /// `A = Σₖ valueₖ · leftₖ · rightₖ`, without the terms whose value is zero.
 pub(crate) struct SingularValues {
@@ -22,25 +22,11 @@ impl SingularValues {
     /// lengths are then the singular values.
     pub fn of(matrix: &DMatrix<f64>) -> Self {
         let is_wide = matrix.nrows() <= matrix.ncols();
-        // Squares of figures of order 1 neither overflow nor vanish. A power of two rounds nothing, and
-        // one below 2¹⁰²³ has an inverse.
-        let scale = matrix.amax().log2().floor().clamp(-1022.0, 1022.0).exp2();
+        let scale = scale_of(matrix.amax());
         let mut turned = if is_wide { matrix.transpose() } else { matrix.clone() } / scale;
-        let count = turned.ncols();
+        let (rows, count) = turned.shape();
         let mut turns = DMatrix::identity(count, count);
-        for _ in 0..SWEEPS {
-            let mut is_done = true;
-            for (j, k) in (0..count).flat_map(|k| (0..k).map(move |j| (j, k))) {
-                if let Some(turn) = right_angle(&turned, j, k) {
-                    is_done = false;
-                    turn_columns(&mut turned, [j, k], turn);
-                    turn_columns(&mut turns, [j, k], turn);
-                }
-            }
-            if is_done {
-                break;
-            }
-        }
+        turn_to_right_angles(turned.as_mut_slice(), rows, turns.as_mut_slice(), count);
         let lengths: Vec<f64> = turned.column_iter().map(|column| column.norm()).collect();
         let mut order: Vec<usize> = (0..count).filter(|&k| lengths[k] > 0.0).collect();
         order.sort_by(|&j, &k| lengths[k].total_cmp(&lengths[j]));
@@ -74,13 +60,69 @@ impl SingularValues {
 /// Rounds through all pairs. Each about squares what is missing from right angles; six to ten suffice.
 const SWEEPS: usize = 60;
 
+/// Singular values of a square matrix, from the largest down, zeros too, and their right-hand vectors, a column each.
+pub(crate) fn right_vectors<const N: usize>(
+    matrix: &SMatrix<f64, N, N>,
+) -> ([f64; N], SMatrix<f64, N, N>) {
+    let scale = scale_of(matrix.amax());
+    let (mut turned, mut turns) = (matrix / scale, SMatrix::<f64, N, N>::identity());
+    turn_to_right_angles(turned.as_mut_slice(), N, turns.as_mut_slice(), N);
+    let lengths: [f64; N] = std::array::from_fn(|k| turned.column(k).norm());
+    let mut order: [usize; N] = std::array::from_fn(|k| k);
+    order.sort_by(|&j, &k| lengths[k].total_cmp(&lengths[j]));
+    let sorted = SMatrix::from_fn(|row, column| turns[(row, order[column])]);
+    (order.map(|k| lengths[k] * scale), sorted)
+}
+
+/// Power of two over which figures are of order 1, whose squares neither overflow nor vanish. It rounds nothing, and
+/// one below 2¹⁰²³ has an inverse.
+pub(crate) fn scale_of(largest: f64) -> f64 {
+    largest.log2().floor().clamp(-1022.0, 1022.0).exp2()
+}
+
+/// Turns columns in pairs until all are at right angles, and those of a second matrix, of as many rows, with them.
+///
+/// Inlined, so that lengths that are known become those of the loops.
+#[inline(always)]
+fn turn_to_right_angles(columns: &mut [f64], rows: usize, turns: &mut [f64], count: usize) {
+    for _ in 0..SWEEPS {
+        let mut is_done = true;
+        for k in 0..count {
+            for j in 0..k {
+                let (first, second) = pair(columns, rows, j, k);
+                if let Some(turn) = right_angle(first, second) {
+                    is_done = false;
+                    turn_pair(first, second, turn);
+                    let (first, second) = pair(turns, count, j, k);
+                    turn_pair(first, second, turn);
+                }
+            }
+        }
+        if is_done {
+            return;
+        }
+    }
+}
+
+/// Columns j < k.
+#[inline(always)]
+fn pair(columns: &mut [f64], rows: usize, j: usize, k: usize) -> (&mut [f64], &mut [f64]) {
+    let (before, after) = columns.split_at_mut(k * rows);
+    (&mut before[j * rows..(j + 1) * rows], &mut after[..rows])
+}
+
 /// Cosine and sine of the turn that brings two columns to right angles; None where they are, to rounding.
-fn right_angle(columns: &DMatrix<f64>, j: usize, k: usize) -> Option<[f64; 2]> {
-    let (first, second) = (columns.column(j), columns.column(k));
-    let [one, other] = [first.norm(), second.norm()];
-    let product = first.dot(&second);
+#[inline(always)]
+fn right_angle(first: &[f64], second: &[f64]) -> Option<[f64; 2]> {
+    let (mut one, mut other, mut product) = (0.0, 0.0, 0.0);
+    for (a, b) in first.iter().zip(second) {
+        one += a * a;
+        other += b * b;
+        product += a * b;
+    }
+    let [one, other] = [one.sqrt(), other.sqrt()];
     // The sum of products rounds by half a unit in the last place each.
-    let rounding = f64::EPSILON * (columns.nrows() as f64).sqrt();
+    let rounding = f64::EPSILON * (first.len() as f64).sqrt();
     if product.abs() <= rounding * one * other {
         return None;
     }
@@ -90,11 +132,10 @@ fn right_angle(columns: &DMatrix<f64>, j: usize, k: usize) -> Option<[f64; 2]> {
     Some([cosine, cosine * tangent])
 }
 
-fn turn_columns(columns: &mut DMatrix<f64>, [j, k]: [usize; 2], [cosine, sine]: [f64; 2]) {
-    for mut row in columns.row_iter_mut() {
-        let [one, other] = [row[j], row[k]];
-        row[j] = cosine * one - sine * other;
-        row[k] = sine * one + cosine * other;
+#[inline(always)]
+fn turn_pair(first: &mut [f64], second: &mut [f64], [cosine, sine]: [f64; 2]) {
+    for (one, other) in first.iter_mut().zip(second) {
+        (*one, *other) = (cosine * *one - sine * *other, sine * *one + cosine * *other);
     }
 }
 

@@ -288,7 +288,7 @@ impl Closed<'_> {
         let (wiebe, chamber) = (self.wiebe, self.chamber);
         let pressure = state / ratio.powf(wiebe.gamma);
         let temperature = wiebe.charge_temperature * pressure * ratio / self.ratio;
-        let speed = 2.0 * chamber.stroke() * wall.rpm / 60.0;
+        let speed = 2.0 * chamber.stroke * wall.rpm / 60.0;
         let motored = (self.ratio / ratio).powf(wiebe.gamma);
         let displaced = chamber.compression_ratio - 1.0;
         let by_burn = if ignited {

@@ -2,7 +2,7 @@
 
 use super::{Cycle, Given, MOST_POINTS, period_deg};
 use crate::engine::layout::Strokes;
-use crate::mechanism::slider_crank::{Cylinder, Proportions};
+use crate::mechanism::slider_crank::{Cylinder, Proportions, piston_area};
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::chebyshev::{largest_of_last, points};
 use crate::numbers::error::{Error, Result};
@@ -19,13 +19,13 @@ pub(crate) const NARROWEST: f64 = 1e-4;
 #[derive(Debug, Clone)]
 pub struct Chamber {
     proportions: Proportions,
-    crank_radius: f64,
+    /// Travel of the piston, m.
+    pub(super) stroke: f64,
+    /// The same, and the position of the piston at its highest point, crank radii.
+    travel: f64,
+    highest: f64,
     /// m.
     pub(super) bore: f64,
-    /// Position of the piston at its highest point, crank radii.
-    highest: f64,
-    /// Travel of the piston, crank radii.
-    travel: f64,
     /// Ratio of largest to smallest volume.
     pub(super) compression_ratio: f64,
     /// Crank angles of the piston's highest and lowest point, degrees.
@@ -44,24 +44,14 @@ impl Chamber {
     ) -> Result<Self> {
         limits::length("bore", bore)?;
         within("compression_ratio", compression_ratio, 1.001, 1000.0)?;
-        let proportions = cylinder.proportions();
-        let Proportions { rod, offset, .. } = proportions;
-        // Where rod and crank are in line.
-        let top = (offset / (rod + 1.0)).asin().to_degrees();
-        let bottom = 180.0 + (offset / (rod - 1.0)).asin().to_degrees();
-        let position = |angle: f64| {
-            let unit = cis_degrees(angle);
-            proportions.motion(unit.im, unit.re).position
-        };
-        let highest = position(top);
-        let travel = highest - position(bottom);
-        let crank_radius = cylinder.crank_radius();
+        let (proportions, stroke) = (cylinder.proportions(), cylinder.travel());
+        let [top, bottom] = cylinder.turning_points_deg();
         Ok(Self {
             proportions,
-            crank_radius,
+            stroke,
+            travel: stroke / cylinder.crank_radius(),
+            highest: position(&proportions, top),
             bore,
-            highest,
-            travel,
             compression_ratio,
             top,
             bottom,
@@ -71,12 +61,7 @@ impl Chamber {
 
     /// Piston area, m².
     pub(super) fn area(&self) -> f64 {
-        0.25 * std::f64::consts::PI * self.bore * self.bore
-    }
-
-    /// Travel of the piston, m.
-    pub(super) fn stroke(&self) -> f64 {
-        self.travel * self.crank_radius
+        piston_area(self.bore)
     }
 
     /// Indicated mean effective pressure, Pa, of a mean torque over piston area and crank radius.
@@ -84,16 +69,16 @@ impl Chamber {
         mean * self.strokes.cycle().degrees().to_radians() / self.travel
     }
 
-    /// Volume over the clearance volume.
-    pub(super) fn ratio(&self, angle: f64) -> f64 {
-        let unit = cis_degrees(angle);
-        let down = self.highest - self.proportions.motion(unit.im, unit.re).position;
+    /// Volume at a crank angle, degrees, over the clearance volume.
+    #[must_use]
+    pub fn ratio(&self, angle: f64) -> f64 {
+        let down = self.highest - position(&self.proportions, angle);
         1.0 + (self.compression_ratio - 1.0) * down / self.travel
     }
 
     /// Clearance volume, m³.
     pub(super) fn clearance(&self) -> f64 {
-        self.area() * self.stroke() / (self.compression_ratio - 1.0)
+        self.area() * self.stroke / (self.compression_ratio - 1.0)
     }
 
     /// Angle between the piston's highest and lowest point at which the volume is `ratio` clearances.
@@ -105,6 +90,12 @@ impl Chamber {
         }
         0.5 * (low + high)
     }
+}
+
+/// Position of a piston at a crank angle, crank radii.
+fn position(proportions: &Proportions, angle: f64) -> f64 {
+    let unit = cis_degrees(angle);
+    proportions.motion(unit.im, unit.re).position
 }
 
 /// Points of a cycle as they are put together, panel by panel.

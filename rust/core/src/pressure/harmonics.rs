@@ -247,6 +247,32 @@ impl Cycle {
 
     /// Torque, and if wanted twice the mean squares of its slope and bend: infinite where it jumps, or its
     /// slope.
+    /// Whether [`Self::torque_of`] has been integrated, and is kept.
+    pub(crate) fn keeps_torque_of(
+        &self,
+        proportions: &Proportions,
+        crankcase: f64,
+        orders: &[Order],
+    ) -> bool {
+        self.kept::<false, _>(proportions, crankcase, orders, |_| ()).is_some()
+    }
+
+    /// Something of the torque that was integrated last, if it is this one.
+    fn kept<const SQUARES: bool, T>(
+        &self,
+        proportions: &Proportions,
+        crankcase: f64,
+        orders: &[Order],
+        something: impl FnOnce(&Integrated) -> T,
+    ) -> Option<T> {
+        // None waits for a lock: a forked child has no thread that would release it.
+        let last = self.last_torques.0[usize::from(SQUARES)].try_lock().ok()?;
+        let is_it = |kept: &&Integrated| {
+            kept.proportions == *proportions && kept.crankcase == crankcase && kept.orders == orders
+        };
+        last.as_ref().filter(is_it).map(something)
+    }
+
     fn integrate<const SQUARES: bool>(
         &self,
         proportions: &Proportions,
@@ -254,18 +280,10 @@ impl Cycle {
         orders: &[Order],
         cancel: &Cancel,
     ) -> Result<(GasTorque, [f64; 2])> {
-        // None waits for a lock: a forked child has no thread that would release it.
-        let last = self.last_torques.0[usize::from(SQUARES)].try_lock();
-        let known = last.as_ref().ok().and_then(|last| (**last).as_ref());
-        let is_it = |known: &&Integrated| {
-            known.proportions == *proportions
-                && known.crankcase == crankcase
-                && known.orders == orders
-        };
-        if let Some(Integrated { torque, squares, .. }) = known.filter(is_it) {
-            return Ok((torque.clone(), *squares));
+        let copied = |kept: &Integrated| (kept.torque.clone(), kept.squares);
+        if let Some(kept) = self.kept::<SQUARES, _>(proportions, crankcase, orders, copied) {
+            return Ok(kept);
         }
-        drop(last);
         let (torque, squares) =
             self.integrated::<SQUARES>(proportions, crankcase, orders, cancel)?;
         if let Ok(mut last) = self.last_torques.0[usize::from(SQUARES)].try_lock() {
@@ -411,7 +429,7 @@ impl Cycle {
 /// height h = √(l² − u²) with u = sin θ − e, h·h‴ = 3 sin θ cos θ + u cos θ − 3h′h″.
 #[inline(always)]
 fn jerk(proportions: &Proportions, motion: &Motion, sin: f64, cos: f64) -> f64 {
-    let height = motion.position - cos;
+    let height = proportions.rod / motion.secant;
     let [slope, bend] = [motion.velocity + sin, motion.acceleration + cos];
     sin + (cos * (4.0 * sin - proportions.offset) - 3.0 * slope * bend) / height
 }

@@ -12,6 +12,9 @@ use crate::readings::choice::{self, Chosen, OrderSums};
 use crate::readings::peaks::PeakFinder;
 use crate::wrench::{Planar, Torque, Wrench, rounding};
 
+/// Crank speed at which ω is 1 rad/s.
+pub const UNIT_RPM: f64 = 30.0 / std::f64::consts::PI;
+
 /// Which orders to report.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Orders {
@@ -54,6 +57,8 @@ pub struct Balance {
     pub omitted: Vec<Order>,
     /// Wrench of each order; what vanishes to within rounding is zero.
     pub wrenches: Vec<Wrench>,
+    /// Orders evaluated that are not among them, and their wrenches.
+    left: Vec<(Order, Wrench)>,
     /// Mean torques on the block and on the crank, of pressure alone.
     pub mean: [f64; 2],
     /// Bounds of what the orders left out add at any crank angle; 0 for orders that were given.
@@ -112,9 +117,25 @@ impl Balance {
         has_torque: bool,
         loads: &[Load],
     ) -> Self {
-        let (omitted, error_bound) = (Vec::new(), ErrorBounds::default());
+        let (omitted, left, error_bound) = (Vec::new(), Vec::new(), ErrorBounds::default());
         let counts = [false, true].map(|torque| count(loads, torque));
-        Self { orders, omitted, wrenches, mean, error_bound, has_torque, counts }
+        Self { orders, omitted, wrenches, left, mean, error_bound, has_torque, counts }
+    }
+
+    /// The balance of one order alone, if it was evaluated here.
+    #[must_use]
+    pub fn alone(&self, order: Order) -> Option<Self> {
+        let place = self.orders.iter().position(|&own| own == order);
+        let left = || self.left.iter().find(|(own, _)| *own == order).map(|(_, wrench)| wrench);
+        let wrench = *place.map(|k| &self.wrenches[k]).or_else(left)?;
+        Some(Self {
+            orders: vec![order],
+            omitted: Vec::new(),
+            wrenches: vec![wrench],
+            left: Vec::new(),
+            error_bound: ErrorBounds::default(),
+            ..*self
+        })
     }
 
     /// Force or moment of the k-th order.
@@ -238,15 +259,19 @@ pub fn balance(
         Orders::Given(orders) => {
             order::check_list(orders)?;
             let (wrenches, mean) = wrenches(&loads, &loads.sources, torque, orders, cancel)?;
-            let (orders, omitted) = (orders.clone(), Vec::new());
-            Chosen { orders, wrenches, mean, omitted, left_out: OrderSums::default() }
+            let (orders, left) = (orders.clone(), Vec::new());
+            Chosen { orders, wrenches, mean, left, left_out: OrderSums::default() }
         }
         Orders::Auto { rtol } => choice::within(*rtol, engine, &loads, torque, cancel)?,
     };
+    let is_omitted = |(_, wrench): &&(Order, Wrench)| OrderSums::of(wrench) != OrderSums::default();
+    let omitted = chosen.left.iter().filter(is_omitted).map(|&(order, _)| order).collect();
+    let at_speed = |(order, wrench): (Order, Wrench)| (order, wrench.at_speed(square));
     Ok(Balance {
         orders: chosen.orders,
-        omitted: chosen.omitted,
+        omitted,
         wrenches: chosen.wrenches.into_iter().map(|wrench| wrench.at_speed(square)).collect(),
+        left: chosen.left.into_iter().map(at_speed).collect(),
         mean: chosen.mean,
         error_bound: chosen.left_out.bounds(square),
         has_torque: torque,

@@ -41,8 +41,8 @@ pub(crate) struct Chosen {
     pub wrenches: Vec<Wrench>,
     /// Mean torques of pressure on the block and on the crank.
     pub mean: [f64; 2],
-    /// Orders left out that are not zero.
-    pub omitted: Vec<Order>,
+    /// Orders evaluated and left out, and their wrenches.
+    pub left: Vec<(Order, Wrench)>,
     /// Bounds of what all orders left out add.
     pub left_out: OrderSums,
 }
@@ -106,7 +106,7 @@ pub(crate) struct Candidate<'a> {
     pub engine: &'a Engine,
     pub loads: &'a LoadList,
     pub sources: Vec<Arc<dyn Source>>,
-    /// Whether it is the one before it with other pressures.
+    /// Whether it is the one before it with other cycles.
     pub repeats: bool,
 }
 
@@ -190,13 +190,13 @@ pub(crate) fn within(
     let sizes: Vec<_> = all.iter().map(|wrench| vec![OrderSums::of(wrench)]).collect();
     let (kept, left_out) = choice.few(&sizes);
     let mut chosen =
-        Chosen { orders: vec![], wrenches: vec![], mean, omitted: vec![], left_out: left_out[0] };
-    for (((order, wrench), size), kept) in choice.orders.into_iter().zip(all).zip(sizes).zip(kept) {
+        Chosen { orders: vec![], wrenches: vec![], mean, left: vec![], left_out: left_out[0] };
+    for ((order, wrench), kept) in choice.orders.into_iter().zip(all).zip(kept) {
         if kept {
             chosen.orders.push(order);
             memory::push(&mut chosen.wrenches, wrench)?;
-        } else if size[0] != OrderSums::default() {
-            chosen.omitted.push(order);
+        } else {
+            memory::push(&mut chosen.left, (order, wrench))?;
         }
     }
     Ok(chosen)
@@ -310,9 +310,13 @@ fn candidates(
 
 /// Lowest order from 1 on that is enough, as all above it are; none if the highest is not.
 fn lowest(is_enough: impl Fn(u32) -> bool) -> Option<u32> {
-    let (mut low, mut high) = (1, limits::HIGHEST_ORDER);
-    if !is_enough(high) {
-        return None;
+    // Mostly it is low: doubling asks less often than halving what there is.
+    let (mut low, mut high) = (1, 1);
+    while !is_enough(high) {
+        if high == limits::HIGHEST_ORDER {
+            return None;
+        }
+        (low, high) = (high + 1, limits::HIGHEST_ORDER.min(2 * high));
     }
     while low < high {
         let middle = u32::midpoint(low, high);

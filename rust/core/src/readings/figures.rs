@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use super::balance::{Balance, Request, TorquePart, Vector};
-use super::flywheel::{CycleGrid, Drive, Evenness};
+use super::flywheel::mean_inertias;
 use super::terms::terms;
 use crate::Complex64;
 use crate::engine::layout::Strokes;
@@ -203,18 +203,7 @@ pub fn swept(
 
 /// Mean moment of inertia of pistons and rods as seen from the crank, kg·m².
 pub fn mean_inertia(engine: &Engine, cancel: &Cancel) -> Result<f64> {
-    let grid = CycleGrid::new(360.0, &[], cancel)?;
-    let none = vec![0.0; grid.nodes_deg.len()];
-    let drive = Drive {
-        grid: &grid,
-        torque: &none,
-        load: &none,
-        engine: Some(&engine.without_gas()),
-        rpm: ONE_RADIAN_PER_SECOND,
-    };
-    let moving = drive.speed(Evenness::Inertia(1.0), cancel)?.moving_inertia;
-    let count = moving.len() - 1;
-    Ok(moving[..count].iter().sum::<f64>() / count as f64)
+    Ok(mean_inertias(engine, cancel)?.iter().sum())
 }
 
 /// What the cylinders make one by one, at order 1 of their crank.
@@ -268,13 +257,22 @@ pub struct Block {
     pub inertia: f64,
 }
 
+/// Length of a rod in pictures, m: an infinite one is the bar of a Scotch yoke, four crank radii long.
+#[must_use]
+pub fn drawn_rod(cylinder: &Cylinder) -> f64 {
+    if cylinder.has_infinite_rod() {
+        return 4.0 * cylinder.crank_radius();
+    }
+    cylinder.rod_length()
+}
+
 /// A bar that stands for the block: as tall as a crank with its rod, and half of that longer than the
 /// cylinders at either end; none where the pistons have no mass.
 #[must_use]
 pub fn block(engine: &Engine) -> Option<Block> {
     let cylinders = || engine.stations().iter().map(|station| station.cylinder);
     let mass = BLOCK * cylinders().map(|c: Cylinder| c.reciprocating_mass()).sum::<f64>();
-    let height = cylinders().map(|c| 2.0 * c.crank_radius() + c.rod_length()).fold(0.0, f64::max);
+    let height = cylinders().map(|c| 2.0 * c.crank_radius() + drawn_rod(&c)).fold(0.0, f64::max);
     let [first, last] = engine.ends();
     let length = last - first + height;
     let inertia = mass * (length * length + height * height) / 12.0;

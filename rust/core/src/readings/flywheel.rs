@@ -6,9 +6,9 @@
 
 use std::sync::LazyLock;
 
-use crate::engine::Engine;
-use crate::load::LoadList;
+use crate::engine::{Engine, Origin};
 use crate::load::kinematics::{BLOCK, Kinematics};
+use crate::load::{Load, LoadList};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, parts};
 use crate::numbers::error::{Error, Result};
@@ -81,6 +81,18 @@ impl CycleGrid {
             nodes_deg.extend(RULE.map(|(node, _)| middle + node * half));
         }
         Ok(Self { edges_deg, nodes_deg })
+    }
+
+    /// Width of a cell, radians.
+    fn width(&self, cell: usize) -> f64 {
+        (self.edges_deg[cell + 1] - self.edges_deg[cell]).to_radians()
+    }
+
+    /// Mean over the period of a function from its values at the points inside the cells.
+    fn mean(&self, values: &[f64]) -> f64 {
+        let of_cell = |(k, inside): (usize, &[f64])| self.width(k) * mean_of(inside);
+        let sum: f64 = values.chunks_exact(POINTS_IN_CELL).enumerate().map(of_cell).sum();
+        sum / self.edges_deg[self.edges_deg.len() - 1].to_radians()
     }
 }
 
@@ -352,13 +364,8 @@ impl WorkCurve {
         let [values, slopes] = moving(drive.engine, edges, cancel)?;
         let inside = moving(drive.engine, &drive.grid.nodes_deg, cancel)?;
         let period = edges[edges.len() - 1].to_radians();
-        let width = |k: usize| (edges[k + 1] - edges[k]).to_radians();
-        let mean = |values: &[f64]| {
-            let of_cell = |(k, inside): (usize, &[f64])| width(k) * mean_of(inside);
-            let sum: f64 = values.chunks_exact(POINTS_IN_CELL).enumerate().map(of_cell).sum();
-            sum / period
-        };
-        let means = [mean(drive.torque), mean(drive.load)];
+        let width = |k: usize| drive.grid.width(k);
+        let means = [drive.torque, drive.load].map(|values| drive.grid.mean(values));
         let (mut cells, mut work) = (memory::with_capacity(edges.len() - 1)?, 0.0);
         for k in 0..edges.len() - 1 {
             if k % PIECE == 0 {
@@ -496,12 +503,32 @@ fn mean_of(values: &[f64]) -> f64 {
     0.5 * RULE.iter().zip(values).map(|((_, weight), value)| weight * value).sum::<f64>()
 }
 
+/// Mean moment of inertia over a turn of each cylinder's piston and rod as seen from the main crank, kg·m².
+pub fn mean_inertias(engine: &Engine, cancel: &Cancel) -> Result<Vec<f64>> {
+    let grid = CycleGrid::new(360.0, &[], cancel)?;
+    let loads = LoadList::new(engine, engine.reference(None)?);
+    let of_cylinder = |i: usize| {
+        let own = |load: &&Load| load.place.origin == Origin::Cylinder(i);
+        let list = loads.list.iter().filter(own).copied().collect();
+        let own = LoadList { list, sources: loads.sources.clone(), reference: loads.reference };
+        let [inertia, _] = moving_of(&own, &grid.nodes_deg, cancel)?;
+        Ok(grid.mean(&inertia))
+    };
+    (0..engine.stations().len()).map(of_cylinder).collect()
+}
+
 /// Moment of inertia of an engine's pistons and rods as seen from the crank, and its slope per radian.
 fn moving(engine: Option<&Engine>, edges_deg: &[f64], cancel: &Cancel) -> Result<[Vec<f64>; 2]> {
+    let Some(engine) = engine else {
+        return Ok([memory::zeros(edges_deg.len())?, memory::zeros(edges_deg.len())?]);
+    };
+    moving_of(&LoadList::new(engine, engine.reference(None)?), edges_deg, cancel)
+}
+
+/// The same of these loads.
+fn moving_of(loads: &LoadList, edges_deg: &[f64], cancel: &Cancel) -> Result<[Vec<f64>; 2]> {
     let mut found = [memory::zeros(edges_deg.len())?, memory::zeros(edges_deg.len())?];
-    let Some(engine) = engine else { return Ok(found) };
-    let loads = LoadList::new(engine, engine.reference(None)?);
-    let kinematics = Kinematics::new(&loads);
+    let kinematics = Kinematics::new(loads);
     for part in parts(0..edges_deg.len(), BLOCK) {
         cancel.check()?;
         let angles = CrankAngles::new(&edges_deg[part.clone()])?;

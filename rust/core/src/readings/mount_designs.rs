@@ -1,16 +1,20 @@
 //! An engine on many designs of its mounts: natural frequencies, and the largest responses over speed.
 
-#![allow(clippy::needless_range_loop, reason = "lanes of several arrays are indexed in step")]
+#![allow(clippy::needless_range_loop, reason = "several arrays are indexed in step")]
 
 use std::f64::consts::TAU;
 
 use nalgebra::{Matrix3x6, RowVector6, Vector3};
+use pulp::{Simd, WithSimd};
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::mounts::equations::{Equations, LANES, Lane, Lanes6, product, real_product};
+use crate::mounts::equations::{
+    Equations, LANES, Lane, Lanes6, Numbers, damped_product, flags, product, read, real_product,
+    write,
+};
 use crate::mounts::{
-    ComplexVector6, Mount, Orientation, Powertrain, motion_of_point, natural_frequencies,
+    ComplexVector6, Mount, NaturalModes, Orientation, Powertrain, motion_of_point, natural_at,
 };
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -18,7 +22,7 @@ use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::numbers::pool;
-use crate::numbers::simd::vectorised;
+use crate::numbers::simd::{vector, vector_mut};
 use crate::readings::balance::{ErrorBounds, Orders};
 use crate::readings::mounted::EngineLoads;
 
@@ -160,10 +164,13 @@ pub fn design_responses(
             let design = task * DESIGNS_PER_TASK + k;
             let of = |error: Error| error.within(&format!("design {design}: "));
             let powertrain = varied(base, variations, design).map_err(of)?;
-            *frequency = natural_frequencies(&powertrain, request.frequency).map_err(of)?;
+            let natural = natural_at(&powertrain, request.frequency).map_err(of)?;
+            if let Some(natural) = &natural {
+                *frequency = natural.frequency();
+            }
             let rms = &mut rms[k * quantities..(k + 1) * quantities];
             let largest = &mut largest[k * quantities * orders..(k + 1) * quantities * orders];
-            shared.evaluate(&powertrain, largest, rms, cancel).map_err(of)?;
+            shared.evaluate(&powertrain, natural.as_ref(), largest, rms, cancel).map_err(of)?;
         }
         Ok(())
     })?;
@@ -261,19 +268,22 @@ impl<'a> Shared<'a> {
     fn evaluate(
         &self,
         powertrain: &Powertrain,
+        natural: Option<&NaturalModes>,
         largest: &mut [[f64; 3]],
         rms: &mut [[f64; 3]],
         cancel: &Cancel,
     ) -> Result<()> {
         let lowest = self.loads.orders.iter().map(|order| order.number()).fold(f64::MAX, f64::min);
         let least = self.loads.omega.iter().copied().fold(f64::MAX, f64::min) * lowest;
-        let equations = Equations::new(powertrain, least)?;
+        let equations = Equations::new(powertrain, least, natural)?;
         let outputs = Outputs::new(powertrain, &equations, &self.request);
         let amplitudes: Vec<[[f64; 6]; 4]> = self
             .amplitudes
             .iter()
             .map(|both| {
-                let [by_square, fixed] = both.map(|load| equations.to * load);
+                let zero = ComplexVector6::zeros();
+                let [by_square, fixed] =
+                    both.map(|load| if load == zero { zero } else { equations.to * load });
                 [
                     by_square.map(|p| p.re),
                     by_square.map(|p| p.im),
@@ -287,53 +297,17 @@ impl<'a> Shared<'a> {
         // Squares of magnitudes at each speed of a lane.
         let zero = [[0.0; LANES]; 3];
         let mut most = memory::collected(std::iter::repeat_n(zero, orders * quantities))?;
-        let mut sums = memory::collected(std::iter::repeat_n(zero, quantities))?;
         let mut rms_most = memory::collected(std::iter::repeat_n(zero, quantities))?;
-        let directions = 3 * self.varying.len();
-        let mut stiffnesses =
-            memory::collected(std::iter::repeat_n([[0.0; LANES]; 2], directions))?;
-        vectorised(
-            #[inline(always)]
-            || -> Result<()> {
-                for lane in 0..self.lanes {
-                    cancel.check()?;
-                    sums.fill(zero);
-                    for order in 0..orders {
-                        let place = lane * orders + order;
-                        let rates = &self.rates[place];
-                        if directions > 0 {
-                            let from = place * directions;
-                            stiffnesses.copy_from_slice(&self.stiffnesses[from..from + directions]);
-                            let varied = self.varied.iter().copied();
-                            self.write_stiffnesses(powertrain, place, varied, &mut stiffnesses)?;
-                        }
-                        let mut solution: Lanes6 = [[[0.0; LANES]; 6]; 2];
-                        let [p_re, p_im, q_re, q_im] = &amplitudes[order];
-                        for k in 0..6 {
-                            for l in 0..LANES {
-                                let square = rates[l] * rates[l];
-                                solution[0][k][l] = p_re[k].mul_add(square, q_re[k]);
-                                solution[1][k][l] = p_im[k].mul_add(square, q_im[k]);
-                            }
-                        }
-                        let is_solved = equations.solve(rates, &stiffnesses, &mut solution);
-                        if is_solved != [true; LANES] {
-                            self.repair(powertrain, &equations, place, is_solved, &mut solution)?;
-                        }
-                        let most = &mut most[order * quantities..(order + 1) * quantities];
-                        outputs.add(&solution, rates, &stiffnesses, most, &mut sums);
-                    }
-                    for (most, sum) in rms_most.iter_mut().zip(&sums) {
-                        for axis in 0..3 {
-                            for l in 0..LANES {
-                                most[axis][l] = most[axis][l].max(sum[axis][l]);
-                            }
-                        }
-                    }
-                }
-                Ok(())
-            },
-        )?;
+        pulp::Arch::new().dispatch(Evaluation {
+            shared: self,
+            powertrain,
+            equations: &equations,
+            outputs: &outputs,
+            amplitudes: &amplitudes,
+            most: &mut most,
+            rms_most: &mut rms_most,
+            cancel,
+        })?;
         let root = |of: &[Lane; 3]| of.map(|lane| lane.into_iter().fold(0.0, f64::max).sqrt());
         for quantity in 0..quantities {
             for order in 0..orders {
@@ -378,6 +352,87 @@ impl<'a> Shared<'a> {
         }
         Ok(())
     }
+}
+
+/// A design over all speeds and orders.
+struct Evaluation<'a> {
+    shared: &'a Shared<'a>,
+    powertrain: &'a Powertrain,
+    equations: &'a Equations,
+    outputs: &'a Outputs,
+    /// Real and imaginary part of each order's load over (nω)², and of that of gas pressure.
+    amplitudes: &'a [[[f64; 6]; 4]],
+    /// Largest squares of each order and quantity.
+    most: &'a mut [[Lane; 3]],
+    /// Largest sums of squares over orders, of each quantity.
+    rms_most: &'a mut [[Lane; 3]],
+    cancel: &'a Cancel,
+}
+
+impl WithSimd for Evaluation<'_> {
+    type Output = Result<()>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Result<()> {
+        let Self { shared, powertrain, equations, outputs, amplitudes, most, .. } = self;
+        let (orders, quantities) = (amplitudes.len(), self.rms_most.len());
+        let zero = [[0.0; LANES]; 3];
+        let mut sums = memory::collected(std::iter::repeat_n(zero, quantities))?;
+        let directions = 3 * shared.varying.len();
+        let mut stiffnesses =
+            memory::collected(std::iter::repeat_n([[0.0; LANES]; 2], directions))?;
+        for lane in 0..shared.lanes {
+            self.cancel.check()?;
+            sums.fill(zero);
+            for order in 0..orders {
+                let place = lane * orders + order;
+                if directions > 0 {
+                    let from = place * directions;
+                    stiffnesses.copy_from_slice(&shared.stiffnesses[from..from + directions]);
+                    let varied = shared.varied.iter().copied();
+                    shared.write_stiffnesses(powertrain, place, varied, &mut stiffnesses)?;
+                }
+                let most = &mut most[order * quantities..(order + 1) * quantities];
+                for at in 0..LANES / S::F64_LANES {
+                    let rates = vector::<S>(&shared.rates[place], at);
+                    let mut solution = loaded(simd, &amplitudes[order], rates);
+                    let mask = equations.solve(simd, rates, (&stiffnesses, at), &mut solution);
+                    let solved = flags(simd, mask);
+                    if simd.reduce_min_f64s(solved) < 1.0 {
+                        let mut is_solved = [1.0; LANES];
+                        *vector_mut::<S>(&mut is_solved, at) = solved;
+                        let is_solved = is_solved.map(|flag| flag > 0.0);
+                        let mut lanes: Lanes6 = [[[0.0; LANES]; 6]; 2];
+                        write(&solution, at, &mut lanes);
+                        shared.repair(powertrain, equations, place, is_solved, &mut lanes)?;
+                        read(&lanes, at, &mut solution);
+                    }
+                    outputs.add(simd, &solution, rates, (&stiffnesses, at), most, &mut sums);
+                }
+            }
+            for (most, sum) in self.rms_most.iter_mut().zip(&sums) {
+                for (most, sum) in most.as_flattened_mut().iter_mut().zip(sum.as_flattened()) {
+                    *most = most.max(*sum);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Load of an order at speeds.
+#[inline(always)]
+fn loaded<S: Simd>(simd: S, of: &[[f64; 6]; 4], rates: S::f64s) -> [Numbers<S>; 6] {
+    let square = simd.mul_f64s(rates, rates);
+    let mut load = [Numbers::zero(simd); 6];
+    for k in 0..6 {
+        let [p_re, p_im, q_re, q_im] = [of[0][k], of[1][k], of[2][k], of[3][k]];
+        load[k] = Numbers {
+            re: simd.mul_add_f64s(simd.splat_f64s(p_re), square, simd.splat_f64s(q_re)),
+            im: simd.mul_add_f64s(simd.splat_f64s(p_im), square, simd.splat_f64s(q_im)),
+        };
+    }
+    load
 }
 
 /// A vector along three axes as products with a solution.
@@ -442,28 +497,30 @@ impl ForceRows {
     }
 
     #[inline(always)]
-    fn times(&self, solution: &Lanes6, rates: &Lane, stiffnesses: &[[Lane; 2]]) -> [[Lane; 2]; 3] {
-        let mut force = vector(&self.constant, solution);
-        if let Some(viscous) = &self.viscous {
-            for axis in 0..3 {
-                let moved = real_product(&viscous[axis], solution);
-                for l in 0..LANES {
-                    force[axis][0][l] = (-rates[l]).mul_add(moved[1][l], force[axis][0][l]);
-                    force[axis][1][l] = rates[l].mul_add(moved[0][l], force[axis][1][l]);
-                }
-            }
+    fn times<S: Simd>(
+        &self,
+        simd: S,
+        solution: &[Numbers<S>; 6],
+        rates: S::f64s,
+        (stiffnesses, at): (&[[Lane; 2]], usize),
+    ) -> [Numbers<S>; 3] {
+        let mut force = [Numbers::zero(simd); 3];
+        for axis in 0..3 {
+            let row = &self.constant[axis];
+            force[axis] = match &self.viscous {
+                None => product(simd, row, solution),
+                Some(viscous) => damped_product(simd, row, &viscous[axis], rates, solution),
+            };
         }
-        for (direction, axis, row) in &self.varying {
-            let [re, im] = real_product(row, solution);
-            let [k_re, k_im] = &stiffnesses[*direction];
-            for along in 0..3 {
-                let factor = axis[along];
-                for l in 0..LANES {
-                    let real = k_re[l].mul_add(re[l], -(k_im[l] * im[l]));
-                    let imaginary = k_re[l].mul_add(im[l], k_im[l] * re[l]);
-                    force[along][0][l] = factor.mul_add(real, force[along][0][l]);
-                    force[along][1][l] = factor.mul_add(imaginary, force[along][1][l]);
-                }
+        for k in 0..self.varying.len() {
+            let (direction, axis, row) = &self.varying[k];
+            let [re, im] = &stiffnesses[*direction];
+            let stiffness = Numbers { re: vector::<S>(re, at), im: vector::<S>(im, at) };
+            let along =
+                Numbers::zero(simd).plus(simd, stiffness, real_product(simd, row, solution));
+            for axis_of_engine in 0..3 {
+                let factor = simd.splat_f64s(axis[axis_of_engine]);
+                force[axis_of_engine] = force[axis_of_engine].plus_real(simd, factor, along);
             }
         }
         force
@@ -497,48 +554,49 @@ impl Outputs {
         Self { forces, points }
     }
 
-    /// Adds squares of the magnitudes of all quantities: the largest, and the sum over orders. Without closures
-    /// for the reason in [`crate::mounts::equations`].
+    /// Adds squares of the magnitudes of all quantities: the largest, and the sum over orders.
     #[inline(always)]
-    fn add(
+    fn add<S: Simd>(
         &self,
-        solution: &Lanes6,
-        rates: &Lane,
-        stiffnesses: &[[Lane; 2]],
+        simd: S,
+        solution: &[Numbers<S>; 6],
+        rates: S::f64s,
+        (stiffnesses, at): (&[[Lane; 2]], usize),
         most: &mut [[Lane; 3]],
         sums: &mut [[Lane; 3]],
     ) {
-        let one = [1.0; LANES];
-        let mut quantity = 0;
-        for force in &self.forces {
-            let vector = force.times(solution, rates, stiffnesses);
-            take(&vector, &one, &mut most[quantity], &mut sums[quantity]);
-            quantity += 1;
+        let one = simd.splat_f64s(1.0);
+        for k in 0..self.forces.len() {
+            let force = self.forces[k].times(simd, solution, rates, (stiffnesses, at));
+            take(simd, &force, one, at, [&mut most[k], &mut sums[k]]);
         }
-        for rows in &self.points {
-            let moved = vector(rows, solution);
-            take(&moved, rates, &mut most[quantity], &mut sums[quantity]);
-            quantity += 1;
+        for k in 0..self.points.len() {
+            let mut moved = [Numbers::zero(simd); 3];
+            for axis in 0..3 {
+                moved[axis] = product(simd, &self.points[k][axis], solution);
+            }
+            let quantity = self.forces.len() + k;
+            take(simd, &moved, rates, at, [&mut most[quantity], &mut sums[quantity]]);
         }
     }
 }
 
-/// Three components of a quantity.
-#[inline(always)]
-fn vector(rows: &[[Complex64; 6]; 3], solution: &Lanes6) -> [[Lane; 2]; 3] {
-    [product(&rows[0], solution), product(&rows[1], solution), product(&rows[2], solution)]
-}
-
 /// Adds squares of magnitudes times a rate.
 #[inline(always)]
-fn take(vector: &[[Lane; 2]; 3], rates: &Lane, most: &mut [Lane; 3], sums: &mut [Lane; 3]) {
+fn take<S: Simd>(
+    simd: S,
+    vectors: &[Numbers<S>; 3],
+    rates: S::f64s,
+    at: usize,
+    [most, sums]: [&mut [Lane; 3]; 2],
+) {
+    let rates = simd.mul_f64s(rates, rates);
     for axis in 0..3 {
-        let [re, im] = &vector[axis];
-        for l in 0..LANES {
-            let square = re[l].mul_add(re[l], im[l] * im[l]) * (rates[l] * rates[l]);
-            most[axis][l] = if square > most[axis][l] { square } else { most[axis][l] };
-            sums[axis][l] += square;
-        }
+        let square = simd.mul_f64s(vectors[axis].squares(simd), rates);
+        let largest = vector_mut::<S>(&mut most[axis], at);
+        *largest = simd.max_f64s(*largest, square);
+        let sum = vector_mut::<S>(&mut sums[axis], at);
+        *sum = simd.add_f64s(*sum, square);
     }
 }
 

@@ -10,15 +10,16 @@ use nalgebra::Vector3;
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::mounts::equations::{Equations, LANES, Lanes6, lanes, product, rows};
-use crate::mounts::{ComplexVector6, Levels, Powertrain, State, Support, grade};
+use crate::mounts::equations::{Equations, LANES, lanes, rows};
+use crate::mounts::{
+    ComplexVector6, Levels, Powertrain, State, Support, grade, motion_of_point, natural_at,
+};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::numbers::pool;
-use crate::numbers::simd::vectorised;
 use crate::readings::balance::{ErrorBounds, Orders, Request, angular_speed, balance};
 use crate::wrench::Wrench;
 
@@ -212,7 +213,12 @@ impl Response {
         }
         let equations = if points > 0 && moves == 0 {
             let rates = (0..points).map(|point| self.omega_of(point));
-            Some(Equations::new(&self.powertrain, rates.fold(f64::MAX, f64::min))?)
+            let natural = natural_at(&self.powertrain, None)?;
+            Some(Equations::new(
+                &self.powertrain,
+                rates.fold(f64::MAX, f64::min),
+                natural.as_ref(),
+            )?)
         } else {
             None
         };
@@ -254,7 +260,7 @@ impl Response {
     ) -> Result<Vec<bool>> {
         let first = piece * POINTS_PER_TASK;
         let mut all = memory::with_capacity(motions.len())?;
-        let [to, from] = [rows(&equations.to), rows(&equations.from)];
+        let turns = [rows(&equations.to), rows(&equations.from)];
         let varying: Vec<_> = self
             .powertrain
             .mounts()
@@ -281,21 +287,7 @@ impl Response {
                     }
                 }
             }
-            let (solved, moved) = vectorised(
-                #[inline(always)]
-                || {
-                    let mut solution: Lanes6 = [[[0.0; LANES]; 6]; 2];
-                    for (k, row) in to.iter().enumerate() {
-                        [solution[0][k], solution[1][k]] = product(row, &loads);
-                    }
-                    let solved = equations.solve(&rates, &stiffnesses, &mut solution);
-                    let mut moved: Lanes6 = [[[0.0; LANES]; 6]; 2];
-                    for (k, row) in from.iter().enumerate() {
-                        [moved[0][k], moved[1][k]] = product(row, &solution);
-                    }
-                    (solved, moved)
-                },
-            );
+            let (solved, moved) = equations.motions(&turns, &rates, &stiffnesses, &loads);
             for (l, motion) in motions.iter_mut().enumerate() {
                 all.push(solved[l]);
                 if solved[l] && self.loads[points.start + l] != ComplexVector6::zeros() {
@@ -347,6 +339,21 @@ impl Response {
     #[must_use]
     pub fn loads(&self) -> &[ComplexVector6] {
         &self.loads
+    }
+
+    /// Loads about a point, m, of loads about the CG.
+    #[must_use]
+    pub fn about(&self, point: [f64; 3], loads: &[ComplexVector6]) -> Vec<ComplexVector6> {
+        let arm = self.powertrain.body().cg() - Vector3::from(point);
+        let moved = motion_of_point(&arm).transpose().map(Complex64::from);
+        let about = |load: &ComplexVector6| {
+            let mut sum = moved * load.fixed_rows::<3>(0);
+            for k in 3..6 {
+                sum[k] += load[k];
+            }
+            sum
+        };
+        loads.iter().map(about).collect() // bounded: as many as there are loads
     }
 
     /// Displacement of the CG, m, and rotation, rad, at each speed and order.

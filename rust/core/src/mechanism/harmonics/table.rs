@@ -124,14 +124,20 @@ fn centred_rows(
                 // What a lane is given does not show in others: rows depend on their own ratio alone.
                 let mut lanes = [0.5; RATIOS_SIDE_BY_SIDE];
                 for (lane, &λ) in lanes.iter_mut().zip(ratios) {
-                    *lane = if near_one::is_near(λ) { 0.5 } else { λ };
+                    *lane = if is_alone(λ) { 0.5 } else { λ };
                 }
                 lanes_of_rows(&lanes, orders, tables, rows, cancel)?;
                 for (&λ, row) in ratios.iter().zip(rows.chunks_exact_mut(width)) {
-                    if !near_one::is_near(λ) {
+                    if !is_alone(λ) {
                         continue;
                     }
-                    let centred = Centred::new(&Proportions::new(λ, 0.0)?);
+                    let proportions = Proportions::new(λ, 0.0)?;
+                    if proportions.has_infinite_rod() {
+                        let values = coefficients(&proportions, orders, cancel)?;
+                        row.iter_mut().zip(values).for_each(|(value, known)| *value = known.re);
+                        continue;
+                    }
+                    let centred = Centred::new(&proportions);
                     for (&n, value) in orders.iter().zip(row) {
                         // Near λ = 1 an order takes up to a tenth of a millisecond.
                         cancel.check()?;
@@ -142,6 +148,12 @@ fn centred_rows(
             Ok(())
         },
     )
+}
+
+/// Whether a rod ratio takes no lane: one near 1, and that of an infinite rod.
+#[inline(always)]
+fn is_alone(rod_ratio: f64) -> bool {
+    near_one::is_near(rod_ratio) || rod_ratio == 0.0
 }
 
 /// p of a rod ratio, to a few units in the last place.
@@ -290,7 +302,17 @@ pub fn write_centred_roll(
             for (value, &λ) in values.zip(rod_ratios) {
                 let height = ((1.0 - λ) * (1.0 + λ)).sqrt();
                 let p = λ / (1.0 + height);
-                let fraction = 2.0 * height / (λ * λ) * p.powi(n as i32);
+                let fraction = match λ {
+                    // cos²θ
+                    0.0 => {
+                        if n == 2 {
+                            0.5
+                        } else {
+                            0.0
+                        }
+                    }
+                    _ => 2.0 * height / (λ * λ) * p.powi(n as i32),
+                };
                 *value = half * (sign * fraction + of_crank);
             }
             continue;
@@ -313,7 +335,7 @@ mod tests {
 
     /// The rows agree with [`torque`], one slider-crank at a time.
     fn check(orders: &[u32]) {
-        let ratios = [1e-3, 0.1, 0.285, 0.3, 0.5, 0.9, 0.999];
+        let ratios = [0.0, 1e-3, 0.1, 0.285, 0.3, 0.5, 0.9, 0.999];
         let mut rows = vec![0.0; ratios.len() * orders.len()];
         write_centred_roll(&ratios, orders, &mut rows, &Cancel::new()).unwrap();
         for (&λ, row) in ratios.iter().zip(rows.chunks(orders.len())) {

@@ -21,6 +21,13 @@ pub fn torque(
     cancel: &Cancel,
 ) -> Result<TorqueHarmonics> {
     orders.iter().try_for_each(|&n| Order::whole(n).map(drop))?;
+    if proportions.has_infinite_rod() {
+        // x'² = sin²θ = ½ − ½ cos 2θ.
+        let roll = |&n: &u32| Complex64::new(0.0, if n == 2 { -0.5 } else { 0.0 });
+        let roll: Vec<_> = orders.iter().map(roll).collect();
+        let crank = roll.iter().map(|value| -value).collect();
+        return Ok(TorqueHarmonics { roll, crank });
+    }
     // Orders n − 1, n and n + 1 of the force, side by side.
     let around: Vec<u32> = orders.iter().flat_map(|&n| [n - 1, n, n + 1]).collect();
     let forces = once_each(&around.iter().map(|&n| n.max(1)).collect::<Vec<_>>(), |orders| {
@@ -112,6 +119,9 @@ pub fn over_second_moment(
 /// |Cₙ| ≤ l p₂ⁿ⁻¹: the forces' tail, once for each neighbour, and a geometric sum.
 #[must_use]
 pub fn tail_bound(proportions: &Proportions, highest: u32) -> Option<f64> {
+    if proportions.has_infinite_rod() {
+        return Some(if highest < 2 { 0.5 } else { 0.0 });
+    }
     let force = force::tail_bound(proportions, highest.saturating_sub(1))?;
     let Root { p, .. } = Root::new(Sides::new(proportions).below);
     let first = f64::from(highest + 1);

@@ -8,7 +8,7 @@ use std::array;
 use ndarray::Array2;
 
 use super::rod::DrivenRod;
-use super::{BearingLoadsModel, scalars};
+use super::{BearingLoadsModel, Carried, scalars};
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::chebyshev::{coefficient, jet, jets, largest_of_last, node, points};
@@ -40,6 +40,10 @@ pub struct Extremes {
     pub wrist_pin: Array2<f64>,
     /// Of the crank on each main bearing.
     pub main: Array2<f64>,
+    /// Of all rods on each crankpin, those of [`Engine::crankpins`].
+    ///
+    /// [`Engine::crankpins`]: crate::Engine::crankpins
+    pub whole_crankpin: Array2<f64>,
     /// Of each piston on its wall.
     pub side_thrust: Array2<f64>,
     /// Along each rod, compression above zero.
@@ -214,38 +218,53 @@ impl BearingLoadsModel {
             }
             Ok((found, rod.terms(pin)))
         })?;
-        let mains = pool::map(cancel, (0..self.mains.len()).collect(), |main| {
-            let carried = self.carried(main);
-            let of_rods = carried.rods.iter().map(|&(share, i)| (share, &self.rods[i]));
-            let of_rods: Vec<_> = of_rods.collect();
-            let edges = edges(of_rods.iter().flat_map(|(_, rod)| rod.edges_deg()), cycle, cancel)?;
-            let of = |theta: f64, beside: f64| {
-                let mut sum = carried.turning * cis_degrees(f64::from(carried.ratio) * theta);
-                for (share, rod) in &of_rods {
-                    sum += rod.on_crankpin(&rod.forces_beside(theta, beside)) * *share;
-                }
-                let [x, y] =
-                    [sum.re, sum.im].map(|x| if x.abs() <= carried.bound { 0.0 } else { x });
-                [x * x + y * y]
-            };
-            let curves = LoadCurves { edges: &edges, of, cancel };
-            let sampled = curves.sampled()?;
-            let force = sampled[0][1].sqrt();
-            let terms = carried.rods.iter().map(|&(share, i)| share.abs() * rods[i].1);
-            let rounding = LOAD_ROUNDING * (terms.sum::<f64>() + carried.turning.norm());
-            let tolerance = (LOAD_RESOLVED * force * force).max(2.0 * force * rounding);
-            let [squares] = curves.extremes(sampled, &[tolerance])?;
-            Ok(squares.map(|square| square.max(0.0).sqrt()))
-        })?;
+        let terms: Vec<f64> = rods.iter().map(|(_, terms)| *terms).collect();
+        let of_pins = |carried: Vec<Carried>| {
+            pool::map(cancel, carried, |carried| {
+                self.carried_extremes(&carried, &terms, cycle, cancel)
+            })
+        };
+        let mains = of_pins((0..self.mains.len()).map(|main| self.carried(main)).collect())?;
+        let whole = of_pins(self.pins.iter().map(|pin| self.on_pin(pin)).collect())?;
         let of_rods = |n: usize| rows(rods.iter().map(|(ranges, _)| ranges[n]));
         Ok(Extremes {
             crankpin: of_rods(0)?,
             wrist_pin: of_rods(1)?,
             main: rows(mains.into_iter())?,
+            whole_crankpin: rows(whole.into_iter())?,
             side_thrust: of_rods(2)?,
             rod: of_rods(3)?,
             gas: of_rods(4)?,
         })
+    }
+
+    /// Least and largest force of what is carried, by the size of each rod's terms.
+    fn carried_extremes(
+        &self,
+        carried: &Carried,
+        terms: &[f64],
+        cycle: f64,
+        cancel: &Cancel,
+    ) -> Result<[f64; 2]> {
+        let of_rods = carried.rods.iter().map(|&(share, i)| (share, &self.rods[i]));
+        let of_rods: Vec<_> = of_rods.collect();
+        let edges = edges(of_rods.iter().flat_map(|(_, rod)| rod.edges_deg()), cycle, cancel)?;
+        let of = |theta: f64, beside: f64| {
+            let mut sum = carried.turning * cis_degrees(f64::from(carried.ratio) * theta);
+            for (share, rod) in &of_rods {
+                sum += rod.on_crankpin(&rod.forces_beside(theta, beside)) * *share;
+            }
+            let [x, y] = [sum.re, sum.im].map(|x| if x.abs() <= carried.bound { 0.0 } else { x });
+            [x * x + y * y]
+        };
+        let curves = LoadCurves { edges: &edges, of, cancel };
+        let sampled = curves.sampled()?;
+        let force = sampled[0][1].sqrt();
+        let terms = carried.rods.iter().map(|&(share, i)| share.abs() * terms[i]);
+        let rounding = LOAD_ROUNDING * (terms.sum::<f64>() + carried.turning.norm());
+        let tolerance = (LOAD_RESOLVED * force * force).max(2.0 * force * rounding);
+        let [squares] = curves.extremes(sampled, &[tolerance])?;
+        Ok(squares.map(|square| square.max(0.0).sqrt()))
     }
 
     /// Ranges of crank angles in which each rod is in tension at its wrist pin, [from, to] in degrees

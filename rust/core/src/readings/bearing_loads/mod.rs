@@ -57,6 +57,8 @@ pub struct BearingLoadsModel {
     /// On each crank besides the forces of rods on its pins.
     on_cranks: Vec<Vec<Turning>>,
     on_shafts: Vec<Turning>,
+    /// Rods on each crankpin, by index.
+    pins: Vec<Vec<usize>>,
     /// Main bearings by crank, those of one by place.
     mains: Vec<MainBearing>,
     /// Speed of each crank over that of the main one, negative where it turns the other way.
@@ -120,7 +122,7 @@ impl Turning {
     }
 }
 
-/// What a main bearing carries.
+/// What a main bearing or a crankpin carries.
 struct Carried {
     /// Shares of the loads of crankpins, and numbers of their rods.
     rods: Vec<(f64, usize)>,
@@ -148,6 +150,7 @@ impl BearingLoadsModel {
             rods: Vec::new(),
             on_cranks: cranks.clone().map(|_| Vec::new()).collect(),
             on_shafts: Vec::new(),
+            pins: engine.crankpins().into_iter().map(|pin| pin.cylinders).collect(),
             mains: cranks.flat_map(of_crank).collect(),
             ratios: engine.cranks().iter().map(|crank| crank.ratio).collect(),
         };
@@ -352,9 +355,18 @@ impl BearingLoadsModel {
         let turning = &self.on_cranks[crank];
         let turning = turning.iter().filter_map(|load| Some(load.at_start * share(load.z)?));
         let turning: Vec<Complex64> = turning.collect();
+        self.cancelling(rods, &turning, crank)
+    }
+
+    /// What a crankpin carries: all of its rods.
+    fn on_pin(&self, pin: &[usize]) -> Carried {
+        self.cancelling(pin.iter().map(|&i| (1.0, i)).collect(), &[], self.rods[pin[0]].crank)
+    }
+
+    /// Shares of rods and what turns with their crank, of which what cancels leaves its rounding.
+    fn cancelling(&self, rods: Vec<(f64, usize)>, turning: &[Complex64], crank: usize) -> Carried {
         let sizes = rods.iter().map(|&(share, i)| share.abs() * self.rods[i].size());
         let sizes = sizes.chain(turning.iter().map(|u| u.norm()));
-        // What cancels leaves its rounding.
         let bound = rounding(self.rods.len() + turning.len(), 1.0) * sizes.sum::<f64>();
         Carried { rods, turning: turning.iter().sum(), ratio: self.ratios[crank], bound }
     }

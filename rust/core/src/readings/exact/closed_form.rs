@@ -201,7 +201,8 @@ pub fn closed_form(
             phase: part_of_turn("tdc_deg", place.phase)?,
         });
     }
-    let no_harmonic = offset == 0.0 && order > Order::FIRST && order.is_odd();
+    let has_none = motions[0].cylinder().has_infinite_rod() || (offset == 0.0 && order.is_odd());
+    let no_harmonic = order > Order::FIRST && has_none;
     let (denominator, [forward, backward_conj]) = sums(&loads, order, &products, moment, cancel)?;
     // x = f + b*, y = −i(f − b*), b* conjugate.
     let x = forward.plus(&backward_conj, 1)?;

@@ -386,6 +386,18 @@ pub fn vanishing(
     firing: Option<&Firing>,
     cancel: &Cancel,
 ) -> Result<Vanishing> {
+    vanishing_of(&QUANTITIES, engine, orders, reference_z, firing, cancel)
+}
+
+/// [`vanishing`], of some quantities alone; others are undecided.
+pub(crate) fn vanishing_of(
+    quantities: &[ProofQuantity],
+    engine: &Engine,
+    orders: &[Order],
+    reference_z: Option<f64>,
+    firing: Option<&Firing>,
+    cancel: &Cancel,
+) -> Result<Vanishing> {
     check_list(orders)?;
     let half = orders.iter().find(|order| order.as_whole().is_none());
     if let (Some(half), None, None) = (half, firing, engine.gas()) {
@@ -394,7 +406,10 @@ pub fn vanishing(
     let strokes = firing.map_or(engine.strokes(), Firing::strokes);
     let proof = Proof::new(engine, reference_z, cancel)?;
     let gas = Stars::of_gas(engine, firing, cancel)?;
-    let (mut within_rounding, gas_remains) = evaluated(engine, orders, reference_z, cancel)?;
+    let torques = [ProofQuantity::Torque, ProofQuantity::GasTorque];
+    let torque = torques.iter().any(|torque| quantities.contains(torque));
+    let (mut within_rounding, gas_remains) =
+        evaluated(engine, orders, reference_z, torque, cancel)?;
     let mut verdicts = Vec::with_capacity(orders.len());
     let mut errors: Vec<String> = Vec::new();
     for ((&order, within), gas_remains) in orders.iter().zip(&mut within_rounding).zip(gas_remains)
@@ -402,6 +417,9 @@ pub fn vanishing(
         let sums = proof.sums(order);
         let mut of_order = [Verdict::Undecided; 10];
         for (k, quantity) in QUANTITIES.into_iter().enumerate() {
+            if !quantities.contains(&quantity) {
+                continue;
+            }
             cancel.check()?;
             let (verdict, error) = match (quantity, order.as_whole()) {
                 (ProofQuantity::GasTorque, None) if strokes == Strokes::Two => {
@@ -451,9 +469,10 @@ fn evaluated(
     engine: &Engine,
     orders: &[Order],
     reference_z: Option<f64>,
+    torque: bool,
     cancel: &Cancel,
 ) -> Result<(Vec<[bool; 10]>, Vec<bool>)> {
-    let request = Request { rpm: 60.0, reference_z, torque: true };
+    let request = Request { rpm: 60.0, reference_z, torque };
     let orders = Orders::Given(orders.to_vec());
     let found = balance::balance(engine, &request, &orders, cancel)?;
     let loads = LoadList::new(engine, engine.reference(reference_z)?);

@@ -3,7 +3,7 @@
 use crate::numbers::order::Order;
 use crate::readings::balance::Vector;
 
-/// What is told of an engine. Parts of a vector are forward and backward; cylinders are indices; forces
+/// A fact about an engine. Parts of a vector are forward and backward; cylinders are indices; forces
 /// are in N, moments in N·m, without a speed over ω².
 #[derive(Debug, Clone, PartialEq)]
 pub enum Finding {

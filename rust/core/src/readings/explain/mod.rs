@@ -1,6 +1,6 @@
 //! How an engine shakes, as findings and in sentences: what is left, what cancels and why, what would help.
 //!
-//! Imports run downwards: [`finding`] is data, `sums` finds what is to be told of force and moment, `words`
+//! Imports run downwards: [`finding`] is data, `sums` has the findings on force and moment, `words`
 //! are small texts, `sentences` a sentence for each kind of finding.
 
 pub mod finding;
@@ -21,9 +21,9 @@ use crate::numbers::error::Result;
 use crate::numbers::figure::rounded;
 use crate::numbers::order::Order;
 use crate::readings::balance::{
-    Balance, Orders, Request, TorquePart, Vector, angular_speed, balance,
+    Balance, Orders, Request, TorquePart, UNIT_RPM, Vector, angular_speed, balance,
 };
-use crate::readings::exact::vanishing::{QUANTITIES, Verdict, vanishing};
+use crate::readings::exact::vanishing::{ProofQuantity, QUANTITIES, Verdict, vanishing_of};
 use crate::readings::terms::terms;
 
 /// Highest order whose cancelling is explained.
@@ -34,8 +34,6 @@ const MATTERS: f64 = 0.01;
 const GAS_ORDERS: usize = 2;
 /// Tolerance by which the orders of a balance are chosen.
 const RTOL: f64 = 1e-9;
-/// Crank speed at which ω is 1 rad/s.
-const UNIT_RPM: f64 = 30.0 / std::f64::consts::PI;
 
 /// What to explain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -150,7 +148,7 @@ fn longest_lever(engine: &Engine) -> Result<f64> {
 
 // --- force and moment ---
 
-/// What is to be told of force and moment, of which an order in these units matters.
+/// Findings on force and moment, of which an order in these units matters.
 fn of_vectors(engine: &Engine, rpm: f64, units: [f64; 2], cancel: &Cancel) -> Result<Vec<Finding>> {
     let request = Request { rpm, reference_z: None, torque: false };
     let chosen = balance(engine, &request, &Orders::Auto { rtol: RTOL }, cancel)?;
@@ -160,7 +158,7 @@ fn of_vectors(engine: &Engine, rpm: f64, units: [f64; 2], cancel: &Cancel) -> Re
     orders.dedup();
     let whole = balance(engine, &request, &Orders::Given(orders.clone()), cancel)?;
     let parts = terms(engine, &request, [0.0; 2], &orders, cancel)?;
-    let proofs = vanishing(engine, &orders, None, None, cancel)?.verdicts;
+    let proofs = vanishing_of(&QUANTITIES[..8], engine, &orders, None, None, cancel)?.verdicts;
     let reference = engine.reference(None)?;
     let levers: Vec<f64> = engine.stations().iter().map(|place| place.z - reference).collect();
     let sums = |vector: Vector, unit: f64| {
@@ -246,7 +244,8 @@ fn firing(engine: &Arc<Engine>, cancel: &Cancel) -> Result<Vec<Finding>> {
     }
     let in_two_turns = 4 * order.len() as u32 / engine.strokes().number();
     let orders = (1..=in_two_turns).map(Order::from_halves).collect::<Result<Vec<_>>>()?;
-    let proofs = vanishing(engine, &orders, None, Some(&fires), cancel)?.verdicts;
+    let gas = [ProofQuantity::GasTorque];
+    let proofs = vanishing_of(&gas, engine, &orders, None, Some(&fires), cancel)?.verdicts;
     let gas = proofs.iter().map(|verdicts| verdicts[QUANTITIES.len() - 1]);
     if gas.clone().any(|verdict| verdict == Verdict::Undecided) {
         return Ok(found);
@@ -276,3 +275,6 @@ fn shared_pins(engine: &Engine) -> Option<Finding> {
         pins.into_iter().map(|(_, row)| row).filter(|row| row.len() > 2).collect();
     (!rows.is_empty()).then_some(Finding::Articulated { rows })
 }
+
+#[cfg(test)]
+mod tests;

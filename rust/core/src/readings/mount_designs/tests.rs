@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::*;
 use crate::engine::Station;
 use crate::mechanism::slider_crank::Cylinder;
+use crate::mounts::equations::{lanes, rows};
 use crate::mounts::tests::random;
 use crate::mounts::{InertiaTrack, MountFigures};
 use crate::numbers::angle::Angle;
@@ -35,8 +36,8 @@ fn changed(
     Powertrain::new(*base.body(), mounts.collect()).unwrap()
 }
 
-fn check(base: &Powertrain, number: &mut impl FnMut() -> f64) {
-    let (engine, cancel) = (twin(), Cancel::new());
+fn check(engine: &Engine, base: &Powertrain, number: &mut impl FnMut() -> f64) {
+    let cancel = Cancel::new();
     let mut positive = |scale: f64| {
         let row = |_| [0; 3].map(|_| scale * (1.1 + number()));
         (0..5).map(row).collect::<Vec<_>>()
@@ -58,14 +59,14 @@ fn check(base: &Powertrain, number: &mut impl FnMut() -> f64) {
         points: &points,
         frequency,
     };
-    let found = design_responses(&engine, base, &variations, &request, &cancel).unwrap();
+    let found = design_responses(engine, base, &variations, &request, &cancel).unwrap();
     let mounts = base.mounts().len();
     assert_eq!(found.quantities, 2 + mounts);
     for design in 0..5 {
         let one = Arc::new(varied(base, &variations, design).unwrap());
         let modes = crate::mounts::modes(&one, frequency).unwrap();
         assert_eq!(found.frequency[design], modes.frequency);
-        let response = Response::new(&engine, Arc::clone(&one), &rpm, &orders, &cancel).unwrap();
+        let response = Response::new(engine, Arc::clone(&one), &rpm, &orders, &cancel).unwrap();
         // By a factorisation of each point with pivots.
         for (point, motion) in response.motions().iter().enumerate() {
             let omega = rpm[point / 4] / 60.0 * TAU * (point % 4 + 1) as f64;
@@ -107,18 +108,19 @@ fn check(base: &Powertrain, number: &mut impl FnMut() -> f64) {
 #[test]
 fn designs_are_responses_one_by_one() {
     let mut number = draws(31);
-    for _ in 0..4 {
+    let fired = crate::load::tests::fired([Some(0), None, Some(0)]).0;
+    for engine in [&twin(), &fired, &twin(), &fired] {
         // Hysteretic, viscous too, and with a fluid.
         let base = changed(&mut number, true, |_, figures| figures.damping = [0.0; 3]);
-        check(&base, &mut number);
+        check(engine, &base, &mut number);
         let base = changed(&mut number, true, |_, _| {});
-        check(&base, &mut number);
+        check(engine, &base, &mut number);
         let base = changed(&mut number, true, |k, figures| {
             let stiffness = figures.stiffness[0];
             let track = InertiaTrack { stiffness, frequency: 12.0, damping_ratio: 0.3 };
             figures.track = (k == 3).then_some(track);
         });
-        check(&base, &mut number);
+        check(engine, &base, &mut number);
     }
 }
 
@@ -166,17 +168,14 @@ fn modes_that_merge_lose_no_digits() {
     let gap = (a - c) * (a - c) + b * b * 4.0;
     assert!(gap.norm() < 1e-12 * a.norm_sqr(), "{gap}");
     // ω = 90 rad/s is .9 of the modes' frequency.
-    let equations = Equations::new(&merged, 90.0).unwrap();
-    assert!(!equations.is_factored());
+    let natural = natural_at(&merged, None).unwrap();
+    let equations = Equations::new(&merged, 90.0, natural.as_ref()).unwrap();
+    assert!(equations.is_triangular());
     let load = nalgebra::Vector6::new(1.0, 0.3, 0.0, 0.0, 0.0, 0.0).map(Complex64::from);
-    let start = equations.to * load;
-    let mut solution: Lanes6 = [
-        std::array::from_fn(|k| [start[k].re; LANES]),
-        std::array::from_fn(|k| [start[k].im; LANES]),
-    ];
-    assert_eq!(equations.solve(&[90.0; LANES], &[], &mut solution), [true; LANES]);
-    let moved = equations.from
-        * ComplexVector6::from_fn(|k, _| Complex64::new(solution[0][k][0], solution[1][k][0]));
+    let turns = [rows(&equations.to), rows(&equations.from)];
+    let (is_solved, moved) = equations.motions(&turns, &[90.0; LANES], &[], &lanes(&[load]));
+    assert_eq!(is_solved, [true; LANES]);
+    let moved = ComplexVector6::from_fn(|k, _| Complex64::new(moved[0][k][0], moved[1][k][0]));
     // Cramer's rule of the two.
     let [p, q] = [a - 8100.0, c - 8100.0];
     let determinant = p * q - b * b;

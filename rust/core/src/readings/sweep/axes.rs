@@ -7,6 +7,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::memory;
+use crate::pressure::Cycle;
 use crate::readings::balance::angular_speed;
 
 /// What is swept; `None` keeps the values of each engine.
@@ -24,13 +25,16 @@ pub struct SweepAxes {
     pub map: Option<MapAxes>,
 }
 
-/// Speeds and loads at which a map has cycles, and the loads swept.
+/// Speeds and loads at which a map has cycles, the cycles, and the loads swept.
 #[derive(Debug, Clone)]
 pub struct MapAxes {
     /// Speeds of the cycles, ascending.
     pub rpm: Vec<f64>,
     /// Loads of the cycles, ascending.
     pub loads: Vec<f64>,
+    /// At each speed and load, load by load of one speed after the other: one in place of each of the
+    /// cycles of an engine ([`crate::engine::Gas::cycles`]).
+    pub cycles: Vec<Vec<Arc<Cycle>>>,
     /// Loads.
     pub load: Vec<f64>,
 }
@@ -49,6 +53,16 @@ impl SweepAxes {
 
     /// Rejects values out of range, and axes that engines or their spectra do not allow.
     pub(super) fn check(&self, engines: &[Arc<Engine>], cancel: &Cancel) -> Result<()> {
+        if let Some(map) = &self.map {
+            let nodes = map.rpm.len() * map.loads.len();
+            if map.cycles.len() != nodes {
+                let hint = format!("give cycles for each speed and load: {nodes}");
+                return Err(Error::value("cycles", map.cycles.len(), hint));
+            }
+            for engine in engines {
+                map.cycles.iter().try_for_each(|cycles| engine.check_cycles(cycles))?;
+            }
+        }
         if let Some((angles, _)) = &self.bank_angle {
             length("bank_angle_deg", angles.len())?;
             each(angles, cancel, |angle| bank_angle_in_range(angle).map(drop))?;

@@ -63,41 +63,40 @@ impl Sweep {
         if sweep.fired {
             quantities.extend([Torque(TorquePart::Gas), CrankTorque(TorquePart::Gas)]);
         }
-        // Between the cycles of a map no sum is larger than the largest of theirs; their engines are
-        // equal but for pressure.
-        let nodes = sweep.nodes.count();
-        let quantities_of =
-            |k: usize| &quantities[if k.is_multiple_of(nodes) { 0 } else { of_gas }..];
         let loads: Vec<LoadList> = (0..sweep.engines.len()).map(|k| sweep.loads(k)).collect();
         let [rod_ratio, pin_offset] = sweep.extremes;
-        let extreme = Point { rod_ratio, pin_offset };
-        let all = sweep.engines.iter().zip(&loads).enumerate();
-        let candidates = all.map(|(k, (engine, loads))| {
-            let (sources, repeats) = (loads.at_point(&extreme)?, !k.is_multiple_of(nodes));
-            Ok(Candidate { engine, loads, sources, repeats })
-        });
-        let candidates = candidates.collect::<Result<Vec<_>>>()?;
-        let mut choice = Choice::new(rtol, &candidates, sweep.torque, cancel)?;
-        for ((rest, loads), gas) in choice.rest.iter_mut().zip(&loads).zip(&choice.gas) {
-            rest.gas = sweep.gas_tail(loads, gas, cancel)?;
+        // Between the cycles of a map no sum is larger than the largest of theirs.
+        let (mut candidates, nodes) = (Vec::new(), sweep.nodes.count());
+        for (engine, loads) in sweep.engines.iter().zip(&loads) {
+            for node in 0..nodes {
+                let cycles = sweep.cycles_at(node);
+                let sources = loads.at_point(&Point { rod_ratio, pin_offset, cycles })?;
+                candidates.push(Candidate { engine, loads, sources, repeats: node > 0 });
+            }
         }
-        let slowest: Vec<_> = candidates.into_iter().map(|candidate| candidate.sources).collect();
+        let mut choice = Choice::new(rtol, &candidates, sweep.torque, cancel)?;
+        for ((rest, candidate), gas) in choice.rest.iter_mut().zip(&candidates).zip(&choice.gas) {
+            rest.gas = sweep.gas_tail(candidate, gas, cancel)?;
+        }
         sweep.orders.clone_from(&choice.orders);
         // By order and engine.
         let mut sizes = vec![Vec::new(); sweep.orders.len()];
         let mut known = Known::new();
         let is_one_point = sweep.axes.bank_angle.is_none() && sweep.points() == 1;
-        for (index, (loads, slowest)) in loads.iter().zip(&slowest).enumerate() {
+        let mut layouts = Vec::new();
+        for (candidate, gas) in candidates.iter().zip(&choice.gas) {
             cancel.check()?;
+            let Candidate { engine, loads, sources: slowest, repeats } = candidate;
             let mut of_engine = vec![OrderSums::default(); sizes.len()];
             if is_one_point {
-                let sources = &choice.gas[index].sources;
-                let (all, _) = wrenches(loads, sources, sweep.torque, &sweep.orders, cancel)?;
+                let (all, _) = wrenches(loads, &gas.sources, sweep.torque, &sweep.orders, cancel)?;
                 of_engine = all.iter().map(OrderSums::of).collect();
             } else {
-                let quantities = quantities_of(index);
-                let layouts = sweep.layouts(&sweep.engines[index], loads, quantities)?;
-                for (&quantity, layout) in quantities.iter().zip(&layouts) {
+                if !repeats {
+                    layouts = sweep.layouts(engine, loads, &quantities)?;
+                }
+                let first = if *repeats { of_gas } else { 0 };
+                for (&quantity, layout) in quantities.iter().zip(&layouts).skip(first) {
                     let largest = sweep.largest(layout, slowest, quantity, &mut known, cancel)?;
                     for (sums, size) in of_engine.iter_mut().zip(largest) {
                         let sum = quantity.of(sums);
@@ -123,16 +122,17 @@ impl Sweep {
     }
 
     /// Bound, at any point, of the torque of pressure above the last of its orders.
-    fn gas_tail(&self, loads: &LoadList, gas: &GasOrders, cancel: &Cancel) -> Result<f64> {
+    fn gas_tail(&self, candidate: &Candidate, gas: &GasOrders, cancel: &Cancel) -> Result<f64> {
         let Some(&last) = gas.orders.last().filter(|_| self.points() > 1) else {
             return Ok(gas.tail);
         };
-        let (volumes, mut worst) = (loads.volumes(), 0.0_f64);
+        let (volumes, mut worst) = (candidate.loads.volumes(), 0.0_f64);
         for point in 0..self.points() {
             cancel.check()?;
-            let mut tail = 0.0;
-            for (source, volume) in loads.at_point(&self.at(point))?.iter().zip(&volumes) {
-                let tails = source.up_to(last, cancel)?.map(|(_, tails)| tails);
+            let (mut tail, point) = (0.0, self.proportions_at(point));
+            for (source, volume) in candidate.sources.iter().zip(&volumes) {
+                let there = source.at_point(&point)?;
+                let tails = there.up_to(last, cancel)?.map(|(_, tails)| tails);
                 let above = tails.and_then(|tails| tails.last().copied()).unwrap_or(0.0);
                 tail += volume.size * above;
             }
@@ -221,7 +221,7 @@ impl Sweep {
         if source.parts().scaling == Scaling::Given {
             let mut sizes = [vec![0.0_f64; orders.len()], vec![0.0; orders.len()]];
             for point in 0..self.points() {
-                let there = source.at_point(&self.at(point))?;
+                let there = source.at_point(&self.proportions_at(point))?;
                 let TorqueHarmonics { roll, crank } = of(&*there, column, orders, cancel)?;
                 for (sizes, values) in sizes.iter_mut().zip([roll, crank]) {
                     sizes.iter_mut().zip(values).for_each(|(s, v)| *s = s.max(v.norm()));
@@ -308,7 +308,7 @@ mod tests {
         let (source, column) = [(0, Column::Force), (0, Column::Roll), (1, Column::Roll)][kind];
         let source = &sweep.loads(0).sources[source];
         let [rod_ratio, pin_offset] = sweep.extremes;
-        let slowest = source.at_point(&Point { rod_ratio, pin_offset }).unwrap();
+        let slowest = source.at_point(&Point { rod_ratio, pin_offset, cycles: None }).unwrap();
         let bounds = sweep.evaluated(&*slowest, column, &cancel).unwrap();
         let mut found = bounds.map(|bounds| {
             let bound = |factor| match factor {
@@ -318,7 +318,7 @@ mod tests {
             bounds.into_iter().map(bound).collect::<Vec<_>>()
         });
         for point in 0..sweep.points() {
-            let there = source.at_point(&sweep.at(point)).unwrap();
+            let there = source.at_point(&sweep.proportions_at(point)).unwrap();
             let TorqueHarmonics { roll, crank } = of(&*there, column, &orders, &cancel).unwrap();
             for (found, values) in found.iter_mut().zip([roll, crank]) {
                 found.iter_mut().zip(values).for_each(|([_, l], value)| *l = l.max(value.norm()));

@@ -7,13 +7,15 @@ use super::layout::Layout;
 use super::{Quantity, Sweep};
 use crate::Complex64;
 use crate::load::Harmonic;
-use crate::load::source::{Column, Point, Source};
+use crate::load::source::{Column, Point, Scaling, Source};
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::mechanism::harmonics::table;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
+use crate::numbers::pool;
+use crate::pressure::Cycle;
 
 /// Real and imaginary parts at some points, order by order.
 type PointColumns = Vec<[Vec<f64>; 2]>;
@@ -48,13 +50,25 @@ impl PointHarmonics {
 }
 
 impl Sweep {
+    /// What a point of a quantity replaces: the cycle changes first.
+    pub(super) fn at(&self, quantity: Quantity, point: usize) -> Point<'_> {
+        let cycles = self.cycles_of(quantity);
+        Point { cycles: self.cycles_at(point % cycles), ..self.proportions_at(point / cycles) }
+    }
+
+    /// Cycles of a map at one of its speeds and loads.
+    pub(super) fn cycles_at(&self, node: usize) -> Option<&[Arc<Cycle>]> {
+        self.axes.map.as_ref().map(|map| &map.cycles[node][..])
+    }
+
     /// Rod ratio and pin offset of a point, where they are swept.
-    pub(super) fn at(&self, point: usize) -> Point {
+    pub(super) fn proportions_at(&self, point: usize) -> Point<'static> {
         let [ratios, offsets] = [&self.axes.rod_ratio, &self.axes.pin_offset];
         let in_a_row = offsets.as_ref().map_or(1, Vec::len);
         Point {
             rod_ratio: ratios.as_ref().map(|ratios| ratios[point / in_a_row]),
             pin_offset: offsets.as_ref().map(|offsets| offsets[point % in_a_row]),
+            cycles: None,
         }
     }
 
@@ -93,12 +107,25 @@ impl Sweep {
             }
             return Ok(columns);
         }
-        for (row, point) in points.enumerate() {
-            cancel.check()?;
-            let source = source.at_point(&self.at(point))?;
-            let values = quantity.among(of(&*source, column, &self.orders, cancel)?);
+        let mut write = |row: usize, values: Vec<Complex64>| {
             for ([re, im], value) in columns.iter_mut().zip(values) {
                 (re[row], im[row]) = (value.re, value.im);
+            }
+        };
+        let at = |point| source.at_point(&self.at(quantity, point));
+        let values = |source: Arc<dyn Source>| {
+            cancel.check()?;
+            Ok(quantity.among(of(&*source, column, &self.orders, cancel)?))
+        };
+        if source.parts().scaling == Scaling::Given {
+            let sources = points.map(at).collect::<Result<Vec<_>>>()?;
+            let integrated = sources.iter().filter(|source| source.is_integrated(&self.orders));
+            let several = integrated.count() > 3;
+            let values = pool::map_if(several, cancel, sources, values)?;
+            values.into_iter().enumerate().for_each(|(row, values)| write(row, values));
+        } else {
+            for (row, point) in points.enumerate() {
+                write(row, values(at(point)?)?);
             }
         }
         Ok(columns)

@@ -7,7 +7,6 @@
 //! combination of the two. Every number is evaluated by itself, whatever else is swept.
 
 use std::ops::{Add, Mul, Range};
-use std::sync::Arc;
 
 use bytemuck::Zeroable;
 
@@ -23,7 +22,6 @@ use crate::numbers::error::Result;
 use crate::numbers::memory;
 use crate::numbers::pool;
 use crate::numbers::simd::vectorised;
-use crate::readings::balance::TorquePart;
 
 /// Numbers of waves and of coefficients held at a time.
 const SLAB: usize = 1 << 19;
@@ -53,24 +51,17 @@ pub(super) struct Job<'a> {
     pub cancel: &'a Cancel,
 }
 
-type LoadsAndLayout = (LoadList, Arc<Layout>);
+type LoadsAndLayout = (LoadList, Layout);
 
 impl Job<'_> {
-    /// Loads and layout sums of some engines; those of one engine with other pressures share their sums.
-    fn layouts(&self, engines: &[usize]) -> Result<Vec<LoadsAndLayout>> {
-        let mut layouts: Vec<LoadsAndLayout> = memory::with_capacity(engines.len())?;
-        for &k in engines {
+    /// Loads and layout sums of each engine.
+    fn layouts(&self) -> Result<Vec<LoadsAndLayout>> {
+        let mut layouts: Vec<LoadsAndLayout> = memory::with_capacity(self.sweep.engines.len())?;
+        for (k, engine) in self.sweep.engines.iter().enumerate() {
             self.cancel.check()?;
             let loads = self.sweep.loads(k);
-            let before = layouts.last().filter(|(before, _)| before.list == loads.list);
-            let layout = if let Some((_, layout)) = before {
-                Arc::clone(layout)
-            } else {
-                let engine = &self.sweep.engines[k];
-                let layouts = self.sweep.layouts(engine, &loads, &[self.quantity])?;
-                Arc::new(layouts.into_iter().next().unwrap_or_default())
-            };
-            layouts.push((loads, layout));
+            let sums = self.sweep.layouts(engine, &loads, &[self.quantity])?;
+            layouts.push((loads, sums.into_iter().next().unwrap_or_default()));
         }
         Ok(layouts)
     }
@@ -84,16 +75,13 @@ impl Job<'_> {
     ) -> Result<()> {
         let (sweep, width) = (self.sweep, self.width);
         let angles = sweep.bank_angles().len();
-        let points = sweep.points();
+        let points = sweep.points_of(self.quantity);
         let piece = if self.slow { 8 } else { ROWS_PER_TASK };
         let slab = (SLAB / sweep.orders.len().max(1)).clamp(ROWS_PER_CHECK, 1 << 14);
         let slabs = |length: usize| (0..length).step_by(slab).map(move |k| k..length.min(k + slab));
         let numbers = out.len() * if self.slow { 256 } else { 1 };
-        // Harmonics of a cycle take as long as waking another thread.
-        let engines: Vec<usize> = sweep.engines_of(self.quantity).collect();
-        let many = pool::is_worth_parallel(numbers)
-            || engines.len() > 3 && self.quantity.part() == Some(TorquePart::Gas);
-        let layouts = self.layouts(&engines)?;
+        let many = pool::is_worth_parallel(numbers);
+        let layouts = self.layouts()?;
         self.cancel.expect(layouts.len() * angles * points);
         for angle_slab in slabs(angles) {
             let waves = Waves::new(sweep, self.quantity, angle_slab.clone(), self.cancel)?;

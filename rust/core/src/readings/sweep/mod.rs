@@ -92,7 +92,6 @@ pub enum Statistic {
 /// ```
 #[derive(Debug)]
 pub struct Sweep {
-    /// Each as often as a map has cycles, with one of them after the other.
     engines: Vec<Arc<Engine>>,
     axes: SweepAxes,
     /// Places of speeds and loads in a map of cycles.
@@ -112,8 +111,8 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Checks everything that can be wrong. With a map of cycles there are as many engines in a row as it
-    /// has cycles: those of one engine, load by load of one speed after the other.
+    /// Checks everything that can be wrong. With a map of cycles those of the engines are replaced by the
+    /// map's.
     pub fn new(
         engines: Vec<Arc<Engine>>,
         axes: SweepAxes,
@@ -125,10 +124,6 @@ impl Sweep {
         axes::not_empty("engines", engines.len())?;
         let squares = axes.squares(cancel)?;
         let nodes = Nodes::new(&axes, cancel)?;
-        if !engines.len().is_multiple_of(nodes.count()) {
-            let hint = format!("give each engine {} times, with every cycle", nodes.count());
-            return Err(Error::value("engines", engines.len(), hint));
-        }
         axes.check(&engines, cancel)?;
         let extremes = axes.check_geometry(&engines, cancel)?;
         let references = engines.iter().map(|engine| engine.reference(reference_z));
@@ -152,7 +147,7 @@ impl Sweep {
     pub fn shape(&self) -> [usize; 6] {
         let length = |values: &Option<Vec<f64>>| values.as_ref().map_or(1, Vec::len);
         [
-            self.engines.len() / self.nodes.count(),
+            self.engines.len(),
             self.axes.bank_angle.as_ref().map_or(1, |(angles, _)| angles.len()),
             length(&self.axes.rod_ratio),
             length(&self.axes.pin_offset),
@@ -384,10 +379,14 @@ impl Sweep {
         self.fired && matches!(quantity.part(), Some(TorquePart::Whole | TorquePart::Gas))
     }
 
-    /// Engines that a quantity takes: of a map of cycles all for pressure, else one for each.
-    fn engines_of(&self, quantity: Quantity) -> impl Iterator<Item = usize> + use<> {
-        let every = quantity.part() == Some(TorquePart::Gas);
-        (0..self.engines.len()).step_by(if every { 1 } else { self.nodes.count() })
+    /// Number of points of a quantity: of rod ratio and pin offset and, of torque of pressure, of cycle.
+    fn points_of(&self, quantity: Quantity) -> usize {
+        self.points() * self.cycles_of(quantity)
+    }
+
+    /// Number of cycles of a map at which a quantity is evaluated.
+    fn cycles_of(&self, quantity: Quantity) -> usize {
+        if quantity.part() == Some(TorquePart::Gas) { self.nodes.count() } else { 1 }
     }
 
     /// Number of points of rod ratio and pin offset.

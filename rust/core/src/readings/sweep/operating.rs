@@ -69,7 +69,7 @@ pub(super) struct Operating<'a, T> {
     sweep: &'a Sweep,
     /// Rows over ω², by engine, bank angle and point; none where only pressure counts.
     inertia: Vec<T>,
-    /// The same of pressure, with the cycle after the engine; none where inertia alone counts.
+    /// The same of pressure, one for each cycle; none where inertia alone counts.
     gas: Vec<T>,
     width: usize,
 }
@@ -143,7 +143,7 @@ impl Sweep {
 
     /// Number of rows of a quantity without speed and load.
     pub(super) fn rows_of(&self, quantity: Quantity) -> usize {
-        self.engines_of(quantity).count() * self.bank_angles().len() * self.points()
+        self.engines.len() * self.bank_angles().len() * self.points_of(quantity)
     }
 
     /// Means of pressure's torque of every row.
@@ -158,14 +158,16 @@ impl Sweep {
             return Ok(());
         }
         let on_crank = matches!(quantity, Quantity::CrankTorque(_));
-        let (angles, points) = (self.bank_angles().len(), self.points());
-        for (engine, out) in self.engines_of(quantity).zip(out.chunks_mut(angles * points)) {
+        let (angles, points) = (self.bank_angles().len(), self.points_of(quantity));
+        for (engine, out) in out.chunks_mut(angles * points).enumerate() {
             let loads = self.loads(engine);
             let volumes = loads.volumes();
             let mut means = memory::with_capacity(points)?;
             for point in 0..points {
                 let mut mean = 0.0;
-                for (source, volume) in loads.at_point(&self.at(point))?.iter().zip(&volumes) {
+                for (source, volume) in
+                    loads.at_point(&self.at(quantity, point))?.iter().zip(&volumes)
+                {
                     if source.parts().scaling == Scaling::Given {
                         let means = source.torque(&[], cancel)?.mean;
                         mean += volume.value * means[usize::from(on_crank)];
@@ -228,10 +230,7 @@ impl<T: Number> Operating<'_, T> {
     /// Interpolates a row of pressure over speed.
     #[inline(always)]
     fn interpolate(&self, place: GridPoint, at_speed: &mut AtSpeed<T>) -> Result<()> {
-        let (sweep, width) = (self.sweep, self.width);
-        let nodes = &sweep.nodes;
-        let of_engine = sweep.bank_angles().len() * sweep.points();
-        let (engine, rest) = (place.row / of_engine, place.row % of_engine);
+        let (nodes, width) = (&self.sweep.nodes, self.width);
         if at_speed.rows.is_empty() {
             at_speed.rows = memory::zeros(nodes.loads_of_map * width)?;
         }
@@ -241,8 +240,8 @@ impl<T: Number> Operating<'_, T> {
                 continue;
             }
             for (load, out) in at_speed.rows.chunks_exact_mut(width.max(1)).enumerate() {
-                let node = engine * nodes.count() + speed * nodes.loads_of_map + load;
-                add_scaled(out, &self.gas[(node * of_engine + rest) * width..][..width], weight);
+                let row = place.row * nodes.count() + speed * nodes.loads_of_map + load;
+                add_scaled(out, &self.gas[row * width..][..width], weight);
             }
         }
         at_speed.place = Some((place.row, place.speed));

@@ -14,7 +14,7 @@ use crate::readings::balance::TorquePart;
 /// An engine at one bank angle.
 pub(super) struct Placed {
     pub kinematics: Kinematics,
-    /// Sources of the sums at points of rod ratio and offset.
+    /// Sources of the sums at points.
     pub points: Vec<Vec<Arc<dyn Source>>>,
 }
 
@@ -33,13 +33,14 @@ impl Sweep {
         Ok(Placed { kinematics: Kinematics::new(&loads), points: Vec::new() })
     }
 
-    /// Sources of the sums at a point of rod ratio and pin offset.
+    /// Sources of the sums at a point of a quantity.
     pub(super) fn placed_point(
         &self,
         kinematics: &Kinematics,
+        quantity: Quantity,
         point: usize,
     ) -> Result<Vec<Arc<dyn Source>>> {
-        let point = self.at(point);
+        let point = self.at(quantity, point);
         kinematics.sums.iter().map(|sum| sum.source.at_point(&point)).collect()
     }
 }

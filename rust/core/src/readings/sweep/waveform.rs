@@ -130,8 +130,7 @@ impl Sweep {
             let hint = "exact kinematics needs the slider-crank; sum orders";
             return Err(Error::value("spectrum", "given", hint));
         }
-        let (angles, points) = (self.bank_angles().len(), self.points());
-        let engines: Vec<usize> = self.engines_of(quantity).collect();
+        let (angles, points) = (self.bank_angles().len(), self.points_of(quantity));
         rows.fill(
             out,
             |rows_of| {
@@ -140,11 +139,11 @@ impl Sweep {
                 for row in rows_of {
                     let (place, point) = (row / points, row % points);
                     if last != Some(place) {
-                        placed.push(self.placed(engines[place / angles], place % angles)?);
+                        placed.push(self.placed(place / angles, place % angles)?);
                         last = Some(place);
                     }
                     let Some(here) = placed.last_mut() else { continue };
-                    let sources = self.placed_point(&here.kinematics, point)?;
+                    let sources = self.placed_point(&here.kinematics, quantity, point)?;
                     here.points.push(sources);
                 }
                 Ok(placed)
@@ -169,7 +168,7 @@ impl Sweep {
     }
 }
 
-/// Rows over crank angle: one for each engine, bank angle, and point of rod ratio and pin offset.
+/// Rows over crank angle: one for each engine, bank angle and point.
 struct RowsOverAngle<'a> {
     angles: &'a CrankAngles,
     /// Numbers to an angle.

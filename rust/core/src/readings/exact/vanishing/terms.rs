@@ -177,7 +177,11 @@ impl Proof {
         use Channel::{Force, One};
         let own = self.own_order(motion, order);
         let (mirrored, odd) = (self.mirrored[motion], own % 2 == 1);
-        let offset = self.motions[motion].cylinder().pin_offset();
+        let cylinder = self.motions[motion].cylinder();
+        if cylinder.has_infinite_rod() {
+            return if own == 1 { vec![(One, 1)] } else { vec![] };
+        }
+        let offset = cylinder.pin_offset();
         let sign = offset.signum() as i128;
         match (offset == 0.0, own == 1, view.parts) {
             (true, true, _) => vec![(One, 1)],
@@ -193,11 +197,16 @@ impl Proof {
     fn torque_channels(
         &self,
         (motion, load): (usize, usize),
+        order: Order,
         view: View,
         [whole, odd]: [fn(usize) -> Channel; 2],
         (own, mirrored): (usize, usize),
     ) -> Vec<(Channel, i128)> {
-        let offset = self.motions[motion].cylinder().pin_offset();
+        let cylinder = self.motions[motion].cylinder();
+        if cylinder.has_infinite_rod() && self.own_order(motion, order) != 2 {
+            return vec![];
+        }
+        let offset = cylinder.pin_offset();
         // A crank that turns the other way mirrors the torque on the block.
         let sense = i128::from(self.loads.list[load].place.ratio.signum());
         // T(θ) of an offset is −T(−θ) of the opposite one: sines are even in it.
@@ -226,16 +235,20 @@ impl Proof {
             (Column::Force, _) => self.force_channels(motion, order, view),
             // In that of the gear.
             (Column::Roll, ExactFactor::Rod) if view.gears => vec![],
-            (Column::Roll, ExactFactor::Rod) => {
-                self.torque_channels(at, view, [Channel::Rod, Channel::OddOfRod], both(motion))
-            }
+            (Column::Roll, ExactFactor::Rod) => self.torque_channels(
+                at,
+                order,
+                view,
+                [Channel::Rod, Channel::OddOfRod],
+                both(motion),
+            ),
             (Column::Roll, _) if view.gears => {
                 let of_gear = self.gear_of[share.load];
-                self.torque_channels(at, view, [Channel::Gear, Channel::OddOfGear], of_gear)
+                self.torque_channels(at, order, view, [Channel::Gear, Channel::OddOfGear], of_gear)
             }
             (Column::Roll, _) => {
                 let named = [Channel::Masses, Channel::OddOfMasses];
-                self.torque_channels(at, view, named, both(motion))
+                self.torque_channels(at, order, view, named, both(motion))
             }
         }
     }

@@ -1,0 +1,111 @@
+"""Largest loads and irregularity over speed and load."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture
+from crankpin._support.quantities import LOADS
+from crankpin.analysis.operating_map import OperatingMap
+from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, note_zero, set_title
+from crankpin.plot.maps import colour_bar, scale_from_zero
+from crankpin.plot.style import SERIES, count_series, of_maps, series
+from crankpin.plot.ticks import from_zero, numeric, span
+from crankpin.plot.words import joined, loads_of, number
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+SPEED, LOAD = "speed, rpm", "load"
+
+
+@picture.register(OperatingMap)
+def _operating_map(
+    result: OperatingMap,
+    ax: Axes | None = None,
+    *,
+    quantity: str = "main",
+    label: str | None = None,
+    **style: object,
+) -> Axes:
+    what, unit, values = _quantity(result, quantity)
+    ax = axes_or_new(ax)
+    load = np.zeros(1) if result.load is None else result.load
+    if min(values.shape) > 1:
+        _map(ax, result.rpm, load, values, f"{what}, {unit}", style)
+        where = ""
+    else:
+        over_speed = len(load) == 1
+        along = result.rpm if over_speed else load
+        _curve(ax, along, values.ravel(), label, style)
+        label_x(ax, SPEED if over_speed else LOAD)
+        label_y(ax, f"{what}, {unit}")
+        where = "" if over_speed else f"{number(float(result.rpm[0]))} rpm"
+        if over_speed and result.load is not None:
+            where = f"load {number(float(load[0]))}"
+    set_title(ax, labels.name_of(result.engine), joined(what, where, loads_of(result)))
+    return ax
+
+
+def _quantity(result: OperatingMap, quantity: str) -> tuple[str, str, NDArray[np.float64]]:
+    """Return the words, the unit and the values of a quantity by speed and load."""
+    of_wheel = {"irregularity": (100.0, "%"), "swing_deg": (1.0, "°")}
+    name = inputs.one_of("quantity", quantity, (*LOADS, *of_wheel))
+    if name in LOADS:
+        words = f"{LOADS[name].words} load" if LOADS[name].planar else LOADS[name].words
+        return f"largest {words}", "N", result.peak(name).max(axis=-1)
+    values = getattr(result, name)
+    if values is None:
+        raise inputs.rejected("quantity", quantity, "needs the inertia of the operating map")
+    factor, unit = of_wheel[name]
+    return name.removesuffix("_deg"), unit, factor * values
+
+
+def _map(
+    ax: Axes,
+    rpm: NDArray[np.float64],
+    load: NDArray[np.float64],
+    values: NDArray[np.float64],
+    text: str,
+    style: dict[str, Any],
+) -> None:
+    columns, rows = np.argsort(rpm, kind="stable"), np.argsort(load, kind="stable")
+    options: dict[str, Any] = {"shading": "nearest", "norm": scale_from_zero(values)}
+    options |= {"rasterized": True, "cmap": of_maps()} | style
+    cells = values.T[np.ix_(rows, columns)]
+    mesh = ax.pcolormesh(rpm[columns], load[rows], cells, **options)
+    if values.any():
+        colour_bar([ax], mesh, text, values)
+    else:
+        note_zero(ax, color="white")
+    numeric(ax.xaxis)
+    numeric(ax.yaxis)
+    label_x(ax, SPEED)
+    label_y(ax, LOAD)
+
+
+def _curve(
+    ax: Axes,
+    along: NDArray[np.float64],
+    values: NDArray[np.float64],
+    label: str | None,
+    style: dict[str, Any],
+) -> None:
+    in_order = np.argsort(along, kind="stable")
+    (look,) = series(ax, 1, style)
+    drawn: dict[str, Any] = {"gid": SERIES, "label": label or f"_{count_series(ax)}"}
+    drawn |= {"marker": "o"} if len(along) == 1 else {}
+    ax.plot(along[in_order], values[in_order], **(drawn | look))
+    numeric(ax.xaxis)
+    numeric(ax.yaxis)
+    lines = [line for line in ax.lines if line.get_gid() == SERIES]
+    span(ax, np.concatenate([line.get_xdata() for line in lines]))
+    from_zero(ax, max(float(np.max(line.get_ydata())) for line in lines))
+    if not values.any():
+        note_zero(ax)
+    if label is not None:
+        add_legend(ax)

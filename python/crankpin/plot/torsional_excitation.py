@@ -1,0 +1,107 @@
+"""Torque of one cylinder on the crank: over order at one speed, over speed and order at several."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture
+from crankpin.analysis.torsional_excitation import TorsionalExcitation
+from crankpin.plot.balance import ZERO, beside_each_other, scale_spectrum, stems
+from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, set_title
+from crankpin.plot.maps import cells, colour_bar, logarithmic_scale, scale_from_zero
+from crankpin.plot.style import series
+from crankpin.plot.ticks import numeric
+from crankpin.plot.words import joined, loads_of, number
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+PARTS = {"gas": "gas", "inertia": "masses", "torque": "sum"}
+"""Part of the torque → its name in a legend."""
+AMPLITUDE = "amplitude, N·m"
+
+
+@picture.register(TorsionalExcitation)
+def _torsional_excitation(
+    result: TorsionalExcitation,
+    ax: Axes | None = None,
+    *,
+    cylinder: int = 1,
+    part: str | None = None,
+    log: bool | None = None,
+    label: str | None = None,
+    **style: object,
+) -> Axes:
+    count = len(result.engine)
+    place = inputs.whole("cylinder", cylinder, 1) - 1
+    if place >= count:
+        raise inputs.rejected("cylinder", cylinder, f"give 1 to {count}")
+    chosen = None if part is None else inputs.one_of("part", part, PARTS)
+    speeds = np.ravel(result.rpm)
+    several = len(speeds) > 1
+    logarithmic = several if log is None else inputs.flag("log", log)
+    ax = axes_or_new(ax)
+    if several:
+        name = chosen or "torque"
+        _over_speed(
+            ax, speeds, result.orders, _amplitudes(result, name)[:, place], logarithmic, style
+        )
+        where = ""
+    else:
+        fired = bool(result.gas[place].any())
+        drawn = [chosen] if chosen else list(PARTS) if fired else ["inertia"]
+        curves = {name: _amplitudes(result, name)[0, place] for name in drawn}
+        _over_order(ax, result.orders, curves, label, logarithmic, style)
+        where = f"{number(float(speeds[0]))} rpm"
+    of = f" of {PARTS[chosen]}" if chosen in ("gas", "inertia") else ""
+    what = joined(f"torque{of} on the crank", f"cylinder {place + 1}", where, loads_of(result))
+    set_title(ax, labels.name_of(result.engine), what)
+    return ax
+
+
+def _amplitudes(result: TorsionalExcitation, part: str) -> NDArray[np.float64]:
+    """Return amplitudes by speed, cylinder and order."""
+    phasors = np.abs(getattr(result, part))
+    shape = (len(np.ravel(result.rpm)), *result.gas.shape)
+    return np.broadcast_to(phasors.reshape(-1, *result.gas.shape), shape)
+
+
+def _over_order(
+    ax: Axes,
+    orders: tuple[Any, ...],
+    curves: dict[str, NDArray[np.float64]],
+    label: str | None,
+    logarithmic: bool,
+    style: dict[str, Any],
+) -> None:
+    along = np.array(orders, dtype=np.float64)
+    for (part, values), look in zip(curves.items(), series(ax, len(curves), style), strict=True):
+        name = ", ".join(filter(None, [label, PARTS[part]]))
+        stems(ax, along, values, label if label and len(curves) == 1 else name, look)
+    beside_each_other(ax)
+    scale_spectrum(ax, logarithmic=logarithmic, orders_given=False)
+    label_x(ax, "order (multiples of crank speed)")
+    label_y(ax, AMPLITUDE)
+    add_legend(ax, last=ZERO)
+
+
+def _over_speed(
+    ax: Axes,
+    speeds: NDArray[np.float64],
+    orders: tuple[Any, ...],
+    amplitudes: NDArray[np.float64],
+    logarithmic: bool,
+    style: dict[str, Any],
+) -> None:
+    norm = (logarithmic_scale if logarithmic else scale_from_zero)(amplitudes)
+    mesh = cells([ax], speeds, orders, amplitudes[..., np.newaxis], {"norm": norm} | style)
+    if amplitudes.any():
+        colour_bar([ax], mesh, AMPLITUDE, amplitudes)
+    numeric(ax.xaxis)
+    numeric(ax.yaxis, whole=True)
+    label_x(ax, "speed, rpm")
+    label_y(ax, "order")

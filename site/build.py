@@ -1,0 +1,215 @@
+"""Build the workbench: one page that needs a browser alone, from file:// and from any server.
+
+``python site/build.py`` writes ``target/site/index.html`` of the modules in this folder, those of
+the turning page, the presets and units of the installed ``crankpin``, and the core as WebAssembly.
+"""
+
+from __future__ import annotations
+
+import argparse
+import base64
+import gzip
+import json
+from decimal import Decimal
+from pathlib import Path
+from string import Template
+from typing import Any
+
+import crankpin as cp
+from crankpin._support import units
+from crankpin.cli import arguments
+from crankpin.model import presets
+from crankpin.view import page
+
+HERE = Path(__file__).parent
+TARGET = HERE.parent / "target"
+WASM = TARGET / "web" / "crankpin.wasm"
+"""The core, of ``rust/web``."""
+PAGE = TARGET / "site" / "index.html"
+
+SETTINGS = ("mm, g", "in, oz, lbf", "in, g, lbf")
+"""Units that the workbench offers; plain numbers are in them, and results are shown in them."""
+DRAWN = {
+    "force": "N",
+    "moment": "N·m",
+    "torque": "N·m",
+    "orbit": "m",
+    "length": "m",
+    "inertia": "kg·m²",
+}
+"""Quantities of the turning picture, and the library's units of them."""
+SHOWN = ("m", "kg", "kg·m", "N", "N·m", "kg·m²")
+"""Units of the library that are shown in those of the setting."""
+INERTIAS = (
+    "kg·m²",
+    "kg·m2",
+    "kg·m^2",
+    "kgm²",
+    "kgm2",
+    "kg m²",
+    "kg m2",
+    "g·m²",
+    "lb·ft²",
+    "lb·in²",
+)
+"""Units of moments of inertia that may be typed, of those that the library reads."""
+HINTS = {
+    "m": "mm, in",
+    "kg": "g, lb, oz",
+    "rpm": "rpm",
+    "kg·m²": "kg·m², lb·ft²",
+    "°": "°",
+    "": "%",
+}
+
+GROUPS = {
+    "Singles and twins": ("single", "i2-", "v-twin-", "boxer-2"),
+    "Inline": ("i3", "i4", "i5", "i6"),
+    "V": ("v4-", "v6-", "v8-", "v10-", "v12-", "v14-", "v16-"),
+    "Flat": ("boxer-", "flat-"),
+    "Radial": ("radial-",),
+    "VR and W": ("vr", "w8", "w12", "w16"),
+    "From papers": ("ijesc-",),
+}
+"""Headings of the list of presets → how their names begin."""
+
+
+def main() -> None:
+    """Write the page."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--wasm", type=Path, default=WASM, help="the core (default: %(default)s)")
+    parser.add_argument("--out", type=Path, default=PAGE, help="page (default: %(default)s)")
+    given = parser.parse_args()
+    text = build(given.wasm.read_bytes())
+    given.out.parent.mkdir(parents=True, exist_ok=True)
+    given.out.write_text(text, encoding="utf-8")
+    print(f"{given.out}: {len(text.encode()) / 1e3:.0f} kB")
+
+
+def build(wasm: bytes) -> str:
+    """Return the page with this core."""
+    drawing = page.modules("full.mjs", "page.mjs")
+    script = page.modules("main.mjs", folder=HERE)
+    style = page.style()
+    return Template((HERE / "workbench.html").read_text(encoding="utf-8")).substitute(
+        turning=style,
+        style=(HERE / "workbench.css").read_text(encoding="utf-8"),
+        tables=page.as_json(tables()),
+        worker=page.as_json("\n".join(page.modules("worker.mjs", folder=HERE).values())),
+        wasm=base64.b64encode(gzip.compress(wasm, mtime=0)).decode(),
+        drawing="\n".join(drawing.values()),
+        script="\n".join(text for name, text in script.items() if name not in drawing),
+    )
+
+
+def tables() -> dict[str, Any]:
+    """Return what the modules have of the library: units, presets and its version."""
+    return {
+        "version": cp.__version__,
+        "units": {
+            "settings": SETTINGS,
+            "typed": typed(),
+            "shown": {setting: shown(setting) for setting in SETTINGS},
+            "drawn": {setting: drawn(setting) for setting in SETTINGS[1:]} | {SETTINGS[0]: {}},
+            "hints": HINTS,
+        },
+        "presets": {name: preset(name) for name in presets.presets()},
+        "page": page.template(),
+        "groups": {title: names for title in GROUPS if (names := group(title))},
+    }
+
+
+def typed() -> dict[str, dict[str, str]]:
+    """Return what may be typed behind a number, and its factor to the library's unit."""
+    words = [*units.SYMBOLS, *units.ALIASES]
+    words += [word.lower() for word in words]
+    found = {
+        unit: {
+            word: f"{factor:f}"
+            for word in words
+            if (factor := units.exact(word, arguments.UNITS[unit])) is not None
+        }
+        for unit in ("m", "kg", "Pa")
+    }
+    found["kg·m²"] = {
+        word: f"{factor:f}"
+        for word in INERTIAS
+        if (factor := units.exact(word, arguments.UNITS["kg·m²"])) is not None
+    }
+    others: dict[str, dict[str, Decimal]] = arguments.OTHERS
+    return found | {
+        unit: {word: f"{factor:f}" for word, factor in words.items()}
+        for unit, words in others.items()
+    }
+
+
+def shown(setting: str) -> dict[str, tuple[str, float]]:
+    """Return the unit that a setting shows in place of each, and the factor of its numbers."""
+    return {unit: tuple(units.convert(unit, units.read(setting))) for unit in SHOWN}
+
+
+def drawn(setting: str) -> dict[str, tuple[str, float]]:
+    """Return the units in which a setting draws quantities."""
+    chosen = units.read(setting)
+    return {name: tuple(units.convert(unit, chosen)) for name, unit in DRAWN.items()}
+
+
+def group(title: str) -> list[str]:
+    """Return the presets below a heading, each below the first that has it."""
+    before = [
+        start for other in list(GROUPS)[: list(GROUPS).index(title)] for start in GROUPS[other]
+    ]
+    return [
+        name
+        for name in presets.presets()
+        if name.startswith(GROUPS[title])
+        and not name.startswith(tuple(before))
+        and not name.endswith(presets.OWN_PARTS)
+    ]
+
+
+def preset(name: str) -> dict[str, Any]:
+    """Return a preset as the form has it: its builder, and the texts of its fields."""
+    layout = presets.layout(name)
+    engine = presets.preset(name)
+    part = layout.cylinder
+    listed = {
+        key: value for key, value in layout.arguments.items() if key not in ("name", "source")
+    }
+    kind = layout.builder
+    common = {"name": engine.name, "title": layout.arguments["name"], "source": engine.source}
+    fields = {"stroke": _length(part.stroke), "rod_length": _length(part.rod_length),
+              "reciprocating_mass": _mass(part.reciprocating_mass)}  # fmt: skip
+    if part.bore is not None:
+        fields["bore"] = _length(part.bore)
+    if kind in ("from_lists", "from_firing_order"):
+        return common | {"kind": "lists", "file": json.loads(engine.to_json()), "fields": {}}
+    if kind != "radial" or layout.arguments.get("rows", 1) > 1:
+        fields["spacing"] = _length(layout.spacing)
+    for key, value in listed.items():
+        fields[key] = _text(key, value)
+    return common | {"kind": kind, "fields": fields}
+
+
+def _text(key: str, value: object) -> str:
+    if isinstance(value, list):
+        return ", ".join(_text(key, each) for each in value)
+    if key == "rotating_mass":
+        return _mass(float(str(value)))
+    return str(value)
+
+
+def _length(metres: float) -> str:
+    return f"{_plain(Decimal(repr(metres)) * 1000)} mm"
+
+
+def _mass(kilograms: float) -> str:
+    return f"{_plain(Decimal(repr(kilograms)) * 1000)} g"
+
+
+def _plain(number: Decimal) -> str:
+    return f"{number:f}".rstrip("0").rstrip(".") if "." in f"{number:f}" else f"{number:f}"
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,210 @@
+// One engine as it is typed: its kind, the texts of its fields, and what a file has besides them.
+
+import { DEFAULTS, FIELDS, KINDS, groupsOf } from "./fields.mjs";
+import { TypingError, quantity } from "./quantity.mjs";
+import { PRESETS, UNITS } from "./tables.mjs";
+
+/** Speed at first, rpm. */
+const SPEED = 3000;
+
+/** Most numbers of a list: the library's limit of cylinders is lower, and its error says so. */
+const MOST_LISTED = 10000;
+
+/** Parts of a cylinder in a file, by the fields that have them. */
+const PART_OF = { bore: "bore", rod_length: "rod_length", reciprocating_mass: "reciprocating_mass", pin_offset: "pin_offset" };
+
+/** The unit in which figures of files are written in fields, and its power of ten. */
+const WRITTEN_IN = { m: ["mm", 3], kg: ["g", 3] };
+
+export class Design {
+  /** `file` is an engine's file as an object, of the kind `lists`; `extra` what is fitted to the engine. */
+  constructor({ kind, fields = {}, file = null, preset = null, extra = null, rpm = SPEED }) {
+    Object.assign(this, { kind, file, preset, extra, rpm });
+    /** Texts of the preset that are no fields. */
+    const { title = "", source = "" } = PRESETS[preset] ?? {};
+    this.texts = { title, source };
+    this.fields = { ...DEFAULTS, ...(kind === "lists" && file ? fieldsOf(file) : {}), ...fields };
+    this.before = { ...this.fields };
+  }
+
+  /** The engine that the library has by this name. */
+  static preset(name) {
+    if (!Object.hasOwn(PRESETS, name)) throw new TypingError("preset", name, "choose one of the list");
+    const { kind, fields, file } = PRESETS[name];
+    return new Design({ kind, fields: file ? fields : blank(kind, fields), file, preset: name });
+  }
+
+  /** An engine of a file of the library, as it writes it. */
+  static file(json) {
+    return new Design({ kind: "lists", file: JSON.parse(json) });
+  }
+
+  /** The same design, to be changed by itself. */
+  copy() {
+    return Object.assign(new Design(this), { before: this.before });
+  }
+
+  /** The same figures as another kind of engine. */
+  as(kind) {
+    const { name, ...fields } = this.fields;
+    const shared = KINDS[kind].fields;
+    const kept = Object.fromEntries(Object.entries(fields).filter(([key]) =>
+      shared.includes(key) ? key !== "firing_order" : groupsOf(kind)[1][1].includes(key)));
+    return new Design({ kind, fields: { ...kept, name: "" }, rpm: this.rpm });
+  }
+
+  /** Names of the fields that it has. */
+  get names() {
+    return groupsOf(this.kind).flatMap(([, names]) => names);
+  }
+
+  /** Names of the fields whose texts are not those of the preset or the file. */
+  get changed() {
+    return this.names.filter((name) => (this.fields[name] ?? "") !== (this.before[name] ?? ""));
+  }
+
+  /** What the core builds: arguments of its call, or an engine's file as text; errors of fields in a list. */
+  request(units) {
+    const faults = [];
+    const read = {};
+    for (const name of this.names) {
+      try {
+        const value = valueOf(name, this.fields[name] ?? "", units, this.kind);
+        if (value !== null) read[name] = value;
+      } catch (error) {
+        if (!(error instanceof TypingError)) throw error;
+        faults.push(error);
+      }
+    }
+    if (faults.length) throw Object.assign(new Error(faults[0].message), { faults });
+    const { gas, inertia } = read;
+    delete read.gas;
+    delete read.inertia;
+    const more = { gas, inertia: inertia ?? null };
+    const { title, source } = this.texts;
+    read.name ??= title;
+    return this.kind === "lists" ? { ...more, file: this.listed(read) } : { ...more, call: { kind: this.kind, source, ...read } };
+  }
+
+  /** The file with what was typed in place of its own figures. */
+  listed(read) {
+    const { file } = this;
+    const count = read.bank_deg.length;
+    for (const name of ["tdc_deg", "z"]) {
+      if (read[name].length !== count) {
+        throw fault(name, this.fields[name], `give ${count} numbers, one for each bore`);
+      }
+    }
+    const of = (name, k) => {
+      const values = read[name];
+      if (values === undefined || values.length === 1) return values?.[0];
+      if (values.length !== count) throw fault(name, this.fields[name], `give one number, or ${count}, one for each bore`);
+      return values[k];
+    };
+    const { cylinder, ...rest } = file ?? { schema: 1, placements: [] };
+    const placements = Array.from({ length: count }, (_, k) => {
+      const before = rest.placements[k] ?? rest.placements.at(-1) ?? {};
+      const { rod, piston_mass: piston, ...parts } = before.cylinder ?? cylinder ?? {};
+      const now = { crank_radius: of("stroke", k) / 2 };
+      for (const [name, part] of Object.entries(PART_OF)) now[part] = of(name, k);
+      // A rod brings its own length and share of the mass; others that are typed are in its place.
+      const same = ["rod_length", "reciprocating_mass"].every((name) => now[name] === parts[name]);
+      return {
+        ...before, bank_deg: read.bank_deg[k], tdc_deg: read.tdc_deg[k], z: read.z[k], rotating_mass: of("rotating_mass", k),
+        cylinder: { ...parts, ...(same && rod ? { rod, piston_mass: piston } : {}), ...now },
+      };
+    });
+    return JSON.stringify({
+      ...rest, name: read.name, firing_order: read.firing_order ?? "", strokes: Number(read.strokes), placements,
+    });
+  }
+}
+
+/** What is not typed in a preset is nothing, not what other fields begin with. */
+function blank(kind, fields) {
+  const names = groupsOf(kind).flatMap(([, list]) => list).filter((name) => !FIELDS[name].choices);
+  return { ...Object.fromEntries(names.map((name) => [name, ""])), ...fields };
+}
+
+/** An error as those of the core, for a list of them. */
+function fault(name, value, hint) {
+  const error = new TypingError(name, value, hint);
+  return Object.assign(error, { faults: [error] });
+}
+
+/** The value of a field: a number in the library's unit, a text, a list; null if nothing is typed. */
+function valueOf(name, text, units, kind) {
+  const field = FIELDS[name];
+  const typed = text.trim();
+  if (!typed && !field.choices) {
+    // The core says where a radial engine needs a spacing: with several rows.
+    if (field.optional || (kind === "radial" && name === "spacing")) return null;
+    throw new TypingError(name, typed, `give the ${field.label.toLowerCase()}`);
+  }
+  if (field.choices) return name === "strokes" ? Number(typed) : typed;
+  if (field.text) return typed;
+  if (field.whole) {
+    if (!/^\d+$/.test(typed)) throw new TypingError(name, typed, "give a whole number");
+    return Number(typed);
+  }
+  if (field.unit === "°") return field.listed ? parts(typed).map((each) => degrees(name, each)) : degrees(name, typed);
+  const plain = plainUnit(field.unit, units);
+  if (field.listed || kind === "lists") {
+    const listed = parts(typed);
+    const [, last] = /([^\d\s.]+)$/u.exec(listed.at(-1)) ?? [];
+    return listed.map((each) => quantity(each, field.unit, last ?? plain, name));
+  }
+  return quantity(typed, field.unit, plain, name);
+}
+
+/** Decimals of degrees that are typed; a number of more was computed, and is no exact one. */
+const TYPED_DECIMALS = 6;
+
+/** Degrees stay a text: the library reads decimals and fractions exactly. */
+function degrees(name, text) {
+  const plain = text.replace(/\s*(°|deg|degrees)$/u, "").replace("−", "-");
+  if (!/^[-+]?[\d.]+(e[-+]?\d+)?(\/\d+)?$/iu.test(plain)) {
+    throw new TypingError(name, text, "give degrees, such as 90, 22.5 or 360/7");
+  }
+  return (plain.split(".")[1] ?? "").length > TYPED_DECIMALS && !plain.includes("/") ? Number(plain) : plain;
+}
+
+function parts(text) {
+  const listed = text.split(/\s*[,;]\s*|\s+(?=[-+−\d.])/u).filter((each) => each !== "");
+  return listed.length > MOST_LISTED ? listed.slice(0, MOST_LISTED) : listed;
+}
+
+/** The unit that a number has of which none is typed. */
+export function plainUnit(unit, units) {
+  return unit in WRITTEN_IN ? UNITS.shown[units][unit][0] : unit;
+}
+
+/** The texts of an engine's file. */
+function fieldsOf(file) {
+  const { placements, cylinder } = file;
+  const every = (values) => (values.every((each) => each === values[0]) ? values.slice(0, 1) : values);
+  const text = (values, unit) => (values.every((each) => each === undefined || each === null) ? ""
+    : every(values.map((each) => written(each ?? 0, unit))).join(", "));
+  const of = (part) => placements.map((each) => (each.cylinder ?? cylinder)[part]);
+  return {
+    name: file.name ?? "", firing_order: file.firing_order ?? "", strokes: `${file.strokes ?? 4}`,
+    stroke: text(of("crank_radius").map((radius) => 2 * radius), "m"),
+    ...Object.fromEntries(Object.entries(PART_OF).map(([name, part]) => [name, text(of(part), FIELDS[name].unit)])),
+    rotating_mass: text(placements.map((each) => each.rotating_mass), "kg"),
+    bank_deg: placements.map((each) => `${each.bank_deg}`).join(", "),
+    tdc_deg: placements.map((each) => `${each.tdc_deg}`).join(", "),
+    z: placements.map(({ z }) => written(z, "m")).join(", "),
+  };
+}
+
+/** A number of the library as it is typed: the same decimals, the point moved. */
+function written(value, unit) {
+  const [name, power] = WRITTEN_IN[unit];
+  const [mantissa, exponent = "0"] = `${value}`.split("e");
+  const [whole, part = ""] = mantissa.split(".");
+  const moved = Number(exponent) + power;
+  const digits = part.padEnd(Math.max(moved, 0), "0");
+  if (moved < 0) return `${mantissa}e${moved} ${name}`;
+  const text = `${whole}${digits.slice(0, moved)}.${digits.slice(moved)}`.replace(/\.?0*$/, "").replace(/^(-?)0+(?=\d)/, "$1");
+  return `${text} ${name}`;
+}

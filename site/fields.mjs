@@ -1,0 +1,72 @@
+// What can be typed of an engine: the arguments of the library's builders, by their names.
+
+/** Example cycles: their kinds and loads. */
+export const GASES = {
+  "petrol 1": "example: petrol, full load", "petrol 0.3": "example: petrol, part load", "diesel 1": "example: diesel, full load",
+};
+
+/** Of each field its label, the library's unit, and what it means; `choices` of those that are chosen. */
+export const FIELDS = {
+  name: { label: "Name", text: true, optional: true },
+  bore: { label: "Bore", unit: "m", optional: true, said: "drawn only; gas pressure acts on it" },
+  stroke: { label: "Stroke", unit: "m", said: "twice the crank radius" },
+  rod_length: { label: "Rod length", unit: "m", said: "between centres" },
+  reciprocating_mass: {
+    label: "Reciprocating mass", unit: "kg", said: "piston, pin, rings, clips and the rod’s small end, of one cylinder",
+  },
+  rotating_mass: {
+    label: "Rotating mass", unit: "kg", optional: true, said: "big end and bearing, of one cylinder; and its share of the crankpin",
+  },
+  pin_offset: {
+    label: "Pin offset", unit: "m", optional: true, said: "of the piston pin, towards the side to which the crankpin swings",
+  },
+  throws_deg: {
+    label: "Throws", unit: "°", listed: true, said: "crankpin angles in the direction of rotation, front to flywheel",
+  },
+  bank_angle_deg: { label: "Bank angle", unit: "°", range: [0, 180, 0.5], said: "between the banks" },
+  pin_split_deg: {
+    label: "Pin split", unit: "°", optional: true, range: [-180, 180, 0.5],
+    said: "left pin minus right pin; even firing needs bank angle − firing interval",
+  },
+  spacing: { label: "Spacing", unit: "m", said: "between neighbouring throws" },
+  bank_stagger: { label: "Bank stagger", unit: "m", optional: true, said: "how far the left bank stands behind the right" },
+  odd_bank: { label: "Cylinder 1 is in", choices: { right: "the right bank", left: "the left bank" } },
+  numbering: { label: "Numbering", choices: { alternating: "from bank to bank", "by-bank": "bank by bank" } },
+  cylinders: { label: "Cylinders", whole: true, said: "of all rows" },
+  rows: { label: "Rows", whole: true, optional: true },
+  bank_deg: { label: "Bores", unit: "°", listed: true, said: "directions from the right, counter-clockwise; 90 is upright" },
+  tdc_deg: { label: "Top dead centres", unit: "°", listed: true, said: "crank angle of each cylinder" },
+  z: { label: "Places along the crank", unit: "m", listed: true, said: "from the front to the flywheel" },
+  firing_order: { label: "Firing order", text: true, optional: true, said: "such as 1-3-4-2" },
+  gas: { label: "Gas pressure", choices: { "": "not counted", ...GASES } },
+  inertia: {
+    label: "Flywheel inertia", unit: "kg·m²", optional: true, said: "moment of inertia that turns with the crank; for its speed over a cycle",
+  },
+  strokes: { label: "Cycle", choices: { 4: "four-stroke", 2: "two-stroke" } },
+};
+
+const OF_A_CYLINDER = ["bore", "stroke", "rod_length", "reciprocating_mass", "rotating_mass", "pin_offset"];
+const FIRING = ["firing_order", "strokes", "gas", "inertia"];
+const BANKS = ["spacing", "bank_stagger", "odd_bank", "numbering"];
+
+/** Kinds of engines: builders of the library, and what they take besides the parts of a cylinder. */
+export const KINDS = {
+  inline: { label: "Inline, or a single", fields: ["throws_deg", "spacing", ...FIRING] },
+  vee: { label: "V", fields: ["bank_angle_deg", "throws_deg", "pin_split_deg", ...BANKS, ...FIRING] },
+  flat: { label: "Flat, shared crankpins", fields: ["throws_deg", ...BANKS, ...FIRING] },
+  boxer: { label: "Boxer", fields: ["throws_deg", ...BANKS, ...FIRING] },
+  radial: { label: "Radial", fields: ["cylinders", "rows", "spacing", ...FIRING] },
+  lists: { label: "Any, cylinder by cylinder", fields: ["bank_deg", "tdc_deg", "z", ...FIRING] },
+};
+
+/** Names of the fields of a kind, in groups with their headings. */
+export const groupsOf = (kind) => [
+  ["Engine", ["name"]], ["Cylinder", OF_A_CYLINDER], ["Layout", KINDS[kind].fields],
+];
+
+/** What a field has until something is typed. */
+export const DEFAULTS = {
+  name: "", bore: "86 mm", stroke: "86 mm", rod_length: "145 mm", reciprocating_mass: "450 g", spacing: "100 mm",
+  throws_deg: "0", bank_angle_deg: "90", cylinders: "7", bank_deg: "90", tdc_deg: "0", z: "0 mm",
+  odd_bank: "right", numbering: "alternating", strokes: "4", gas: "", inertia: "",
+};

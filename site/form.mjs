@@ -1,0 +1,156 @@
+// The engine as a form: presets, kinds, and a field for each figure, with its error beside it.
+
+import { plainUnit } from "./design.mjs";
+import { html } from "./dom.mjs";
+import { FIELDS, KINDS, groupsOf } from "./fields.mjs";
+import { withUnit } from "./quantity.mjs";
+import { GROUPS, PRESETS, UNITS } from "./tables.mjs";
+import { WORDS } from "./words.mjs";
+
+/** What core errors call figures that have another name here. */
+const FIELD_OF = { crank_radius: "stroke", pin_deg: "throws_deg", cylinder: "reciprocating_mass", tdc: "tdc_deg" };
+
+/** Errors are shown once nobody has typed for so long, milliseconds: half a number is no error yet. */
+const PATIENCE = 500;
+
+let forms = 0;
+
+export class Form {
+  /** `changed` is told that a field has another text, `chosen` of a preset, `kindChosen` of a kind. */
+  constructor({ changed, chosen, kindChosen }) {
+    this.act = { changed, chosen, kindChosen };
+    this.id = `form-${++forms}`;
+    this.preset = html("select", { id: `${this.id}-preset`, "data-field": "preset" }, html("option", { value: "" }, WORDS.ownEngine),
+      ...Object.entries(GROUPS).map(([label, names]) => html("optgroup", { label },
+        ...names.map((name) => html("option", { value: name }, PRESETS[name].name)))));
+    this.preset.addEventListener("change", () => this.preset.value && chosen(this.preset.value));
+    this.kind = html("select", { id: `${this.id}-kind`, "data-field": "kind" },
+      ...Object.entries(KINDS).map(([value, { label }]) => html("option", { value }, label)));
+    this.kind.addEventListener("change", () => kindChosen(this.kind.value));
+    this.said = html("p", { class: "fault whole", role: "alert" });
+    this.groups = html("div", {});
+    this.helper = html("p", { class: "helper", "aria-hidden": "true" });
+    this.element = html("form", { class: "form", "aria-label": WORDS.engine, autocomplete: "off" },
+      html("div", { class: "group" },
+        html("div", { class: "entry" }, html("label", { for: this.preset.id }, WORDS.preset), this.preset),
+        html("div", { class: "entry" }, html("label", { for: this.kind.id }, WORDS.kind), this.kind),
+        this.said),
+      this.groups, this.helper);
+    this.element.addEventListener("focusin", ({ target }) => {
+      this.helper.textContent = saidOf(FIELDS[target.dataset.field]);
+    });
+    this.element.addEventListener("focusout", () => { this.helper.textContent = ""; });
+    this.element.addEventListener("submit", (event) => event.preventDefault());
+  }
+
+  /** Show another design: its fields, of its kind. */
+  show(design, units) {
+    this.design = design;
+    this.units = units;
+    this.preset.value = design.preset && [...this.preset.options].some(({ value }) => value === design.preset) ? design.preset : "";
+    this.kind.value = design.kind;
+    this.entries = new Map();
+    this.groups.replaceChildren(...groupsOf(design.kind).map(([title, names]) => html("fieldset", { class: "group" },
+      html("legend", {}, title), ...names.map((name) => this.entry(name)))));
+    this.faults([]);
+  }
+
+  entry(name) {
+    const { label, unit, choices, said, range } = FIELDS[name];
+    const id = `${this.id}-${name}`;
+    const control = choices
+      ? html("select", { id }, ...Object.entries(choices).map(([value, text]) => html("option", { value }, text)))
+      : html("input", { id, type: "text", spellcheck: "false", autocapitalize: "off", inputmode: range ? "decimal" : null, placeholder: " " });
+    control.setAttribute("data-field", name);
+    control.value = this.design.fields[name] ?? "";
+    const fault = html("p", { class: "fault", id: `${id}-fault`, hidden: true });
+    const hint = said ? html("small", { id: `${id}-said` }, saidOf(FIELDS[name])) : "";
+    control.setAttribute("aria-describedby", [said ? `${id}-said` : "", `${id}-fault`].join(" ").trim());
+    const typed = () => {
+      this.last = name;
+      this.design.fields[name] = control.value;
+      if (slide) slide.value = Number.parseFloat(control.value) || 0;
+      this.act.changed(name);
+    };
+    control.addEventListener(choices ? "change" : "input", typed);
+    let slide = null;
+    if (range) {
+      const [min, max, step] = range;
+      slide = html("input", { type: "range", min, max, step, "aria-label": WORDS.slider(label), "data-slider": name });
+      slide.value = Number.parseFloat(control.value) || 0;
+      slide.addEventListener("input", () => {
+        control.value = slide.value;
+        typed();
+      });
+    }
+    if (unit && !choices) {
+      control.addEventListener("change", () => {
+        const plain = plainUnit(unit, this.units);
+        const list = FIELDS[name].listed || control.value.includes(",");
+        if (unit === "°" || list || !plain) return;
+        control.value = withUnit(control.value, unit, plain);
+        this.design.fields[name] = control.value;
+      });
+    }
+    this.entries.set(name, { control, fault });
+    return html("div", { class: `entry${range ? " ranged" : ""}` }, html("label", { for: id }, label), control, slide ?? "", hint, fault);
+  }
+
+  /** Write errors beside their fields; at once where the reader is done typing, else a little later. */
+  faults(list) {
+    clearTimeout(this.waiting);
+    if (!list.length) return this.mark(list);
+    const typing = this.element.contains(document.activeElement) && document.activeElement.matches("input[type=text]");
+    if (!typing || this.marked) return this.mark(list);
+    this.waiting = setTimeout(() => this.mark(list), PATIENCE);
+  }
+
+  mark(list) {
+    this.marked = list.length > 0;
+    const rest = [];
+    const of = new Map();
+    for (const { argument, message, hint, value } of list) {
+      const [bare] = `${argument ?? ""}`.split(/[[. ]/);
+      const own = this.entries.has(bare) ? bare : FIELD_OF[bare];
+      // An error of several figures stands beside the one that was typed.
+      const name = this.entries.has(this.last) && `${value} ${hint}`.includes(this.last) ? this.last : own;
+      if (this.entries.has(name)) of.set(name, inWords(hint ?? message));
+      else rest.push(inWords(message));
+    }
+    for (const [name, { control, fault }] of this.entries) {
+      const text = of.get(name) ?? "";
+      if (fault.textContent !== text) fault.textContent = text;
+      fault.hidden = !text;
+      if (text) control.setAttribute("aria-invalid", "true");
+      else control.removeAttribute("aria-invalid");
+    }
+    const whole = rest.join("; ") || (of.size ? WORDS.faulty([...of.keys()].map((name) => FIELDS[name].label)) : "");
+    if (this.said.textContent !== whole) this.said.textContent = whole;
+  }
+
+  /** The name that the engine has while none is typed. */
+  named(name) {
+    this.entries.get("name").control.placeholder = name;
+  }
+}
+
+/** What a field means. */
+const saidOf = ({ said, optional, unit } = {}) => (said ? `${said}${optional && unit ? `; ${WORDS.mayBeEmpty}` : ""}` : "");
+
+/** An error in the words of the fields. */
+export function inWords(hint) {
+  let text = hint.replaceAll("crank_radius", WORDS.crankRadius);
+  for (const [name, { label }] of Object.entries(FIELDS)) {
+    if (name.includes("_")) text = text.replaceAll(name, label.toLowerCase());
+  }
+  return text;
+}
+
+/** A choice of the units in which plain numbers are read and results are shown. */
+export function unitsChoice(units, act) {
+  const element = html("select", { "aria-label": WORDS.units, "data-field": "units" },
+    ...UNITS.settings.map((each) => html("option", { value: each }, each)));
+  element.value = units;
+  element.addEventListener("change", () => act(element.value));
+  return element;
+}

@@ -1,0 +1,62 @@
+// The bob weights with which the crankshaft is balanced, and what each balance factor leaves.
+
+import { html } from "./dom.mjs";
+import { short } from "./format.mjs";
+import { paneFields } from "./pane_controls.mjs";
+import { fitButtons } from "./pane_fits.mjs";
+import { tableOf } from "./table.mjs";
+import { WORDS } from "./words.mjs";
+
+/** Factors that are compared at most. */
+const MOST_FACTORS = 4;
+
+const percent = (factor) => `${short(100 * factor, 3)} %`;
+
+/** What is to be known of a vector's factors: the least, and those that leave a straight line. */
+function lines(name, { exists, least, straight }) {
+  if (!exists) return [];
+  return [
+    ...(least === null ? [] : [WORDS.leastAt(name, percent(least))]),
+    ...straight.map(([factor, direction]) => WORDS.straightAt(name, percent(factor), short(direction, 1))),
+  ];
+}
+
+export const bobPane = {
+  key: "bob",
+  title: "Bob weight",
+  controls: (slot, tools) => paneFields(slot, "bob", [
+    { name: "factors", label: WORDS.factors, unit: "", listed: true, text: "50 %, 52 %" },
+  ], tools),
+  make: async (slot, { ask, core, units }) => {
+    const { engine, design: { rpm }, settings } = slot;
+    const factors = settings.bob.factors.slice(0, MOST_FACTORS);
+    const found = [];
+    for (const factor of factors) found.push(await ask("bob_weights", { engine: slot.bare().json, factor }));
+    if (!found.length) return [];
+    const named = { units, name: engine.summary.name };
+    const left = found.map(({ json }, k) => {
+      const [{ force, moment }] = core.call("balance", { engine: json, rpm, orders: [1], torque: false }).orders;
+      const peak = ({ peak: value, zero_bound: bound }) => (value <= bound ? 0 : value);
+      return [percent(factors[k]), peak(force), ...force.peak_xy, peak(moment), ...moment.peak_xy];
+    });
+    const [{ pins, order_1: first }] = found;
+    return [
+      tableOf({
+        ...named, title: WORDS.bobWeights,
+        columns: [{ label: "cylinders" }, { label: "rotating", unit: "kg" }, { label: "reciprocating", unit: "kg" },
+          ...factors.map((factor) => ({ label: `bob weight at ${percent(factor)}`, unit: "kg", key: "bob-weight" }))],
+        rows: pins.map(({ cylinders, rotating, reciprocating }, k) =>
+          [cylinders.join(", "), rotating, reciprocating, ...found.map((each) => each.pins[k].bob_weight)]),
+      }),
+      tableOf({
+        ...named, title: WORDS.bobLeaves(short(rpm, 3)),
+        columns: [{ label: "balance factor" }, { label: "longest force", unit: "N" }, { label: "force x", unit: "N" }, { label: "force y", unit: "N" },
+          { label: "longest moment", unit: "N·m" }, { label: "moment about x", unit: "N·m" }, { label: "moment about y", unit: "N·m" }],
+        rows: left,
+      }),
+      html("ul", { class: "explained" }, ...[...lines(WORDS.vectors.force, first.force), ...lines(WORDS.vectors.moment, first.moment)]
+        .map((text) => html("li", {}, text))),
+      fitButtons(slot, found[0]),
+    ];
+  },
+};

@@ -1,0 +1,307 @@
+// The whole page: a bar of commands, forms, pictures, and panes of what the engines do.
+
+import { Design } from "./design.mjs";
+import { html } from "./dom.mjs";
+import { LONGEST_FILE, fileName, saveFile, turningPage } from "./files.mjs";
+import { inWords, unitsChoice } from "./form.mjs";
+import { designsOf, fragmentOf } from "./fragment.mjs";
+import { Jobs, Outdated } from "./jobs.mjs";
+import { PANES } from "./panes.mjs";
+import { Slot } from "./slot.mjs";
+import { UNITS, VERSION } from "./tables.mjs";
+import { WORDS } from "./words.mjs";
+
+/** What is shown to someone who brings no engine. */
+const FIRST_ENGINE = "v8-crossplane";
+
+/** The address follows what is typed after so long, milliseconds. */
+const CALM_ADDRESS = 400;
+
+/** Work that takes longer than this is said to go on, milliseconds. */
+const NOTICED = 150;
+
+export class Workbench {
+  /** The workbench with the engine of the page's address, or the first one. */
+  static async opened(core, module, script) {
+    let given = null;
+    let trouble = "";
+    try {
+      given = await designsOf(location.hash);
+    } catch (error) {
+      trouble = error.message;
+    }
+    return new Workbench(core, module, script, given ?? { designs: [Design.preset(FIRST_ENGINE)], units: UNITS.settings[0] }, trouble);
+  }
+
+  constructor(core, module, script, { designs, units }, trouble) {
+    Object.assign(this, { core, units });
+    this.jobs = new Jobs(script, module, (busy) => this.busy(busy));
+    this.said = html("p", { class: "said", role: "status" }, trouble);
+    this.working = html("span", { class: "working", hidden: true }, WORDS.computing, " ",
+      button(WORDS.cancel, WORDS.cancel, () => this.jobs.cancel()));
+    this.forms = html("div", { class: "forms" });
+    this.stages = html("div", { class: "stages" });
+    this.panes = html("div", { class: "panes" });
+    this.slots = [];
+    this.pane = PANES[0];
+    this.makeBar();
+    this.makeTabs();
+    this.element = html("div", { class: "crankpin bench" }, this.bar, this.said,
+      html("main", {}, html("div", { class: "side" }, this.chooser, this.forms),
+        html("div", { class: "shown" }, this.stages, this.tabs, this.panes)),
+      html("footer", {}, `${WORDS.footer} crankpin ${VERSION}`));
+    this.element.addEventListener("dragover", (event) => event.preventDefault());
+    this.element.addEventListener("drop", (event) => {
+      event.preventDefault();
+      if (event.dataTransfer.files.length) this.openFile(event.dataTransfer.files[0]);
+    });
+    addEventListener("hashchange", () => this.followAddress());
+    for (const design of designs) this.add(design);
+    if (designs.length > 1) this.arrange(0);
+  }
+
+  makeBar() {
+    this.file = html("input", { type: "file", accept: ".toml,.json", hidden: true, "aria-label": WORDS.openSaid });
+    this.file.addEventListener("change", () => {
+      if (this.file.files.length) this.openFile(this.file.files[0]);
+      this.file.value = "";
+    });
+    this.compare = button(WORDS.compare, WORDS.compareSaid, () => (this.slots.length > 1 ? this.remove() : this.add(null)));
+    this.choice = unitsChoice(this.units, (units) => {
+      this.units = units;
+      for (const slot of this.slots) slot.setUnits(units);
+    });
+    this.bar = html("div", { class: "bar", role: "banner" },
+      html("p", { class: "brand" }, "crankpin", html("small", {}, "workbench")), this.file,
+      html("div", { class: "commands" },
+        button(WORDS.open, WORDS.openSaid, () => this.file.click()),
+        button(WORDS.save, WORDS.saveSaid, () => this.save()),
+        button(WORDS.link, WORDS.linkSaid, () => this.copyLink()),
+        button(WORDS.page, WORDS.pageSaid, () => this.savePage()),
+        button(WORDS.print, WORDS.printSaid, () => print()),
+        this.compare, this.choice, this.working));
+    this.chooser = html("div", { class: "chooser", role: "tablist", "aria-label": WORDS.engine, hidden: true });
+  }
+
+  makeTabs() {
+    this.tabs = html("div", { class: "tabs", role: "tablist", "aria-label": WORDS.panes });
+    this.buttons = PANES.map((pane) => {
+      const tab = html("button", { type: "button", role: "tab", id: `tab-${pane.key}`, "aria-controls": "pane" }, pane.title);
+      tab.addEventListener("click", () => this.choose(pane));
+      return tab;
+    });
+    this.panes.setAttribute("id", "pane");
+    this.panes.setAttribute("role", "tabpanel");
+    this.tabs.append(...this.buttons);
+    arrows(this.tabs, this.buttons);
+  }
+
+  /** Show a pane. */
+  choose(pane) {
+    this.pane = pane;
+    this.refresh();
+  }
+
+  /** The engine whose form is shown. */
+  get current() {
+    return this.slots.find(({ form }) => !form.element.hidden) ?? this.slots[0];
+  }
+
+  /** Show another engine beside the first: its own figures to begin with. */
+  add(design) {
+    const [first] = this.slots;
+    const slot = new Slot(this.core, design ?? first.design.copy(), {
+      units: this.units,
+      changed: (one) => this.changed(one),
+      speed: (one) => {
+        for (const other of this.slots) if (other !== one) other.turnAt(one.design.rpm);
+        this.changed(one);
+      },
+      turned: (one, changed) => {
+        if (!changed.includes("angle_deg") && !changed.includes("playing")) return;
+        for (const other of this.slots) if (other !== one) other.turnWith(one);
+      },
+    });
+    this.slots.push(slot);
+    this.forms.append(slot.form.element);
+    this.stages.append(slot.stage);
+    this.arrange(this.slots.length - 1);
+  }
+
+  remove() {
+    this.slots.pop().destroy();
+    this.arrange(0);
+  }
+
+  /** Put what is there in its place; the form of one engine is shown. */
+  arrange(shown) {
+    const several = this.slots.length > 1;
+    this.element.classList.toggle("two", several);
+    this.compare.textContent = several ? WORDS.single : WORDS.compare;
+    this.compare.setAttribute("aria-pressed", several);
+    this.chooser.hidden = !several;
+    const tabs = this.slots.map((slot, k) => {
+      slot.name = several ? [WORDS.first, WORDS.second][k] : WORDS.engine;
+      slot.form.element.setAttribute("aria-label", slot.name);
+      slot.form.element.hidden = k !== shown;
+      const tab = html("button", { type: "button", role: "tab", "aria-selected": `${k === shown}`, tabindex: k === shown ? 0 : -1 }, slot.name);
+      tab.addEventListener("click", () => this.arrange(k));
+      return tab;
+    });
+    arrows(this.chooser, tabs);
+    this.chooser.replaceChildren(...tabs);
+    this.refresh();
+  }
+
+  /** Follow a change of an engine: address, title and the pane that is shown. */
+  changed() {
+    if (!this.element || !this.slots.length) return;
+    document.title = `${this.slots.map(({ engine }) => engine?.summary.name || WORDS.engine).join(" · ")} – ${WORDS.title}`;
+    clearTimeout(this.addressing);
+    this.addressing = setTimeout(() => this.writeAddress(), CALM_ADDRESS);
+    this.refresh();
+  }
+
+  /** Make the pane that is shown anew; what was there stays until it is made. */
+  async refresh() {
+    const shown = PANES.filter((pane) => this.slots.some(({ engine }) => engine && (!pane.when || pane.when(engine))));
+    if (!shown.includes(this.pane)) [this.pane] = PANES;
+    const { pane } = this;
+    this.buttons.forEach((tab, k) => {
+      tab.hidden = !shown.includes(PANES[k]);
+      tab.setAttribute("aria-selected", PANES[k] === pane);
+      tab.tabIndex = PANES[k] === pane ? 0 : -1;
+    });
+    this.panes.setAttribute("aria-labelledby", `tab-${pane.key}`);
+    const turn = this.turn = (this.turn ?? 0) + 1;
+    const slots = this.slots.filter(({ engine }) => engine);
+    const boxes = this.boxes(pane, slots);
+    try {
+      const made = await Promise.all(slots.map((slot) => this.made(pane, slot)));
+      if (turn !== this.turn) return;
+      boxes.forEach(({ title, results }, k) => {
+        title.textContent = slots.length > 1 ? `${slots[k].name}: ${slots[k].engine.summary.name}` : "";
+        results.replaceChildren(...made[k]);
+      });
+    } catch (error) {
+      if (!(error instanceof Outdated)) throw error;
+      if (turn !== this.turn) return;
+      boxes[0].results.replaceChildren(html("p", { class: "hint" }, `${WORDS.cancelled} `,
+        button(WORDS.again, WORDS.again, () => this.refresh())));
+    }
+  }
+
+  /** What results are put into: a title, the pane's controls, which stay while results change, and a place. */
+  boxes(pane, slots) {
+    const same = this.shownBoxes && this.shownBoxes.pane === pane && this.shownBoxes.slots.join() === slots.map(({ id }) => id).join();
+    if (!same) {
+      const boxes = slots.map((slot) => {
+        slot.controls[pane.key] ??= pane.controls?.(slot, { units: () => this.units, again: () => this.refresh() }) ?? "";
+        const [title, results] = [html("h2", {}), html("div", { class: "results" })];
+        return { title, results, element: html("div", { class: `pane ${pane.key}` }, title, slot.controls[pane.key], results) };
+      });
+      this.shownBoxes = { pane, slots: slots.map(({ id }) => id), boxes };
+      this.panes.replaceChildren(...boxes.map(({ element }) => element));
+    }
+    return this.shownBoxes.boxes;
+  }
+
+  async made(pane, slot) {
+    const ask = (name, given) => this.jobs.ask(`${slot.id} ${name}`, name, given);
+    const tools = { ask, core: this.core, units: this.units, again: () => this.refresh() };
+    try {
+      return await pane.make(slot, tools);
+    } catch (error) {
+      if (error instanceof Outdated) throw error;
+      return [html("p", { class: "fault", role: "alert" }, inWords(error.message))];
+    }
+  }
+
+  busy(busy) {
+    clearTimeout(this.noticing);
+    if (!busy) this.working.hidden = true;
+    else this.noticing = setTimeout(() => { this.working.hidden = false; }, NOTICED);
+  }
+
+  say(text) {
+    this.said.textContent = text;
+  }
+
+  async openFile(file) {
+    try {
+      if (file.size > LONGEST_FILE) throw new Error(`it has ${file.size} bytes, the most are ${LONGEST_FILE}`);
+      const { json } = this.core.call("read", { engine: await file.text() });
+      this.current.take(Object.assign(Design.file(json), { rpm: this.current.design.rpm }));
+      this.say(WORDS.fromFile(file.name));
+    } catch (error) {
+      this.say(`${WORDS.noFile(file.name)}${error.message}`);
+    }
+  }
+
+  save() {
+    const { engine } = this.current;
+    if (engine) saveFile(fileName(engine.summary.name, "toml"), engine.toml, "application/toml");
+  }
+
+  savePage() {
+    const { bench, engine } = this.current;
+    const { rpm } = bench.state;
+    if (engine) saveFile(fileName(engine.summary.name, "html"), turningPage({ ...bench.figures, rpm }), "text/html");
+  }
+
+  async writeAddress() {
+    const fragment = await fragmentOf(this.slots.map(({ design }) => design), this.units);
+    if (fragment === location.hash) return;
+    this.address = fragment;
+    history.replaceState(null, "", fragment);
+  }
+
+  async copyLink() {
+    await this.writeAddress();
+    try {
+      await navigator.clipboard.writeText(location.href);
+      this.say(WORDS.linked);
+    } catch {
+      this.say(WORDS.linkByHand);
+    }
+  }
+
+  /** Follow another link to this page. */
+  async followAddress() {
+    if (location.hash === this.address) return;
+    try {
+      const given = await designsOf(location.hash);
+      if (!given) return;
+      const [first, second] = given.designs;
+      this.units = given.units;
+      this.choice.value = given.units;
+      while (this.slots.length > 1) this.remove();
+      this.slots[0].units = given.units;
+      this.slots[0].take(first);
+      if (second) this.add(second);
+      this.say("");
+    } catch (error) {
+      this.say(error.message);
+    }
+  }
+}
+
+/** A button with a name for people and a longer one for those who do not see the page. */
+function button(text, title, act) {
+  const element = html("button", { type: "button", title }, text);
+  element.addEventListener("click", act);
+  return element;
+}
+
+/** Arrow keys go from tab to tab. */
+function arrows(list, tabs) {
+  list.onkeydown = (event) => {
+    const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    const open = tabs.filter((tab) => !tab.hidden);
+    if (!step || !open.includes(event.target)) return;
+    event.preventDefault();
+    const next = open[(open.indexOf(event.target) + step + open.length) % open.length];
+    next.focus();
+    next.click();
+  };
+}
