@@ -103,7 +103,7 @@ fn what_turns_against_a_second_crank_is_removed_on_it() {
 #[test]
 fn every_finding_has_a_sentence() {
     let mut draw = draws(7);
-    let mut choose = |count: usize| ((draw() + 1.0) / 2.0 * count as f64) as usize % count;
+    let mut choose = |count: usize| (f64::midpoint(draw(), 1.0) * count as f64) as usize % count;
     for _ in 0..60 {
         let step = [90.0, 120.0, 60.0, 72.0, 37.3][choose(5)];
         let count = 1 + choose(6);
