@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crankpin_core::balance::{Request, TorquePart, Vector};
+use crankpin_core::balance::{Request, TorquePart};
 use crankpin_core::layout::Strokes;
 use crankpin_core::pressure::example::{Example, Kind};
 use crankpin_core::sweep::{Quantity, Statistic, Sweep, SweepAxes};
