@@ -126,13 +126,12 @@ impl Arguments {
 }
 
 fn angle(name: &str, value: &Value) -> Result<Angle> {
-    let angle = match value {
-        Value::String(text) => text.parse(),
-        _ => {
-            let hint = "give degrees, a number or a text such as \"360/7\"";
-            let number = value.as_f64().ok_or_else(|| Error::value(name, value, hint))?;
-            Angle::from_degrees(number)
-        }
+    let angle = if let Value::String(text) = value {
+        text.parse()
+    } else {
+        let hint = "give degrees, a number or a text such as \"360/7\"";
+        let number = value.as_f64().ok_or_else(|| Error::value(name, value, hint))?;
+        Angle::from_degrees(number)
     };
     angle.map_err(|error| error.named(name))
 }

@@ -73,7 +73,7 @@ pub extern "C" fn text_bytes() -> usize {
 /// Where the doubles of the answer are.
 #[unsafe(no_mangle)]
 pub extern "C" fn numbers() -> *const f64 {
-    NUMBERS.with_borrow(|numbers| numbers.as_ptr())
+    NUMBERS.with_borrow(Vec::as_ptr)
 }
 
 /// How many there are.
