@@ -139,9 +139,10 @@ def test_balances_are_the_librarys(ask: Ask, engines: Callable[[], list[cp.Engin
 
 def test_totals_and_chosen_orders_are_the_librarys(ask: Ask) -> None:
     listed = preset_engines()
-    calls: Calls = [("balance", {"engine": each.to_json(), "rpm": RPM}) for each in listed]
+    rpm = 600.0  # the largest presets turn slowly
+    calls: Calls = [("balance", {"engine": each.to_json(), "rpm": rpm}) for each in listed]
     for engine, found in zip(listed, results(ask, calls), strict=True):
-        balance = engine.balance(RPM)
+        balance = engine.balance(rpm)
         assert [entry["order"] for entry in found["orders"]] == list(balance.orders)
         assert found["omitted"] == list(balance.omitted)
         for name in ("force", "moment"):
@@ -269,10 +270,12 @@ def test_builders_are_the_librarys(ask: Ask) -> None:
 
 def test_figures_have_what_the_page_of_the_library_has(ask: Ask) -> None:
     listed = [*preset_engines(), *(fired_engine(seed) for seed in range(8))]
-    calls: Calls = [("figures", {"engine": each.to_json(), "rpm": RPM}) for each in listed]
+    rpm = 600.0
+    calls: Calls = [("figures", {"engine": each.to_json(), "rpm": rpm}) for each in listed]
     others = {"rod_ratio", "terms", "flywheel", "sentences", "loads", "name"}
     for engine, found in zip(listed, results(ask, calls), strict=True):
-        expected = json.loads(json.dumps(figures(engine, RPM, spectrum=None)))
+        expected = json.loads(json.dumps(figures(engine, rpm, spectrum=None)))
+        del expected["units"], expected["controls"]  # of the page, not of the engine
         assert found.keys() == expected.keys()
         for name in found.keys() - others:
             if name == "block":
