@@ -428,7 +428,6 @@ fn stages_balance_in_force_and_power_and_agree_with_their_receptance() {
                 add(mount.at(), forces[point * count + k], 1.0);
                 whole += Vector3::from(forces[point * count + k]);
             }
-            let difference = whole - sums[point].fixed_rows::<3>(0);
             // A force of a mount is the small difference of large ones where its ends move alike.
             let mut at_ends = 0.0;
             for (mount, along) in
@@ -444,7 +443,7 @@ fn stages_balance_in_force_and_power_and_agree_with_their_receptance() {
                 add(mount.at(), ground[point * below.mounts().len() + k], -1.0);
             }
             let size = size + at_ends;
-            assert!(difference.norm() <= 1e-12 * size, "{difference}");
+            assert!((whole - sums[point].fixed_rows::<3>(0)).norm() <= 1e-12 * size);
             assert!(sum.norm() <= 1e-11 * size, "{sum} {size}");
             let row = &power[point];
             let reactive = omega * load.norm() * response.motions()[point].norm();
