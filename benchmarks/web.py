@@ -2,8 +2,8 @@
 
     python benchmarks/web.py [--quick] [--out FOLDER]
 
-Calls as a page makes them: reading arguments and writing answers count. Least of several
-rounds in turns, in Chromium. Needs ``packaging/web``.
+Calls as a page makes them, with typed arrays: reading arguments and writing answers count. Least of
+several rounds in turns, in Chromium. Needs ``packaging/web``.
 """
 
 from __future__ import annotations
@@ -43,6 +43,9 @@ START = """async ([loader, module]) => {
     globalThis.core = await load(Uint8Array.from(atob(module), (letter) => letter.charCodeAt(0)));
 }"""
 RUN = """([name, given, seconds]) => {
+    for (const key in given) {
+        if (Array.isArray(given[key])) given[key] = Float64Array.from(given[key]);
+    }
     core.call(name, given);
     let best = Infinity;
     const end = performance.now() + 1e3 * seconds;

@@ -37,8 +37,9 @@ export class Core {
 
   /** Answer of a call; an InputError if it has none. */
   call(name, given = {}) {
-    const request = new TextEncoder().encode(JSON.stringify({ call: name, with: given }));
-    const { result, error } = this.#answer(request);
+    const numbers = [];
+    const text = JSON.stringify({ call: name, with: given }, (_, value) => pointed(value, numbers));
+    const { result, error } = this.#answer(new TextEncoder().encode(text), numbers);
     if (error) throw new InputError(error);
     return result;
   }
@@ -48,12 +49,15 @@ export class Core {
     return this.#instance ? this.#instance.memory.buffer.byteLength : 0;
   }
 
-  #answer(request) {
+  #answer(request, given) {
     this.#instance ??= new WebAssembly.Instance(this.#module).exports;
     const core = this.#instance;
     try {
       const to = core.request(request.length);
       new Uint8Array(core.memory.buffer, to, request.length).set(request);
+      const total = given.reduce((sum, each) => sum + each.length, 0);
+      const numbersTo = new Float64Array(core.memory.buffer, core.given(total), total);
+      given.reduce((start, each) => (numbersTo.set(each, start), start + each.length), 0);
       core.compute();
       const text = new Uint8Array(core.memory.buffer, core.text(), core.text_bytes());
       const numbers = new Float64Array(core.memory.buffer, core.numbers(), core.numbers_count()).slice();
@@ -66,6 +70,14 @@ export class Core {
       throw new InputError({ message: `the core stopped (${trapped.message}): ${hint}`, argument: null, value: null, hint });
     }
   }
+}
+
+/** A typed array goes beside the text, unchanged. */
+function pointed(value, numbers) {
+  if (!ArrayBuffer.isView(value)) return value;
+  const start = numbers.reduce((sum, each) => sum + each.length, 0);
+  numbers.push(value);
+  return { column: [start, value.length] };
 }
 
 function columned(value, numbers) {

@@ -299,5 +299,3 @@ def _speeds(engine: Engine) -> set[int]:
 def _core_at(engine: Engine, ratio: float | None) -> _core.Engine:
     """Return the engine without gas at a rod ratio, or at its own."""
     return engine_core(at_rod_ratio(engine, ratio)).without_cycles()
-
-

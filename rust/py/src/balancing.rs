@@ -57,7 +57,6 @@ pub fn roll_torque(
 /// all.
 #[guarded]
 #[pyfunction]
-#[expect(clippy::too_many_arguments, reason = "the wrapper in Python has defaults for them")]
 pub fn fit_weights(
     engine: &Bound<'_, Engine>,
     z: Vec<f64>,

@@ -58,7 +58,7 @@ type Kept = (Option<f64>, Option<f64>, Option<(f64, f64, f64)>, bool);
 /// Numbers of the cylinders on a crankpin, its direction in degrees, its place in m, index of its crank.
 type Pin = (Vec<usize>, f64, f64, usize);
 
-fn pin(pin: Crankpin) -> Pin {
+fn pin(pin: &Crankpin) -> Pin {
     (numbers(&pin.cylinders), pin.pin.degrees(), pin.z, pin.crank)
 }
 
@@ -425,13 +425,13 @@ impl Engine {
 
     /// Crankpins from front to flywheel, those of one throw a list.
     fn throws(&self) -> Vec<Vec<Pin>> {
-        let throw = |throw: Vec<Crankpin>| throw.into_iter().map(pin).collect();
+        let throw = |throw: Vec<Crankpin>| throw.iter().map(pin).collect();
         self.0.throws().into_iter().map(throw).collect()
     }
 
     /// The crankpins from front to flywheel.
     fn crankpins(&self) -> Vec<Pin> {
-        self.0.crankpins().into_iter().map(pin).collect()
+        self.0.crankpins().iter().map(pin).collect()
     }
 
     /// Numbers of the cylinders, places of the throws and of the bearings of each bay of the main crank.

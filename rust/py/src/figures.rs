@@ -1,7 +1,7 @@
 //! What a picture of a turning engine is made of.
 
+use crankpin_core::Complex64;
 use crankpin_core::figures::{self, GROUPS, Parts};
-use crankpin_core::{Complex64, Order};
 use crankpin_macros::guarded;
 use ndarray::Array3;
 use numpy::PyArray3;

@@ -51,7 +51,7 @@ mod _core {
         convert::{exact_angle, near_miss},
         design::Objectives,
         engine::Engine,
-        explain::{Explanation, across, dead_text, explain, gas_text, turns},
+        explain::{Explanation, dead_text, explain, gas_text},
         figures::{block, group_terms, orders_that_count, sizes},
         firing::{Firing, check_timing, inline_throws, vee_throws},
         flywheel::{CycleGrid, mean_inertias},

@@ -7,12 +7,16 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
 /// Those that are not read yet.
-pub struct Arguments(pub Map<String, Value>);
+pub struct Arguments {
+    pub by_name: Map<String, Value>,
+    /// Doubles, to which columns point.
+    pub numbers: Vec<f64>,
+}
 
 impl Arguments {
     /// An argument that may be left out, or null.
     pub fn optional<T: DeserializeOwned>(&mut self, name: &str) -> Result<Option<T>> {
-        let Some(value) = self.0.remove(name).filter(|value| !value.is_null()) else {
+        let Some(value) = self.by_name.remove(name).filter(|value| !value.is_null()) else {
             return Ok(None);
         };
         let read = T::deserialize(&value);
@@ -31,17 +35,38 @@ impl Arguments {
 
     /// Whether an argument is given.
     pub fn has(&self, name: &str) -> bool {
-        self.0.get(name).is_some_and(|value| !value.is_null())
+        self.by_name.get(name).is_some_and(|value| !value.is_null())
     }
 
     /// Arguments that are an object of their own.
-    pub fn nested(&mut self, name: &str) -> Result<Self> {
-        self.required(name).map(Self)
+    pub fn nested(mut self, name: &str) -> Result<Self> {
+        let by_name = self.required(name)?;
+        Ok(Self { by_name, numbers: self.numbers })
+    }
+
+    /// Numbers, one or a list, if they are given.
+    pub fn numbers(&mut self, name: &str) -> Result<Option<Vec<f64>>> {
+        let Some(value) = self.optional::<Value>(name)? else { return Ok(None) };
+        let numbers = match &value {
+            Value::Number(_) => value.as_f64().map(|number| vec![number]),
+            Value::Array(list) => list.iter().map(Value::as_f64).collect(),
+            Value::Object(column) => self.column(column),
+            _ => None,
+        };
+        let hint = "give numbers, or a Float64Array";
+        numbers.map(Some).ok_or_else(|| Error::value(name, value, hint))
+    }
+
+    /// Doubles beside the text.
+    fn column(&self, column: &Map<String, Value>) -> Option<Vec<f64>> {
+        let [start, count] = column.get("column")?.as_array()?.as_slice() else { return None };
+        let [start, count] = [start, count].map(|place| place.as_u64().unwrap_or(0) as usize);
+        Some(self.numbers.get(start..start.checked_add(count)?)?.to_vec())
     }
 
     /// Rejects what the call did not read.
     pub fn finished(self) -> Result<()> {
-        let Some(name) = self.0.keys().next() else { return Ok(()) };
+        let Some(name) = self.by_name.keys().next() else { return Ok(()) };
         Err(Error::value("argument", name, "is not one of this call"))
     }
 
@@ -77,7 +102,7 @@ impl Arguments {
 
     /// Orders, if they are given.
     pub fn orders(&mut self) -> Result<Option<Vec<Order>>> {
-        let numbers: Option<Vec<f64>> = self.optional("orders")?;
+        let numbers = self.numbers("orders")?;
         numbers.map(|list| list.into_iter().map(Order::from_number).collect()).transpose()
     }
 
@@ -101,13 +126,12 @@ impl Arguments {
 }
 
 fn angle(name: &str, value: &Value) -> Result<Angle> {
-    let angle = match value {
-        Value::String(text) => text.parse(),
-        _ => {
-            let hint = "give degrees, a number or a text such as \"360/7\"";
-            let number = value.as_f64().ok_or_else(|| Error::value(name, value, hint))?;
-            Angle::from_degrees(number)
-        }
+    let angle = if let Value::String(text) = value {
+        text.parse()
+    } else {
+        let hint = "give degrees, a number or a text such as \"360/7\"";
+        let number = value.as_f64().ok_or_else(|| Error::value(name, value, hint))?;
+        Angle::from_degrees(number)
     };
     angle.map_err(|error| error.named(name))
 }

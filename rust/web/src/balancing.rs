@@ -5,6 +5,7 @@ use crankpin_core::balancing::bob_weight::FirstOrder;
 use crankpin_core::balancing::card::{Correction, CorrectionRequest, corrections, pins};
 use crankpin_core::balancing::shafts::{Remove, ShaftRequest, fit};
 use crankpin_core::balancing::weights::{Fit, Minimise, Target, external};
+use crankpin_core::engine::crankpins::Bay;
 use crankpin_core::{Cancel, Result};
 use serde_json::{Map, Value, json};
 
@@ -17,7 +18,7 @@ pub fn counterweights(arguments: &mut Arguments, _: &mut Columns) -> Result<Valu
     let (engine, powertrain) = arguments.mounted()?;
     let words = [("squares", Minimise::Squares), ("largest", Minimise::Largest)];
     let minimise = arguments.word("minimise", &words)?;
-    let webs = || engine.bays().iter().flat_map(|bay| bay.webs()).collect();
+    let webs = || engine.bays().iter().flat_map(Bay::webs).collect();
     let planes: Vec<f64> = arguments.optional("planes")?.unwrap_or_else(webs);
     let fit = Fit {
         z: &planes,

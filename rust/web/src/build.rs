@@ -81,11 +81,7 @@ fn cylinder(arguments: &mut Arguments) -> Result<(Cylinder, Details)> {
 }
 
 fn masses(arguments: &mut Arguments) -> Result<Vec<f64>> {
-    Ok(match arguments.optional::<Value>("rotating_mass")? {
-        None => Vec::new(),
-        Some(Value::Array(list)) => list.iter().filter_map(Value::as_f64).collect(),
-        Some(value) => value.as_f64().into_iter().collect(),
-    })
+    Ok(arguments.numbers("rotating_mass")?.unwrap_or_default())
 }
 
 fn inline(arguments: &mut Arguments) -> Result<Inline> {

@@ -31,19 +31,19 @@ const CALLS: [(&str, Call); 17] = [
 ];
 
 /// Text and doubles of the answer of a call.
-pub fn answer(request: &[u8]) -> (String, Vec<f64>) {
+pub fn answer(request: &[u8], given: Vec<f64>) -> (String, Vec<f64>) {
     let mut columns = Columns::default();
-    let answer = match called(request, &mut columns) {
+    let answer = match called(request, given, &mut columns) {
         Ok(result) => json!({ "result": result }),
         Err(error) => json!({ "error": answer::error(&error) }),
     };
     (answer.to_string(), columns.0)
 }
 
-fn called(request: &[u8], columns: &mut Columns) -> Result<Value> {
+fn called(request: &[u8], given: Vec<f64>, columns: &mut Columns) -> Result<Value> {
     let request: Map<String, Value> = serde_json::from_slice(request)
         .map_err(|error| Error::value("request", "a text", error.to_string()))?;
-    let mut request = Arguments(request);
+    let mut request = Arguments { by_name: request, numbers: given };
     let name: String = request.required("call")?;
     let Some((_, call)) = CALLS.iter().find(|(known, _)| *known == name) else {
         let names: Vec<&str> = CALLS.iter().map(|(name, _)| *name).collect();

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use crankpin_core::balance::{Request, TorquePart, Vector};
+use crankpin_core::balance::{Request, TorquePart};
 use crankpin_core::layout::Strokes;
 use crankpin_core::pressure::example::{Example, Kind};
 use crankpin_core::sweep::{Quantity, Statistic, Sweep, SweepAxes};
-use crankpin_core::{Cancel, Firing, Result, harmonics, memory, waveform as waveforms};
+use crankpin_core::{Cancel, Error, Firing, Result, harmonics, memory, waveform as waveforms};
 use serde_json::{Map, Value, json};
 
 use crate::answer::{Columns, degrees, orders as numbers};
@@ -16,7 +16,8 @@ use crate::engine::{firing_of, written};
 
 /// Force, moment and torques over crank angle, from exact kinematics or, of orders that are given, as their sum.
 pub fn waveform(arguments: &mut Arguments, columns: &mut Columns) -> Result<Value> {
-    let theta: Vec<f64> = arguments.required("theta_deg")?;
+    let none = || Error::value("theta_deg", "none", "is required");
+    let theta = arguments.numbers("theta_deg")?.ok_or_else(none)?;
     let summed = arguments.has("orders") || arguments.has("rtol");
     let engine = arguments.engine()?;
     let request = Request {
@@ -83,17 +84,13 @@ const FIGURES: [(&str, Statistic); 6] = [
 
 fn swept(arguments: &mut Arguments, cancel: &Cancel) -> Result<Sweep> {
     let engine = Arc::new(arguments.engine()?);
-    let angles: Option<Vec<f64>> = arguments.optional("bank_angle_deg")?;
-    let hold = arguments.hold()?;
-    let rpm = match arguments.required::<Value>("rpm")? {
-        Value::Array(list) => list.iter().filter_map(Value::as_f64).collect(),
-        value => value.as_f64().into_iter().collect(),
-    };
+    let (angles, hold) = (arguments.numbers("bank_angle_deg")?, arguments.hold()?);
+    let none = || Error::value("rpm", "none", "is required");
     let axes = SweepAxes {
         bank_angle: angles.map(|angles| (angles, hold)),
-        rod_ratio: arguments.optional("rod_ratio")?,
-        pin_offset: arguments.optional("pin_offset")?,
-        rpm,
+        rod_ratio: arguments.numbers("rod_ratio")?,
+        pin_offset: arguments.numbers("pin_offset")?,
+        rpm: arguments.numbers("rpm")?.ok_or_else(none)?,
         map: None,
     };
     let reference = arguments.optional("reference_z")?;

@@ -107,7 +107,9 @@ pub fn corrections(
 fn as_it_is(engine: &Engine, request: &CorrectionRequest) -> Result<Engine> {
     let pins = engine.crankpins();
     let mut masses: Vec<f64> = engine.stations().iter().map(|place| place.rotating_mass).collect();
-    pins.iter().for_each(|pin| masses[pin.cylinders[0]] += request.oil);
+    for pin in &pins {
+        masses[pin.cylinders[0]] += request.oil;
+    }
     let engine = engine.with_rotating_masses(&masses)?;
     let Some(bobs) = request.balanced_to else { return Ok(engine) };
     limits::same_length("balanced_to", bobs.len(), "the engine", pins.len(), "crankpin")?;

@@ -48,7 +48,7 @@ impl Bay {
         let [front, rear] = self.bearings;
         let places: Vec<f64> =
             [front].into_iter().chain(self.throws.iter().copied()).chain([rear]).collect();
-        places.windows(2).map(|pair| (pair[0] + pair[1]) / 2.0).collect()
+        places.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])).collect()
     }
 
     /// Place midway between the first throw and the last, m.

@@ -55,7 +55,8 @@ pub const fn is_worth_parallel(numbers: usize) -> bool {
 ///
 /// Every use of rayon goes through here.
 pub fn run<T: Send>(cancel: &Cancel, work: impl FnOnce() -> T + Send) -> T {
-    if rayon::current_thread_index().is_some() && !ALONE.get() {
+    // WebAssembly has neither threads nor processes.
+    if cfg!(target_family = "wasm") || (rayon::current_thread_index().is_some() && !ALONE.get()) {
         return work();
     }
     let Some(lease) = Lease::take() else {
@@ -100,7 +101,7 @@ pub fn map_if<I: Send, T: Send>(
     items: Vec<I>,
     function: impl Fn(I) -> Result<T> + Send + Sync,
 ) -> Result<Vec<T>> {
-    if is_worth && items.len() > 1 {
+    if is_worth && items.len() > 1 && cfg!(not(target_family = "wasm")) {
         return run(cancel, || items.into_par_iter().map(function).collect());
     }
     items.into_iter().map(function).collect()
@@ -136,10 +137,6 @@ impl Lease {
     /// An idle pool of this process, or a new one: the n-th has 1/n of the threads of the first, for
     /// the others are busy. None if no thread can be started.
     fn take() -> Option<Self> {
-        // WebAssembly has neither threads nor processes.
-        if cfg!(target_family = "wasm") {
-            return None;
-        }
         let process = process::id();
         let threads = {
             let mut pools = lock()?;

@@ -6,6 +6,10 @@ use pulp::Simd;
 /// the loop calls must be inlined into it, or they are compiled for the baseline only.
 #[inline]
 pub(crate) fn vectorised<R>(work: impl FnOnce() -> R) -> R {
+    // WebAssembly has one set, chosen where it is compiled.
+    if cfg!(target_family = "wasm") {
+        return work();
+    }
     pulp::Arch::new().dispatch(work)
 }
 

@@ -245,8 +245,8 @@ impl<'a> Sums<'a> {
     pub fn cancelling(&self, made: &[bool], banks: &[Vec<usize>]) -> Vec<Finding> {
         let mut found: Vec<Finding> = Vec::new();
         let all: Vec<usize> = (0..self.cylinders.len()).collect();
-        for k in 0..self.orders.len() {
-            if !made[k] || self.peaks[k] != 0.0 || !self.cancel(k, &all) {
+        for (k, &is_made) in made.iter().enumerate() {
+            if !is_made || self.peaks[k] != 0.0 || !self.cancel(k, &all) {
                 continue;
             }
             let (why, groups) = self.reason(k, banks);
@@ -318,7 +318,9 @@ impl<'a> Sums<'a> {
             [turned.re.round_ties_even() as i64, turned.im.round_ties_even() as i64]
         };
         let mut counts = std::collections::BTreeMap::new();
-        pulls.iter().for_each(|&pull| *counts.entry(key(pull)).or_insert(0) += 1);
+        for &pull in &pulls {
+            *counts.entry(key(pull)).or_insert(0) += 1;
+        }
         let power = |pull: Complex64| pull.powu(counts.len() as u32);
         let same = |&pull: &Complex64| (power(pull / largest) - power(first)).norm() <= SAME_PULLS;
         let times = counts.values().next();
