@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import crankpin as cp
 import numpy as np
 import pytest
-from crankpin import __main__ as program
+from crankpin.cli import main
 from crankpin.view.figures import places
 
 if TYPE_CHECKING:
@@ -123,15 +123,12 @@ def test_dummies_in_a_shell(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
     file = tmp_path / "supermono.toml"
     typed = "new v-twin --bank-angle 90 --bore 100mm --stroke 70mm --rod-length 124mm"
     typed += f" --reciprocating-mass 500g --dummy 2 -o {file}"
-    assert program.main(typed.split()) == 0
+    assert main(typed.split()) == 0
     engine = cp.Engine.load(file)
     assert [one.dummy for one in engine.cylinders] == [False, True]
     assert engine.firing_order == "1"
     assert (
-        program.main(
-            ["new", "inline", "--throws", "0,180,0", "--dummy", "2", "--firing-order", "1-3"]
-        )
-        == 0
+        main(["new", "inline", "--throws", "0,180,0", "--dummy", "2", "--firing-order", "1-3"]) == 0
     )
     assert 'firing_order = "1-3"' in capsys.readouterr().out
     for wrong, said in {
@@ -139,5 +136,5 @@ def test_dummies_in_a_shell(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
         "new v-twin --dummy x": "--dummy = x: give numbers of cylinders",
         "new firing-order --firing-order 1-2 --dummy 2": "--dummy = 2: crankpins follow",
     }.items():
-        assert program.main(wrong.split()) == 2
+        assert main(wrong.split()) == 2
         assert said in capsys.readouterr().err

@@ -91,7 +91,9 @@ def test_a_waterfall_has_a_spectrum_of_each_speed_above_the_one_before() -> None
     expected = {
         (order * rpm / 60.0, rpm): peak
         for order in (0.5, 2)
-        for rpm, peak in zip(RUN_UP.rpm, force[order].peak, strict=True)
+        for rpm, peak in zip(
+            np.atleast_1d(RUN_UP.rpm), np.atleast_1d(force[order].peak), strict=True
+        )
     }
     largest = max(expected.values())
     drawn: Any = stems.get_array()
@@ -103,7 +105,7 @@ def test_a_waterfall_has_a_spectrum_of_each_speed_above_the_one_before() -> None
         height = 400.0 * max(0.0, 1.0 + np.log10(peak / largest) / 3.0)
         np.testing.assert_allclose(tip[1] - foot[1], height, rtol=1e-9, atol=1e-9)
     assert not expected
-    modes = [line.get_xdata()[0] for line in ax.lines]
+    modes = [np.asarray(line.get_xdata())[0] for line in ax.lines]
     np.testing.assert_array_equal(modes, RUN_UP.powertrain.modes().frequency)
     assert [text.get_text() for text in ax.texts] in (["0.5", "2"], ["2", "0.5"])
 

@@ -52,6 +52,8 @@ def test_code_runs(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.chdir(tmp_path)
     names: dict[str, Any] = {}
     for line, language, code in blocks((ROOT / name).read_text(encoding="utf-8")):
+        if language.startswith("{workbench}"):  # a link with an engine in it
+            continue
         if language == "sh":
             run_commands(code)
         elif ">>>" in code:

@@ -142,8 +142,9 @@ def _prepared(
 
 def _swept(cylinder: Cylinder, theta_deg: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the volume between the piston and its highest point, cm³."""
+    bore_area = area(cylinder)
     highest, _ = cylinder._ends
-    return np.asarray(1e6 * area(cylinder) * (highest - cylinder.position(theta_deg)))
+    return np.asarray(1e6 * bore_area * (highest - cylinder.position(theta_deg)))
 
 
 @picture.register(Flywheel)

@@ -266,7 +266,7 @@ def _waterfall(
     along = np.argsort(peaks, axis=None, kind="stable")
     options: dict[str, Any] = {"cmap": colour_map(ax), "norm": norm}
     options |= {"linewidth": 1.6, "zorder": 2.0} | style
-    stems = LineCollection(ends.reshape(-1, 2, 2)[along], **options)
+    stems = LineCollection(list(ends.reshape(-1, 2, 2)[along]), **options)
     stems.set_array(peaks.ravel()[along])
     ax.add_collection(stems)
     bar = ax.get_figure(root=False).colorbar(stems, ax=ax, aspect=25, pad=0.02)  # type: ignore[union-attr]

@@ -301,7 +301,8 @@ fn an_infinite_rod_is_the_limit_of_long_ones() {
         }
     }
     // Only order 1 of the force and order 2 of the torque are there, exactly, and in tables alike.
-    let [first, second] = [1, 2].map(|n| orders.iter().map(|&k| if k == n { 1.0 } else { 0.0 }));
+    let [first, second] =
+        [1, 2].map(|n| orders.iter().map(move |&k| if k == n { 1.0 } else { 0.0 }));
     let force: Vec<f64> = first.collect();
     let roll: Vec<f64> = second.map(|one: f64| -0.5 * one).collect();
     let known = of(0.0);

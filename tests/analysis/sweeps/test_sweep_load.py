@@ -131,7 +131,7 @@ def test_maps_that_agree_at_one_point_differ_at_others(options: dict[str, Any]) 
     )  # fmt: skip
     for k, j in np.ndindex(2, 2):
         fired = s.engine_at(rpm=s.coords["rpm"][k], load=s.coords["load"][j])
-        alone = fired.balance(s.coords["rpm"][k], orders=s.orders)
+        alone = fired.balance(float(s.coords["rpm"][k]), orders=s.orders)
         scale = alone.read("crank_torque.gas", "peak").max() + abs(alone.crank_torque.mean)
         for what in ("phasors", "mean"):
             found, expected = s.read("crank_torque", what)[k, j], alone.read("crank_torque", what)

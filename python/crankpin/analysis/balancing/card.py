@@ -245,7 +245,8 @@ class Card(Tabled):
             for plane, amount, adding, drilling, mass, slug in _core.corrections(
                 core, factor, places, radii, self.bob.oil, self.balanced_to
             ):
-                row = (share, names[plane], places[plane], G_MM * amount, adding, drilling)
+                angles = (adding, drilling)
+                row: tuple[Any, ...] = (share, names[plane], places[plane], G_MM * amount, *angles)
                 if radii is not None and mass is not None and slug is not None:
                     row += (1e3 * radii[plane], 1e3 * mass, 1e3 * slug)
                 rows.append(row)

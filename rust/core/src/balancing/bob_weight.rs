@@ -112,7 +112,10 @@ impl Part {
 
     /// Factor at which the part is smallest.
     fn nearest(&self) -> f64 {
-        -(self.start / self.change).re // no square, which would underflow
+        // Squares of what is small would underflow.
+        let unit = self.change.norm();
+        let (start, change) = (self.start / unit, self.change / unit);
+        -(start * change.conj()).re / change.norm_sqr()
     }
 
     /// Change of its size per unit of factor.

@@ -3,7 +3,7 @@
 /// `a · b + c` rounded once, or as near as without a machine that rounds so: exact where the sum of the
 /// rounded product and `c` is, but for underflow.
 ///
-/// WebAssembly has no such machine, and what stands in for it takes as long as dozens of operations.
+/// WebAssembly has no such machine, and what replaces it takes as long as dozens of operations.
 #[must_use]
 #[inline(always)]
 pub fn fused(a: f64, b: f64, c: f64) -> f64 {

@@ -103,6 +103,85 @@ fn random_engine(number: &mut impl FnMut() -> f64) -> Engine {
 }
 
 #[test]
+fn loads_are_those_about_the_centre_of_gravity() {
+    let (mut number, cancel) = (draws(25), Cancel::new());
+    for k in 0..20 {
+        let engine = match k % 2 {
+            0 => random_engine(&mut number),
+            _ => crate::load::tests::fired([Some(0), None, Some(0)]).0,
+        };
+        let on_mounts = Arc::new(random(&mut number, true));
+        let [x, y, z] = on_mounts.body().cg().into();
+        let (rpm, orders) = (2000.0 * (1.1 + number()), whole(&[1, 2, 4]));
+        let response = Response::new(&engine, on_mounts, &[rpm], &orders, &cancel).unwrap();
+        // About the crank's axis at z = 0, less r × F of the centre of gravity.
+        let request = Request { rpm, reference_z: Some(0.0), torque: true };
+        let about_crank = balance(&engine, &request, &orders, &cancel).unwrap();
+        for (wrench, load) in about_crank.wrenches.iter().zip(response.loads()) {
+            let ([force_x, force_y], [pitch, yaw]) = (wrench.force.xy(0.0), wrench.moment.xy(0.0));
+            let expected = ComplexVector6::new(
+                force_x,
+                force_y,
+                Complex64::ZERO,
+                pitch + force_y * z,
+                yaw - force_x * z,
+                wrench.torque().roll - (force_y * x - force_x * y),
+            );
+            // Some ten roundings of what is added up.
+            let size = load.norm() * (1.0 + x.abs() + y.abs() + z.abs());
+            assert!((load - expected).norm() <= 1e-12 * size, "{load} {expected}");
+        }
+    }
+}
+
+#[test]
+fn what_orders_left_out_add_at_any_speed_is_bounded() {
+    let (mut number, cancel) = (draws(26), Cancel::new());
+    for _ in 0..20 {
+        let (engine, on_mounts) = (random_engine(&mut number), Arc::new(random(&mut number, true)));
+        let fastest = 3000.0 * (1.2 + number());
+        let rpm = [0.2 * fastest, fastest, 0.7 * fastest];
+        let loads = |rpm: &[f64], orders| {
+            Response::new(&engine, Arc::clone(&on_mounts), rpm, &orders, &cancel).unwrap()
+        };
+        let found = loads(&rpm, Orders::Auto { rtol: 0.1 });
+        let (bound, omitted) = (found.error_bound(), found.omitted().to_vec());
+        if omitted.is_empty() {
+            continue;
+        }
+        let rest = loads(&[fastest], Orders::Given(omitted));
+        let sum = |axis: usize| rest.loads().iter().map(|load| load[axis].norm()).sum::<f64>();
+        assert!(sum(0).max(sum(1)) <= bound.force * (1.0 + 1e-12), "{} {bound:?}", sum(1));
+        assert!(sum(3).max(sum(4)) <= bound.moment * (1.0 + 1e-12), "{} {bound:?}", sum(3));
+        assert!(sum(5) <= bound.torque * (1.0 + 1e-12), "{} {bound:?}", sum(5));
+    }
+}
+
+#[test]
+fn points_move_as_their_derivatives_and_grades_are_those_of_each_speed() {
+    let (mut number, cancel) = (draws(27), Cancel::new());
+    for _ in 0..10 {
+        let (engine, on_mounts) = (random_engine(&mut number), Arc::new(random(&mut number, true)));
+        let rpm = [0.0; 3].map(|_| 3000.0 * (1.2 + number()));
+        let response = |rpm: &[f64]| {
+            Response::new(&engine, Arc::clone(&on_mounts), rpm, &whole(&[1, 2, 4]), &cancel)
+                .unwrap()
+        };
+        let (found, point) = (response(&rpm), [0; 3].map(|_| number()));
+        let at = |derivative| found.at(point, derivative, false, &cancel).unwrap();
+        let [velocity, acceleration] = [Derivative::Velocity, Derivative::Acceleration].map(at);
+        for (k, (slower, faster)) in velocity.iter().zip(&acceleration).enumerate() {
+            for (slower, faster) in slower.iter().zip(faster) {
+                let expected = slower * Complex64::new(0.0, found.omega_of(k));
+                assert!((faster - expected).norm() <= 1e-14 * expected.norm());
+            }
+        }
+        let alone = rpm.map(|rpm| response(&[rpm]).grades(point, false, &cancel).unwrap()[0]);
+        assert_eq!(found.grades(point, false, &cancel).unwrap(), alone);
+    }
+}
+
+#[test]
 fn forces_moments_and_power_balance() {
     let (mut number, cancel) = (draws(21), Cancel::new());
     for _ in 0..30 {
@@ -262,6 +341,7 @@ fn pushed(powertrain: &Powertrain, omega: f64) -> (State, [Complex64; 3]) {
 
 #[test]
 fn a_mass_on_a_mass_passes_more_than_on_a_fixed_floor() {
+    let cancel = Cancel::new();
     let omega = TAU * 25.0;
     let (state, force) = pushed(&two_stages(300.0), omega);
     assert_near(force[1].norm(), 0.642_787_54);
@@ -290,6 +370,13 @@ fn a_mass_on_a_mass_passes_more_than_on_a_fixed_floor() {
     let (_, on_floor) =
         pushed(&two_stages(300.0).on(receptance(Complex64::ZERO, 0.0).unwrap()).unwrap(), omega);
     assert_near(on_floor[1].norm(), 0.481_627_52);
+    // The receiver moves twice as far as what carries the mount.
+    let response =
+        Response::new(&inline_four(), Arc::new(measured.clone()), &[750.0], &whole(&[2]), &cancel);
+    let response = response.unwrap();
+    let moved = response.at_receiver("seat rail", Derivative::Displacement, &cancel).unwrap();
+    let expected = response.carriers[0].y * 2.0;
+    assert!((moved[0][1] - expected).norm() <= 1e-13 * expected.norm(), "{moved:?} {expected}");
     let error = receptance(stiffness.inv(), 1e-7).unwrap_err().to_string();
     assert!(error.contains("conjugate them"), "{error}");
     let outside =
@@ -315,6 +402,7 @@ fn stages_balance_in_force_and_power_and_agree_with_their_receptance() {
             Response::new(&engine, Arc::clone(&carried), &rpm, &orders, &cancel).unwrap();
         let forces = response.mount_forces(&cancel).unwrap();
         let ground = response.ground_forces(&cancel).unwrap();
+        let sums = response.support_loads(&cancel).unwrap();
         let power = response.power(&cancel).unwrap();
         let count = above.mounts().len();
         for point in 0..6 {
@@ -335,8 +423,10 @@ fn stages_balance_in_force_and_power_and_agree_with_their_receptance() {
                 sum += whole;
                 size += whole.norm();
             };
+            let mut whole = Vector3::zeros();
             for (k, mount) in above.mounts().iter().enumerate() {
                 add(mount.at(), forces[point * count + k], 1.0);
+                whole += Vector3::from(forces[point * count + k]);
             }
             // A force of a mount is the small difference of large ones where its ends move alike.
             let mut at_ends = 0.0;
@@ -353,6 +443,7 @@ fn stages_balance_in_force_and_power_and_agree_with_their_receptance() {
                 add(mount.at(), ground[point * below.mounts().len() + k], -1.0);
             }
             let size = size + at_ends;
+            assert!((whole - sums[point].fixed_rows::<3>(0)).norm() <= 1e-12 * size);
             assert!(sum.norm() <= 1e-11 * size, "{sum} {size}");
             let row = &power[point];
             let reactive = omega * load.norm() * response.motions()[point].norm();
