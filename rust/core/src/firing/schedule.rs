@@ -258,10 +258,14 @@ mod tests {
                 let known = Firing::all(&firing, strokes, &Cancel::new()).unwrap();
                 let found = Firing::all(&all, strokes, &Cancel::new()).unwrap();
                 assert_eq!(found.len(), known.len());
-                // Beginnings of cycles may differ by a turn.
+                // Beginnings of cycles may differ by a turn: of rotations of a list, the first by name.
+                let rotated = |firing: &Firing| {
+                    let gaps = intervals(firing);
+                    let from = |k: usize| format!("{:?}", [&gaps[k..], &gaps[..k]].concat());
+                    (0..gaps.len()).map(from).min().unwrap()
+                };
                 let sorted = |firings: &[Firing]| {
-                    let mut each: Vec<String> =
-                        firings.iter().map(|firing| format!("{:?}", intervals(firing))).collect();
+                    let mut each: Vec<String> = firings.iter().map(rotated).collect();
                     each.sort();
                     each
                 };
