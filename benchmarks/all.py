@@ -23,6 +23,7 @@ COMMANDS = {
     "bearings": ["--quick"],
     "gas_orders": ["--quick"],
     "mounts": ["--quick"],
+    "web": ["--quick"],
     "stability": [],
 }
 """Each a file beside this one that takes ``--out``, with what makes it quick."""

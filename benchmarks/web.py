@@ -147,6 +147,9 @@ def main() -> None:
     parser.add_argument("--quick", action="store_true", help="few numbers, some seconds")
     given = parser.parse_args()
     given.out.mkdir(parents=True, exist_ok=True)
+    if not MODULE.exists():
+        print("Left out: the core for browsers is not built (packaging/web).")
+        return
     rows = measured(given.quick)
     print(machine())
     table = [
