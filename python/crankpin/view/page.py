@@ -24,10 +24,12 @@ if TYPE_CHECKING:
 WEB = Path(__file__).parent / "web"
 IMPORT = re.compile(r'^import \{[^}]*\} from "\./(\w+\.mjs)";\n', re.MULTILINE)
 COMMENT = re.compile(
-    r"^\s*(?://[^\n]*|/\*\*.*?\*/)\n|(?<=[;,]) //[^\n\"]*$", re.MULTILINE | re.DOTALL
+    r"^\s*(?://[^\n]*|/\*.*?\*/)\n|(?<=[;,]) //[^\n\"]*$", re.MULTILINE | re.DOTALL
 )
 EXPORT = re.compile(r"^export (?=(?:async )?(?:const|class|function))", re.MULTILINE)
 INDENT = re.compile(r"^\s+", re.MULTILINE)
+SPACE = re.compile(r"(?<=:) | (?=\{)")
+"""Spaces that a style sheet does without."""
 
 
 def save_html(
@@ -89,12 +91,13 @@ def template() -> str:
 
 def style(*names: str) -> str:
     """Return the style sheet, with these besides; elements within class ``crankpin`` alone."""
-    return "".join(INDENT.sub("", _read(f"{name}.css")) for name in ("view", *names))
+    texts = [_read(f"{name}.css") for name in ("view", *names)]
+    return "".join(SPACE.sub("", INDENT.sub("", COMMENT.sub("", text))) for text in texts)
 
 
 def module(*entries: str) -> str:
     """Return modules with all that they import, as one module."""
-    return "\n".join(modules(*entries).values())
+    return "".join(modules(*entries).values())
 
 
 def modules(*entries: str, folder: Path = WEB) -> dict[str, str]:
