@@ -535,7 +535,7 @@ class Builders(EngineData):
         layout = _along_crank(
             one, (), 0.0 if spacing is None else spacing, rotating_mass, first_tdc_deg
         )
-        layout |= {"cylinders": max(count, 0), "rows": max(banks, 0)}
+        layout |= {"cylinders": count, "rows": banks}
         layout["spacing"] = None if spacing is None else layout["spacing"]
         core = _kept(_core.Engine.radial(parts(one), layout), one)
         checks.angles(first_tdc_deg=first_tdc_deg)

@@ -188,9 +188,14 @@ impl<'py> FromPyObject<'_, 'py> for RadialLayout {
     type Error = PyErr;
 
     fn extract(layout: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let count = |name: &str| -> PyResult<usize> {
+            let value = layout.get_item(name)?;
+            let hint = "give a whole number from 1 on, of few digits";
+            value.extract().or_else(|_: PyErr| Err(Error::value(name, &value, hint)).or_raise())
+        };
         Ok(Self(Radial {
-            cylinders: entry(&layout, "cylinders")?,
-            rows: entry(&layout, "rows")?,
+            cylinders: count("cylinders")?,
+            rows: count("rows")?,
             spacing: entry(&layout, "spacing")?,
             rotating_mass: entry(&layout, "rotating_mass")?,
             first_tdc: entry::<Angle>(&layout, "first_tdc")?.0,
