@@ -36,8 +36,7 @@ export const bobPane = {
     const named = { units, name: engine.summary.name };
     const left = found.map(({ json }, k) => {
       const [{ force, moment }] = core.call("balance", { engine: json, rpm, orders: [1], torque: false }).orders;
-      const peak = ({ peak: value, zero_bound: bound }) => (value <= bound ? 0 : value);
-      return [percent(factors[k]), peak(force), ...force.peak_xy, peak(moment), ...moment.peak_xy];
+      return [percent(factors[k]), force.peak, ...force.peak_xy, moment.peak, ...moment.peak_xy];
     });
     const [{ pins, order_1: first }] = found;
     return [

@@ -13,14 +13,12 @@ const RESIDUAL_COLUMNS = [
   { label: "moment before", unit: "N·m" }, { label: "moment after", unit: "N·m", key: "moment-after" },
 ];
 
-const peakOf = ({ peak: value, zero_bound: bound }) => (value <= bound ? 0 : value);
-
 /** What an engine fitted with something leaves, beside what it was. */
 export function residual({ core, units }, { engine, design }, fitted) {
   const [before, after] = [engine.json, fitted.json].map((each) =>
     core.call("balance", { engine: each, rpm: design.rpm, orders: RESIDUAL_ORDERS, torque: false }).orders);
   const rows = before.map(({ order, force, moment }, k) =>
-    [order, peakOf(force), peakOf(after[k].force), peakOf(moment), peakOf(after[k].moment)]);
+    [order, force.peak, after[k].force.peak, moment.peak, after[k].moment.peak]);
   return tableOf({ title: WORDS.residual, columns: RESIDUAL_COLUMNS, rows, units, name: engine.summary.name });
 }
 

@@ -23,17 +23,8 @@ const COLUMNS = [
   { label: "roll torque", unit: "N·m", key: "roll" },
 ];
 
-/** A peak, zero where it is proved or within rounding. */
-const peaksOf = ({ peak, peak_xy: [x, y], zero_bound: bound }) =>
-  [x, y, peak].map((value) => (value <= bound ? 0 : value));
-
-const row = ({ order, force, moment, torque }) => [order, ...peaksOf(force), ...peaksOf(moment),
-  torque ? rollOf(torque) : null];
-
-const rollOf = ({ roll: [re, im], zero_bound: bound }) => {
-  const size = Math.hypot(re, im);
-  return size <= bound ? 0 : size;
-};
+const row = ({ order, force, moment, torque }) => [order, ...force.peak_xy, force.peak,
+  ...moment.peak_xy, moment.peak, torque ? Math.hypot(...torque.roll) : null];
 
 /** Rows of the orders that matter, the largest of each quantity in mind. */
 function mattering(rows) {

@@ -34,6 +34,7 @@ __all__ = [
     "arrangement",
     "balance",
     "block",
+    "bounds_about",
     "centred_table",
     "check_cylinder",
     "check_mount",
@@ -45,6 +46,7 @@ __all__ = [
     "cylinder_harmonics",
     "cylinder_torque_harmonics",
     "dead_text",
+    "drawn_rod",
     "estimated_rod_inertia",
     "exact_angle",
     "explain",
@@ -74,6 +76,7 @@ __all__ = [
     "shared",
     "sizes",
     "star",
+    "swept",
     "terms",
     "turning",
     "turning_points",
@@ -578,11 +581,16 @@ def balance(
     torque: bool,
 ) -> Balance: ...
 def block(engine: Engine) -> tuple[float, float] | None: ...
+def bounds_about(
+    of: Sequence[float], arm: tuple[float, float, float]
+) -> tuple[float, float, float]: ...
+def drawn_rod(parts: _Parts) -> float: ...
 def group_terms(
     engine: Engine, cylinders: bool, numbers: Sequence[float], spectrum: _Pairs | None
 ) -> tuple[_Complex, _Complex]: ...
 def orders_that_count(engine: Engine) -> list[int]: ...
 def sizes(engine: Engine) -> list[float]: ...
+def swept(engine: Engine, cylinder: int, orders: Sequence[int]) -> list[complex]: ...
 def terms(
     engine: Engine,
     rpm: float,

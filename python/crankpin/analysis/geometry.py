@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._support import inputs
 
 if TYPE_CHECKING:
@@ -21,9 +21,6 @@ WIDEST_BORE = 0.9
 """Assumed bore over the distance to the next cylinder of the bank, at most: walls need the rest."""
 NARROWEST_BORE = 0.6
 """Assumed bore over stroke, at least: engines whose spacing is not to scale stay readable."""
-
-YOKE = 4.0
-"""Length of the bar by which an infinite rod is drawn, crank radii."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -56,8 +53,7 @@ class Geometry:
 
 def drawn_rod(cylinder: Cylinder) -> float:
     """Return the length of a rod in pictures, m: an infinite one is the bar of a Scotch yoke."""
-    length = cylinder.rod_length
-    return length if length < math.inf else YOKE * cylinder.crank_radius
+    return _core.drawn_rod(cylinder._parts)
 
 
 def geometry(engine: Engine, theta_deg: float = 0.0) -> Geometry:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
@@ -97,7 +96,7 @@ class Request(NamedTuple):
     def bounds(self, of_vectors_and_torque: Iterable[float]) -> Mapping[str, float]:
         """Return quantity → bound, of bounds on force, moment and torque about the crank's axis."""
         force, moment, torque = of_vectors_and_torque
-        roll = torque + math.hypot(*self.aside) * force  # as force times distance, at most
+        *_, roll = _core.bounds_about((force, moment, torque), (*self.aside, 0.0))
         bounds = dict(zip(QUANTITIES, (force, moment, roll, torque), strict=True))
         return MappingProxyType({name: bounds[name] for name in self.quantities})
 

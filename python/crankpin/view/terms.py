@@ -12,7 +12,6 @@ from numpy.polynomial import chebyshev
 from crankpin import _core
 from crankpin._support import inputs
 from crankpin.analysis.request import engine_core
-from crankpin.model.computed_cycles import area
 from crankpin.model.cylinder import rod_length
 
 if TYPE_CHECKING:
@@ -200,9 +199,7 @@ class _Sampler:
         powers = [min(n, HIGHEST_ORDER) - 1 for n in orders]
         for cylinder in kinds(self.engine):
             place = self.engine.cylinders.index(cylinder)
-            amplitudes = _core.cylinder_harmonics(core.cylinders[place], orders)
-            # The volume added per radian is the integral of the piston's acceleration.
-            swept = area(cylinder) * cylinder.crank_radius * 1j * amplitudes / np.array(orders)
+            swept = np.array(_core.swept(core, place, orders))
             tables[f"swept {place}"] = _Table(orders, powers, swept[:, None, None].view(float))
         torque, mean = tables["torque"], np.zeros((1, 3, 4))
         mean[0, 0, 2] = _core.mean_inertias(core).sum()

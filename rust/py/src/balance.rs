@@ -2,7 +2,7 @@
 
 use crate::array::frozen;
 use crankpin_core as core;
-use crankpin_core::balance::{Orders, Request, TorquePart, Vector};
+use crankpin_core::balance::{ErrorBounds, Orders, Request, TorquePart, Vector};
 use crankpin_core::engine::Origin;
 use crankpin_core::{Complex64, Error};
 use crankpin_macros::guarded;
@@ -22,6 +22,14 @@ pub fn orders(orders: Option<Vec<OrderNumber>>, rtol: f64) -> PyResult<Orders> {
 /// How an engine shakes at one speed.
 #[pyclass(frozen, module = "crankpin._core")]
 pub struct Balance(pub core::Balance);
+
+/// Bounds on force, moment and torque about a point this far away along x, y and z, m.
+#[guarded]
+#[pyfunction]
+pub fn bounds_about(of: [f64; 3], arm: [f64; 3]) -> [f64; 3] {
+    let [force, moment, torque] = of;
+    ErrorBounds { force, moment, torque }.moved(arm).values()
+}
 
 /// The balance of an engine.
 #[guarded]

@@ -1,14 +1,14 @@
 //! What a picture of a turning engine is made of.
 
 use crankpin_core::Complex64;
-use crankpin_core::figures::{self, GROUPS, Parts};
+use crankpin_core::figures::{self, GROUPS};
 use crankpin_macros::guarded;
 use ndarray::Array3;
 use numpy::PyArray3;
 use pyo3::prelude::*;
 
 use crate::array::writeable;
-use crate::convert::{OrderNumber, numbers, orders};
+use crate::convert::{OrderNumber, Parts, cylinder, numbers, orders};
 use crate::engine::Engine;
 use crate::interrupt;
 
@@ -28,7 +28,7 @@ pub fn group_terms<'py>(
     let orders = orders(&numbers)?;
     let torque = spectrum.is_none();
     let engine = engine.get().with_spectrum(spectrum)?;
-    let parts = if cylinders { Parts::Moving } else { Parts::Standing };
+    let parts = if cylinders { figures::Parts::Moving } else { figures::Parts::Standing };
     let found =
         interrupt::run(py, |cancel| figures::group_terms(&engine, parts, &orders, torque, cancel))?;
     let planar =
@@ -47,6 +47,25 @@ pub fn orders_that_count(engine: &Bound<'_, Engine>) -> PyResult<Vec<OrderNumber
     let core = &engine.get().0;
     let found = interrupt::run(engine.py(), |cancel| figures::orders(core, cancel))?;
     Ok(numbers(&found))
+}
+
+/// Volume that a cylinder's piston adds per radian past its top dead centre, m³: phasors of orders.
+#[guarded]
+#[pyfunction]
+pub fn swept(
+    engine: &Bound<'_, Engine>,
+    cylinder: usize,
+    orders: Vec<u32>,
+) -> PyResult<Vec<Complex64>> {
+    let core = &engine.get().0;
+    interrupt::run(engine.py(), |cancel| figures::swept(core, cylinder, &orders, cancel))
+}
+
+/// Length of a rod in pictures, m.
+#[guarded]
+#[pyfunction]
+pub fn drawn_rod(parts: Parts) -> PyResult<f64> {
+    Ok(figures::drawn_rod(&cylinder(parts)?))
 }
 
 /// What the cylinders make one by one: force, moment, torque of inertia and of gas.

@@ -41,7 +41,7 @@ mod _core {
 
     #[pymodule_export]
     use crate::{
-        balance::{Balance, angular_speed, balance, terms},
+        balance::{Balance, angular_speed, balance, bounds_about, terms},
         balancing::{
             FirstOrder, corrections, fit_shafts, fit_weights, masses_on_pins, pair_heights,
             roll_torque, shared, turning, with_bob_weights,
@@ -52,7 +52,7 @@ mod _core {
         design::Objectives,
         engine::Engine,
         explain::{Explanation, dead_text, explain, gas_text},
-        figures::{block, group_terms, orders_that_count, sizes},
+        figures::{block, drawn_rod, group_terms, orders_that_count, sizes, swept},
         firing::{Firing, check_timing, inline_throws, vee_throws},
         flywheel::{CycleGrid, mean_inertias},
         matching::matched,

@@ -10,13 +10,12 @@ use crate::{balance, balancing, build, engine, figures, mounts, readings, words}
 type Call = fn(&mut Arguments, &mut Columns) -> Result<Value>;
 
 /// Every call, for `site/core.mjs` and README.md.
-const CALLS: [(&str, Call); 17] = [
+const CALLS: [(&str, Call); 16] = [
     ("balance", balance::balance),
     ("balance_shafts", balancing::balance_shafts),
     ("bank_angles", readings::bank_angles),
     ("bob_weights", words::bob_weights),
     ("build", build::build),
-    ("card", balancing::card),
     ("counterweights", balancing::counterweights),
     ("explain", words::explain),
     ("figures", figures::figures),

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use crankpin_core::balance::Vector;
-use crankpin_core::balancing::bob_weight::{FirstOrder, bob_weight, masses_on, with_bob_weights};
+use crankpin_core::balancing::bob_weight::{FirstOrder, with_bob_weights};
+use crankpin_core::balancing::card::pins;
 use crankpin_core::explain::{Subject, Wording, explain as of};
 use crankpin_core::{Cancel, Engine, Result};
 use serde_json::{Map, Value, json};
@@ -32,12 +33,11 @@ pub fn bob_weights(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> 
     let (engine, powertrain) = arguments.mounted()?;
     let factor = arguments.or("factor", 0.5)?;
     let first = FirstOrder::new(&engine, &Cancel::new())?;
-    let pins = engine.throws().into_iter().flatten().map(|pin| {
-        let masses @ [rotating, reciprocating] = masses_on(&engine, &pin);
-        let cylinders: Vec<usize> = pin.cylinders.iter().map(|k| k + 1).collect();
+    let pins = pins(&engine).into_iter().map(|on| {
+        let cylinders: Vec<usize> = on.pin.cylinders.iter().map(|k| k + 1).collect();
         json!({
-            "cylinders": cylinders, "z": pin.z, "rotating": rotating, "reciprocating": reciprocating,
-            "bob_weight": bob_weight(masses, factor),
+            "cylinders": cylinders, "z": on.pin.z, "rotating": on.rotating,
+            "reciprocating": on.reciprocating, "bob_weight": on.bob_weight(factor, 0.0),
         })
     });
     let vectors = [("force", Vector::Force), ("moment", Vector::Moment)].map(|(name, vector)| {

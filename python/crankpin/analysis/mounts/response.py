@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._support import inputs, labels, optional
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
-    from crankpin import _core
     from crankpin._support.inputs import Order, Orders
     from crankpin.analysis.mounts.active import Cancellation
     from crankpin.analysis.mounts.powertrain import Powertrain
@@ -377,12 +377,11 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         ``"force"``, N, ``"moment"`` and ``"torque"`` about the CG, or the point of :meth:`about`,
         N·m.
         """
-        force, moment, torque = self._core.error_bound
+        names = ("force", "moment", "torque")
         cg = self.powertrain.body.cg
-        arm = np.subtract(cg, self._point or cg)
-        moment += float(np.linalg.norm(arm)) * force
-        torque += float(np.hypot(arm[0], arm[1])) * force
-        return MappingProxyType({"force": force, "moment": moment, "torque": torque})
+        x, y, z = np.subtract(cg, self._point or cg).tolist()
+        bounds = _core.bounds_about(self._core.error_bound, (x, y, z))
+        return MappingProxyType(dict(zip(names, bounds, strict=True)))
 
     @property
     def dims(self) -> tuple[str, ...]:

@@ -4,14 +4,13 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::{TurningPart, turning};
 use crate::Complex64;
-use crate::engine::crankpins::Crankpin;
 use crate::engine::{Engine, Unbalance};
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::figure::rounded;
 use crate::numbers::limits::SMALLEST;
-use crate::readings::balance::{Vector, angular_speed};
+use crate::readings::balance::Vector;
 use crate::readings::explain::words::{across, turns};
 
 /// Largest share of the reciprocating mass that is balanced.
@@ -39,19 +38,8 @@ pub fn with_bob_weights(engine: &Engine, factor: f64) -> Result<Engine> {
 }
 
 /// Bob weight, kg, of a rotating and a reciprocating mass: all of the one and a share of the other.
-#[must_use]
-pub fn bob_weight([rotating, reciprocating]: [f64; 2], factor: f64) -> f64 {
+pub(super) fn bob_weight([rotating, reciprocating]: [f64; 2], factor: f64) -> f64 {
     rotating + factor * reciprocating
-}
-
-/// Rotating and reciprocating mass of the rods and pistons on a crankpin, kg.
-#[must_use]
-pub fn masses_on(engine: &Engine, pin: &Crankpin) -> [f64; 2] {
-    let stations = || pin.cylinders.iter().map(|&i| &engine.stations()[i]);
-    [
-        stations().map(|station| station.rotating_mass).sum(),
-        stations().map(|station| station.cylinder.reciprocating_mass()).sum(),
-    ]
 }
 
 /// Force and moment of order 1 by balance factor, over ω².
@@ -176,12 +164,6 @@ impl FirstOrder {
         let of_all = ROUNDING_OF_ALL * (1.0 + factor) * parts[0].size;
         let least = of_all.max(ROUNDING * longest);
         [longest, if shortest.abs() < least { 0.0 } else { shortest }]
-    }
-
-    /// The half axes at a crank speed, N or N·m.
-    pub fn half_axes_at(&self, vector: Vector, factor: f64, rpm: f64) -> Result<[f64; 2]> {
-        let omega = angular_speed(rpm)?;
-        Ok(self.half_axes(vector, factor).map(|axis| omega * omega * axis))
     }
 
     /// Factor of the least longest vector, from 0 to [`LARGEST_FACTOR`]; none if it makes no difference.

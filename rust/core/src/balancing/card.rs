@@ -1,6 +1,6 @@
 //! What a balancing shop works from: the bob weight of each crankpin, and the correction of a crankshaft.
 
-use super::bob_weight::masses_on;
+use super::bob_weight::bob_weight;
 use super::weights::{Fit, Minimise, Target, external};
 use crate::engine::crankpins::Crankpin;
 use crate::engine::{Engine, Unbalance};
@@ -28,7 +28,7 @@ impl PinMasses {
     /// Bob weight of a balance factor, with this oil in the crankpin, kg.
     #[must_use]
     pub fn bob_weight(&self, factor: f64, oil: f64) -> f64 {
-        self.rotating + factor * self.reciprocating + oil
+        bob_weight([self.rotating, self.reciprocating], factor) + oil
     }
 }
 
@@ -36,7 +36,9 @@ impl PinMasses {
 #[must_use]
 pub fn pins(engine: &Engine) -> Vec<PinMasses> {
     let on = |pin: Crankpin| {
-        let [rotating, reciprocating] = masses_on(engine, &pin);
+        let stations = || pin.cylinders.iter().map(|&i| &engine.stations()[i]);
+        let rotating = stations().map(|station| station.rotating_mass).sum();
+        let reciprocating = stations().map(|station| station.cylinder.reciprocating_mass()).sum();
         PinMasses { pin, rotating, reciprocating }
     };
     engine.crankpins().into_iter().map(on).collect()

@@ -86,6 +86,15 @@ impl ErrorBounds {
     pub fn values(self) -> [f64; 3] {
         [self.force, self.moment, self.torque]
     }
+
+    /// The same about a point this far away along x, y and z, m: at most force times distance is added.
+    ///
+    /// Forces act across the crank: a point aside changes the torque, and one along the crank the moment.
+    #[must_use]
+    pub fn moved(self, [x, y, z]: [f64; 3]) -> Self {
+        let Self { force, moment, torque } = self;
+        Self { force, moment: moment + z.abs() * force, torque: torque + x.hypot(y) * force }
+    }
 }
 
 /// Part of a torque.

@@ -111,11 +111,10 @@ impl EngineLoads {
         };
         let about_cg: Vec<Wrench> =
             unit.wrenches.iter().map(|wrench| wrench.moved([cg.x, cg.y, 0.0])).collect();
-        let roll = cg.x.hypot(cg.y) * error_bound.force;
         Ok(Self {
             orders: unit.orders,
             omitted: unit.omitted,
-            error_bound: ErrorBounds { torque: error_bound.torque + roll, ..error_bound },
+            error_bound: error_bound.moved([cg.x, cg.y, 0.0]),
             omega,
             unit: about_cg,
         })
