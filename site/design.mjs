@@ -13,6 +13,9 @@ const MOST_LISTED = 10000;
 /** Parts of a cylinder in a file, by the fields that have them. */
 const PART_OF = { bore: "bore", rod_length: "rod_length", reciprocating_mass: "reciprocating_mass", pin_offset: "pin_offset" };
 
+/** Significant digits of places that were added up. */
+const PLACE_DIGITS = 12;
+
 /** The unit in which figures of files are written in fields, and its power of ten. */
 const WRITTEN_IN = { m: ["mm", 3], kg: ["g", 3] };
 
@@ -37,6 +40,13 @@ export class Design {
   /** An engine of a file of the library, as it writes it. */
   static file(json) {
     return new Design({ kind: "lists", file: JSON.parse(json) });
+  }
+
+  /** An engine of another kind, cylinder by cylinder; places without what adding up left behind their digits. */
+  static unrolled(json, name) {
+    const file = { ...JSON.parse(json), name };
+    for (const each of file.placements) each.z = Number(each.z.toPrecision(PLACE_DIGITS));
+    return new Design({ kind: "lists", file });
   }
 
   /** The same design, to be changed by itself. */
