@@ -160,8 +160,8 @@ function valueOf(name, text, units, kind) {
   if (field.unit === "°") return field.listed ? parts(typed).map((each) => degrees(name, each)) : degrees(name, typed);
   const plain = plainUnit(field.unit, units);
   if (field.listed || kind === "lists") {
-    const listed = parts(typed);
-    const [, last] = /([^\d\s.]+)$/u.exec(listed.at(-1)) ?? [];
+    const listed = parts(typed, /\s*[,;]\s*|\s+(?=[-+−\d.])(?!\d+\/)/u);
+    const [, last] = /([^\d\s.¼-¾⅐-⅞]+)$/u.exec(listed.at(-1)) ?? [];
     return listed.map((each) => quantity(each, field.unit, last ?? plain, name));
   }
   return quantity(typed, field.unit, plain, name);
@@ -179,8 +179,9 @@ function degrees(name, text) {
   return (plain.split(".")[1] ?? "").length > TYPED_DECIMALS && !plain.includes("/") ? Number(plain) : plain;
 }
 
-function parts(text) {
-  const listed = text.split(/\s*[,;]\s*|\s+(?=[-+−\d.])/u).filter((each) => each !== "");
+/** Parts of a list; a fraction may stand behind a whole number: 3 7/16. */
+function parts(text, between = /\s*[,;]\s*|\s+(?=[-+−\d.])/u) {
+  const listed = text.split(between).filter((each) => each !== "");
   return listed.length > MOST_LISTED ? listed.slice(0, MOST_LISTED) : listed;
 }
 

@@ -71,12 +71,15 @@ def faults(page: Page) -> list[str]:
 def test_own_45_degree_twin_in_inches_and_ounces(open_workbench: Open) -> None:
     page = open_workbench("#preset=v-twin-45")
     choose(page, units="in, oz, lbf")
-    type_in(page, bore="3.5", stroke="4.25", rod_length="7.4375", reciprocating_mass="27",
+    type_in(page, bore="3½", stroke="4.25", rod_length="7 7/16", reciprocating_mass="27",
             rotating_mass="11 oz", spacing="0")  # fmt: skip
     assert field(page, "stroke").input_value() == "4.25 in"
+    assert field(page, "rod_length").input_value() == "7 7/16 in"
     inch, ounce = 0.0254, 0.028349523125
     twin = engine(page)
     assert twin.cylinders[0].crank_radius == pytest.approx(4.25 * inch / 2, rel=1e-15)
+    assert twin.cylinders[0].rod_length == pytest.approx(7.4375 * inch, rel=1e-15)
+    assert twin.cylinders[0].bore == pytest.approx(3.5 * inch, rel=1e-15)
     assert twin.cylinders[0].reciprocating_mass == pytest.approx(27 * ounce, rel=1e-15)
     first = twin.balance(rpm=3000)[1]
     shown = page.locator("td[data-name=force-peak]").first.get_attribute("data-value")
