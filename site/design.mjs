@@ -13,6 +13,9 @@ const MOST_LISTED = 10000;
 /** Parts of a cylinder in a file, by the fields that have them. */
 const PART_OF = { bore: "bore", rod_length: "rod_length", reciprocating_mass: "reciprocating_mass", pin_offset: "pin_offset" };
 
+/** What names of presets speak of besides the bank angle, which they have from the engine. */
+const NAMED = ["throws_deg", "pin_split_deg", "cylinders", "rows"];
+
 /** Significant digits of places that were added up. */
 const PLACE_DIGITS = 12;
 
@@ -92,7 +95,7 @@ export class Design {
     delete read.inertia;
     const more = { gas, inertia: inertia ?? null };
     const { title, source } = this.texts;
-    read.name ??= title;
+    read.name ??= NAMED.some((name) => this.changed.includes(name)) ? "" : title;
     return this.kind === "lists" ? { ...more, file: this.listed(read) } : { ...more, call: { kind: this.kind, source, ...read } };
   }
 

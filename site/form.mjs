@@ -50,12 +50,19 @@ export class Form {
   show(design, units) {
     this.design = design;
     this.units = units;
-    this.preset.value = design.preset && [...this.preset.options].some(({ value }) => value === design.preset) ? design.preset : "";
+    this.showPreset();
     this.kind.value = design.kind;
     this.entries = new Map();
     this.groups.replaceChildren(...groupsOf(design.kind).map(([title, names]) => html("fieldset", { class: "group" },
       html("legend", {}, title), ...names.map((name) => this.entry(name)))));
     this.faults([]);
+  }
+
+  /** The preset that the engine still is: another figure makes it the reader's own, and the list leads back. */
+  showPreset() {
+    const { preset, changed } = this.design;
+    const listed = [...this.preset.options].some(({ value }) => value === preset);
+    this.preset.value = listed && !changed.length ? preset : "";
   }
 
   entry(name) {
@@ -74,6 +81,7 @@ export class Form {
     const typed = () => {
       this.last = name;
       this.design.fields[name] = control.value;
+      this.showPreset();
       if (slide) slide.value = Number.parseFloat(control.value) || 0;
       this.act.changed(name);
     };

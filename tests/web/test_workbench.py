@@ -92,6 +92,10 @@ def test_270_degree_twin(open_workbench: Open) -> None:
     type_in(page, throws_deg="0, 90")
     assert engine(page).throws_deg.tolist() == [0, 90]
     assert engine(page).firing().intervals_deg.tolist() == [270, 450]
+    assert "360" not in page.locator("h1").inner_text()
+    assert field(page, "preset").input_value() == ""
+    choose(page, preset="i2-360")
+    assert engine(page) == cp.Engine.preset("i2-360")
 
 
 def test_v6_with_split_pins(open_workbench: Open) -> None:
