@@ -94,8 +94,8 @@ export class Workbench {
       return tab;
     });
     this.skip = button(WORDS.toResults, WORDS.panes, () => {
-      this.tabs.scrollIntoView();
       this.buttons.find((tab) => tab.tabIndex === 0).focus({ preventScroll: true });
+      this.tabs.scrollIntoView();
     });
     this.skip.classList.add("skip");
     this.panes.setAttribute("id", "pane");

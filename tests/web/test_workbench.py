@@ -508,9 +508,19 @@ def test_results_are_one_key_from_the_form(open_workbench: Open) -> None:
     page = open_workbench(viewport={"width": 390, "height": 844})
     page.get_by_role("button", name="To the results").press("Enter")
     assert page.evaluate("document.activeElement.id") == "tab-orders"
-    top = page.locator("#tab-orders").bounding_box()
-    assert top is not None
-    assert 0 <= top["y"] < 844
+    seen = """id => {
+        const { left, top } = document.getElementById(id).getBoundingClientRect();
+        return document.elementFromPoint(left + 9, top + 9)?.id;
+    }"""
+    assert page.evaluate(seen, "tab-orders") == "tab-orders"
+    field(page, "spacing").focus()  # the picture stays in sight above what is typed
+    for name in ("throws_deg", "reciprocating_mass", "stroke"):
+        field(page, name).focus()
+        identity = field(page, name).get_attribute("id")
+        assert page.evaluate(seen, identity) == identity
+        assert page.locator(".turning .scene").first.is_visible()
+    pinned = "document.querySelector('.turning').getBoundingClientRect().top"
+    assert page.evaluate(pinned) == 0
 
 
 def test_enlarged_fonts_are_no_wider_than_a_phone(browser: Browser, workbench: Path) -> None:
