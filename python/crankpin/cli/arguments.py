@@ -184,6 +184,10 @@ OPTIONS: dict[str, dict[str, Any]] = {
         "or 101325)",
     },
     "--seed": {"default": "0", "help": "seed of the random numbers (default: %(default)s)"},
+    "--controls": {
+        "metavar": "NAMES",
+        "help": "controls that the page has, such as rpm,crank_angle; none for the pictures alone",
+    },
     "--units": {
         "metavar": "UNIT,…",
         "help": "units of numbers typed without one, and of all that is printed: g,mm or "
@@ -357,6 +361,11 @@ class Given:
     def text(self, flag: str) -> Any:  # noqa: ANN401 - text or None, True or False of a flag
         """Return what was typed."""
         return self._typed[flag.removeprefix("--").replace("-", "_")]
+
+    def names(self, flag: str) -> list[str] | None:
+        """Return names separated by commas, if they are given."""
+        text: str | None = self.text(flag)
+        return None if text is None else [name.strip() for name in text.split(",")]
 
     def decimal(
         self, flag: str, text: str, unit: str, what: str = "a number", *, infinite: bool = False
