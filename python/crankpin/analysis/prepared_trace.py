@@ -13,6 +13,7 @@ from crankpin._support.drawing import TwoPanels
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed, warn
+from crankpin.model import checks
 from crankpin.model.computed_cycles import area
 from crankpin.model.cycle import Cycle
 from crankpin.model.traces import SHOWN_ORDERS, Traces
@@ -168,6 +169,8 @@ def prepare_trace(
             stages.append(stages[-1].replace(pressure=stages[-1].pressure + offsets[:, None]))
             spread = f" ± {offsets.std(ddof=1) / 1e5:.3f}" if len(offsets) > 1 else ""
             names.append(f"{said}: {offsets.mean() / 1e5:+.3f}{spread} bar")
+    if intake_pressure is not None:
+        checks.absolute("intake_pressure", reference)
     if len(stages) > 1:
         stages[-1].replace()  # which warns of what is wrong with it
     found = PreparedTrace(cylinder, tuple(names), tuple(stages), tdc, offsets)
@@ -267,7 +270,7 @@ class PreparedTrace(TwoPanels, Tabled):
             ),
         ]
         note = "Orders: magnitude of the change of the torque's phasor, over that before."
-        return Table(f"PreparedTrace of {self.title}: change by step", tuple(columns), note)
+        return Table(f"Prepared trace of {self.title}: change by step", tuple(columns), note)
 
     @property
     def frames(self) -> Frames:
@@ -353,7 +356,7 @@ def _filtered(traces: Traces, cutoff: float) -> Traces:
         raise inputs.faulty("traces", "have steps that differ", "filters need equal steps")
     highest = rows.shape[1] * 180.0 / traces.period_deg
     if not 0.0 < cutoff < highest:
-        hint = f"give an order below {highest:g}, half the points of a turn"
+        hint = f"give an order above 0 and below {highest:g}, half the points of a turn"
         raise inputs.rejected("lowpass_order", cutoff, hint)
     spectrum = np.fft.rfft(rows.ravel())
     orders = np.arange(len(spectrum)) * 360.0 / (len(rows) * traces.period_deg)

@@ -215,6 +215,12 @@ RENAMED = {
 """Argument of the library → the option of a command that has it under another name."""
 
 
+BUILDER = re.compile(
+    r"\bEngine\.(?:from_)?(lists|banks|firing_order|inline|vee|flat|boxer|radial)\b"
+)
+"""A builder of the library, by the name of its kind."""
+
+
 class Option(NamedTuple):
     """An option as argparse takes it."""
 
@@ -299,7 +305,8 @@ def error_in_options(error: InputError, typed: Mapping[str, object]) -> InputErr
 
 def warning_in_options(message: str, typed: Mapping[str, object]) -> str:
     """Return a warning of the library with arguments named, and units asked for, as in a shell."""
-    known = _options(typed, left_out=False)
+    # What a new engine is made of is an option or its default; of others it may be in the file.
+    known = _options(typed, left_out="kind" in typed)
     begins = r"(?:(?<=^)|(?<=; ))\w+(?=(?: =| is| has|\[))"
     said = re.sub(begins, lambda word: _option(word[0], known), message)
     said = _hint_in_options(said, typed)
@@ -336,7 +343,12 @@ def _hint_in_options(text: str, typed: Mapping[str, object]) -> str:
         return f"{named} {plain}" if named != name else found[0]
 
     pattern = r'(?<![\w.(-])(\w+)=(\([^()]*\)|\[[^\[\]]*\]|"[^"]*"|[^\s,;()]+)'
-    return re.sub(pattern, hint, text)
+    return re.sub(BUILDER, _kind, re.sub(pattern, hint, text))
+
+
+def _kind(builder: re.Match[str]) -> str:
+    """Return the command that builds an engine as a method does."""
+    return f"{PROG} new {builder[1].replace('_', '-')}"
 
 
 class Given:
