@@ -145,7 +145,7 @@ def prepare_trace(
         if intake_pressure is None:
             inputs.only_with("intake_pressure", window_deg=window_deg)
     names, stages = ["as measured"], [traces]
-    tdc = 0.0
+    tdc, reference = 0.0, None
     with suppressed():  # Warned of where traces were made, and below.
         if motored is not None or tdc_deg is not None:
             tdc, said = _top_dead_centre(motored, loss_angle_deg, tdc_deg)
@@ -169,17 +169,17 @@ def prepare_trace(
             stages.append(stages[-1].replace(pressure=stages[-1].pressure + offsets[:, None]))
             spread = f" ± {offsets.std(ddof=1) / 1e5:.3f}" if len(offsets) > 1 else ""
             names.append(f"{said}: {offsets.mean() / 1e5:+.3f}{spread} bar")
-    if intake_pressure is not None:
-        checks.absolute("intake_pressure", reference)
     if len(stages) > 1:
         stages[-1].replace()  # which warns of what is wrong with it
     found = PreparedTrace(cylinder, tuple(names), tuple(stages), tdc, offsets)
-    _warn(found)
+    _warn(found, reference)
     return found
 
 
-def _warn(found: PreparedTrace) -> None:
-    """Warn of a top dead centre that is far off, of noise, and of work that is negative."""
+def _warn(found: PreparedTrace, reference: float | None) -> None:
+    """Warn of a top dead centre that is far off, of noise, of negative work, and of other units."""
+    if reference is not None:
+        checks.absolute("intake_pressure", reference)
     if abs(found.tdc_deg) > FARTHEST_TDC:
         warn(
             f"tdc_deg = {found.tdc_deg:.4g}: more than an encoder is off; are traces and motored "
