@@ -78,7 +78,12 @@ def test_a_misfire_and_a_point(car: Path, capsys: CAPTURE) -> None:
 
 @pytest.mark.parametrize(
     "options",
-    [[], ["--rpm", "800"], ["--rpm", "800:900:20", "--picture", "map", "--mount", "rear"]],
+    [
+        [],
+        ["--rpm", "800"],
+        ["--rpm", "800:900:20", "--picture", "map", "--mount", "rear"],
+        ["--rpm", "800:900:20", "--picture", "waterfall"],
+    ],
 )
 def test_pictures_are_written(
     car: Path, tmp_path: Path, capsys: CAPTURE, options: list[str]

@@ -16,7 +16,7 @@ from crankpin.cli.outputs import Shown
 if TYPE_CHECKING:
     from crankpin.cli.arguments import Given
 
-PICTURES = ("cuts", "map", "spectrum")
+PICTURES = ("cuts", "map", "waterfall", "spectrum")
 
 
 @command(
@@ -38,8 +38,9 @@ PICTURES = ("cuts", "map", "spectrum")
     option(
         "--picture",
         choices=PICTURES,
-        help="the largest orders over speed, a map of orders over speed, or one speed's spectrum "
-        "(default: cuts of several speeds, spectrum of one, and without --rpm the modes)",
+        help="the largest orders over speed, a map of orders over speed, a waterfall of spectra, "
+        "or one speed's spectrum (default: cuts of several speeds, spectrum of one, and without "
+        "--rpm the modes)",
     ),
     option(
         "--html",
