@@ -305,7 +305,6 @@ def test_arrays_are_read_only(name: str) -> None:
         "Subframe",
         "Receptance",
         "PointMotion",
-        "PreparedTrace",
         "PointMotion of a receiver",
         "WorstForce",
         "Shaft",

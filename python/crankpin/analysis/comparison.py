@@ -82,9 +82,10 @@ def compare(
     options: dict[str, Any] = {"rtol": rtol, "spectrum": spectrum, "torque": torque}
     engine_core(before, "before")
     if isinstance(after, str):
-        if after != LUMPED:
-            meant = inputs.nearest(after, (LUMPED,))
-            raise inputs.rejected("after", after, f'{ENGINE_HINT}, or "{LUMPED}"{meant}')
+        name: str = after  # as callers without types give it
+        if name != LUMPED:
+            meant = inputs.nearest(name, (LUMPED,))
+            raise inputs.rejected("after", name, f'{ENGINE_HINT}, or "{LUMPED}"{meant}')
         if spectrum is not None:
             raise inputs.rejected("spectrum", spectrum, 'is that of "lumped" itself; leave it out')
         options["torque"] = False  # which a spectrum does not determine
