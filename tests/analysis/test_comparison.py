@@ -47,6 +47,8 @@ def test_options_are_those_of_a_balance() -> None:
         cp.compare(3, I4, rpm=5000)  # type: ignore[arg-type]
     with pytest.raises(cp.InputError, match="after = 3"):
         cp.compare(I4, 3, rpm=5000)  # type: ignore[arg-type]
+    with pytest.raises(cp.InputError, match=r"after = 'i6': give a .*Engine.*, or \"lumped\""):
+        cp.compare(I4, "i6", rpm=5000)  # type: ignore[arg-type]
     fit = cp.counterweights(V6)
     with pytest.raises(cp.InputError, match=r"after = .*: give its \.fitted, an engine"):
         cp.compare(V6, fit, rpm=5000)  # type: ignore[arg-type]

@@ -151,3 +151,5 @@ def test_errors_name_what_there_is() -> None:
         cp.exercise("single", -1)
     with pytest.raises(cp.InputError, match="first"):
         cp.exercise("single").check(third=1.0)
+    with pytest.raises(cp.InputError, match="answers are left out: give first=… or second=…"):
+        cp.exercise("single").check()

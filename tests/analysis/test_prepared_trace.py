@@ -219,6 +219,15 @@ def test_an_offset_that_makes_no_pressure_is_removed() -> None:
     assert "intake at 0.95 bar" in repr(prepared)
 
 
+@pytest.mark.filterwarnings("ignore:pressure is")
+def test_an_intake_in_bar_is_warned_of() -> None:
+    traces = cp.Traces(THETA, cp.Cycle.example().pressure_at(THETA)[None])
+    cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+    with pytest.warns(UserWarning, match=r"intake_pressure = 0\.95 Pa: was it given in bar"):
+        cp.prepare_trace(traces, cylinder, intake_pressure=0.95)
+    cp.prepare_trace(traces, cylinder, intake_pressure=0.95e5)
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [
@@ -236,7 +245,7 @@ def test_an_offset_that_makes_no_pressure_is_removed() -> None:
         ({"window_deg": (0, 9)}, r"window_deg = \(0, 9\): acts only beside"),
         ({"intake_pressure": 1e5, "window_deg": (9, 0)}, "window_deg = .*: give two angles"),
         ({"intake_pressure": 1e5, "window_deg": (0.1, 0.2)}, "window_deg has 0 points"),
-        ({"lowpass_order": 1e4}, r"lowpass_order = 10000\.0: give an order below 360"),
+        ({"lowpass_order": 1e4}, r"lowpass_order = 10000\.0: give an order above 0 and below 360"),
         ({"motored": "trace"}, "motored = 'trace': give crankpin.Traces"),
         ({"motored": cp.Cycle(range(0, 720, 90), [2e5] * 8)}, "motored has 1 points within 20°"),
     ],

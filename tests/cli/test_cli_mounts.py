@@ -78,7 +78,12 @@ def test_a_misfire_and_a_point(car: Path, capsys: CAPTURE) -> None:
 
 @pytest.mark.parametrize(
     "options",
-    [[], ["--rpm", "800"], ["--rpm", "800:900:20", "--picture", "map", "--mount", "rear"]],
+    [
+        [],
+        ["--rpm", "800"],
+        ["--rpm", "800:900:20", "--picture", "map", "--mount", "rear"],
+        ["--rpm", "800:900:20", "--picture", "waterfall"],
+    ],
 )
 def test_pictures_are_written(
     car: Path, tmp_path: Path, capsys: CAPTURE, options: list[str]
@@ -94,6 +99,8 @@ def test_pictures_are_written(
         (["--rpm", "800", "--torque", "3"], "--torque = 3: acts without --rpm alone"),
         (["--rpm", "800:900:20", "--html", "x.html"], "begins at one speed: give --rpm one"),
         (["--html", "x.txt"], "a page ends in .html"),
+        (["--controls", "rpm"], "--controls = rpm: needs --html"),
+        (["--html", "x.html", "--controls", "rpm,mount"], 'did you mean "mounts"?'),
         (["--rpm", "800", "--misfire", "9"], "--misfire = 9: give a number from 1 to 4"),
         (["--rpm", "800", "--mount", "reer", "--plot", "x.png"], 'give "right", "left" or "rear"'),
         (["--rpm", "800", "--picture", "map", "--plot", "x.png"], "needs several speeds"),
@@ -110,10 +117,21 @@ def test_a_page_is_that_of_the_library(
     ours, theirs = tmp_path / "ours.html", tmp_path / "theirs.html"
     typed = [] if rpm is None else ["--rpm", rpm]
     text = printed(capsys, car, "--html", theirs, *typed)
-    CAR.save_html(ours, **({} if rpm is None else {"rpm": rpm}))
+    CAR.save_html(ours, 800.0 if rpm is None else rpm)
     assert theirs.read_bytes() == ours.read_bytes()
     table = CAR.modes().table if rpm is None else CAR.response(rpm).table
     assert table.text().splitlines()[2] in text
+
+
+def test_a_page_has_the_controls_and_units_that_are_typed(
+    car: Path, tmp_path: Path, capsys: CAPTURE
+) -> None:
+    ours, theirs = tmp_path / "ours.html", tmp_path / "theirs.html"
+    typed = ["--controls", "order, rpm", "--units", "lb,in,lbf"]
+    printed(capsys, car, "--html", theirs, *typed)
+    with cp.units("lb, in, lbf"):
+        CAR.save_html(ours, controls=["order", "rpm"])
+    assert theirs.read_bytes() == ours.read_bytes()
 
 
 def test_an_engine_without_mounts_says_so(tmp_path: Path, capsys: CAPTURE) -> None:

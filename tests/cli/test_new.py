@@ -292,11 +292,34 @@ def test_a_firing_order_that_the_crank_does_not_allow_is_dropped(capsys: CAPTURE
         ("new", "the following arguments are required: KIND"),
         ("new harley", "no such preset; builders are inline, vee, flat, boxer, radial, "),
         ("new i4 --firing-order 1-2-3-3", "--firing-order = 1-2-3-3: 3 is there twice"),
+        (
+            "new firing-order --firing-order 1+2-3+4",
+            "give an order without '[+]', or crankpin new lists all top dead centres",
+        ),
+        ("new v6 --shared-pins", "--shared-pins does not apply to v6: pins follow from a firing"),
     ],
 )
 def test_refusals(capsys: CAPTURE, line: str, message: str) -> None:
     assert re.search(re.sub(r"([.(])(?!\*)", r"\\\1", message), refused(capsys, line))
     assert list(Path().iterdir()) == []
+
+
+@pytest.mark.filterwarnings("default")
+def test_warnings_of_a_firing_order_name_options(capsys: CAPTURE) -> None:
+    order = "1L-3R-2L-1R-3L-2R"
+    line = f"new firing-order --firing-order {order} --bank-angle 60"
+    assert main(line.split()) == 0
+    out, said = capsys.readouterr()
+    assert f"--firing-order = {order}: even firing needs crankpins split by 60°" in said
+    assert "shared ones, which --shared-pins gives, fire at 180-60°" in said
+    shared = cp.Engine.from_toml(printed(capsys, f"{line} --shared-pins"))
+    assert shared.firing().intervals_deg.tolist() == [180, 60] * 3
+    assert not shared.pin_split_deg.any()
+    assert cp.Engine.from_toml(out).pin_split_deg.any()
+    assert main(["new", "firing-order", "--firing-order", "18436572", "--bank-angle", "90"]) == 0
+    said = capsys.readouterr().err
+    assert '--odd-bank = "right": this firing order needs' in said
+    assert "with --odd-bank left pins are shared" in said
 
 
 # --- what commands find ---------------------------------------------------------------------------

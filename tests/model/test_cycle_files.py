@@ -277,6 +277,11 @@ def test_what_is_saved_reads_back_as_an_equal_cycle(
             "columns = 'q': there is none",
         ),
         ("angle,p\n0,1e5\n", {**ABSOLUTE, "columns": (0,)}, "give two"),
+        (
+            "angle,p\n0,1e5\n",
+            {**ABSOLUTE, "columns": (0, 2)},
+            "columns = 2: give numbers from 0 to 1, or names",
+        ),
         ("angle,p\n0,1e5\n", {**ABSOLUTE, "gauge": "yes"}, "gauge = 'yes': give True or False"),
         ("angle,p\n0,1e5\n", {**ABSOLUTE, "tdc_deg": np.nan}, "tdc_deg = nan: give a finite"),
         ("# degree: x\nangle,p\n0,1e5\n", ABSOLUTE, "path has degree = 'x': give a whole number"),

@@ -772,6 +772,12 @@ def test_presets_are_shown_as_a_table() -> None:
             "crankpin new v10 --bank-angle 80",
         ),
         ("i7", None, "Engine.inline(…, throws_deg=[…])", "crankpin new inline --throws …"),
+        (
+            "v3",
+            None,
+            "Engine.vee(…, bank_angle_deg=…, absent=[…])",
+            "crankpin new vee --bank-angle … --throws … --absent …",
+        ),
         ("w18", '"w8"', "Engine.from_lists(…)", "crankpin new lists --tdc … --banks … --z …"),
         ("rotary", None, "", ""),
     ],

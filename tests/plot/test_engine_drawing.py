@@ -224,6 +224,21 @@ def test_no_numbers_overlap(engine: cp.Engine, size: tuple[float, float], font: 
                 assert not one.overlaps(other), (a.get_text(), b.get_text())
 
 
+@pytest.mark.parametrize("name", ["v16-45", "w16", "v12-60"])
+def test_numbers_of_the_side_view_are_within_its_axes(name: str) -> None:
+    plt.rcParams["font.size"] = 8
+    figure, ax = plt.subplots(figsize=(3.4, 2.6), layout="constrained")
+    cp.Engine.preset(name).plot(ax, kind="side")
+    figure.canvas.draw()
+    low, high = ax.bbox.y0, ax.bbox.y1
+    written = [text for text in ax.texts if re.search(r"\d", text.get_text())]
+    assert len(written) >= 6
+    for text in written:
+        box = text.get_window_extent()
+        assert low - 1.0 <= box.y0
+        assert box.y1 <= high + 1.0
+
+
 @pytest.mark.parametrize(
     ("numbers", "text"),
     [

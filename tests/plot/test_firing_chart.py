@@ -175,3 +175,12 @@ def test_strokes_alone_stand_in_the_middle_of_their_rows() -> None:
             assert middle == pytest.approx(round(middle), abs=1e-9)  # rounding
     (fires,) = (line for line in ax.lines if line.get_label() == "fires")
     np.testing.assert_allclose(np.asarray(fires.get_ydata()), np.arange(8), atol=1e-9)
+
+
+def test_names_of_banks_have_room_beside_their_rows() -> None:
+    plt.rcParams["font.size"] = 8
+    for name, count in (("radial-9", 0), ("v8-crossplane", 2), ("v-twin-45", 2)):
+        plt.rcParams["figure.figsize"] = (3.5, 2.6)
+        ax = cp.Engine.preset(name).firing().plot()
+        named = [text for text in ax.texts if text.get_rotation() == 270.0]
+        assert len(named) == count

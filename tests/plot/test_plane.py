@@ -103,3 +103,12 @@ def test_crank_angles_at_one_point_share_a_label() -> None:
 @pytest.mark.parametrize("theta", [[], [30.0], [10.0, 10.0], [400.0, 390.0]])
 def test_orbits_of_few_angles_are_drawn(theta: list[float]) -> None:
     V6.waveform(5000, theta_deg=theta).plot(kind="orbit").figure.canvas.draw()
+
+
+def test_panels_that_share_both_axes_keep_one_scale() -> None:
+    figure, panels = plt.subplots(1, 2, sharex=True, sharey=True)
+    V6.balance(5000, orders=[1]).plot(panels[0], kind="ellipses")
+    V8.waveform(5000).plot(panels[1], kind="orbit")
+    figure.canvas.draw()
+    for ax in panels:
+        assert ax.get_data_ratio() == pytest.approx(ax.bbox.height / ax.bbox.width, rel=1e-6)

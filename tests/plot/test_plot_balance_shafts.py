@@ -117,6 +117,13 @@ def test_nothing_to_remove_is_said() -> None:
     assert not OPTIONS.plot().texts
 
 
+def test_bob_weights_of_a_balanced_engine_say_zero() -> None:
+    ax = cp.bob_weight(cp.Engine.preset("v12-60")).plot()
+    assert "zero throughout" in [text.get_text() for text in ax.texts]
+    ax = cp.bob_weight(cp.Engine.preset("single")).plot()
+    assert "zero throughout" not in [text.get_text() for text in ax.texts]
+
+
 def test_no_target_has_no_ring() -> None:
     ax = UNTARGETED.plot()
     assert balancing.REACHED not in lines(ax)

@@ -823,6 +823,7 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
         "AdaptiveLaw",
         "VelocityFeedback",
         "PointMotion",
+        "PreparedTrace",
         "RollAxes",
         "Waveform",
         "Counterweights",

@@ -14,6 +14,7 @@ from crankpin.view.page import as_json
 from view_engines import everything
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from pathlib import Path
 
     from playwright.sync_api import Locator, Page
@@ -123,7 +124,7 @@ def test_arrow_keys_move_a_mount_and_leave_the_crank(open_engine: Open) -> None:
         text = " ".join(
             f"{axis} {1000 * value:.0f} mm," for axis, value in zip("xyz", expected, strict=True)
         )
-        assert target.get_attribute("aria-valuetext") == text.rstrip(",")
+        assert target.get_attribute("aria-valuetext") == text.rstrip(",").replace("-", "−")
     # Others than arrows are the page's.
     page.keyboard.press("Home")
     page.keyboard.press("Space")
@@ -224,6 +225,115 @@ def test_run_up_marks_the_modes_that_an_order_crosses(open_engine: Open) -> None
     assert values(page)["rpm"] != 800
     page.get_by_label("order of the engine that moves the block").select_option("all")
     assert page.locator(".resonance").count() == 0
+
+
+LABELS = {
+    "crank_angle": "turn the crank",
+    "rpm": "engine speed",
+    "order": "order of the engine that moves the block",
+    "mode": "mode 1",
+    "rocking": "exaggeration of the rocking",
+    "mounts": "right: x, mm",
+    "view": "quantity over engine speed",
+}
+"""Label of a control by its name; the first of several."""
+
+
+@pytest.mark.parametrize(
+    ("controls", "shown"),
+    [
+        (None, list(mounted.CONTROLS)),
+        ("none", []),
+        (["order", "rpm", "order"], ["order", "rpm"]),
+        (["crank_angle", "mode"], ["crank_angle", "mode"]),
+        (("mounts", "view", "rocking"), ["mounts", "view", "rocking"]),
+    ],
+)
+def test_a_page_has_the_controls_named(
+    open_engine: Open, controls: str | Sequence[str] | None, shown: list[str]
+) -> None:
+    page = open_engine(CAR, rpm=800, save={"controls": controls})
+    found = []
+    for name, label in LABELS.items():
+        each = page.get_by_label(label, exact=True)
+        if each.count() and each.is_visible() and each.is_enabled():
+            found.append(name)
+    assert found == [name for name in mounted.CONTROLS if name in shown]
+    dragged = page.locator(".scene .mount[tabindex]").count()
+    assert dragged == (9 if "mounts" in shown else 0)
+    own = page.evaluate(SHOWN)
+    for locator in (page.locator(".scene.cross .knob").last, page.locator(".run-up")):
+        box = locator.bounding_box()
+        assert box is not None
+        page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+        page.mouse.down()
+        page.mouse.move(box["x"] + box["width"] / 2 + 30, box["y"])
+        page.mouse.up()
+    moved = page.evaluate(SHOWN)
+    assert (moved["modes"] != own["modes"]) == ("mounts" in shown)
+    assert (values(page).get("rpm", 800.0) != 800.0) == ("rpm" in shown)
+    assert (page.evaluate("crankpin.state.rpm") != 800.0) == ("rpm" in shown)
+
+
+def test_controls_stand_in_the_order_of_their_names(open_engine: Open) -> None:
+    page = open_engine(CAR, rpm=800, save={"controls": ["rocking", "rpm"]})
+    sliders = page.locator(".settings input[type=range]").all()
+    labels = [each.get_attribute("aria-label") for each in sliders]
+    assert labels == ["exaggeration of the rocking", "engine speed"]
+
+
+def test_numbers_are_shown_and_typed_in_the_units_that_are_set(open_engine: Open) -> None:
+    every = "[data-name]:not([data-name=bound])"  # bounds of fields are round in their unit
+    own = values(open_engine(CAR, rpm=800), every)
+    with cp.units("lb, in, lbf"):
+        page = open_engine(CAR, rpm=800)
+    assert values(page, every) == own  # of SI
+    pound, inch = 0.45359237 * 9.80665, 0.0254
+    shown = {"force-length": ("lbf", pound), "displacement-x": ("in", inch)}
+    for name, (unit, factor) in shown.items():
+        number, _, written = str(page.locator(f"[data-name={name}]").text_content()).partition(" ")
+        assert written == unit
+        assert float(number) * factor == pytest.approx(own[name], rel=1e-3)
+    cells = {"mount-1-x": (inch, 5e-4), "mount-3-k2": (pound / inch, 0.05)}
+    for name, (factor, rounding) in cells.items():
+        number = str(page.locator(f"td[data-name={name}]").text_content())
+        assert float(number) == pytest.approx(own[name] / factor, abs=1.001 * rounding)
+    heads = page.locator(".mounts thead th").all_text_contents()
+    assert heads[1:5] == ["x, in", "y, in", "z, in", "first axis, lbf/in"]
+    # Decades of the unit that is shown, and curves in it: 10 lbf stands where 44.5 N are.
+    ticks = page.eval_on_selector_all(
+        ".run-up .tick[text-anchor], .run-up text.tick:not(.degrees)",
+        "found => found.map(each => [each.textContent, Number(each.getAttribute('y'))])",
+    )
+    y = {float(text.partition(" ")[0]): height for text, height in ticks if " lbf" in text}
+    decade = y[100.0] - y[1000.0]
+    force = float(np.linalg.norm(CAR.response(100.0, orders=[2])[2].body_force.rms_xyz))
+    start = str(page.locator(".run-up .curve.length").get_attribute("d"))
+    height = float(re.findall(r"-?[\d.]+", start)[1])
+    expected = y[100.0] - 4 - decade * np.log10(force / pound / 100.0)
+    assert height == pytest.approx(expected, abs=0.02)
+    page.get_by_label("right: x, in", exact=True).fill("3.30")
+    assert page.get_by_label("right: x, in", exact=True).input_value() == "3.30"
+    page.get_by_label("right: first axis, lbf/in", exact=True).fill("1000")
+    first = page.evaluate("crankpin.state.mounts[0]")
+    assert first["at"][0] == 0.08382
+    assert first["stiffness"][0] == pytest.approx(1000 * pound / inch, rel=1e-11)
+    text = mount(page, "cross", "right").get_attribute("aria-valuetext")
+    assert text == "x 3.3 in, y 0 in, z −3.54 in"
+    page.get_by_label("quantity over engine speed").select_option("displacement")
+    marks = page.locator(".run-up text.tick:not(.degrees)").all_text_contents()
+    assert all(each.endswith(" in") for each in marks)
+
+
+def test_controls_that_are_none_are_rejected(tmp_path: Path) -> None:
+    wrongs: list[tuple[Any, str]] = [
+        ("mount", r'^controls = .mount.: give .*did you mean "mounts"'),
+        (["rod_ratio"], r"^controls = .rod_ratio.: give"),
+        (3, r"^controls = 3: give names, of crank_angle, rpm, order, mode, rocking, mounts, view"),
+    ]
+    for controls, said in wrongs:
+        with pytest.raises(cp.InputError, match=said):
+            CAR.save_html(tmp_path / "car.html", controls=controls)
 
 
 def test_names_stay_text(open_engine: Open) -> None:

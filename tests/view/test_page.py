@@ -1018,3 +1018,14 @@ def test_an_address_that_says_so_turns_the_engine_at_once(open_file: Open, tmp_p
     page.evaluate("location.hash = '#playing'")
     page.reload()
     assert page.evaluate("crankpin.state.playing") is True
+
+
+# --- the card -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("width", [360, 390, 1280])
+def test_a_shop_s_card_needs_no_wider_window(open_file: Open, tmp_path: Path, width: int) -> None:
+    bob = cp.bob_weight(V8, parts={"piston": 0.43, "pin": 0.118, "big end": 0.43})
+    bob.card([0.48, 0.5, 0.52], planes="ends", radius=0.07).save_html(tmp_path / "card.html")
+    page = open_file(tmp_path / "card.html", viewport={"width": width, "height": 740})
+    assert page.evaluate("document.documentElement.scrollWidth") <= width

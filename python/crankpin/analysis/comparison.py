@@ -14,7 +14,7 @@ from crankpin._support.record import read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import Balance, balance
 from crankpin.analysis.quantity import ALL
-from crankpin.analysis.request import engine_core
+from crankpin.analysis.request import ENGINE_HINT, engine_core
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -82,7 +82,10 @@ def compare(
     options: dict[str, Any] = {"rtol": rtol, "spectrum": spectrum, "torque": torque}
     engine_core(before, "before")
     if isinstance(after, str):
-        inputs.one_of("after", after, (LUMPED,))
+        name: str = after  # as callers without types give it
+        if name != LUMPED:
+            meant = inputs.nearest(name, (LUMPED,))
+            raise inputs.rejected("after", name, f'{ENGINE_HINT}, or "{LUMPED}"{meant}')
         if spectrum is not None:
             raise inputs.rejected("spectrum", spectrum, 'is that of "lumped" itself; leave it out')
         options["torque"] = False  # which a spectrum does not determine

@@ -172,9 +172,12 @@ class Exercise(Tabled):
         Raises
         ------
         InputError
-            If the sheet asks for nothing of this name, or an answer is no number.
+            If the sheet asks for nothing of this name, an answer is no number, or there is none.
         """
         right = self.answers
+        if not answers:
+            hint = f"give {' or '.join(f'{name}=…' for name in right)}"
+            raise inputs.faulty("answers", "are left out", hint)
         return {
             inputs.one_of("answers", name, right): math.isclose(
                 inputs.number(name, value), right[name], rel_tol=NEAR, abs_tol=NEAR * NEAR

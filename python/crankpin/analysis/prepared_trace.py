@@ -13,6 +13,7 @@ from crankpin._support.drawing import TwoPanels
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed, warn
+from crankpin.model import checks
 from crankpin.model.computed_cycles import area
 from crankpin.model.cycle import Cycle
 from crankpin.model.traces import SHOWN_ORDERS, Traces
@@ -144,7 +145,7 @@ def prepare_trace(
         if intake_pressure is None:
             inputs.only_with("intake_pressure", window_deg=window_deg)
     names, stages = ["as measured"], [traces]
-    tdc = 0.0
+    tdc, reference = 0.0, None
     with suppressed():  # Warned of where traces were made, and below.
         if motored is not None or tdc_deg is not None:
             tdc, said = _top_dead_centre(motored, loss_angle_deg, tdc_deg)
@@ -171,12 +172,14 @@ def prepare_trace(
     if len(stages) > 1:
         stages[-1].replace()  # which warns of what is wrong with it
     found = PreparedTrace(cylinder, tuple(names), tuple(stages), tdc, offsets)
-    _warn(found)
+    _warn(found, reference)
     return found
 
 
-def _warn(found: PreparedTrace) -> None:
-    """Warn of a top dead centre that is far off, of noise, and of work that is negative."""
+def _warn(found: PreparedTrace, reference: float | None) -> None:
+    """Warn of a top dead centre that is far off, of noise, of negative work, and of other units."""
+    if reference is not None:
+        checks.absolute("intake_pressure", reference)
     if abs(found.tdc_deg) > FARTHEST_TDC:
         warn(
             f"tdc_deg = {found.tdc_deg:.4g}: more than an encoder is off; are traces and motored "
@@ -267,7 +270,7 @@ class PreparedTrace(TwoPanels, Tabled):
             ),
         ]
         note = "Orders: magnitude of the change of the torque's phasor, over that before."
-        return Table(f"PreparedTrace of {self.title}: change by step", tuple(columns), note)
+        return Table(f"Prepared trace of {self.title}: change by step", tuple(columns), note)
 
     @property
     def frames(self) -> Frames:
@@ -353,7 +356,7 @@ def _filtered(traces: Traces, cutoff: float) -> Traces:
         raise inputs.faulty("traces", "have steps that differ", "filters need equal steps")
     highest = rows.shape[1] * 180.0 / traces.period_deg
     if not 0.0 < cutoff < highest:
-        hint = f"give an order below {highest:g}, half the points of a turn"
+        hint = f"give an order above 0 and below {highest:g}, half the points of a turn"
         raise inputs.rejected("lowpass_order", cutoff, hint)
     spectrum = np.fft.rfft(rows.ravel())
     orders = np.arange(len(spectrum)) * 360.0 / (len(rows) * traces.period_deg)

@@ -184,6 +184,10 @@ OPTIONS: dict[str, dict[str, Any]] = {
         "or 101325)",
     },
     "--seed": {"default": "0", "help": "seed of the random numbers (default: %(default)s)"},
+    "--controls": {
+        "metavar": "NAMES",
+        "help": "controls that the page has, such as rpm,crank_angle; none for the pictures alone",
+    },
     "--units": {
         "metavar": "UNIT,…",
         "help": "units of numbers typed without one, and of all that is printed: g,mm or "
@@ -209,6 +213,12 @@ RENAMED = {
     "angle_deg": "angles", "measured_z": "measured", "correction_z": "correct",
 }  # fmt: skip
 """Argument of the library → the option of a command that has it under another name."""
+
+
+BUILDER = re.compile(
+    r"\bEngine\.(?:from_)?(lists|banks|firing_order|inline|vee|flat|boxer|radial)\b"
+)
+"""A builder of the library, by the name of its kind."""
 
 
 class Option(NamedTuple):
@@ -295,7 +305,8 @@ def error_in_options(error: InputError, typed: Mapping[str, object]) -> InputErr
 
 def warning_in_options(message: str, typed: Mapping[str, object]) -> str:
     """Return a warning of the library with arguments named, and units asked for, as in a shell."""
-    known = _options(typed, left_out=False)
+    # What a new engine is made of is an option or its default; of others it may be in the file.
+    known = _options(typed, left_out="kind" in typed)
     begins = r"(?:(?<=^)|(?<=; ))\w+(?=(?: =| is| has|\[))"
     said = re.sub(begins, lambda word: _option(word[0], known), message)
     said = _hint_in_options(said, typed)
@@ -332,7 +343,12 @@ def _hint_in_options(text: str, typed: Mapping[str, object]) -> str:
         return f"{named} {plain}" if named != name else found[0]
 
     pattern = r'(?<![\w.(-])(\w+)=(\([^()]*\)|\[[^\[\]]*\]|"[^"]*"|[^\s,;()]+)'
-    return re.sub(pattern, hint, text)
+    return re.sub(BUILDER, _kind, re.sub(pattern, hint, text))
+
+
+def _kind(builder: re.Match[str]) -> str:
+    """Return the command that builds an engine as a method does."""
+    return f"{PROG} new {builder[1].replace('_', '-')}"
 
 
 class Given:
@@ -357,6 +373,11 @@ class Given:
     def text(self, flag: str) -> Any:  # noqa: ANN401 - text or None, True or False of a flag
         """Return what was typed."""
         return self._typed[flag.removeprefix("--").replace("-", "_")]
+
+    def names(self, flag: str) -> list[str] | None:
+        """Return names separated by commas, if they are given."""
+        text: str | None = self.text(flag)
+        return None if text is None else [name.strip() for name in text.split(",")]
 
     def decimal(
         self, flag: str, text: str, unit: str, what: str = "a number", *, infinite: bool = False

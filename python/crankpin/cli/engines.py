@@ -84,25 +84,19 @@ def _firing_orders(engine: Engine, strokes: int | None, *, csv: bool) -> Shown:
         action="store_true",
         help="the cross-section and one vector alone, for a slide or a frame of 640 by 360 pixels",
     ),
-    option(
-        "--controls",
-        metavar="NAMES",
-        help="controls that are shown, such as rpm,bank_angle; none for the pictures alone",
-    ),
-    "--reference-z --spectrum --units",
+    "--controls --reference-z --spectrum --units",
     example="view v8-crossplane --out v8.html",
 )
 def _view(given: Given) -> str:
     """Write the page; return what the command prints."""
     engine = given.engine("view")
     file = Path(given.text("--out"))
-    controls: str | None = given.text("--controls")
     engine.save_html(
         file,
         rpm=given.number("--rpm", "rpm"),
         spectrum=given.spectrum(),
         compact=given.text("--compact"),
-        controls=None if controls is None else controls.split(","),
+        controls=given.names("--controls"),
     )
     return f"{file}: {file.stat().st_size / 1e3:.0f} kB\n"
 

@@ -99,9 +99,9 @@ def _design(given: Given) -> Shown:
         bank_angle_deg=angle,
         pin_split_deg=_angles(given, "--pin-split"),
         same_split=not given.text("--own-splits"),
-        throws_deg="free" if given.text("--throws") == "free" else _listed(given.text("--throws")),
+        throws_deg="free" if given.text("--throws") == "free" else given.names("--throws"),
         even_firing=given.text("--even-firing"),
-        intervals_deg=_listed(given.text("--intervals")),
+        intervals_deg=given.names("--intervals"),
         counterweights=given.text("--counterweights"),
         shafts=shafts,
         orders=given.orders(),
@@ -118,10 +118,6 @@ def _spacing(engine: Engine) -> float:
     """Return the distance between neighbouring throws."""
     along = np.sort(engine.z[[number - 1 for number in next(iter(engine.banks.values()))]])
     return float(along[1] - along[0]) if along.size > 1 else 0.0
-
-
-def _listed(text: str | None) -> list[str] | None:
-    return None if text is None else text.split(",")
 
 
 def _angles(given: Given, flag: str) -> Any:  # noqa: ANN401 - one angle or two, as exact text

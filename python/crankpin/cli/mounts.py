@@ -16,7 +16,7 @@ from crankpin.cli.outputs import Shown
 if TYPE_CHECKING:
     from crankpin.cli.arguments import Given
 
-PICTURES = ("cuts", "map", "spectrum")
+PICTURES = ("cuts", "map", "waterfall", "spectrum")
 
 
 @command(
@@ -38,8 +38,9 @@ PICTURES = ("cuts", "map", "spectrum")
     option(
         "--picture",
         choices=PICTURES,
-        help="the largest orders over speed, a map of orders over speed, or one speed's spectrum "
-        "(default: cuts of several speeds, spectrum of one, and without --rpm the modes)",
+        help="the largest orders over speed, a map of orders over speed, a waterfall of spectra, "
+        "or one speed's spectrum (default: cuts of several speeds, spectrum of one, and without "
+        "--rpm the modes)",
     ),
     option(
         "--html",
@@ -47,7 +48,7 @@ PICTURES = ("cuts", "map", "spectrum")
         help="write a page too, in which the mounts can be dragged (.html); --rpm is its speed at "
         "first (default: 800)",
     ),
-    "--units",
+    "--controls --units",
     option("--frame", choices=(FIRST, "strain", "axes", "static", "loads")),
     "--csv --plot",
     example="mounts car.toml --rpm 600:6000:20 --plot run-up.png",
@@ -63,7 +64,14 @@ def _mounts(given: Given) -> Shown:
         if np.size(rpm) > 1:
             raise rejected("--html", page, "begins at one speed: give --rpm one")
         speed = {} if rpm is None else {"rpm": float(np.ravel(rpm)[0])}
-        powertrain.save_html(page, **speed, frequency=given.optional("--frequency"))
+        powertrain.save_html(
+            page,
+            **speed,
+            frequency=given.optional("--frequency"),
+            controls=given.names("--controls"),
+        )
+    elif (typed := given.text("--controls")) is not None:
+        raise rejected("--controls", typed, "needs --html")
     if rpm is None:
         return _at_rest(given, powertrain)
     for flag in ("--torque", *(() if page is not None else ("--frequency",))):

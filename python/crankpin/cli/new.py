@@ -120,6 +120,12 @@ METAVARS = {
         option(flag, group=SHAPE, metavar=METAVARS.get(how, "A"), help=what)
         for flag, (_, how, what) in LAYOUT.items()
     ),
+    option(
+        "--shared-pins",
+        group=SHAPE,
+        action="store_true",
+        help="of firing-order: pins that are shared, whatever the intervals of a vee are then",
+    ),
     option("--name", help="name of the engine (default: that of its kind)"),
     "--units",
     option(
@@ -267,6 +273,11 @@ def _changes(given: Given, kind: str, base: presets.Layout) -> dict[str, Any]:
             hint = f"does not apply to {kind}, which takes {', '.join(flags)}"
             raise rejected(flag, given.text(flag), hint)
         changes[name] = _read(given, flag, how)
+    if given.text("--shared-pins"):
+        if "shared_pins" not in takes:
+            hint = "pins follow from a firing order in new firing-order alone; leave it out"
+            raise inputs.faulty("--shared-pins", f"does not apply to {kind}", hint)
+        changes["shared_pins"] = True
     needed = [
         flag
         for flag, name in flags.items()

@@ -773,7 +773,7 @@ class Builders(EngineData):
                     and intervals_deg is None
                     and shared_pins is None
                 ):
-                    checks.split_pins(splits, shared, order, strokes)
+                    checks.split_pins(splits, shared, order, strokes, firing_order)
         core = _kept(core, one)
         checks.angles(
             bank_angle_deg=bank_angle_deg, intervals_deg=intervals_deg, first_tdc_deg=first_tdc_deg

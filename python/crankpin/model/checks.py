@@ -15,7 +15,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support import inputs
+from crankpin._support import inputs, labels
 from crankpin._support.warnings import warn
 
 if TYPE_CHECKING:
@@ -268,12 +268,12 @@ def imep(mean_pressure: float) -> None:
         )
 
 
-def crankcase(pressure: float) -> None:
-    """Warn of the pressure below the pistons in other units; 0 is a vacuum."""
+def absolute(name: str, pressure: float) -> None:
+    """Warn of the pressure of crankcase or intake in other units; 0 is a vacuum."""
     if 0.0 < pressure < LARGEST_IN_BAR:
-        warn(f"crankcase = {pressure:g} Pa: was it given in bar or kPa? Pressures are Pa here")
+        warn(f"{name} = {pressure:g} Pa: was it given in bar or kPa? Pressures are Pa here")
     elif pressure > LARGEST_PRESSURE:
-        warn(f"crankcase = {pressure:g} Pa: is it in Pa? Pressures are Pa here")
+        warn(f"{name} = {pressure:g} Pa: is it in Pa? Pressures are Pa here")
 
 
 def body(mass: float, cg: Sequence[float], moments: Sequence[float], missing: float) -> None:
@@ -434,7 +434,9 @@ def odd_bank(given: str, split_deg: ArrayLike, of_other: ArrayLike) -> bool:
     return True
 
 
-def split_pins(split_deg: ArrayLike, shared: _core.Engine, firing_order: str, strokes: int) -> None:
+def split_pins(
+    split_deg: ArrayLike, shared: _core.Engine, firing_order: str, strokes: int, given: object
+) -> None:
     """Warn of pins that even firing splits, with the intervals at which shared ones fire.
 
     Parameters
@@ -444,7 +446,9 @@ def split_pins(split_deg: ArrayLike, shared: _core.Engine, firing_order: str, st
     shared
         The engine with shared pins.
     firing_order, strokes
-        As of builders.
+        As of builders, cylinders by their numbers.
+    given
+        The firing order as it was given.
     """
     if (largest := float(np.abs(split_deg).max())) < ROUNDING:
         return
@@ -460,8 +464,8 @@ def split_pins(split_deg: ArrayLike, shared: _core.Engine, firing_order: str, st
         )
         fires = f"fire at {'-'.join(f'{each:.6g}' for each in intervals[:count])}°"
     warn(
-        f"firing_order = {firing_order}: even firing needs crankpins split by {largest:.6g}°; "
-        f"shared ones, which shared_pins=True gives, {fires}"
+        f"firing_order = {labels.cut(str(given))}: even firing needs crankpins split by "
+        f"{largest:.6g}°; shared ones, which shared_pins=True gives, {fires}"
     )
 
 

@@ -339,7 +339,7 @@ class Cycle(Tabled, Input, ComputedCycles):
         halves = [round(2 * each) for each in inputs.explicit_half_orders(orders)]
         scale = area(cylinder) * cylinder.crank_radius
         below = inputs.number("crankcase", crankcase)
-        checks.crankcase(below)
+        checks.absolute("crankcase", below)
         return self._core.torque(cylinder._parts, below, halves)[1] * scale
 
     def resolution_error(

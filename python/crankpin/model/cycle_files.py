@@ -393,7 +393,7 @@ def _read(file: Path, columns: list[Column] | None) -> _Text:
                 width = len(_cells(stripped, *form))
                 names = names if len(names) == len(heads) == width else []
                 listed = range(width) if columns is None else columns
-                places = [_place(heads, names, column) for column in listed]
+                places = [_place(heads, names, column, width) for column in listed]
             if stripped[0] not in "#%!":
                 rows.append(stripped)
         if form is None:
@@ -467,7 +467,7 @@ def _cells(line: str, separator: str | None, comma: bool) -> list[str]:
     return [cell.replace(",", ".") for cell in cells] if comma else cells
 
 
-def _place(header: list[str], names: list[str], column: object) -> int:
+def _place(header: list[str], names: list[str], column: object, width: int) -> int:
     if isinstance(column, str):
         for heads in (header, names):
             if column in heads:
@@ -475,8 +475,8 @@ def _place(header: list[str], names: list[str], column: object) -> int:
         listed = ", ".join(map(repr, (names or header)[:10])) or "none"
         raise inputs.rejected("columns", column, f"there is none; the file has {listed}")
     place = inputs.whole("columns", column)
-    if not 0 <= place < 10_000:
-        raise inputs.rejected("columns", place, "give numbers from 0, or names")
+    if not 0 <= place < width:
+        raise inputs.rejected("columns", place, f"give numbers from 0 to {width - 1}, or names")
     return place
 
 

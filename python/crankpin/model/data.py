@@ -458,7 +458,7 @@ class EngineData:
             # Each cylinder fires in the turn in which it did, whether or not its order was dropped.
             below = self._below_pistons(crankcase)
             fired = changed._core.fired_as(self._core, list(range(len(self))), below)
-            checks.crankcase(below)
+            checks.absolute("crankcase", below)
             return type(self)(fired.firing_as(changed.firing_order, count))
         return changed._fired_by(cycles, crankcase, self)
 
@@ -614,7 +614,7 @@ class EngineData:
         distinct = [core for core in dict.fromkeys(cores) if core is not None]
         cycle_of = [None if core is None else distinct.index(core) for core in cores]
         fired = self._core.with_cycles(distinct, cycle_of, below)
-        checks.crankcase(below)
+        checks.absolute("crankcase", below)
         _warn_of_work(each, self.cylinders)
         return type(self)(fired)
 
@@ -758,7 +758,7 @@ class EngineData:
                 checks.bore(each.bore, each.stroke)
         checks.units(core)
         if core.cycles is not None and core.crankcase is not None:
-            checks.crankcase(core.crankcase)
+            checks.absolute("crankcase", core.crankcase)
             distinct = {each for each in core.cycles if each is not None}
             of_core = {each: Cycle._of(each) for each in distinct}
             pressures = [None if each is None else of_core[each] for each in core.cycles]

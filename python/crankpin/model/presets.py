@@ -268,6 +268,11 @@ def unknown(argument: str, name: str, *, typed: bool = False, own: str = "") -> 
 
 RECIPES = (
     (r"(u|h)[- ]?\d|square|opposed", "", ""),
+    (
+        r"v[- ]?\d*[13579](?!\d)",
+        "new vee --bank-angle {0} --throws … --absent …",
+        "vee(…, bank_angle_deg={0}, absent=[…])",
+    ),
     (r"v[- ]?(?:twin|\d+)", "new vee --bank-angle {0} --throws …", "vee(…, bank_angle_deg={0}, …)"),
     (r"i\d|twin|parallel", "new inline --throws …", "inline(…, throws_deg=[…])"),
     (r"flat", "new flat --throws …", "flat(…, throws_deg=[…])"),

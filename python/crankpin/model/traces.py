@@ -325,7 +325,7 @@ class Traces(Tabled, Input):
         """
         listed = inputs.explicit_half_orders(orders)
         below = inputs.number("crankcase", crankcase)
-        checks.crankcase(below)
+        checks.absolute("crankcase", below)
         with suppressed("crankcase ="):
             found = [
                 each.torque_harmonics(cylinder, listed, crankcase=below + self._raised)

@@ -244,6 +244,8 @@ def _bob_weight(
         ring(ax, x, np.zeros_like(x), foreground(ax), "D", "straight line, with its direction")
         for factor, direction_deg in lines:
             write_at_mark(ax, factor, 0.0, in_degrees(round(direction_deg, 1)))
+    if not any(np.any(values) for values in drawn):
+        note_zero(ax)
     label_x(ax, "balance factor")
     label_y(ax, f"half axes, {QUANTITIES[name].unit_over_square}")
     add_legend(ax)

@@ -53,6 +53,8 @@ PINS = "crankpin pins"
 """Marks the main journal, then the crankpins."""
 UNBALANCES = "crankpin unbalances"
 """Marks the discs of rotating masses in the star, then the sectors of counterweights."""
+LINE = 1.3
+"""Height of a line of text over the size of its font."""
 AS_LARGE = 6.0**-0.5
 """Radius of a disc over that of a sector of the same area."""
 WEIGHTS = "crankpin counterweights"
@@ -162,6 +164,7 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     front, back = drawn[0][0].low - 2.0 * thick, drawn[-1][-1].high + 4.0 * thick
     per_metre = 0.7 * 72.0 * inches_of(ax) / (back - front)
     journals, webs = [_rectangle(front, back, -half, half)], []
+    reach = 2.0 * crank_radius(engine)
     for throw in drawn:
         heights = [float(up[stretch.pin.cylinders[0] - 1]) for stretch in throw]
         for (_, low, high), height in zip(throw, heights, strict=True):
@@ -171,7 +174,10 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
         for k, (stretch, height) in enumerate(zip(throw, heights, strict=True)):
             # Numbers of pins side by side have the room between throws too.
             z = middle + (k - 0.5 * (len(throw) - 1)) * room
-            _number(ax, z, height, 1.2 * half, stretch.pin.cylinders, 0.9 * room * per_metre)
+            points = _number(
+                ax, z, height, 1.2 * half, stretch.pin.cylinders, 0.9 * room * per_metre
+            )
+            reach = max(reach, abs(height) + 1.2 * half + points / per_metre)
         # Webs: from the main journal to a pin, from pin to pin, and back to the main journal.
         joined = zip([0.0, *heights], [*heights, 0.0], strict=True)
         edges = [throw[0].low, *(stretch.high for stretch in throw)]
@@ -186,7 +192,6 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     add(ax, [wheel], facecolor=ink.metal, edgecolor=ink.line, linewidth=0.8, zorder=3)
     _weights(engine, ax, theta_deg, ink, thick)
     _shafts(engine, ax, theta_deg, ink, (front, back + 2.0 * thick), thick)
-    reach = max(flywheel, 2.0 * crank_radius(engine))
     ax.update_datalim([(front - thick, -reach), (back + 3.0 * thick, reach)])
     to_scale = pitch > 0.5 * crank_radius(engine)
     ax.set_aspect("equal" if to_scale else "auto")
@@ -220,16 +225,18 @@ def _stretches(engine: Engine) -> tuple[list[list[Stretch]], float]:
 
 def _number(
     ax: Axes, z: float, y: float, clear: float, cylinders: Sequence[int], room: float
-) -> None:
+) -> float:
     """Write the numbers of a pin's cylinders on the side of it that is away from the axis.
 
-    They are below each other where they are wider than ``room``, points.
+    They are below each other where they are wider than ``room``, points. Return how far they reach,
+    points.
     """
-    text = listed(cylinders)
-    if points_of(ax, text, FontProperties(size="small")) > room:
+    text, font = listed(cylinders), FontProperties(size="small")
+    if points_of(ax, text, font) > room:
         text = text.replace(", ", "\n")
     up = 1.0 if y > -1e-9 * clear else -1.0
     write(ax, text, complex(z, y + up * clear), 3.0j * up, va="bottom" if up > 0.0 else "top")
+    return 3.0 + LINE * font.get_size_in_points() * (text.count("\n") + 1)
 
 
 def _weights(engine: Engine, ax: Axes, theta: float, ink: Inks, thick: float) -> None:

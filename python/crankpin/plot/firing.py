@@ -206,7 +206,8 @@ def _dress(ax: Axes, result: Firing, rows: list[int], row_height: float) -> None
         if first:
             ax.axhline(first - 0.5, color=muted(ax), linewidth=0.8, linestyle="-")
         name = names.get(bank, "") if len(result.banks) > 1 else ""
-        if points_of(ax, name, FontProperties(size="small")) < 72.0 * row_height * len(bank):
+        room = 0.75 * 72.0 * row_height * len(bank)
+        if points_of(ax, name, FontProperties(size="small")) < room:
             ax.text(
                 1.01,
                 first + 0.5 * (len(bank) - 1),

@@ -366,6 +366,13 @@ def label_bar(bar: Colorbar, text: str) -> None:
     _fit(bar.ax, label, _FittedText(label, [text], bar.ax, "height"))
 
 
+def equal_scales(ax: Axes) -> None:
+    """Give x and y one scale, by limits; where axes share both, by the size of their boxes."""
+    shared = (ax.get_shared_x_axes(), ax.get_shared_y_axes())
+    both = all(len(axes.get_siblings(ax)) > 1 for axes in shared)
+    ax.set_aspect("equal", adjustable="box" if both else "datalim")
+
+
 def in_units(axis: Any, *lines: str) -> list[str]:  # noqa: ANN401 - of matplotlib
     """Return a label in the units of the setting, in which the numbers along an axis are written.
 

@@ -15,6 +15,7 @@ from crankpin.analysis.mounts.robustness import MountRobustness
 from crankpin.plot.layout import (
     add_legend,
     axes_or_new,
+    equal_scales,
     label_x,
     label_y,
     make_panels,
@@ -208,7 +209,7 @@ def _axes(
         mark: dict[str, Any] = {"color": foreground(place), "linestyle": "", "zorder": 3}
         place.plot(mounts[:, right], mounts[:, up], marker="s", label="mounts", **mark)
         place.plot(cg[right], cg[up], marker="o", label="centre of gravity", **mark)
-        place.set_aspect("equal", adjustable="datalim")
+        equal_scales(place)
         numeric(place.xaxis)
         numeric(place.yaxis)
         label_x(place, f"{'xyz'[right]}, m")

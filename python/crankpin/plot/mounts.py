@@ -37,7 +37,11 @@ from crankpin.plot.ticks import from_zero, numeric, span
 from crankpin.plot.words import joined, number, rounded
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from matplotlib.axes import Axes
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.typing import ColorType
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Order, Orders
@@ -196,14 +200,9 @@ def _map(
     norm = LogNorm(RANGE * largest, largest)
     options: dict[str, Any] = {"shading": "nearest", "norm": norm, "rasterized": True} | style
     mesh = ax.pcolormesh(rpm[columns], rows, np.maximum(cells, RANGE * largest), **options)
-    bar = ax.get_figure(root=False).colorbar(mesh, ax=ax, aspect=25, pad=0.02)  # type: ignore[union-attr]
-    label_bar(bar, "peak, N")
-    bar.outline.set_visible(False)
-    frequencies, note = _natural(result)
+    natural, note = _natural(result)
     fine = np.linspace(max(float(rpm.min()), 1.0), float(rpm.max()), 400)
-    for frequency in frequencies:
-        look: dict[str, Any] = {"color": "black", "linewidth": 0.9, "linestyle": (0, (4, 2))}
-        ax.plot(fine, 60.0 * frequency / fine, gid="crankpin modes", **look)
+    _bar_and_modes(ax, mesh, [(fine, 60.0 * each / fine) for each in natural], "black")
     ax.set_xlim(float(rpm.min()), float(rpm.max()))
     ax.set_ylim(0.5 * step, rows[-1] + 0.5 * step)
     numeric(ax.yaxis, whole=True)
@@ -269,18 +268,27 @@ def _waterfall(
     stems = LineCollection(list(ends.reshape(-1, 2, 2)[along]), **options)
     stems.set_array(peaks.ravel()[along])
     ax.add_collection(stems)
-    bar = ax.get_figure(root=False).colorbar(stems, ax=ax, aspect=25, pad=0.02)  # type: ignore[union-attr]
-    label_bar(bar, "peak, N")
-    bar.outline.set_visible(False)
-    for each in natural[natural < right]:
-        look: dict[str, Any] = {"color": muted(ax, 0.7), "linewidth": 0.9, "linestyle": (0, (4, 2))}
-        ax.axvline(float(each), gid="crankpin modes", zorder=1.5, **look)
+    low, high = float(rpm[0]), float(tips.max())
+    limits = low - 0.5 * step, high + 0.1 * (high - low)
+    upright = [((each, each), limits) for each in natural if each < right]
+    _bar_and_modes(ax, stems, upright, muted(ax, 0.7))
     _name_orders(ax, orders, peaks, np.stack([frequency[:, -1], tips[:, -1] + 0.2 * step]))
     ax.set_xscale("log")
     ax.set_xlim(left, right)
-    low, high = float(rpm[0]), float(tips.max())
-    ax.set_ylim(low - 0.5 * step, high + 0.1 * (high - low))
+    ax.set_ylim(*limits)
     return note
+
+
+def _bar_and_modes(
+    ax: Axes, peaks: ScalarMappable, modes: Sequence[tuple[Any, Any]], colour: ColorType
+) -> None:
+    """Add the bar of the peaks' colours, and a dashed line, x and y, for each mode."""
+    bar = ax.get_figure(root=False).colorbar(peaks, ax=ax, aspect=25, pad=0.02)  # type: ignore[union-attr]
+    label_bar(bar, "peak, N")
+    bar.outline.set_visible(False)
+    look: dict[str, Any] = {"color": colour, "linewidth": 0.9, "linestyle": (0, (4, 2))}
+    for along, height in modes:
+        ax.plot(along, height, gid="crankpin modes", zorder=1.5, **look)
 
 
 def _name_orders(

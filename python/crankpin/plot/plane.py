@@ -11,6 +11,7 @@ from crankpin._support import inputs
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.plot.layout import (
     Panels,
+    equal_scales,
     in_units,
     label_x,
     label_y,
@@ -256,7 +257,7 @@ def scale_plane(ax: Axes, reach: float = 1.15, *, centred: bool = True) -> None:
     margin = 0.5 * (reach - 1.0) * float(np.ptp(corners, axis=0).max()) if largest else 1.0
     ax.update_datalim(corners + np.array([[-margin], [margin]]))
     ax.margins(0.0)
-    ax.set_aspect("equal", adjustable="datalim")
+    equal_scales(ax)
     numeric(ax.xaxis)
     numeric(ax.yaxis)
     if not largest:

@@ -21,7 +21,7 @@ from crankpin.analysis.request import engine_core
 from crankpin.view.terms import RodRatios, at_rod_ratio, kinds, listed_orders, terms
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -34,6 +34,10 @@ if TYPE_CHECKING:
 Controls: TypeAlias = "str | Sequence[str] | None"
 """Names of controls, or one; None for all."""
 CONTROLS = ("crank_angle", "rpm", "rod_ratio", "bank_angle", "rocking", "sound", "view")
+UNITS = {name: QUANTITIES[name].unit for name in ("force", "moment", "torque")} | {
+    "orbit": "m", "length": "m", "pressure": "Pa", "inertia": "kg·m²",
+}  # fmt: skip
+"""Unit of a page's numbers by quantity."""
 CURVE_STEP = 2.0
 """Degrees between the samples of a curve."""
 IRREGULARITY = 0.01
@@ -117,7 +121,7 @@ def figures(
         "flywheel": None if pairs is not None else _inertia(engine, float(rpm), inertia),
         "compact": inputs.flag("compact", compact),
         "controls": _controls(engine, controls, compact=compact),
-        "units": _units(),
+        "units": in_units(UNITS),
         "sentences": []
         if compact or pairs
         else [units.in_text(each) for each in Explanation(engine, float(rpm) or None).sentences],
@@ -212,20 +216,31 @@ def _controls(engine: Engine, controls: Controls, *, compact: bool) -> list[str]
     known = [name for name in CONTROLS if has.get(name, True)]
     if controls is None:
         return [name for name in known if not (compact and vee and name == "rod_ratio")]
+    return named_controls(controls, CONTROLS, known)
+
+
+def named_controls(
+    controls: str | Sequence[str], every: Sequence[str], known: Sequence[str]
+) -> list[str]:
+    """Return the names of controls as given, each once; of all that pages have, this one's.
+
+    Raises
+    ------
+    InputError
+        If there is no such control.
+    """
     named = [controls] if isinstance(controls, str) else controls
     listed = inputs.items("controls", named, f'give names, of {", ".join(known)}, or "none"')
     if listed == ["none"]:
         return []
     for name in listed:
-        if inputs.one_of("controls", name, CONTROLS) not in known:
+        if inputs.one_of("controls", name, every) not in known:
             raise inputs.rejected("controls", name, f"this page has {', '.join(known)}")
     return list(dict.fromkeys(listed))
 
 
-def _units() -> dict[str, units.Converted]:
+def in_units(own: Mapping[str, str]) -> dict[str, units.Converted]:
     """Return the units of a page that are not its own, with their factors, by quantity."""
-    own = {name: QUANTITIES[name].unit for name in ("force", "moment", "torque")}
-    own |= {"orbit": "m", "length": "m", "pressure": "Pa", "inertia": "kg·m²"}
     shown = {name: units.convert(unit) for name, unit in own.items()}
     return {name: each for name, each in shown.items() if each.unit != own[name]}
 

@@ -11,7 +11,7 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import mean_piston_speed
-from crankpin.view.figures import places
+from crankpin.view.figures import in_units, named_controls, places
 from crankpin.view.terms import ONE_RADIAN_PER_SECOND
 
 if TYPE_CHECKING:
@@ -22,14 +22,18 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Order
     from crankpin.analysis.mounts.powertrain import Powertrain
     from crankpin.model.mounts import Mount
+    from crankpin.view.figures import Controls
 
+CONTROLS = ("crank_angle", "rpm", "order", "mode", "rocking", "mounts", "view")
+UNITS = {"force": "N", "motion": "m", "length": "m", "stiffness": "N/m"}
+"""Unit of a page's numbers by quantity."""
 TRACK_POINTS = (0.4, 0.8, 1.25, 2.5)
 """Frequencies over that of the fluid at which a hydraulic mount is read: as many as it has
 coefficients."""
 
 
 def figures(
-    powertrain: Powertrain, rpm: float, *, frequency: float | None = None
+    powertrain: Powertrain, rpm: float, *, frequency: float | None = None, controls: Controls = None
 ) -> dict[str, Any]:
     """Return a powertrain as plain lists and numbers, from which its page evaluates its own.
 
@@ -50,6 +54,8 @@ def figures(
         **places(engine, at),
         "name": f"{labels.name_of(engine)} on its mounts",
         "loads": labels.in_words(engine.loads_counted),
+        "controls": named_controls(CONTROLS if controls is None else controls, CONTROLS, CONTROLS),
+        "units": in_units(UNITS),
         "mounted": {
             "cg": list(powertrain.body.cg),
             "box": _box(powertrain),

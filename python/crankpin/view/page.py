@@ -58,11 +58,16 @@ def save_html(
 
 
 def save_mounted_html(
-    powertrain: Powertrain, path: str | Path, *, rpm: float = 800.0, frequency: float | None = None
+    powertrain: Powertrain,
+    path: str | Path,
+    *,
+    rpm: float = 800.0,
+    frequency: float | None = None,
+    controls: Controls = None,
 ) -> None:
     """Write a page of a powertrain; :meth:`Powertrain.save_html` documents the arguments."""
     file = inputs.file_path(path, (".html", ".htm"), "a page ends in .html")
-    known = mounted.figures(powertrain, rpm, frequency=frequency)
+    known = mounted.figures(powertrain, rpm, frequency=frequency, controls=controls)
     text = document(
         known["name"],
         ("mounted.mjs", "page.mjs"),

@@ -115,10 +115,15 @@ class PowertrainWidget(anywidget.AnyWidget):
     """Place (``"at"``) and dynamic stiffness (``"stiffness"``) of each mount."""
 
     def __init__(
-        self, powertrain: Powertrain, rpm: float = 800.0, *, frequency: float | None = None
+        self,
+        powertrain: Powertrain,
+        rpm: float = 800.0,
+        *,
+        frequency: float | None = None,
+        controls: Controls = None,
     ) -> None:
         self._powertrain, self._frequency = powertrain, frequency
-        known = mounted.figures(powertrain, rpm, frequency=frequency)
+        known = mounted.figures(powertrain, rpm, frequency=frequency, controls=controls)
         self._orders: list[Any] = known["mounted"]["orders"]
         states = [mounted.placed(mount) for mount in powertrain.mounts]
         order = mounted.largest_order(powertrain, known["rpm"])

@@ -61,6 +61,10 @@ table:has(th:nth-child(17)) { font-size: 6pt; }
 p { margin: 0 0 4mm; }
 @page { size: auto; margin: 12mm; }
 @media print { body { margin: 0; max-width: none; } }
+@media screen and (max-width: 20cm) {
+  body { margin: 4mm; }
+  table { display: block; overflow-x: auto; }
+}
 </style>
 </head>
 <body>

@@ -21,7 +21,7 @@ from crankpin.model.mounts import Mount, RigidBody
 from crankpin.model.supports import Receptance, Subframe, Support
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
     from pathlib import Path
 
     from numpy.typing import ArrayLike
@@ -513,7 +513,13 @@ class Powertrain(Input):
 
     # --- pages ------------------------------------------------------------------------------------
 
-    def view(self, rpm: float = 800.0, *, frequency: float | None = None) -> PowertrainWidget:
+    def view(
+        self,
+        rpm: float = 800.0,
+        *,
+        frequency: float | None = None,
+        controls: str | Sequence[str] | None = None,
+    ) -> PowertrainWidget:
         """Return the engine turning on its mounts, as a widget for notebooks (needs anywidget).
 
         Mounts can be dragged; modes and response follow. Its traits ``angle_deg``, ``rpm``,
@@ -526,6 +532,12 @@ class Powertrain(Input):
             Crank speed at first, rpm.
         frequency : float, optional
             As in :meth:`modes`.
+        controls : str or sequence of str, optional
+            Names of the controls that are shown, in this order, or one name: ``"crank_angle"``,
+            ``"rpm"``, ``"order"``, ``"mode"``, ``"rocking"`` for how much the motion is magnified,
+            ``"mounts"`` for the table of mounts and to drag them, and ``"view"`` for the choice
+            above the curves over speed. ``"none"`` or an empty sequence leaves the pictures alone.
+            By default all.
 
         Returns
         -------
@@ -542,10 +554,15 @@ class Powertrain(Input):
         """
         from crankpin.view.widget import PowertrainWidget  # noqa: PLC0415
 
-        return PowertrainWidget(self, rpm, frequency=frequency)
+        return PowertrainWidget(self, rpm, frequency=frequency, controls=controls)
 
     def save_html(
-        self, path: str | Path, rpm: float = 800.0, *, frequency: float | None = None
+        self,
+        path: str | Path,
+        rpm: float = 800.0,
+        *,
+        frequency: float | None = None,
+        controls: str | Sequence[str] | None = None,
     ) -> None:
         """Write the engine turning on its mounts, as a page that needs a browser alone.
 
@@ -560,6 +577,8 @@ class Powertrain(Input):
             As in :meth:`view`.
         frequency : float, optional
             As in :meth:`modes`.
+        controls : str or sequence of str, optional
+            As in :meth:`view`.
 
         Raises
         ------
@@ -571,7 +590,7 @@ class Powertrain(Input):
         """
         from crankpin.view.page import save_mounted_html  # noqa: PLC0415
 
-        save_mounted_html(self, path, rpm=rpm, frequency=frequency)
+        save_mounted_html(self, path, rpm=rpm, frequency=frequency, controls=controls)
 
     # --- files ------------------------------------------------------------------------------------
 

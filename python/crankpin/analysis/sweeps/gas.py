@@ -56,7 +56,7 @@ class GasMap(Record):
                 raise inputs.faulty("cycle", fault, "give one for each cylinder")
         below = inputs.optional_number("crankcase", crankcase)
         if below is not None:
-            checks.crankcase(below)
+            checks.absolute("crankcase", below)
         return cls(tuple(maps), below)
 
     @property

@@ -20,7 +20,7 @@ from crankpin._support.tables import Column, Table
 from crankpin.analysis import export
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder
-from crankpin.analysis.request import Request, check_request, engine_core
+from crankpin.analysis.request import ENGINE_HINT, Request, check_request, engine_core
 from crankpin.analysis.sweeps import dask
 from crankpin.analysis.sweeps.gas import GasMap
 from crankpin.analysis.sweeps.waveform import SweepWaveform
@@ -731,7 +731,7 @@ def _listed(engines: Engines) -> tuple[list[Engine], tuple[str, ...] | None]:
     if not isinstance(engines, (list, tuple)):
         if isinstance(engines, Mapping):
             names, engines = [str(name) for name in engines], engines.values()
-        engines = inputs.items("engines", engines, "give crankpin.Engine objects")
+        engines = inputs.items("engines", engines, f"{ENGINE_HINT}, or several")
     for engine in engines:
         engine_core(engine, "engines")
     if names is None:

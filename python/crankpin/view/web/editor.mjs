@@ -2,25 +2,26 @@
 
 import { pair } from "./controls.mjs";
 import { html, numbered, show } from "./dom.mjs";
-import { short } from "./format.mjs";
+import { fieldUnit } from "./format.mjs";
 import { MOUNT_STRINGS } from "./mount_strings.mjs";
 import { STRINGS } from "./strings.mjs";
 
-const MILLIMETRES = { shown: (metres) => metres * 1e3, taken: (typed) => typed / 1e3 };
-const PER_MILLIMETRE = { shown: (stiffness) => stiffness / 1e3, taken: (typed) => typed * 1e3 };
+/** Places that can be typed, m, how far sliders reach, and the least that is shown. */
+const FARTHEST = 5;
+const REACH = 0.4;
+const LEAST_LENGTH = 1e-4;
 
-/** Places that can be typed, mm, and how far sliders reach. */
-const FARTHEST = 5000;
-const REACH = 400;
-
-/** Stiffness that can be typed, N/mm; sliders reach to the multiple of the mount's largest. */
-const STIFFEST = 1e6;
+/** Stiffness that can be typed, N/m, and the least that is shown; sliders reach to the multiple of the mount's largest. */
+const STIFFEST = 1e9;
+const LEAST_STIFFNESS = 100;
 const MULTIPLE = 3;
 
 export class Editor {
   /** `change` takes the number of a mount and its new place or stiffness, `choose` a number, `reset` nothing. */
-  constructor({ mounts }, { change, choose, reset }) {
+  constructor({ mounts }, units, { change, choose, reset }) {
     this.figures = mounts;
+    this.length = fieldUnit(units.length, LEAST_LENGTH);
+    this.stiffness = fieldUnit(units.stiffness, LEAST_STIFFNESS);
     this.change = change;
     this.rows = mounts.map(({ name }, k) => {
       const label = numbered(html, "span", "mount-name");
@@ -38,7 +39,7 @@ export class Editor {
     this.element = html("div", {},
       html("div", { class: "scrolls" }, html("table", { class: "mounts" },
         html("thead", {}, html("tr", {},
-          ...MOUNT_STRINGS.mountHeads.map((text) => html("th", { scope: "col" }, text)))),
+          ...MOUNT_STRINGS.mountHeads(this.length.name, this.stiffness.name).map((text) => html("th", { scope: "col" }, text)))),
         html("tbody", {}, ...this.rows.map(({ element }) => element)))),
       this.controls, this.reset,
       html("details", {}, html("summary", {}, MOUNT_STRINGS.asPython), html("pre", {}, this.code)));
@@ -52,9 +53,9 @@ export class Editor {
       const { button, numbers, element } = this.rows[k];
       element.classList.toggle("chosen", k === chosen);
       button.setAttribute("aria-pressed", k === chosen);
-      at.forEach((value, axis) => show(numbers[axis], value, short(MILLIMETRES.shown(value), 1)));
+      at.forEach((value, axis) => show(numbers[axis], value, this.length.text(value)));
       [0, 1, 2].forEach((axis) => (stiffness
-        ? show(numbers[3 + axis], stiffness[axis], short(PER_MILLIMETRE.shown(stiffness[axis]), 1))
+        ? show(numbers[3 + axis], stiffness[axis], this.stiffness.text(stiffness[axis]))
         : show(numbers[3 + axis], "", MOUNT_STRINGS.ofTable)));
     });
     this.settle(mounts);
@@ -76,23 +77,24 @@ export class Editor {
   /** Make the controls of a mount. */
   choose(mounts, chosen) {
     this.chosen = chosen;
+    const { length, stiffness: rate } = this;
     const { name } = this.figures[chosen];
     const { at, stiffness } = mounts[chosen];
     const settle = () => this.settle(this.mounts);
     const along = (values, axis) => (value) => values().map((each, k) => (k === axis ? value : each));
     this.places = at.map((value, axis) => {
       const act = along(() => this.mounts[chosen].at, axis);
-      const own = 1e3 * this.figures[chosen].at[axis];
-      return pair("xyz"[axis], `${name}: ${"xyz"[axis]}, ${STRINGS.millimetres}`, `mount-${"xyz"[axis]}`, Math.floor(own - REACH),
-        Math.ceil(own + REACH), 1, STRINGS.millimetres, (typed) => this.change(chosen, { at: act(typed) }), settle,
-        [-FARTHEST, FARTHEST], MILLIMETRES);
+      const own = this.figures[chosen].at[axis];
+      return pair("xyz"[axis], `${name}: ${"xyz"[axis]}, ${length.name}`, `mount-${"xyz"[axis]}`,
+        Math.floor(length.shown(own - REACH)), Math.ceil(length.shown(own + REACH)), length.step, length.name,
+        (typed) => this.change(chosen, { at: act(typed) }), settle, [-FARTHEST, FARTHEST].map(length.whole), length);
     });
     const largest = Math.max(...(this.figures[chosen].stiffness ?? [0])) || 1e5;
-    const most = Math.ceil((MULTIPLE * largest) / 1e3);
+    const most = Math.ceil(rate.shown(MULTIPLE * largest));
     this.stiffnesses = (stiffness ?? []).map((value, axis) => {
       const act = along(() => this.mounts[chosen].stiffness, axis);
-      return pair(MOUNT_STRINGS.axes[axis], `${name}: ${MOUNT_STRINGS.axes[axis]}, N/mm`, `mount-k${axis + 1}`, 0, most, 1, "N/mm",
-        (typed) => this.change(chosen, { stiffness: act(typed) }), settle, [0, STIFFEST], PER_MILLIMETRE);
+      return pair(MOUNT_STRINGS.axes[axis], `${name}: ${MOUNT_STRINGS.axes[axis]}, ${rate.name}`, `mount-k${axis + 1}`, 0, most,
+        rate.step, rate.name, (typed) => this.change(chosen, { stiffness: act(typed) }), settle, [0, rate.whole(STIFFEST)], rate);
     });
     const title = numbered(html, "b", "mount-name");
     show(title, name, name);

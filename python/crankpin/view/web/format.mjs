@@ -28,6 +28,17 @@ export function short(value, decimals) {
   return signed(String(Number(value.toFixed(decimals))));
 }
 
+/** A unit with a factor from SI, of fields and of texts that show `least`, in SI: what is shown, and what is typed. */
+export function fieldUnit([name, factor], least) {
+  const decimals = Math.max(0, Math.ceil(-Math.log10(least * factor)));
+  const shown = (value) => Number((value * factor).toPrecision(7)); // as a field has room
+  return {
+    name, shown, whole: (value) => Math.round(shown(value)), step: roundBelow(15 * least * factor), text: (value) => short(shown(value), decimals),
+    // Without the digits that rounding adds.
+    taken: (typed) => Number((typed / factor).toPrecision(12)),
+  };
+}
+
 /** A true minus sign, and none before a zero. */
 export function signed(text) {
   return text.replace(/^-(?=[0.]*$)/, "").replace("-", "−");

@@ -8,10 +8,10 @@ import { MOUNT_STRINGS } from "./mount_strings.mjs";
 const COORDINATES = [["fore-aft", 2], ["lateral", 0], ["bounce", 1], ["roll", 5], ["pitch", 3], ["yaw", 4]];
 
 export class Modes {
-  /** `choose` takes the number of a mode from 0, or null for what the engine makes. */
+  /** `choose` takes the number of a mode from 0, or null for what the engine makes; without it none is chosen. */
   constructor(choose) {
     this.rows = Array.from({ length: 6 }, (_, k) => {
-      const button = html("button", { type: "button", "aria-pressed": "false" }, number(k));
+      const button = html("button", { type: "button", "aria-pressed": "false", disabled: !choose }, number(k));
       button.addEventListener("click", () => choose(button.getAttribute("aria-pressed") === "true" ? null : k));
       const cell = (name) => numbered(html, "td", `mode-${k + 1}-${name}`, { class: name });
       const cells = {

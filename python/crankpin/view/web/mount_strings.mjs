@@ -30,14 +30,16 @@ export const MOUNT_STRINGS = {
   drawnAt: " at ",
   drawnTimes: ": the block's motion is drawn × ",
   drawnShape: " swings once a turn of the crank; how far is without meaning",
+  units: { force: ["N"], motion: ["m"], length: ["mm", 1e3], stiffness: ["N/mm", 1e-3] },
   mountsTitle: "Mounts: drag them, or move them with the arrow keys, shift ten times as far",
-  mountHeads: ["mount", "x, mm", "y, mm", "z, mm", "first axis, N/mm", "second", "third"],
+  mountHeads: (length, stiffness) =>
+    ["mount", `x, ${length}`, `y, ${length}`, `z, ${length}`, `first axis, ${stiffness}`, "second", "third"],
   axes: ["first axis", "second axis", "third axis"],
   asBefore: "as given",
   asPython: "in Python",
   ofTable: "table",
   tableIsFixed: "The stiffness of this mount is a table, which stays.",
-  placeText: (x, y, z) => `x ${x} mm, y ${y} mm, z ${z} mm`,
+  placeText: (places, unit) => places.map((place, k) => `${"xyz"[k]} ${place} ${unit}`).join(", "),
   counted: "It counts the engine's loads of the orders",
   countedRest: "about the centre of gravity, on one rigid body, and the mounts' dynamic stiffness with its damping. "
     + "It leaves out other orders, the mean torque and the sag, and that body and chassis give way. "

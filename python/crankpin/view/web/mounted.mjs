@@ -1,7 +1,7 @@
 // The page of an engine on its mounts: it moves as one block, at an order and a speed or in one of its modes.
 
 import { magnitude, reduced, unit } from "./complex.mjs";
-import { Exaggeration, FASTEST, choice, pair } from "./controls.mjs";
+import { Exaggeration, FASTEST, choice, chosen, pair } from "./controls.mjs";
 import { fixed, html, numbered, show } from "./dom.mjs";
 import { Editor } from "./editor.mjs";
 import { roundBelow, scaleFor, short } from "./format.mjs";
@@ -48,7 +48,10 @@ export class Mounted extends Turning {
   }
 
   build(title) {
-    const { figures, figures: { mounted }, state } = this;
+    const { figures, figures: { controls, mounted }, state } = this;
+    const has = (name) => controls.includes(name);
+    /** Units by quantity: a name, which takes a prefix, or a name and the factor from SI. */
+    this.units = { ...MOUNT_STRINGS.units, ...figures.units };
     this.own = state.mounts;
     this.held = false;
     this.width = 560;
@@ -61,9 +64,9 @@ export class Mounted extends Turning {
     ];
     const acts = {
       choose: (mount) => this.set({ mount }),
-      move: (k, at, held) => { this.held = held; this.change(k, { at }); },
+      move: has("mounts") && ((k, at, held) => { this.held = held; this.change(k, { at }); }),
     };
-    this.springs = this.scenes.map((scene) => new Springs(scene, mounted, acts));
+    this.springs = this.scenes.map((scene) => new Springs(scene, mounted, acts, this.units.length));
     const step = figures.rpm < 100 ? 0.1 : 1;
     this.rpm = pair(STRINGS.speed, STRINGS.speedField, "rpm", Math.ceil(this.range[0] / step) * step, this.range[1], step,
       STRINGS.rpm, (rpm) => this.set({ rpm }), () => this.rpm.show(this.state.rpm), [step, FASTEST]);
@@ -81,13 +84,13 @@ export class Mounted extends Turning {
     this.stretched = numbered(html, "span", "stretch");
     this.stretchedLine = html("p", { class: "hint" }, `${STRINGS.stretched} `, this.stretched);
     this.trouble = html("p", { class: "hint trouble", role: "status" }, MOUNT_STRINGS.resonance);
-    this.modesTable = new Modes((mode) => this.set({ mode, exaggeration: null }));
-    this.runUp = new RunUp((rpm) => this.set({ rpm, mode: null }));
-    this.quantity = choice("quantity", MOUNT_STRINGS.quantity, this);
+    this.modesTable = new Modes(has("mode") && ((mode) => this.set({ mode, exaggeration: null })));
+    this.runUp = new RunUp(has("rpm") && ((rpm) => this.set({ rpm, mode: null })));
+    this.quantity = choice("quantity", MOUNT_STRINGS.quantity, this, !has("view"));
     this.ofOrder = numbered(html, "span", "run-up-order");
     this.runUpHint = html("p", { class: "hint" });
     this.runUpBox = html("div", { class: "run-up-box" }, this.runUp.element);
-    this.editor = new Editor(mounted, {
+    this.editor = new Editor(mounted, this.units, {
       ...acts, change: (k, changes) => this.change(k, changes), reset: () => this.set({ mounts: this.own }),
     });
     this.values = Object.fromEntries(["force", "displacement", "rotation"].map((name) =>
@@ -101,16 +104,19 @@ export class Mounted extends Turning {
         panel(STRINGS.crossSection, this.scenes[0].element),
         panel(STRINGS.side.left, this.scenes[1].element),
         panel(STRINGS.side.above, this.scenes[2].element)),
-      this.drawnLine, this.stretchedLine, this.trouble, this.transport.element,
-      html("div", { class: "settings" }, this.rpm.element,
-        html("div", { class: "setting" }, html("span", {}, STRINGS.order), this.order), this.exaggeration.element),
+      this.drawnLine, this.stretchedLine, this.trouble,
+      has("crank_angle") ? this.transport.element : "",
+      chosen(figures, {
+        rpm: [this.rpm.element], rocking: [this.exaggeration.element],
+        order: [html("div", { class: "setting" }, html("span", {}, STRINGS.order), this.order)],
+      }),
       html("div", { class: "halves" },
         section(html("span", {}, MOUNT_STRINGS.modesOf, ...at), this.modesTable.element),
         section(html("span", {}, this.quantity, ", rms, ", this.ofOrder),
           legend(["x", "y", "z", "length"], MOUNT_STRINGS.lines), this.runUpBox, this.runUpHint)),
       html("div", { class: "dials values" }, ...Object.keys(this.values).map((name) =>
         panel(MOUNT_STRINGS.effectiveValues[name], this.listOf(name)))),
-      section(MOUNT_STRINGS.mountsTitle, this.editor.element),
+      has("mounts") ? section(MOUNT_STRINGS.mountsTitle, this.editor.element) : "",
       html("p", { class: "hint" }, `${MOUNT_STRINGS.counted}`, ...listed, `, ${MOUNT_STRINGS.countedRest}`),
       html("p", { class: "hint" }, STRINGS.keys));
     this.resized = new ResizeObserver(([entry]) => {
@@ -227,9 +233,8 @@ export class Mounted extends Turning {
     }
     const { speeds, parts, crossings } = this.swept;
     const values = parts.map((each) => each && effective(each, key));
-    const unitName = key === "force" ? "N" : "m";
     this.curves = { speeds, values };
-    this.runUp.layout({ speeds, values, crossings, unit: unitName, range: this.range, width: Math.max(this.width, 260) });
+    this.runUp.layout({ speeds, values, crossings, unit: this.units[key], range: this.range, width: Math.max(this.width, 260) });
     this.runUp.at(state.rpm);
     show(this.ofOrder, one ?? "", `${MOUNT_STRINGS.ofOrder(one)}${one ?? ""}`);
     this.runUpHint.textContent = one === null ? MOUNT_STRINGS.chooseOrder : MOUNT_STRINGS.perSpeed;
@@ -259,8 +264,8 @@ export class Mounted extends Turning {
     show(drawn.mode, mode ? state.mode + 1 : "", mode ? `${state.mode + 1}, ${mode.frequency.toFixed(2)} Hz,` : "");
     this.drawnLine.replaceChildren(...(mode ? [MOUNT_STRINGS.drawnMode, drawn.mode, MOUNT_STRINGS.drawnShape]
       : [drawn.order, MOUNT_STRINGS.drawnAt, drawn.rpm, MOUNT_STRINGS.drawnTimes, drawn.factor]));
-    this.write("force", parts && effective(parts, "force"), "N");
-    this.write("displacement", parts && effective(parts, "motion"), "m");
+    this.write("force", parts && effective(parts, "force"), this.units.force);
+    this.write("displacement", parts && effective(parts, "motion"), this.units.motion);
     this.write("rotation", parts && effective(parts.map(({ motion }) => ({ motion: motion.slice(3) })), "motion"), "rad");
   }
 

@@ -15,7 +15,7 @@ const DECADES = 4;
 const LEVELS = 2;
 
 export class RunUp {
-  /** `choose` takes the speed that the reader points at. */
+  /** `choose` takes the speed that the reader points at, if he may. */
   constructor(choose) {
     this.frame = svg("path", { class: "frame" });
     this.grid = svg("g");
@@ -25,7 +25,7 @@ export class RunUp {
     this.note = svg("text", { class: "note" });
     this.element = svg("svg", { class: "run-up", role: "img", "aria-label": MOUNT_STRINGS.runUpDescribed, height: HIGH },
       this.grid, this.frame, this.marks, ...this.lines, this.cursor, this.note);
-    dragged(this.element, (event) => {
+    if (choose) dragged(this.element, (event) => {
       const box = this.element.getBoundingClientRect();
       const share = (event.clientX - box.left - MARGIN.left) / (this.right - MARGIN.left);
       const [low, high] = this.range;
@@ -35,7 +35,7 @@ export class RunUp {
 
   /**
    * Draw curves along x, y and z and of the length: `values` has an array for each of `speeds`, or null where there is
-   * no answer. `crossings` are speeds at which modes, by number, are met.
+   * no answer, in SI; `unit` is a name, or a name and the factor from SI. `crossings` are speeds at which modes, by number, are met.
    */
   layout({ speeds, values, crossings, unit, range, width }) {
     Object.assign(this, { range, right: width - MARGIN.right });
@@ -43,7 +43,9 @@ export class RunUp {
     this.element.setAttribute("viewBox", `0 0 ${width} ${HIGH}`);
     const [low, high] = range;
     this.x = (rpm) => MARGIN.left + (this.right - MARGIN.left) * (Math.log(rpm / low) / Math.log(high / low));
-    const lengths = values.map((each) => each && Math.hypot(...each));
+    const [name, factor = 1] = unit;
+    const shown = values.map((each) => each?.map((value) => value * factor));
+    const lengths = shown.map((each) => each && Math.hypot(...each));
     const known = lengths.filter((each) => each > 0 && Number.isFinite(each));
     show(this.note, "", known.length ? "" : MOUNT_STRINGS.nothingMoves);
     place(this.note, [MARGIN.left + 8, (MARGIN.top + bottom) / 2]);
@@ -57,7 +59,7 @@ export class RunUp {
       let run = [];
       const flush = () => { d += run.length > 1 ? path(run) : ""; run = []; };
       speeds.forEach((rpm, at) => {
-        const value = values[at] && (k < 3 ? values[at][k] : lengths[at]);
+        const value = shown[at] && (k < 3 ? shown[at][k] : lengths[at]);
         if (value >= 10 ** floor && Number.isFinite(value)) run.push([this.x(rpm), y(value)]);
         else flush();
       });
@@ -65,7 +67,7 @@ export class RunUp {
       line.setAttribute("d", d);
     });
     this.grid.replaceChildren(...this.ticks(low, high, bottom), ...known.length ? decades(floor, top).map((power) => {
-      const { unit: prefixed, text } = scaleFor(10 ** power, unit);
+      const { unit: prefixed, text } = scaleFor(10 ** power, unit[1] ? [name, 1] : name);
       return [10 ** power, `${Number(text(10 ** power))} ${prefixed}`];
     }).flatMap(([value, text]) => [
       svg("path", { class: "grid", d: `M${MARGIN.left} ${y(value).toFixed(2)}H${this.right}` }),

@@ -1,6 +1,7 @@
 // Mounts in a picture of the engine: springs at their places, which the reader can move, and the body's box.
 
 import { numbered, path, place, show, svg } from "./dom.mjs";
+import { fieldUnit } from "./format.mjs";
 import { MOUNT_STRINGS } from "./mount_strings.mjs";
 
 /** Length of a spring, over the largest extent of the body's box. */
@@ -28,8 +29,8 @@ const KEYS = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, -1], ArrowDo
 
 export class Springs {
   /** `move` takes a mount's number, its new place in metres and whether it is still held; `choose` takes a number. */
-  constructor(scene, figures, { choose, move }) {
-    Object.assign(this, { scene, figures, move });
+  constructor(scene, figures, { choose, move }, length) {
+    Object.assign(this, { scene, figures, move, inUnit: fieldUnit(length, STEP_BY_KEY) });
     const extent = [0, 1, 2].map((axis) => {
       const along = figures.box.map((corner) => corner[axis]);
       return Math.max(...along) - Math.min(...along);
@@ -53,8 +54,9 @@ export class Springs {
     const knob = svg("circle", { class: "knob", r: 6 });
     const label = numbered(svg, "text", "mount-name", { class: "mount-name" });
     show(label, name, name);
-    const element = svg("g", { class: "mount", tabindex: 0, role: "slider", "aria-label": `${MOUNT_STRINGS.mount} ${name}` },
+    const element = svg("g", { class: "mount", ...(this.move ? { tabindex: 0, role: "slider" } : { role: "img" }), "aria-label": `${MOUNT_STRINGS.mount} ${name}` },
       ends, ...springs, knob, label);
+    if (!this.move) return { element, springs, ends, knob, label };
     element.addEventListener("focus", () => choose(k));
     element.addEventListener("keydown", (event) => {
       const by = KEYS[event.key];
@@ -120,9 +122,9 @@ export class Springs {
     const names = [];
     this.mounts.forEach(({ element, springs, label }, k) => {
       element.classList.toggle("chosen", k === chosen);
-      const [x, y, z] = this.places[k].map((part) => (part * 1000).toFixed(0));
-      element.setAttribute("aria-valuetext", MOUNT_STRINGS.placeText(x, y, z));
-      element.setAttribute("aria-valuenow", x);
+      const places = this.places[k].map(this.inUnit.text);
+      element.setAttribute("aria-valuetext", MOUNT_STRINGS.placeText(places, this.inUnit.name));
+      element.setAttribute("aria-valuenow", this.inUnit.shown(this.places[k][0]));
       const { stiffness } = mounts[k];
       springs.forEach((spring, axis) => {
         const share = stiffness && largest ? stiffness[axis] / largest : 1;

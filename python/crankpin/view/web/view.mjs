@@ -1,11 +1,11 @@
 // The state of a page, from which every picture and every number follows; `Full` and `Compact` draw it.
 
 import { reduced } from "./complex.mjs";
-import { Settings } from "./controls.mjs";
 import { Numbers } from "./numbers.mjs";
 import { MOST_ORDERS, shown } from "./orders.mjs";
 import { configure, ownSettings, placesAt, strokesAt } from "./places.mjs";
 import { Readouts } from "./readouts.mjs";
+import { Settings } from "./settings.mjs";
 import { between, extremeValues } from "./speed.mjs";
 import { peaks, turn } from "./turn.mjs";
 import { Turning } from "./turning.mjs";
