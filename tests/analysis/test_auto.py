@@ -12,8 +12,10 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
+from crankpin.analysis.contributions import contributions
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from several_cranks import Draft, fired_engine, random_engine
 
 if TYPE_CHECKING:
     from crankpin.model.engine import Hold
@@ -24,23 +26,45 @@ OMEGA = RPM * 2.0 * np.pi / 60.0
 OMEGA_6000 = 6000.0 * 2.0 * np.pi / 60.0
 QUANTITIES = ("force", "moment", "torque")
 
-# Radii and masses are random.
-pytestmark = pytest.mark.filterwarnings("ignore:.*was it given in grams:UserWarning")
+# Radii, masses and places are random, and pressures.
+pytestmark = [
+    pytest.mark.filterwarnings("ignore:.*was it given in (grams|millimetres):UserWarning"),
+    pytest.mark.filterwarnings("ignore:.*pressure (peaks|brakes):UserWarning"),
+]
 
 examples = settings(max_examples=60, deadline=None, derandomize=True)
 
 
 def scales(engine: cp.Engine) -> dict[str, float]:
-    """What rtol is relative to."""
-    pairs = list(zip(engine.cylinders, engine.rotating_mass, strict=True))
+    """What rtol is relative to: a load's, which grows with the square of the speed of its crank."""
+    cranks, crank_of = engine._core.cranks
     radius = max(c.crank_radius for c in engine.cylinders)
-    turning = max(mass * c.crank_radius for c, mass in pairs)
-    force = max(turning, *(c.reciprocating_mass * c.crank_radius for c, _ in pairs)) * OMEGA**2
-    torque = (
-        max(turning * radius, *(c.reciprocating_mass * c.crank_radius**2 for c, _ in pairs))
-        * OMEGA**2
-    )
-    lever = float(np.abs(engine.z - engine.reference_z).max())
+    on_cranks = [
+        (weight.amount, weight.z, cranks[0 if weight.pin is None else crank_of[weight.pin - 1]])
+        for weight in engine.counterweights
+    ]
+    on_cranks += [
+        (mass * c.crank_radius, z, cranks[crank])
+        for c, mass, z, crank in zip(
+            engine.cylinders, engine.rotating_mass, engine.z, crank_of, strict=True
+        )
+    ]
+    turning = on_cranks + [
+        (weight.amount, weight.z, (shaft.x, shaft.y, shaft.ratio))
+        for shaft in engine.shafts
+        for weight in shaft.unbalances
+    ]
+    # Force, lever and torque of each.
+    loads = [
+        (ratio**2 * amount, z, ratio**2 * amount * max(radius, float(np.hypot(x, y))))
+        for amount, z, (x, y, ratio) in turning
+    ]
+    for c, z, crank in zip(engine.cylinders, engine.z, crank_of, strict=True):
+        square, first = cranks[crank][2] ** 2, c.reciprocating_mass * c.crank_radius
+        rod = abs(c.rod_inertia_excess) * c.rod_ratio
+        loads.append((square * first, z, square * max(first * c.crank_radius, rod)))
+    force, _, torque = (OMEGA**2 * max(each) for each in zip(*loads, strict=True))
+    lever = max((abs(z - engine.reference_z) for size, z, _ in loads if size), default=0.0)
     return {"force": force, "moment": force * lever, "torque": torque}
 
 
@@ -248,6 +272,196 @@ def test_cancellations_save_orders() -> None:
 def test_speed_changes_no_choice(rpm: float) -> None:
     v6 = cp.Engine.preset("v6-60")
     assert v6.balance(rpm, orders="auto").orders == v6.balance(RPM, orders="auto").orders
+
+
+# --- of several cranks, with weights, shafts, rods and dead cylinders ----------------------------
+
+SEEDS = range(24)
+FAST = (1, -1, 2, -2, 3, -3)
+"""Speeds of cranks of which orders of one are not all those of another."""
+
+
+def sizes(engine: cp.Engine, rpm: float, orders: tuple[float, ...]) -> dict[str, NDArray[Any]]:
+    """The largest that each order adds, of torque by part."""
+    b = engine.balance(rpm, orders=orders)
+    torques = {
+        part: np.maximum(*(b.read(f"{name}.{part}", "peak") for name in ("torque", "crank_torque")))
+        for part in ("inertia", "gas")
+    }
+    return {"force": b.force.peak, "moment": b.moment.peak, **torques}
+
+
+def check(
+    b: cp.types.Balance,
+    bounds: dict[str, float],
+    allowed: dict[str, float],
+    orders: tuple[float, ...],
+) -> None:
+    """What is left out is within the bound, that within what is allowed, and no order kept fits."""
+    added = sizes(b.engine, RPM, orders)
+    is_kept, is_omitted = np.isin(orders, b.orders), np.isin(orders, b.omitted)
+    for quantity, of_orders in added.items():
+        lost = float(of_orders[~is_kept].sum())
+        assert lost <= bounds[quantity] * (1.0 + 1e-9), quantity
+        assert bounds[quantity] <= allowed[quantity] * (1.0 + 1e-9), quantity
+        # Above the last order that was evaluated; that of pressure declines slowly.
+        rest = bounds[quantity] - float(of_orders[is_omitted].sum())
+        share = 0.25 if quantity == "gas" else 0.01
+        assert rest <= share * allowed[quantity] * (1.0 + 1e-9), quantity
+    for order in b.orders:
+        more = {name: float(each[orders.index(order)]) for name, each in added.items()}
+        over = (bounds[name] + size > allowed[name] * (1.0 - 1e-9) for name, size in more.items())
+        assert any(over), order
+
+
+def highest(engine: cp.Engine) -> int:
+    """An order above which nothing counts, of the fastest crank or shaft."""
+    ratios = [ratio for *_, ratio in engine._core.cranks[0]] + [s.ratio for s in engine.shafts]
+    return top(engine) * max(map(abs, ratios))
+
+
+def allowed(engine: cp.Engine, rtol: float) -> dict[str, float]:
+    """What may be left out, without gas."""
+    found = {quantity: rtol * scale for quantity, scale in scales(engine).items()}
+    return {**found, "inertia": found["torque"], "gas": 0.0}
+
+
+def on_the_second_crank(draft: Draft, count: int) -> Draft:
+    """The first cylinder of a draft, alive, as often as this on its second crank, and no more."""
+    alive = draft.cylinders[0].replace(reciprocating_mass=0.7)
+    draft.cylinders, draft.crank_of = [alive] * count, [1] * count
+    for name in ("tdc_deg", "bank_deg", "z", "rotating_mass"):
+        setattr(draft, name, np.repeat(getattr(draft, name)[:1], count))
+    draft.weights, draft.shafts = [], []
+    return draft
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_fewest_orders_are_kept_of_several_cranks(seed: int) -> None:
+    engines = [Draft(seed, ratios=FAST), on_the_second_crank(Draft(seed, ratios=FAST), 1)]
+    for engine, rtol in itertools.product([each.engine() for each in engines], (3e-2, 1e-4, 1e-8)):
+        b = engine.balance(RPM, rtol=rtol)
+        bounds = {**b.error_bound, "inertia": b.error_bound["torque"], "gas": 0.0}
+        orders = tuple(range(1, highest(engine) + 1))
+        check(b, bounds, allowed(engine, rtol), orders)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_lever_is_that_of_what_has_a_force(seed: int) -> None:
+    """Of a pair that makes a moment alone, about a plane aside; one of no mass is far off."""
+    draft = on_the_second_crank(Draft(seed), 3)
+    draft.reference_z = -3.0 if seed % 2 else 0.07
+    draft.bank_deg[1] += 180.0
+    draft.z += [0.0, 0.3, 9.0]
+    draft.rotating_mass[2] = 0.0
+    draft.cylinders[2] = draft.cylinders[0].replace(reciprocating_mass=0.0, rod_inertia_excess=0.0)
+    engine = draft.engine()
+    for rtol in (3e-2, 1e-4, 1e-8):
+        b = engine.balance(RPM, rtol=rtol, torque=False)
+        assert not b.force.peak.any()
+        most = allowed(engine, rtol) | {"inertia": np.inf}
+        bounds = {**b.error_bound, "inertia": np.inf, "gas": 0.0}
+        check(b, bounds, most, tuple(range(1, highest(engine) + 1)))
+
+
+def smooth(seed: int) -> cp.Cycle:
+    """A cycle whose pressure bends nowhere, and is largest anywhere in two turns."""
+    random = np.random.default_rng(seed)
+    theta = np.arange(0.0, 720.0, 4.0)
+    apart = (theta - random.uniform(0.0, 720.0) + 360.0) % 720.0 - 360.0
+    more = random.uniform(0.5, 3.0) * np.exp(-((apart / random.uniform(25.0, 60.0)) ** 2))
+    return cp.Cycle(theta, 1e5 * random.uniform(0.1, 1.5) + 1e6 * more)
+
+
+def smoothly_fired(seed: int, crankcase: float = 2e5) -> cp.Engine:
+    """An engine of two such cycles."""
+    cycles = [smooth(seed), smooth(seed + 1000)]
+    engine = fired_engine(seed)
+    own = [each and cycles[k % 2] for k, each in enumerate(engine.cycles or ())]
+    return engine.with_cycle(own, crankcase=crankcase)
+
+
+def largest_of_gas(engine: cp.Engine) -> float:
+    """The largest torque of pressure on a cylinder."""
+    theta, below = np.arange(720.0), engine.crankcase
+    assert below is not None
+    torques = [
+        np.abs((cycle.pressure_at(theta) - below) * c.velocity(theta, 30.0 / np.pi))
+        * (np.pi / 4.0 * c.bore**2)
+        for c, cycle in zip(engine.cylinders, engine.cycles or (), strict=True)
+        if cycle is not None and c.bore is not None
+    ]
+    return max(float(each.max()) for each in torques)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_fewest_orders_are_kept_of_gas(seed: int) -> None:
+    engine = smoothly_fired(seed, 3e5 if seed % 2 else 0.0)
+    orders = tuple(n / 2 for n in range(1, 2 * max(192, highest(engine)) + 1))
+    for rtol in (0.1, 1e-2, 1e-6):
+        b = engine.balance(RPM, rtol=rtol)
+        # At rest there is gas alone.
+        gas = engine.balance(0.0, rtol=rtol).error_bound["torque"]
+        bounds = {**b.error_bound, "inertia": b.error_bound["torque"] - gas, "gas": gas}
+        # Orders of pressure decline slowly: less than a thousandth is not asked of them.
+        most = allowed(engine, rtol) | {"gas": max(rtol, 1e-3) * largest_of_gas(engine)}
+        check(b, bounds, most, orders)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_sweep_leaves_out_no_more_than_its_bound_wherever_a_point_stands(seed: int) -> None:
+    """Of two engines at some rod ratios and speeds, in this order and in another."""
+    make = smoothly_fired if seed % 2 else random_engine
+    engines = [make(seed), make(seed + 2)]
+    # Up to where no order grows with the rod ratio any more, of engines with offset and without.
+    ratios = [0.2, 0.45, 0.98] if seed % 4 == 2 else [0.2, 0.4, 0.3]
+    if seed % 4 == 2:
+        engines = [
+            engine.replace(cylinder=[each.replace(pin_offset=0.0) for each in engine.cylinders])
+            for engine in engines
+        ]
+    speeds, rtol = [RPM, 3.0 * RPM, 2.0 * RPM], 1e-2
+    kinds: dict[str, Any] = {"orders": "auto", "rtol": rtol}
+    s = cp.sweep(engines, rpm=speeds, rod_ratio=ratios, **kinds)
+    other = cp.sweep(engines[::-1], rpm=speeds[::-1], rod_ratio=ratios[::-1], **kinds)
+    assert (other.orders, other.omitted) == (s.orders, s.omitted)
+    for quantity, bound in s.error_bound.items():
+        assert other.error_bound[quantity] == pytest.approx(bound, rel=1e-12)
+    for engine, ratio in itertools.product(engines, ratios):
+        rods = [each.replace(rod_length=each.crank_radius / ratio) for each in engine.cylinders]
+        there = engine.replace(cylinder=rods)
+        rest = tuple(n / 2 for n in range(1, 1 + 2 * min(highest(there), 400)))
+        rest = tuple(n for n in rest if n not in s.orders)
+        lost = {name: each.sum() for name, each in sizes(there, max(speeds), rest).items()}
+        lost["torque"] = lost.pop("inertia") + lost.pop("gas")
+        for quantity, most in lost.items():
+            assert most <= s.error_bound[quantity] * (1.0 + 1e-9), (ratio, quantity)
+
+
+# --- of each cylinder by itself -------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_samples_have_the_orders_of_each_cylinder_and_of_shafts(seed: int) -> None:
+    engine = random_engine(seed, ratios=FAST)
+    shaft = cp.Shaft(-5, [cp.Unbalance(1e-3, 0.1, 30.0)], x=0.1)
+    engine = engine.with_shafts([*engine.shafts, shaft])
+    for rtol in (3e-2, 1e-5):
+        t = cp.tolerances(engine, RPM, z=1e-9, samples=1, rtol=rtol)
+        assert {abs(each.ratio) for each in engine.shafts} <= set(t.orders)
+        rest = tuple(n for n in range(1, highest(engine) + 1) if n not in t.orders)
+        whole = engine.balance(RPM, orders=rest)
+        for names in (("force",), ("moment",), ("torque", "crank_torque")):
+            parts = [contributions(whole, name)[: len(engine)] for name in names]
+            # The longest vector of a part that moves along a line.
+            lost = sum(
+                np.max([np.linalg.norm(each.phasors, axis=0) for each in of_part], axis=0).sum()
+                for of_part in zip(*parts, strict=True)
+            )
+            bound = t.error_bound[names[0]]
+            assert lost <= bound * (1.0 + 1e-9), names
+            # Each by its own scale, of which that of the whole is the largest.
+            assert bound <= len(engine) * allowed(engine, rtol)[names[0]] * (1.0 + 1e-9)
 
 
 # --- torque only when asked ---------------------------------------------------------------------

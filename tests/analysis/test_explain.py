@@ -21,6 +21,7 @@ from conftest import html_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import time_domain
+from several_cranks import random_engine
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -298,8 +299,9 @@ def rest(each: Finding, numbers: Numbers) -> None:
                if f.kind == "shakes"}  # fmt: skip
     for quantity, bound in zip(("force", "moment"), each.values, strict=True):
         unit = numbers.unit(quantity)
-        sizes = {n: float(numbers.of(quantity, n).peak) for n in ORDERS}
-        others = [n for n in ORDERS if (quantity, n) not in shaking]
+        orders = numbers.balance.orders
+        sizes = {n: float(numbers.of(quantity, n).peak) for n in orders}
+        others = [n for n in orders if (quantity, n) not in shaking]
         assert all(sizes[n] <= 0.01 * unit * (1 + 1e-9) for n in others)
         # "auto" leaves out a billionth, counted in its bound, at either side.
         assert bound == pytest.approx(sum(sizes[n] for n in others), rel=1e-6, abs=4e-8 * unit)
@@ -414,6 +416,21 @@ def test_every_finding_is_true(engine: cp.Engine) -> None:
 @pytest.mark.filterwarnings("ignore:mean piston speed")
 def test_every_finding_is_true_of_known_engines(engine: cp.Engine) -> None:
     check(engine)
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_hardware_and_rests_are_true_of_several_cranks(seed: int) -> None:
+    """Of the rest with orders so high that those of the fastest crank are among them."""
+    engine = random_engine(seed)
+    numbers = Numbers(engine)
+    numbers.balance = engine.balance(RPM, orders=range(1, 49))
+    explanation = engine.explain(RPM)
+    numbers.force = explanation.unit
+    numbers.moment = explanation.unit * explanation.lever
+    found = [each for each in explanation.findings if each.kind in ("hardware", "rest")]
+    for each in found:
+        CHECKS[each.kind](each, numbers)
+    assert found
 
 
 def test_every_kind_and_every_reason_occurs() -> None:

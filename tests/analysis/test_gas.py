@@ -182,6 +182,25 @@ def test_the_pressure_of_the_crankcase_leaves_inertia_alone() -> None:
     assert abs(absolute / gauge - 1.0) > 0.03
 
 
+def test_a_cycle_knows_nothing_of_what_was_asked_before() -> None:
+    """Engines that share one and differ in a rod, an offset, a crankcase or the orders."""
+    first, shared = (0.14, 0.0, 1e5, (1, 2, 3)), cycle()
+    cases: list[Any] = [first]
+    for place, other in enumerate((0.17, 0.002, 0.0, (2, 3, 4))):
+        cases += [(*first[:place], other, *first[place + 1 :]), first]
+
+    def fired(of: cp.Cycle, rod: float, offset: float, crankcase: float) -> cp.Engine:
+        cylinder = cp.Cylinder(0.043, rod, 0.5, offset, bore=BORE)
+        return cp.Engine.preset("single", cylinder=cylinder).with_cycle(of, crankcase=crankcase)
+
+    # All before any is asked.
+    engines = [(fired(shared, *rest), fired(cycle(), *rest)) for *rest, _ in cases]
+    for (known, fresh), (*_, orders) in zip(engines, cases, strict=True):
+        found, expected = (each.balance(3000, orders=orders) for each in (known, fresh))
+        assert (found.crank_torque.phasor == expected.crank_torque.phasor).all()
+        assert found.crank_torque.mean == expected.crank_torque.mean
+
+
 def test_turning_the_engine_turns_nothing_of_torque() -> None:
     v6 = engines()["odd v6"].with_cycle(cycle())
     tilted = v6.replace(bank_deg=(v6.bank_deg + 30.0).tolist())

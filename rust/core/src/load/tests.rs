@@ -250,6 +250,34 @@ fn loads_cycle(degrees: f64) -> f64 {
     1e5 * (2.0 + degrees.to_radians().cos())
 }
 
+/// What is known of pressure's torque at one rod ratio is not that at another, nor that of another cycle.
+#[test]
+fn pressure_at_another_point_is_evaluated_anew() {
+    let (engine, _) = fired([Some(0); 3]);
+    let (loads, cancel) = (loads(&engine), Cancel::new());
+    let source = &loads.sources[GAS.start];
+    let orders = Order::all_whole(&[1, 2, 3]).unwrap();
+    let torque = |source: &dyn source::Source| {
+        let found = source.torque(&orders, &cancel).unwrap();
+        (found.harmonics.roll, found.harmonics.crank, found.mean)
+    };
+    let (known, _) = source.up_to(whole(4), &cancel).unwrap().unwrap();
+    let theta_deg = (0..72).map(|k| 10.0 * f64::from(k)).collect();
+    let pressure = (0..72).map(|k| 1e5 + 1e3 * f64::from(k * (72 - k))).collect();
+    let given = Given { name: String::new(), strokes: 4, theta_deg, pressure, degree: None };
+    let cycles = [Arc::new(Cycle::new(given).unwrap())];
+    let points = [
+        source::Point { rod_ratio: Some(0.2), ..source::Point::default() },
+        source::Point { pin_offset: Some(0.01), ..source::Point::default() },
+        source::Point { cycles: Some(&cycles), ..source::Point::default() },
+    ];
+    for point in points {
+        let [once, fresh] = [&known, source].map(|source| source.at_point(&point).unwrap());
+        assert_eq!(torque(&*once), torque(&*fresh));
+        assert_ne!(torque(&*once), torque(&*known));
+    }
+}
+
 /// Σ area · radius · e^{−inφ} over the cylinders of a gear, φ the firing top dead centre.
 #[test]
 fn pressure_turns_with_the_crank_angle_of_firing() {

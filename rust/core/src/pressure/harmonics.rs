@@ -245,8 +245,6 @@ impl Cycle {
         Ok((torque, tails))
     }
 
-    /// Torque, and if wanted twice the mean squares of its slope and bend: infinite where it jumps, or its
-    /// slope.
     /// Whether [`Self::torque_of`] has been integrated, and is kept.
     pub(crate) fn keeps_torque_of(
         &self,
@@ -273,6 +271,8 @@ impl Cycle {
         last.as_ref().filter(is_it).map(something)
     }
 
+    /// Torque, and if wanted twice the mean squares of its slope and bend: infinite where it jumps, or its
+    /// slope; of what is kept, if it is.
     fn integrate<const SQUARES: bool>(
         &self,
         proportions: &Proportions,

@@ -461,7 +461,7 @@ mod tests {
     use proptest::sample::select;
 
     use super::*;
-    use crate::engine::Station;
+    use crate::engine::{Crank, Station};
     use crate::mechanism::slider_crank::Cylinder;
     use crate::numbers::angle::Angle;
 
@@ -523,6 +523,40 @@ mod tests {
                 && found.2 > 0.0
                 && found.3 > 0.0
         );
+    }
+
+    /// What is left out of a cylinder on a crank of any speed is what it would leave out on the main one by the
+    /// squares of its speed, the torque by the cube, and that of its force at the distance of the axis.
+    #[test]
+    fn the_rest_of_a_crank_is_that_of_the_main_one_by_its_speed() {
+        let rest = |cylinder: Cylinder, crank: Crank, orders: &[u32]| {
+            let (tdc, bank) = (Angle::ZERO, Angle::HALF_TURN);
+            let place = Station { cylinder, tdc, bank, z: 0.3, rotating_mass: 0.4 };
+            let engine = Engine::new("", "", vec![place]).unwrap();
+            let engine = engine.with_cranks(vec![Crank::MAIN, crank], vec![1]).unwrap();
+            let loads = LoadList::new(&engine, 0.1);
+            tail(&loads, &Order::all_whole(orders).unwrap(), true, &loads.sources)
+        };
+        let parts = [(0.5, 0.0, 0.0), (0.5, 0.01, 0.0), (0.0, 0.0, 1e-3), (0.5, 0.01, -1e-3)];
+        for (ratio, (mass, offset, inertia)) in
+            [1, -1, 2, -2, 3, -3].into_iter().flat_map(|ratio: i32| parts.map(|own| (ratio, own)))
+        {
+            let cylinder = Cylinder::new(0.05, 0.15, mass, offset).unwrap();
+            let cylinder = cylinder.with_rod_inertia_excess(inertia).unwrap();
+            let on_main = rest(cylinder, Crank { axis: [0.0; 2], ..Crank::MAIN }, &[1, 2, 3]);
+            assert!(on_main.inertia > 0.0);
+            let speed = ratio.unsigned_abs();
+            // Another load has an order above those of the cylinder, one of which is missing.
+            let own = [1, 2, 3, 5].map(|own| own * speed);
+            let found = rest(cylinder, Crank { axis: [-0.3, 0.4], ratio }, &own);
+            let square = f64::from(speed * speed);
+            let force = square * on_main.force;
+            let inertia = square * f64::from(speed) * on_main.inertia + 0.5 * force;
+            let expected = OrderSums { force, moment: 0.2 * force, inertia, gas: 0.0 };
+            for (found, expected) in found.values().into_iter().zip(expected.values()) {
+                assert!((found - expected).abs() <= 1e-14 * expected, "{found} {expected}");
+            }
+        }
     }
 
     #[test]

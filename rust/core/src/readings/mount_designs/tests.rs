@@ -186,6 +186,77 @@ fn modes_that_merge_lose_no_digits() {
     }
 }
 
+/// Speeds at which a pivot is small, though no mode is near, are left to a factorisation with pivots.
+#[test]
+fn speeds_that_vectors_leave_are_solved_with_pivots() {
+    let mut number = draws(35);
+    let fired = crate::load::tests::fired([Some(0), None, Some(0)]).0;
+    let (cancel, orders) = (Cancel::new(), Orders::whole(&[1, 2]).unwrap());
+    let mut found = 0;
+    for _ in 0..2 {
+        // With a fluid, whose stiffness depends on frequency, and hardly damped.
+        let base = changed(&mut number, false, |_, figures| {
+            let stiffness = 0.1 * figures.stiffness[0];
+            figures.track = Some(InertiaTrack { stiffness, frequency: 2.0, damping_ratio: 1e-6 });
+        });
+        let values = vec![base.mounts()[1].figures().stiffness];
+        let variations = [Variation { mount: 1, figure: MountFigure::DynamicStiffness, values }];
+        let one = Arc::new(varied(&base, &variations, 0).unwrap());
+        let equations = Equations::new(&one, 1.0, None).unwrap();
+        let turns = [rows(&equations.to), rows(&equations.from)];
+        let load = lanes(&[ComplexVector6::from_element(Complex64::new(1.0, 0.0))]);
+        let is_left = |omega: f64| {
+            let along = one.mounts().iter().map(|mount| mount.stiffness_at(omega, String::new));
+            let along: Vec<_> = along
+                .flat_map(|along| along.unwrap().map(|k| [[k.re; LANES], [k.im; LANES]]))
+                .collect();
+            let (is_solved, _) = equations.motions(&turns, &[omega; LANES], &along, &load);
+            is_solved == [false; LANES]
+        };
+        // The middle of speeds that are left, where the pivot is smallest.
+        let middle = |omega: f64| {
+            let edges = [0.99, 1.01].map(|factor| {
+                let (mut left, mut solved) = (omega, factor * omega);
+                for _ in 0..40 {
+                    let half = 0.5 * (left + solved);
+                    *(if is_left(half) { &mut left } else { &mut solved }) = half;
+                }
+                left
+            });
+            0.5 * (edges[0] + edges[1])
+        };
+        let speeds = (0..4000).map(|k| 10.0 * 1.001_f64.powi(k)).filter(|&omega| is_left(omega));
+        for omega in speeds.take(3).map(middle) {
+            found += 1;
+            // In order 2; beside a speed at which inertia is small.
+            let speed = omega / 2.0 * 60.0 / TAU;
+            for (engine, rpm) in [(&twin(), &[60.0, speed][..]), (&fired, &[speed])] {
+                let request = DesignRequest {
+                    rpm,
+                    orders: &orders,
+                    mount_forces: false,
+                    points: &[],
+                    frequency: None,
+                };
+                let designs = design_responses(engine, &base, &variations, &request, &cancel);
+                let designs = designs.unwrap();
+                let response = Response::new(engine, Arc::clone(&one), rpm, &orders, &cancel);
+                let loads = response.unwrap().support_loads(&cancel).unwrap();
+                for axis in 0..3 {
+                    let force = |point: usize| loads[point][axis].norm();
+                    let expected = (0..rpm.len()).map(|k| force(2 * k + 1)).fold(0.0, f64::max);
+                    let apart = designs.largest[1][axis] - expected;
+                    let most = loads.iter().map(|load| load.map(Complex64::norm).max());
+                    let most = most.fold(0.0, f64::max);
+                    // Rounding, of modes that are not near.
+                    assert!(apart.abs() <= 1e-11 * most, "{omega}: {apart} of {most}");
+                }
+            }
+        }
+    }
+    assert!(found > 3, "{found}");
+}
+
 #[test]
 fn what_cannot_be_is_named() {
     let mut number = draws(33);
