@@ -14,6 +14,17 @@ use crate::mechanism::Mechanism;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 
+/// Largest magnitudes of the weights of some loads.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct LargestWeights {
+    /// Of the force.
+    pub force: f64,
+    /// Of the force at the distance of its axis, of which it makes a torque about the main crank.
+    pub arm: f64,
+    /// Of the torque.
+    pub roll: f64,
+}
+
 /// All loads of an engine about a reference plane.
 pub(crate) struct LoadList {
     /// Pistons, one for each cylinder; unbalances of cranks, then of shafts; pressures; rods.
@@ -132,12 +143,16 @@ impl LoadList {
         list.retain(|load| sources[load.source].exact() != ExactFactor::Unknown);
     }
 
-    /// Largest magnitude of the weights of a source's force and torque, times the square of their speed.
-    pub fn largest_weights(&self, source: usize) -> [f64; 2] {
-        let own = self.list.iter().filter(|load| load.source == source);
-        own.fold([0.0; 2], |[weight, roll]: [f64; 2], load| {
+    /// Largest weights of the loads of a source, times the square of their speed.
+    pub fn largest_weights(&self, source: usize) -> LargestWeights {
+        let mut largest = LargestWeights::default();
+        for load in self.list.iter().filter(|load| load.source == source) {
             let square = f64::from(load.place.speed_squared());
-            [weight.max(square * load.weight.abs()), roll.max(square * load.roll.abs())]
-        })
+            let force = square * load.weight.abs();
+            largest.force = largest.force.max(force);
+            largest.arm = largest.arm.max(force * load.place.axis.norm());
+            largest.roll = largest.roll.max(square * load.roll.abs());
+        }
+        largest
     }
 }

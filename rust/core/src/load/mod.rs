@@ -33,7 +33,7 @@ pub(crate) mod source;
 mod spectrum;
 mod unbalance;
 
-pub(crate) use self::list::LoadList;
+pub(crate) use self::list::{LargestWeights, LoadList};
 pub(crate) use self::place::Place;
 use self::source::{Column, ForcePart, Parts, Repeats, Scaling};
 use crate::Complex64;

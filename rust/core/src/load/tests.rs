@@ -122,8 +122,11 @@ fn loads_are_pistons_then_crank_unbalances_then_shafts() {
     let second = |mass: f64, radius: f64| mass * radius * radius;
     assert_eq!(rolls[..3], [second(0.5, 0.05), second(0.75, 0.04), second(0.5, 0.05)]);
     assert_eq!(rolls[3..], [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1e-4, -1e-4, -1e-4]);
-    assert_eq!(loads.largest_weights(RODS[0]), [0.0, 1e-4]);
-    assert_eq!(loads.largest_weights(ONE[2]), [4.0 * 0.003, 0.0]);
+    let rod = LargestWeights { roll: 1e-4, ..LargestWeights::default() };
+    assert_eq!(loads.largest_weights(RODS[0]), rod);
+    let (force, distance) = (4.0 * 0.003, f64::hypot(-0.08, 0.2));
+    let fast = LargestWeights { force, arm: force * distance, roll: 0.0 };
+    assert_eq!(loads.largest_weights(ONE[2]), fast);
     let plain = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
     let station = Station { cylinder: plain, ..engine().stations()[0] };
     let plain = self::loads(&Engine::new("", "", vec![station]).unwrap());

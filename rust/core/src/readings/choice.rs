@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use crate::engine::{Engine, Origin};
 use crate::load::source::{Repeats, Scale, Scaling, Source, Tail};
-use crate::load::{Load, LoadList, count};
+use crate::load::{LargestWeights, Load, LoadList, count};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -278,13 +278,14 @@ fn candidates(
             continue;
         }
         // What a weight is over that which the tolerance is relative to.
-        let weights = loads.largest_weights(k);
-        let shares = [(weights[0], scales.force), (weights[1], scales.inertia)];
-        let shares = shares.map(|(weight, scale)| if weight == 0.0 { 0.0 } else { weight / scale });
+        let LargestWeights { force, arm, roll } = loads.largest_weights(k);
+        let share = |weight: f64, scale: f64| if weight == 0.0 { 0.0 } else { weight / scale };
+        let (force, arm) = (share(force, scales.force), share(arm, scales.inertia));
+        let roll = share(roll, scales.inertia);
         let within = |highest: u32, tolerance: f64| {
-            let beyond = source.beyond(highest, torque && shares[1] > 0.0);
-            times(shares[0], beyond.force) <= tolerance
-                && times(shares[1], beyond.torque) <= tolerance
+            let beyond = source.beyond(highest, torque && roll > 0.0);
+            let of_torque = times(roll, beyond.torque) + times(arm, beyond.force);
+            times(force, beyond.force) <= tolerance && (!torque || of_torque <= tolerance)
         };
         let highest = match lowest(|highest| within(highest, enough)) {
             Some(order) => order,
@@ -556,6 +557,23 @@ mod tests {
             for (found, expected) in found.values().into_iter().zip(expected.values()) {
                 assert!((found - expected).abs() <= 1e-14 * expected, "{found} {expected}");
             }
+        }
+    }
+
+    #[test]
+    fn bounds_of_loads_add_up() {
+        let engine = crate::load::tests::fired([Some(0); 3]).0;
+        let once = LoadList::new(&engine, 0.0);
+        let mut twice = LoadList::new(&engine, 0.0);
+        twice.list.extend(once.list.clone());
+        let evaluated = Order::all_whole(&[1, 2, 3, 4]).unwrap();
+        let rest = |loads: &LoadList| tail(loads, &evaluated, true, &loads.sources).values();
+        for (one, both) in rest(&once).into_iter().zip(rest(&twice)) {
+            assert!((both - 2.0 * one).abs() <= 1e-14 * one, "{both} {one}");
+        }
+        for (one, both) in once.volumes().into_iter().zip(twice.volumes()) {
+            assert!((both.size - 2.0 * one.size).abs() <= 1e-14 * one.size);
+            assert!((both.value - 2.0 * one.value).abs() <= 1e-14 * one.size);
         }
     }
 
