@@ -7,19 +7,21 @@ the turning page, the presets and units of the installed ``crankpin``, and the c
 from __future__ import annotations
 
 import argparse
-import base64
 import gzip
 import json
 from decimal import Decimal
 from pathlib import Path
 from string import Template
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
 from crankpin._support import units
 from crankpin.cli import arguments
 from crankpin.model import presets
 from crankpin.view import page
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 HERE = Path(__file__).parent
 TARGET = HERE.parent / "target"
@@ -82,7 +84,7 @@ def main() -> None:
     given = parser.parse_args()
     text = build(given.wasm.read_bytes())
     given.out.parent.mkdir(parents=True, exist_ok=True)
-    given.out.write_text(text, encoding="utf-8")
+    given.out.write_bytes(text.encode())
     print(f"{given.out}: {len(text.encode()) / 1e3:.0f} kB")
 
 
@@ -90,16 +92,37 @@ def build(wasm: bytes) -> str:
     """Return the page with this core."""
     drawing = page.modules("full.mjs", "page.mjs")
     script = page.modules("main.mjs", folder=HERE)
-    style = page.style()
+    own = [text for name, text in script.items() if name not in drawing]
+    worker = page.modules("worker.mjs", folder=HERE)
+    elements = [
+        ("style", "turning", "", page.style()),
+        ("style", "", "", (HERE / "workbench.css").read_text(encoding="utf-8")),
+        ("script", "tables", "application/json", json.dumps(tables(), ensure_ascii=False)),
+        ("script", "worker", "text/plain", joined(worker.values())),
+        ("script", "drawing", "", joined(drawing.values())),
+        ("script", "", "", joined(own)),
+    ]
     return Template((HERE / "workbench.html").read_text(encoding="utf-8")).substitute(
-        turning=style,
-        style=(HERE / "workbench.css").read_text(encoding="utf-8"),
-        tables=page.as_json(tables()),
-        worker=page.as_json("\n".join(page.modules("worker.mjs", folder=HERE).values())),
-        wasm=base64.b64encode(gzip.compress(wasm, mtime=0)).decode(),
-        drawing="\n".join(drawing.values()),
-        script="\n".join(text for name, text in script.items() if name not in drawing),
+        packed=packed(f"{json.dumps(elements, ensure_ascii=False)}\n".encode() + wasm),
+        loader=joined(page.modules("loader.mjs", folder=HERE).values()),
     )
+
+
+def joined(modules: Iterable[str]) -> str:
+    """Return modules as one script."""
+    return "\n".join(['"use strict";', *modules])
+
+
+def packed(content: bytes) -> str:
+    """Return bytes compressed, seven bits in a letter: a seventh longer, in base 64 a third.
+
+    Letters that would not stand in a script as they are have 128 added.
+    """
+    packed = gzip.compress(content, mtime=0)
+    bits = f"{int.from_bytes(packed):0{len(packed) * 8}b}"
+    bits += "0" * (-len(bits) % 7)
+    letters = (int(bits[k : k + 7], 2) for k in range(0, len(bits), 7))
+    return "".join(chr(letter + 128 if letter in b"\0\r<" else letter) for letter in letters)
 
 
 def tables() -> dict[str, Any]:
