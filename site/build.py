@@ -7,8 +7,8 @@ the turning page, the presets and units of the installed ``crankpin``, and the c
 from __future__ import annotations
 
 import argparse
-import gzip
 import json
+import lzma
 from decimal import Decimal
 from pathlib import Path
 from string import Template
@@ -64,6 +64,16 @@ HINTS = {
     "": "%",
 }
 
+LZMA = {
+    "id": lzma.FILTER_LZMA1,
+    "preset": 9 | lzma.PRESET_EXTREME,
+    "dict_size": 1 << 23,
+    "lc": 3,
+    "lp": 0,
+    "pb": 0,
+}
+"""What `lzma.mjs` reads."""
+
 GROUPS = {
     "Singles and twins": ("single", "i2-", "v-twin-", "boxer-2"),
     "Inline": ("i3", "i4", "i5", "i6"),
@@ -102,8 +112,15 @@ def build(wasm: bytes) -> str:
         ("script", "drawing", "", joined(drawing.values())),
         ("script", "", "", joined(own)),
     ]
+    return unpacking(elements, wasm)
+
+
+def unpacking(elements: list[tuple[str, str, str, str]], core: bytes) -> str:
+    """Return a page that makes elements, of tag, id, type and text, and begins with the core."""
+    content = f"{json.dumps(elements, ensure_ascii=False)}\n".encode() + core
     return Template((HERE / "workbench.html").read_text(encoding="utf-8")).substitute(
-        packed=packed(f"{json.dumps(elements, ensure_ascii=False)}\n".encode() + wasm),
+        packed=packed(content),
+        size=len(content),
         loader=joined(page.modules("loader.mjs", folder=HERE).values()),
     )
 
@@ -118,7 +135,7 @@ def packed(content: bytes) -> str:
 
     Letters that would not stand in a script as they are have 128 added.
     """
-    packed = gzip.compress(content, mtime=0)
+    packed = lzma.compress(content, format=lzma.FORMAT_RAW, filters=[LZMA])
     bits = f"{int.from_bytes(packed):0{len(packed) * 8}b}"
     bits += "0" * (-len(bits) % 7)
     letters = (int(bits[k : k + 7], 2) for k in range(0, len(bits), 7))

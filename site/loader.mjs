@@ -1,5 +1,7 @@
 // What the page begins with: styles, texts, scripts and the core stand packed in it.
 
+import { decompressed } from "./lzma.mjs";
+
 /** The bytes that were packed: seven bits in a letter, as `build.py` writes them. */
 function packed() {
   const text = document.getElementById("packed").textContent;
@@ -16,8 +18,7 @@ function packed() {
 }
 
 async function unpack() {
-  const stream = new Blob([packed()]).stream().pipeThrough(new DecompressionStream("gzip"));
-  const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+  const bytes = decompressed(packed(), Number(document.getElementById("packed").dataset.size));
   // A line of elements, and the core behind it.
   const end = bytes.indexOf(10);
   for (const [tag, id, type, textContent] of JSON.parse(new TextDecoder().decode(bytes.subarray(0, end)))) {
