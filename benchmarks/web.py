@@ -1,9 +1,9 @@
-"""Time of the core in a browser, and of the library with one thread: sweeps, waveforms, harmonics.
+"""Time of the core in a browser, and of the library with one thread; times of the workbench.
 
     python benchmarks/web.py [--quick] [--out FOLDER]
 
 Calls as a page makes them, with typed arrays: reading arguments and writing answers count. Least of
-several rounds in turns, in Chromium. Needs ``packaging/web``.
+several rounds in turns, in Chromium. Needs ``packaging/web``; the workbench, ``site/build.py``.
 """
 
 from __future__ import annotations
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
 ROOT = Path(__file__).parents[1]
 MODULE = ROOT / "target" / "web" / "crankpin.wasm"
+WORKBENCH = ROOT / "target" / "site" / "index.html"
 ENGINE = "v8-crossplane"
 RPM = 3000.0
 ORDERS = [1, 2, 4, 6, 8]
@@ -57,6 +58,34 @@ RUN = """([name, given, seconds]) => {
     }
     return best;
 }"""
+
+DRAWN = """() => {
+    const seen = new MutationObserver(() => {
+        if (!document.querySelector(".turning .scene")) return;
+        seen.disconnect();
+        requestAnimationFrame(() => setTimeout(() => { globalThis.drawn = performance.now(); }));
+    });
+    seen.observe(document, { childList: true, subtree: true });
+}"""
+"""Notes when the first engine has been drawn, ms after the navigation began."""
+FRAMES = """(milliseconds) => new Promise((answer) => {
+    let [count, begin] = [0, performance.now()];
+    const next = () => {
+        count++;
+        if (performance.now() - begin > milliseconds) answer(count);
+        else requestAnimationFrame(next);
+    };
+    requestAnimationFrame(next);
+})"""
+CURVE = """() => {
+    const [{ core, engine }] = workbench.slots;
+    const bank_angle_deg = Array.from({ length: 361 }, (_, k) => k / 2);
+    const begin = performance.now();
+    core.call("bank_angles", { engine: engine.json, rpm: 3000, bank_angle_deg, orders: [1, 2, 4] });
+    return performance.now() - begin;
+}"""
+FIRST, FRAME = 1.0, 0.016
+"""Seconds until the first engine is drawn, and of a frame, that are allowed."""
 
 Case = tuple[str, dict[str, Any], Callable[[], object]]
 
@@ -129,6 +158,54 @@ def measured(quick: bool) -> list[tuple[str, float, float]]:
     return rows
 
 
+def of_workbench(quick: bool) -> list[tuple[str, float, float]]:
+    """Return what the workbench does, its seconds, and those that it may take.
+
+    A frame is what its thread computes for it, by the processor's clock: without a graphics
+    processor painting takes longer than that.
+    """
+    path = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chromium"))), None)
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=path, args=["--no-sandbox"])
+        first = float("inf")
+        for _ in range(2 if quick else 5):
+            page = browser.new_page(viewport={"width": 1280, "height": 800})
+            page.add_init_script(f"({DRAWN})()")
+            page.goto(WORKBENCH.as_uri())
+            first = min(first, 1e-3 * page.wait_for_function("() => globalThis.drawn").json_value())
+            page.close()
+        page = browser.new_page(viewport={"width": 1280, "height": 800})
+        page.goto(f"{WORKBENCH.as_uri()}#preset=v16-45")
+        page.wait_for_selector(".turning .scene")
+        curve = 1e-3 * min(page.evaluate(CURVE) for _ in range(10))
+        clock = page.context.new_cdp_session(page)
+        clock.send("Performance.enable", {"timeDomain": "threadTicks"})
+        frames = []
+        for pane in ("Orders", "Vectors", "Crank angle"):
+            page.get_by_role("tab", name=pane, exact=True).click()
+            page.evaluate("workbench.slots[0].bench.set({ playing: true })")
+            page.wait_for_timeout(200)
+            before = metrics(clock)
+            count = page.evaluate(FRAMES, 300 if quick else 3000)
+            after = metrics(clock)
+            for part in ("Script", "RecalcStyle", "Layout"):
+                of_part = (after[f"{part}Duration"] - before[f"{part}Duration"]) / count
+                frames.append((f"a frame of the turning V16, {pane}: {part.lower()}", of_part))
+            page.evaluate("workbench.slots[0].bench.set({ playing: false })")
+        browser.close()
+    return [
+        ("navigation to first engine", first, FIRST),
+        ("361 bank angles of the V16", curve, FRAME),
+        *((label, seconds, FRAME) for label, seconds in frames),
+    ]
+
+
+def metrics(clock: Any) -> dict[str, float]:  # noqa: ANN401 - a session
+    """Return the seconds that Chromium counts by what they are spent on."""
+    listed = clock.send("Performance.getMetrics")["metrics"]
+    return {each["name"]: each["value"] for each in listed}
+
+
 def draw(rows: list[tuple[str, float, float]], file: Path) -> None:
     """Write the chart of times over those of the library."""
     figure, ax = plt.subplots(figsize=(7.0, 3.2), layout="constrained")
@@ -161,6 +238,11 @@ def main() -> None:
     header = ("computed", "library_s", "browser_s")
     write_csv(given.out / "web.csv", machine(), header, rows)
     draw(rows, given.out / "web.png")
+    if WORKBENCH.exists():
+        page = of_workbench(given.quick)
+        table = [[label, milliseconds(took), milliseconds(most)] for label, took, most in page]
+        print_table("The workbench in Chromium", ["what", "time", "allowed"], table)
+        write_csv(given.out / "workbench.csv", machine(), ("what", "seconds", "allowed_s"), page)
 
 
 if __name__ == "__main__":

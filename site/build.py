@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
 from crankpin._support import units
+from crankpin.analysis import explain
 from crankpin.cli import arguments
 from crankpin.model import presets
 from crankpin.view import page
@@ -151,6 +152,7 @@ def tables() -> dict[str, Any]:
             "typed": typed(),
             "shown": {setting: shown(setting) for setting in SETTINGS},
             "drawn": {setting: drawn(setting) for setting in SETTINGS[1:]} | {SETTINGS[0]: {}},
+            "said": {setting: said(setting) for setting in SETTINGS[1:]} | {SETTINGS[0]: {}},
             "hints": HINTS,
         },
         "presets": {name: preset(name) for name in presets.presets()},
@@ -192,6 +194,12 @@ def drawn(setting: str) -> dict[str, tuple[str, float]]:
     """Return the units in which a setting draws quantities."""
     chosen = units.read(setting)
     return {name: tuple(units.convert(unit, chosen)) for name, unit in DRAWN.items()}
+
+
+def said(setting: str) -> dict[str, tuple[str, float]]:
+    """Return the units in which a setting has sentences."""
+    chosen = units.read(setting)
+    return {unit: tuple(units.convert(unit, chosen)) for unit in explain.UNITS}
 
 
 def group(title: str) -> list[str]:

@@ -2,11 +2,12 @@
 
 import { html, path, svg } from "./dom.mjs";
 import { short } from "./format.mjs";
+import { WORDS } from "./words.mjs";
 
 /** Pixels before it is scaled: texts stay legible on a phone, and where charts share a line. */
 const CHART_SIZE = [440, 220];
 const WIDE_SIZE = [860, 260];
-const WIDE_SCREEN = "(min-width: 900px)";
+const WIDE_SCREEN = "(min-width: 56em)";
 const LEFT = 58;
 const RIGHT = 14;
 const TOP = 12;
@@ -93,13 +94,14 @@ export function curves({ title, x, lines, across, up, ticks, marks = [], about =
   return html("figure", { class: "charted" }, html("figcaption", {}, `${title}, ${up}`), element, lines.length > 1 ? keys : "");
 }
 
-/** Bars side by side for each entry of `names`. */
-export function bars({ title, names, series, across, up }) {
-  const top = Math.max(...series.flatMap(({ values }) => values), 0);
+/** Bars side by side for each entry of `names`; `top` is the highest of several charts of one scale. */
+export function bars({ title, names, series, across, up, top = Math.max(...series.flatMap(({ values }) => values), 0) }) {
+  const caption = html("figcaption", {}, `${title}, ${up}`);
+  if (series.every(({ values }) => values.every((value) => !value))) return html("figure", { class: "charted" }, caption, html("p", { class: "hint" }, WORDS.zeroAtAll));
   const described = `${title}. ${names.map((name, k) =>
     `${name}: ${series.map(({ label, values }) => `${label} ${short(values[k], 2)} ${up}`).join(", ")}`).join("; ")}`;
   const { element, toX, toY, y0 } = framed({
-    title, described, x: [0, names.length], y: [0, top * 1.05 || 1], across, ticks: names.map((name, k) => [k + 0.5, name]),
+    title, described, x: [0, names.length], y: [0, top * 1.05], across, ticks: names.map((name, k) => [k + 0.5, name]),
   });
   const width = Math.min((toX(1) - toX(0)) * 0.8 / series.length, 34);
   series.forEach(({ name, values, label }, s) => values.forEach((value, k) => {
@@ -107,7 +109,7 @@ export function bars({ title, names, series, across, up }) {
     element.append(svg("rect", { class: `column ${name}`, x: x.toFixed(1), y: toY(value).toFixed(1), width: Math.max(width - 1, 1).toFixed(1), height: (y0 - toY(value)).toFixed(1) },
       svg("title", {}, `${label}, ${names[k]}: ${short(value, 3)} ${up}`)));
   }));
-  return html("figure", { class: "charted" }, html("figcaption", {}, `${title}, ${up}`), element,
+  return html("figure", { class: "charted" }, caption, element,
     series.length > 1 ? html("p", { class: "keys" }, ...series.map(({ name, label }) => html("span", {},
       svg("svg", { viewBox: "0 0 12 12", "aria-hidden": "true" }, svg("rect", { class: `column ${name}`, width: 12, height: 12, rx: 2 })), label))) : "");
 }

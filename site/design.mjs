@@ -13,6 +13,12 @@ const MOST_LISTED = 10000;
 /** Parts of a cylinder in a file, by the fields that have them. */
 const PART_OF = { bore: "bore", rod_length: "rod_length", reciprocating_mass: "reciprocating_mass", pin_offset: "pin_offset" };
 
+/** What names of presets speak of besides the bank angle, which they have from the engine. */
+const NAMED = ["throws_deg", "pin_split_deg", "cylinders", "rows"];
+
+/** Significant digits of places that were added up. */
+const PLACE_DIGITS = 12;
+
 /** The unit in which figures of files are written in fields, and its power of ten. */
 const WRITTEN_IN = { m: ["mm", 3], kg: ["g", 3] };
 
@@ -37,6 +43,13 @@ export class Design {
   /** An engine of a file of the library, as it writes it. */
   static file(json) {
     return new Design({ kind: "lists", file: JSON.parse(json) });
+  }
+
+  /** An engine of another kind, cylinder by cylinder; places without what adding up left behind their digits. */
+  static unrolled(json, name) {
+    const file = { ...JSON.parse(json), name };
+    for (const each of file.placements) each.z = Number(each.z.toPrecision(PLACE_DIGITS));
+    return new Design({ kind: "lists", file });
   }
 
   /** The same design, to be changed by itself. */
@@ -82,7 +95,7 @@ export class Design {
     delete read.inertia;
     const more = { gas, inertia: inertia ?? null };
     const { title, source } = this.texts;
-    read.name ??= title;
+    read.name ??= NAMED.some((name) => this.changed.includes(name)) ? "" : title;
     return this.kind === "lists" ? { ...more, file: this.listed(read) } : { ...more, call: { kind: this.kind, source, ...read } };
   }
 
@@ -150,8 +163,8 @@ function valueOf(name, text, units, kind) {
   if (field.unit === "°") return field.listed ? parts(typed).map((each) => degrees(name, each)) : degrees(name, typed);
   const plain = plainUnit(field.unit, units);
   if (field.listed || kind === "lists") {
-    const listed = parts(typed);
-    const [, last] = /([^\d\s.]+)$/u.exec(listed.at(-1)) ?? [];
+    const listed = parts(typed, /\s*[,;]\s*|\s+(?=[-+−\d.])(?!\d+\/)/u);
+    const [, last] = /([^\d\s.¼-¾⅐-⅞]+)$/u.exec(listed.at(-1)) ?? [];
     return listed.map((each) => quantity(each, field.unit, last ?? plain, name));
   }
   return quantity(typed, field.unit, plain, name);
@@ -169,8 +182,9 @@ function degrees(name, text) {
   return (plain.split(".")[1] ?? "").length > TYPED_DECIMALS && !plain.includes("/") ? Number(plain) : plain;
 }
 
-function parts(text) {
-  const listed = text.split(/\s*[,;]\s*|\s+(?=[-+−\d.])/u).filter((each) => each !== "");
+/** Parts of a list; a fraction may stand behind a whole number: 3 7/16. */
+function parts(text, between = /\s*[,;]\s*|\s+(?=[-+−\d.])/u) {
+  const listed = text.split(between).filter((each) => each !== "");
   return listed.length > MOST_LISTED ? listed.slice(0, MOST_LISTED) : listed;
 }
 

@@ -28,7 +28,7 @@ export const FIELDS = {
     label: "Pin split", unit: "°", optional: true, range: [-180, 180, 0.5],
     said: "left pin minus right pin; even firing needs bank angle − firing interval",
   },
-  spacing: { label: "Spacing", unit: "m", said: "between neighbouring throws" },
+  spacing: { label: "Spacing", unit: "m", said: "between neighbouring throws; unequal ones: kind “cylinder by cylinder”" },
   bank_stagger: { label: "Bank stagger", unit: "m", optional: true, said: "how far the left bank stands behind the right" },
   odd_bank: { label: "Cylinder 1 is in", choices: { right: "the right bank", left: "the left bank" } },
   numbering: { label: "Numbering", choices: { alternating: "from bank to bank", "by-bank": "bank by bank" } },
@@ -56,7 +56,7 @@ export const KINDS = {
   flat: { label: "Flat, shared crankpins", fields: ["throws_deg", ...BANKS, ...FIRING] },
   boxer: { label: "Boxer", fields: ["throws_deg", ...BANKS, ...FIRING] },
   radial: { label: "Radial", fields: ["cylinders", "rows", "spacing", ...FIRING] },
-  lists: { label: "Any, cylinder by cylinder", fields: ["bank_deg", "tdc_deg", "z", ...FIRING] },
+  lists: { label: "Cylinder by cylinder", fields: ["bank_deg", "tdc_deg", "z", ...FIRING] },
 };
 
 /** Names of the fields of a kind, in groups with their headings. */

@@ -4,6 +4,7 @@ import { plainUnit } from "./design.mjs";
 import { html } from "./dom.mjs";
 import { FIELDS, KINDS, groupsOf } from "./fields.mjs";
 import { withUnit } from "./quantity.mjs";
+import { readable } from "./table.mjs";
 import { GROUPS, PRESETS, UNITS } from "./tables.mjs";
 import { WORDS } from "./words.mjs";
 
@@ -26,6 +27,7 @@ export class Form {
     this.preset.addEventListener("change", () => this.preset.value && chosen(this.preset.value));
     this.kind = html("select", { id: `${this.id}-kind`, "data-field": "kind" },
       ...Object.entries(KINDS).map(([value, { label }]) => html("option", { value }, label)));
+    this.kind.setAttribute("aria-describedby", `${this.id}-kind-said`);
     this.kind.addEventListener("change", () => kindChosen(this.kind.value));
     this.said = html("p", { class: "fault whole", role: "alert" });
     this.groups = html("div", {});
@@ -33,11 +35,12 @@ export class Form {
     this.element = html("form", { class: "form", "aria-label": WORDS.engine, autocomplete: "off" },
       html("div", { class: "group" },
         html("div", { class: "entry" }, html("label", { for: this.preset.id }, WORDS.preset), this.preset),
-        html("div", { class: "entry" }, html("label", { for: this.kind.id }, WORDS.kind), this.kind),
+        html("div", { class: "entry" }, html("label", { for: this.kind.id }, WORDS.kind), this.kind,
+          html("small", { id: `${this.id}-kind-said` }, WORDS.kindSaid)),
         this.said),
       this.groups, this.helper);
     this.element.addEventListener("focusin", ({ target }) => {
-      this.helper.textContent = saidOf(FIELDS[target.dataset.field]);
+      this.helper.textContent = target === this.kind ? WORDS.kindSaid : saidOf(FIELDS[target.dataset.field]);
     });
     this.element.addEventListener("focusout", () => { this.helper.textContent = ""; });
     this.element.addEventListener("submit", (event) => event.preventDefault());
@@ -47,7 +50,7 @@ export class Form {
   show(design, units) {
     this.design = design;
     this.units = units;
-    this.preset.value = design.preset && [...this.preset.options].some(({ value }) => value === design.preset) ? design.preset : "";
+    this.showPreset();
     this.kind.value = design.kind;
     this.entries = new Map();
     this.groups.replaceChildren(...groupsOf(design.kind).map(([title, names]) => html("fieldset", { class: "group" },
@@ -55,8 +58,17 @@ export class Form {
     this.faults([]);
   }
 
+  /** The preset that the engine still is: another figure makes it the reader's own, and the list leads back. */
+  showPreset() {
+    const { preset, changed } = this.design;
+    const listed = [...this.preset.options].some(({ value }) => value === preset);
+    this.preset.value = listed && !changed.length ? preset : "";
+  }
+
   entry(name) {
-    const { label, unit, choices, said, range } = FIELDS[name];
+    const { label, unit, choices: all, said, range } = FIELDS[name];
+    // A file may have gas pressure of its own.
+    const choices = name === "gas" && this.design.file?.cycles ? { ...all, "": WORDS.ownGas } : all;
     const id = `${this.id}-${name}`;
     const control = choices
       ? html("select", { id }, ...Object.entries(choices).map(([value, text]) => html("option", { value }, text)))
@@ -69,6 +81,7 @@ export class Form {
     const typed = () => {
       this.last = name;
       this.design.fields[name] = control.value;
+      this.showPreset();
       if (slide) slide.value = Number.parseFloat(control.value) || 0;
       this.act.changed(name);
     };
@@ -114,7 +127,7 @@ export class Form {
       const own = this.entries.has(bare) ? bare : FIELD_OF[bare];
       // An error of several figures stands beside the one that was typed.
       const name = this.entries.has(this.last) && `${value} ${hint}`.includes(this.last) ? this.last : own;
-      if (this.entries.has(name)) of.set(name, inWords(hint ?? message));
+      if (this.entries.has(name)) of.set(name, inWords(hint ?? message, FIELDS[name].unit, this.units));
       else rest.push(inWords(message));
     }
     for (const [name, { control, fault }] of this.entries) {
@@ -137,9 +150,13 @@ export class Form {
 /** What a field means. */
 const saidOf = ({ said, optional, unit } = {}) => (said ? `${said}${optional && unit ? `; ${WORDS.mayBeEmpty}` : ""}` : "");
 
-/** An error in the words of the fields. */
-export function inWords(hint) {
+/** An error in the words of the fields; a length or mass that a hint ends with, which is the library's, as the setting has it. */
+export function inWords(hint, unit = "", units = "") {
   let text = hint.replaceAll("crank_radius", WORDS.crankRadius);
+  if (UNITS.hints[unit] && UNITS.shown[units]?.[unit]) {
+    const [shown, factor] = UNITS.shown[units][unit];
+    text = text.replace(/= ([\d.e-]+)$/u, (_, number) => `= ${readable(number * factor)} ${shown}`);
+  }
   for (const [name, { label }] of Object.entries(FIELDS)) {
     if (name.includes("_")) text = text.replaceAll(name, label.toLowerCase());
   }

@@ -4,7 +4,7 @@
 export class Outdated extends Error {}
 
 export class Jobs {
-  /** `script` is the worker's text, `module` the compiled core; `busy` is told whether it computes. */
+  /** `script` is the worker's text, `module` the compiled core; `busy` is told which share of what was asked is done, null when nothing is. */
   constructor(script, module, busy) {
     this.url = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
     this.module = module;
@@ -12,6 +12,8 @@ export class Jobs {
     this.waiting = [];
     this.running = null;
     this.count = 0;
+    /** Jobs since it was idle. */
+    this.begun = 0;
     this.start();
   }
 
@@ -45,6 +47,7 @@ export class Jobs {
   /** The answer of a call; a later one of the same key takes the place of one that waits or runs. */
   ask(key, name, given) {
     this.drop(key);
+    this.begun++;
     return new Promise((resolve, reject) => {
       this.waiting.push({ id: ++this.count, key, name, given, resolve, reject });
       this.next();
@@ -68,7 +71,8 @@ export class Jobs {
     this.waiting = [];
     if (this.running) this.restart();
     for (const job of jobs) job.reject(new Outdated());
-    this.busy(false);
+    this.begun = 0;
+    this.busy(null);
   }
 
   next() {
@@ -77,6 +81,7 @@ export class Jobs {
       const { id, name, given } = this.running;
       this.worker.postMessage({ id, name, given });
     }
-    this.busy(this.running !== null);
+    if (!this.running) this.begun = 0;
+    this.busy(this.running && (this.begun - this.waiting.length - 1) / this.begun);
   }
 }

@@ -25,12 +25,16 @@ export function residual({ core, units }, { engine, design }, fitted) {
 /** Buttons that fit hardware to the engine of the form, or take it off. */
 export function fitButtons(slot, fitted) {
   const { counterweights = [], shafts = [] } = JSON.parse(fitted.json);
-  const fit = html("button", { type: "button" }, WORDS.fit);
+  const nothing = !counterweights.length && shafts.every(({ unbalances }) => !unbalances.length);
+  const fit = html("button", { type: "button", disabled: nothing }, WORDS.fit);
   fit.addEventListener("click", () => slot.fit({ counterweights, shafts }));
   const off = html("button", { type: "button", disabled: !slot.design.extra }, WORDS.unfit);
   off.addEventListener("click", () => slot.fit(null));
   return html("p", { class: "buttons" }, fit, off);
 }
+
+/** What fits as a table, or that nothing does. */
+const tableOfFit = (given) => (given.rows.length ? tableOf(given) : html("p", { class: "hint" }, WORDS.nothingToFit));
 
 const MASS_COLUMNS = [
   { label: "no." }, { label: "place z", unit: "m" }, { label: "unbalance", unit: "kg·m", key: "unbalance" }, { label: "angle °" },
@@ -46,7 +50,7 @@ export const counterweightsPane = {
     const { counterweights = [] } = JSON.parse(fitted.json);
     return [
       html("p", { class: "hint" }, WORDS.counterweightsSaid),
-      tableOf({ title: WORDS.counterweights, columns: MASS_COLUMNS, rows: weightRows(counterweights), units: tools.units, name: slot.engine.summary.name }),
+      tableOfFit({ title: WORDS.counterweights, columns: MASS_COLUMNS, rows: weightRows(counterweights), units: tools.units, name: slot.engine.summary.name }),
       residual(tools, slot, fitted), fitButtons(slot, fitted),
     ];
   },
@@ -76,7 +80,7 @@ export const shaftsPane = {
       unbalances.map(({ z, amount, angle_deg: angle }) => [`${k + 1}`, ratio, at, height, z, amount, Number(angle)]));
     const columns = [{ label: "shaft" }, { label: "ratio" }, { label: "x", unit: "m" }, { label: "y", unit: "m" }, ...MASS_COLUMNS.slice(1)];
     return [
-      tableOf({ title: WORDS.shafts, columns, rows, units: tools.units, name: slot.engine.summary.name }),
+      tableOfFit({ title: WORDS.shafts, columns, rows, units: tools.units, name: slot.engine.summary.name }),
       residual(tools, slot, fitted), fitButtons(slot, fitted),
     ];
   },

@@ -1,9 +1,10 @@
 // The engine on its mounts: modes of the body, and its state at rest.
 
+import { html } from "./dom.mjs";
 import { tableOf } from "./table.mjs";
 import { WORDS } from "./words.mjs";
 
-const MODE_OF = ["x", "y", "z", "about x", "about y", "about z"];
+const SPACE_AXES = ["x", "y", "z"];
 
 export const mountsPane = {
   key: "mounts",
@@ -12,20 +13,34 @@ export const mountsPane = {
   make: async ({ engine }, { ask, units }) => {
     const { mounts, modes, static: still } = await ask("mounts", { engine: engine.json });
     const named = { units, name: engine.summary.name };
+    const { coordinates } = WORDS;
     // Where most of a mode's energy is says what it is called.
-    const main = (energies) => MODE_OF[energies.indexOf(Math.max(...energies))];
+    const main = (energies) => coordinates[energies.indexOf(Math.max(...energies))];
+    const ofModes = modes.frequency.map((frequency, k) => [`${k + 1}`, frequency]);
+    // Of causes there is the weight alone: nobody asked for torque and thrust.
+    const [[sag], [weights]] = [still.displacement, still.force];
     return [
+      html("p", { class: "hint" }, WORDS.mountsSaid),
       tableOf({
         ...named, title: WORDS.modes,
-        columns: [{ label: "mode" }, { label: "mostly" }, { label: "frequency Hz" }, { label: "excited by order 1 at rpm" },
-          { label: "purity %" }, { label: "loss factor" }],
-        rows: modes.frequency.map((frequency, k) =>
-          [`${k + 1}`, main(modes.energy[k]), frequency, 60 * frequency, 100 * modes.purity[k], modes.loss_factor[k]]),
+        columns: [{ label: "mode" }, { label: "frequency Hz", key: "frequency" }, { label: "mainly" }, ...coordinates.map((label) => ({ label: `${label} %`, decimals: 1 })),
+          { label: "purity %", key: "purity", decimals: 1 }, { label: "loss factor" }],
+        rows: ofModes.map((row, k) => [...row, main(modes.energy[k]), ...modes.energy[k], modes.purity[k], modes.loss_factor[k]]),
+      }),
+      tableOf({
+        ...named, title: WORDS.strain,
+        columns: [{ label: "mode" }, { label: "frequency Hz" }, ...mounts.map((name) => ({ label: `${name} %`, decimals: 1 }))],
+        rows: ofModes.map((row, k) => [...row, ...modes.strain.map((shares) => shares[k])]),
       }),
       tableOf({
         ...named, title: WORDS.atRest,
-        columns: [{ label: "mount" }, ...["x", "y", "z"].map((axis) => ({ label: `force ${axis}`, unit: "N" }))],
-        rows: mounts.map((name, k) => [name, ...still.force[k]]),
+        columns: [{ label: "mount" }, ...SPACE_AXES.map((axis) => ({ label: `force ${axis}`, unit: "N", key: `force-${axis}` }))],
+        rows: mounts.map((name, k) => [name, ...weights[k]]),
+      }),
+      tableOf({
+        ...named, title: WORDS.sag,
+        columns: [...SPACE_AXES.map((axis) => ({ label: axis, unit: "m" })), { label: WORDS.margin, unit: "m" }],
+        rows: [[...sag.slice(0, 3), still.support_margin]],
       }),
     ];
   },

@@ -3,6 +3,7 @@
 import { bars } from "./chart.mjs";
 import { html } from "./dom.mjs";
 import { shownIn, tableOf } from "./table.mjs";
+import { UNITS } from "./tables.mjs";
 import { WORDS } from "./words.mjs";
 
 /** Orders that are shown at most; those above are in the library. */
@@ -34,8 +35,8 @@ function mattering(rows) {
 }
 
 /** How the engine shakes, in sentences. */
-function explained(core, engine, rpm) {
-  const sentences = core.call("explain", rpm > 0 ? { engine: engine.json, rpm } : { engine: engine.json });
+function explained(core, engine, rpm, shown) {
+  const sentences = core.call("explain", { engine: engine.json, shown, ...(rpm > 0 ? { rpm } : {}) });
   const list = (few) => html("ul", { class: "explained" }, ...few.map((text) => html("li", {}, text)));
   const rest = sentences.slice(FIRST_SENTENCES);
   return html("div", {}, list(sentences.slice(0, FIRST_SENTENCES)),
@@ -45,19 +46,22 @@ function explained(core, engine, rpm) {
 export const orders = {
   key: "orders",
   title: "Orders",
-  make: async ({ engine, design }, { core, units }) => {
+  make: async ({ engine, design }, { core, units, slots }) => {
     const found = core.call("balance", { engine: engine.json, rpm: design.rpm });
     const rows = found.orders.map(row);
+    // Engines side by side have one scale.
+    const others = slots.filter((each) => each.engine !== engine)
+      .flatMap((each) => core.call("balance", { engine: each.engine.json, rpm: each.design.rpm }).orders.map(row));
     const shown = mattering(rows);
     const { force, moment, torque } = found.total;
     const whole = ["all", ...force.peak_xy, force.peak, ...moment.peak_xy, moment.peak, torque?.roll.peak ?? null];
     const named = (k, name, label) => {
       const [unit, factor] = shownIn(units, COLUMNS[k].unit);
       return { title: label, across: "order", up: unit, names: shown.map(([order]) => `${order}`),
-        series: [{ name, label, values: shown.map((each) => (each[k] ?? 0) * factor) }] };
+        top: factor * Math.max(0, ...[...shown, ...others].map((each) => each[k] ?? 0)), series: [{ name, label, values: shown.map((each) => (each[k] ?? 0) * factor) }] };
     };
     return [
-      explained(core, engine, design.rpm), tableOf({ title: WORDS.peaksAt(design.rpm), columns: COLUMNS, rows: [...shown, whole], total: true, units, name: engine.summary.name }),
+      explained(core, engine, design.rpm, UNITS.said[units]), tableOf({ title: WORDS.peaksAt(design.rpm), columns: COLUMNS, rows: [...shown, whole], total: true, units, name: engine.summary.name }),
       ...(shown.length ? [html("div", { class: "charts" }, bars(named(3, "force", "Shaking force, longest")), bars(named(6, "moment", "Rocking moment, longest")),
         ...(torque ? [bars(named(7, "torque", "Roll torque"))] : []))] : []),
     ];

@@ -18,7 +18,7 @@ export const torquePane = {
   controls: (slot, tools) => paneFields(slot, "torque", [
     { name: "gas", label: WORDS.cycle, choices: { own: WORDS.ownCycle, ...GASES }, text: "petrol 1" },
   ], tools),
-  make: async (slot, { ask, units }) => {
+  make: async (slot, { ask, units, slots }) => {
     const { engine, design: { rpm } } = slot;
     const { gas } = slot.settings.torque;
     const [kind, load] = gas.split(" ");
@@ -36,7 +36,7 @@ export const torquePane = {
     const largest = Math.max(...rows.map(([, value]) => value));
     return [
       curves({
-        title: WORDS.torqueOver, x: theta, lines, across: WORDS.crankAngle, up: unit, about: true, wide: true,
+        title: WORDS.torqueOver, x: theta, lines, across: WORDS.crankAngle, up: unit, about: true, wide: slots.length === 1,
         ticks: anglesTicks(0, theta.at(-1)).map((angle) => [angle, `${angle}°`]),
       }),
       tableOf({

@@ -4,6 +4,12 @@ import { UNITS } from "./tables.mjs";
 
 const WRITTEN = /^([-+−]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(\D.*)?$/iu;
 
+/** A fraction, or a whole number and one, as rules in inches have them. */
+const FRACTION = /^([-+−]?)(?:(\d+)(?:\s+|\s*-\s*))?(\d+)\/(\d*[1-9]\d*)(?:\s*([^\d\s/].*))?$/u;
+
+/** Decimals of a fraction that is none of ten: more than a double has. */
+const DECIMALS = 40n;
+
 /** A comma that stands for the decimal point, behind a whole number and before digits and a unit alone. */
 const DECIMAL_COMMA = /^([-+−]?\d+),(\d+)(?!.*\d)/u;
 
@@ -22,6 +28,20 @@ function decimal(text) {
   return { digits: BigInt(`${whole}${part}`.replace("+", "")), power: Number(exponent) - part.length };
 }
 
+/** What was typed as a decimal number and the word behind it; null of no number. */
+function parsed(text) {
+  // ½ is 1⁄2, and 3½ has a whole number before it.
+  const spelt = text.replace(/[¼-¾⅐-⅞]/gu, (sign) => ` ${sign.normalize("NFKC")}`).replace("⁄", "/").trim();
+  const [, sign, whole = "0", above, below, behind] = FRACTION.exec(spelt) ?? [];
+  if (above) {
+    const [a, b] = [BigInt(above), BigInt(below)];
+    const digits = ((BigInt(whole) * b + a) * 10n ** DECIMALS) / b;
+    return { digits: /[-−]/u.test(sign) ? -digits : digits, power: -Number(DECIMALS), word: behind?.trim() };
+  }
+  const parts = WRITTEN.exec(text.replace(DECIMAL_COMMA, "$1.$2"));
+  return parts && { ...decimal(parts[1]), word: parts[2]?.trim() };
+}
+
 /** The factor of a unit to that of the library, as a decimal text; undefined for one of another kind. */
 export function factorOf(word, unit) {
   const known = UNITS.typed[unit] ?? {};
@@ -36,18 +56,17 @@ export function factorOf(word, unit) {
  * The product of decimals is exact before it becomes a double, so that it is the very one that the library reads.
  */
 export function quantity(text, unit, plain, argument = "value") {
-  const typed = text.trim().replace(DECIMAL_COMMA, "$1.$2");
-  const parts = WRITTEN.exec(typed);
+  const number = parsed(text.trim());
   const wrong = (hint) => new TypingError(argument, text.trim(), hint);
   const units = UNITS.hints[unit];
-  if (!parts) throw wrong(units ? `give a number, such as 12 or with a unit (${units})` : "give a number");
-  const word = parts[2]?.trim() || plain;
+  if (!number) throw wrong(units ? `give a number, such as 12 or with a unit (${units})` : "give a number");
+  const word = number.word || plain;
   const factor = word ? factorOf(word, unit) : "1";
   if (factor === undefined) {
     throw wrong(units ? `give a number with a unit of this kind (${units})` : "give a number without a unit");
   }
-  const [a, b] = [decimal(parts[1]), decimal(factor)];
-  const value = Number(`${a.digits * b.digits}e${a.power + b.power}`);
+  const { digits, power } = decimal(factor);
+  const value = Number(`${number.digits * digits}e${number.power + power}`);
   if (!Number.isFinite(value)) throw wrong("give a finite number");
   return value;
 }
@@ -55,6 +74,5 @@ export function quantity(text, unit, plain, argument = "value") {
 /** What was typed with its unit: what a plain number means does not change with the setting. */
 export function withUnit(text, unit, plain) {
   const typed = text.trim();
-  return typed && plain && WRITTEN.exec(typed.replace(DECIMAL_COMMA, "$1.$2"))?.[2] === undefined
-    && WRITTEN.test(typed.replace(DECIMAL_COMMA, "$1.$2")) ? `${typed} ${plain}` : typed;
+  return plain && parsed(typed)?.word === undefined && parsed(typed) ? `${typed} ${plain}` : typed;
 }

@@ -27,7 +27,8 @@ export class Slot {
     this.form = new Form({
       changed: () => this.later(),
       chosen: (name) => this.take(Object.assign(Design.preset(name), { rpm: this.design.rpm })),
-      kindChosen: (kind) => this.take(this.design.as(kind)),
+      kindChosen: (kind) => this.take(kind === "lists" && this.engine
+        ? Object.assign(Design.unrolled(this.engine.json, this.engine.summary.name), { rpm: this.design.rpm }) : this.design.as(kind)),
     });
     this.stage = html("div", { class: "stage" });
     this.name = WORDS.engine;
@@ -101,7 +102,7 @@ export class Slot {
   show() {
     const { core, design, engine, bench } = this;
     const figures = {
-      ...core.call("figures", { engine: engine.json, rpm: design.rpm, inertia: this.inertia }),
+      ...core.call("figures", { engine: engine.json, rpm: design.rpm, inertia: this.inertia, shown: UNITS.said[this.units] }),
       controls: CONTROLS, units: UNITS.drawn[this.units],
     };
     if (bench?.follows(figures)) return;

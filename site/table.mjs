@@ -21,7 +21,7 @@ export function readable(value) {
   return signed(`${Number(value.toPrecision(SHOWN_DIGITS))}`);
 }
 
-/** Columns are `{ label, unit }`, rows their values in the library's units; the first column heads its row. */
+/** Columns are `{ label, unit, key, decimals }`, rows their values in the library's units; the first column heads its row. */
 export function tableOf({ title, columns, rows, units, name, total = false }) {
   const scaled = columns.map(({ unit }) => (unit ? shownIn(units, unit) : ["", 1]));
   const head = columns.map(({ label }, k) => (scaled[k][0] ? `${label}, ${scaled[k][0]}` : label));
@@ -37,8 +37,9 @@ export function tableOf({ title, columns, rows, units, name, total = false }) {
         html("tbody", {}, ...values.map((row, r) => html("tr", { class: total && r === values.length - 1 ? "total" : null }, ...row.map((value, k) => cell(value, rows[r][k], k, columns[k]))))))));
 }
 
-function cell(value, own, k, { key }) {
-  const made = html(k ? "td" : "th", k ? {} : { scope: "row" }, readable(value));
+function cell(value, own, k, { key, decimals }) {
+  const text = decimals === undefined || typeof value !== "number" ? readable(value) : signed(value.toFixed(decimals));
+  const made = html(k ? "td" : "th", k ? {} : { scope: "row" }, text);
   if (key && typeof own === "number") {
     made.setAttribute("data-name", key);
     made.setAttribute("data-value", own);

@@ -35,9 +35,10 @@ export class Workbench {
 
   constructor(core, module, script, { designs, units }, trouble) {
     Object.assign(this, { core, units });
-    this.jobs = new Jobs(script, module, (busy) => this.busy(busy));
+    this.jobs = new Jobs(script, module, (share) => this.busy(share));
     this.said = html("p", { class: "said", role: "status" }, trouble);
-    this.working = html("span", { class: "working", hidden: true }, WORDS.computing, " ",
+    this.share = html("span", {});
+    this.working = html("span", { class: "working", hidden: true }, this.share, " ",
       button(WORDS.cancel, WORDS.cancel, () => this.jobs.cancel()));
     this.forms = html("div", { class: "forms" });
     this.stages = html("div", { class: "stages" });
@@ -47,7 +48,7 @@ export class Workbench {
     this.makeBar();
     this.makeTabs();
     this.element = html("div", { class: "crankpin bench" }, this.bar, this.said,
-      html("main", {}, html("div", { class: "side" }, this.chooser, this.forms),
+      html("main", {}, html("div", { class: "side" }, this.skip, this.chooser, this.forms),
         html("div", { class: "shown" }, this.stages, this.tabs, this.panes)),
       html("footer", {}, `${WORDS.footer} crankpin ${VERSION}`));
     this.element.addEventListener("dragover", (event) => event.preventDefault());
@@ -56,6 +57,8 @@ export class Workbench {
       if (event.dataTransfer.files.length) this.openFile(event.dataTransfer.files[0]);
     });
     addEventListener("hashchange", () => this.followAddress());
+    // On paper nobody asks for more.
+    addEventListener("beforeprint", () => this.panes.querySelectorAll("details").forEach((each) => { each.open = true; }));
     for (const design of designs) this.add(design);
     if (designs.length > 1) this.arrange(0);
   }
@@ -90,6 +93,11 @@ export class Workbench {
       tab.addEventListener("click", () => this.choose(pane));
       return tab;
     });
+    this.skip = button(WORDS.toResults, WORDS.panes, () => {
+      this.buttons.find((tab) => tab.tabIndex === 0).focus({ preventScroll: true });
+      this.tabs.scrollIntoView();
+    });
+    this.skip.classList.add("skip");
     this.panes.setAttribute("id", "pane");
     this.panes.setAttribute("role", "tabpanel");
     this.tabs.append(...this.buttons);
@@ -177,11 +185,14 @@ export class Workbench {
     const slots = this.slots.filter(({ engine }) => engine);
     const boxes = this.boxes(pane, slots);
     try {
-      const made = await Promise.all(slots.map((slot) => this.made(pane, slot)));
+      const made = await Promise.all(slots.map((slot) => this.made(pane, slot, slots)));
       if (turn !== this.turn) return;
       boxes.forEach(({ title, results }, k) => {
         title.textContent = slots.length > 1 ? `${slots[k].name}: ${slots[k].engine.summary.name}` : "";
+        const held = focusable(results).indexOf(document.activeElement);
         results.replaceChildren(...made[k]);
+        // Who pressed a button there goes on from it, or from the one before it.
+        if (held >= 0) focusable(results).slice(0, held + 1).findLast((each) => !each.disabled)?.focus({ preventScroll: true });
       });
     } catch (error) {
       if (!(error instanceof Outdated)) throw error;
@@ -206,9 +217,9 @@ export class Workbench {
     return this.shownBoxes.boxes;
   }
 
-  async made(pane, slot) {
+  async made(pane, slot, slots) {
     const ask = (name, given) => this.jobs.ask(`${slot.id} ${name}`, name, given);
-    const tools = { ask, core: this.core, units: this.units, again: () => this.refresh() };
+    const tools = { ask, core: this.core, units: this.units, slots, again: () => this.refresh() };
     try {
       return await pane.make(slot, tools);
     } catch (error) {
@@ -217,10 +228,16 @@ export class Workbench {
     }
   }
 
-  busy(busy) {
+  /** Show which share of what was asked is computed; null when nobody waits. */
+  busy(share) {
+    if (share !== null) {
+      this.share.textContent = WORDS.computing(share);
+      this.noticing ??= setTimeout(() => { this.working.hidden = false; }, NOTICED);
+      return;
+    }
     clearTimeout(this.noticing);
-    if (!busy) this.working.hidden = true;
-    else this.noticing = setTimeout(() => { this.working.hidden = false; }, NOTICED);
+    this.noticing = null;
+    this.working.hidden = true;
   }
 
   say(text) {
@@ -292,6 +309,8 @@ function button(text, title, act) {
   element.addEventListener("click", act);
   return element;
 }
+
+const focusable = (element) => [...element.querySelectorAll("button, summary, [tabindex]")];
 
 /** Arrow keys go from tab to tab. */
 function arrows(list, tabs) {

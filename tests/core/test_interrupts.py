@@ -10,7 +10,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 
 import crankpin as cp
 import numpy as np
@@ -157,21 +156,18 @@ def test_several_threads_at_once_agree() -> None:
     assert all(np.array_equal(alone, result) for result in results)
 
 
-def test_peaks_of_ten_thousand_orders_take_a_moment() -> None:
-    """... and leave the interpreter to others: it was held for 16 s."""
+def test_peaks_of_ten_thousand_orders_leave_the_interpreter_to_others() -> None:
+    """It was held for 16 s."""
     v6 = cp.Engine.preset("v6-60")
     balance = v6.balance(5000, orders=range(1, 10_001))
     peaks: list[float] = []
     thread = threading.Thread(target=lambda: peaks.append(balance.total.moment.peak))
-    start, longest = time.perf_counter(), 0.0
+    turns = 0
     thread.start()
     while thread.is_alive():
-        last = time.perf_counter()
-        time.sleep(1e-3)
-        longest = max(longest, time.perf_counter() - last)
-    # 0.06 s, and a millisecond, on a machine of its own.
-    assert time.perf_counter() - start < 2
-    assert longest < 0.5
+        turns += 1
+    # as above: a turn before and one after, if it were kept
+    assert turns > 100
     # Powers of e^{iθ} as high as the orders, each with a rounding.
     chosen = v6.balance(5000, rtol=1e-12).total.moment.peak
     assert peaks[0] == pytest.approx(chosen, rel=5e-12)

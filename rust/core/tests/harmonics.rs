@@ -255,26 +255,6 @@ fn odd_torque_orders_with_an_offset_keep_their_digits() {
 }
 
 #[test]
-fn odd_torque_orders_with_an_offset_take_no_longer_than_even_ones() {
-    let proportions = Proportions::new(0.3, 0.4).unwrap();
-    let time = |orders: Vec<u32>| {
-        let run = || {
-            let start = std::time::Instant::now();
-            torque::torque(&proportions, &orders, &Cancel::new()).unwrap();
-            rod::torque(&proportions, &orders, &Cancel::new()).unwrap();
-            start.elapsed().as_secs_f64()
-        };
-        // The least of some milliseconds each: other work on the machine takes time slices.
-        (0..10).map(|_| run()).fold(f64::INFINITY, f64::min)
-    };
-    let even = time((1..=5000).map(|k| 2 * k).collect());
-    let odd = time((1..=5000).map(|k| 2 * k - 1).collect());
-    println!("RATIO {} {odd} {even}", odd / even);
-    // Measured: 0.8 times as long; 4000 times with a sum of n powers for order n.
-    assert!(odd < 5.0 * even, "{odd} s for odd orders, {even} s for even ones");
-}
-
-#[test]
 fn an_infinite_rod_is_the_limit_of_long_ones() {
     let orders: Vec<u32> = (1..=24).collect();
     let cancel = Cancel::new();

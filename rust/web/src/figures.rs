@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use crate::answer::{Columns, degrees, orders as numbers};
 use crate::arguments::Arguments;
 use crate::engine::firing_of;
-use crate::words::sentences_of;
+use crate::words::{sentences_of, shown};
 
 /// An engine's figures, what its reader may set, and the terms of each order; the rod ratio is its own.
 pub fn figures(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
@@ -24,7 +24,8 @@ pub fn figures(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
     let firing = if engine.firing_order().is_empty() {
         None
     } else {
-        Some(degrees(firing_of(&engine)?.angles()))
+        let angles = degrees(firing_of(&engine)?.angles()).into_iter().zip(engine.details());
+        Some(angles.map(|(angle, of)| (!of.dummy).then_some(angle)).collect::<Vec<_>>())
     };
     let cranks = engine.cranks().iter();
     let cranks = cranks.map(|c| json!({ "x": c.axis[0], "y": c.axis[1], "ratio": c.ratio }));
@@ -35,7 +36,7 @@ pub fn figures(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
     let loads = engine.loads_counted();
     let loads: String =
         loads.chars().take(1).flat_map(char::to_uppercase).chain(loads.chars().skip(1)).collect();
-    let sentences = sentences_of(&engine, (rpm > 0.0).then_some(rpm), false)?;
+    let sentences = sentences_of(&engine, (rpm > 0.0).then_some(rpm), false, &shown(arguments)?)?;
     let block = block(&engine).map(|bar| json!({ "mass": bar.mass, "inertia": bar.inertia }));
     Ok(json!({
         "name": engine.shown_name(), "strokes": engine.strokes().number(), "rpm": rpm,

@@ -17,14 +17,31 @@ use crate::engine::written;
 pub fn explain(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
     let engine = arguments.mounted()?.0;
     let (rpm, vectors) = (arguments.optional("rpm")?, arguments.or("vectors", false)?);
-    Ok(json!(sentences_of(&engine, rpm, vectors)?))
+    Ok(json!(sentences_of(&engine, rpm, vectors, &shown(arguments)?)?))
+}
+
+/// Units shown in place of others, and the factors of their numbers.
+pub type Shown = Map<String, Value>;
+
+pub fn shown(arguments: &mut Arguments) -> Result<Shown> {
+    arguments.or("shown", Shown::new())
 }
 
 /// Sentences on an engine, or on its force and moment alone.
-pub fn sentences_of(engine: &Engine, rpm: Option<f64>, vectors: bool) -> Result<Vec<String>> {
+pub fn sentences_of(
+    engine: &Engine,
+    rpm: Option<f64>,
+    vectors: bool,
+    shown: &Shown,
+) -> Result<Vec<String>> {
     let subject = if vectors { Subject::Vectors } else { Subject::Everything };
     let found = of(&Arc::new(engine.clone()), rpm, subject, &Cancel::new())?;
-    Ok(found.sentences(&found.findings, &Wording::of(engine)))
+    let convert = |unit: &str| {
+        let [to, factor] = shown.get(unit)?.as_array()?.as_slice() else { return None };
+        let to = to.as_str().filter(|to| *to != unit)?;
+        Some((to.to_owned(), factor.as_f64()?))
+    };
+    Ok(found.sentences(&found.findings, &Wording { convert: &convert, ..Wording::of(engine) }))
 }
 
 /// Masses on each crankpin, what order 1 keeps by balance factor, and the engine with counterweights opposite

@@ -385,6 +385,10 @@ impl WithSimd for Evaluation<'_> {
             self.cancel.check()?;
             sums.fill(zero);
             for order in 0..orders {
+                // Without a load nothing moves, and what was written for it is zero.
+                if amplitudes[order] == [[0.0; 6]; 4] {
+                    continue;
+                }
                 let place = lane * orders + order;
                 if directions > 0 {
                     let from = place * directions;

@@ -124,16 +124,15 @@ fn the_transform_gives_what_the_table_gives() {
 
 /// All orders there are, none of them small: a Dirichlet kernel, turned.
 #[test]
-fn ten_thousand_orders_take_no_time() {
+fn ten_thousand_orders_are_transformed() {
     let orders: Vec<u32> = (1..=10_000).collect();
     let finder = finder(&orders);
     let phasors: Vec<_> = orders.iter().map(|&n| Complex64::cis(-0.3 * f64::from(n))).collect();
-    let start = std::time::Instant::now();
+    // Every value of every wave would be three thousand million of them.
+    assert!(finder.0.table.is_empty());
     let peak = finder.along_axis(&phasors);
     // Powers up to the ten thousandth of e^{iθ}: as many roundings of its argument.
     assert!((peak / 1e4 - 1.0).abs() < 5e-12, "{peak}");
-    // A thirtieth of a second when optimised; every value of every wave would be seconds.
-    assert!(start.elapsed().as_secs_f64() < 4.0);
     let cancel = Cancel::new();
     cancel.raise();
     assert!(finder.0.of_vector(&phasors, &phasors, &cancel).is_err());
