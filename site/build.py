@@ -7,13 +7,12 @@ the turning page, the presets and units of the installed ``crankpin``, and the c
 from __future__ import annotations
 
 import argparse
-import base64
-import gzip
 import json
+import lzma
 from decimal import Decimal
 from pathlib import Path
 from string import Template
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
 from crankpin._support import units
@@ -21,6 +20,9 @@ from crankpin.analysis import explain
 from crankpin.cli import arguments
 from crankpin.model import presets
 from crankpin.view import page
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 HERE = Path(__file__).parent
 TARGET = HERE.parent / "target"
@@ -63,6 +65,16 @@ HINTS = {
     "": "%",
 }
 
+LZMA = {
+    "id": lzma.FILTER_LZMA1,
+    "preset": 9 | lzma.PRESET_EXTREME,
+    "dict_size": 1 << 23,
+    "lc": 3,
+    "lp": 0,
+    "pb": 0,
+}
+"""What `lzma.mjs` reads."""
+
 GROUPS = {
     "Singles and twins": ("single", "i2-", "v-twin-", "boxer-2"),
     "Inline": ("i3", "i4", "i5", "i6"),
@@ -83,7 +95,7 @@ def main() -> None:
     given = parser.parse_args()
     text = build(given.wasm.read_bytes())
     given.out.parent.mkdir(parents=True, exist_ok=True)
-    given.out.write_text(text, encoding="utf-8")
+    given.out.write_bytes(text.encode())
     print(f"{given.out}: {len(text.encode()) / 1e3:.0f} kB")
 
 
@@ -91,16 +103,44 @@ def build(wasm: bytes) -> str:
     """Return the page with this core."""
     drawing = page.modules("full.mjs", "page.mjs")
     script = page.modules("main.mjs", folder=HERE)
-    style = page.style()
+    own = [text for name, text in script.items() if name not in drawing]
+    worker = page.modules("worker.mjs", folder=HERE)
+    elements = [
+        ("style", "turning", "", page.style()),
+        ("style", "", "", (HERE / "workbench.css").read_text(encoding="utf-8")),
+        ("script", "tables", "application/json", json.dumps(tables(), ensure_ascii=False)),
+        ("script", "worker", "text/plain", joined(worker.values())),
+        ("script", "drawing", "", joined(drawing.values())),
+        ("script", "", "", joined(own)),
+    ]
+    return unpacking(elements, wasm)
+
+
+def unpacking(elements: list[tuple[str, str, str, str]], core: bytes) -> str:
+    """Return a page that makes elements, of tag, id, type and text, and begins with the core."""
+    content = f"{json.dumps(elements, ensure_ascii=False)}\n".encode() + core
     return Template((HERE / "workbench.html").read_text(encoding="utf-8")).substitute(
-        turning=style,
-        style=(HERE / "workbench.css").read_text(encoding="utf-8"),
-        tables=page.as_json(tables()),
-        worker=page.as_json("\n".join(page.modules("worker.mjs", folder=HERE).values())),
-        wasm=base64.b64encode(gzip.compress(wasm, mtime=0)).decode(),
-        drawing="\n".join(drawing.values()),
-        script="\n".join(text for name, text in script.items() if name not in drawing),
+        packed=packed(content),
+        size=len(content),
+        loader=joined(page.modules("loader.mjs", folder=HERE).values()),
     )
+
+
+def joined(modules: Iterable[str]) -> str:
+    """Return modules as one script."""
+    return "\n".join(['"use strict";', *modules])
+
+
+def packed(content: bytes) -> str:
+    """Return bytes compressed, seven bits in a letter: a seventh longer, in base 64 a third.
+
+    Letters that would not stand in a script as they are have 128 added.
+    """
+    packed = lzma.compress(content, format=lzma.FORMAT_RAW, filters=[LZMA])
+    bits = f"{int.from_bytes(packed):0{len(packed) * 8}b}"
+    bits += "0" * (-len(bits) % 7)
+    letters = (int(bits[k : k + 7], 2) for k in range(0, len(bits), 7))
+    return "".join(chr(letter + 128 if letter in b"\0\r<" else letter) for letter in letters)
 
 
 def tables() -> dict[str, Any]:

@@ -2,7 +2,6 @@
 
 export const WORDS = {
   title: "crankpin workbench",
-  noStart: "The workbench could not start:",
   engine: "Engine",
   preset: "Preset",
   ownEngine: "your own",

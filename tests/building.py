@@ -35,7 +35,7 @@ def workbench(tmp_path_factory: pytest.TempPathFactory) -> Path:
     if not build.WASM.exists():
         pytest.skip(NOT_BUILT)
     file: Path = tmp_path_factory.mktemp("site") / "index.html"
-    file.write_text(build.build(build.WASM.read_bytes()), encoding="utf-8")
+    file.write_bytes(build.build(build.WASM.read_bytes()).encode())
     return file
 
 

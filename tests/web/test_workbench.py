@@ -266,16 +266,9 @@ def test_a_hostile_link_says_what_is_wrong_and_freezes_nothing(
     assert engine(page) == cp.Engine.preset("i4")
 
 
-def test_it_is_less_than_260_kb_beside_its_core(workbench: Path) -> None:
-    text = workbench.read_text("utf-8")
-    _, _, behind = text.partition('id="core">')
-    core, _, _ = behind.partition("</script>")
-    assert len(text.encode()) - len(core) < 260_000
-
-
-def test_all_of_it_is_less_than_1_25_mb(workbench: Path) -> None:
-    """The core is three quarters of a megabyte compressed, a third more as text."""
-    assert workbench.stat().st_size < 1_250_000
+def test_all_of_it_is_less_than_630_kb(workbench: Path) -> None:
+    """Core, styles, scripts and presets are compressed, and a sixth longer as letters."""
+    assert workbench.stat().st_size < 630_000
 
 
 def test_every_preset_is_the_library_s(open_workbench: Open) -> None:
