@@ -307,6 +307,8 @@ def warning_in_options(message: str, typed: Mapping[str, object]) -> str:
     """Return a warning of the library with arguments named, and units asked for, as in a shell."""
     # What a new engine is made of is an option or its default; of others it may be in the file.
     known = _options(typed, left_out="kind" in typed)
+    if typed.get("piston_mass") is not None:  # Of which the reciprocating mass is computed.
+        known.discard("reciprocating_mass")
     begins = r"(?:(?<=^)|(?<=; ))\w+(?=(?: =| is| has|\[))"
     said = re.sub(begins, lambda word: _option(word[0], known), message)
     said = _hint_in_options(said, typed)

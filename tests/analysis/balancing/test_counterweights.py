@@ -827,7 +827,13 @@ def test_turning_the_engine_turns_the_answer(engine: cp.Engine, turn: int) -> No
 @settings(max_examples=25, deadline=None)
 @given(engine=ANY, planes=st.lists(st.floats(-2, 2), min_size=1, max_size=4, unique=True))
 def test_what_stays_never_exceeds_the_start(engine: cp.Engine, planes: list[float]) -> None:
-    fitted = cp.counterweights(engine, planes=planes, length=1.0, bound=2.0)
+    try:
+        fitted = cp.counterweights(engine, planes=planes, length=1.0, bound=2.0)
+    except cp.InputError:
+        # Weights of planes nearer than some 20 µm cannot always be told apart, which is refused.
+        if min(np.diff(np.sort(planes)), default=1.0) > 2e-5:
+            raise
+        return
 
     def size(engine: cp.Engine) -> float:
         found = engine.balance(UNIT_SPEED, orders=[1])[1]
