@@ -56,7 +56,9 @@ export class Core {
       const to = core.request(request.length);
       new Uint8Array(core.memory.buffer, to, request.length).set(request);
       const total = given.reduce((sum, each) => sum + each.length, 0);
-      const numbersTo = new Float64Array(core.memory.buffer, core.given(total), total);
+      // Where the memory grows for them, its buffer is a new one.
+      const at = core.given(total);
+      const numbersTo = new Float64Array(core.memory.buffer, at, total);
       given.reduce((start, each) => (numbersTo.set(each, start), start + each.length), 0);
       core.compute();
       const text = new Uint8Array(core.memory.buffer, core.text(), core.text_bytes());

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 @pytest.fixture(autouse=True)
 def _clean_pyplot(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """No display, no figures from elsewhere, and a failure for whoever shows one."""
+    """No display, no figures or settings from elsewhere, and a failure for whoever shows one."""
     plt = pytest.importorskip("matplotlib.pyplot")
 
     def show(*_: object, **__: object) -> None:
@@ -22,5 +22,6 @@ def _clean_pyplot(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     plt.close("all")
     monkeypatch.setattr(plt, "show", show)
     monkeypatch.setattr(plt.Figure, "show", show)
-    yield
+    with plt.rc_context():
+        yield
     plt.close("all")

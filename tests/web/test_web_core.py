@@ -441,7 +441,7 @@ def test_what_is_too_large_is_an_error_and_the_next_call_works(ask: Ask) -> None
     offsets = [1e-6 * k for k in range(2_000)]
     large = {"engine": engine, "rpm": many, "pin_offset": offsets, "orders": ORDERS}
     answers = ask([("sweep", large), ("balance", {"engine": engine, "rpm": RPM, "orders": [2]})])
-    assert answers[0]["error"]["name"] == "InputError"
+    assert answers[0]["error"]["name"] == "InputError", answers[0]
     assert answers[1]["result"]["orders"][0]["order"] == 2
 
 
