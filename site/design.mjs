@@ -29,7 +29,7 @@ export class Design {
     /** Texts of the preset that are no fields. */
     const { title = "", source = "" } = PRESETS[preset] ?? {};
     this.texts = { title, source };
-    this.fields = { ...DEFAULTS, ...(kind === "lists" && file ? fieldsOf(file) : {}), ...fields };
+    this.fields = { ...DEFAULTS, ...KINDS[kind].begins, ...(kind === "lists" && file ? fieldsOf(file) : {}), ...fields };
     this.before = { ...this.fields };
   }
 
@@ -61,7 +61,7 @@ export class Design {
   as(kind) {
     const { name, ...fields } = this.fields;
     const shared = KINDS[kind].fields;
-    const kept = Object.fromEntries(Object.entries(fields).filter(([key]) =>
+    const kept = Object.fromEntries(Object.entries(fields).filter(([key]) => this.names.includes(key)).filter(([key]) =>
       shared.includes(key) ? key !== "firing_order" : groupsOf(kind)[1][1].includes(key)));
     return new Design({ kind, fields: { ...kept, name: "" }, rpm: this.rpm });
   }
@@ -157,12 +157,20 @@ function valueOf(name, text, units, kind) {
   if (field.choices) return name === "strokes" ? Number(typed) : typed;
   if (field.text) return typed;
   if (field.whole) {
-    if (!/^\d+$/.test(typed)) throw new TypingError(name, typed, "give a whole number");
-    return Number(typed);
+    const numbers = parts(typed).map((each) => (/^\d+$/.test(each) ? Number(each) : NaN));
+    if (!field.listed && numbers.length > 1 || numbers.some(Number.isNaN)) throw new TypingError(name, typed, "give a whole number");
+    return field.listed ? numbers : numbers[0];
   }
   if (field.unit === "°") return field.listed ? parts(typed).map((each) => degrees(name, each)) : degrees(name, typed);
   const plain = plainUnit(field.unit, units);
-  if (field.listed || kind === "lists") {
+  if (field.several) {
+    try {
+      return quantity(typed, field.unit, plain, name);
+    } catch (error) {
+      if (parts(typed).length === 1) throw error;
+    }
+  }
+  if (field.listed || field.several || kind === "lists") {
     const listed = parts(typed, /\s*[,;]\s*|\s+(?=[-+−\d.])(?!\d+\/)/u);
     const [, last] = /([^\d\s.¼-¾⅐-⅞]+)$/u.exec(listed.at(-1)) ?? [];
     return listed.map((each) => quantity(each, field.unit, last ?? plain, name));

@@ -28,13 +28,14 @@ export const FIELDS = {
     label: "Pin split", unit: "°", optional: true, range: [-180, 180, 0.5],
     said: "left pin minus right pin; even firing needs bank angle − firing interval",
   },
-  spacing: { label: "Spacing", unit: "m", said: "between neighbouring throws; unequal ones: kind “cylinder by cylinder”" },
-  bank_stagger: { label: "Bank stagger", unit: "m", optional: true, said: "how far the left bank stands behind the right" },
+  spacing: { label: "Spacing", unit: "m", several: true, said: "between neighbouring throws, or of each throw from the one before it" },
+  bank_stagger: { label: "Bank stagger", unit: "m", optional: true, said: "how far each bank stands behind the one before it, the left one behind the right" },
+  absent: { label: "Absent cylinders", whole: true, listed: true, optional: true, said: "numbers in the whole V of those that are not there: 6 makes a V5 of three throws" },
   odd_bank: { label: "Cylinder 1 is in", choices: { right: "the right bank", left: "the left bank" } },
   numbering: { label: "Numbering", choices: { alternating: "from bank to bank", "by-bank": "bank by bank" } },
   cylinders: { label: "Cylinders", whole: true, said: "of all rows" },
   rows: { label: "Rows", whole: true, optional: true },
-  bank_deg: { label: "Bores", unit: "°", listed: true, said: "directions from the right, counter-clockwise; 90 is upright" },
+  bank_deg: { label: "Bores", unit: "°", listed: true, said: "directions from the right, counter-clockwise; 90 is upright, 30, 90, 150 a W" },
   tdc_deg: { label: "Top dead centres", unit: "°", listed: true, said: "crank angle of each cylinder" },
   z: { label: "Places along the crank", unit: "m", listed: true, said: "from the front to the flywheel" },
   firing_order: { label: "Firing order", text: true, optional: true, said: "such as 1-3-4-2" },
@@ -49,12 +50,16 @@ const OF_A_CYLINDER = ["bore", "stroke", "rod_length", "reciprocating_mass", "ro
 const FIRING = ["firing_order", "strokes", "gas", "inertia"];
 const BANKS = ["spacing", "bank_stagger", "odd_bank", "numbering"];
 
-/** Kinds of engines: builders of the library, and what they take besides the parts of a cylinder. */
+/** Kinds of engines: builders of the library, what they take besides the parts of a cylinder, and what of it `begins` otherwise. */
 export const KINDS = {
   inline: { label: "Inline, or a single", fields: ["throws_deg", "spacing", ...FIRING] },
-  vee: { label: "V", fields: ["bank_angle_deg", "throws_deg", "pin_split_deg", ...BANKS, ...FIRING] },
+  vee: { label: "V", fields: ["bank_angle_deg", "throws_deg", "pin_split_deg", "absent", ...BANKS, ...FIRING] },
   flat: { label: "Flat, shared crankpins", fields: ["throws_deg", ...BANKS, ...FIRING] },
   boxer: { label: "Boxer", fields: ["throws_deg", ...BANKS, ...FIRING] },
+  fan: {
+    label: "W, X and others", fields: ["bank_deg", "throws_deg", "spacing", "bank_stagger", ...FIRING],
+    begins: { bank_deg: "30, 90, 150" },
+  },
   radial: { label: "Radial", fields: ["cylinders", "rows", "spacing", ...FIRING] },
   lists: { label: "Cylinder by cylinder", fields: ["bank_deg", "tdc_deg", "z", ...FIRING] },
 };

@@ -12,7 +12,7 @@ from crankpin._support import inputs
 from crankpin.model import checks
 from crankpin.model import shafts as rotating
 from crankpin.model.data import Cranks, EngineData, allowed, big_end, core_of_lists, parts
-from crankpin.model.furnishing import furnished, one_of, pitch, without
+from crankpin.model.furnishing import furnished, one_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -220,7 +220,7 @@ class Builders(EngineData):
         core = _kept(_core.Engine.inline(parts(one), layout), one)
         checks.angles(throws_deg=throws_deg, first_tdc_deg=first_tdc_deg)
         engine = cls(core, name, source, "", strokes)
-        return furnished(engine, cylinder, spacing, rotating_mass, 0.0, firing_order)
+        return furnished(engine, cylinder, rotating_mass, firing_order)
 
     @classmethod
     def vee(
@@ -307,26 +307,18 @@ class Builders(EngineData):
         array([0.])
         """
         one = one_of(cylinder)
-        missing = inputs.items("absent", absent, "give numbers of cylinders, such as [6]")
-        masses = None if missing else rotating_mass
-        layout = _along_crank(one, throws_deg, spacing, masses, first_tdc_deg)
-        stagger = inputs.number("bank_stagger", bank_stagger)
-        even = 0.0 if inputs.is_listed(spacing) else stagger
-        layout |= vee_layout(bank_angle_deg, pin_split_deg, even, numbering, odd_bank)
-        core = _kept(_core.Engine.vee(parts(one), layout), one)
+        layout = _along_crank(one, throws_deg, spacing, rotating_mass, first_tdc_deg)
+        layout |= vee_layout(bank_angle_deg, pin_split_deg, bank_stagger, numbering, odd_bank)
+        hint = "give numbers of cylinders, such as [6]"
+        missing = [inputs.whole("absent", each, 1) for each in inputs.items("absent", absent, hint)]
+        core = _kept(_core.Engine.vee(parts(one), layout | {"absent": missing}), one)
         checks.angles(
             bank_angle_deg=bank_angle_deg, throws_deg=throws_deg, pin_split_deg=pin_split_deg,
             first_tdc_deg=first_tdc_deg,
         )  # fmt: skip
         checks.pin_split(core, layout["pin_split"])
-        if not missing:
-            engine = cls(core, name, source, "", strokes)
-            return furnished(engine, cylinder, spacing, rotating_mass, stagger, firing_order)
-        engine = furnished(cls(core, name, source), one, spacing, masses, stagger)
-        engine = cls(without(engine._core, one, missing), name, source, "", strokes)
-        engine = engine.with_first_tdc(first_tdc_deg)
-        engine = furnished(engine, cylinder, 0.0, rotating_mass, 0.0, firing_order)
-        return engine if rotating_mass is None else engine.replace(rotating_mass=rotating_mass)
+        engine = cls(core, name, source, "", strokes)
+        return furnished(engine, cylinder, rotating_mass, firing_order)
 
     @classmethod
     def flat(
@@ -543,8 +535,7 @@ class Builders(EngineData):
         if order is None:
             order = _core.Engine.radial_firing_order(layout, inputs.strokes(strokes))
         engine = cls(core, name, source, "", strokes)
-        along = 0.0 if spacing is None else spacing
-        return furnished(engine, cylinder, along, rotating_mass, 0.0, order)
+        return furnished(engine, cylinder, rotating_mass, order)
 
     @classmethod
     def from_banks(
@@ -614,27 +605,14 @@ class Builders(EngineData):
         """
         if isinstance(bank_deg, str):
             bank_deg = FANS[inputs.one_of("bank_deg", bank_deg.upper(), FANS)]
-        one, banks = one_of(cylinder), inputs.angles("bank_deg", bank_deg)
-        pins, distance = inputs.angles("throws_deg", throws_deg), pitch(spacing)
-        even = 0.0 if inputs.is_listed(spacing) else inputs.number("bank_stagger", bank_stagger)
-        places = [
-            distance * k + even * bank for bank in range(len(banks)) for k in range(len(pins))
-        ]
-        core = core_of_lists(
-            one,
-            None,
-            pins * len(banks),
-            [bank for bank in banks for _ in pins],
-            places,
-            rotating_mass,
-            mains=None,
-            reference_z=None,
-            bank=[k for k in range(len(banks)) for _ in pins],
-        )
-        engine = cls(core, name, source, "", strokes).with_first_tdc(first_tdc_deg)
-        if inputs.is_listed(spacing) and bank_stagger:
-            raise inputs.rejected("bank_stagger", bank_stagger, "give one spacing with it")
-        return furnished(engine, cylinder, spacing, rotating_mass, 0.0, firing_order)
+        one = one_of(cylinder)
+        layout = _along_crank(one, throws_deg, spacing, rotating_mass, first_tdc_deg)
+        layout["banks"] = inputs.angles("bank_deg", bank_deg)
+        layout["bank_stagger"] = inputs.number("bank_stagger", bank_stagger)
+        core = _kept(_core.Engine.fan(parts(one), layout), one)
+        checks.angles(bank_deg=bank_deg, throws_deg=throws_deg, first_tdc_deg=first_tdc_deg)
+        engine = cls(core, name, source, "", strokes)
+        return furnished(engine, cylinder, rotating_mass, firing_order)
 
     @classmethod
     def from_firing_order(
@@ -752,9 +730,7 @@ class Builders(EngineData):
                 raise inputs.rejected("shared_pins", shared_pins, hint)
         one = one_of(cylinder)
         along = _along_crank(one, (), spacing, rotating_mass, first_tdc_deg)
-        stagger = inputs.number("bank_stagger", bank_stagger)
-        behind = 0.0 if inputs.is_listed(spacing) else stagger
-        across = vee_layout_of(bank_angle_deg, behind, numbering, odd_bank)
+        across = vee_layout_of(bank_angle_deg, bank_stagger, numbering, odd_bank)
         moving = parts(one)
         if bank_angle_deg is None:
             core = _core.Engine.inline_from_firing_order(moving, order, *fired, along)
@@ -783,7 +759,7 @@ class Builders(EngineData):
             checks.intervals(order, [inputs.degrees(each) for each in fired[1]], taken)
         engine = cls(core, name, source, "", strokes)
         known = allowed(core, order, strokes)
-        return furnished(engine, cylinder, spacing, rotating_mass, stagger, known)
+        return furnished(engine, cylinder, rotating_mass, known)
 
 
 def _banks(
@@ -839,6 +815,7 @@ def vee_layout(
         "bank_stagger": inputs.number("bank_stagger", bank_stagger),
         "numbering": inputs.text("numbering", numbering, 'give "alternating" or "by-bank"'),
         "odd_bank": inputs.text("odd_bank", odd_bank, 'give "right" or "left"'),
+        "absent": [],
     }
 
 
@@ -866,7 +843,11 @@ def _along_crank(
     """Return what stands along a crank, as the core takes it."""
     return {
         "throws": inputs.angles("throws_deg", throws_deg),
-        "spacing": pitch(spacing),
+        "spacing": (
+            inputs.listed_numbers("spacing", spacing)
+            if inputs.is_listed(spacing)
+            else inputs.number("spacing", spacing)
+        ),
         "rotating_mass": (
             [big_end(cylinder)]
             if rotating_mass is None

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use crankpin_core::exact::closed_form::closed_form;
 use crankpin_core::exact::vanishing::{Verdict, vanishing};
-use crankpin_core::layout::{Numbering, Side, Vee};
+use crankpin_core::layout::{Numbering, Side, Spacing, Vee};
 use crankpin_core::{Angle, Cancel, Cylinder, Engine, Error, Order, Station};
 
 fn angle(text: &str) -> Angle {
@@ -21,11 +21,12 @@ fn v6(bank_angle: Angle, throws: [Angle; 3], pin_split: Angle, first_tdc: Angle)
     let layout = Vee {
         bank_angle,
         throws: throws.to_vec(),
-        spacing: 0.1,
+        spacing: Spacing::Even(0.1),
         pin_split,
         bank_stagger: 0.03,
         rotating_mass: vec![0.25],
         numbering: Numbering::Alternating,
+        absent: vec![],
         first_bank: Side::Right,
         first_tdc,
     };

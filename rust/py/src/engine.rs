@@ -10,13 +10,15 @@ use crankpin_core::engine::radial::Radial;
 use crankpin_core::engine::{
     Crank, Details, Gas, Hold, RodFigures, Shaft, Station, Unbalance, file,
 };
-use crankpin_core::layout::{FiringOrder, FiringRule, Inline, Numbering, Side, Strokes, Vee};
+use crankpin_core::layout::{
+    Fan, FiringOrder, FiringRule, Inline, Numbering, Side, Spacing, Strokes, Vee,
+};
 use crankpin_core::{Complex64, Error, limits};
 use crankpin_macros::guarded;
 use ndarray::Array1;
 use numpy::PyArray1;
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyList, PyTuple};
 
 use crate::boundary;
 use crate::convert::{Angle, OrRaise, Parts, angles, cylinder, python_error};
@@ -141,6 +143,18 @@ where
     layout.get_item(name)?.extract()
 }
 
+/// Distances of throws, one or a list.
+fn spacing(layout: &Bound<'_, PyAny>) -> PyResult<Option<Spacing>> {
+    let given = layout.get_item("spacing")?;
+    if given.is_none() {
+        return Ok(None);
+    }
+    if given.is_instance_of::<PyList>() {
+        return Ok(Some(Spacing::Each(given.extract()?)));
+    }
+    Ok(Some(Spacing::Even(given.extract()?)))
+}
+
 /// Where the cylinders of a vee sit and how they are numbered.
 pub struct VeeLayout(pub Vee);
 
@@ -149,18 +163,36 @@ impl<'py> FromPyObject<'_, 'py> for VeeLayout {
 
     fn extract(layout: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         let angle = |name: &str| entry::<Angle>(&layout, name).map(|angle| angle.0);
+        let InlineLayout(Inline { throws, spacing, rotating_mass, first_tdc }) =
+            layout.extract()?;
         let numberings = [("alternating", Numbering::Alternating), ("by-bank", Numbering::ByBank)];
         let sides = [("right", Side::Right), ("left", Side::Left)];
         Ok(Self(Vee {
             bank_angle: angle("bank_angle")?,
-            throws: angles(entry(&layout, "throws")?),
-            spacing: entry(&layout, "spacing")?,
+            throws,
+            spacing,
             pin_split: angle("pin_split")?,
             bank_stagger: entry(&layout, "bank_stagger")?,
-            rotating_mass: entry(&layout, "rotating_mass")?,
+            rotating_mass,
+            absent: entry(&layout, "absent")?,
             numbering: choice("numbering", &entry::<String>(&layout, "numbering")?, &numberings)?,
             first_bank: choice("odd_bank", &entry::<String>(&layout, "odd_bank")?, &sides)?,
-            first_tdc: angle("first_tdc")?,
+            first_tdc,
+        }))
+    }
+}
+
+/// Where the cylinders of an engine with several banks sit.
+struct FanLayout(Fan);
+
+impl<'py> FromPyObject<'_, 'py> for FanLayout {
+    type Error = PyErr;
+
+    fn extract(layout: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        Ok(Self(Fan {
+            banks: angles(entry(&layout, "banks")?),
+            bank_stagger: entry(&layout, "bank_stagger")?,
+            along: layout.extract::<InlineLayout>()?.0,
         }))
     }
 }
@@ -174,7 +206,7 @@ impl<'py> FromPyObject<'_, 'py> for InlineLayout {
     fn extract(layout: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         Ok(Self(Inline {
             throws: angles(entry(&layout, "throws")?),
-            spacing: entry(&layout, "spacing")?,
+            spacing: spacing(&layout)?.unwrap_or(Spacing::Even(0.0)),
             rotating_mass: entry(&layout, "rotating_mass")?,
             first_tdc: entry::<Angle>(&layout, "first_tdc")?.0,
         }))
@@ -196,7 +228,7 @@ impl<'py> FromPyObject<'_, 'py> for RadialLayout {
         Ok(Self(Radial {
             cylinders: count("cylinders")?,
             rows: count("rows")?,
-            spacing: entry(&layout, "spacing")?,
+            spacing: spacing(&layout)?,
             rotating_mass: entry(&layout, "rotating_mass")?,
             first_tdc: entry::<Angle>(&layout, "first_tdc")?.0,
         }))
@@ -271,6 +303,11 @@ impl Engine {
 
     #[staticmethod]
     fn vee(parts: Parts, layout: VeeLayout) -> PyResult<Self> {
+        layout.0.engine(cylinder(parts)?).or_raise().map(Self::from)
+    }
+
+    #[staticmethod]
+    fn fan(parts: Parts, layout: FanLayout) -> PyResult<Self> {
         layout.0.engine(cylinder(parts)?).or_raise().map(Self::from)
     }
 

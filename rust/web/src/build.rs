@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use crankpin_core::engine::Details;
 use crankpin_core::engine::radial::Radial;
-use crankpin_core::layout::{FiringOrder, FiringRule, Inline, Numbering, Side, Strokes, Vee};
+use crankpin_core::layout::{
+    Fan, FiringOrder, FiringRule, Inline, Numbering, Side, Spacing, Strokes, Vee,
+};
 use crankpin_core::{Angle, Cancel, Cylinder, Engine, Error, Firing, Result};
 use serde_json::Value;
 
@@ -18,15 +20,17 @@ enum Kind {
     Vee,
     Flat,
     Boxer,
+    Fan,
     Radial,
     FiringOrder,
 }
 
-const KINDS: [(&str, Kind); 6] = [
+const KINDS: [(&str, Kind); 7] = [
     ("inline", Kind::Inline),
     ("vee", Kind::Vee),
     ("flat", Kind::Flat),
     ("boxer", Kind::Boxer),
+    ("fan", Kind::Fan),
     ("radial", Kind::Radial),
     ("firing_order", Kind::FiringOrder),
 ];
@@ -42,6 +46,7 @@ pub fn build(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
         Kind::Vee | Kind::Flat | Kind::Boxer => {
             (vee(arguments, kind)?.engine(cylinder)?, order.unwrap_or_default())
         }
+        Kind::Fan => (fan(arguments)?.engine(cylinder)?, order.unwrap_or_default()),
         Kind::Radial => {
             let radial = radial(arguments)?;
             let even = || radial.firing_order(strokes);
@@ -84,10 +89,18 @@ fn masses(arguments: &mut Arguments) -> Result<Vec<f64>> {
     Ok(arguments.numbers("rotating_mass")?.unwrap_or_default())
 }
 
+/// Distances of throws, one or a list.
+fn spacing(arguments: &mut Arguments) -> Result<Option<Spacing>> {
+    if arguments.by_name.get("spacing").is_some_and(Value::is_array) {
+        return Ok(arguments.optional("spacing")?.map(Spacing::Each));
+    }
+    Ok(arguments.optional("spacing")?.map(Spacing::Even))
+}
+
 fn inline(arguments: &mut Arguments) -> Result<Inline> {
     Ok(Inline {
         throws: arguments.angles("throws_deg")?.unwrap_or_default(),
-        spacing: arguments.or("spacing", 0.0)?,
+        spacing: spacing(arguments)?.unwrap_or(Spacing::Even(0.0)),
         rotating_mass: masses(arguments)?,
         first_tdc: arguments.angle("first_tdc_deg")?.unwrap_or(Angle::ZERO),
     })
@@ -115,8 +128,17 @@ fn vee(arguments: &mut Arguments, kind: Kind) -> Result<Vee> {
             "numbering",
             &[("alternating", Numbering::Alternating), ("by-bank", Numbering::ByBank)],
         )?,
+        absent: arguments.or("absent", Vec::new())?,
         first_bank: arguments.word("odd_bank", &[("right", Side::Right), ("left", Side::Left)])?,
         first_tdc,
+    })
+}
+
+fn fan(arguments: &mut Arguments) -> Result<Fan> {
+    Ok(Fan {
+        banks: arguments.angles("bank_deg")?.unwrap_or_default(),
+        bank_stagger: arguments.or("bank_stagger", 0.0)?,
+        along: inline(arguments)?,
     })
 }
 
@@ -124,7 +146,7 @@ fn radial(arguments: &mut Arguments) -> Result<Radial> {
     Ok(Radial {
         cylinders: arguments.or("cylinders", 7)?,
         rows: arguments.or("rows", 1)?,
-        spacing: arguments.optional("spacing")?,
+        spacing: spacing(arguments)?,
         rotating_mass: masses(arguments)?,
         first_tdc: arguments.angle("first_tdc_deg")?.unwrap_or(Angle::ZERO),
     })

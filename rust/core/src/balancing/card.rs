@@ -127,7 +127,7 @@ fn as_it_is(engine: &Engine, request: &CorrectionRequest) -> Result<Engine> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::layout::{Numbering, Side, Vee};
+    use crate::layout::{Numbering, Side, Spacing, Vee};
     use crate::mechanism::slider_crank::Cylinder;
 
     fn v8() -> Engine {
@@ -135,11 +135,12 @@ mod tests {
         Vee {
             bank_angle: angle(90.0),
             throws: [0.0, 90.0, 270.0, 180.0].map(angle).to_vec(),
-            spacing: 0.1,
+            spacing: Spacing::Even(0.1),
             pin_split: Angle::ZERO,
             bank_stagger: 0.02,
             rotating_mass: vec![0.4],
             numbering: Numbering::Alternating,
+            absent: vec![],
             first_bank: Side::Left,
             first_tdc: Angle::ZERO,
         }

@@ -74,6 +74,42 @@ impl Strokes {
     }
 }
 
+/// Distances of neighbouring throws along the crank.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Spacing {
+    /// One for all, m.
+    Even(f64),
+    /// That of each throw from the one before it, m.
+    Each(Vec<f64>),
+}
+
+impl Spacing {
+    /// Places of this many throws, the first at 0.
+    pub(super) fn places(&self, throws: usize) -> Result<Vec<f64>> {
+        let distances = match self {
+            Self::Even(distance) => {
+                limits::distance("spacing", *distance)?;
+                return Ok((0..throws).map(|throw| throw as f64 * distance).collect());
+            }
+            Self::Each(distances) => distances,
+        };
+        if distances.is_empty() || distances.iter().any(|each| *each <= 0.0 || !each.is_finite()) {
+            let hint = "give metres, or a list with the distance of each throw from the one before it";
+            return Err(Error::value("spacing", format!("{distances:?}"), hint));
+        }
+        if distances.len() + 1 != throws {
+            let found = format!("{} distances", distances.len());
+            let hint = format!("give {}, one less than throws along the crank", throws.max(1) - 1);
+            return Err(Error::value("spacing", found, hint));
+        }
+        let place = |at: &mut f64, distance: &f64| {
+            *at += distance;
+            Some(*at)
+        };
+        Ok([0.0].into_iter().chain(distances.iter().scan(0.0, place)).collect())
+    }
+}
+
 /// How a firing order fixes the crank.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FiringRule {
@@ -91,8 +127,8 @@ pub enum FiringRule {
 pub struct Inline {
     /// Crankpin angles in the direction of rotation, relative to each other, front to flywheel.
     pub throws: Vec<Angle>,
-    /// Distance between neighbouring cylinders, m.
-    pub spacing: f64,
+    /// Distances between neighbouring cylinders.
+    pub spacing: Spacing,
     /// Mass that turns with each cylinder's pin, kg: none, one for all, or one for each.
     pub rotating_mass: Vec<f64>,
     /// Crank angle at which cylinder 1 is at top dead centre.
@@ -102,11 +138,10 @@ pub struct Inline {
 impl Inline {
     /// The engine with this cylinder throughout.
     pub fn engine(&self, cylinder: Cylinder) -> Result<Engine> {
-        limits::distance("spacing", self.spacing)?;
+        let places = self.spacing.places(self.throws.len())?;
         let upright = Angle::QUARTER_TURN;
         let masses = per_cylinder(&self.rotating_mass, self.throws.len())?;
-        let stations = self.throws.iter().zip(masses).enumerate().map(|(i, (&throw, mass))| {
-            let z = i as f64 * self.spacing;
+        let stations = self.throws.iter().zip(masses).zip(places).map(|((&throw, mass), z)| {
             Station { cylinder, tdc: upright - throw, bank: upright, z, rotating_mass: mass }
         });
         Ok(Engine::new("", "", stations.collect())?.with_first_tdc(self.first_tdc))
@@ -120,8 +155,8 @@ pub struct Vee {
     pub bank_angle: Angle,
     /// Crankpin angles of the right bank, in the direction of rotation, front to flywheel.
     pub throws: Vec<Angle>,
-    /// Distance between neighbouring throws, m.
-    pub spacing: f64,
+    /// Distances between neighbouring throws.
+    pub spacing: Spacing,
     /// Left pin minus right pin, in the direction of rotation.
     pub pin_split: Angle,
     /// How far the left bank stands behind the right, towards the flywheel, m.
@@ -130,6 +165,8 @@ pub struct Vee {
     pub rotating_mass: Vec<f64>,
     /// How the cylinders are numbered.
     pub numbering: Numbering,
+    /// Numbers of cylinders that are not there; those that are there are numbered anew.
+    pub absent: Vec<usize>,
     /// The bank with cylinder 1.
     pub first_bank: Side,
     /// Crank angle at which cylinder 1 is at top dead centre.
@@ -139,12 +176,23 @@ pub struct Vee {
 impl Vee {
     /// The engine with this cylinder throughout.
     pub fn engine(&self, cylinder: Cylinder) -> Result<Engine> {
-        let seats = self.seats(2 * self.throws.len())?.into_iter().map(|seat| {
+        let count = 2 * self.throws.len();
+        if let Some(number) = self.absent.iter().find(|number| !(1..=count).contains(*number)) {
+            let hint = format!("the whole vee has cylinders 1 to {count}");
+            return Err(Error::value("absent", number, hint));
+        }
+        let seats = self.seats(count)?.into_iter().enumerate();
+        let seats = seats.filter(|(i, _)| !self.absent.contains(&(i + 1))).map(|(_, seat)| {
             let split = if seat.side == Side::Left { self.pin_split } else { Angle::ZERO };
             let tdc = seat.bank - (self.throws[seat.throw] + split);
             (seat, tdc)
         });
-        self.seated(cylinder, &seats.collect::<Vec<_>>())
+        let seats: Vec<_> = seats.collect();
+        if seats.is_empty() && count > 0 {
+            let all = format!("{:?}", self.absent);
+            return Err(Error::value("absent", all, "leave one cylinder at least"));
+        }
+        self.seated(cylinder, &seats)
     }
 
     /// The engine with a cylinder in each seat, at top dead centre at these crank angles.
@@ -164,11 +212,11 @@ impl Vee {
 
     /// Where each cylinder sits, by number; `throws` is ignored.
     pub(crate) fn seats(&self, cylinders: usize) -> Result<Vec<Seat>> {
-        limits::distance("spacing", self.spacing)?;
+        let throws = cylinders / 2;
+        let places = self.spacing.places(throws)?;
         limits::finite("bank_stagger", self.bank_stagger)?;
         bank_angle_in_range(self.bank_angle.degrees())?;
         let (upright, half) = (Angle::QUARTER_TURN, self.bank_angle.half());
-        let throws = cylinders / 2;
         let seat = |i: usize| {
             let (throw, on_first) = match self.numbering {
                 Numbering::Alternating => (i / 2, i.is_multiple_of(2)),
@@ -182,9 +230,42 @@ impl Vee {
                 Side::Right => (upright - half, 0.0),
                 Side::Left => (upright + half, self.bank_stagger),
             };
-            Seat { throw, side, bank, z: throw as f64 * self.spacing + stagger }
+            Seat { throw, side, bank, z: places[throw] + stagger }
         };
         Ok((0..cylinders).map(seat).collect())
+    }
+}
+
+/// An engine with a cylinder of every bank on every throw, such as a W or an X.
+///
+/// Cylinders are numbered bank by bank, each from the front to the flywheel.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fan {
+    /// Directions of the banks from +x.
+    pub banks: Vec<Angle>,
+    /// How far each bank stands behind the one before it, m.
+    pub bank_stagger: f64,
+    /// What stands along the crank.
+    pub along: Inline,
+}
+
+impl Fan {
+    /// The engine with this cylinder throughout.
+    pub fn engine(&self, cylinder: Cylinder) -> Result<Engine> {
+        let Inline { throws, spacing, rotating_mass, first_tdc } = &self.along;
+        let places = spacing.places(throws.len())?;
+        limits::finite("bank_stagger", self.bank_stagger)?;
+        let mut masses = per_cylinder(rotating_mass, self.banks.len() * throws.len())?.into_iter();
+        let (mut stations, mut keys) = (Vec::new(), Vec::new());
+        for (key, &bank) in self.banks.iter().enumerate() {
+            for (&throw, place) in throws.iter().zip(&places) {
+                let z = place + self.bank_stagger * key as f64;
+                let rotating_mass = masses.next().unwrap_or_default();
+                stations.push(Station { cylinder, tdc: bank - throw, bank, z, rotating_mass });
+                keys.push(key);
+            }
+        }
+        Ok(Engine::in_banks("", "", stations, &keys)?.with_first_tdc(*first_tdc))
     }
 }
 
@@ -334,11 +415,12 @@ mod tests {
         Vee {
             bank_angle: Angle::from_degrees(bank_angle).unwrap(),
             throws: Vec::new(),
-            spacing: 0.1,
+            spacing: Spacing::Even(0.1),
             pin_split: Angle::ZERO,
             bank_stagger: 0.0,
             rotating_mass: Vec::new(),
             numbering,
+            absent: Vec::new(),
             first_bank,
             first_tdc: Angle::ZERO,
         }
@@ -439,7 +521,7 @@ mod tests {
         let angle = |degrees| Angle::from_degrees(degrees).unwrap();
         let layout = Inline {
             throws: [0.0, 120.0, 240.0].map(angle).to_vec(),
-            spacing: 0.1,
+            spacing: Spacing::Even(0.1),
             rotating_mass: vec![0.7],
             first_tdc: angle(30.0),
         };

@@ -80,14 +80,14 @@ impl Details {
 /// Cylinders, in the order of their numbers, on one crankshaft, and the shafts that it drives.
 ///
 /// ```
-/// use crankpin_core::layout::Inline;
+/// use crankpin_core::layout::{Inline, Spacing};
 /// use crankpin_core::{Angle, Cylinder};
 ///
 /// let [up, down] = [0.0, 180.0].map(Angle::from_degrees);
 /// let (up, down) = (up?, down?);
 /// let four = Inline {
 ///     throws: vec![up, down, down, up],
-///     spacing: 0.096,
+///     spacing: Spacing::Even(0.096),
 ///     rotating_mass: vec![],
 ///     first_tdc: Angle::ZERO,
 /// }

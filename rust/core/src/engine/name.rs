@@ -48,7 +48,7 @@ impl Engine {
 
 #[cfg(test)]
 mod tests {
-    use crate::layout::{Numbering, Side, Vee};
+    use crate::layout::{Numbering, Side, Spacing, Vee};
     use crate::{Angle, Cylinder};
 
     #[test]
@@ -57,11 +57,12 @@ mod tests {
         let mut vee = Vee {
             bank_angle: angle(72.5),
             throws: vec![angle(0.0), angle(120.0)],
-            spacing: 0.1,
+            spacing: Spacing::Even(0.1),
             pin_split: Angle::ZERO,
             bank_stagger: 0.0,
             rotating_mass: vec![],
             numbering: Numbering::Alternating,
+            absent: vec![],
             first_bank: Side::Right,
             first_tdc: Angle::ZERO,
         };

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::layout::{Strokes, per_cylinder};
+use super::layout::{Spacing, Strokes, per_cylinder};
 use super::{Engine, Station};
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
@@ -39,8 +39,8 @@ pub struct Radial {
     pub cylinders: usize,
     /// Number of rows.
     pub rows: usize,
-    /// Distance between neighbouring rows, m; of one row it may be left out.
-    pub spacing: Option<f64>,
+    /// Distances between neighbouring rows; of one row they may be left out.
+    pub spacing: Option<Spacing>,
     /// Mass that turns with each cylinder's pin, kg: none, one for all, or one for each.
     pub rotating_mass: Vec<f64>,
     /// Crank angle at which cylinder 1 is at top dead centre.
@@ -52,21 +52,21 @@ impl Radial {
     pub fn engine(&self, cylinder: Cylinder) -> Result<Engine> {
         let Self { cylinders: count, rows, .. } = *self;
         self.check()?;
-        let spacing = limits::distance("spacing", self.spacing.unwrap_or(0.0))?;
+        let places = self.spacing.as_ref().unwrap_or(&Spacing::Even(0.0)).places(rows)?;
         let masses = per_cylinder(&self.rotating_mass, count)?;
         let part =
             |index: usize, of: usize| Angle::from_degree_fraction(360 * index as i64, of as i64);
         let station = |(place, rotating_mass): (usize, f64)| {
             let (around, row) = (part(place, count)?, place % rows);
             let (tdc, bank) = (around - part(row, rows)?, Angle::QUARTER_TURN + around);
-            Ok(Station { cylinder, tdc, bank, z: row as f64 * spacing, rotating_mass })
+            Ok(Station { cylinder, tdc, bank, z: places[row], rotating_mass })
         };
         let stations = masses.into_iter().enumerate().map(station).collect::<Result<_>>()?;
         Ok(Engine::new("", "", stations)?.with_first_tdc(self.first_tdc))
     }
 
     fn check(&self) -> Result<()> {
-        let Self { cylinders, rows, spacing, .. } = *self;
+        let Self { cylinders, rows, ref spacing, .. } = *self;
         if !(1..=MOST_ROWS).contains(&rows) {
             let hint = format!("give 1 to {MOST_ROWS}; Engine.from_lists takes any layout");
             return Err(Error::value("rows", rows, hint));

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::Firing;
 use crate::engine::{Engine, Station};
-use crate::layout::{Numbering, Side, Vee};
+use crate::layout::{Numbering, Side, Spacing, Vee};
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 
@@ -13,11 +13,12 @@ pub fn vee(bank_angle: f64, pin_split: f64, throws: &[f64], first_bank: Side) ->
     Vee {
         bank_angle: angle(bank_angle),
         throws: throws.iter().map(|&throw| angle(throw)).collect(),
-        spacing: 0.1,
+        spacing: Spacing::Even(0.1),
         pin_split: angle(pin_split),
         bank_stagger: 0.0,
         rotating_mass: Vec::new(),
         numbering: Numbering::Alternating,
+        absent: vec![],
         first_bank,
         first_tdc: Angle::ZERO,
     }

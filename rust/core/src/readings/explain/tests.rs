@@ -1,7 +1,7 @@
 //! Sentences of engines whose shaking is known, and what holds of those of any engine.
 
 use super::*;
-use crate::engine::layout::{FiringOrder, Inline, Numbering, Side, Strokes, Vee};
+use crate::engine::layout::{FiringOrder, Inline, Numbering, Side, Spacing, Strokes, Vee};
 use crate::engine::{Crank, Shaft, Station};
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
@@ -17,7 +17,7 @@ fn cylinder(mass: f64) -> Cylinder {
 
 fn inline(throws: &[f64], mass: f64) -> Engine {
     let throws = throws.iter().map(|&throw| angle(throw)).collect();
-    Inline { throws, spacing: 0.1, rotating_mass: vec![], first_tdc: Angle::ZERO }
+    Inline { throws, spacing: Spacing::Even(0.1), rotating_mass: vec![], first_tdc: Angle::ZERO }
         .engine(cylinder(mass))
         .unwrap()
 }
@@ -114,11 +114,12 @@ fn every_finding_has_a_sentence() {
             let vee = Vee {
                 bank_angle: angle([60.0, 90.0, 180.0][choose(3)]),
                 throws: throws.iter().map(|&throw| angle(throw)).collect(),
-                spacing: 0.1,
+                spacing: Spacing::Even(0.1),
                 pin_split: angle([0.0, -30.0][choose(2)]),
                 bank_stagger: 0.02,
                 rotating_mass: vec![[0.0, 0.4][choose(2)]],
                 numbering: Numbering::Alternating,
+                absent: vec![],
                 first_bank: Side::Left,
                 first_tdc: Angle::ZERO,
             };
