@@ -59,6 +59,8 @@ TOLERANCES = {
 
 NEGLIGIBLE = 1e-6
 """Orders whose peaks are all below this part of a quantity's largest peak are not shown."""
+MATTERS = 1e-3
+"""The same of pictures, and of tables that would be longer than a screen."""
 
 
 def coordinates(coords: Mapping[str, Any]) -> dict[str, Any]:
