@@ -26,9 +26,6 @@ if TYPE_CHECKING:
     from crankpin.cli.arguments import Given, Run
     from crankpin.model.engine import Engine
 
-MOST_OMITTED = 8
-"""Most omitted orders that are all listed."""
-
 
 class Shown(NamedTuple):
     """What a command found."""
@@ -78,10 +75,8 @@ def only(table: Table) -> Frames:
 def left_out(result: Balance | Sweep) -> str:
     """Return what omitted orders can add, in words."""
     bound = result.error_bound
-    orders = [str(order) for order in result.omitted]
-    if len(orders) > MOST_OMITTED:
-        orders[3:-1] = ["…"]
-    seen = f"; omitted: {', '.join(orders)}" if orders else ""
+    listed = labels.orders_text(result.omitted, labels.MOST_LISTED).partition(" ")[2]
+    seen = f"; omitted: {listed}" if result.omitted else ""
     roll = f" and {bound['torque']:.2g} N·m to the roll torque" if "torque" in bound else ""
     return (
         f"Omitted orders add at most {bound['force']:.2g} N to the force, "

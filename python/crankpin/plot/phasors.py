@@ -101,13 +101,13 @@ def phasors(
             panel, total = axes[row, column], complex(sums[row, column])
             # Corners of the polygon, from the origin on.
             chain = np.cumsum([0.0, *(arm.phasors[row, column] for arm in arms)])
-            room, names, whole = _polygon(panel, arms, chain, total, inks, style)
+            room, names, fits = _polygon(panel, arms, chain, total, inks, style)
             _frame(panel, chain, room)
-            _name(panel, names, whole)
+            _name(panel, names, fits)
             unit, factor = units.convert(QUANTITIES[kind].unit)
             length = f"{rounded(abs(total) * factor, 4)} {unit}" if total else "0"
             set_panel_title(panel, f"order {order} {part}".strip(), length)
-            aside, crowded = aside or room > 0.0, crowded or not whole
+            aside, crowded = aside or room > 0.0, crowded or not fits
     label_x(axes[-1, 0], _axis_label(kind, 0))
     for panel in axes[:, 0]:
         label_y(panel, _axis_label(kind, 1))

@@ -42,7 +42,8 @@ def largest(result: ByOrder, quantity: str, most: int = MOST) -> tuple[list[int]
         place for place in by_size[:most] if peaks[place] > labels.MATTERS * peaks.max(initial=0.0)
     ]
     rest = [result.orders[place] for place in by_size if peaks[place] > 0.0 and place not in kept]
-    note = f"smaller, not shown: {labels.orders_text(tuple(sorted(rest)))}" if rest else ""
+    listed = labels.orders_text(sorted(rest), labels.MOST_LISTED)
+    note = f"smaller, not shown: {listed}" if rest else ""
     return sorted(int(place) for place in kept), note
 
 
