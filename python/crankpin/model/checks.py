@@ -481,7 +481,9 @@ def intervals(order: str, given_deg: Sequence[float], firing: _core.Firing) -> N
     firing
         The firing that the engine takes.
     """
-    first = firing.order.index(int(re.findall(r"\d+", order)[0]))
+    # Cylinders that fire together are by number in `firing`.
+    numbers, *_ = re.findall(r"\d+(?:\s*\+\s*\d+)*", order)
+    first = firing.order.index(min(map(int, numbers.split("+"))))
     taken = np.roll(firing.intervals_deg, -first)
     if np.abs(taken - given_deg).max() > ROUNDING:
         asked, even = (
