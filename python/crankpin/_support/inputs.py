@@ -56,9 +56,6 @@ MOST_EXACT = 10**18
 LARGEST_WHOLE = 10**100
 """Largest whole number taken: Python refuses to write those of thousands of digits."""
 
-HIGHEST_ORDER = 10_000
-"""Highest order that the core sums."""
-
 _BOOLEANS = {bool, np.bool_}
 
 ROUNDED_RADIANS = 1e-3
@@ -491,8 +488,8 @@ def _orders(
             hint += "; forces of inertia repeat in every turn and have no others"
         raise rejected(name, values, hint) from None
     for each in result:
-        if not 0 < each <= HIGHEST_ORDER:
-            raise rejected(name, each, f"{hint}, up to {HIGHEST_ORDER}")
+        if not 0 < each <= _core.HIGHEST_ORDER:
+            raise rejected(name, each, f"{hint}, up to {_core.HIGHEST_ORDER}")
     return result
 
 
