@@ -353,7 +353,7 @@ impl Explanation {
         }
     }
 
-    fn fires(&self, fired: &[usize], intervals_deg: &[f64], even: bool) -> String {
+    fn fires(&self, fired: &[usize], intervals_deg: &[f64], even: Option<usize>) -> String {
         let order = self.engine.firing_order();
         let intervals: Vec<String> = intervals_deg.iter().map(|&x| significant(x, 6)).collect();
         let count = 0..self.count();
@@ -374,20 +374,25 @@ impl Explanation {
                 _ => format!("only cylinder {} fires, every {interval}°{dummies}", one + 1),
             };
         }
-        if even {
-            return format!("it fires evenly, every {}°: {order}{of_which}{dummies}", intervals[0]);
+        if let (Some(size), Some(gap)) = (even, intervals.iter().find(|gap| *gap != "0")) {
+            let how = match size {
+                1 => "it fires evenly".to_owned(),
+                2 if size == fired.len() => "both cylinders fire together".to_owned(),
+                _ if size == fired.len() => format!("all {} cylinders fire together", number(size)),
+                _ => format!("it fires evenly, {} cylinders at a time", number(size)),
+            };
+            return format!("{how}, every {gap}°: {order}{of_which}{dummies}");
         }
         let intervals = intervals.join("-");
         format!("it fires unevenly, at intervals of {intervals}°: {order}{of_which}{dummies}")
     }
 
-    fn gas_orders(&self, left: &[Order], firing: &[usize], even: bool) -> String {
-        let of_firing = 4 * firing.len() as u32 / self.engine.strokes().number(); // in halves
-        if let [first] = left
-            && first.halves() == of_firing
-        {
-            let lower = if firing.len() > 1 { ": all lower orders cancel exactly" } else { "" };
-            return format!("gas torque begins at {}{lower}", orders(left));
+    fn gas_orders(&self, left: &[Order], firing: &[usize], even: Option<usize>) -> String {
+        let firings = firing.len() / even.unwrap_or(1);
+        let of_firing = 4 * firings as u32 / self.engine.strokes().number(); // in halves
+        if even.is_some() && left.iter().all(|order| order.halves().is_multiple_of(of_firing)) {
+            let lower = if firings > 1 { ": all lower orders cancel exactly" } else { "" };
+            return format!("gas torque begins at {}{lower}", orders(&left[..1]));
         }
         let figures = |&cylinder: &usize| {
             let gear = &self.engine.stations()[cylinder].cylinder;
@@ -402,7 +407,7 @@ impl Explanation {
         } else {
             ""
         };
-        let how = if even { "even" } else { "uneven" };
+        let how = if even.is_some() { "even" } else { "uneven" };
         format!("{how} firing{unlike} leaves gas torque of {}, and of higher ones", orders(left))
     }
 }
