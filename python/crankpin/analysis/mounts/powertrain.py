@@ -9,8 +9,8 @@ from crankpin import _core
 from crankpin._support import files, inputs
 from crankpin._support.record import Input
 from crankpin._support.warnings import suppressed
+from crankpin.analysis.mounts import active, feedback, static_state
 from crankpin.analysis.mounts import design_responses as many
-from crankpin.analysis.mounts import feedback, static_state
 from crankpin.analysis.mounts import modes as natural
 from crankpin.analysis.mounts import response as forced
 from crankpin.analysis.mounts.robustness import MountRobustness
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from crankpin._support.inputs import Orders
+    from crankpin.analysis.mounts.active import Cancellation
     from crankpin.analysis.mounts.design_responses import DesignResponses
     from crankpin.analysis.mounts.feedback import VelocityFeedback
     from crankpin.analysis.mounts.modes import MountModes, RollAxes
@@ -268,6 +269,15 @@ class Powertrain(Input):
             If pistons are faster than in any engine.
         """
         return forced.response(self, rpm, orders=orders, rtol=rtol)
+
+    def _cancelled(
+        self,
+        response: MountResponse,
+        *given: Any,  # noqa: ANN401 - as MountResponse.cancel documents them
+        **options: Any,  # noqa: ANN401
+    ) -> Cancellation:
+        """Return a cancellation, for responses, which it is made of."""
+        return active.cancel(response, *given, **options)
 
     def velocity_feedback(
         self, actuator: Actuator, *, gain: float | None = None

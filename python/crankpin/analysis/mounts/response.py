@@ -626,10 +626,10 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         >>> c.response[2].body_force.peak < c.before[2].body_force.peak
         True
         """
-        # Here, because what it returns is made of responses.
-        from crankpin.analysis.mounts import active  # noqa: PLC0415
-
-        return active.cancel(self, actuators, at, orders=orders, watch=watch, effort=effort)
+        # By way of the powertrain: what it returns is made of responses.
+        return self.powertrain._cancelled(
+            self, actuators, at, orders=orders, watch=watch, effort=effort
+        )
 
     def worst(self, quantity: Literal["mount_force", "body_force"] = "mount_force") -> WorstForce:
         """Return the largest force of one order: where, at which speed, near to which mode.
