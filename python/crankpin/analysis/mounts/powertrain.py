@@ -266,7 +266,7 @@ class Powertrain(Input):
         Warns
         -----
         UserWarning
-            If pistons are faster than in any engine.
+            If pistons are faster than in any engine, or the mounts leave a motion free.
         """
         return forced.response(self, rpm, orders=orders, rtol=rtol)
 
@@ -354,7 +354,8 @@ class Powertrain(Input):
         Warns
         -----
         UserWarning
-            If pistons are faster than in any engine, or a stiffness seems to be in N/mm.
+            If pistons are faster than in any engine, or a stiffness seems to be in N/mm,
+            or a place in millimetres.
 
         Examples
         --------
@@ -656,8 +657,8 @@ class Powertrain(Input):
         mass, cg, inertia = core.body
         body = RigidBody(mass, cg, inertia, products="tensor")
         mounts = [Mount._of(figures) for figures in core.mounts]
-        for name, at, _, stiffness, *_ in core.mounts:
-            checks.mount(name, at, stiffness)
+        for mount in mounts:
+            checks.mount(mount.name, mount.at, **mount._stiffnesses)
         engine = Engine._read(core_engine)
         with suppressed():
             return cls(engine, body, mounts, supports.of_core(core.support))
