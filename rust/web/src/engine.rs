@@ -12,7 +12,7 @@ use crate::answer::{Columns, degrees, order};
 use crate::arguments::Arguments;
 
 /// Highest order of what vanishes, as the library's.
-const HIGHEST_ORDER: u32 = 12;
+const HIGHEST_VANISHING: u32 = 12;
 
 /// An engine's file as this version writes it, and what the engine is.
 pub fn read(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
@@ -81,7 +81,7 @@ fn vanishing_of(
 ) -> Result<Value> {
     let orders = match orders {
         Some(orders) => orders,
-        None => (1..=HIGHEST_ORDER).map(Order::whole).collect::<Result<_>>()?,
+        None => (1..=HIGHEST_VANISHING).map(Order::whole).collect::<Result<_>>()?,
     };
     let found = of(engine, &orders, reference, None, &Cancel::new())?;
     let by_order = found.orders.iter().enumerate().map(|(k, &n)| {
