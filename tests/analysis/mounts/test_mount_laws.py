@@ -91,6 +91,8 @@ def test_points_orders_and_speeds_agree_however_they_are_read(seed: int) -> None
     assert point.velocity.total.rms_xyz == pytest.approx(rms)
     other = one[3].body_force
     assert np.array_equal(other.xyz, p.response(float(rpm[2]), orders=[3]).body_force.xyz[0])
+    assert one.total == one["all"]
+    assert one.total.body_force.peak == one.body_force.total.peak
     worst = r.worst()
     peaks_of_mounts = [vector.peak.max() for vector in r.mount_force.values()]
     assert worst.force == max(peaks_of_mounts)

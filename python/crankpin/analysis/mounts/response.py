@@ -456,6 +456,11 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         """Return one order, or with ``"all"`` all of ``orders`` together."""
         return OrderResponse(self, order_key(order))
 
+    @property
+    def total(self) -> OrderResponse:
+        """All of ``orders`` together."""
+        return self[ALL]
+
     def about(self, point: ArrayLike | None = None, *, z: float | None = None) -> Self:
         """Return the same response with moments of loads about another point than the CG.
 
