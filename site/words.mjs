@@ -77,6 +77,7 @@ export const WORDS = {
   zeroAtAll: "Zero at every order.",
   nothingToFit: "These have nothing to remove: the engine shakes no less with them.",
   ownGas: "as in the file",
+  leftOut: (hint) => `Left out, as the engine is another: ${hint}`,
   coordinates: ["lateral", "bounce", "fore-aft", "pitch", "yaw", "roll"],
   mountsSaid: "Lateral, bounce and fore-aft are along x, y and z; pitch, yaw and roll about them. Modes are of the mounts’ dynamic stiffness, sag of the static one.",
   strain: "Elastic energy of each mode, by mount",

@@ -49,7 +49,6 @@ fn summary(engine: &Engine, powertrain: Option<&Powertrain>) -> Result<Value> {
         "reference_z": engine.reference(None)?,
         "counterweights": engine.counterweights().len(), "shafts": engine.shafts().len(),
         "fired": engine.gas().is_some(), "mounted": powertrain.is_some(),
-        "vanishing": vanishing_of(engine, None, None)?,
     }))
 }
 
@@ -71,19 +70,12 @@ fn fired(engine: &Engine) -> Result<Value> {
 /// Which orders of force, moment and torque vanish, with proof.
 pub fn vanishing(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
     let engine = arguments.engine()?;
-    vanishing_of(&engine, arguments.orders()?, arguments.optional("reference_z")?)
-}
-
-fn vanishing_of(
-    engine: &Engine,
-    orders: Option<Vec<Order>>,
-    reference: Option<f64>,
-) -> Result<Value> {
-    let orders = match orders {
+    let orders = match arguments.orders()? {
         Some(orders) => orders,
         None => (1..=HIGHEST_VANISHING).map(Order::whole).collect::<Result<_>>()?,
     };
-    let found = of(engine, &orders, reference, None, &Cancel::new())?;
+    let reference = arguments.optional("reference_z")?;
+    let found = of(&engine, &orders, reference, None, &Cancel::new())?;
     let by_order = found.orders.iter().enumerate().map(|(k, &n)| {
         let mut entry = Map::from_iter([("order".to_owned(), order(n))]);
         for (quantity, (verdict, rounded)) in
