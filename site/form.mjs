@@ -109,7 +109,7 @@ export class Form {
     return html("div", { class: `entry${range ? " ranged" : ""}` }, html("label", { for: id }, label), control, slide ?? "", hint, fault);
   }
 
-  /** Write errors beside their fields; at once where the reader is done typing, else a little later. */
+  /** Write errors and notes beside their fields; at once where the reader is done typing, else a little later. */
   faults(list) {
     clearTimeout(this.waiting);
     if (!list.length) return this.mark(list);
@@ -122,22 +122,24 @@ export class Form {
     this.marked = list.length > 0;
     const rest = [];
     const of = new Map();
-    for (const { argument, message, hint, value } of list) {
+    const wrong = new Set();
+    for (const { argument, message, hint, value, isNote } of list) {
       const [bare] = `${argument ?? ""}`.split(/[[. ]/);
       const own = this.entries.has(bare) ? bare : FIELD_OF[bare];
       // An error of several figures stands beside the one that was typed.
       const name = this.entries.has(this.last) && `${value} ${hint}`.includes(this.last) ? this.last : own;
       if (this.entries.has(name)) of.set(name, inWords(hint ?? message, FIELDS[name].unit, this.units));
       else rest.push(inWords(message));
+      if (this.entries.has(name) && !isNote) wrong.add(name);
     }
     for (const [name, { control, fault }] of this.entries) {
       const text = of.get(name) ?? "";
       if (fault.textContent !== text) fault.textContent = text;
       fault.hidden = !text;
-      if (text) control.setAttribute("aria-invalid", "true");
+      if (wrong.has(name)) control.setAttribute("aria-invalid", "true");
       else control.removeAttribute("aria-invalid");
     }
-    const whole = rest.join("; ") || (of.size ? WORDS.faulty([...of.keys()].map((name) => FIELDS[name].label)) : "");
+    const whole = rest.join("; ") || (wrong.size ? WORDS.faulty([...wrong].map((name) => FIELDS[name].label)) : "");
     if (this.said.textContent !== whole) this.said.textContent = whole;
   }
 

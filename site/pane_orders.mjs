@@ -34,9 +34,10 @@ function mattering(rows) {
   return rows.filter((each) => share(each) > SMALLEST_SHARE).slice(0, MOST_LISTED_ORDERS);
 }
 
-/** How the engine shakes, in sentences. */
-function explained(core, engine, rpm, shown) {
-  const sentences = core.call("explain", { engine: engine.json, shown, ...(rpm > 0 ? { rpm } : {}) });
+/** How the engine shakes, in sentences: those of its picture, which was made at this speed or at another. */
+function explained(core, { engine, design: { rpm }, bench: { figures } }, shown) {
+  const sentences = figures.rpm === rpm ? figures.sentences
+    : core.call("explain", { engine: engine.json, shown, ...(rpm > 0 ? { rpm } : {}) });
   const list = (few) => html("ul", { class: "explained" }, ...few.map((text) => html("li", {}, text)));
   const rest = sentences.slice(FIRST_SENTENCES);
   return html("div", {}, list(sentences.slice(0, FIRST_SENTENCES)),
@@ -46,7 +47,8 @@ function explained(core, engine, rpm, shown) {
 export const orders = {
   key: "orders",
   title: "Orders",
-  make: async ({ engine, design }, { core, units, slots }) => {
+  make: async (slot, { core, units, slots }) => {
+    const { engine, design } = slot;
     const found = core.call("balance", { engine: engine.json, rpm: design.rpm });
     const rows = found.orders.map(row);
     // Engines side by side have one scale.
@@ -61,7 +63,7 @@ export const orders = {
         top: factor * Math.max(0, ...[...shown, ...others].map((each) => each[k] ?? 0)), series: [{ name, label, values: shown.map((each) => (each[k] ?? 0) * factor) }] };
     };
     return [
-      explained(core, engine, design.rpm, UNITS.said[units]), tableOf({ title: WORDS.peaksAt(design.rpm), columns: COLUMNS, rows: [...shown, whole], total: true, units, name: engine.summary.name }),
+      explained(core, slot, UNITS.said[units]), tableOf({ title: WORDS.peaksAt(design.rpm), columns: COLUMNS, rows: [...shown, whole], total: true, units, name: engine.summary.name }),
       ...(shown.length ? [html("div", { class: "charts" }, bars(named(3, "force", "Shaking force, longest")), bars(named(6, "moment", "Rocking moment, longest")),
         ...(torque ? [bars(named(7, "torque", "Roll torque"))] : []))] : []),
     ];

@@ -65,7 +65,7 @@ export class Slot {
       if (built.summary.cylinders > MOST_DRAWN) throw new Error(WORDS.tooMany(built.summary.cylinders, MOST_DRAWN));
       this.engine = built;
       this.show();
-      this.form.faults([]);
+      this.form.faults(this.notes);
       this.form.named(this.engine.summary.name);
     } catch (error) {
       this.form.faults(error.faults ?? [error]);
@@ -78,7 +78,18 @@ export class Slot {
     const { core, design } = this;
     const { call, file, gas, inertia } = design.request(this.units);
     this.inertia = inertia;
-    let found = call ? core.call("build", call) : core.call("read", { engine: file });
+    this.notes = [];
+    const made = (more) => (call ? core.call("build", { ...call, ...more })
+      : core.call("read", { engine: JSON.stringify({ ...JSON.parse(file), ...more }) }));
+    let found;
+    try {
+      found = made({});
+    } catch (error) {
+      // An order that the reader did not type is no slip: an engine of other throws goes without it.
+      if (error.argument !== "firing_order" || design.changed.includes("firing_order")) throw error;
+      found = made({ firing_order: "" });
+      this.notes = [Object.assign(error, { hint: WORDS.leftOut(error.hint), isNote: true })];
+    }
     if (design.extra) found = core.call("read", { engine: JSON.stringify({ ...JSON.parse(found.json), ...design.extra }) });
     if (!gas) return found;
     const [kind, load] = gas.split(" ");

@@ -21,6 +21,15 @@ V6, V8 = cp.Engine.preset("v6-60"), cp.Engine.preset("v8-crossplane")
 RNG = np.random.default_rng(7)
 RATIOS = RNG.uniform(0.1, 0.95, 30_000)
 OFFSETS = RNG.uniform(-0.04, 0.04, 30_000)
+ON_MOUNTS = cp.Powertrain(
+    V8,
+    cp.RigidBody(250, (0.01, 0.1, 0.2), (14, 15, 9)),
+    [
+        cp.Mount(f"{k}", at, 3e5, loss_factor=0.1, damping=100.0 * k)
+        for k, at in enumerate([(0.3, 0, 0), (-0.3, 0, 0), (0.1, 0, 0.7), (-0.1, 0.1, 0.7)])
+    ],
+)
+SPEEDS = np.linspace(600, 6000, 1001)
 
 
 def over_bank_angles() -> cp.types.Sweep:
@@ -113,6 +122,13 @@ CALLS: dict[str, Callable[[], object]] = {
     "peaks of tolerances along axes": lambda: (
         cp.tolerances(V8, rpm=5000, crank_radius=1e-4, z=1e-4, samples=3000).total.force.peak_xy
     ),
+    "response on mounts": lambda: ON_MOUNTS.response(SPEEDS, orders=[1, 2, 3]).motion,
+    "designs of mounts": lambda: (
+        ON_MOUNTS.designs(
+            SPEEDS[::50], {"2": {"stiffness": 1e6 * RATIOS[:600]}}, orders=[1, 2, 4]
+        ).body_force_rms
+    ),
+    "corners of mounts": lambda: ON_MOUNTS.robustness(0.1).least_purity,
     "search": lambda: cp.search_arrangements(14).bank_angles_deg,
     "search, angles in a window": lambda: (
         cp.search_arrangements(22).within(60, 60.01).bank_angles_deg

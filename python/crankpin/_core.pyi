@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 __all__ = [
     "ATMOSPHERE",
     "FEWEST_POINTS",
+    "HIGHEST_LISTED",
+    "HIGHEST_ORDER",
     "LONGEST_AXIS",
     "LONGEST_FILE",
     "MOST_CYLINDERS",
@@ -33,7 +35,6 @@ __all__ = [
     "angular_speed",
     "arrangement",
     "balance",
-    "block",
     "bounds_about",
     "centred_table",
     "check_cylinder",
@@ -46,15 +47,18 @@ __all__ = [
     "cylinder_harmonics",
     "cylinder_torque_harmonics",
     "dead_text",
+    "drawn",
     "drawn_rod",
     "estimated_rod_inertia",
     "exact_angle",
     "explain",
+    "fired_kinds",
     "fit_shafts",
     "fit_weights",
     "gas_text",
     "group_terms",
     "inline_throws",
+    "listed_orders",
     "masses_on_pins",
     "matched",
     "mean_inertias",
@@ -90,6 +94,8 @@ __all__ = [
 __version__: str
 ATMOSPHERE: float
 FEWEST_POINTS: int
+HIGHEST_LISTED: int
+HIGHEST_ORDER: int
 MOST_CYLINDERS: int
 LONGEST_AXIS: int
 LONGEST_FILE: int
@@ -582,14 +588,16 @@ def balance(
     spectrum: _Pairs | None,
     torque: bool,
 ) -> Balance: ...
-def block(engine: Engine) -> tuple[float, float] | None: ...
 def bounds_about(
     of: Sequence[float], arm: tuple[float, float, float]
 ) -> tuple[float, float, float]: ...
+def drawn(engine: Engine) -> list[str]: ...
 def drawn_rod(parts: _Parts) -> float: ...
+def fired_kinds(engine: Engine) -> list[int]: ...
 def group_terms(
     engine: Engine, cylinders: bool, numbers: Sequence[float], spectrum: _Pairs | None
 ) -> tuple[_Complex, _Complex]: ...
+def listed_orders(engine: Engine) -> list[int]: ...
 def orders_that_count(engine: Engine) -> list[int]: ...
 def sizes(engine: Engine) -> list[float]: ...
 def swept(engine: Engine, cylinder: int, orders: Sequence[int]) -> list[complex]: ...

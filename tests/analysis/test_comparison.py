@@ -31,6 +31,9 @@ def test_change_is_relative_to_before() -> None:
     change = found.change("force")
     assert change.tolist() == [0.0, after[1] / before[1] - 1.0, 0.0]
     back = cp.compare(I4, V6, rpm=5000, orders=[1, 2])
+    lumped = cp.compare(cp.Engine.preset("v6-60-ebook"), "lumped", 10)
+    stays = lumped.change("force")  # of other sums, with the same forces: no change but by rounding
+    assert not stays.any()
     assert back.change("force").tolist() == [0.0, -1.0]  # a V6 has no force of order 2
     assert back.change().tolist() == [np.inf, np.inf]  # and an inline-4 no moment
 

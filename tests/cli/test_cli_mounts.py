@@ -134,6 +134,11 @@ def test_a_page_has_the_controls_and_units_that_are_typed(
     assert theirs.read_bytes() == ours.read_bytes()
 
 
+def test_power_is_a_table(car: Path, capsys: CAPTURE) -> None:
+    assert main(["mounts", str(car), "--rpm", "850", "--frame", "power"]) == 0
+    assert CAR.response(850).frames["power"].text() in capsys.readouterr().out
+
+
 def test_an_engine_without_mounts_says_so(tmp_path: Path, capsys: CAPTURE) -> None:
     cp.Engine.preset("i4").save(path := tmp_path / "bare.toml")
     assert "the file has no [powertrain]" in failed(capsys, path)

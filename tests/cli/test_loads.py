@@ -46,8 +46,7 @@ def fired(
 
 def test_two_strokes_take_the_example_of_a_two_stroke(capsys: CAPTURE) -> None:
     balance = fired("i3-two-stroke").balance(3000)
-    table = balance.crank_torque.table.text().split("\n", 1)[1]
-    assert table in printed(capsys, "torque i3-two-stroke")
+    assert balance.crank_torque.table.to_csv() == printed(capsys, "torque i3-two-stroke --csv")
     assert not balance.crank_torque[0.5].gas.peak  # a cycle a turn
 
 
@@ -103,6 +102,36 @@ def test_what_was_read_of_a_file_is_printed(capsys: CAPTURE, tmp_path: Path) -> 
     assert "Read: 1 cycle, bar (header), gauge (header), 98000 Pa added, over time (header)" in out
     engine = fired("i4", bore=0.086)
     assert f"{engine.balance(3000).crank_torque.mean:.1f}" in out
+
+
+def test_orders_of_noise_are_counted_below_the_table(capsys: CAPTURE, tmp_path: Path) -> None:
+    """A noisy trace has all orders there are: those that matter are printed, and all as CSV."""
+    theta = np.arange(720.0)
+    noise = np.random.default_rng(5).normal(0.0, 2e3, theta.size)
+    file = tmp_path / "noisy.csv"
+    rows = np.c_[theta, (cp.Cycle.example().pressure_at(theta) + noise) / 1e5]
+    np.savetxt(file, rows, delimiter=",", header="angle [deg],absolute pressure [bar]")
+    typed = f"torque i4 --bore 86mm --cycle {file}"
+    whole = list(csv.reader(io.StringIO(printed(capsys, f"{typed} --csv"))))[1:]
+    peaks = {row[0]: max(map(float, row[1:2])) for row in whole if row[0] not in ("mean", "all")}
+    small = [order for order, peak in peaks.items() if peak <= 1e-3 * max(peaks.values())]
+    assert len(peaks) > 80
+    out = printed(capsys, typed)
+    lines = [line.split()[0] for line in out.splitlines()[2:]]
+    assert lines[: lines.index("all")] == [
+        "mean",
+        *(order for order in peaks if order not in small),
+    ]
+    assert f"Not shown: {len(small)} orders" in out
+    assert "--csv prints them" in out
+    cylinders = [each.replace(bore=0.086) for each in cp.Engine.preset("i4").cylinders]
+    engine = cp.Engine.preset("i4").replace(cylinder=cylinders)
+    engine.with_cycle(cp.Cycle.load(file)).save(tmp_path / "noisy.toml")
+    balance = printed(capsys, f"balance {tmp_path / 'noisy.toml'} --rpm 6000")
+    assert len(balance.splitlines()) < 30
+    assert "--csv prints them" in balance
+    named = printed(capsys, f"{typed} --orders {','.join(peaks)}")
+    assert len(named.splitlines()) > 80
 
 
 @pytest.mark.parametrize("on", ["crank", "block"])

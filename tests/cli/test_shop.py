@@ -71,6 +71,14 @@ def test_cards_that_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert "--piston" in refused(capsys, "card i4 --piston 470g,471g")
 
 
+def test_directions_are_in_words_of_the_sides_given(capsys: pytest.CaptureFixture[str]) -> None:
+    """A vee along the frame of a motorcycle: what is across it goes from front to rear."""
+    for sides, across in {"": "sideways", " --sides rear,front": "front to rear"}.items():
+        found = printed(capsys, f"card v-twin-45 --factor 100%{sides}")
+        assert found.count(f"  {across}\n") == 2
+        assert ("sideways" in found) == (not sides)
+
+
 def test_two_planes_are_those_of_the_library(capsys: pytest.CaptureFixture[str]) -> None:
     """57.1 g at 70 mm are 3997.5 g·mm, and 4200 g·mm are 5.8327 oz·in."""
     places = "--angles 35,310 --measured 0,335mm --correct=-20mm,360mm"

@@ -63,6 +63,15 @@ LONG_CALLS = {
     "tolerances": (
         "[cp.tolerances(v6, rpm=1000, rod_length=1e-4, samples=400_000) for _ in range(10_000)]"
     ),
+    "response on mounts": (
+        "[on_mounts.response(np.linspace(600, 6000, 30_000), orders=range(1, 13)).body_force"
+        ".total.peak for _ in range(10_000)]"
+    ),
+    "designs of mounts": (
+        "on_mounts.designs(np.linspace(600, 6000, 2000), {'a': {'stiffness': "
+        "np.linspace(1e5, 4e5, 200_000)}}, orders=range(1, 13))"
+    ),
+    "corners of mounts": "[on_mounts.robustness(0.1) for _ in range(10_000)]",
     "waveform as a sum of orders": (
         "v6.waveform(1000, theta_deg=np.linspace(0, 720, 20_000_000), orders=range(1, 300))"
     ),
@@ -82,6 +91,11 @@ def near(rod_ratio, offset):
     cylinders = [cp.Cylinder(0.05, rod, 1, pin_offset=offset) for rod in rods]
     tdcs, places = [7.3 * k for k in range(40)], [0.1 * k for k in range(40)]
     return cp.Engine.from_lists(cylinders, tdc_deg=tdcs, bank_deg=[0] * 40, z=places)
+mounts = [
+    cp.Mount(name, (x, 0.1 * z, z), 3e5, loss_factor=0.1, damping=100)
+    for name, x, z in zip("abcdef", [0.3, -0.3, 0.3, -0.3, 0.1, -0.1], [0, 0, 0.7, 0.7, 0.3, 0.4])
+]
+on_mounts = cp.Powertrain(v6, cp.RigidBody(250, (0.01, 0.1, 0.2), (14, 15, 9)), mounts)
 # Whoever started the tests may ignore SIGINT, as nohup and shells do for background jobs.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 print("ready", flush=True)

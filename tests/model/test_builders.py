@@ -253,3 +253,67 @@ def test_firing_orders_together() -> None:
 def test_firing_orders_of_banks_that_are_none(typed: str) -> None:
     with pytest.raises(cp.InputError, match="banks and cylinders are"):
         cp.Engine.vee(PARTS, **V8, firing_order=typed)
+
+
+# --- cylinders that fire together -----------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("order", "strokes", "intervals", "throws"),
+    [
+        ("1+4-2+3", 2, None, [0, 180, 180, 0]),
+        ("1+4-2+3", 4, None, [0, 0, 0, 0]),  # two firings in two turns
+        ("1 + 2 – 3 + 4", 2, None, [0, 0, 180, 180]),
+        ("4+1-2+3", 4, [0, 180, 0, 540], [0, 180, 180, 0]),
+        ("1-2+3", 2, [120, 0, 240], [0, 240, 240]),
+    ],
+)
+def test_pins_of_cylinders_that_fire_together(
+    order: str, strokes: int, intervals: list[int] | None, throws: list[int]
+) -> None:
+    """Those that are joined by ``+`` reach the top together; the rest is as for single ones."""
+    engine = cp.Engine.from_firing_order(
+        PARTS, order, spacing=0.1, strokes=strokes, intervals_deg=intervals
+    )
+    turned = (engine.pin_deg - engine.pin_deg[0]) % 360
+    assert turned.tolist() == throws
+    found, _ = cp.throws(order, strokes=strokes, intervals_deg=intervals)
+    assert found.tolist() == throws
+    inline = cp.Engine.inline(
+        PARTS, throws_deg=throws, spacing=0.1, firing_order=order, strokes=strokes
+    )
+    assert inline.firing() == engine.firing()
+    assert cp.Engine.from_toml(engine.to_toml()) == engine
+    if intervals is not None:
+        assert sorted(engine.firing_intervals_deg.tolist()) == sorted(intervals)
+
+
+def test_a_flat_twin_that_fires_both_at_once() -> None:
+    """Both pistons of a boxer are at the top together: order ½ is twice one's."""
+    boxer = cp.Engine.boxer(PARTS, throws_deg=[0], spacing=0.1, firing_order="1+2")
+    named = cp.Engine.from_firing_order(
+        PARTS, "1+2", bank_angle_deg=180, spacing=0.1, shared_pins=False
+    )
+    for engine in (boxer, named):
+        assert engine.firing_intervals_deg.tolist() == [0.0, 720.0]
+        bored = engine.replace(cylinder=[one.replace(bore=0.08) for one in engine.cylinders])
+        both = bored.with_cycle(cp.Cycle.example())
+        one = both.with_cycle([cp.Cycle.example(), None])
+        peaks = [each.balance(3000)[0.5].crank_torque.gas.peak for each in (both, one)]
+        assert peaks[0] == pytest.approx(2.0 * peaks[1], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ({"intervals_deg": [180, 180, 180, 180]}, r"intervals_deg\[0\] = 180: give 0 between"),
+        (
+            {"intervals_deg": [0, 0, 0, 720]},
+            r"intervals_deg\[1\] = 0: give degrees above 0, or join",
+        ),
+        ({"rule": "ijesc"}, "knows no cylinders that fire together"),
+    ],
+)
+def test_pins_that_cannot_fire_together(arguments: dict[str, Any], said: str) -> None:
+    with pytest.raises(cp.InputError, match=said):
+        cp.Engine.from_firing_order(PARTS, "1+4-2+3", spacing=0.1, **arguments)

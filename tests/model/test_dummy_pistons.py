@@ -119,6 +119,24 @@ def test_pages_show_no_strokes_of_a_dummy() -> None:
     assert places(single(), 3000.0)["firing_deg"] == [0.0, None]
 
 
+def test_dummies_in_sentences() -> None:
+    """A dummy piston is not in the firing order, so that none of the order does not fire."""
+    said = single().explain().sentences
+    assert "Only cylinder 1 fires, every 720°; cylinder 2 is a dummy piston." in said
+    three = cp.Engine.inline(
+        [PISTON, DUMMY, PISTON], throws_deg=[0, 180, 0], spacing=0.1, firing_order="1-3"
+    )
+    even = "It fires evenly, every 360°: 1-3; cylinder 2 is a dummy piston."
+    assert even in three.explain().sentences
+    gas = three.with_cycle([PETROL, None, None]).explain().sentences
+    assert "Only cylinder 1 fires, every 720°; cylinder 2 is a dummy piston." in gas
+    two = cp.Engine.inline([PISTON, DUMMY, DUMMY], throws_deg=[0, 180, 180], spacing=0.1)
+    two = two.replace(firing_order="1")
+    assert any(
+        each.endswith("; cylinders 2 and 3 are dummy pistons.") for each in two.explain().sentences
+    )
+
+
 def test_dummies_in_a_shell(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "supermono.toml"
     typed = "new v-twin --bank-angle 90 --bore 100mm --stroke 70mm --rod-length 124mm"

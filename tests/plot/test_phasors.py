@@ -65,6 +65,28 @@ def test_arrows_are_head_to_tail_and_end_at_the_sum(engine: cp.Engine, quantity:
                 assert total == []  # the polygon closes
 
 
+def test_a_v12_in_a_column_is_not_crowded() -> None:
+    """Arrows stay in their panels, and names that would cover others are left out."""
+    with plt.rc_context({"figure.figsize": (3.5, 2.625), "font.size": 8}):
+        axes = cp.Engine.preset("v12-60").balance(3000).plot(kind="phasors", quantity="moment")
+        figure = axes[0, 0].get_figure(root=True)
+        figure.canvas.draw()
+        for ax in axes.flat:
+            panel = ax.get_window_extent()
+            for patch in ax.patches:
+                box = patch.get_window_extent()
+                assert panel.x0 <= box.x0
+                assert panel.y0 <= box.y0
+                assert box.x1 <= panel.x1
+                assert box.y1 <= panel.y1
+            shown = [text for text in ax.texts if text.get_visible()]
+            boxes = [text.get_window_extent() for text in shown]
+            assert not any(a.overlaps(b) for a, b in itertools.combinations(boxes, 2))
+            assert 5 <= len(shown) <= 12
+            assert not any("," in name for name in texts(ax))
+    assert "not all named" in axes[0, 0].get_figure(root=True).get_suptitle()
+
+
 def test_arrows_are_named_by_cylinder() -> None:
     (forward,), (backward,) = V8.balance(6000).plot(kind="phasors", orders=[2])
     for ax in (forward, backward):

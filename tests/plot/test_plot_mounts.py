@@ -194,19 +194,20 @@ def test_robustness_is_a_bar_for_each_mode_and_cause() -> None:
     assert labels[0].endswith(f"{result.purity[0]:.0f} → {result.least_purity[0]:.0f} %")
 
 
-def test_axes_of_roll_are_drawn_in_two_views() -> None:
+def test_axes_of_roll_are_drawn_in_three_views() -> None:
     axes = MOUNTED.axes()
-    side, rear = axes.plot().flat
-    for panel, right in ((side, 2), (rear, 0)):
+    side, rear, above = axes.plot().flat
+    for panel, right, up in ((side, 2, 1), (rear, 0, 1), (above, 2, 0)):
         lines = {str(line.get_label()): line for line in panel.lines}
         mounts = np.array([mount.at for mount in MOUNTED.mounts])
-        np.testing.assert_array_equal(lines["mounts"].get_data(), mounts[:, [right, 1]].T)
+        np.testing.assert_array_equal(lines["mounts"].get_data(), mounts[:, [right, up]].T)
         np.testing.assert_array_equal(
-            np.ravel(lines["centre of gravity"].get_data()), [MOUNTED.body.cg[right], 0.07]
+            np.ravel(lines["centre of gravity"].get_data()),
+            [MOUNTED.body.cg[right], MOUNTED.body.cg[up]],
         )
         (polygon,) = panel.patches
         corners = {tuple(corner) for corner in polygon.get_xy().tolist()}
-        assert corners == {tuple(place) for place in mounts[:, [right, 1]].tolist()}
+        assert corners == {tuple(place) for place in mounts[:, [right, up]].tolist()}
     for name, through, along in (
         ("torque roll axis", np.array(MOUNTED.body.cg), axes.torque_roll),
         ("elastic roll axis", axes.elastic_foot, axes.elastic),

@@ -36,6 +36,17 @@ def test_all_orders_come_first_then_the_largest() -> None:
     ]
 
 
+def test_of_many_orders_left_out_the_first_and_the_last_are_named() -> None:
+    bored = [each.replace(bore=0.08) for each in I4.cylinders]
+    fired = I4.replace(cylinder=bored, firing_order="1-3-4-2").with_cycle(cp.Cycle.example())
+    s = cp.sweep(fired, rpm=[1000, 2000])
+    note = figure_of(s.plot(quantity="torque")).get_suptitle().split("\n")[-1]
+    left_out = [n for n in s.orders if n not in (2, 4, 6)]
+    assert len(left_out) > 8
+    first, last = ", ".join(map(str, left_out[:3])), left_out[-1]
+    assert note == f"smaller, not shown: orders {first}, …, {last}"
+
+
 def test_panels_of_a_row_have_one_scale_from_zero() -> None:
     panels = over_bank_angle().plot()
     for row in panels:

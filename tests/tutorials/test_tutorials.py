@@ -19,6 +19,17 @@ TIMED = "6-speed-against-accuracy"
 """The tutorial whose outputs are measurements."""
 
 
+@pytest.mark.parametrize("file", TUTORIALS, ids=lambda file: file.stem)
+def test_a_tutorial_opens_with_what_will_be_seen(file: Path) -> None:
+    title, _, picture, *_ = nbformat.read(file, as_version=4).cells
+    head, _, sentence = title.source.partition("\n\n")
+    assert head.startswith("# ")
+    assert sentence.startswith("**You will see** ")
+    assert sentence.endswith(".")
+    assert "\n\n" not in sentence
+    assert any("image/png" in output.get("data", {}) for output in picture.outputs)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("file", TUTORIALS, ids=lambda file: file.stem)
 def test_tutorial(file: Path) -> None:

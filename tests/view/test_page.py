@@ -35,7 +35,7 @@ MOVING = """() => {
         [...scene.querySelectorAll(".piston")].map(each => each.getAttribute("transform")).join());
     return [
         ...scenes,
-        all(".throw .core", "d"),
+        all(".throw .core", "points"),
         all(".arrow.moment", "d"),
         all(".arrow.forward", "d"),
         all(".dial .dot", "cx"),
@@ -653,7 +653,7 @@ def test_each_crank_is_drawn_with_its_sense(open_engine: Open) -> None:
     for frame in (".cross", ".left", ".isometric, .oblique"):
         journals = page.eval_on_selector_all(
             f".scene:is({frame}) .journal .core",
-            "found => found.map(each => each.getAttribute('d'))",
+            "found => found.map(each => each.getAttribute('points'))",
         )
         assert len(journals) == 6  # between two throws, and at both ends, of each crank
 

@@ -449,8 +449,9 @@ def test_memory_stays_bounded_after_a_thousand_engines(ask: Ask, page: Page) -> 
     texts = [each.to_json() for each in random_engines()[:100]]
 
     def once() -> None:
-        for name in ("figures", "balance"):
-            results(ask, [(name, {"engine": text, "rpm": RPM}) for text in texts])
+        # Figures take thirty times as long as balances.
+        for name, some in (("figures", texts[:20]), ("balance", texts)):
+            results(ask, [(name, {"engine": text, "rpm": RPM}) for text in some])
 
     once()
     before = page.evaluate("core.memory")

@@ -59,6 +59,10 @@ TOLERANCES = {
 
 NEGLIGIBLE = 1e-6
 """Orders whose peaks are all below this part of a quantity's largest peak are not shown."""
+MOST_LISTED = 8
+"""Most orders that are all listed in a note of those that are not shown."""
+MATTERS = 1e-3
+"""The same of pictures, and of tables that would be longer than a screen."""
 
 
 def coordinates(coords: Mapping[str, Any]) -> dict[str, Any]:
@@ -108,10 +112,13 @@ def printable(text: str) -> str:
     return " ".join(without_controls(text).split())
 
 
-def orders_text(orders: Sequence[Order]) -> str:
-    """Return ``order 2`` or ``orders 2, 4``."""
+def orders_text(orders: Sequence[Order], most: int | None = None) -> str:
+    """Return ``order 2`` or ``orders 2, 4``; of more than ``most`` the first three and the last."""
     word = "order" if len(orders) == 1 else "orders"
-    return f"{word} {', '.join(f'{n:g}' for n in orders) or 'none'}"
+    texts = [f"{n:g}" for n in orders]
+    if most is not None and len(texts) > most:
+        texts[3:-1] = ["…"]
+    return f"{word} {', '.join(texts) or 'none'}"
 
 
 def not_shown(orders: Sequence[Order]) -> str:

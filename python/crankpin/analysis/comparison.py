@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 
+ROUNDING = 1e-12
+"""Changes below this part of a peak are those of rounding in sums of all cylinders."""
 LUMPED: Final = "lumped"
 """Stands for an engine as textbooks lump it."""
 
@@ -311,7 +313,7 @@ class Comparison(Tabled):
 
 
 def _change(before: NDArray[np.float64], after: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the change relative to what was before: 0 where both are zero."""
+    """Return the change relative to what was before: 0 where they differ by rounding alone."""
     with np.errstate(divide="ignore", invalid="ignore"):
         change = (after - before) / before
-    return np.where((before == 0.0) & (after == 0.0), 0.0, change)
+    return np.where(np.abs(after - before) <= ROUNDING * before, 0.0, change)

@@ -398,12 +398,12 @@ def throws(
     Parameters
     ----------
     firing_order : str or sequence of int
-        Cylinder numbers, as ``"1-8-4-3-6-5-7-2"`` or a list.
+        Cylinder numbers, as ``"1-8-4-3-6-5-7-2"`` or a list; ``+`` joins those that fire together.
     bank_angle_deg : number or str, optional
         Angle between the banks of a vee, degrees; None for an inline engine.
     intervals_deg : sequence of number or str, shape (n_cylinders,), optional
         Crank angles from each cylinder of the order to the next, and from the last to the
-        first, degrees; by default equal ones.
+        first, degrees, 0 between those joined by ``+``; by default equal ones.
     numbering : {"alternating", "by-bank"}, default "alternating"
         As in :meth:`Engine.vee`.
     odd_bank : {"right", "left"}, default "right"

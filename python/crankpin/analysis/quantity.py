@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Generic, Literal, Self, TypeAlias
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
+from crankpin import _core
 from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Tabled
 from crankpin._support.quantities import KINDS, PARTS, Kind
@@ -45,7 +46,7 @@ def order_key(order: object) -> Order | Literal["all"]:
     if isinstance(order, str) and order == ALL:
         return ALL
     try:
-        if 0 < (number := inputs.order(order)) <= inputs.HIGHEST_ORDER:
+        if 0 < (number := inputs.order(order)) <= _core.HIGHEST_ORDER:
             return number
     except (TypeError, ValueError, OverflowError):
         pass

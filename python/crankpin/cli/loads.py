@@ -12,7 +12,7 @@ from crankpin._support.record import changed
 from crankpin.analysis.bearings import AXES, bearing_loads
 from crankpin.analysis.prepared_trace import prepare_trace
 from crankpin.cli.arguments import command, option, rejected
-from crankpin.cli.outputs import Shown, left_out, only
+from crankpin.cli.outputs import Shown, in_short, left_out, only
 from crankpin.model.computed_cycles import EXAMPLES
 from crankpin.model.cycle import Cycle
 from crankpin.model.traces import Traces
@@ -73,6 +73,7 @@ def _torque(given: Given) -> Shown:
     drawn = balance if given.text("--picture") == "spectrum" else engine.waveform(rpm)
     table = getattr(balance, quantity).table
     title = f"{labels.name_of(engine)} at {rpm:g} rpm: {table.title}"
+    table = table if given.text("--csv") else in_short(table, balance, quantity)
     note += left_out(balance) if chosen["orders"] == "auto" else ""
     return Shown(only(changed(table, title=title)), drawn, {"quantity": quantity}, note=note)
 

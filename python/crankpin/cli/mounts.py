@@ -49,7 +49,7 @@ PICTURES = ("cuts", "map", "waterfall", "spectrum")
         "first (default: 800)",
     ),
     "--controls --units",
-    option("--frame", choices=(FIRST, "strain", "axes", "static", "loads")),
+    option("--frame", choices=(FIRST, "strain", "axes", "static", "loads", "power")),
     "--csv --plot",
     example="mounts car.toml --rpm 600:6000:20 --plot run-up.png",
     note="A range is START:STOP:STEP (stop included), a list a,b,c, or one number.",

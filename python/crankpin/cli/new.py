@@ -55,7 +55,11 @@ LAYOUT: dict[str, tuple[str, str, str]] = {
     "--absent": ("absent", "wholes", "cylinders that a vee lacks, such as 6 of a V5"),
     "--cylinders": ("cylinders", "whole", "number of cylinders of a radial"),
     "--rows": ("rows", "whole", "rows of a radial"),
-    "--firing-order": ("firing_order", "text", "such as 1-3-4-2"),
+    "--firing-order": (
+        "firing_order",
+        "text",
+        "such as 1-3-4-2, with + for cylinders that fire together: 1+4-2+3",
+    ),
     "--intervals": ("intervals_deg", "angles", "of firing-order: firing intervals, degrees"),
     "--strokes": ("strokes", "whole", "strokes of a cycle, 4 or 2"),
     "--tdc": ("tdc_deg", "angles", "of lists: crank angles of top dead centre, degrees"),

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TextIO
 
 import numpy as np
 
-from crankpin._support import files, units
-from crankpin._support.frames import FIRST, Frames
+from crankpin._support import files, labels, units
+from crankpin._support.frames import FIRST, SHOWN, Frames
+from crankpin._support.record import changed
 from crankpin._support.warnings import without_controls
 
 if TYPE_CHECKING:
@@ -24,9 +25,6 @@ if TYPE_CHECKING:
     from crankpin.analysis.sweeps.sweep import Sweep
     from crankpin.cli.arguments import Given, Run
     from crankpin.model.engine import Engine
-
-MOST_OMITTED = 8
-"""Most omitted orders that are all listed."""
 
 
 class Shown(NamedTuple):
@@ -77,15 +75,45 @@ def only(table: Table) -> Frames:
 def left_out(result: Balance | Sweep) -> str:
     """Return what omitted orders can add, in words."""
     bound = result.error_bound
-    orders = [str(order) for order in result.omitted]
-    if len(orders) > MOST_OMITTED:
-        orders[3:-1] = ["…"]
-    seen = f"; omitted: {', '.join(orders)}" if orders else ""
+    listed = labels.orders_text(result.omitted, labels.MOST_LISTED).partition(" ")[2]
+    seen = f"; omitted: {listed}" if result.omitted else ""
     roll = f" and {bound['torque']:.2g} N·m to the roll torque" if "torque" in bound else ""
     return (
         f"Omitted orders add at most {bound['force']:.2g} N to the force, "
         f"{bound['moment']:.2g} N·m to the rocking moment{roll}{seen}.\n"
     )
+
+
+def in_short(table: Table, balance: Balance, *names: str) -> Table:
+    """Return a table of chosen orders that fits a screen, if it has some too small to matter.
+
+    Parameters
+    ----------
+    table
+        The table, whose first column has the orders.
+    balance
+        The balance of which it is.
+    *names
+        The quantities that it shows.
+    """
+    if len(table) <= SHOWN or balance.request.orders is not None:
+        return table
+    peaks = [balance.read(name, "peak") for name in names]
+    small = {
+        order
+        for k, order in enumerate(balance.orders)
+        if all(each[k] <= labels.MATTERS * each.max() for each in peaks)
+    }
+    heads = table.columns[0].values
+    kept = [k for k, order in enumerate(heads) if order not in small]
+    note = (
+        f"Not shown: {len(heads) - len(kept)} orders (their peaks are below {labels.MATTERS:g} of "
+        "the largest); --csv prints them."
+    )
+    columns = (changed(each, values=tuple(each.values[k] for k in kept)) for each in table.columns)
+    row_units = tuple(table.row_units[k] for k in kept if table.row_units)
+    notes = "\n".join(filter(None, [table.note, note])) if len(kept) < len(heads) else table.note
+    return changed(table, columns=tuple(columns), note=notes, row_units=row_units)
 
 
 def _draw(result: Any, path: Path, **options: str) -> None:  # noqa: ANN401 - what has plot

@@ -16,7 +16,7 @@ from crankpin._support.tables import Table
 from crankpin.analysis.ranking.rank import rank
 from crankpin.analysis.sweeps.sweep import Sweep, engine_titles, sweep
 from crankpin.cli.arguments import MOST_ROWS, PROG, command, option
-from crankpin.cli.outputs import Shown, left_out, only
+from crankpin.cli.outputs import Shown, in_short, left_out, only
 
 if TYPE_CHECKING:
     from crankpin.cli.arguments import Given
@@ -49,7 +49,12 @@ def _balance(given: Given) -> Shown:
         note = left_out(balance)
     elif any(order % 1 for order in chosen["orders"]) and not engine.fired:
         note = HALF_ORDERS
-    return Shown(balance.frames, balance, {"quantity": given.quantity([engine])}, note=note)
+    table = balance.table
+    if not given.text("--csv"):
+        table = in_short(
+            table, balance, *(n for n in balance.request.quantities if n != "crank_torque")
+        )
+    return Shown(only(table), balance, {"quantity": given.quantity([engine])}, note=note)
 
 
 @command(

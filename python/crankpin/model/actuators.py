@@ -10,6 +10,7 @@ import numpy as np
 from crankpin._support import inputs
 from crankpin._support.record import Input
 from crankpin._support.warnings import warn
+from crankpin.model import checks
 from crankpin.model.mounts import _vector
 
 if TYPE_CHECKING:
@@ -72,8 +73,8 @@ class Actuator(Input):
     damping_ratio: float = 0.0
 
     def __post_init__(self) -> None:
-        fields: dict[str, object] = {"name": inputs.text("name", self.name)}
-        fields["at"] = _vector("at", self.at)
+        at = _vector("at", self.at)
+        fields: dict[str, object] = {"name": inputs.text("name", self.name), "at": at}
         along = _vector("direction", self.direction)
         length = math.hypot(*along)
         if length == 0.0:
@@ -90,6 +91,7 @@ class Actuator(Input):
             raise inputs.rejected("damping_ratio", damping, hint)
         if self.stroke is not None and float(self.stroke) > LONGEST_STROKE:
             warn(f"stroke = {self.stroke:g} m: was it given in millimetres?")
+        checks.point("at", at)
         self.__dict__.update(fields, damping_ratio=damping)
 
     def stroke_of(self, force: ArrayLike, frequency: ArrayLike) -> NDArray[np.float64]:

@@ -641,8 +641,9 @@ class Builders(EngineData):
         cylinder : Cylinder, sequence of Cylinder or mapping of str to Cylinder
             As in :meth:`inline`.
         firing_order : str or sequence of int
-            Cylinder numbers, as ``"1-8-4-3-6-5-7-2"`` or a list. Where ``rule="ijesc"`` gives a
-            crank that cannot fire in this order, the engine's firing order is left empty.
+            Cylinder numbers, as ``"1-8-4-3-6-5-7-2"`` or a list; ``+`` joins cylinders that fire
+            together, ``"1+4-2+3"``. Where ``rule="ijesc"`` gives a crank that cannot fire in this
+            order, the engine's firing order is left empty.
         spacing : float or array_like
             Distance between neighbouring throws, m, or of each from the one before it.
         bank_angle_deg : number or str, optional
@@ -659,8 +660,9 @@ class Builders(EngineData):
             parts of a turn (0°, 120°, 240° in a V6) from the same crank angle in both banks.
         intervals_deg : sequence of number or str, optional
             With ``rule="even"``: crank angles from each cylinder of the order to the next, and from
-            the last to the first, in place of equal ones. Where one is above 360 the crank can fire
-            in this order in other ways too; the engine takes the most even, with a warning.
+            the last to the first, in place of equal ones; 0 between those joined by ``+``. Where
+            one is above 360 the crank can fire in this order in other ways too; the engine takes
+            the most even, with a warning.
         strokes : {4, 2}, default 4
             4 or 2: intervals add up to 720 or 360.
         numbering : {"alternating", "by-bank"}, default "alternating"

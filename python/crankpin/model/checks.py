@@ -292,21 +292,28 @@ def body(mass: float, cg: Sequence[float], moments: Sequence[float], missing: fl
             f"inertia has radii of gyration from {smallest:.3g} to {largest:.3g} m: are mass and "
             "inertia in kg and kg·m²?"
         )
-    if max(map(abs, cg)) > FARTHEST_CG:
-        found.append(f"cg = {tuple(cg)} m{MILLIMETRES}")
-    _report(found)
+    _report(found + _outside("cg", cg))
 
 
-def mount(name: str, at: Sequence[float], stiffness: Sequence[float]) -> None:
-    """Warn of a mount whose figures seem to be in other units."""
+def mount(name: str, at: Sequence[float], **stiffness: Iterable[float]) -> None:
+    """Warn of a mount whose figures seem to be in other units: its place, stiffness by argument."""
     found = []
     least, most = MOUNT_STIFFNESS
-    wrong = [k for k in stiffness if k and not least <= k <= most]
-    if wrong:
-        found.append(f"stiffness of mount {name!r} = {wrong[0]:g} N/m: was it given in N/mm?")
-    if max(map(abs, at)) > FARTHEST_CG:
-        found.append(f"at of mount {name!r} = {tuple(at)} m{MILLIMETRES}")
-    _report(found)
+    for argument, values in stiffness.items():
+        if wrong := [k for k in values if k and not least <= k <= most]:
+            words = f"{argument} of mount {name!r} = {wrong[0]:g} N/m"
+            found.append(f"{words}: was it given in N/mm?")
+    _report(found + _outside(f"at of mount {name!r}", at))
+
+
+def point(name: str, at: Sequence[float]) -> None:
+    """Warn of a place on a powertrain that is in millimetres."""
+    _report(_outside(name, at))
+
+
+def _outside(name: str, at: Sequence[float]) -> list[str]:
+    is_outside = max(map(abs, at)) > FARTHEST_CG
+    return [f"{name} = {tuple(at)} m{MILLIMETRES}"] if is_outside else []
 
 
 def _at(radius: float) -> str:
@@ -481,7 +488,9 @@ def intervals(order: str, given_deg: Sequence[float], firing: _core.Firing) -> N
     firing
         The firing that the engine takes.
     """
-    first = firing.order.index(int(re.findall(r"\d+", order)[0]))
+    # Cylinders that fire together are by number in `firing`.
+    numbers, *_ = re.findall(r"\d+(?:\s*\+\s*\d+)*", order)
+    first = firing.order.index(min(map(int, numbers.split("+"))))
     taken = np.roll(firing.intervals_deg, -first)
     if np.abs(taken - given_deg).max() > ROUNDING:
         asked, even = (

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -80,6 +81,11 @@ class CycleMap(Tabled, Input):
             if each.strokes != rows[0][0].strokes:
                 raise inputs.faulty("cycles", "have 2 and 4 strokes", "give cycles of one period")
         object.__setattr__(self, "cycles", rows)
+
+    @cached_property
+    def _cores(self) -> list[_core.Cycle]:
+        """Compiled counterparts of the cycles, load by load of one speed after the other."""
+        return [cycle._core for row in self.cycles for cycle in row]
 
     def at(self, *, rpm: float, load: float) -> Cycle:
         """Return the cycle at a speed and a load.

@@ -13,6 +13,8 @@ from crankpin._support.warnings import suppressed
 from crankpin.model import checks
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from numpy.typing import ArrayLike, NDArray
 
 Products: TypeAlias = Literal["tensor", "positive-integrals"]
@@ -239,7 +241,7 @@ class Mount(Input):
         fields["table"] = None if table is None else _table(table)
         self.__dict__.update(fields)
         _core.check_mount(self._figures)
-        checks.mount(self.name, fields["at"], fields["stiffness"])
+        checks.mount(self.name, fields["at"], **self._stiffnesses)
 
     @property
     def _figures(self) -> Any:  # noqa: ANN401 - as the core takes them
@@ -256,6 +258,13 @@ class Mount(Input):
             None if track is None else (track.stiffness, track.frequency, track.damping_ratio),
             self.table,
         )
+
+    @property
+    def _stiffnesses(self) -> dict[str, Iterable[float]]:
+        """Stiffness by argument, N/m; of a table the largest along each axis."""
+        table = np.abs(self.table[1]).max(axis=0).tolist() if self.table is not None else ()
+        along = {"stiffness": self.stiffness, "dynamic_stiffness": self.dynamic_stiffness or ()}
+        return {**along, "table": table}
 
     @classmethod
     def _of(cls, figures: Any) -> Mount:  # noqa: ANN401 - as the core gives them

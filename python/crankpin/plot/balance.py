@@ -32,7 +32,7 @@ from crankpin.plot.plane import (
     plane_vector,
     scale_plane,
 )
-from crankpin.plot.rows import MATTERS, largest
+from crankpin.plot.rows import largest
 from crankpin.plot.style import MARKERS, SERIES, count_series, hollow, series
 from crankpin.plot.ticks import from_zero, log_scale, numeric
 from crankpin.plot.words import (
@@ -85,7 +85,7 @@ def spectrum(
     orders_given = result.request.orders is not None
     if not orders_given:
         # Gas torque declines slowly: the few orders that can be seen would have no room.
-        least = MATTERS if len(drawn) > 1 and not logarithmic else labels.NEGLIGIBLE
+        least = labels.MATTERS if len(drawn) > 1 and not logarithmic else labels.NEGLIGIBLE
         seen = np.flatnonzero(peaks.max(axis=1) > least * peaks.max(initial=0.0))
         if seen.size and seen[-1] + 1 < len(orders):
             orders, peaks = orders[: seen[-1] + 1], peaks[: seen[-1] + 1]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.font_manager import FontProperties
 
-from crankpin._support import units
+from crankpin._support import labels, units
 from crankpin._support.drawing import picture
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.comparison import Comparison
@@ -23,7 +23,6 @@ from crankpin.plot.layout import (
     set_panel_title,
     width_for,
 )
-from crankpin.plot.rows import MATTERS
 from crankpin.plot.style import SERIES, background, series, write
 from crankpin.plot.ticks import from_zero, numeric
 from crankpin.plot.waveform import dress
@@ -97,7 +96,7 @@ def _bars(ax: Axes, result: Comparison, name: str, style: dict[str, Any]) -> Non
     """Draw a pair of bars for each order, and above it how it changes."""
     pairs = np.array([getattr(each, name).peak for each in (result.before, result.after)])
     top = float(pairs.max(initial=0.0))
-    shown = [k for k in range(len(result.orders)) if pairs[:, k].max() > MATTERS * top]
+    shown = [k for k in range(len(result.orders)) if pairs[:, k].max() > labels.MATTERS * top]
     orders = np.array(result.orders, dtype=np.float64)[shown]
     width = WIDTH * float(np.diff(orders).min(initial=1.0))
     looks = series(ax, 2)

@@ -165,7 +165,7 @@ def _robustness(result: MountRobustness, ax: Axes | None = None, **style: object
     return ax
 
 
-VIEWS = (("from the side", 2, 1), ("from the flywheel", 0, 1))
+VIEWS = (("from the side", 2, 1), ("from the flywheel", 0, 1), ("from above", 2, 0))
 """Name of a view, and the axes to the right and up."""
 
 
@@ -173,8 +173,8 @@ VIEWS = (("from the side", 2, 1), ("from the flywheel", 0, 1))
 def _axes(
     result: RollAxes, ax: Axes | None = None, *, figure: object = None, **style: object
 ) -> Any:  # noqa: ANN401 - axes, or an array of them
-    """Draw both axes, the mounts and their polygon, and the CG, from the side and from the rear."""
-    panels = make_panels(ax, figure, 1, 2, row_height=0.9)
+    """Draw both axes, the mounts and their polygon, and the CG, in three views."""
+    panels = make_panels(ax, figure, 3, 1, row_height=0.6)
     views = VIEWS[:1] if panels.single else VIEWS
     powertrain = result.powertrain
     cg = np.array(powertrain.body.cg)

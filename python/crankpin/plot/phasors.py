@@ -53,6 +53,12 @@ ORDERS = (1, 2)
 """Orders that are drawn of a balance whose orders were not given."""
 SUM = 4.0
 """Points of the sum's line, below those of the arms."""
+NARROW = 4.0
+"""Points between arrows side by side where there is no room for their names between them."""
+MOST_ROOM = 0.4
+"""Part of a panel that arrows moved aside may take, on either side."""
+MOST_NAMES = 2.0
+"""Sides of a panel that all names may take one behind the other."""
 NOTHING = 1e-9
 """Phasors and vectors below this part of the longest are not drawn."""
 
@@ -89,19 +95,19 @@ def phasors(
     figure, axes, _ = make_panels(None, figure, len(rows), len(shown), row_height=row_height)
     groups = list(dict.fromkeys(arm.group for arm in arms))
     inks = dict(zip(groups, colours(axes[0, 0], len(groups)), strict=True))
-    aside = False
+    aside = crowded = False
     for column, order in enumerate(shown):
         for row, part in enumerate(rows):
             panel, total = axes[row, column], complex(sums[row, column])
             # Corners of the polygon, from the origin on.
             chain = np.cumsum([0.0, *(arm.phasors[row, column] for arm in arms)])
-            room, names = _polygon(panel, arms, chain, total, inks, style)
+            room, names, fits = _polygon(panel, arms, chain, total, inks, style)
             _frame(panel, chain, room)
-            _name(panel, names)
+            _name(panel, names, fits)
             unit, factor = units.convert(QUANTITIES[kind].unit)
             length = f"{rounded(abs(total) * factor, 4)} {unit}" if total else "0"
             set_panel_title(panel, f"order {order} {part}".strip(), length)
-            aside = aside or room > 0.0
+            aside, crowded = aside or room > 0.0, crowded or not fits
     label_x(axes[-1, 0], _axis_label(kind, 0))
     for panel in axes[:, 0]:
         label_y(panel, _axis_label(kind, 1))
@@ -112,6 +118,7 @@ def phasors(
             f"{QUANTITIES[kind].words}, {number(result.rpm)} rpm, θ = 0", loads_of(result, kind)
         ),
         "arrows that cover each other are drawn side by side" if aside else "",
+        "from the dot on they follow by number, not all named" if crowded else "",
     )
     handles = [Line2D([], [], color=inks[name], linewidth=1.5, label=name) for name in groups]
     handles.append(Line2D([], [], color=muted(axes[0, 0], 0.5), linewidth=SUM, label="sum"))
@@ -126,21 +133,27 @@ def _polygon(
     total: complex,
     inks: dict[str, Any],
     style: dict[str, Any],
-) -> tuple[float, list[tuple[str, complex, complex]]]:
+) -> tuple[float, list[tuple[str, complex, complex]], bool]:
     """Draw arms and sum; return the room that arrows moved aside need, points, and names.
 
-    Names come with their place in data, and how far aside of it they stand, points.
+    Names come with their place in data, and how far aside of it they stand, points; the last value
+    is False where there is no room for all of them, and those of long arrows come first.
     """
     lengths = abs(np.diff(chain))
     longest = lengths.max(initial=0.0)
     if not longest:
         note_zero(ax)
-        return 0.0, []
+        return 0.0, [], True
     drawn = [k for k in range(len(arms)) if lengths[k] > NOTHING * longest]
     arrows = [(complex(chain[k]), complex(chain[k + 1])) for k in drawn]
     lanes = _lanes(arrows)
     font = FontProperties(size="small")
-    lane = 5.0 + max(points_of(ax, arms[k].part, font) for k in drawn)
+    beside = lane = 5.0 + max(points_of(ax, arms[k].part, font) for k in drawn)
+    whole = lane * max(lanes) <= MOST_ROOM * _points(ax) and lane * len(
+        drawn
+    ) <= MOST_NAMES * _points(ax)
+    if not whole:
+        lane = min(NARROW, MOST_ROOM * _points(ax) / max(1, *lanes))
     middle = complex(chain[:-1].mean())
     names: list[tuple[str, complex, complex]] = []
     for k, (start, end), aside in zip(drawn, arrows, lanes, strict=True):
@@ -148,18 +161,24 @@ def _polygon(
         # Outside of the polygon, or on the side of the arrow that has no other.
         outwards = ((0.5 * (start + end) - middle) * across.conjugate()).real
         out = across if aside or outwards >= -1e-9 * longest else -across
-        looks = {"color": inks[arms[k].group], "linewidth": 1.5} | style
-        arrow(ax, start, end, aside * lane * across, **looks)
-        place = aside * lane * across + 0.5 * lane * out
+        looks = {"color": inks[arms[k].group], "linewidth": 1.5 if whole else 1.0} | style
+        arrow(ax, start, end, aside * lane * across, 9.0 if whole else 6.0, **looks)
+        place = aside * lane * across + 0.5 * beside * out
         names.append((arms[k].part, 0.5 * (start + end), place))
     if abs(total) > NOTHING * longest:
         arrow(ax, 0j, total, 0j, color=muted(ax, 0.5), linewidth=SUM, zorder=0.9)
     ax.plot([0.0], [0.0], marker="o", markersize=4.0, color=foreground(ax), zorder=4)
-    return lane * max(lanes), names
+    if not whole:
+        by_length = sorted(range(len(drawn)), key=lambda n: -lengths[drawn[n]])
+        names = [names[n] for n in by_length]
+    return lane * max(lanes), names, whole
 
 
-def _name(ax: Axes, names: Sequence[tuple[str, complex, complex]]) -> None:
-    """Write names beside their arrows; those that would overlap one before are added to it."""
+def _name(ax: Axes, names: Sequence[tuple[str, complex, complex]], whole: bool) -> None:
+    """Write names beside their arrows; those that would overlap one before are added to it.
+
+    Where there is no room for the ``whole`` of them they are left out.
+    """
     font = FontProperties(size="small")
     # The layout will make the axes smaller than they are.
     scale = 0.8 * 72.0 * inches_of(ax) / float(np.ptp(ax.get_xlim()))
@@ -171,7 +190,8 @@ def _name(ax: Axes, names: Sequence[tuple[str, complex, complex]]) -> None:
             width = before + between + length
             gap = scale * (place - other) + aside - apart
             if abs(gap.real) < 0.6 * width and abs(gap.imag) < font.get_size_in_points():
-                written[k] = ([*texts, text], width, other, apart)
+                if whole:
+                    written[k] = ([*texts, text], width, other, apart)
                 break
         else:
             written.append(([text], length, place, aside))
@@ -181,7 +201,14 @@ def _name(ax: Axes, names: Sequence[tuple[str, complex, complex]]) -> None:
     )
 
 
-def arrow(ax: Axes, start: complex, end: complex, shift: complex, **style: Any) -> None:  # noqa: ANN401
+def arrow(
+    ax: Axes,
+    start: complex,
+    end: complex,
+    shift: complex,
+    head: float = 9.0,
+    **style: Any,  # noqa: ANN401
+) -> None:
     """Draw an arrow between two points, moved aside by a distance in points."""
     inches = ax.get_figure(root=True).dpi_scale_trans  # type: ignore[union-attr]
     aside = ScaledTranslation(shift.real / 72.0, shift.imag / 72.0, inches)
@@ -190,7 +217,7 @@ def arrow(ax: Axes, start: complex, end: complex, shift: complex, **style: Any) 
             (start.real, start.imag),
             (end.real, end.imag),
             arrowstyle="-|>",
-            mutation_scale=9.0,
+            mutation_scale=head,
             shrinkA=0.0,
             shrinkB=0.0,
             transform=ax.transData + aside,
@@ -231,11 +258,8 @@ def _across(arrow: complex) -> complex:
 
 def _frame(ax: Axes, chain: NDArray[np.complex128], room: float) -> None:
     """Show the whole polygon, with room for labels and arrows moved aside, points."""
-    box = ax.get_window_extent()
-    # The layout will make the axes smaller than they are.
-    points = 0.7 * 72.0 * min(box.width, box.height) / ax.get_figure(root=True).dpi  # type: ignore[union-attr]
     half = 0.625 * float(max(np.ptp(chain.real), np.ptp(chain.imag)))
-    half /= 1.0 - min(0.6, 1.5 * room / points)
+    half /= 1.0 - 1.5 * min(MOST_ROOM, room / _points(ax))
     ax.set_aspect("equal")
     if not half:
         ax.set_xticks([])
@@ -246,6 +270,13 @@ def _frame(ax: Axes, chain: NDArray[np.complex128], room: float) -> None:
     ax.set_ylim(y - half, y + half)
     ticks.numeric(ax.xaxis)
     ticks.numeric(ax.yaxis)
+
+
+def _points(ax: Axes) -> float:
+    """Return the side of a square panel, points."""
+    box = ax.get_window_extent()
+    # The layout will make the axes smaller than they are.
+    return 0.7 * 72.0 * min(box.width, box.height) / ax.get_figure(root=True).dpi  # type: ignore[union-attr]
 
 
 def _axis_label(kind: str, axis: int) -> str:

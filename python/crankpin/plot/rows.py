@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 
 MOST = 4
 """Number of orders in a picture."""
-MATTERS = 1e-3
-"""Orders whose peaks are all below this part of the largest are left out."""
 
 
 def given_orders(orders: object) -> list[Order]:
@@ -40,9 +38,12 @@ def largest(result: ByOrder, quantity: str, most: int = MOST) -> tuple[list[int]
         result.read(quantity, "peak").reshape(-1, max(1, count)).max(axis=0, initial=0.0)[:count]
     )
     by_size = np.argsort(-peaks, kind="stable")
-    kept = [place for place in by_size[:most] if peaks[place] > MATTERS * peaks.max(initial=0.0)]
+    kept = [
+        place for place in by_size[:most] if peaks[place] > labels.MATTERS * peaks.max(initial=0.0)
+    ]
     rest = [result.orders[place] for place in by_size if peaks[place] > 0.0 and place not in kept]
-    note = f"smaller, not shown: {labels.orders_text(tuple(sorted(rest)))}" if rest else ""
+    listed = labels.orders_text(sorted(rest), labels.MOST_LISTED)
+    note = f"smaller, not shown: {listed}" if rest else ""
     return sorted(int(place) for place in kept), note
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-import math
+import json
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -15,21 +15,17 @@ from crankpin._support.quantities import QUANTITIES
 from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.explain import Explanation
 from crankpin.analysis.flywheel import flywheel
-from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
-from crankpin.analysis.geometry import drawn_rod
 from crankpin.analysis.request import engine_core
-from crankpin.view.terms import RodRatios, at_rod_ratio, kinds, listed_orders, terms
+from crankpin.view.terms import RodRatios, at_rod_ratio, listed_orders, terms
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Spectrum
     from crankpin.analysis.quantity import Quantity
-    from crankpin.model.cycle import Cycle
     from crankpin.model.engine import Engine, Hold
-    from crankpin.model.shafts import Unbalance
 
 Controls: TypeAlias = "str | Sequence[str] | None"
 """Names of controls, or one; None for all."""
@@ -42,10 +38,6 @@ CURVE_STEP = 2.0
 """Degrees between the samples of a curve."""
 IRREGULARITY = 0.01
 """Largest less smallest speed, over the mean, of a page whose moment of inertia is not given."""
-PRESSURE_STEP = 0.5
-"""Degrees between the samples of a cycle, between which a page interpolates."""
-EXHAUST = {4: float(ValveTiming().exhaust_opens_deg), 2: float(PortTiming().exhaust_opens_deg)}
-"""Angle at which exhausts open, before the piston is lowest, degrees, by strokes: ordinary ones."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -112,11 +104,12 @@ def figures(
     Settings.of(engine, rpm).check(engine)
     inputs.warn_of_units(mean_piston_speed(engine, float(rpm)))
     pairs = inputs.spectrum(spectrum)
+    _, block, gas = _drawn(engine)
     return {
         **places(engine, rpm),
         "terms": terms(engine, pairs),
-        "block": _block(engine),
-        "gas": _gas(engine),
+        "block": block,
+        "gas": gas,
         "loads": labels.in_words(labels.SPECTRUM_GIVEN if pairs else engine.loads_counted),
         "flywheel": None if pairs is not None else _inertia(engine, float(rpm), inertia),
         "compact": inputs.flag("compact", compact),
@@ -131,30 +124,13 @@ def figures(
 def places(engine: Engine, rpm: float) -> dict[str, Any]:
     """Return what an engine is drawn from, and its settings."""
     settings = Settings.of(engine, rpm)
-    return {
-        "name": engine.name,
-        "strokes": engine.strokes,
-        "rpm": settings.rpm,
-        "reference_z": engine.reference_z,
-        "bank_angle_deg": settings.bank_angle_deg,
-        "rod_ratio": settings.rod_ratio,
-        "cranks": [
-            {"x": x, "y": y, "ratio": ratio} for x, y, ratio in engine_core(engine).cranks[0]
-        ],
-        "cylinders": _cylinders(engine),
-        "counterweights": _unbalances(engine.counterweights),
-        "shafts": [
-            {
-                "ratio": shaft.ratio,
-                "x": shaft.x,
-                "y": shaft.y,
-                "unbalances": _unbalances(shaft.unbalances),
-            }
-            for shaft in engine.shafts
-        ],
-        "firing_deg": _firing(engine),
-        "exhaust_opens_deg": EXHAUST[engine.strokes],
-    }
+    drawing, *_ = _drawn(engine)
+    return {**drawing, "rpm": settings.rpm, "rod_ratio": settings.rod_ratio}
+
+
+def _drawn(engine: Engine) -> list[Any]:
+    """Return what an engine is drawn from, its block and the pressure in its cylinders, or None."""
+    return [json.loads(text) for text in _core.drawn(engine_core(engine))]
 
 
 def core_numbers(
@@ -266,92 +242,6 @@ def _speeds(
         return None
     speeds: list[float] = np.interp(theta_deg, found.theta_deg, found.speed_rpm).tolist()
     return speeds
-
-
-def _block(engine: Engine) -> dict[str, float] | None:
-    """Return mass, kg, and inertia, kg·m², of a bar that stands for the block, or None."""
-    bar = _core.block(engine_core(engine))
-    return None if bar is None else {"mass": bar[0], "inertia": bar[1]}
-
-
-def _gas(engine: Engine) -> dict[str, Any] | None:
-    """Return the pressures of each cycle over its period, the first repeated at the end."""
-    if engine.cycles is None:
-        return None
-    cycles = _distinct_cycles(engine)
-    theta = np.arange(0.0, 180.0 * engine.strokes + PRESSURE_STEP, PRESSURE_STEP)
-    pascals = [each.pressure_at(theta).round().astype(int).tolist() for each in cycles]
-    return {"crankcase": engine.crankcase, "cycles": pascals}
-
-
-def _distinct_cycles(engine: Engine) -> list[Cycle]:
-    return list(dict.fromkeys(each for each in engine.cycles or () if each is not None))
-
-
-def _cylinders(engine: Engine) -> list[dict[str, Any]]:
-    cycles = engine.cycles or (None,) * len(engine)
-    starts = engine.firing_deg.tolist() if engine.cycles else cycles
-    numbered = {each: k for k, each in enumerate(_distinct_cycles(engine))}
-    swept = kinds(engine)
-    banks = {number: k for k, bank in enumerate(engine.banks.values()) for number in bank}
-    cranks, crank_of = engine_core(engine).cranks
-    return [
-        {
-            "number": number,
-            "bank": banks[number],
-            "crank": crank_of[number - 1],
-            "crank_radius": cylinder.crank_radius,
-            "rod_length": drawn_rod(cylinder),
-            "yoke": math.isinf(cylinder.rod_length),
-            "pin_offset": cylinder.pin_offset,
-            "tdc_deg": tdc,
-            "bank_deg": bore,
-            "z": z,
-            "cycle": None if cycle is None else numbered[cycle],
-            **(
-                {}
-                if cycle is None
-                else {
-                    "pressure_deg": start,
-                    "swept": swept.index(cylinder),
-                    # On a crank that turns the other way the torque on the block is the mirror's.
-                    "roll": math.copysign(1.0, cranks[crank_of[number - 1]][2]),
-                }
-            ),
-        }
-        for number, (cylinder, tdc, bore, z, cycle, start) in enumerate(
-            zip(
-                engine.cylinders,
-                engine.tdc_deg.tolist(),
-                engine.bank_deg.tolist(),
-                engine.z.tolist(),
-                cycles,
-                starts,
-                strict=True,
-            ),
-            start=1,
-        )
-    ]
-
-
-def _firing(engine: Engine) -> list[float | None] | None:
-    """Return when each cylinder fires, None of dummy pistons; None without a firing order."""
-    if not engine.firing_order:
-        return None
-    timed = zip(engine.cylinders, engine.firing().angles_deg.tolist(), strict=True)
-    return [None if cylinder.dummy else angle for cylinder, angle in timed]
-
-
-def _unbalances(unbalances: Iterable[Unbalance]) -> list[dict[str, Any]]:
-    return [
-        {
-            "amount": each.amount,
-            "angle_deg": inputs.degrees(each.angle_deg),
-            "z": each.z,
-            "pin": None if each.pin is None else each.pin - 1,
-        }
-        for each in unbalances
-    ]
 
 
 def _phasors(vector: Quantity, k: int) -> dict[str, list[float]]:

@@ -89,7 +89,8 @@ def largest_order(powertrain: Powertrain, rpm: float) -> Order | str:
     most = 0.0
     for order in powertrain.engine.balance(ONE_RADIAN_PER_SECOND).orders:
         try:
-            force = powertrain.response(rpm, orders=[order])[order].body_force.rms
+            with suppressed():  # The page says which motions are free.
+                force = powertrain.response(rpm, orders=[order])[order].body_force.rms
         except InputError:  # A table ends, or damping lacks in resonance.
             continue
         if force > most:
@@ -128,7 +129,8 @@ def core_numbers(
 ) -> dict[str, Any]:
     """Return the library's modes and response of a powertrain, in the form of the page's own."""
     modes = powertrain.modes(frequency)
-    response = powertrain.response(rpm, orders="auto" if order == "all" else [float(order)])
+    with suppressed():
+        response = powertrain.response(rpm, orders="auto" if order == "all" else [float(order)])
     return {
         "settings": {
             "rpm": rpm,

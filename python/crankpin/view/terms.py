@@ -10,6 +10,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from crankpin import _core
+from crankpin._core import HIGHEST_LISTED
 from crankpin._support import inputs
 from crankpin.analysis.request import engine_core
 from crankpin.model.cylinder import rod_length
@@ -19,11 +20,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from crankpin.model.cylinder import Cylinder
     from crankpin.model.engine import Engine
 
-HIGHEST_ORDER = 24
-"""Highest order of the pistons whose phasors a page has."""
 LEAST_ROD_RATIO, LARGEST_ROD_RATIO = 0.05, 0.7
 """Rod ratios that a page reaches, besides the engine's own: of 20 crank radii to 1.4."""
 TURNING = 0.9
@@ -105,9 +103,8 @@ def at_rod_ratio(engine: Engine, ratio: float | None) -> Engine:
 
 def listed_orders(engine: Engine, spectrum: Iterable[int] | None) -> list[int]:
     """Return the orders whose phasors a page has: of pistons, of a spectrum, and of shafts."""
-    shafts = {abs(shaft.ratio) for shaft in engine.shafts}
     given = {order * speed for order in spectrum or () for speed in _speeds(engine)}
-    return sorted({*range(1, HIGHEST_ORDER + 1), *shafts, *given})
+    return sorted({*_core.listed_orders(engine_core(engine)), *given})
 
 
 def terms(engine: Engine, pairs: Sequence[tuple[int, complex]] | None) -> dict[str, Any]:
@@ -156,12 +153,6 @@ def terms(engine: Engine, pairs: Sequence[tuple[int, complex]] | None) -> dict[s
     }
 
 
-def kinds(engine: Engine) -> list[Cylinder]:
-    """Return the kinds of cylinders with pressure, in the order of ``swept``."""
-    fired = zip(engine.cylinders, engine.cycles or (), strict=bool(engine.cycles))
-    return list(dict.fromkeys(cylinder for cylinder, cycle in fired if cycle is not None))
-
-
 @dataclasses.dataclass(frozen=True)
 class _Table:
     """Values by order, group and component at one rod ratio."""
@@ -196,9 +187,8 @@ class _Sampler:
         if not self.fired:
             return tables
         orders = range(1, self.orders[-1] + 1)
-        powers = [min(n, HIGHEST_ORDER) - 1 for n in orders]
-        for cylinder in kinds(self.engine):
-            place = self.engine.cylinders.index(cylinder)
+        powers = [min(n, HIGHEST_LISTED) - 1 for n in orders]
+        for place in _core.fired_kinds(engine_core(self.engine)):
             swept = np.array(_core.swept(core, place, orders))
             tables[f"swept {place}"] = _Table(orders, powers, swept[:, None, None].view(float))
         torque, mean = tables["torque"], np.zeros((1, 3, 4))
@@ -222,7 +212,7 @@ class _Sampler:
 
     def _tables(self, core: _core.Engine, *, cylinders: bool) -> dict[str, _Table]:
         planar, torque = _core.group_terms(core, cylinders, self.orders, self.pairs)
-        powers = [0 if self.pairs else min(n, HIGHEST_ORDER) - 1 for n in self.multiples]
+        powers = [0 if self.pairs else min(n, HIGHEST_LISTED) - 1 for n in self.multiples]
         tables = {"planar": _Table(self.orders, powers, planar.view(float), relative=True)}
         if self.pairs is None:
             read = torque if self.fired else torque[:, :, :1].copy()
@@ -256,7 +246,7 @@ def _factored(table: _Table, values: Real, q: Real, own: Real | None) -> tuple[l
         curves = ways[:, :rank] * weights[:rank]
         polynomials = fit @ curves[:count]
         allowed = ROUNDING * abs(polynomials).max()
-        if not table.relative or order > HIGHEST_ORDER:
+        if not table.relative or order > HIGHEST_LISTED:
             allowed = max(allowed, ROUNDING * largest / float(scale[-1, 0]))
         enough = enough and bool((abs(polynomials[-count // 8 :]) <= 10.0 * allowed).all())
         polynomials[abs(polynomials) <= allowed] = 0.0

@@ -1,14 +1,16 @@
-//! What a picture of a turning engine is made of.
+//! What an engine is drawn from, and a picture of it turning computed of.
 
 use crankpin_core::Complex64;
+use crankpin_core::drawing::{self, Drawing};
 use crankpin_core::figures::{self, GROUPS};
 use crankpin_macros::guarded;
 use ndarray::Array3;
 use numpy::PyArray3;
 use pyo3::prelude::*;
+use serde_json::json;
 
 use crate::array::writeable;
-use crate::convert::{OrderNumber, Parts, cylinder, numbers, orders};
+use crate::convert::{OrRaise, OrderNumber, Parts, cylinder, numbers, orders};
 use crate::engine::Engine;
 use crate::interrupt;
 
@@ -65,7 +67,7 @@ pub fn swept(
 #[guarded]
 #[pyfunction]
 pub fn drawn_rod(parts: Parts) -> PyResult<f64> {
-    Ok(figures::drawn_rod(&cylinder(parts)?))
+    Ok(drawing::drawn_rod(&cylinder(parts)?))
 }
 
 /// What the cylinders make one by one: force, moment, torque of inertia and of gas.
@@ -77,9 +79,26 @@ pub fn sizes(engine: &Bound<'_, Engine>) -> PyResult<[f64; 4]> {
     Ok([found.force, found.moment, found.torque, found.gas])
 }
 
-/// Mass and moment of inertia of a bar that stands for the block.
+/// What an engine is drawn from, its block and the pressure in its cylinders, as JSON.
 #[guarded]
 #[pyfunction]
-pub fn block(engine: &Engine) -> Option<(f64, f64)> {
-    figures::block(&engine.0).map(|bar| (bar.mass, bar.inertia))
+pub fn drawn(engine: &Bound<'_, Engine>) -> PyResult<[String; 3]> {
+    let core = &engine.get().0;
+    let drawn = interrupt::run(engine.py(), |cancel| Drawing::new(core, cancel))?;
+    Ok([json!(drawn), json!(drawing::block(core)), json!(drawing::gas(core))]
+        .map(|v| v.to_string()))
+}
+
+/// Cylinders that differ among those with pressure, each by the index of its first cylinder.
+#[guarded]
+#[pyfunction]
+pub fn fired_kinds(engine: &Engine) -> Vec<usize> {
+    drawing::fired_kinds(&engine.0)
+}
+
+/// Orders whose phasors are listed: of pistons and of shafts.
+#[guarded]
+#[pyfunction]
+pub fn listed_orders(engine: &Engine) -> PyResult<Vec<OrderNumber>> {
+    Ok(numbers(&figures::listed_orders(&engine.0).or_raise()?))
 }

@@ -36,7 +36,7 @@ static ALLOCATOR: reserve::Allocator = reserve::Allocator;
 // Classes are frozen, and what threads share is behind a lock: packaging/README.md has how that was tested.
 #[pymodule(gil_used = false)]
 mod _core {
-    use crankpin_core::{crank_angles, engine::file, limits, pressure};
+    use crankpin_core::{crank_angles, engine::file, figures, limits, pressure};
     use pyo3::prelude::*;
 
     #[pymodule_export]
@@ -52,7 +52,10 @@ mod _core {
         design::Objectives,
         engine::Engine,
         explain::{Explanation, dead_text, explain, gas_text},
-        figures::{block, drawn_rod, group_terms, orders_that_count, sizes, swept},
+        figures::{
+            drawn, drawn_rod, fired_kinds, group_terms, listed_orders, orders_that_count, sizes,
+            swept,
+        },
         firing::{Firing, check_timing, inline_throws, vee_throws},
         flywheel::{CycleGrid, mean_inertias},
         matching::matched,
@@ -80,6 +83,8 @@ mod _core {
         crate::array::load(module.py())?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;
         module.add("ATMOSPHERE", pressure::ATMOSPHERE)?;
+        module.add("HIGHEST_ORDER", limits::HIGHEST_ORDER)?;
+        module.add("HIGHEST_LISTED", figures::HIGHEST_LISTED)?;
         module.add("FEWEST_POINTS", crank_angles::FEWEST_POINTS)?;
         module.add("MOST_CYLINDERS", limits::MOST_CYLINDERS)?;
         module.add("LONGEST_AXIS", limits::LONGEST_AXIS)?;

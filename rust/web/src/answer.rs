@@ -11,7 +11,12 @@ impl Columns {
     /// Where a column is, for `site/core.mjs`, which has a `Float64Array` in its place.
     pub fn column(&mut self, values: impl IntoIterator<Item = f64>) -> Value {
         let start = self.0.len();
-        self.0.extend(values);
+        if start == 0 {
+            // A vector stays where it is.
+            self.0 = values.into_iter().collect();
+        } else {
+            self.0.extend(values);
+        }
         json!({ "column": [start, self.0.len() - start] })
     }
 }

@@ -12,7 +12,7 @@ use crate::answer::{Columns, degrees, order};
 use crate::arguments::Arguments;
 
 /// Highest order of what vanishes, as the library's.
-const HIGHEST_ORDER: u32 = 12;
+const HIGHEST_VANISHING: u32 = 12;
 
 /// An engine's file as this version writes it, and what the engine is.
 pub fn read(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
@@ -72,7 +72,7 @@ pub fn vanishing(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
     let engine = arguments.engine()?;
     let orders = match arguments.orders()? {
         Some(orders) => orders,
-        None => (1..=HIGHEST_ORDER).map(Order::whole).collect::<Result<_>>()?,
+        None => (1..=HIGHEST_VANISHING).map(Order::whole).collect::<Result<_>>()?,
     };
     let reference = arguments.optional("reference_z")?;
     let found = of(&engine, &orders, reference, None, &Cancel::new())?;

@@ -2,16 +2,16 @@
 
 use std::sync::Arc;
 
+use crankpin_core::drawing::{Drawing, block, fired_kinds, gas};
 use crankpin_core::figures::{
-    GROUPS, GroupTerms, Parts, Sizes, block, drawn_rod, exhaust_opens_deg, fired_kinds,
-    group_terms, listed_orders, mean_inertia, orders, pressures, sizes, swept,
+    GROUPS, GroupTerms, Parts, Sizes, group_terms, listed_orders, mean_inertia, orders, sizes,
+    swept,
 };
-use crankpin_core::{Cancel, Complex64, Engine, Order, Result, Unbalance};
+use crankpin_core::{Cancel, Complex64, Engine, Order, Result};
 use serde_json::{Value, json};
 
-use crate::answer::{Columns, degrees, orders as numbers};
+use crate::answer::{Columns, orders as numbers};
 use crate::arguments::Arguments;
-use crate::engine::firing_of;
 use crate::words::{sentences_of, shown};
 
 /// An engine's figures, what its reader may set, and the terms of each order; the rod ratio is its own.
@@ -20,91 +20,22 @@ pub fn figures(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
     let rpm: f64 = arguments.required("rpm")?;
     crankpin_core::balance::angular_speed(rpm)?;
     let inertia: Option<f64> = arguments.optional("inertia")?;
-    let cancel = Cancel::new();
-    let firing = if engine.firing_order().is_empty() {
-        None
-    } else {
-        let angles = degrees(firing_of(&engine)?.angles()).into_iter().zip(engine.details());
-        Some(angles.map(|(angle, of)| (!of.dummy).then_some(angle)).collect::<Vec<_>>())
-    };
-    let cranks = engine.cranks().iter();
-    let cranks = cranks.map(|c| json!({ "x": c.axis[0], "y": c.axis[1], "ratio": c.ratio }));
-    let shafts = engine.shafts().iter().map(|shaft| {
-        let [x, y] = shaft.axis;
-        json!({ "ratio": shaft.ratio, "x": x, "y": y, "unbalances": unbalances(&shaft.unbalances) })
-    });
     let loads = engine.loads_counted();
     let loads: String =
         loads.chars().take(1).flat_map(char::to_uppercase).chain(loads.chars().skip(1)).collect();
     let sentences = sentences_of(&engine, (rpm > 0.0).then_some(rpm), false, &shown(arguments)?)?;
-    let block = block(&engine).map(|bar| json!({ "mass": bar.mass, "inertia": bar.inertia }));
-    Ok(json!({
-        "name": engine.shown_name(), "strokes": engine.strokes().number(), "rpm": rpm,
-        "reference_z": engine.reference(None)?, "bank_angle_deg": engine.changeable_bank_angle(),
-        "rod_ratio": null, "cranks": cranks.collect::<Vec<_>>(), "cylinders": cylinders(&engine),
-        "counterweights": unbalances(engine.counterweights()), "shafts": shafts.collect::<Vec<_>>(),
-        "firing_deg": firing, "exhaust_opens_deg": exhaust_opens_deg(engine.strokes()),
-        "terms": terms(&engine, &cancel)?, "block": block, "gas": gas(&engine), "loads": loads,
-        "flywheel": inertia, "compact": false, "sentences": sentences,
-    }))
-}
-
-fn unbalances(list: &[Unbalance]) -> Vec<Value> {
-    let each = list.iter();
-    each.map(
-        |u| json!({ "amount": u.amount, "angle_deg": u.angle.degrees(), "z": u.z, "pin": u.pin }),
-    )
-    .collect()
-}
-
-fn cylinders(engine: &Engine) -> Vec<Value> {
-    let kinds = fired_kinds(engine);
-    let cycles = cycles(engine);
-    let right = engine.banks().map_or(0, |banks| banks.right);
-    let entry = |i: usize| {
-        let (station, crank) = (&engine.stations()[i], engine.crank_of(i));
-        let bank = engine.bank_of(i);
-        let mut entry = json!({
-            "number": i + 1, "bank": if right == 1 { 1 - bank } else { bank }, "crank": crank,
-            "crank_radius": station.cylinder.crank_radius(),
-            "rod_length": drawn_rod(&station.cylinder), "yoke": station.cylinder.has_infinite_rod(), "pin_offset": station.cylinder.pin_offset(),
-            "tdc_deg": station.tdc.degrees(), "bank_deg": station.bank.degrees(), "z": station.z,
-            "cycle": null,
-        });
-        if let Some((cycle, _)) = engine.pressure_of(i) {
-            let is_it = |known: &usize| {
-                let (known, of) =
-                    (*known, |k: usize| (engine.stations()[k].cylinder, engine.details()[k]));
-                of(known) == of(i)
-            };
-            entry["cycle"] = json!(cycles.iter().position(|known| *known == cycle));
-            entry["pressure_deg"] = json!(engine.firing_phase(i).degrees());
-            entry["swept"] = json!(kinds.iter().position(is_it));
-            // On a crank that turns the other way the torque on the block is the mirror's.
-            entry["roll"] = json!(engine.cranks()[crank].ratio.signum());
-        }
-        entry
-    };
-    (0..engine.stations().len()).map(entry).collect()
-}
-
-/// Cycles that differ, in the order in which cylinders have them.
-fn cycles(engine: &Engine) -> Vec<Arc<crankpin_core::Cycle>> {
-    let mut cycles = Vec::new();
-    for i in 0..engine.stations().len() {
-        if let Some((cycle, _)) = engine.pressure_of(i)
-            && !cycles.contains(&cycle)
-        {
-            cycles.push(cycle);
-        }
+    let cancel = Cancel::new();
+    let engine = Arc::new(engine);
+    let mut figures = json!(Drawing::new(&engine, &cancel)?);
+    let own = json!({
+        "rpm": rpm, "rod_ratio": null, "terms": terms(&engine, &cancel)?, "block": block(&engine),
+        "gas": gas(&engine), "loads": loads, "flywheel": inertia, "compact": false,
+        "sentences": sentences,
+    });
+    if let (Value::Object(figures), Value::Object(own)) = (&mut figures, own) {
+        figures.extend(own);
     }
-    cycles
-}
-
-fn gas(engine: &Engine) -> Option<Value> {
-    let crankcase = engine.gas()?.crankcase;
-    let cycles: Vec<_> = cycles(engine).iter().map(|cycle| pressures(cycle)).collect();
-    Some(json!({ "crankcase": crankcase, "cycles": cycles }))
+    Ok(figures)
 }
 
 /// Rows as those of the library: order, power and polynomial of the rod ratio, values of groups, and the

@@ -150,6 +150,21 @@ def test_superposition_limits_and_balance_of_random_powertrains(seed: int) -> No
     assert (left >= least - 1e-9).all()
 
 
+def test_further_actuators_act_beside_those_before() -> None:
+    first = one_channel([1500.0, 3000.0], force=50.0)
+    point = (0.1, 0.1, 0.1)
+    second = first.response.cancel(SIDE.replace(stroke=None), [point])
+    at = [r.at(point).velocity.xyz for r in (first.response, second.response)]
+    left, before = (np.linalg.norm(each, axis=-1) for each in reversed(at))
+    assert left / before == pytest.approx(second.residual, rel=1e-9)
+    assert second.response.actuators == (*first.actuators, *second.actuators)
+    # Forces superpose: what each adds to the motion without actuators.
+    alone = (one._driven(one.actuators, one.forces, engine_runs=False) for one in (first, second))
+    summed = first.before.motion + sum(each.motion for each in alone)
+    size = 1e-12 * np.abs(summed).max()
+    assert second.response.motion == pytest.approx(summed, rel=0, abs=size)
+
+
 def test_limits_are_those_of_motor_and_stroke() -> None:
     free = one_channel()
     force = abs(free.forces[0, 0])

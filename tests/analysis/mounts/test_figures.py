@@ -138,6 +138,20 @@ def test_an_inline_four_at_3000_rpm() -> None:
     assert r[2].power_lost.sum() == near(83.048425e-3)
 
 
+def test_roll_of_a_half_order_at_idle() -> None:
+    """60 N·m about z at order ½ and 800 rpm, as a pair of forces."""
+    pair = tuple(
+        cp.Actuator(name, (CG[0] + x, CG[1], CG[2]), (0, 1, 0))
+        for name, x in (("up", 0.5), ("down", -0.5))
+    )
+    request = PLAIN.response(800, orders=[0.5]).request
+    forces = np.array([[[60.0, -60.0]]], complex)
+    speeds = np.array([800.0])
+    r = cp.types.DrivenResponse(PLAIN, speeds, request, pair, forces, engine_runs=False)
+    assert r.load[0, 0].tolist() == [0, 0, 0, 0, 0, 60]
+    assert np.degrees(abs(r.motion[0, 0, 5])) == near(0.095812975)
+
+
 def test_soft_mounts_leave_a_free_body() -> None:
     soft = [mount.replace(stiffness=1e3) for mount in four_mounts()]
     r = PLAIN.replace(mounts=soft).response(3000, orders=[2])

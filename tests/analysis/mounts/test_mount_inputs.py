@@ -89,7 +89,21 @@ def test_impossible_tensors_are_warned_of_with_their_figures() -> None:
     ("make", "said"),
     [
         (lambda: cp.Mount("a", (0, 0, 0), 200), "stiffness of mount 'a' = 200 N/m: .*N/mm"),
+        (
+            lambda: cp.Mount("a", (0, 0, 0), 2e5, dynamic_stiffness=240),
+            "dynamic_stiffness of mount 'a' = 240 N/m: .*N/mm",
+        ),
+        (
+            lambda: cp.Mount("a", (0, 0, 0), 2e5, table=([5, 50], np.full((2, 3), 240 + 7j))),
+            "table of mount 'a' = 240.* N/m: .*N/mm",
+        ),
         (lambda: cp.Mount("a", (280, 0, 0), 2e5), "at of mount 'a' .*millimetres"),
+        (lambda: cp.Actuator("a", (280, 0, 0), (0, 1, 0)), "at = .*millimetres"),
+        (lambda: P.response(800, orders=[2]).at((0, 300, 0)), "point = .*millimetres"),
+        (
+            lambda: P.designs([800], {"left": {"at": [(280, 0, 0), (-300, 0, 0)]}}, orders=[2]),
+            r"vary\['left'\]\['at'\] = \(300.*millimetres",
+        ),
         (lambda: cp.RigidBody(100, (0, 60, 0), (7, 8, 5)), "cg = .*millimetres"),
         (lambda: cp.RigidBody(100, (0, 0, 0), (7e6, 8e6, 5e6)), "radii of gyration"),
         (lambda: cp.RigidBody(1e5, (0, 0, 0), (7e-3, 8e-3, 5e-3)), "radii of gyration"),
@@ -98,6 +112,17 @@ def test_impossible_tensors_are_warned_of_with_their_figures() -> None:
 def test_other_units_are_warned_of(make: Callable[[], object], said: str) -> None:
     with pytest.warns(UserWarning, match=said) as caught:
         make()
+    assert len(caught) == 1
+    assert caught[0].filename == __file__
+
+
+@pytest.mark.parametrize("mounts", [MOUNTS[:2], [MOUNTS[0], MOUNTS[2].replace(at=(0, 0, 0))]])
+def test_two_mounts_are_warned_of_where_they_are_asked_to_resist(mounts: list[cp.Mount]) -> None:
+    """A hydraulic mount or a table has modes at a frequency alone: that of the lowest order."""
+    p = P.replace(mounts=mounts)
+    said = f"mounts = {mounts[0].name}, {mounts[1].name}: rotation about the line .* is free"
+    with pytest.warns(UserWarning, match=f"{said}, .*add a mount") as caught:
+        p.response([500.0, 800.0], orders=[1])
     assert len(caught) == 1
     assert caught[0].filename == __file__
 

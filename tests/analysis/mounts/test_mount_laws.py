@@ -91,6 +91,8 @@ def test_points_orders_and_speeds_agree_however_they_are_read(seed: int) -> None
     assert point.velocity.total.rms_xyz == pytest.approx(rms)
     other = one[3].body_force
     assert np.array_equal(other.xyz, p.response(float(rpm[2]), orders=[3]).body_force.xyz[0])
+    assert one.total == one["all"]
+    assert one.total.body_force.peak == one.body_force.total.peak
     worst = r.worst()
     peaks_of_mounts = [vector.peak.max() for vector in r.mount_force.values()]
     assert worst.force == max(peaks_of_mounts)
@@ -187,3 +189,35 @@ def test_power_is_a_frame_whose_columns_balance() -> None:
     assert "passed on" not in frame
     raft = cp.Subframe(p.body, p.mounts)
     assert "passed on" in p.on(raft).response(rpm[0], orders=[2]).frames["power"]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_slow_motion_is_that_at_rest(seed: int) -> None:
+    """Of gas pressure, whose torque does not fall with speed, on mounts with viscous damping."""
+    p, _ = random_case(seed)
+    cylinder = cp.Cylinder(0.043, 0.145, 0.45, bore=0.086)
+    fired = cp.Engine.preset("i4", cylinder=cylinder).with_cycle(cp.Cycle.example())
+    p = p.replace(engine=fired, mounts=[each.replace(loss_factor=0.0) for each in p.mounts])
+    r = p.response(1e-6, orders=[2, 4])
+    state = p.static(torque=-1.0)
+    unit = np.append(state.wind_up, np.radians(state.wind_up_deg))
+    # ωc/k: 4e-7 rad/s, 500 N·s/m and 5e4 N/m.
+    for load, motion in zip(r.load, r.motion, strict=True):
+        size = np.abs(load[5] * unit).max()
+        assert motion == pytest.approx(load[5] * unit, rel=0, abs=1e-7 * size)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_fast_motion_is_that_of_a_free_body(seed: int) -> None:
+    p, _ = random_case(seed)
+    soft = [each.replace(stiffness=1e3, damping=0.0) for each in p.mounts]
+    p = p.replace(mounts=soft)
+    at, along = np.random.default_rng(seed).normal(size=(2, 3))
+    rpm = np.array([6000.0])
+    moved = moved_by_force(p, rpm, 0.3 * at, along)
+    mass = p.body.mass * np.eye(6)
+    mass[3:, 3:] = p.body.inertia
+    free = -np.linalg.solve(mass, moved.load[0, 0]) / (2.0 * np.pi * 100.0) ** 2
+    # Stiffness over inertia at 628 rad/s: six mounts of 1e3 N/m, half a metre off, 3 kg·m².
+    assert moved.motion[0, 0] == pytest.approx(free, rel=0, abs=1e-2 * np.abs(free).max())
+    assert np.abs(moved.motion[0, 0] - free).max() > 0.0

@@ -205,7 +205,7 @@ def _ratios(ratios: object) -> list[int]:
     if not 1 <= len(numbers) <= MOST_SHAFTS:
         raise inputs.faulty("ratios", f"has {len(numbers)} shafts", f"give 1 to {MOST_SHAFTS}")
     for each in numbers:
-        if each == 0 or abs(each) > inputs.HIGHEST_ORDER:
+        if each == 0 or abs(each) > _core.HIGHEST_ORDER:
             raise inputs.rejected("ratios", ratios, hint)
     return numbers
 

@@ -129,6 +129,9 @@ class Cancellation(Tabled):
         self, actuators: tuple[Actuator, ...], forces: NDArray[Any], *, engine_runs: bool = True
     ) -> DrivenResponse:
         before = self.before
+        if engine_runs and isinstance(before, DrivenResponse):
+            actuators = (*before.actuators, *actuators)
+            forces = np.concatenate([before.forces, forces], axis=-1)
         return DrivenResponse(
             before.powertrain, before.rpm, before.request, actuators, forces, engine_runs
         )

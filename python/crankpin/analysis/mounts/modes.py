@@ -273,21 +273,21 @@ class RollAxes(Tabled):
     def plot(
         self, ax: Axes | None = None, *, figure: FigureBase | None = None, **style: object
     ) -> Any:  # noqa: ANN401 - axes, or an array of them
-        """Draw both axes with mounts, their polygon and the CG, from the side and the flywheel.
+        """Draw both axes with mounts, their polygon and the CG, from three sides.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
             Axes to draw the view from the side on.
         figure : matplotlib.figure.Figure or SubFigure, optional
-            Figure to draw both views in; by default a new one.
+            Figure to draw the views in; by default a new one.
         **style : dict, optional
             Properties of the lines of both axes.
 
         Returns
         -------
         matplotlib.axes.Axes or ndarray of Axes
-            The axes given, or both panels.
+            The axes given, or the panels.
 
         Raises
         ------

@@ -9,8 +9,8 @@ from crankpin import _core
 from crankpin._support import files, inputs
 from crankpin._support.record import Input
 from crankpin._support.warnings import suppressed
+from crankpin.analysis.mounts import active, feedback, static_state
 from crankpin.analysis.mounts import design_responses as many
-from crankpin.analysis.mounts import feedback, static_state
 from crankpin.analysis.mounts import modes as natural
 from crankpin.analysis.mounts import response as forced
 from crankpin.analysis.mounts.robustness import MountRobustness
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from crankpin._support.inputs import Orders
+    from crankpin.analysis.mounts.active import Cancellation
     from crankpin.analysis.mounts.design_responses import DesignResponses
     from crankpin.analysis.mounts.feedback import VelocityFeedback
     from crankpin.analysis.mounts.modes import MountModes, RollAxes
@@ -265,9 +266,18 @@ class Powertrain(Input):
         Warns
         -----
         UserWarning
-            If pistons are faster than in any engine.
+            If pistons are faster than in any engine, or the mounts leave a motion free.
         """
         return forced.response(self, rpm, orders=orders, rtol=rtol)
+
+    def _cancelled(
+        self,
+        response: MountResponse,
+        *given: Any,  # noqa: ANN401 - as MountResponse.cancel documents them
+        **options: Any,  # noqa: ANN401
+    ) -> Cancellation:
+        """Return a cancellation, for responses, which it is made of."""
+        return active.cancel(response, *given, **options)
 
     def velocity_feedback(
         self, actuator: Actuator, *, gain: float | None = None
@@ -344,7 +354,8 @@ class Powertrain(Input):
         Warns
         -----
         UserWarning
-            If pistons are faster than in any engine, or a stiffness seems to be in N/mm.
+            If pistons are faster than in any engine, or a stiffness seems to be in N/mm,
+            or a place in millimetres.
 
         Examples
         --------
@@ -646,8 +657,8 @@ class Powertrain(Input):
         mass, cg, inertia = core.body
         body = RigidBody(mass, cg, inertia, products="tensor")
         mounts = [Mount._of(figures) for figures in core.mounts]
-        for name, at, _, stiffness, *_ in core.mounts:
-            checks.mount(name, at, stiffness)
+        for mount in mounts:
+            checks.mount(mount.name, mount.at, **mount._stiffnesses)
         engine = Engine._read(core_engine)
         with suppressed():
             return cls(engine, body, mounts, supports.of_core(core.support))

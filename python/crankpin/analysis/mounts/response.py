@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 import numpy as np
 
 from crankpin import _core
+from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.record import AbsentError, changed, read_only
 from crankpin._support.tables import Column, Item, Table
+from crankpin._support.warnings import warn
 from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.mounts.vectors import Source, VectorQuantity, of_order
 from crankpin.analysis.quantity import ALL, Key, Keyed, order_key
@@ -55,7 +57,28 @@ def response(
     given: Any = inputs.copied(inputs.vector("rpm", speeds)) if speeds.ndim else float(speeds)
     found = MountResponse(powertrain, given, request)
     inputs.warn_of_units(mean_piston_speed(powertrain.engine, float(np.max(speeds))))
+    _warn_of_free_motion(found)
     return found
+
+
+def _warn_of_free_motion(found: MountResponse) -> None:
+    """Warn of a motion that no mount resists."""
+    powertrain = found.powertrain
+    turns = np.multiply.outer(np.asarray(found.rpm), np.array(found.orders, dtype=float)) / 60.0
+    if not powertrain._varies:
+        free = powertrain.modes().free
+    elif (turns > 0.0).any():
+        try:
+            free = powertrain.modes(float(turns[turns > 0.0].min())).free
+        except InputError:  # where a hydraulic mount has no modes
+            return
+    else:
+        return
+    if free:
+        warn(
+            f"mounts = {', '.join(powertrain.names)}: {free[0]} is free, and its motion is that of "
+            "a body without mounts; add a mount that resists it, or stiffness"
+        )
 
 
 class PointMotion(Tabled):
@@ -225,7 +248,9 @@ class MountQuantities:
             return PointMotion(result, inputs.one_of("point", point, names), SUPPORT, order)
         if on == SUPPORT:
             _require_subframe(powertrain, "on")
-        return PointMotion(result, _vector("point", point), on, order)
+        place = _vector("point", point)
+        checks.point("point", place)
+        return PointMotion(result, place, on, order)
 
 
 class OrderResponse(MountQuantities, Tabled):
@@ -431,6 +456,11 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         """Return one order, or with ``"all"`` all of ``orders`` together."""
         return OrderResponse(self, order_key(order))
 
+    @property
+    def total(self) -> OrderResponse:
+        """All of ``orders`` together."""
+        return self[ALL]
+
     def about(self, point: ArrayLike | None = None, *, z: float | None = None) -> Self:
         """Return the same response with moments of loads about another point than the CG.
 
@@ -626,10 +656,10 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         >>> c.response[2].body_force.peak < c.before[2].body_force.peak
         True
         """
-        # Here, because what it returns is made of responses.
-        from crankpin.analysis.mounts import active  # noqa: PLC0415
-
-        return active.cancel(self, actuators, at, orders=orders, watch=watch, effort=effort)
+        # By way of the powertrain: what it returns is made of responses.
+        return self.powertrain._cancelled(
+            self, actuators, at, orders=orders, watch=watch, effort=effort
+        )
 
     def worst(self, quantity: Literal["mount_force", "body_force"] = "mount_force") -> WorstForce:
         """Return the largest force of one order: where, at which speed, near to which mode.

@@ -83,8 +83,7 @@ class GasMap(Record):
     @cached_property
     def _cycles(self) -> list[list[_core.Cycle]]:
         """Cycle of each map that differs, load by load of one speed after the other."""
-        shape = np.ndindex(len(self.first.rpm), len(self.first.load))
-        return [[each.cycles[k][j]._core for each in self._distinct] for k, j in shape]
+        return [list(cores) for cores in zip(*(m._cores for m in self._distinct), strict=True)]
 
     def fired(self, engines: Sequence[Engine]) -> list[_core.Engine]:
         """Return each engine with the cycles of the lowest speed and load."""

@@ -50,6 +50,13 @@ export function place(element, [x, y]) {
   element.setAttribute("y", y.toFixed(2));
 }
 
+/** Move an element to a place in pixels, turned by a small angle in radians; it is not laid out anew. */
+export function translate(element, [x, y], turn = 0) {
+  const [by, at] = [turn.toFixed(5), `${x.toFixed(2)} ${y.toFixed(2)}`];
+  const to = turn ? `matrix(1 ${-by} ${by} 1 ${at})` : `translate(${at})`;
+  if (element.getAttribute("transform") !== to) element.setAttribute("transform", to);
+}
+
 /** Put a circle at a place in pixels. */
 export function centre(circle, [x, y]) {
   circle.setAttribute("cx", x.toFixed(2));

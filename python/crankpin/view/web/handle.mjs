@@ -1,8 +1,8 @@
 // What the cross-section has besides the engine: numbers of pins and bores, and the crank as a handle.
 
 import { DEGREE, reduced } from "./complex.mjs";
-import { centre, dragged, fixed, place, svg } from "./dom.mjs";
-import { boreEnds } from "./scene.mjs";
+import { centre, dragged, fixed, place, svg, translate } from "./dom.mjs";
+import { boreEnds, pinOf } from "./scene.mjs";
 
 const PIN_NUMBER = 13; // pixels beyond the pin's circle
 const BORE_NUMBER = 9; // pixels beyond the head
@@ -64,7 +64,7 @@ export class Handle {
       const [x, y] = [cylinders[first].crankpin[0] - a, cylinders[first].crankpin[1] - b];
       const length = Math.hypot(x, y);
       const reach = length * projection.scale + PIN_NUMBER + level * LINE;
-      place(text, [cx + (reach * x) / length, cy - (reach * y) / length + 4]);
+      translate(text, [cx + (reach * x) / length, cy - (reach * y) / length + 4]);
     }
   }
 
@@ -94,8 +94,7 @@ export class Handle {
 
 /** Numbers of the cylinders at each crankpin, further out beside a close one; none for one pin. */
 function pinNumbers({ cylinders }) {
-  const groups = grouped(cylinders, ({ pin, crank, crank_radius: r }) =>
-    [crank, ...pin.map((part) => (part * r).toFixed(9))].join(" "));
+  const groups = grouped(cylinders, pinOf);
   if (groups.length === 1) return [];
   const around = ([{ crank, pin_deg: angle }]) => 1e3 * crank + reduced(angle);
   groups.sort((a, b) => around(a) - around(b));

@@ -1,7 +1,7 @@
 // The engine drawn in a projection, from its geometry: bores, pistons, rods, crank, weights, shafts.
 
 import { add, multiply, scale, unit } from "./complex.mjs";
-import { fixed, path, place, svg } from "./dom.mjs";
+import { fixed, path, place, svg, translate } from "./dom.mjs";
 import { extremeHeights } from "./places.mjs";
 import { Projection, hull } from "./projection.mjs";
 import { STRINGS } from "./strings.mjs";
@@ -204,16 +204,21 @@ export class Scene {
   throw(k) {
     const bar = new Bar("throw");
     let axis;
+    let drawn;
     let z;
     return {
       kind: "throw",
       element: bar.element,
       layout: ({ cylinders }) => {
         ({ axis, z } = cylinders[k]);
+        // Those that share a crankpin have one throw.
+        drawn = cylinders.findIndex((each) => each.z === z && pinOf(each) === pinOf(cylinders[k])) === k;
+        bar.element.toggleAttribute("hidden", !drawn);
         bar.width = 0.46 * cylinders[k].crank_radius * this.projection.scale;
         return this.projection.depth([...axis, z]);
       },
       pose: ({ cylinders }, _strokes, motion) => {
+        if (!drawn) return;
         const { crankpin } = cylinders[k];
         const half = this.dimensions.halfThrow;
         bar.draw([
@@ -292,30 +297,28 @@ export class Scene {
   }
 }
 
-/** A round bar along points, outlined. */
+/** A round bar along points, outlined. Points are no properties of style, as paths are: none is found anew in each frame. */
 class Bar {
   constructor(name) {
-    this.casing = svg("path", { class: "casing" });
-    this.core = svg("path", { class: "core" });
-    this.element = svg("g", { class: name }, this.casing, this.core);
+    this.lines = ["casing", "core"].map((line) => svg("polyline", { class: line }));
+    this.element = svg("g", { class: name }, ...this.lines);
   }
 
   set width(pixels) {
     const width = Math.max(pixels, 2);
-    if (width === this.drawnWidth) return;
-    this.drawnWidth = width;
-    this.casing.setAttribute("stroke-width", (width + 2).toFixed(2));
-    this.core.setAttribute("stroke-width", width.toFixed(2));
+    this.lines.forEach((line, k) => line.setAttribute("stroke-width", (width + 2 - 2 * k).toFixed(2)));
   }
 
   draw(points) {
-    const d = path(points);
-    if (d === this.drawn) return;
-    this.drawn = d;
-    this.casing.setAttribute("d", d);
-    this.core.setAttribute("d", d);
+    const drawn = points.flat().map((part) => part.toFixed(2)).join(" ");
+    if (drawn === this.drawn) return;
+    this.drawn = drawn;
+    for (const line of this.lines) line.setAttribute("points", drawn);
   }
 }
+
+/** What cylinders have in common whose crankpins look like one from the front. */
+export const pinOf = ({ pin, crank, crank_radius: r }) => [crank, ...pin.map((part) => (part * r).toFixed(9))].join(" ");
 
 function dimensions(engine) {
   const { cranks, cylinders, weights } = engine;
@@ -369,12 +372,4 @@ function extremes(engine, { radius, ends, stretch }) {
     }
   }
   return points;
-}
-
-/** Put an element at a place in pixels, turned by a small angle in radians. */
-function translate(element, [x, y], turn) {
-  const place = `${x.toFixed(2)} ${y.toFixed(2)}`;
-  const by = turn.toFixed(5);
-  element.setAttribute("transform", turn
-    ? `matrix(1 ${-by} ${by} 1 ${place})` : `translate(${place})`);
 }

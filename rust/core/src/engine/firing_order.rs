@@ -94,8 +94,13 @@ impl FiringOrder {
         for group in &mut groups {
             group.sort_unstable();
         }
-        let together = groups.iter().flat_map(|group| (0..group.len()).map(|k| k > 0));
-        (groups.iter().flatten().map(|number| number - 1).collect(), together.collect())
+        let order = Self(groups);
+        (order.cylinders().iter().map(|number| number - 1).collect(), order.together())
+    }
+
+    /// Whether each cylinder, in the order in which they fire, fires together with the one before it.
+    pub(crate) fn together(&self) -> Vec<bool> {
+        self.0.iter().flat_map(|group| (0..group.len()).map(|k| k > 0)).collect()
     }
 }
 
@@ -103,7 +108,8 @@ impl FromStr for FiringOrder {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self> {
-        let parts = text.split(BETWEEN).filter(|part| !part.is_empty());
+        let joined = text.split('+').map(str::trim).collect::<Vec<_>>().join("+");
+        let parts = joined.split(BETWEEN).filter(|part| !part.is_empty());
         let groups: std::result::Result<Vec<Vec<usize>>, _> =
             parts.map(|part| part.split('+').map(str::parse).collect()).collect();
         let mut hint = "give cylinder numbers joined by '-', such as 1-3-4-2, those that fire \

@@ -278,34 +278,45 @@ pub(crate) struct Seat {
 }
 
 impl FiringOrder {
-    /// Crank angles after the first firing at which the first, second … fire.
+    /// Crank angles after the first firing at which the first, second … cylinder fires.
     fn times(&self, rule: &FiringRule) -> Result<Vec<Angle>> {
         self.check_complete()?;
-        if self.has_groups() {
-            let hint = "give an order without '+', or Engine.from_lists all top dead centres: pins \
-                        are computed of cylinders that fire one after the other";
-            return Err(Error::value("firing_order", self, hint));
-        }
-        let count = self.cylinders().len();
+        let together = self.together();
+        let count = together.len();
         let (strokes, intervals) = match rule {
             FiringRule::Even(strokes) => {
-                return Ok((0..count)
-                    .map(|rank| part(rank, 360 * strokes.turns(), count))
-                    .collect());
+                let firings = together.iter().filter(|with_former| !**with_former).count();
+                let ranks = together.iter().scan(0, |begun, with_former| {
+                    *begun += usize::from(!with_former);
+                    Some(*begun - 1)
+                });
+                let cycle = 360 * strokes.turns();
+                return Ok(ranks.map(|rank| part(rank, cycle, firings)).collect());
             }
             FiringRule::Intervals(strokes, intervals) => (*strokes, intervals),
+            FiringRule::Ijesc if self.has_groups() => {
+                let hint = "the rule \"ijesc\" knows no cylinders that fire together; give an order \
+                            without '+', or leave the rule out";
+                return Err(Error::value("firing_order", self, hint));
+            }
             // One bank has the same crank by either rule.
             FiringRule::Ijesc => return self.times(&FiringRule::Even(Strokes::Four)),
         };
         limits::same_length("intervals_deg", intervals.len(), "firing_order", count, "cylinder")?;
         let mut times = vec![Angle::ZERO];
         for (k, &interval) in intervals.iter().enumerate() {
-            if interval.degrees() <= 0.0 {
-                let hint = "give degrees above 0, or Engine.from_lists all top dead centres: \
-                            cylinders of an order fire one after the other";
-                return Err(Error::value(format!("intervals_deg[{k}]"), interval, hint));
-            }
-            times.push(times[k] + interval);
+            let joined = together.get(k + 1) == Some(&true);
+            let hint = match interval.degrees() {
+                degrees if joined && degrees != 0.0 => "give 0 between cylinders joined by '+'",
+                degrees if !joined && degrees <= 0.0 => {
+                    "give degrees above 0, or join cylinders that fire together by '+'"
+                }
+                _ => {
+                    times.push(times[k] + interval);
+                    continue;
+                }
+            };
+            return Err(Error::value(format!("intervals_deg[{k}]"), interval, hint));
         }
         let (sum, cycle) = (times.pop().unwrap_or(Angle::ZERO), strokes.cycle());
         // Intervals that are no parts of a turn may have been rounded, once each.
@@ -543,6 +554,40 @@ mod tests {
         }
         let negative = Inline { rotating_mass: vec![-1.0], ..layout };
         assert!(negative.engine(cylinder()).is_err());
+    }
+
+    #[test]
+    fn cylinders_that_fire_together_are_at_the_top_together() {
+        let angle = |degrees| Angle::from_degrees(degrees).unwrap();
+        let throws = |order: &str, rule: &FiringRule| {
+            let throws = order.parse::<FiringOrder>().unwrap().throws(rule)?;
+            Ok(throws.iter().map(|each| each.reduced().degrees()).collect::<Vec<_>>())
+        };
+        let given = |intervals: &[f64]| {
+            FiringRule::Intervals(
+                Strokes::Four,
+                intervals.iter().map(|&each| angle(each)).collect(),
+            )
+        };
+        // Two firings in a cycle are a turn apart in a four-stroke, half a turn in a two-stroke.
+        assert_eq!(throws("1+4-2+3", &FiringRule::Even(Strokes::Four)), Ok(vec![0.0; 4]));
+        let expected = Ok(vec![0.0, 180.0, 180.0, 0.0]);
+        assert_eq!(throws("1 + 4 - 2 + 3", &FiringRule::Even(Strokes::Two)), expected);
+        assert_eq!(throws("1+4-2+3", &given(&[0.0, 180.0, 0.0, 540.0])), expected);
+        assert_eq!(throws("2-1+3", &FiringRule::Even(Strokes::Two)), Ok(vec![180.0, 0.0, 180.0]));
+        let message = |intervals: &[f64]| {
+            let error: Error = throws("1+4-2+3", &given(intervals)).unwrap_err();
+            error.to_string()
+        };
+        assert!(message(&[180.0, 180.0, 180.0, 180.0]).contains("[0] = 180: give 0 between"));
+        assert!(message(&[0.0, 0.0, 0.0, 720.0]).contains("[1] = 0: give degrees above 0"));
+        assert!(message(&[0.0, 180.0, 0.0, 180.0]).contains("make them add up to 720"));
+        assert!(throws("1+4-2+3", &FiringRule::Ijesc).is_err());
+        // A flat twin whose pistons reach the top together has opposite pins.
+        let boxer = "1+2".parse::<FiringOrder>().unwrap();
+        let layout = vee(180.0, Numbering::Alternating, Side::Right);
+        let engine = boxer.vee(cylinder(), &FiringRule::Even(Strokes::Four), &layout).unwrap();
+        assert_eq!(pins(&engine), [0.0, 180.0]);
     }
 
     #[test]

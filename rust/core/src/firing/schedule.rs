@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::highest_points::{degrees, highest_after_tdc, highest_points, same};
 use crate::engine::{Engine, Station};
-use crate::layout::Strokes;
+use crate::layout::{MOST_ROUNDING, Strokes};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
 
@@ -171,6 +171,18 @@ impl Firing {
     #[must_use]
     pub fn even(&self) -> bool {
         self.unevenness == 0.0
+    }
+
+    /// How many cylinders fire at a time, where groups of one size fire at equal intervals: 1 for even
+    /// firing; none for uneven.
+    #[must_use]
+    pub fn evenly_at_a_time(&self) -> Option<usize> {
+        let gaps = (1..).zip(&self.intervals).filter(|(_, gap)| **gap != Angle::ZERO);
+        let (ends, gaps): (Vec<usize>, Vec<Angle>) = gaps.unzip();
+        let size = self.intervals.len() / ends.len().max(1);
+        let of_one_size = ends.iter().zip(1..).all(|(end, group)| *end == group * size);
+        let equal = gaps.iter().all(|gap| (*gap - gaps[0]).degrees().abs() <= MOST_ROUNDING);
+        (self.even() || of_one_size && equal).then_some(size)
     }
 
     /// Root mean square difference of the intervals from equal ones, degrees; 0 for even firing.

@@ -12,6 +12,8 @@ use crate::numbers::simd::{MultiplyAdd, ROUND, sin_cos_degrees, vectorised};
 
 /// Fewest points of a table over crank angle that is known to be one of a whole cycle.
 pub const FEWEST_POINTS: usize = 8;
+/// Angles whose cosines and sines are computed side by side.
+const SIDE_BY_SIDE: usize = 64;
 /// Difference from a whole period, as a part of it, up to which a grid is closed: angles may have been
 /// printed with few digits.
 const CLOSED: f64 = 2e-6;
@@ -65,24 +67,29 @@ impl CrankAngles {
     ) {
         let n = order.number();
         let reduced = self.reduced.get(range).unwrap_or_default();
-        let mut product = [0.0; 64];
-        let parts = reduced.chunks(64).zip(cos.chunks_mut(64)).zip(sin.chunks_mut(64));
+        let parts = reduced.chunks(SIDE_BY_SIDE).zip(cos.chunks_mut(SIDE_BY_SIDE));
+        let parts = parts.zip(sin.chunks_mut(SIDE_BY_SIDE));
         vectorised(
             #[inline(always)]
             || {
+                // Of a fixed length, so that loops are vectors where code is made for size too.
+                let [mut θ, mut product, mut x, mut y] = [[0.0; SIDE_BY_SIDE]; 4];
                 for ((reduced, cos), sin) in parts {
-                    for (product, θ) in product.iter_mut().zip(reduced) {
-                        *product = n * θ;
+                    let count = reduced.len();
+                    θ[..count].copy_from_slice(reduced);
+                    for i in 0..SIDE_BY_SIDE {
+                        product[i] = n * θ[i];
                     }
-                    sin_cos_degrees(&product[..reduced.len()], sin, cos);
+                    sin_cos_degrees(&product, &mut y, &mut x);
                     // nθ is the product and what its rounding took, at most 2.4e-10 degrees: 4e-12
                     // rad, whose square is nothing.
-                    let pairs = cos.iter_mut().zip(sin).zip(&product).zip(reduced);
-                    for (((cos, sin), product), θ) in pairs {
-                        let rest = fused(n, *θ, -product).to_radians();
-                        (*cos, *sin) =
-                            (rest.multiply_add(-*sin, *cos), rest.multiply_add(*cos, *sin));
+                    for i in 0..SIDE_BY_SIDE {
+                        let rest = fused(n, θ[i], -product[i]).to_radians();
+                        (x[i], y[i]) =
+                            (rest.multiply_add(-y[i], x[i]), rest.multiply_add(x[i], y[i]));
                     }
+                    cos[..count].copy_from_slice(&x[..count]);
+                    sin[..count].copy_from_slice(&y[..count]);
                 }
             },
         );

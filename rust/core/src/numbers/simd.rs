@@ -73,19 +73,22 @@ pub(crate) fn sin_cos_degrees(degrees: &[f64], sin: &mut [f64], cos: &mut [f64])
             -1.388_888_888_887_410_96e-3,
             4.166_666_666_666_660_19e-2,
         ];
-        let (mut of_sin, mut of_cos) = (s[0], c[0]);
-        for k in 1..6 {
-            of_sin = square.multiply_add(of_sin, s[k]);
-            of_cos = square.multiply_add(of_cos, c[k]);
-        }
+        // Without loops and branches, so that those over angles are vectors where code is made for
+        // size too.
+        let polynomial = |[a, b, c, d, e, f]: [f64; 6]| {
+            let a = square.multiply_add(square.multiply_add(a, b), c);
+            square.multiply_add(square.multiply_add(square.multiply_add(a, d), e), f)
+        };
+        let of_sin = polynomial(s);
+        let of_cos = polynomial(c);
         let s = (x * square).multiply_add(of_sin, x);
         let c = (square * square).multiply_add(of_cos, (-0.5_f64).multiply_add(square, 1.0));
         // Quarters modulo 4 as −2, −1, 0, 1 (or 2): odd ones exchange sine and cosine.
         let rest = quarters - 4.0 * ((quarters * 0.25 + ROUND) - ROUND);
         let odd = rest.abs() == 1.0;
-        let half = rest.abs() == 2.0;
-        let (a, b) = if odd { (c, -s) } else { (s, c) };
-        let (a, b) = if half || rest == -1.0 { (-a, -b) } else { (a, b) };
+        let sign = if (rest - 0.5).abs() > 1.0 { -1.0 } else { 1.0 };
+        let a = sign * if odd { c } else { s };
+        let b = sign * if odd { -s } else { c };
         (*sin, *cos) = (a, b);
     }
 }

@@ -1,5 +1,5 @@
-//! What a picture of a turning engine is made of: terms of each order over ω², summed over the parts that
-//! move together, and what the cylinders make one by one.
+//! What a picture of a turning engine is computed of: terms of each order over ω², summed over the parts
+//! that move together, and what the cylinders make one by one.
 
 use std::collections::BTreeSet;
 
@@ -7,17 +7,14 @@ use super::balance::{Balance, Request, TorquePart, Vector};
 use super::flywheel::mean_inertias;
 use super::terms::terms;
 use crate::Complex64;
-use crate::engine::layout::Strokes;
 use crate::engine::{Engine, Origin};
 use crate::mechanism::harmonics;
-use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
-use crate::pressure::Cycle;
 
 /// Highest order of the pistons whose phasors are listed.
-pub const HIGHEST_ORDER: u32 = 24;
+pub const HIGHEST_LISTED: u32 = 24;
 /// Orders that are enough, but for rods hardly longer than their crank; at most twice as many.
 const MOST_ORDERS: u32 = 384;
 /// Orders of which a cylinder's terms are below this part of its largest are left out.
@@ -26,10 +23,6 @@ const REST: f64 = 1e-12;
 const ROUNDING: f64 = 1e-13;
 /// Speed, rpm, at which loads of inertia are those over ω².
 const ONE_RADIAN_PER_SECOND: f64 = 60.0 / std::f64::consts::TAU;
-/// Mass of the block, which is not known, over that of the pistons: 90 kg for two litres.
-const BLOCK: f64 = 50.0;
-/// Degrees between the samples of a cycle, between which a page interpolates.
-const PRESSURE_STEP: f64 = 0.5;
 /// Groups of parts: the right bank, the left one, and what stands still as the bank angle changes.
 pub const GROUPS: usize = 3;
 
@@ -87,13 +80,13 @@ fn all(orders: BTreeSet<u32>) -> Result<Vec<Order>> {
 /// Orders whose phasors are listed: of pistons and of shafts.
 pub fn listed_orders(engine: &Engine) -> Result<Vec<Order>> {
     let shafts = engine.shafts().iter().map(|shaft| shaft.ratio.unsigned_abs());
-    all((1..=HIGHEST_ORDER).chain(shafts).collect())
+    all((1..=HIGHEST_LISTED).chain(shafts).collect())
 }
 
 /// Orders of the cylinders that are more than a rest, of their cranks, and of shafts.
 pub fn orders(engine: &Engine, cancel: &Cancel) -> Result<Vec<Order>> {
     let bare = engine.without_gas();
-    let mut count = HIGHEST_ORDER;
+    let mut count = HIGHEST_LISTED;
     let last = loop {
         let tried = all((1..=2 * count).collect())?;
         let parts = terms(&bare, &request(true), [0.0; 2], &tried, cancel)?;
@@ -112,7 +105,7 @@ pub fn orders(engine: &Engine, cancel: &Cancel) -> Result<Vec<Order>> {
         });
         let last = last.max().map_or(1, |index| index as u32 + 1);
         if last <= count || count >= MOST_ORDERS {
-            break last.max(HIGHEST_ORDER);
+            break last.max(HIGHEST_LISTED);
         }
         count *= 2;
     };
@@ -170,20 +163,6 @@ pub fn group_terms(
         sums
     };
     Ok((0..orders.len()).map(summed).collect())
-}
-
-/// Cylinders that differ among those with pressure, by their running gear and bore, in the order in which
-/// cylinders have them, each by the index of its first cylinder.
-#[must_use]
-pub fn fired_kinds(engine: &Engine) -> Vec<usize> {
-    let mut kinds: Vec<usize> = Vec::new();
-    let kind = |i: usize| (engine.stations()[i].cylinder, engine.details()[i]);
-    for i in (0..engine.stations().len()).filter(|&i| engine.gas().is_some() && engine.fires(i)) {
-        if !kinds.iter().any(|&known| kind(known) == kind(i)) {
-            kinds.push(i);
-        }
-    }
-    kinds
 }
 
 /// Volume that a cylinder's piston adds per radian past its top dead centre, m³: phasors of orders.
@@ -246,52 +225,4 @@ pub fn sizes(engine: &Engine, cancel: &Cancel) -> Result<Sizes> {
         }
     }
     Ok(found)
-}
-
-/// A bar that stands for the block.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Block {
-    /// kg.
-    pub mass: f64,
-    /// Moment of inertia about an axis across the crank, kg·m².
-    pub inertia: f64,
-}
-
-/// Length of a rod in pictures, m: an infinite one is the bar of a Scotch yoke, four crank radii long.
-#[must_use]
-pub fn drawn_rod(cylinder: &Cylinder) -> f64 {
-    if cylinder.has_infinite_rod() {
-        return 4.0 * cylinder.crank_radius();
-    }
-    cylinder.rod_length()
-}
-
-/// A bar that stands for the block: as tall as a crank with its rod, and half of that longer than the
-/// cylinders at either end; none where the pistons have no mass.
-#[must_use]
-pub fn block(engine: &Engine) -> Option<Block> {
-    let cylinders = || engine.stations().iter().map(|station| station.cylinder);
-    let mass = BLOCK * cylinders().map(|c: Cylinder| c.reciprocating_mass()).sum::<f64>();
-    let height = cylinders().map(|c| 2.0 * c.crank_radius() + drawn_rod(&c)).fold(0.0, f64::max);
-    let [first, last] = engine.ends();
-    let length = last - first + height;
-    let inertia = mass * (length * length + height * height) / 12.0;
-    (mass > 0.0).then_some(Block { mass, inertia })
-}
-
-/// Absolute pressures of a cycle over its period, the first repeated at the end, whole pascals.
-#[must_use]
-pub fn pressures(cycle: &Cycle) -> Vec<f64> {
-    let last = cycle.strokes().cycle().degrees() / PRESSURE_STEP;
-    let at = |k: u32| cycle.pressure_deg(f64::from(k) * PRESSURE_STEP).round_ties_even();
-    (0..=last as u32).map(at).collect()
-}
-
-/// Angle before the lowest place of a piston at which exhausts open, degrees: an ordinary one.
-#[must_use]
-pub const fn exhaust_opens_deg(strokes: Strokes) -> f64 {
-    match strokes {
-        Strokes::Four => 50.0,
-        Strokes::Two => 85.0,
-    }
 }

@@ -5,6 +5,7 @@ pub(crate) mod amplitude;
 pub mod balance;
 pub mod bearing_loads;
 mod choice;
+pub mod drawing;
 pub mod exact;
 pub mod explain;
 pub mod figures;

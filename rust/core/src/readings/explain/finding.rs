@@ -93,8 +93,8 @@ pub enum Finding {
         order: Vec<usize>,
         /// Crank angles between them, degrees.
         intervals_deg: Vec<f64>,
-        /// Whether they are equal.
-        even: bool,
+        /// How many fire at a time at equal intervals; none for uneven firing.
+        even: Option<usize>,
     },
     /// Orders of gas torque that the firing leaves, up to that of the firing, proved.
     GasOrders {
@@ -102,8 +102,8 @@ pub enum Finding {
         orders: Vec<Order>,
         /// Cylinders in the order in which they fire.
         firing: Vec<usize>,
-        /// Whether the intervals are equal.
-        even: bool,
+        /// How many fire at a time at equal intervals; none for uneven firing.
+        even: Option<usize>,
     },
     /// Rows of a radial, whose articulated rods are not modelled.
     Articulated {
@@ -235,13 +235,13 @@ impl Finding {
             },
             Self::Fires { order, intervals_deg, even } => Row {
                 values: intervals_deg.clone(),
-                reason: evenness(*even),
+                reason: evenness(even.is_some()),
                 groups: vec![numbers(order)],
                 ..row("firing")
             },
             Self::GasOrders { orders, firing, even } => Row {
                 orders: orders.clone(),
-                reason: evenness(*even),
+                reason: evenness(even.is_some()),
                 groups: vec![numbers(firing)],
                 proved: true,
                 ..row("gas orders")

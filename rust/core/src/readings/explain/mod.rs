@@ -236,7 +236,7 @@ fn firing(engine: &Arc<Engine>, cancel: &Cancel) -> Result<Vec<Finding>> {
         return Ok(Vec::new());
     }
     let fires = Firing::own(engine, cancel)?;
-    let (even, order) = (fires.even(), fires.fired().to_vec());
+    let (even, order) = (fires.evenly_at_a_time(), fires.fired().to_vec());
     let intervals_deg = fires.intervals().iter().map(|interval| interval.degrees()).collect();
     let mut found = vec![Finding::Fires { order: order.clone(), intervals_deg, even }];
     if engine.cranks().iter().any(|crank| crank.ratio < 0) {

@@ -4,6 +4,7 @@ use super::Explanation;
 use super::finding::{Acting, Finding, Reason, Weights};
 use super::words::{ACROSS, listed, number, orders, sense};
 use crate::engine::Engine;
+use crate::engine::loads::dead_text;
 use crate::numbers::figure::{rounded, significant};
 use crate::numbers::order::Order;
 use crate::readings::balance::Vector;
@@ -166,7 +167,9 @@ impl Explanation {
                 )
             }
             Finding::GasTorque { mean, largest } => gas_torque(*mean, largest, wording),
-            Finding::Fires { intervals_deg, even, .. } => self.fires(intervals_deg, *even),
+            Finding::Fires { order, intervals_deg, even } => {
+                self.fires(order, intervals_deg, *even)
+            }
             Finding::GasOrders { orders, firing, even } => self.gas_orders(orders, firing, *even),
             Finding::Articulated { rows } => format!(
                 "{} rods share a crankpin: each rod is computed on the crankpin itself; a master rod \
@@ -350,28 +353,46 @@ impl Explanation {
         }
     }
 
-    fn fires(&self, intervals_deg: &[f64], even: bool) -> String {
-        let dead = self.engine.dead_text();
-        let of_which = if dead.is_empty() { "" } else { ", of which " };
+    fn fires(&self, fired: &[usize], intervals_deg: &[f64], even: Option<usize>) -> String {
         let order = self.engine.firing_order();
-        if self.count() == 1 {
-            return format!("the cylinder fires every {}°", significant(intervals_deg[0], 6));
-        }
         let intervals: Vec<String> = intervals_deg.iter().map(|&x| significant(x, 6)).collect();
-        if even {
-            return format!("it fires evenly, every {}°: {order}{of_which}{dead}", intervals[0]);
+        let count = 0..self.count();
+        let is_dummy = |cylinder: usize| self.engine.details()[cylinder].dummy;
+        // A dummy piston is not in the order, a dead cylinder is.
+        let dead = dead_text(count.clone().map(|k| is_dummy(k) || self.engine.fires(k)));
+        let of_which = if dead.is_empty() { dead } else { format!(", of which {dead}") };
+        let dummies: Vec<String> =
+            count.filter(|&k| is_dummy(k)).map(|k| (k + 1).to_string()).collect();
+        let dummies = match &dummies[..] {
+            [] => String::new(),
+            [one] => format!("; cylinder {one} is a dummy piston"),
+            _ => format!("; cylinders {} are dummy pistons", listed(&dummies)),
+        };
+        if let ([one], [interval]) = (fired, &intervals[..]) {
+            return match self.count() {
+                1 => format!("the cylinder fires every {interval}°"),
+                _ => format!("only cylinder {} fires, every {interval}°{dummies}", one + 1),
+            };
+        }
+        if let (Some(size), Some(gap)) = (even, intervals.iter().find(|gap| *gap != "0")) {
+            let how = match size {
+                1 => "it fires evenly".to_owned(),
+                2 if size == fired.len() => "both cylinders fire together".to_owned(),
+                _ if size == fired.len() => format!("all {} cylinders fire together", number(size)),
+                _ => format!("it fires evenly, {} cylinders at a time", number(size)),
+            };
+            return format!("{how}, every {gap}°: {order}{of_which}{dummies}");
         }
         let intervals = intervals.join("-");
-        format!("it fires unevenly, at intervals of {intervals}°: {order}{of_which}{dead}")
+        format!("it fires unevenly, at intervals of {intervals}°: {order}{of_which}{dummies}")
     }
 
-    fn gas_orders(&self, left: &[Order], firing: &[usize], even: bool) -> String {
-        let of_firing = 4 * firing.len() as u32 / self.engine.strokes().number(); // in halves
-        if let [first] = left
-            && first.halves() == of_firing
-        {
-            let lower = if firing.len() > 1 { ": all lower orders cancel exactly" } else { "" };
-            return format!("gas torque begins at {}{lower}", orders(left));
+    fn gas_orders(&self, left: &[Order], firing: &[usize], even: Option<usize>) -> String {
+        let firings = firing.len() / even.unwrap_or(1);
+        let of_firing = 4 * firings as u32 / self.engine.strokes().number(); // in halves
+        if even.is_some() && left.iter().all(|order| order.halves().is_multiple_of(of_firing)) {
+            let lower = if firings > 1 { ": all lower orders cancel exactly" } else { "" };
+            return format!("gas torque begins at {}{lower}", orders(&left[..1]));
         }
         let figures = |&cylinder: &usize| {
             let gear = &self.engine.stations()[cylinder].cylinder;
@@ -386,7 +407,7 @@ impl Explanation {
         } else {
             ""
         };
-        let how = if even { "even" } else { "uneven" };
+        let how = if even.is_some() { "even" } else { "uneven" };
         format!("{how} firing{unlike} leaves gas torque of {}, and of higher ones", orders(left))
     }
 }

@@ -53,6 +53,28 @@ fn an_inline_four_shakes_at_twice_its_speed() {
 }
 
 #[test]
+fn cylinders_that_fire_together_fire_evenly() {
+    let said = |throws: &[f64], order: &str, strokes| {
+        let engine = inline(throws, 0.5).firing_as(order, strokes).unwrap();
+        let said = sentences(engine, None);
+        said[said.len() - 2..].join(" ")
+    };
+    assert_eq!(
+        said(&[0.0, 180.0, 180.0, 0.0], "1+4-2+3", Strokes::Two),
+        "It fires evenly, two cylinders at a time, every 180°: 1+4-2+3. Gas torque begins at order 2: \
+         all lower orders cancel exactly."
+    );
+    assert_eq!(
+        said(&[0.0, 0.0], "1+2", Strokes::Four),
+        "Both cylinders fire together, every 720°: 1+2. Gas torque begins at order 0.5."
+    );
+    let uneven = said(&[0.0, 180.0, 180.0, 0.0], "1+4-2+3", Strokes::Four);
+    assert!(uneven.starts_with("It fires unevenly, at intervals of 0-180-0-540°: 1+4-2+3."));
+    let sizes = said(&[0.0, 0.0, 180.0], "1+2-3", Strokes::Two);
+    assert!(sizes.starts_with("It fires unevenly, at intervals of 0-180-180°: 1+2-3."), "{sizes}");
+}
+
+#[test]
 fn hardware_is_named_by_what_it_does() {
     let weight = |amount: f64| Unbalance { amount, angle: angle(180.0), z: 0.0, pin: Some(0) };
     let single = inline(&[0.0], 0.5);

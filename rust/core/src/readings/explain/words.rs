@@ -12,6 +12,9 @@ const NUMBERS: [&str; 13] = [
 /// Line across the engine, along +x, and along +y.
 pub(super) const ACROSS: [&str; 2] = ["sideways", "up and down"];
 
+/// What is on the right and on the left where nothing else is said.
+const SIDES: [&str; 2] = ["right", "left"];
+
 /// A line across the engine, from its direction in degrees from +x; `sides` is what is on the right and
 /// on the left, seen from the flywheel.
 #[must_use]
@@ -20,7 +23,8 @@ pub fn across(direction_deg: f64, sides: [&str; 2]) -> String {
     let lean = rounded((90.0 - direction_deg + 90.0).rem_euclid(180.0) - 90.0, 1);
     let [sideways, upright] = ACROSS;
     if lean.abs() == 90.0 {
-        return sideways.to_owned();
+        let [right, left] = sides;
+        return if sides == SIDES { sideways.to_owned() } else { format!("{left} to {right}") };
     }
     if lean == 0.0 {
         return upright.to_owned();
@@ -69,13 +73,14 @@ mod tests {
         for (direction, text) in [
             (90.0, "up and down"),
             (-90.0, "up and down"),
-            (0.04, "sideways"),
-            (180.0, "sideways"),
+            (0.04, "intake to exhaust"),
+            (180.0, "intake to exhaust"),
             (60.0, "30° towards the exhaust side"),
             (-45.26, "44.7° towards the intake side"),
         ] {
             assert_eq!(across(direction, sides), text);
         }
+        assert_eq!(across(180.0, SIDES), "sideways");
         let turned = [1.0, -1.0].map(turns);
         assert_eq!(turned, ["all round, with the crank", "all round, against the crank"]);
     }

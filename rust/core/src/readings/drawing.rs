@@ -1,0 +1,274 @@
+//! What an engine is drawn from: the places and sizes of its parts, when it fires, and pressures.
+
+use std::sync::Arc;
+
+use serde::Serialize;
+
+use crate::engine::layout::Strokes;
+use crate::engine::{Engine, Unbalance};
+use crate::firing::Firing;
+use crate::mechanism::slider_crank::Cylinder;
+use crate::numbers::angle::Angle;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::Result;
+use crate::pressure::Cycle;
+
+/// Mass of the block, which is not known, over that of the pistons: 90 kg for two litres.
+const BLOCK: f64 = 50.0;
+/// Degrees between the samples of a cycle, between which a picture interpolates.
+const PRESSURE_STEP: f64 = 0.5;
+
+/// An engine at rest, its angles in degrees.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Drawing {
+    /// Name as it is shown.
+    pub name: String,
+    /// 4 or 2.
+    pub strokes: u32,
+    /// Plane about which moments are taken, m.
+    pub reference_z: f64,
+    /// Angle between the two banks where it can change.
+    pub bank_angle_deg: Option<f64>,
+    /// Cranks, the main one first.
+    pub cranks: Vec<DrawnCrank>,
+    /// Cylinders by number.
+    pub cylinders: Vec<DrawnCylinder>,
+    /// Counterweights and other unbalances of the cranks.
+    pub counterweights: Vec<DrawnUnbalance>,
+    /// Balance shafts.
+    pub shafts: Vec<DrawnShaft>,
+    /// Crank angle at which each cylinder fires, none of dummy pistons; none without a firing order.
+    pub firing_deg: Option<Vec<Option<f64>>>,
+    /// Angle before the lowest place of a piston at which exhausts open: an ordinary one.
+    pub exhaust_opens_deg: f64,
+}
+
+/// Axis of a crank, m, and its speed over that of the main one.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct DrawnCrank {
+    x: f64,
+    y: f64,
+    ratio: i32,
+}
+
+/// A shaft: as a crank, with what turns on it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DrawnShaft {
+    x: f64,
+    y: f64,
+    ratio: i32,
+    unbalances: Vec<DrawnUnbalance>,
+}
+
+/// An unbalance, kg·m, at an angle ahead of its crank or shaft, or of a crankpin by the index of a cylinder.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct DrawnUnbalance {
+    amount: f64,
+    angle_deg: f64,
+    z: f64,
+    pin: Option<usize>,
+}
+
+/// A cylinder; lengths in m.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct DrawnCylinder {
+    number: usize,
+    /// From 0: of two the right one.
+    bank: usize,
+    crank: usize,
+    crank_radius: f64,
+    rod_length: f64,
+    /// Whether the rod is the bar of a Scotch yoke.
+    yoke: bool,
+    pin_offset: f64,
+    tdc_deg: f64,
+    bank_deg: f64,
+    z: f64,
+    /// Place of its cycle among those that differ.
+    cycle: Option<usize>,
+    #[serde(flatten)]
+    pressure: Option<DrawnPressure>,
+}
+
+/// How pressure acts in a cylinder.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct DrawnPressure {
+    /// Crank angle at which its cycle begins.
+    pressure_deg: f64,
+    /// Place of its running gear among those of [`fired_kinds`].
+    swept: usize,
+    /// Sense of its crank: on one that turns the other way the torque on the block is the mirror's.
+    roll: i32,
+}
+
+/// Pressure in the cylinders of an engine.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DrawnGas {
+    /// Absolute pressure in the crankcase, Pa.
+    crankcase: f64,
+    /// Absolute pressures of the cycles that differ, every half degree over their period, the first repeated
+    /// at the end, whole pascals.
+    cycles: Vec<Vec<i64>>,
+}
+
+/// A bar that stands for the block.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Block {
+    /// kg.
+    pub mass: f64,
+    /// Moment of inertia about an axis across the crank, kg·m².
+    pub inertia: f64,
+}
+
+impl Drawing {
+    /// That of an engine.
+    pub fn new(engine: &Arc<Engine>, cancel: &Cancel) -> Result<Self> {
+        let cranks = engine.cranks().iter().map(|crank| {
+            let [x, y] = crank.axis;
+            DrawnCrank { x, y, ratio: crank.ratio }
+        });
+        let shafts = engine.shafts().iter().map(|shaft| {
+            let [x, y] = shaft.axis;
+            DrawnShaft { x, y, ratio: shaft.ratio, unbalances: unbalances(&shaft.unbalances) }
+        });
+        Ok(Self {
+            name: engine.shown_name(),
+            strokes: engine.strokes().number(),
+            reference_z: engine.reference(None)?,
+            bank_angle_deg: engine.changeable_bank_angle(),
+            cranks: cranks.collect(),
+            cylinders: cylinders(engine),
+            counterweights: unbalances(engine.counterweights()),
+            shafts: shafts.collect(),
+            firing_deg: firing(engine, cancel)?,
+            exhaust_opens_deg: exhaust_opens_deg(engine.strokes()),
+        })
+    }
+}
+
+fn unbalances(list: &[Unbalance]) -> Vec<DrawnUnbalance> {
+    let drawn = |&Unbalance { amount, angle, z, pin }: &Unbalance| DrawnUnbalance {
+        amount,
+        angle_deg: angle.degrees(),
+        z,
+        pin,
+    };
+    list.iter().map(drawn).collect()
+}
+
+fn firing(engine: &Arc<Engine>, cancel: &Cancel) -> Result<Option<Vec<Option<f64>>>> {
+    if engine.firing_order().is_empty() {
+        return Ok(None);
+    }
+    let angles = Firing::own(engine, cancel)?.angles().into_iter().map(Angle::degrees);
+    let each = angles.zip(engine.details());
+    Ok(Some(each.map(|(angle, of)| (!of.dummy).then_some(angle)).collect()))
+}
+
+fn cylinders(engine: &Engine) -> Vec<DrawnCylinder> {
+    let (kinds, cycles) = (fired_kinds(engine), cycles(engine));
+    // Of two banks the right one comes first, whichever has the first index.
+    let swapped = engine.banks().is_ok_and(|banks| banks.right == 1);
+    let drawn = |i: usize| {
+        let (station, crank) = (&engine.stations()[i], engine.crank_of(i));
+        let (parts, bank) = (&station.cylinder, engine.bank_of(i));
+        let cycle = engine.pressure_of(i).map(|(cycle, _)| cycle);
+        let swept = kinds.iter().position(|&k| kind(engine, k) == kind(engine, i));
+        let ratio = engine.cranks()[crank].ratio;
+        let pressure = |swept| DrawnPressure {
+            pressure_deg: engine.firing_phase(i).degrees(),
+            swept,
+            roll: ratio.signum(),
+        };
+        DrawnCylinder {
+            number: i + 1,
+            bank: if swapped { 1 - bank } else { bank },
+            crank,
+            crank_radius: parts.crank_radius(),
+            rod_length: drawn_rod(parts),
+            yoke: parts.has_infinite_rod(),
+            pin_offset: parts.pin_offset(),
+            tdc_deg: station.tdc.degrees(),
+            bank_deg: station.bank.degrees(),
+            z: station.z,
+            pressure: cycle.as_ref().and(swept).map(pressure),
+            cycle: cycle.and_then(|cycle| cycles.iter().position(|known| *known == cycle)),
+        }
+    };
+    (0..engine.stations().len()).map(drawn).collect()
+}
+
+/// Running gear and bore of a cylinder, of which its swept volume follows.
+fn kind(engine: &Engine, cylinder: usize) -> (Cylinder, Option<f64>) {
+    (engine.stations()[cylinder].cylinder, engine.details()[cylinder].bore)
+}
+
+/// Cylinders that differ among those with pressure, by their running gear and bore, in the order in which
+/// cylinders have them, each by the index of its first cylinder.
+#[must_use]
+pub fn fired_kinds(engine: &Engine) -> Vec<usize> {
+    let mut kinds: Vec<usize> = Vec::new();
+    for i in (0..engine.stations().len()).filter(|&i| engine.pressure_of(i).is_some()) {
+        if !kinds.iter().any(|&known| kind(engine, known) == kind(engine, i)) {
+            kinds.push(i);
+        }
+    }
+    kinds
+}
+
+/// Cycles that differ, in the order in which cylinders have them.
+fn cycles(engine: &Engine) -> Vec<Arc<Cycle>> {
+    let mut cycles = Vec::new();
+    for i in 0..engine.stations().len() {
+        if let Some((cycle, _)) = engine.pressure_of(i)
+            && !cycles.contains(&cycle)
+        {
+            cycles.push(cycle);
+        }
+    }
+    cycles
+}
+
+/// Pressure in the cylinders of an engine, if it counts.
+#[must_use]
+pub fn gas(engine: &Engine) -> Option<DrawnGas> {
+    let crankcase = engine.gas()?.crankcase;
+    Some(DrawnGas { crankcase, cycles: cycles(engine).iter().map(|c| pressures(c)).collect() })
+}
+
+fn pressures(cycle: &Cycle) -> Vec<i64> {
+    let last = cycle.strokes().cycle().degrees() / PRESSURE_STEP;
+    let at = |k: u32| cycle.pressure_deg(f64::from(k) * PRESSURE_STEP).round_ties_even() as i64;
+    (0..=last as u32).map(at).collect()
+}
+
+/// Length of a rod in pictures, m: an infinite one is the bar of a Scotch yoke, four crank radii long.
+#[must_use]
+pub fn drawn_rod(cylinder: &Cylinder) -> f64 {
+    if cylinder.has_infinite_rod() {
+        return 4.0 * cylinder.crank_radius();
+    }
+    cylinder.rod_length()
+}
+
+/// A bar that stands for the block: as tall as a crank with its rod, and half of that longer than the
+/// cylinders at either end; none where the pistons have no mass.
+#[must_use]
+pub fn block(engine: &Engine) -> Option<Block> {
+    let cylinders = || engine.stations().iter().map(|station| station.cylinder);
+    let mass = BLOCK * cylinders().map(|c: Cylinder| c.reciprocating_mass()).sum::<f64>();
+    let height = cylinders().map(|c| 2.0 * c.crank_radius() + drawn_rod(&c)).fold(0.0, f64::max);
+    let [first, last] = engine.ends();
+    let length = last - first + height;
+    let inertia = mass * (length * length + height * height) / 12.0;
+    (mass > 0.0).then_some(Block { mass, inertia })
+}
+
+/// Angle before the lowest place of a piston at which exhausts open, degrees: an ordinary one.
+#[must_use]
+pub const fn exhaust_opens_deg(strokes: Strokes) -> f64 {
+    match strokes {
+        Strokes::Four => 50.0,
+        Strokes::Two => 85.0,
+    }
+}
