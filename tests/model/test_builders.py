@@ -169,6 +169,13 @@ def test_fans_are_their_lists() -> None:
         PARTS, [60, 120], throws_deg=[0, 180], spacing=0.1, bank_stagger=0.02
     )
     np.testing.assert_allclose(staggered.z, [0.0, 0.1, 0.02, 0.12])
+    unequal = cp.Engine.from_banks(
+        PARTS, "W", throws_deg=[0, 120, 240], spacing=[0.1, 0.2], bank_stagger=0.02
+    )
+    along = np.array([0.0, 0.1, 0.3])
+    np.testing.assert_allclose(unequal.z, [*along, *(along + 0.02), *(along + 0.04)], rtol=1e-15)
+    with pytest.raises(cp.InputError, match="number of cylinders = 25000000"):
+        cp.Engine.from_banks(PARTS, [90] * 5000, throws_deg=[0] * 5000, spacing=0.1)
 
 
 def test_several_cranks_in_lists() -> None:
@@ -206,7 +213,7 @@ def test_several_cranks_in_lists() -> None:
         ({"cylinder": {"right": PARTS}}, "left"),
         ({"cylinder": {"middle": PARTS}}, "cylinder"),
         ({"cylinder": [PARTS] * 7 + [3]}, "cylinder"),
-        ({"spacing": [0.1]}, "spacing has 1 distances"),
+        ({"spacing": [0.1]}, "spacing has 1 entries, the crank has 3: give one for each gap"),
         ({"spacing": [0.1, -0.1, 0.1]}, "spacing"),
     ],
 )

@@ -19,6 +19,7 @@ import numpy as np
 import pytest
 from crankpin import _core
 from crankpin.model import presets
+from crankpin.model.builders import FANS
 from crankpin.view.figures import figures
 from several_cranks import fired_engine, random_engine
 
@@ -252,13 +253,25 @@ def test_builders_are_the_librarys(ask: Ask) -> None:
     for name in cp.presets():
         found = presets.layout(name)
         arguments = {key: value for key, value in found.arguments.items() if key != "name"}
-        kind = {"from_firing_order": "firing_order"}.get(found.builder, found.builder)
-        if kind not in ("inline", "vee", "flat", "boxer", "radial") or "absent" in arguments:
+        named = {"from_firing_order": "firing_order", "from_banks": "fan"}
+        kind = named.get(found.builder, found.builder)
+        if kind not in ("inline", "vee", "flat", "boxer", "fan", "radial"):
             continue
+        if isinstance(arguments.get("bank_deg"), str):
+            arguments["bank_deg"] = FANS[arguments["bank_deg"]]
         calls.append(("build", {"kind": kind, "spacing": found.spacing, **parts, **arguments}))
         engine = getattr(cp.Engine, found.builder)(CYLINDER, spacing=found.spacing, **arguments)
         expected.append(engine)
     assert len(calls) > 30
+    throws = {"throws_deg": [0, 120, 240], "spacing": [0.1, 0.13], "first_tdc_deg": 7}
+    banks = {**throws, "bank_stagger": 0.02}
+    for kind, builder, given in (
+        ("inline", cp.Engine.inline, throws),
+        ("vee", cp.Engine.vee, {**banks, "bank_angle_deg": 75, "absent": [2, 6]}),
+        ("fan", cp.Engine.from_banks, {**banks, "bank_deg": [30, 90, 150]}),
+    ):
+        calls.append(("build", {"kind": kind, **parts, **given}))
+        expected.append(builder(CYLINDER, **given))  # type: ignore[operator]
     for rows, cylinders in [(1, 7), (2, 14), (2, 18), (4, 28), (2, 12), (3, 9)]:
         for strokes in (4, 2):
             figures = {"cylinders": cylinders, "rows": rows, "spacing": 0.2, "strokes": strokes}

@@ -1,7 +1,7 @@
 //! Engines from the few figures by which people know them: throws, bank angle, firing order.
 
 pub use super::firing_order::FiringOrder;
-use super::{Engine, Station, bank_angle_in_range, check_each_cylinder};
+use super::{Engine, Station, bank_angle_in_range, check_each_cylinder, check_number};
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
@@ -94,14 +94,12 @@ impl Spacing {
             Self::Each(distances) => distances,
         };
         if distances.is_empty() || distances.iter().any(|each| *each <= 0.0 || !each.is_finite()) {
-            let hint = "give metres, or a list with the distance of each throw from the one before it";
+            let hint =
+                "give metres, or a list with the distance of each throw from the one before it";
             return Err(Error::value("spacing", format!("{distances:?}"), hint));
         }
-        if distances.len() + 1 != throws {
-            let found = format!("{} distances", distances.len());
-            let hint = format!("give {}, one less than throws along the crank", throws.max(1) - 1);
-            return Err(Error::value("spacing", found, hint));
-        }
+        let gaps = throws.saturating_sub(1);
+        limits::same_length("spacing", distances.len(), "the crank", gaps, "gap between throws")?;
         let place = |at: &mut f64, distance: &f64| {
             *at += distance;
             Some(*at)
@@ -253,6 +251,7 @@ impl Fan {
     /// The engine with this cylinder throughout.
     pub fn engine(&self, cylinder: Cylinder) -> Result<Engine> {
         let Inline { throws, spacing, rotating_mass, first_tdc } = &self.along;
+        check_number(self.banks.len().saturating_mul(throws.len()))?;
         let places = spacing.places(throws.len())?;
         limits::finite("bank_stagger", self.bank_stagger)?;
         let mut masses = per_cylinder(rotating_mass, self.banks.len() * throws.len())?.into_iter();

@@ -160,10 +160,7 @@ impl Engine {
         bank_keys: &[usize],
     ) -> Result<Self> {
         let count = stations.len();
-        if count == 0 || count > limits::MOST_CYLINDERS {
-            let hint = format!("an engine has 1 to {} cylinders", limits::MOST_CYLINDERS);
-            return Err(Error::value("number of cylinders", count, hint));
-        }
+        check_number(count)?;
         check_each_cylinder("bank", bank_keys.len(), count)?;
         for (i, station) in stations.iter_mut().enumerate() {
             limits::finite(&format!("z[{i}]"), station.z)?;
@@ -496,6 +493,15 @@ impl Engine {
         limits::name("source", &source)?;
         Ok(Self { name, source, ..self.clone() })
     }
+}
+
+/// Rejects a number of cylinders that no engine has.
+fn check_number(cylinders: usize) -> Result<()> {
+    if (1..=limits::MOST_CYLINDERS).contains(&cylinders) {
+        return Ok(());
+    }
+    let hint = format!("an engine has 1 to {} cylinders", limits::MOST_CYLINDERS);
+    Err(Error::value("number of cylinders", cylinders, hint))
 }
 
 /// Rejects a list that has not one entry for each cylinder.
