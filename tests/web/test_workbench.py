@@ -8,6 +8,7 @@ import tomllib
 from typing import TYPE_CHECKING
 
 import crankpin as cp
+import numpy as np
 import pytest
 from building import SITE
 from chromium import ARGUMENTS, NAMES
@@ -105,6 +106,24 @@ def test_v6_with_split_pins(open_workbench: Open) -> None:
     v6 = engine(page)
     assert v6.pin_split_deg.tolist() == [-60, -60, -60]
     assert v6.firing().even
+
+
+def test_absent_cylinders_unequal_spacing_and_fans_are_typed(open_workbench: Open) -> None:
+    page = open_workbench("#kind=vee")
+    type_in(page, bank_angle_deg="75.5", throws_deg="0 104.5 0", absent="6", spacing="100, 120 mm")
+    v5 = engine(page)
+    assert v5.banks == {"right": (1, 3, 5), "left": (2, 4)}
+    assert v5.z.tolist() == [0.0, 0.0, 0.1, 0.1, 0.22]
+    type_in(page, absent="7")
+    assert faults(page) == ["the whole vee has cylinders 1 to 6"]
+    type_in(page, absent="", spacing="100")
+    assert len(engine(page)) == 6
+    choose(page, kind="fan")
+    type_in(page, throws_deg="0 180", bank_stagger="20 mm")
+    w6 = engine(page)
+    assert w6.bank_deg.tolist() == [30, 30, 90, 90, 150, 150]
+    np.testing.assert_allclose(w6.z, [0, 0.1, 0.02, 0.12, 0.04, 0.14], rtol=1e-15)
+    assert faults(page) == []
 
 
 def test_a_v6_is_typed_over_a_v8(open_workbench: Open) -> None:
