@@ -271,7 +271,7 @@ def test_builders_are_the_librarys(ask: Ask) -> None:
         ("fan", cp.Engine.from_banks, {**banks, "bank_deg": [30, 90, 150]}),
     ):
         calls.append(("build", {"kind": kind, **parts, **given}))
-        expected.append(builder(CYLINDER, **given))  # type: ignore[operator]
+        expected.append(builder(CYLINDER, **given))  # type: ignore[arg-type]
     for rows, cylinders in [(1, 7), (2, 14), (2, 18), (4, 28), (2, 12), (3, 9)]:
         for strokes in (4, 2):
             figures = {"cylinders": cylinders, "rows": rows, "spacing": 0.2, "strokes": strokes}
