@@ -61,8 +61,8 @@ export class Design {
   as(kind) {
     const { name, ...fields } = this.fields;
     const shared = KINDS[kind].fields;
-    const kept = Object.fromEntries(Object.entries(fields).filter(([key]) => this.names.includes(key)).filter(([key]) =>
-      shared.includes(key) ? key !== "firing_order" : groupsOf(kind)[1][1].includes(key)));
+    const kept = Object.fromEntries(Object.entries(fields).filter(([key]) => this.names.includes(key)
+      && (shared.includes(key) ? key !== "firing_order" : groupsOf(kind)[1][1].includes(key))));
     return new Design({ kind, fields: { ...kept, name: "" }, rpm: this.rpm });
   }
 

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 __all__ = [
     "ATMOSPHERE",
+    "EXHAUST_OPENS_DEG",
     "FEWEST_POINTS",
     "HIGHEST_LISTED",
     "HIGHEST_ORDER",
@@ -48,6 +49,7 @@ __all__ = [
     "cylinder_torque_harmonics",
     "dead_text",
     "drawn",
+    "drawn_loads",
     "drawn_rod",
     "estimated_rod_inertia",
     "exact_angle",
@@ -93,6 +95,7 @@ __all__ = [
 
 __version__: str
 ATMOSPHERE: float
+EXHAUST_OPENS_DEG: list[float]
 FEWEST_POINTS: int
 HIGHEST_LISTED: int
 HIGHEST_ORDER: int
@@ -591,7 +594,8 @@ def balance(
 def bounds_about(
     of: Sequence[float], arm: tuple[float, float, float]
 ) -> tuple[float, float, float]: ...
-def drawn(engine: Engine) -> list[str]: ...
+def drawn(engine: Engine) -> str: ...
+def drawn_loads(engine: Engine) -> list[str]: ...
 def drawn_rod(parts: _Parts) -> float: ...
 def fired_kinds(engine: Engine) -> list[int]: ...
 def group_terms(

@@ -188,6 +188,49 @@ def test_spectra(page: Page) -> None:
                 np.testing.assert_allclose(shown, expected, rtol=0, atol=atol)
 
 
+@pytest.mark.parametrize("engine", [*map(fired_engine, range(40)), *cp.presets().values()])
+def test_an_engine_is_drawn_from_its_own_places(engine: cp.Engine) -> None:
+    drawn = figures(engine, 60.0, spectrum=None)
+    cylinders = drawn["cylinders"]
+    for name in ("tdc_deg", "bank_deg", "z"):
+        assert [each[name] for each in cylinders] == getattr(engine, name).tolist()
+    for name in ("crank_radius", "pin_offset"):
+        assert [each[name] for each in cylinders] == [getattr(c, name) for c in engine.cylinders]
+    banks = [tuple(c["number"] for c in cylinders if c["bank"] == k) for k in range(len(cylinders))]
+    assert [numbers for numbers in banks if numbers] == list(engine.banks.values())
+    for each, part in zip(cylinders, engine.cylinders, strict=True):
+        assert each["yoke"] or each["rod_length"] == part.rod_length
+    unbalances = [(each.amount, each.z, each.pin) for each in engine.counterweights]
+    assert unbalances == [
+        (each["amount"], each["z"], None if each["pin"] is None else each["pin"] + 1)
+        for each in drawn["counterweights"]
+    ]
+    assert [(s.ratio, s.x, s.y, len(s.unbalances)) for s in engine.shafts] == [
+        (s["ratio"], s["x"], s["y"], len(s["unbalances"])) for s in drawn["shafts"]
+    ]
+    if engine.firing_order:
+        angles = zip(drawn["firing_deg"], engine.firing().angles_deg, engine.cylinders, strict=True)
+        assert all(one is None if part.dummy else one == other for one, other, part in angles)
+    timing = cp.ValveTiming() if engine.strokes == 4 else cp.PortTiming()
+    assert drawn["exhaust_opens_deg"] == timing.exhaust_opens_deg
+    if engine.cycles is None:
+        return
+    crankcase, cycles = drawn["gas"]["crankcase"], drawn["gas"]["cycles"]
+    assert crankcase == engine.crankcase
+    theta = np.arange(0.0, 180.0 * engine.strokes + 0.5, 0.5)
+    starts = engine.firing_deg
+    for k, (each, cycle) in enumerate(zip(cylinders, engine.cycles, strict=True)):
+        assert (each["cycle"] is None) == (cycle is None) == ("swept" not in each)
+        if cycle is not None:
+            assert each["pressure_deg"] == starts[k]
+            assert cycles[each["cycle"]] == cycle.pressure_at(theta).round().tolist()
+            # Those that differ in what sweeps a volume have different ones.
+            first = next(c for c in cylinders if c.get("swept") == each["swept"])
+            one, other = engine.cylinders[k], engine.cylinders[first["number"] - 1]
+            swept = ("crank_radius", "rod_length", "pin_offset", "bore")
+            assert all(getattr(one, name) == getattr(other, name) for name in swept)
+
+
 def test_pages_have_no_mass_to_compute_with() -> None:
     """But that of the block, which is the page's own; forces and torques come as numbers."""
     known = figures(fired_engine(3), 3000.0, spectrum=None)

@@ -59,10 +59,10 @@ TOLERANCES = {
 
 NEGLIGIBLE = 1e-6
 """Orders whose peaks are all below this part of a quantity's largest peak are not shown."""
-MOST_LISTED = 8
-"""Most orders that are all listed in a note of those that are not shown."""
 MATTERS = 1e-3
 """The same of pictures, and of tables that would be longer than a screen."""
+MOST_LISTED = 8
+"""Most orders that are all listed in a note of those that are not shown."""
 
 
 def coordinates(coords: Mapping[str, Any]) -> dict[str, Any]:

@@ -65,7 +65,7 @@ class ValveTiming(_Timing):
 
     intake_opens_deg: Angle = 10.0
     intake_closes_deg: Angle = 50.0
-    exhaust_opens_deg: Angle = 50.0
+    exhaust_opens_deg: Angle = _core.EXHAUST_OPENS_DEG[0]
     exhaust_closes_deg: Angle = 10.0
 
 
@@ -99,7 +99,7 @@ class PortTiming(_Timing):
     """
 
     transfer_opens_deg: Angle = 60.0
-    exhaust_opens_deg: Angle = 85.0
+    exhaust_opens_deg: Angle = _core.EXHAUST_OPENS_DEG[1]
 
 
 Timing: TypeAlias = ValveTiming | PortTiming

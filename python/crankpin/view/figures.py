@@ -104,7 +104,7 @@ def figures(
     Settings.of(engine, rpm).check(engine)
     inputs.warn_of_units(mean_piston_speed(engine, float(rpm)))
     pairs = inputs.spectrum(spectrum)
-    _, block, gas = _drawn(engine)
+    block, gas = map(json.loads, _core.drawn_loads(engine_core(engine)))
     return {
         **places(engine, rpm),
         "terms": terms(engine, pairs),
@@ -124,13 +124,8 @@ def figures(
 def places(engine: Engine, rpm: float) -> dict[str, Any]:
     """Return what an engine is drawn from, and its settings."""
     settings = Settings.of(engine, rpm)
-    drawing, *_ = _drawn(engine)
-    return {**drawing, "rpm": settings.rpm, "rod_ratio": settings.rod_ratio}
-
-
-def _drawn(engine: Engine) -> list[Any]:
-    """Return what an engine is drawn from, its block and the pressure in its cylinders, or None."""
-    return [json.loads(text) for text in _core.drawn(engine_core(engine))]
+    drawn = json.loads(_core.drawn(engine_core(engine)))
+    return {**drawn, "rpm": settings.rpm, "rod_ratio": settings.rod_ratio}
 
 
 def core_numbers(

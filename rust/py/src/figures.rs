@@ -79,14 +79,20 @@ pub fn sizes(engine: &Bound<'_, Engine>) -> PyResult<[f64; 4]> {
     Ok([found.force, found.moment, found.torque, found.gas])
 }
 
-/// What an engine is drawn from, its block and the pressure in its cylinders, as JSON.
+/// What an engine is drawn from, as JSON.
 #[guarded]
 #[pyfunction]
-pub fn drawn(engine: &Bound<'_, Engine>) -> PyResult<[String; 3]> {
+pub fn drawn(engine: &Bound<'_, Engine>) -> PyResult<String> {
     let core = &engine.get().0;
     let drawn = interrupt::run(engine.py(), |cancel| Drawing::new(core, cancel))?;
-    Ok([json!(drawn), json!(drawing::block(core)), json!(drawing::gas(core))]
-        .map(|v| v.to_string()))
+    Ok(json!(drawn).to_string())
+}
+
+/// A bar that stands for its block, and the pressure in its cylinders: as JSON, null where there is none.
+#[guarded]
+#[pyfunction]
+pub fn drawn_loads(engine: &Engine) -> [String; 2] {
+    [json!(drawing::block(&engine.0)), json!(drawing::gas(&engine.0))].map(|part| part.to_string())
 }
 
 /// Cylinders that differ among those with pressure, each by the index of its first cylinder.

@@ -36,7 +36,9 @@ static ALLOCATOR: reserve::Allocator = reserve::Allocator;
 // Classes are frozen, and what threads share is behind a lock: packaging/README.md has how that was tested.
 #[pymodule(gil_used = false)]
 mod _core {
-    use crankpin_core::{crank_angles, engine::file, figures, limits, pressure};
+    use crankpin_core::{
+        crank_angles, drawing, engine::file, figures, layout::Strokes, limits, pressure,
+    };
     use pyo3::prelude::*;
 
     #[pymodule_export]
@@ -53,8 +55,8 @@ mod _core {
         engine::Engine,
         explain::{Explanation, dead_text, explain, gas_text},
         figures::{
-            drawn, drawn_rod, fired_kinds, group_terms, listed_orders, orders_that_count, sizes,
-            swept,
+            drawn, drawn_loads, drawn_rod, fired_kinds, group_terms, listed_orders,
+            orders_that_count, sizes, swept,
         },
         firing::{Firing, check_timing, inline_throws, vee_throws},
         flywheel::{CycleGrid, mean_inertias},
@@ -83,6 +85,8 @@ mod _core {
         crate::array::load(module.py())?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;
         module.add("ATMOSPHERE", pressure::ATMOSPHERE)?;
+        let exhaust_opens = [Strokes::Four, Strokes::Two].map(drawing::exhaust_opens_deg);
+        module.add("EXHAUST_OPENS_DEG", exhaust_opens)?;
         module.add("HIGHEST_ORDER", limits::HIGHEST_ORDER)?;
         module.add("HIGHEST_LISTED", figures::HIGHEST_LISTED)?;
         module.add("FEWEST_POINTS", crank_angles::FEWEST_POINTS)?;

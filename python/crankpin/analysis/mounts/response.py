@@ -64,15 +64,15 @@ def response(
 def _warn_of_free_motion(found: MountResponse) -> None:
     """Warn of a motion that no mount resists."""
     powertrain = found.powertrain
-    turns = np.multiply.outer(np.asarray(found.rpm), np.array(found.orders, dtype=float)) / 60.0
-    if not powertrain._varies:
-        free = powertrain.modes().free
-    elif (turns > 0.0).any():
-        try:
-            free = powertrain.modes(float(turns[turns > 0.0].min())).free
-        except InputError:  # where a hydraulic mount has no modes
+    frequency = None
+    if powertrain._varies:
+        turns = np.multiply.outer(np.asarray(found.rpm), np.array(found.orders, dtype=float)) / 60.0
+        frequency = float(np.min(turns, where=turns > 0.0, initial=np.inf))
+        if frequency == np.inf:
             return
-    else:
+    try:
+        free = powertrain.modes(frequency).free
+    except InputError:  # where a hydraulic mount has no modes
         return
     if free:
         warn(
