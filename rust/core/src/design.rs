@@ -150,6 +150,7 @@ impl Objectives {
                 engine.counterweights()[k].pin.map_or_else(fixed, of_cylinder)
             }
             Origin::Shaft(_) => fixed(),
+            Origin::Load(k) => engine.loads()[k].cylinder.map_or_else(fixed, of_cylinder),
         };
         let all_turns: Vec<_> = loads.list.iter().map(of_load).collect();
         let arithmetic =

@@ -18,7 +18,10 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits::SMALLEST;
 use crate::numbers::order::Order;
-use crate::readings::balance::{Orders, Request, UNIT_RPM, angular_speed, balance};
+use crate::load::LoadList;
+use crate::load::source::Scaling;
+use crate::readings::amplitude::wrenches;
+use crate::readings::balance::angular_speed;
 use crate::wrench::Wrench;
 
 /// Force and moment that turn with a shaft, x + iy at θ = 0, over ω².
@@ -42,44 +45,55 @@ impl TurningPart {
 /// Part of an engine's force and moment that turns with a shaft of this ratio, over ω².
 pub fn turning(engine: &Engine, ratio: i32, cancel: &Cancel) -> Result<TurningPart> {
     let order = Order::whole(ratio.unsigned_abs())?;
-    Ok(TurningPart::of(&over_square(engine, order, false, cancel)?, ratio))
+    Ok(TurningPart::of(&over_square(engine, order, false, None, cancel)?, ratio))
 }
 
-/// Phasor of an order of the roll torque on the block, over ω²; with that of gas pressure, which does
-/// not scale with speed, at the speed of a fired engine.
+/// Phasor of an order of the roll torque on the block, over ω²; with what does not scale so, as that of gas
+/// pressure, at a speed.
 pub fn roll_torque(
     engine: &Engine,
     order: Order,
     rpm: Option<f64>,
     cancel: &Cancel,
 ) -> Result<Complex64> {
-    roll_of(engine, &over_square(engine, order, true, cancel)?, rpm)
+    Ok(over_square(engine, order, true, rpm, cancel)?.torque.roll)
 }
 
-/// The roll torque of an order's wrench over ω².
-fn roll_of(engine: &Engine, wrench: &Wrench, rpm: Option<f64>) -> Result<Complex64> {
-    match rpm {
-        Some(rpm) => {
-            let omega = angular_speed(rpm)?;
-            if omega == 0.0 {
-                let hint = "shafts make no force at rest; give a speed above 0";
-                return Err(Error::figure("rpm", rpm, hint));
-            }
-            Ok(wrench.inertia.roll + wrench.gas.roll / (omega * omega))
-        }
-        None if engine.gas().is_none() => Ok(wrench.inertia.roll),
-        None => {
-            let hint = "the torque of gas pressure does not scale with speed as that of shafts \
-                        does; give the crank speed, above 0, at which they cancel it";
-            Err(Error::value("rpm", "None", hint))
-        }
+/// The wrench of an order over ω², at a speed where some of it does not scale so.
+fn over_square(
+    engine: &Engine,
+    order: Order,
+    torque: bool,
+    rpm: Option<f64>,
+    cancel: &Cancel,
+) -> Result<Wrench> {
+    let omega = rpm.map(angular_speed).transpose()?;
+    if let Some(rpm) = rpm.filter(|_| omega == Some(0.0)) {
+        let hint = "shafts make no force at rest; give a speed above 0";
+        return Err(Error::figure("rpm", rpm, hint));
     }
-}
-
-fn over_square(engine: &Engine, order: Order, torque: bool, cancel: &Cancel) -> Result<Wrench> {
-    let request = Request { rpm: UNIT_RPM, reference_z: None, torque };
-    let found = balance(engine, &request, &Orders::Given(vec![order]), cancel)?;
-    Ok(found.wrenches[0])
+    engine.check_speeds(rpm.as_slice())?;
+    let loads = LoadList::new(engine, engine.reference(None)?);
+    let torque = torque && engine.spectrum().is_none();
+    let (by_group, _) = wrenches(&loads, &loads.sources, torque, &[order], cancel)?;
+    let mut sum = Wrench::default();
+    for (group, wrench) in loads.groups.iter().zip(&by_group) {
+        let factor = match (group.scaling, omega) {
+            (Scaling::SpeedSquared, _) => 1.0,
+            (scaling, Some(omega)) => scaling.factor(omega) / (omega * omega),
+            _ if wrench.is_zero() => continue,
+            (_, None) => {
+                let hint = format!(
+                    "order {order} of {} does not scale with speed as weights and shafts do; give the \
+                     crank speed, above 0, at which they cancel it, or leave it out of the engine",
+                    group.name
+                );
+                return Err(Error::value("rpm", "None", hint));
+            }
+        };
+        sum = sum.plus(&wrench.scaled(factor));
+    }
+    Ok(sum)
 }
 
 /// Forces at places along a shaft as taken by two planes, front and rear, by the lever rule.

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::layout::Strokes;
-use super::{Crank, Details, Engine, Gas, RodFigures, Shaft, Station, Unbalance};
+use super::{Crank, Details, Engine, Gas, PeriodicLoad, RodFigures, Shaft, Station, Unbalance};
 use crate::mechanism::slider_crank::Cylinder;
 use crate::mounts::Powertrain;
 use crate::mounts::file::PowertrainEntry;
@@ -45,6 +45,9 @@ struct EngineFile {
     counterweights: Vec<WeightEntry>,
     #[serde(default, skip_serializing_if = "is_default")]
     shafts: Vec<BalanceShaft>,
+    /// Periodic loads besides.
+    #[serde(default, skip_serializing_if = "is_default")]
+    loads: Vec<PeriodicLoad>,
     /// Cranks besides the main one.
     #[serde(default, skip_serializing_if = "is_default")]
     cranks: Vec<OtherCrank>,
@@ -224,6 +227,18 @@ impl Degrees {
     }
 }
 
+impl Serialize for Angle {
+    fn serialize<S: Serializer>(&self, text: S) -> std::result::Result<S::Ok, S::Error> {
+        Degrees::of(*self).serialize(text)
+    }
+}
+
+impl<'de> Deserialize<'de> for Angle {
+    fn deserialize<D: Deserializer<'de>>(text: D) -> std::result::Result<Self, D::Error> {
+        Degrees::deserialize(text)?.angle("angle").map_err(serde::de::Error::custom)
+    }
+}
+
 impl PartsEntry {
     fn of(cylinder: &Cylinder, details: &Details) -> Self {
         Self {
@@ -288,6 +303,7 @@ impl EngineFile {
             placements: engine.stations().iter().enumerate().map(place).collect(),
             counterweights: engine.counterweights().iter().map(WeightEntry::of).collect(),
             shafts: engine.shafts().iter().map(BalanceShaft::of).collect(),
+            loads: engine.loads().to_vec(),
             cranks: engine.cranks()[1..]
                 .iter()
                 .map(|&Crank { axis: [x, y], ratio }| OtherCrank { x, y, ratio })
@@ -400,7 +416,8 @@ impl EngineFile {
             .with_mains(self.mains)?
             .with_reference(self.reference_z)?
             .with_counterweights(unbalances(&self.counterweights, "counterweights")?)?
-            .with_shafts(shafts.collect::<Result<_>>()?)
+            .with_shafts(shafts.collect::<Result<_>>()?)?
+            .with_loads(self.loads)
             .and_then(|engine| gas.map_or(Ok(engine.clone()), |gas| engine.with_gas(gas)))
     }
 }

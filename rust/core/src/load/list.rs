@@ -5,10 +5,11 @@ use std::sync::Arc;
 use super::gas::GasPressure;
 use super::piston::PistonInertia;
 use super::rod::RodInertia;
-use super::source::{ExactFactor, Point, Repeats, Scaling, Source};
+use super::source::{ExactFactor, INERTIA, Point, Repeats, Scaling, Source};
 use super::spectrum::GivenForce;
 use super::unbalance::TurningUnbalance;
 use super::{Load, PhasorSum, Phasors, Place, Term, Wanted, superpose};
+use crate::Complex64;
 use crate::engine::{Crank, Engine, Origin, Unbalance};
 use crate::mechanism::Mechanism;
 use crate::numbers::error::Result;
@@ -25,12 +26,35 @@ pub(crate) struct LargestWeights {
     pub roll: f64,
 }
 
+/// Sources that are counted together: of one name and scaling.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Group {
+    pub name: Arc<str>,
+    pub scaling: Scaling,
+}
+
+impl Group {
+    /// Of a source.
+    pub fn of(source: &dyn Source) -> Self {
+        Self { name: source.name().into(), scaling: source.parts().scaling }
+    }
+
+    fn has(&self, source: &dyn Source) -> bool {
+        *self.name == *source.name() && self.scaling == source.parts().scaling
+    }
+}
+
 /// All loads of an engine about a reference plane.
+#[derive(Debug, Clone)]
 pub(crate) struct LoadList {
     /// Pistons, one for each cylinder; unbalances of cranks, then of shafts; pressures; rods.
     pub list: Vec<Load>,
     /// One of each kind: loads refer to them by index.
     pub sources: Vec<Arc<dyn Source>>,
+    /// Names and scalings of the sources that differ; inertia is the first.
+    pub groups: Vec<Group>,
+    /// Index of the group of each source.
+    pub group_of: Vec<usize>,
     /// Reference plane z₀ of moments, m.
     pub reference: f64,
 }
@@ -39,7 +63,9 @@ impl LoadList {
     /// Loads of an engine. Pistons of equal crank radius, rod length and pin offset share a source, hence
     /// their harmonics; a spectrum is one source for all, with masses and radius in it.
     pub fn new(engine: &Engine, reference: f64) -> Self {
-        let mut loads = Self { list: Vec::new(), sources: Vec::new(), reference };
+        let inertia = Group { name: INERTIA.into(), scaling: Scaling::SpeedSquared };
+        let (list, sources, group_of) = (Vec::new(), Vec::new(), Vec::new());
+        let mut loads = Self { list, sources, groups: vec![inertia], group_of, reference };
         let ratio = |i: usize| engine.cranks()[engine.crank_of(i)].ratio;
         let mechanism = |i: usize| Mechanism::new(&engine.stations()[i].cylinder, ratio(i));
         let along_bore = |i: usize| Place::along_bore(engine, i);
@@ -71,6 +97,7 @@ impl LoadList {
                 loads.push_unbalance(place, unbalance.amount);
             }
         }
+        super::given::push(&mut loads, engine);
         if engine.spectrum().is_some() {
             // A spectrum does not determine a motion, against which pressure and rods would act.
             return loads;
@@ -101,6 +128,11 @@ impl LoadList {
         let parts = source.parts();
         let index = self.sources.iter().position(|known| known.equals(&source));
         let index = index.unwrap_or_else(|| {
+            let known = self.groups.iter().position(|group| group.has(&source));
+            self.group_of.push(known.unwrap_or(self.groups.len()));
+            if known.is_none() {
+                self.groups.push(Group::of(&source));
+            }
             self.sources.push(Arc::new(source));
             self.sources.len() - 1
         });
@@ -121,20 +153,46 @@ impl LoadList {
         &*self.sources[load.source]
     }
 
+    /// Group of a source.
+    pub fn group(&self, source: usize) -> &Group {
+        &self.groups[self.group_of[source]]
+    }
+
+    /// Whether a group has forces, and torques.
+    pub fn has(&self, group: usize) -> [bool; 2] {
+        let mut has = [false; 2];
+        for load in self.list.iter().filter(|load| self.group_of[load.source] == group) {
+            let force = load.parts.force.is_some();
+            has[0] |= force;
+            has[1] |= load.parts.roll || force && load.place.axis != Complex64::default();
+        }
+        has
+    }
+
+    /// Names of the groups, each once: parts of results.
+    pub fn names(&self) -> Vec<Arc<str>> {
+        let mut names: Vec<Arc<str>> = Vec::new();
+        for group in &self.groups {
+            if !names.contains(&group.name) {
+                names.push(Arc::clone(&group.name));
+            }
+        }
+        names
+    }
+
     /// The sources at a point of a sweep.
     pub fn at_point(&self, point: &Point) -> Result<Vec<Arc<dyn Source>>> {
         self.sources.iter().map(|source| source.at_point(point)).collect()
     }
 
-    /// Σ weights of the torques of each source that scales as given, m³, and Σ of the magnitudes, of which
-    /// bounds are made.
-    pub fn volumes(&self) -> Vec<PhasorSum<f64>> {
-        let mut volumes = vec![PhasorSum::default(); self.sources.len()];
-        for load in self.list.iter().filter(|load| load.parts.scaling == Scaling::Given) {
-            volumes[load.source].value += load.roll;
-            volumes[load.source].size += load.roll.abs();
+    /// Σ weights of the torques of each source, and Σ of the magnitudes, of which bounds are made.
+    pub fn torque_weights(&self) -> Vec<PhasorSum<f64>> {
+        let mut weights = vec![PhasorSum::default(); self.sources.len()];
+        for load in &self.list {
+            weights[load.source].value += load.roll;
+            weights[load.source].size += load.roll.abs();
         }
-        volumes
+        weights
     }
 
     /// The loads, and sources, that exact sums know.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::kinematics::{AngleBlock, BLOCK, Columns, LoadSum, Quantities, add_inertia};
 use super::source::{
-    Column, ExactFactor, ForcePart, Parts, Point, Scale, Source, Tail, TorqueAmplitudes, is_equal,
+    Column, ExactFactor, ForcePart, INERTIA, Parts, Point, Scale, Source, Tail, TorqueAmplitudes, is_equal,
 };
 use crate::Complex64;
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
@@ -21,6 +21,10 @@ use crate::numbers::simd::vectorised;
 pub(super) struct PistonInertia(pub Mechanism);
 
 impl Source for PistonInertia {
+    fn name(&self) -> &'static str {
+        INERTIA
+    }
+
     fn parts(&self) -> Parts {
         Parts::inertia(Some(ForcePart::Along), true)
     }
@@ -45,12 +49,12 @@ impl Source for PistonInertia {
         })
     }
 
-    fn orders(&self, highest: u32) -> Vec<u32> {
+    fn orders(&self, highest: Order) -> Vec<Order> {
         multiples(&self.0, highest)
     }
 
-    fn beyond(&self, highest: u32, torque: bool) -> Tail {
-        let (own, proportions) = (self.0.own_highest(highest), &self.0.proportions);
+    fn beyond(&self, halves: u32, torque: bool) -> Tail {
+        let (own, proportions) = (self.0.own_highest(halves), &self.0.proportions);
         Tail {
             force: harmonics::tail_bound(proportions, own).unwrap_or(f64::INFINITY),
             torque: torque_beyond(&self.0, torque, harmonics::torque::tail_bound, own),
@@ -136,9 +140,10 @@ fn add<const PLANAR: bool, const TORQUE: bool>(
 }
 
 /// Multiples of the speed of a mechanism's crank up to an order of the main one.
-pub(super) fn multiples(mechanism: &Mechanism, highest: u32) -> Vec<u32> {
+pub(super) fn multiples(mechanism: &Mechanism, highest: Order) -> Vec<Order> {
     let ratio = mechanism.ratio.unsigned_abs();
-    (1..=mechanism.own_highest(highest)).map(|own| own * ratio).collect()
+    let own = 1..=mechanism.own_highest(highest.halves());
+    own.filter_map(|own| Order::whole(own * ratio).ok()).collect()
 }
 
 /// Bound of what own orders above one add to either torque on the main crank and the block, if wanted.

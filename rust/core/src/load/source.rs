@@ -14,20 +14,27 @@ use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 use crate::pressure::Cycle;
 
+/// Name of what moving parts make.
+pub const INERTIA: &str = "inertia";
+/// Name of what the pressure in cylinders makes.
+pub const GAS: &str = "gas";
+
 /// How a source acts at its place.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Parts {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Parts {
     /// Force; none where all that remains of forces is a torque.
     pub force: Option<ForcePart>,
     /// Whether it makes a torque besides that of its force about another axis.
     pub roll: bool,
+    /// What it scales with.
     pub scaling: Scaling,
+    /// When it repeats.
     pub repeats: Repeats,
 }
 
 /// How a force moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum ForcePart {
+pub enum ForcePart {
     /// Along its direction, at multiples of the speed of its crank.
     Along,
     /// Turning with its shaft, at the order of its speed alone.
@@ -35,18 +42,38 @@ pub(crate) enum ForcePart {
 }
 
 /// What amplitudes scale with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Scaling {
-    /// Inertia: with the square of the speed.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Scaling {
+    /// With the square of the speed: inertia.
     #[default]
     SpeedSquared,
-    /// Pressure: as given, at any speed.
-    Given,
+    /// With nothing: the same at any speed.
+    Independent,
+    /// With the height of a line that rises from 0 at the first of three crank speeds to 1 at the second,
+    /// and falls to 0 at the third, rpm: a row of a table over speed.
+    Row([f64; 3]),
+}
+
+impl Scaling {
+    /// What amplitudes are multiplied by at an angular speed of the crank, rad/s.
+    #[must_use]
+    pub fn factor(self, omega: f64) -> f64 {
+        match self {
+            Self::SpeedSquared => omega * omega,
+            Self::Independent => 1.0,
+            Self::Row([below, at, above]) => {
+                let rpm = omega * 30.0 / std::f64::consts::PI;
+                // Speeds of a table that was given in rpm come back with a rounding.
+                let share = |end: f64| ((rpm - end) / (at - end)).clamp(0.0, 1.0);
+                if rpm < at { share(below) } else if rpm > at { share(above) } else { 1.0 }
+            }
+        }
+    }
 }
 
 /// After which turns a source repeats.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Repeats {
+pub enum Repeats {
     /// Of its crank.
     EveryTurn,
     /// Those of a cycle of four strokes: it has half orders.
@@ -62,7 +89,7 @@ impl Parts {
 
 /// Which amplitude of a source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
-pub(crate) enum Column {
+pub enum Column {
     /// Of the force, and of its torque about another axis.
     #[default]
     Force,
@@ -71,7 +98,9 @@ pub(crate) enum Column {
 }
 
 /// Amplitudes of the torque of a source at some orders, and its mean.
-pub(crate) struct TorqueAmplitudes {
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TorqueAmplitudes {
+    /// By order.
     pub harmonics: TorqueHarmonics,
     /// On the block and on the main crank.
     pub mean: [f64; 2],
@@ -79,7 +108,8 @@ pub(crate) struct TorqueAmplitudes {
 
 /// Bounds of what orders above one add.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Tail {
+pub struct Tail {
+    /// To the force.
     pub force: f64,
     /// To either torque.
     pub torque: f64,
@@ -87,7 +117,8 @@ pub(crate) struct Tail {
 
 /// What a tolerance is relative to, over the weights of a load.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Scale {
+pub struct Scale {
+    /// Of the force.
     pub force: f64,
     /// None where it is that of the force at a crank radius, or at the distance of its axis.
     pub torque: Option<f64>,
@@ -95,7 +126,7 @@ pub(crate) struct Scale {
 
 /// Factor of a source in exact sums.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum ExactFactor {
+pub enum ExactFactor {
     /// 1.
     One,
     /// Symbols, one for a motion: of a piston's inertia.
@@ -108,7 +139,8 @@ pub(crate) enum ExactFactor {
 
 /// A point of a sweep: what it replaces of a mechanism, and of pressure.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Point<'a> {
+pub struct Point<'a> {
+    /// Crank radius over rod length.
     pub rod_ratio: Option<f64>,
     /// m.
     pub pin_offset: Option<f64>,
@@ -117,11 +149,15 @@ pub(crate) struct Point<'a> {
 }
 
 /// A source that keeps its amplitudes at orders ½, 1, 1½ … up to one, and bounds of what those above each
-/// add.
-pub(crate) type SourceUpTo = (Arc<dyn Source>, Vec<f64>);
+/// add to its torques.
+pub type SourceUpTo = (Arc<dyn Source>, Vec<f64>);
 
 /// What acts at a place, over the weights of a load.
-pub(crate) trait Source: Debug + Send + Sync + Any {
+pub trait Source: Debug + Send + Sync + Any {
+    /// Under which its loads are counted: `inertia`, `gas`, or a name of its own.
+    fn name(&self) -> &str;
+
+    /// How it acts.
     fn parts(&self) -> Parts;
 
     /// Whether another source is the same.
@@ -154,13 +190,18 @@ pub(crate) trait Source: Debug + Send + Sync + Any {
     }
 
     /// Orders that it has up to one, multiples of the speed of the main crank.
-    fn orders(&self, highest: u32) -> Vec<u32>;
+    fn orders(&self, highest: Order) -> Vec<Order>;
 
-    /// Bounds of what orders above a multiple of the speed of the main crank add; infinite where none is
-    /// known.
-    fn beyond(&self, highest: u32, torque: bool) -> Tail;
+    /// Bounds of what orders above so many halves add; infinite where none is known.
+    fn beyond(&self, halves: u32, torque: bool) -> Tail;
 
-    /// The same source with its amplitudes up to an order; none where [`Source::beyond`] has a closed form.
+    /// Whether bounds of what orders above one add are known only as its torque is integrated: then
+    /// [`Source::up_to`] has them, and [`Source::beyond`] none.
+    fn has_open_tail(&self) -> bool {
+        false
+    }
+
+    /// The same source with its amplitudes up to an order, of one with an open tail.
     fn up_to(&self, highest: Order, cancel: &Cancel) -> Result<Option<SourceUpTo>> {
         let _ = (highest, cancel);
         Ok(None)
@@ -171,6 +212,7 @@ pub(crate) trait Source: Debug + Send + Sync + Any {
         0.0
     }
 
+    /// What a tolerance is relative to.
     fn scale(&self) -> Scale;
 
     /// Rod ratio up to which every order of a mechanism without offset grows with it.
@@ -182,6 +224,7 @@ pub(crate) trait Source: Debug + Send + Sync + Any {
     /// The source at a point of a sweep.
     fn at_point(&self, point: &Point) -> Result<Arc<dyn Source>>;
 
+    /// Its factor in exact sums.
     fn exact(&self) -> ExactFactor;
 
     /// Adds what loads of it add at a block of crank angles, of inertia times the square of a speed.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::kinematics::{AngleBlock, Columns, LoadSum, Quantities};
-use super::source::{ExactFactor, ForcePart, Parts, Point, Scale, Source, Tail, is_equal};
+use super::source::{ExactFactor, ForcePart, INERTIA, Parts, Point, Scale, Source, Tail, is_equal};
 use crate::Complex64;
 use crate::mechanism::at_own_orders;
 use crate::mechanism::spectrum::Spectrum;
@@ -20,6 +20,10 @@ pub(super) struct GivenForce {
 }
 
 impl Source for GivenForce {
+    fn name(&self) -> &'static str {
+        INERTIA
+    }
+
     fn parts(&self) -> Parts {
         Parts::inertia(Some(ForcePart::Along), false)
     }
@@ -34,8 +38,9 @@ impl Source for GivenForce {
         })
     }
 
-    fn orders(&self, _: u32) -> Vec<u32> {
-        self.spectrum.orders().into_iter().map(|own| own * self.ratio.unsigned_abs()).collect()
+    fn orders(&self, _: Order) -> Vec<Order> {
+        let own = self.spectrum.orders().into_iter();
+        own.filter_map(|own| Order::whole(own * self.ratio.unsigned_abs()).ok()).collect()
     }
 
     /// All of its orders are evaluated.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::kinematics::{AngleBlock, BLOCK, Columns, LoadSum, Quantities};
-use super::source::{ExactFactor, ForcePart, Parts, Point, Scale, Source, Tail, is_equal};
+use super::source::{ExactFactor, ForcePart, INERTIA, Parts, Point, Scale, Source, Tail, is_equal};
 use crate::Complex64;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -18,6 +18,10 @@ pub(super) struct TurningUnbalance {
 }
 
 impl Source for TurningUnbalance {
+    fn name(&self) -> &'static str {
+        INERTIA
+    }
+
     fn parts(&self) -> Parts {
         Parts::inertia(Some(ForcePart::Turning), false)
     }
@@ -34,8 +38,8 @@ impl Source for TurningUnbalance {
         Ok(orders.iter().map(one).collect())
     }
 
-    fn orders(&self, _: u32) -> Vec<u32> {
-        vec![self.ratio.unsigned_abs()]
+    fn orders(&self, _: Order) -> Vec<Order> {
+        Order::whole(self.ratio.unsigned_abs()).into_iter().collect()
     }
 
     /// Its only order is always evaluated.

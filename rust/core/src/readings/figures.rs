@@ -3,7 +3,8 @@
 
 use std::collections::BTreeSet;
 
-use super::balance::{Balance, Request, TorquePart, Vector};
+use super::balance::{Balance, Request, Vector};
+use super::quantity::Part;
 use super::flywheel::mean_inertias;
 use super::terms::terms;
 use crate::Complex64;
@@ -50,7 +51,7 @@ pub struct GroupTerms {
 impl GroupTerms {
     fn of(part: &Balance, k: usize) -> Self {
         let [force, moment] = [Vector::Force, Vector::Moment].map(|vector| part.planar(vector, k));
-        let torque = part.torque(TorquePart::Inertia, k);
+        let torque = part.torque(Part::INERTIA, k);
         Self {
             planar: [force.forward, force.backward(), moment.forward, moment.backward()],
             roll: torque.roll,
@@ -94,7 +95,7 @@ pub fn orders(engine: &Engine, cancel: &Cancel) -> Result<Vec<Order>> {
             let sizes = |k: usize| {
                 [
                     part.planar(Vector::Force, k).peak(),
-                    part.torque(TorquePart::Inertia, k).roll.norm(),
+                    part.torque(Part::INERTIA, k).roll.norm(),
                 ]
             };
             let sizes: Vec<_> = (0..tried.len()).map(sizes).collect();
@@ -135,7 +136,7 @@ pub fn group_terms(
         Origin::Counterweight(index) => {
             (Parts::Standing, engine.counterweights()[index].pin.map_or(still, bank))
         }
-        Origin::Shaft(_) => (Parts::Standing, still),
+        Origin::Shaft(_) | Origin::Load(_) => (Parts::Standing, still),
     };
     let all = terms(&engine.without_gas(), &request(torque), [0.0; 2], orders, cancel)?;
     let own = |(origin, part): &(Origin, Balance)| {

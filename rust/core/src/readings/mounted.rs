@@ -20,7 +20,10 @@ use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::numbers::pool;
-use crate::readings::balance::{ErrorBounds, Orders, Request, angular_speed, balance};
+use crate::load::source::Scaling;
+use crate::load::{Group, LoadList};
+use crate::readings::balance::{ErrorBounds, Orders, angular_speed};
+use crate::readings::choice;
 use crate::wrench::Wrench;
 
 /// Points solved between two checks for cancellation.
@@ -50,7 +53,8 @@ pub(crate) struct EngineLoads {
     pub error_bound: ErrorBounds,
     /// Angular speed of the crank at each speed.
     pub omega: Vec<f64>,
-    /// At each order, with parts by inertia over ω².
+    groups: Vec<Group>,
+    /// At each order of each group, over what it scales with.
     unit: Vec<Wrench>,
 }
 
@@ -78,7 +82,7 @@ pub enum Derivative {
 /// Load of a wrench about the CG: three forces, three moments.
 fn load(wrench: &Wrench) -> ComplexVector6 {
     let ([force_x, force_y], [pitch, yaw]) = (wrench.force.xy(0.0), wrench.moment.xy(0.0));
-    ComplexVector6::new(force_x, force_y, Complex64::ZERO, pitch, yaw, wrench.torque().roll)
+    ComplexVector6::new(force_x, force_y, Complex64::ZERO, pitch, yaw, wrench.torque.roll)
 }
 
 impl EngineLoads {
@@ -98,36 +102,55 @@ impl EngineLoads {
         for &rpm in rpm {
             omega.push(angular_speed(rpm)?);
         }
-        let at = |rpm: f64| {
-            let request = Request { rpm, reference_z: Some(cg.z), torque: true };
-            balance(engine, &request, orders, cancel)
-        };
-        // At 1 rad/s, where parts by inertia are over ω².
-        let unit = at(60.0 / TAU)?;
-        let fastest = rpm.iter().copied().fold(0.0, f64::max);
-        let error_bound = match orders {
-            Orders::Auto { .. } => at(fastest)?.error_bound,
-            Orders::Given(_) => ErrorBounds::default(),
-        };
-        let about_cg: Vec<Wrench> =
-            unit.wrenches.iter().map(|wrench| wrench.moved([cg.x, cg.y, 0.0])).collect();
+        engine.check_speeds(rpm)?;
+        let loads = LoadList::new(engine, cg.z);
+        let torque = engine.spectrum().is_none();
+        let chosen = choice::evaluated(engine, &loads, orders, torque, cancel)?;
+        let (mut kept, mut unit) = (Vec::new(), Vec::new());
+        for (order, wrenches) in chosen.kept() {
+            kept.push(order);
+            unit.extend(wrenches.iter().map(|wrench| wrench.moved([cg.x, cg.y, 0.0])));
+        }
         Ok(Self {
-            orders: unit.orders,
-            omitted: unit.omitted,
-            error_bound: error_bound.moved([cg.x, cg.y, 0.0]),
+            orders: kept,
+            omitted: chosen.omitted(),
+            error_bound: chosen.error_bound(&loads, &omega).moved([cg.x, cg.y, 0.0]),
             omega,
-            unit: about_cg,
+            groups: loads.groups,
+            unit,
         })
     }
 
-    /// Load of each order over (nω)², and that of gas pressure.
-    pub fn amplitudes(&self) -> Vec<[ComplexVector6; 2]> {
-        let parts = |(wrench, order): (&Wrench, &Order)| {
-            let gas = Wrench { gas: wrench.gas, ..Wrench::default() };
-            let inertia = Wrench { gas: crate::wrench::Torque::default(), ..*wrench };
-            [load(&inertia) / Complex64::from(order.number().powi(2)), load(&gas)]
+    /// Loads of each order at a speed, rad/s.
+    fn at_speed(&self, omega: f64) -> impl Iterator<Item = ComplexVector6> {
+        let factors: Vec<f64> =
+            self.groups.iter().map(|group| group.scaling.factor(omega)).collect();
+        self.unit.chunks(self.groups.len()).map(move |of_order| {
+            let scaled = of_order.iter().zip(&factors).map(|(wrench, factor)| wrench.scaled(*factor));
+            load(&scaled.fold(Wrench::default(), |sum, one| sum.plus(&one)))
+        })
+    }
+
+    /// Load of each order over (nω)², and what does not scale with speed; rejects other loads.
+    pub fn amplitudes(&self) -> Result<Vec<[ComplexVector6; 2]>> {
+        let of_order = |(wrenches, order): (&[Wrench], &Order)| {
+            let mut sums = [ComplexVector6::zeros(); 2];
+            for (group, wrench) in self.groups.iter().zip(wrenches) {
+                match group.scaling {
+                    Scaling::SpeedSquared => {
+                        sums[0] += load(wrench) / Complex64::from(order.number().powi(2));
+                    }
+                    Scaling::Independent => sums[1] += load(wrench),
+                    Scaling::Row(_) => {
+                        let hint = "designs of mounts count loads that scale with the square of speed \
+                                    or not at all, no tables over speed";
+                        return Err(Error::value("loads", format!("{:?}", group.name), hint));
+                    }
+                }
+            }
+            Ok(sums)
         };
-        self.unit.iter().zip(&self.orders).map(parts).collect()
+        self.unit.chunks(self.groups.len()).zip(&self.orders).map(of_order).collect()
     }
 }
 
@@ -159,8 +182,7 @@ impl Response {
         limits::result_size("response", &[rpm.len(), count, 6], size_of::<Complex64>(), hint)?;
         let mut loads = memory::with_capacity(rpm.len() * count)?;
         for omega in &of_engine.omega {
-            let wrenches = of_engine.unit.iter();
-            loads.extend(wrenches.map(|wrench| load(&wrench.at_speed(omega * omega))));
+            loads.extend(of_engine.at_speed(*omega));
         }
         let EngineLoads { orders, omitted, error_bound, omega, .. } = of_engine;
         Ok(Self {

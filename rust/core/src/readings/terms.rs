@@ -11,10 +11,9 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::limits;
 use crate::numbers::order::{self, Order};
-use crate::wrench::Wrench;
 
 /// The terms of an engine at some orders, of each part with what it adds: cylinders, counterweights,
-/// shafts.
+/// shafts, further loads.
 ///
 /// Moments are about the plane of the request, and the roll torque about the point `aside`, x and y from
 /// the axis of the main crank, m.
@@ -53,21 +52,24 @@ pub fn terms(
         limits::finite(name, place)?;
     }
     let omega = angular_speed(request.rpm)?;
+    engine.check_speeds(&[request.rpm])?;
     let torque = request.torque && engine.spectrum().is_none();
     let loads = LoadList::new(engine, engine.reference(request.reference_z)?);
     let amplitudes = Amplitudes::new(&loads.sources, torque, orders, cancel)?;
     let count = |origin: fn(usize) -> Origin, count: usize| (0..count).map(origin);
     let parts = count(Origin::Cylinder, engine.stations().len())
         .chain(count(Origin::Counterweight, engine.counterweights().len()))
-        .chain(count(Origin::Shaft, engine.shafts().len()));
+        .chain(count(Origin::Shaft, engine.shafts().len()))
+        .chain(count(Origin::Load, engine.loads().len()));
     let of_part = |origin: Origin| {
         let own: Vec<Load> =
             loads.list.iter().filter(|l| l.place.origin == origin).copied().collect();
-        let wrenches = amplitudes.wrenches(&own, loads.reference, torque, orders, cancel)?;
-        let there = |wrench: &Wrench| wrench.at_speed(omega * omega).moved([x, y, 0.0]);
-        let wrenches = wrenches.iter().map(there).collect();
-        let mean = amplitudes.mean(&own);
-        Ok((origin, Balance::of_orders(orders.to_vec(), wrenches, mean, torque, &own)))
+        let wrenches = amplitudes.wrenches(&loads, &own, torque, orders, cancel)?;
+        let means = amplitudes.means(&loads, &own);
+        let part = Balance::of(&loads, &own, orders.to_vec(), &wrenches, &means, omega)?;
+        let mut part = part.moved([x, y, 0.0]);
+        part.has_torque = torque;
+        Ok((origin, part))
     };
     parts.map(of_part).collect()
 }

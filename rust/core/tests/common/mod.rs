@@ -7,7 +7,8 @@ pub mod random;
 use std::sync::Arc;
 
 use crankpin_core::balance::{Balance, Vector, balance};
-use crankpin_core::sweep::{Quantity, Statistic, SweepAxes};
+use crankpin_core::quantity::Quantity;
+use crankpin_core::sweep::{Statistic, SweepAxes};
 use crankpin_core::{
     Angle, Cancel, Complex64, Crank, Cylinder, Engine, Order, Orders, Request, Result, Shaft,
     Station, Sweep, Unbalance,

@@ -160,7 +160,7 @@ impl BearingLoadsModel {
                 Origin::Counterweight(k) => {
                     Some(engine.counterweights()[k].pin.map_or(0, |i| engine.crank_of(i)))
                 }
-                Origin::Shaft(_) => None,
+                Origin::Shaft(_) | Origin::Load(_) => None,
             };
             let on = crank.map_or(&mut found.on_shafts, |crank| &mut found.on_cranks[crank]);
             on.push(Turning::new(load, square));

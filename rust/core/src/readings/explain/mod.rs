@@ -20,8 +20,9 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::figure::rounded;
 use crate::numbers::order::Order;
+use crate::readings::quantity;
 use crate::readings::balance::{
-    Balance, Orders, Request, TorquePart, UNIT_RPM, Vector, angular_speed, balance,
+    Balance, Orders, Request, UNIT_RPM, Vector, angular_speed, balance,
 };
 use crate::readings::exact::vanishing::{ProofQuantity, QUANTITIES, Verdict, vanishing_of};
 use crate::readings::terms::terms;
@@ -216,15 +217,15 @@ fn torques(engine: &Engine, rpm: f64, cancel: &Cancel) -> Result<Vec<Finding>> {
         peaks.sort_by(|a, b| b.1.total_cmp(&a.1));
         peaks
     };
-    let inertia = by_size(&|found, k| found.torque(TorquePart::Inertia, k).roll.norm());
+    let inertia = by_size(&|found, k| found.torque(quantity::Part::INERTIA, k).roll.norm());
     let mut findings = Vec::new();
     if let Some(&(order, peak)) = inertia.first() {
         findings.push(Finding::InertiaTorque { order, peak });
     }
-    let mut largest = by_size(&|found, k| found.torque(TorquePart::Gas, k).crank.norm());
+    let mut largest = by_size(&|found, k| found.torque(quantity::Part::GAS, k).crank.norm());
     if !largest.is_empty() {
         largest.truncate(GAS_ORDERS);
-        let [_, mean] = found.mean(TorquePart::Gas);
+        let [_, mean] = found.mean(quantity::Part::GAS);
         findings.push(Finding::GasTorque { mean, largest });
     }
     Ok(findings)

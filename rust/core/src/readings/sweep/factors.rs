@@ -7,7 +7,8 @@ use std::ops::Range;
 use super::block::ROWS_SIDE_BY_SIDE;
 use super::harmonics::PointHarmonics;
 use super::layout::Layout;
-use super::{Quantity, Sweep};
+use super::{Selection, Sweep};
+use crate::readings::quantity::Quantity;
 use crate::Complex64;
 use crate::load::LoadList;
 use crate::numbers::cancel::Cancel;
@@ -94,14 +95,14 @@ pub(super) struct Coefficients {
 impl Coefficients {
     pub fn new(
         sweep: &Sweep,
-        quantity: Quantity,
+        selection: Selection,
         (loads, layout): (&LoadList, &Layout),
         points: Range<usize>,
         cancel: &Cancel,
     ) -> Result<Self> {
         let count = points.len();
         let sources = &loads.sources[..];
-        let harmonics = PointHarmonics::new(sweep, (sources, layout), quantity, &points, cancel)?;
+        let harmonics = PointHarmonics::new(sweep, (sources, layout), selection, &points, cancel)?;
         let mut by_order = memory::with_capacity(layout.len())?;
         for (k, sums) in layout.iter().enumerate() {
             cancel.check()?;

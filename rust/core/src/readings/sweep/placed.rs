@@ -3,17 +3,19 @@
 
 use std::sync::Arc;
 
-use super::{Quantity, Sweep};
+use super::{Selection, Sweep};
 use crate::load::LoadList;
 use crate::load::kinematics::{AngleBlock, Columns, Kinematics, LoadSum, Quantities};
-use crate::load::source::{Scaling, Source};
+use crate::load::source::Source;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
-use crate::readings::balance::TorquePart;
+use crate::readings::quantity::Kind;
 
 /// An engine at one bank angle.
 pub(super) struct Placed {
     pub kinematics: Kinematics,
+    /// Names of the groups of its sums.
+    names: Vec<Arc<str>>,
     /// Sources of the sums at points.
     pub points: Vec<Vec<Arc<dyn Source>>>,
 }
@@ -21,26 +23,26 @@ pub(super) struct Placed {
 impl Sweep {
     /// An engine with one of the swept bank angles.
     pub(super) fn placed(&self, engine: usize, angle: usize) -> Result<Placed> {
-        let reference = self.references[engine];
-        let engine = &self.engines[engine];
         let loads = match &self.axes.bank_angle {
             Some((angles, hold)) => {
-                let turned = engine.with_bank_angle(Angle::from_degrees(angles[angle])?, *hold)?;
-                LoadList::new(&turned, reference)
+                let angle = Angle::from_degrees(angles[angle])?;
+                let turned = self.engines[engine].with_bank_angle(angle, *hold)?;
+                &LoadList::new(&turned, self.loads[engine].reference)
             }
-            None => LoadList::new(engine, reference),
+            None => &self.loads[engine],
         };
-        Ok(Placed { kinematics: Kinematics::new(&loads), points: Vec::new() })
+        let names = loads.groups.iter().map(|group| Arc::clone(&group.name)).collect();
+        Ok(Placed { kinematics: Kinematics::new(loads), names, points: Vec::new() })
     }
 
     /// Sources of the sums at a point of a quantity.
     pub(super) fn placed_point(
         &self,
         kinematics: &Kinematics,
-        quantity: Quantity,
+        selection: Selection,
         point: usize,
     ) -> Result<Vec<Arc<dyn Source>>> {
-        let point = self.at(quantity, point);
+        let point = self.at(selection, point);
         kinematics.sums.iter().map(|sum| sum.source.at_point(&point)).collect()
     }
 }
@@ -51,19 +53,20 @@ impl Placed {
     #[inline(always)]
     pub fn write<'o>(
         &self,
-        quantity: Quantity,
+        Selection { quantity, scaling }: Selection,
         factor: f64,
         block: &AngleBlock,
         outs: &mut impl Iterator<Item = &'o mut [f64]>,
     ) {
-        let scaling = match quantity.part() {
-            Some(TorquePart::Gas) => Scaling::Given,
-            _ => Scaling::SpeedSquared,
-        };
         let torque = !quantity.is_planar();
         let wanted = Quantities { planar: !torque, torque };
-        let counts = |sum: &LoadSum| sum.source.parts().scaling == scaling;
+        let counts = |sum: &LoadSum| {
+            scaling.is_none_or(|scaling| sum.source.parts().scaling == scaling)
+                && quantity.part.has(&self.names[sum.group])
+        };
         let is_fixed = |sum: &LoadSum| sum.source.mechanism().is_none();
+        let factors = self.kinematics.factors_of(scaling);
+        let [of_force, of_moment] = self.kinematics.zero_bounds(&factors);
         let mut fixed = Columns::ZERO;
         for sum in self.kinematics.sums.iter().filter(|sum| counts(sum) && is_fixed(sum)) {
             sum.source.over_angle(sum, block, wanted, 1.0, &mut fixed);
@@ -77,12 +80,11 @@ impl Placed {
                 }
             }
             let Columns { force, moment, torque: [roll, crank], .. } = &columns;
-            let [of_force, of_moment] = self.kinematics.zero_bounds;
-            let ([x, y], bound) = match quantity {
-                Quantity::Force => (force.each_ref(), of_force),
-                Quantity::Moment => (moment.each_ref(), of_moment),
-                Quantity::Torque(_) => ([roll; 2], 0.0),
-                Quantity::CrankTorque(_) => ([crank; 2], 0.0),
+            let ([x, y], bound) = match quantity.kind {
+                Kind::Force => (force.each_ref(), of_force),
+                Kind::Moment => (moment.each_ref(), of_moment),
+                Kind::Torque => ([roll; 2], 0.0),
+                Kind::CrankTorque => ([crank; 2], 0.0),
             };
             // Last, as where rows are multiplied for several speeds: a row has the same bits in any sweep.
             if torque {

@@ -1,8 +1,8 @@
 use ndarray::Array2;
 
 use super::*;
+use crate::quantity::Part;
 use crate::Order;
-use crate::balance::TorquePart;
 use crate::engine::{Shaft, Station, Unbalance};
 use crate::{Angle, Cylinder};
 
@@ -109,13 +109,13 @@ fn without_spreads_a_sample_is_the_balance_bit_for_bit() {
             }
             assert_eq!(
                 *torque,
-                [known.wrenches[k].torque().roll, known.wrenches[k].torque().crank]
+                [known.wrenches[k].torque.roll, known.wrenches[k].torque.crank]
             );
         }
         let [force, moment] =
             [Vector::Force, Vector::Moment].map(|v| known.peak(v, &Cancel::new()).unwrap());
         let [roll, crank] = [false, true].map(|on_crank| {
-            known.torque_peak(TorquePart::Whole, on_crank, &Cancel::new()).unwrap()
+            known.torque_peak(Part::Whole, on_crank, &Cancel::new()).unwrap()
         });
         let peaks = [force, moment, roll, crank];
         assert_eq!(found.peaks, [peaks; 2]);
@@ -182,7 +182,7 @@ fn a_sample_is_the_balance_of_the_engine_that_was_drawn() {
                         assert!((found - known).norm() <= size, "{s} {k}: {found} {known}");
                     }
                 }
-                let torque = known.wrenches[k].torque();
+                let torque = known.wrenches[k].torque;
                 for (found, known) in found.torque[row].iter().zip([torque.roll, torque.crank]) {
                     let apart = (found - known).norm();
                     assert!(apart <= 3e-14 * torque.size, "{s} {k}: {found} {known}");
@@ -191,7 +191,7 @@ fn a_sample_is_the_balance_of_the_engine_that_was_drawn() {
             let [force, moment] =
                 [Vector::Force, Vector::Moment].map(|v| known.peak(v, &Cancel::new()).unwrap());
             let [roll, crank] = [false, true].map(|on_crank| {
-                known.torque_peak(TorquePart::Whole, on_crank, &Cancel::new()).unwrap()
+                known.torque_peak(Part::Whole, on_crank, &Cancel::new()).unwrap()
             });
             let peaks = [force, moment, roll, crank];
             for (found, known) in found.peaks[s].iter().zip(peaks) {
