@@ -42,6 +42,7 @@ from crankpin.model.cycle import Cycle
 from crankpin.model.cycle_map import CycleMap
 from crankpin.model.cylinder import Cylinder, Rod, slider_crank_harmonics
 from crankpin.model.engine import Engine
+from crankpin.model.loads import PeriodicLoad
 from crankpin.model.gas_torque import gas_torque_harmonics
 from crankpin.model.mounts import InertiaTrack, Mount, RigidBody
 from crankpin.model.presets import presets
@@ -58,6 +59,7 @@ __all__ = [
     "InertiaTrack",
     "InputError",
     "Mount",
+    "PeriodicLoad",
     "PortTiming",
     "Powertrain",
     "Receptance",

@@ -11,7 +11,7 @@ import numpy as np
 
 from crankpin._support import inputs, labels, optional
 from crankpin._support.frames import Tabled
-from crankpin._support.quantities import KINDS, PLANE_VECTORS
+from crankpin._support.quantities import PLANE_VECTORS, kind_of
 from crankpin._support.tables import Column, Table
 
 if TYPE_CHECKING:
@@ -37,17 +37,17 @@ TRAILING: dict[str, tuple[str, ...]] = {
 }
 """Array of a plane vector → its dimensions after the swept ones; a scalar has no ``axis``."""
 NOT_OF_SCALARS = ("forward", "backward", "peak_xy", "total_peak_xy")
-OF_GAS = ("mean",)
-"""Arrays that only torques of fired engines have."""
+MEANS = ("mean",)
+"""Arrays that only torques have which more than inertia makes."""
 
 
 def variables(
-    quantities: Sequence[str], *, fired: bool
+    quantities: Sequence[str], *, means: bool
 ) -> Iterator[tuple[str, str, str, tuple[str, ...]]]:
     """Yield name, quantity, array and trailing dimensions of each variable of a dataset."""
     for quantity in quantities:
-        planar = KINDS[quantity].planar
-        absent = OF_GAS if planar else NOT_OF_SCALARS if fired else (*NOT_OF_SCALARS, *OF_GAS)
+        planar = kind_of(quantity).planar
+        absent = MEANS if planar else NOT_OF_SCALARS if means else (*NOT_OF_SCALARS, *MEANS)
         for what, dims in TRAILING.items():
             if what not in absent:
                 name = quantity.replace(".", "_")
@@ -58,7 +58,7 @@ def variables(
 @cache
 def arrays(quantity: str) -> tuple[str, ...]:
     """Return the names of the arrays of a quantity."""
-    return tuple(what for _, _, what, _ in variables([quantity], fired=True))
+    return tuple(what for _, _, what, _ in variables([quantity], means=True))
 
 
 class Labelled(Tabled):
@@ -82,6 +82,11 @@ class Labelled(Tabled):
     def fired(self) -> bool:
         """True if gas pressure is counted."""
         return False
+
+    @property
+    def causes(self) -> tuple[str, ...]:
+        """Names of what makes the quantities."""
+        return ("inertia",)
 
     @property
     def coords(self) -> Mapping[str, Any]:
@@ -136,7 +141,7 @@ class Labelled(Tabled):
         >>> list(i4.waveform(3000).tidy("force"))
         ['theta_deg', 'quantity', 'component', 'value', 'unit']
         """
-        named = self.request.named(quantities, fired=self.fired)
+        named = self.request.named(quantities, self.causes)
         parts = [
             (quantity, component, figures)
             for quantity in named
@@ -185,7 +190,7 @@ class Labelled(Tabled):
         """
         if frame is not None:
             return super().to_xarray(frame=frame)
-        named = self.request.named(quantities, fired=self.fired)
+        named = self.request.named(quantities, self.causes)
         coords, arrays = self._arrays(named)
         return dataset(self, named, coords, arrays, split_complex=split_complex)
 
@@ -221,7 +226,7 @@ def _split(dims: tuple[str, ...], values: NDArray[Any], attributes: dict[str, st
 
 def units(quantity: str) -> dict[str, str]:
     """Return the attributes of a quantity's variables."""
-    return {"units": KINDS[quantity].xarray_unit}
+    return {"units": kind_of(quantity).xarray_unit}
 
 
 def points(coords: Mapping[str, Any], times: int = 1) -> list[Column]:
@@ -251,6 +256,6 @@ def _long(
     for head in parts[0][2]:
         values = (figures[head].ravel().tolist() for *_, figures in parts)
         columns.append(Column(head, tuple(itertools.chain.from_iterable(values))))
-    units = repeated(KINDS[quantity].unit for quantity, _, _ in parts)
+    units = repeated(kind_of(quantity).unit for quantity, _, _ in parts)
     columns.append(Column("unit", units))
     return Table("Long form", tuple(columns), loads=loads, row_units=units)
