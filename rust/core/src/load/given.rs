@@ -34,9 +34,12 @@ pub(super) struct GivenLoad {
 pub(super) fn push(loads: &mut LoadList, engine: &Engine) {
     for (k, load) in engine.loads().iter().enumerate() {
         let (axis, ratio) = load.shaft(engine);
-        let place = |direction: Angle| Place {
+        let place = |direction: Angle, of: &GivenLoad| Place {
+            phase: match of.parts().repeats {
+                Repeats::EveryTurn => load.phase_deg.reduced(),
+                Repeats::EveryTwoTurns => load.phase_deg.half(),
+            },
             // Orders are multiples of the speed of the main crank.
-            phase: load.phase_deg.half(),
             bank: load.cylinder.map(|cylinder| engine.bank_of(cylinder)),
             ..Place::on_main(Origin::Load(k), direction, load.z).on(Crank { axis, ratio: 1 })
         };
@@ -61,12 +64,15 @@ pub(super) fn push(loads: &mut LoadList, engine: &Engine) {
             let force = if load.net_force() { of_row(&load.force.0) } else { Vec::new() };
             let [along, across] = components(&force, if load.turning { ratio } else { 0.0 });
             let torques = given(along, shares.map(series), shares.map(|share| share * mean));
-            if !torques.force.is_empty() || !torque.is_empty() {
-                loads.push(place(load.direction_deg), torques, 1.0, 1.0);
+            let Parts { force, roll, .. } = torques.parts();
+            if force.is_some() || roll {
+                let [weight, roll] = [force.is_some(), roll].map(|has| f64::from(u8::from(has)));
+                loads.push(place(load.direction_deg, &torques), torques, weight, roll);
             }
             if !across.is_empty() {
                 let direction = load.direction_deg + Angle::HALF_TURN.half();
-                loads.push(place(direction), given(across, Default::default(), [0.0; 2]), 1.0, 0.0);
+                let across = given(across, Default::default(), [0.0; 2]);
+                loads.push(place(direction, &across), across, 1.0, 0.0);
             }
         }
     }
