@@ -24,7 +24,7 @@ from crankpin import cli
 from crankpin._support import inputs
 from crankpin._support.record import AbsentItemError
 from crankpin.cli import main
-from crankpin.cli.arguments import COMMANDS, Given, error_in_options
+from crankpin.cli.arguments import Given, error_in_options
 from matplotlib import pyplot as plt
 
 IJESC = [
@@ -732,10 +732,10 @@ def test_version(capsys: CAPTURE) -> None:
 
 @pytest.mark.slow
 def test_the_help_lists_every_command() -> None:
-    assert sorted(cli.ORDER) == sorted(COMMANDS)
+    assert sorted(cli.ORDER) == sorted(cli.registered())
 
 
-@pytest.mark.parametrize("command", [[], *([name] for name in COMMANDS)])
+@pytest.mark.parametrize("command", [[], *([name] for name in cli.registered())])
 def test_examples_of_help_run(
     capsys: CAPTURE, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, command: list[str]
 ) -> None:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import crankpin as cp
 import pytest
-from crankpin.cli import ORDER, main
-from crankpin.cli.arguments import COMMANDS, Parser
+from crankpin.cli import ORDER, main, registered
+from crankpin.cli.arguments import Parser
 from support.test_units import IMPERIAL, SI
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ LINES = {
 def has_units(name: str) -> bool:
     """Whether a command takes ``--units``."""
     commands = Parser().add_subparsers()
-    COMMANDS[name](commands)
+    registered([name])[name](commands)
     return "--units" in commands.choices[name]._option_string_actions
 
 

@@ -14,4 +14,5 @@ a sum (phase lags, three lists, cosine sums), that way is kept, slips corrected 
 ``ito``           Ito and Hattori's V-14: bank sums, arrangements, bank angles
 ``firing``        when cylinders fire, by trying every choice of turns; pins of a firing order
 ``harmonics_mp``  the harmonics of one cylinder to fifty digits
+``exact_sums``    which sums over an engine are zero, to sixty digits
 """

@@ -6,6 +6,7 @@ import functools
 import inspect
 import re
 from collections.abc import Callable
+from importlib import import_module
 from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
@@ -19,8 +20,8 @@ if TYPE_CHECKING:
 
 _UNKNOWN = re.compile(r"(?:unexpected keyword|multiple values for) argument '(\w+)'")
 
-importers: list[Callable[[], object]] = []
-"""Import pictures, which register themselves, and matplotlib with them, once one is drawn."""
+PICTURES = "crankpin.plot"
+"""Package of the pictures, which register themselves; it imports matplotlib."""
 finishers: list[Callable[[Any], object]] = []
 """Change the figure of a picture that has been drawn."""
 
@@ -33,7 +34,7 @@ def draw(result: object, ax: object = None, **options: object) -> Any:  # noqa: 
     """
     optional.library("matplotlib")
     plt = optional.library("matplotlib.pyplot")
-    _import()
+    import_module(PICTURES)
     figure = options.get("figure")
     takes_figure = "figure" in inspect.signature(picture.dispatch(type(result))).parameters
     if "figure" in options and not takes_figure:  # a property of lines too, which is not to be set
@@ -109,7 +110,7 @@ def inline_svg(result: object) -> str | None:
         optional.library("matplotlib")
     except ImportError:
         return None
-    _import()
+    import_module(PICTURES)
     return svg(result)
 
 
@@ -117,8 +118,3 @@ def inline_svg(result: object) -> str | None:
 def svg(result: object) -> str:
     """Return a small picture as an SVG element; the functions that do are registered likewise."""
     raise inputs.rejected("result", result, "there is no small picture of this kind")
-
-
-def _import() -> None:
-    for importer in importers:
-        importer()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
-import secrets
 import stat
 from pathlib import Path
 
@@ -32,7 +31,7 @@ def _replace(file: Path, data: bytes) -> None:
     mode = stat.S_IMODE(file.stat().st_mode) if file.exists() else None
     if mode is not None and not os.access(file, os.W_OK):
         raise OSError(errno.EACCES, os.strerror(errno.EACCES))  # a rename would not ask
-    beside = file.with_name(f".crankpin-{secrets.token_hex(8)}")
+    beside = file.with_name(f".crankpin-{os.urandom(8).hex()}")
     try:
         with beside.open("xb") as opened:
             opened.write(data)

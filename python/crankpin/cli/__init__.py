@@ -5,22 +5,12 @@ from __future__ import annotations
 import argparse
 import sys
 import warnings
+from importlib import import_module
 from typing import TYPE_CHECKING
 
 from crankpin._core import InputError, __version__
 from crankpin._support import units
-from crankpin.cli import (
-    analyses,  # noqa: F401 - commands, as those below
-    engines,  # noqa: F401
-    hardware,  # noqa: F401
-    loads,  # noqa: F401
-    making,  # noqa: F401
-    mounts,  # noqa: F401
-    new,  # noqa: F401
-    outputs,
-    shaking,  # noqa: F401
-    shop,  # noqa: F401
-)
+from crankpin.cli import outputs
 from crankpin.cli.arguments import (
     COMMANDS,
     PROG,
@@ -33,15 +23,41 @@ from crankpin.cli.arguments import (
 from crankpin.model import checks
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
-ORDER = (
-    "presets", "new", "balance", "explain", "compare", "sweep", "rank", "firing", "star", "torque",
-    "trace", "flywheel", "bearings", "mounts", "mounts-fit", "counterweights", "bob-weight", "card",
-    "two-plane", "match", "shafts", "design", "tolerances", "closed-form", "harmonics",
-    "exercise", "view", "gallery",
-)  # fmt: skip
-"""Commands in the order of the help."""
+    from crankpin.cli.arguments import Commands
+
+ORDER = {
+    "presets": "engines",
+    "new": "new",
+    "balance": "shaking",
+    "explain": "shaking",
+    "compare": "analyses",
+    "sweep": "shaking",
+    "rank": "shaking",
+    "firing": "engines",
+    "star": "analyses",
+    "torque": "loads",
+    "trace": "loads",
+    "flywheel": "analyses",
+    "bearings": "loads",
+    "mounts": "mounts",
+    "mounts-fit": "mounts",
+    "counterweights": "hardware",
+    "bob-weight": "hardware",
+    "card": "shop",
+    "two-plane": "shop",
+    "match": "shop",
+    "shafts": "hardware",
+    "design": "making",
+    "tolerances": "making",
+    "closed-form": "analyses",
+    "harmonics": "analyses",
+    "exercise": "analyses",
+    "view": "engines",
+    "gallery": "engines",
+}
+"""Command → the module that has it, which is imported where it is run; in the order of the help."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -73,7 +89,8 @@ def _text(argv: Sequence[str] | None) -> str:
         if each.startswith("--") and each.endswith("=--"):  # on which argparse fails
             raise rejected(each.removesuffix("=--"), "--", "give a value")
     try:
-        arguments = _parser().parse_args(typed)
+        names = [name for name in typed[:1] if name in ORDER] or ORDER
+        arguments = _parser(names).parse_args(typed)
     except SystemExit:
         if sys.stdout is not None:
             outputs.write("")  # flushes the help while a broken pipe can still be answered
@@ -104,7 +121,15 @@ class _Warnings:
         self._of_units |= of_units
 
 
-def _parser() -> Parser:
+def registered(names: Iterable[str] = ORDER) -> Mapping[str, Callable[[Commands], None]]:
+    """Import the modules of commands, by default of all; return all commands that are imported."""
+    for name in names:
+        import_module(f"{__name__}.{ORDER[name]}")
+    return COMMANDS
+
+
+def _parser(names: Iterable[str]) -> Parser:
+    """Return the parser of some commands."""
     parser = Parser(
         prog=PROG,
         description="Shaking forces, rocking moments and torques of piston engines.",
@@ -114,6 +139,6 @@ def _parser() -> Parser:
     )
     parser.add_argument("--version", action="version", version=f"crankpin {__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    for name in ORDER:
-        COMMANDS[name](commands)
+    for name in names:
+        registered([name])[name](commands)
     return parser

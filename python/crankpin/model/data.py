@@ -238,9 +238,10 @@ class EngineData:
 
     @property
     def loads_counted(self) -> str:
-        """Gas pressure that results of the engine count, in words.
+        """Loads besides those of moving parts that results of the engine count, in words.
 
-        ``"without gas pressure"``, or the name of the cycle and which cylinders do not fire.
+        ``"without gas pressure"``, or the name of the cycle and which cylinders do not fire; and
+        the names of the :attr:`loads`.
 
         Examples
         --------
@@ -253,9 +254,7 @@ class EngineData:
         >>> i4.with_cycle([petrol, petrol, None, petrol]).loads_counted
         'gas: example petrol, full load; cylinder 3 does not fire'
         """
-        cores = self._core.cycles or ()
-        names = {core: core.points[3] for core in {*cores} if core is not None}
-        return labels.gas_text([names.get(core) for core in cores], len(names))
+        return self._core.loads_counted
 
     @property
     def firing_deg(self) -> NDArray[np.float64]:

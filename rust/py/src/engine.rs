@@ -652,6 +652,12 @@ impl Engine {
         self.0.with_shafts(shafts.into_iter().map(shaft).collect()).or_raise().map(Self::from)
     }
 
+    /// Loads besides those of moving parts, in words.
+    #[getter]
+    fn loads_counted(&self) -> String {
+        self.0.loads_counted()
+    }
+
     /// Periodic loads, as JSON.
     #[getter]
     fn loads(&self) -> PyResult<String> {

@@ -142,7 +142,7 @@ impl Engine {
         source: impl Into<String>,
         stations: Vec<Station>,
     ) -> Result<Self> {
-        let mut banks = first_equal(stations.iter().map(|p| p.bank.reduced()));
+        let (_, mut banks) = distinct(stations.iter().map(|p| p.bank.reduced()));
         // Of opposite bores those nearer to +x are the right bank: a flat engine's at 0°.
         if let Some(first) = stations.first()
             && stations.iter().any(|p| p.bank.reduced().degrees() < first.bank.reduced().degrees())
@@ -182,7 +182,7 @@ impl Engine {
             gears,
             gear_of,
             spectrum: None,
-            bank_of: first_equal(bank_keys.iter()),
+            bank_of: distinct(bank_keys.iter()).1,
             cranks: vec![Crank::MAIN],
             crank_of: vec![0; count],
             counterweights: Vec::new(),
@@ -515,12 +515,14 @@ fn check_each_cylinder(argument: &str, found: usize, expected: usize) -> Result<
     limits::same_length(argument, found, "the engine", expected, "cylinder")
 }
 
-/// Index of the first value equal to each.
+/// Index of the first value equal to each, in the list of the values themselves.
 pub(crate) fn first_equal<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<usize> {
-    distinct(values).1
+    let values: Vec<T> = values.collect();
+    let first = |value| values.iter().position(|other| other == value);
+    values.iter().enumerate().map(|(i, value)| first(value).unwrap_or(i)).collect()
 }
 
-/// Values without repetition, and for each the index of its own.
+/// Values without repetition, and of each value its index among these.
 pub(crate) fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> (Vec<T>, Vec<usize>) {
     let mut found: Vec<T> = Vec::new();
     let index = |value| {

@@ -10,8 +10,8 @@ pub mod vanishing;
 
 use num_traits::{CheckedAdd, CheckedDiv, CheckedMul, Signed};
 
-use crate::engine::{Engine, first_equal};
 use crate::Complex64;
+use crate::engine::{Engine, distinct};
 use crate::load::source::ExactFactor;
 use crate::load::{Load, LoadList};
 use crate::mechanism::Mechanism;
@@ -92,13 +92,11 @@ impl ExactLoads {
             (TypedProportions::of(of.cylinder()), of.ratio.unsigned_abs())
         };
         let (mut motions, mut motion_of) = (Vec::new(), vec![None; loads.sources.len()]);
-        let first = first_equal(mechanisms.iter().map(typed));
-        for (i, ((source, mechanism), first)) in mechanisms.iter().zip(first).enumerate() {
-            if first == i {
-                motion_of[*source] = Some(motions.len());
+        let (_, index_of) = distinct(mechanisms.iter().map(typed));
+        for ((source, mechanism), motion) in mechanisms.iter().zip(index_of) {
+            motion_of[*source] = Some(motion);
+            if motion == motions.len() {
                 motions.push(**mechanism);
-            } else {
-                motion_of[*source] = motion_of[mechanisms[first].0];
             }
         }
         Ok(Self { loads, motions, motion_of })

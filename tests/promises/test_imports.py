@@ -1,0 +1,102 @@
+"""Does ``import crankpin`` load nothing that is not asked for, and lose no name by it?"""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import inspect
+import pickle
+import subprocess
+import sys
+
+import crankpin as cp
+import pytest
+from crankpin import types
+
+LOADED = "print(*(name for name in sys.modules if name.partition('.')[0] in ('crankpin', 'numpy')))"
+
+
+def loaded(program: str) -> set[str]:
+    """Return the modules of crankpin and NumPy that a program has imported at its end."""
+    done = subprocess.run(  # noqa: S603 - this interpreter
+        [sys.executable, "-c", f"import sys; {program}; {LOADED}"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return set(done.stdout.splitlines()[-1].split())
+
+
+def test_import_loads_neither_numpy_nor_any_analysis() -> None:
+    names = ("", "._support", "._support.interrupted", "._support.lazy")
+    assert loaded("import crankpin") == {f"crankpin{name}" for name in names}
+    assert loaded("import crankpin.types") == {f"crankpin{name}" for name in (*names, ".types")}
+
+
+def test_a_balance_loads_what_it_needs() -> None:
+    modules = loaded("import crankpin as cp; cp.Engine.preset('i4').balance(3000)")
+    own = {name for name in modules if name.startswith("crankpin")}
+    assert not [name for name in own if name.split(".")[1:2] in (["cli"], ["plot"], ["view"])]
+    assert not [
+        name for name in own if name.startswith("crankpin.analysis.") and name.count(".") > 2
+    ]
+    assert len(own) < 50  # of more than a hundred
+
+
+def test_a_command_loads_no_other_command() -> None:
+    modules = loaded("from crankpin.cli import main; main(['balance', 'i4'])")
+    commands = {name for name in modules if name.startswith("crankpin.cli.")}
+    assert commands == {f"crankpin.cli.{name}" for name in ("arguments", "outputs", "shaking")}
+
+
+@pytest.mark.parametrize("module", [cp, types], ids=lambda module: module.__name__)
+def test_names_are_those_that_type_checkers_see(module: object) -> None:
+    static = {
+        name.name: (node.module, name.name)
+        for node in ast.walk(ast.parse(inspect.getsource(module)))  # type: ignore[arg-type]
+        if isinstance(node, ast.ImportFrom) and str(node.module).startswith("crankpin")
+        for name in node.names
+        if name.name != "lazy"
+    }
+    homes = module._HOMES  # type: ignore[attr-defined]
+    assert sorted(static) == sorted(module.__all__)  # type: ignore[attr-defined]
+    assert sorted(name for names in homes.values() for name in names) == sorted(static)
+    for name, (home, attribute) in static.items():
+        assert getattr(module, name) is getattr(importlib.import_module(str(home)), attribute)
+
+
+def test_a_star_imports_every_public_name() -> None:
+    names: dict[str, object] = {}
+    exec("from crankpin import *", names)  # noqa: S102 - of this line
+    assert {*names} - {"__builtins__"} == {*cp.__all__} == {*dir(cp)}
+
+
+@pytest.mark.parametrize("module", [cp, types], ids=lambda module: module.__name__)
+def test_other_names_are_attribute_errors(module: object) -> None:
+    with pytest.raises(AttributeError, match="has no attribute 'nonsense'"):
+        module.nonsense  # type: ignore[attr-defined] # noqa: B018
+    assert not hasattr(module, "analysis_of_nothing")
+
+
+def test_functions_and_results_are_pickled_where_nothing_is_loaded() -> None:
+    pickled = pickle.dumps((cp.rank, cp.Engine.preset("i4").balance(3000, orders=[2])))
+    program = f"import pickle; print(pickle.loads({pickled!r})[1][2].force.peak)"
+    done = subprocess.run(  # noqa: S603 - this interpreter
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    assert float(done.stdout) == cp.Engine.preset("i4").balance(3000, orders=[2])[2].force.peak
+
+
+FIRST = """
+import importlib, sys, crankpin, crankpin.types
+for home in {*crankpin._HOMES, *crankpin.types._HOMES} - {"crankpin._core"}:
+    for name in [name for name in sys.modules if name.startswith("crankpin.")]:
+        if name != "crankpin._core":
+            del sys.modules[name]
+    importlib.import_module(home)
+"""
+
+
+@pytest.mark.slow
+def test_any_module_may_be_the_first() -> None:
+    subprocess.run([sys.executable, "-c", FIRST], check=True)  # noqa: S603 - this interpreter
