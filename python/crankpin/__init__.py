@@ -137,6 +137,7 @@ _HOMES = {
     "crankpin.model.cylinder": ("Cylinder", "Rod", "slider_crank_harmonics"),
     "crankpin.model.engine": ("Engine",),
     "crankpin.model.gas_torque": ("gas_torque_harmonics",),
+    "crankpin.model.loads": ("PeriodicLoad",),
     "crankpin.model.mounts": ("InertiaTrack", "Mount", "RigidBody"),
     "crankpin.model.presets": ("presets",),
     "crankpin.model.shafts": ("Shaft", "Unbalance"),
