@@ -78,6 +78,30 @@ pub(super) fn push(loads: &mut LoadList, engine: &Engine) {
     }
 }
 
+/// The force of a load on its shaft, or on the block, at a speed, rad/s: coefficients of `e^{ikθ/2}` of x + iy,
+/// by k; without what stays.
+pub(crate) fn waves(engine: &Engine, load: &PeriodicLoad, omega: f64) -> Vec<(i32, Complex64)> {
+    let (_, ratio) = load.shaft(engine);
+    let scalings = scalings(load);
+    let sum = |rows: &[Complex64]| -> Complex64 {
+        let scaled = rows.iter().zip(&scalings);
+        scaled.map(|(a, (scaling, factor))| a * factor * scaling.factor(omega)).sum()
+    };
+    let force: Vec<_> = load.force.0.iter().map(|(halves, rows)| (*halves, sum(rows))).collect();
+    let [along, across] = components(&force, if load.turning { ratio } else { 0.0 });
+    let half_phase = load.phase_deg.half();
+    let (direction, mut waves) = (load.direction_deg.cis(1), Vec::new());
+    for (series, unit) in [(along, direction), (across, direction * Complex64::i())] {
+        for (order, amplitude) in series {
+            let halves = i64::from(order.halves());
+            let forward = 0.5 * amplitude * half_phase.cis(-halves);
+            waves.push((halves as i32, unit * forward));
+            waves.push((-(halves as i32), unit * forward.conj()));
+        }
+    }
+    waves
+}
+
 /// What each row of a load's table scales with, and the factor of its amplitudes.
 fn scalings(load: &PeriodicLoad) -> Vec<(Scaling, f64)> {
     match &load.over_speed {

@@ -25,7 +25,7 @@
 //! When a bank turns by δ, whatever belongs to it is multiplied as [`BankPhase`] says.
 
 mod gas;
-mod given;
+pub(crate) mod given;
 pub(crate) mod kinematics;
 mod list;
 mod piston;
