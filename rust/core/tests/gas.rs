@@ -6,11 +6,11 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use common::{InArrays, angle};
-use crankpin_core::quantity::{Part, Quantity};
 use crankpin_core::balance::{Balance, Orders, Request, balance};
 use crankpin_core::engine::layout::Strokes;
 use crankpin_core::engine::{Details, Gas, file};
 use crankpin_core::pressure::Given;
+use crankpin_core::quantity::{Part, Quantity};
 use crankpin_core::sweep::{MapAxes, Statistic, SweepAxes};
 use crankpin_core::{
     Angle, Cancel, Complex64, Crank, CrankAngles, Cycle, Cylinder, Engine, Hold, Order, Shaft,
@@ -91,8 +91,12 @@ fn contra_rotating_cranks_drive_together_and_leave_the_block_no_mean() {
     let request = Request { rpm: 0.0, reference_z: None, torque: true };
     for (ratios, sense) in [([1, 1], 1.0), ([1, -1], -1.0)] {
         let engine = fired(ratios);
-        let [block, crank] =
-            waveform::exact(&engine, &request, &theta_deg, &Cancel::new()).unwrap().parts.remove(0).torque.unwrap();
+        let [block, crank] = waveform::exact(&engine, &request, &theta_deg, &Cancel::new())
+            .unwrap()
+            .parts
+            .remove(0)
+            .torque
+            .unwrap();
         for (k, θ) in theta_deg.iter().enumerate() {
             let [one, other] = [derived(θ - 30.0), derived(θ - 390.0)];
             // Cubics at steps of a degree, and a difference quotient: 1e-6 of some 500 N·m.
@@ -233,7 +237,8 @@ fn sweeps_of_a_map_weigh_the_torques_of_its_cycles() {
     let orders = Orders::Given(orders);
     let parts = [Part::Whole, Part::GAS, Part::INERTIA];
     for (on_crank, part) in [false, true].into_iter().flat_map(|c| parts.map(|part| (c, part))) {
-        let quantity = if on_crank { Quantity::CRANK_TORQUE.part(part) } else { Quantity::TORQUE.part(part) };
+        let quantity =
+            if on_crank { Quantity::CRANK_TORQUE.part(part) } else { Quantity::TORQUE.part(part) };
         let phasors = sweep.phasors(quantity, Statistic::Amplitude, &cancel).unwrap();
         let [peaks, sums, means] = [Statistic::Amplitude, Statistic::Sum, Statistic::Mean]
             .map(|figure| sweep.peaks(quantity, figure, &cancel).unwrap());
@@ -333,14 +338,14 @@ fn each_point_of_a_sweep_of_a_fired_vee_is_a_balance() {
         };
         let engines = vec![Arc::new(fired_vee(VEE)), Arc::new(unfired(&fired_vee(VEE)))];
         let sweep = Sweep::new(engines, axes, orders.clone(), None, &cancel).unwrap();
-        for (part, on_crank) in [
-            (Part::GAS, false),
-            (Part::GAS, true),
-            (Part::Whole, false),
-            (Part::Whole, true),
-        ] {
-            let quantity =
-                if on_crank { Quantity::CRANK_TORQUE.part(part) } else { Quantity::TORQUE.part(part) };
+        for (part, on_crank) in
+            [(Part::GAS, false), (Part::GAS, true), (Part::Whole, false), (Part::Whole, true)]
+        {
+            let quantity = if on_crank {
+                Quantity::CRANK_TORQUE.part(part)
+            } else {
+                Quantity::TORQUE.part(part)
+            };
             let phasors = sweep.phasors(quantity, Statistic::Amplitude, &cancel).unwrap();
             let means = sweep.peaks(quantity, Statistic::Mean, &cancel).unwrap();
             for (place, &mean) in means.indexed_iter() {
@@ -418,8 +423,11 @@ fn waveforms_of_a_fired_sweep_have_its_means() {
     let sweep = Sweep::new(vec![Arc::new(fired_vee(VEE))], axes, orders, None, &cancel).unwrap();
     for on_crank in [false, true] {
         let whole = Part::Whole;
-        let quantity =
-            if on_crank { Quantity::CRANK_TORQUE.part(whole) } else { Quantity::TORQUE.part(whole) };
+        let quantity = if on_crank {
+            Quantity::CRANK_TORQUE.part(whole)
+        } else {
+            Quantity::TORQUE.part(whole)
+        };
         let means = sweep.peaks(quantity, Statistic::Mean, &cancel).unwrap();
         let [by_orders, exact] = [false, true].map(|exact| {
             let mut out = vec![f64::NAN; 2 * degrees.len()];

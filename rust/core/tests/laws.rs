@@ -6,10 +6,10 @@ use std::f64::consts::TAU;
 
 use common::random::{angles, cylinders, engines, vees};
 use common::{InArrays, by_orders, changed, turning, whole, xy};
-use crankpin_core::quantity::{Part, Quantity};
 use crankpin_core::angle::cis_degrees;
 use crankpin_core::balance::{Vector, balance};
 use crankpin_core::harmonics::{self, torque::TorqueHarmonics};
+use crankpin_core::quantity::{Part, Quantity};
 use crankpin_core::sweep::{Statistic, SweepAxes};
 use crankpin_core::{
     Angle, Balance, Cancel, Complex64, Crank, Cylinder, Engine, Hold, Order, Orders, Request,

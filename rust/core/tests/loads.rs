@@ -6,10 +6,10 @@ use std::f64::consts::TAU;
 
 use common::random::{angles, engines, stations, vees, weighted};
 use common::{InArrays, angle, by_orders, changed, kinematics, scales, turning, whole, xy};
-use crankpin_core::quantity::{Quantity};
 use crankpin_core::balance::{Vector, balance};
 use crankpin_core::exact::vanishing::{ProofQuantity as Sum, QUANTITIES, Verdict, vanishing};
 use crankpin_core::harmonics;
+use crankpin_core::quantity::Quantity;
 use crankpin_core::sweep::{Statistic, SweepAxes};
 use crankpin_core::wrench::{Torque, Wrench};
 use crankpin_core::{

@@ -6,12 +6,12 @@ use std::sync::Arc;
 
 use common::random::{angles, cylinders, weighted};
 use common::{InArrays, angle};
-use crankpin_core::quantity::{Part, Quantity};
 use crankpin_core::balance::{Balance, Request, Vector};
 use crankpin_core::engine::{Details, Gas, Origin};
 use crankpin_core::exact::vanishing::{QUANTITIES, Verdict, vanishing};
 use crankpin_core::flywheel::{CycleGrid, Drive, Evenness};
 use crankpin_core::pressure::Given;
+use crankpin_core::quantity::{Part, Quantity};
 use crankpin_core::sweep::{Statistic, SweepAxes};
 use crankpin_core::{
     Cancel, Complex64, Crank, Cycle, Cylinder, Engine, Order, Orders, Spectrum, Station, Sweep,

@@ -8,9 +8,9 @@ use common::{
     InArrays, alone, by_orders, changed, geared, in_line, mixed, places, plain, random, scales,
     there, turning, weighted, whole, xy,
 };
-use crankpin_core::quantity::{Part, Quantity};
-use crankpin_core::balance::{Vector};
+use crankpin_core::balance::Vector;
 use crankpin_core::peaks::PeakFinder;
+use crankpin_core::quantity::{Part, Quantity};
 use crankpin_core::slider_crank::Proportions;
 use crankpin_core::sweep::{Statistic, SweepAxes};
 use crankpin_core::{

@@ -9,8 +9,8 @@ use common::{
     InArrays, alone, angle, by_orders, in_line, kinematics, mixed, places, plain, there, weighted,
     whole, xy,
 };
-use crankpin_core::quantity::{Quantity};
 use crankpin_core::balance::{Vector, balance};
+use crankpin_core::quantity::Quantity;
 use crankpin_core::sweep::{Statistic, SweepAxes};
 use crankpin_core::{
     Angle, Balance, Cancel, Complex64, CrankAngles, Cylinder, Engine, Error, Hold, Orders, Request,

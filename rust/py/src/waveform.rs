@@ -39,7 +39,8 @@ fn columns<'py>(
     planar: Option<[Array2<f64>; 2]>,
     torque: Option<[Array1<f64>; 2]>,
 ) -> PyResult<Columns<'py>> {
-    let planar = planar.map(|[force, moment]| PyResult::Ok([frozen(py, force)?, frozen(py, moment)?]));
+    let planar =
+        planar.map(|[force, moment]| PyResult::Ok([frozen(py, force)?, frozen(py, moment)?]));
     let torque = torque.map(|[roll, crank]| PyResult::Ok([frozen(py, roll)?, frozen(py, crank)?]));
     Ok((planar.transpose()?, torque.transpose()?))
 }
@@ -70,9 +71,8 @@ pub fn waveform<'py>(
         }
         core::waveform::from_orders(&engine, &request, thetas, &orders, cancel)
     })?;
-    let part = |part: PartOverAngle| {
-        Ok((part.name.to_string(), columns(py, part.planar, part.torque)?))
-    };
+    let part =
+        |part: PartOverAngle| Ok((part.name.to_string(), columns(py, part.planar, part.torque)?));
     let parts = waveform.parts.into_iter().map(part).collect::<PyResult<_>>()?;
     let torque = waveform.torque.zip(waveform.crank_torque).map(<[_; 2]>::from);
     let whole = columns(py, Some([waveform.force, waveform.moment]), torque)?;

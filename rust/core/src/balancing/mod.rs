@@ -14,12 +14,12 @@ pub mod weights;
 
 use crate::Complex64;
 use crate::engine::Engine;
+use crate::load::LoadList;
+use crate::load::source::Scaling;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits::SMALLEST;
 use crate::numbers::order::Order;
-use crate::load::LoadList;
-use crate::load::source::Scaling;
 use crate::readings::amplitude::wrenches;
 use crate::readings::balance::angular_speed;
 use crate::wrench::Wrench;

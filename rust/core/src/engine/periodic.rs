@@ -62,7 +62,10 @@ impl TryFrom<Vec<Vec<f64>>> for Amplitudes {
         let row = |row: Vec<f64>| match &row[..] {
             [order, parts @ ..] if !parts.is_empty() && parts.len() % 2 == 0 => {
                 let values = parts.as_chunks::<2>().0;
-                Ok((halves(*order)?, values.iter().map(|[re, im]| Complex64::new(*re, *im)).collect()))
+                Ok((
+                    halves(*order)?,
+                    values.iter().map(|[re, im]| Complex64::new(*re, *im)).collect(),
+                ))
             }
             _ => {
                 let hint = "give an order, then real and imaginary part: [1.5, 8, 3]";
@@ -183,7 +186,8 @@ impl PeriodicLoad {
             return Err(Error::value(named("name"), format!("{:?}", self.name), hint));
         }
         let rows = self.check_speeds(&named("over_speed"))?;
-        let mean = if self.turning { "" } else { "a force that stays does not shake: leave its mean out" };
+        let mean =
+            if self.turning { "" } else { "a force that stays does not shake: leave its mean out" };
         for (field, amplitudes, no_mean) in
             [("force", &mut self.force, mean), ("torque", &mut self.torque, "")]
         {
@@ -300,7 +304,13 @@ impl Amplitudes {
         }
         for (halves, values) in &self.0 {
             let order = 0.5 * f64::from(*halves);
-            limits::same_length(&format!("{place}[{order}]"), values.len(), "the load", rows, "speed")?;
+            limits::same_length(
+                &format!("{place}[{order}]"),
+                values.len(),
+                "the load",
+                rows,
+                "speed",
+            )?;
             for value in values {
                 limits::finite(place, value.re)?;
                 limits::finite(place, value.im)?;
@@ -347,7 +357,10 @@ pub fn harmonics_of_samples(samples: &[f64], turns: u32) -> Result<Vec<(u32, Com
         let is_real = k == 0 || 2 * k == count;
         (k as u32 * step, if is_real { Complex64::from(value.re) } else { value })
     };
-    Ok((0..=highest).map(amplitude).filter(|(halves, _)| *halves <= 2 * limits::HIGHEST_ORDER).collect())
+    Ok((0..=highest)
+        .map(amplitude)
+        .filter(|(halves, _)| *halves <= 2 * limits::HIGHEST_ORDER)
+        .collect())
 }
 
 impl Engine {
@@ -395,7 +408,8 @@ impl Engine {
     /// Turns the loads of a cylinder's bank with it, by an angle; with the pins held their phase goes along.
     pub(super) fn turn_loads(&mut self, bank: usize, by: Angle, with_phase: bool) {
         let bank_of = &self.bank_of;
-        for load in self.loads.iter_mut().filter(|load| load.cylinder.is_some_and(|i| bank_of[i] == bank))
+        for load in
+            self.loads.iter_mut().filter(|load| load.cylinder.is_some_and(|i| bank_of[i] == bank))
         {
             load.direction_deg = (load.direction_deg + by).reduced();
             if with_phase {

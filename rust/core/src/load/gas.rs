@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::kinematics::{AngleBlock, Columns, LoadSum, Quantities};
 use super::source::{
-    ExactFactor, GAS, Parts, Point, Repeats, Scale, Scaling, Source, SourceUpTo, Tail, TorqueAmplitudes,
-    is_equal,
+    ExactFactor, GAS, Parts, Point, Repeats, Scale, Scaling, Source, SourceUpTo, Tail,
+    TorqueAmplitudes, is_equal,
 };
 use crate::engine::layout::Strokes;
 use crate::mechanism::Mechanism;
@@ -116,11 +116,11 @@ impl Source for GasPressure {
         Scale { force: 0.0, torque: Some(0.0) }
     }
 
-    fn at_point(&self, point: &Point) -> Result<Arc<dyn Source>> {
+    fn at_point(&self, point: &Point) -> Result<Option<Arc<dyn Source>>> {
         let mechanism = self.mechanism.replaced(point.rod_ratio, point.pin_offset)?;
         let cycle = point.cycles.map_or(&self.cycle, |cycles| &cycles[self.place]);
         let (cycle, known) = (Arc::clone(cycle), None);
-        Ok(Arc::new(Self { mechanism, cycle, known, ..*self }))
+        Ok(Some(Arc::new(Self { mechanism, cycle, known, ..*self })))
     }
 
     fn exact(&self) -> ExactFactor {
@@ -134,9 +134,9 @@ impl Source for GasPressure {
         wanted: Quantities,
         _: f64,
         columns: &mut Columns,
-    ) {
+    ) -> Result<()> {
         if !wanted.torque {
-            return;
+            return Ok(());
         }
         let [on_block, on_crank] = self.mechanism.senses();
         let units = &*block.units(1);
@@ -150,5 +150,6 @@ impl Source for GasPressure {
                 column[i] += sense * torque;
             }
         }
+        Ok(())
     }
 }

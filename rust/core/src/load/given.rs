@@ -2,10 +2,8 @@
 
 use std::sync::Arc;
 
-use super::kinematics::{AngleBlock, Columns, LoadSum, Quantities};
 use super::source::{
-    ExactFactor, ForcePart, Parts, Point, Repeats, Scale, Scaling, Source, Tail, TorqueAmplitudes,
-    is_equal,
+    ForcePart, Parts, Repeats, Scale, Scaling, Source, Tail, TorqueAmplitudes, is_equal,
 };
 use super::{LoadList, Place};
 use crate::Complex64;
@@ -59,7 +57,10 @@ pub(super) fn push(loads: &mut LoadList, engine: &Engine) {
             let mean = torque.first().filter(|(halves, _)| *halves == 0).map_or(0.0, |(_, a)| a.re);
             let shares = load.torque_shares(engine);
             let series = |share: f64| -> Series {
-                torque.iter().filter_map(|&(n, a)| Some((Order::from_halves(n).ok()?, a * share))).collect()
+                torque
+                    .iter()
+                    .filter_map(|&(n, a)| Some((Order::from_halves(n).ok()?, a * share)))
+                    .collect()
             };
             let force = if load.net_force() { of_row(&load.force.0) } else { Vec::new() };
             let [along, across] = components(&force, if load.turning { ratio } else { 0.0 });
@@ -224,57 +225,5 @@ impl Source for GivenLoad {
     fn scale(&self) -> Scale {
         let torque = self.torque.iter().map(largest).fold(0.0, f64::max);
         Scale { force: largest(&self.force), torque: (torque > 0.0).then_some(torque) }
-    }
-
-    fn at_point(&self, _: &Point) -> Result<Arc<dyn Source>> {
-        Ok(Arc::new(self.clone()))
-    }
-
-    fn exact(&self) -> ExactFactor {
-        ExactFactor::Unknown
-    }
-
-    fn over_angle(
-        &self,
-        sum: &LoadSum,
-        block: &AngleBlock,
-        wanted: Quantities,
-        factor: f64,
-        columns: &mut Columns,
-    ) {
-        let Columns { force: [force_x, force_y], moment: [moment_x, moment_y], torque } = columns;
-        let [force, moment, arm] = [sum.force, sum.moment, sum.arm].map(|sum| sum * factor);
-        let [on_block, on_crank] = torque;
-        for &(order, amplitude) in &self.force {
-            let units = block.orders(order);
-            let amplitude = amplitude * sum.lag(order);
-            for (i, (cos, sin)) in units.cos.iter().zip(&units.sin).enumerate() {
-                let value = amplitude.re * cos - amplitude.im * sin;
-                if wanted.planar {
-                    force_x[i] += force.re * value;
-                    force_y[i] += force.im * value;
-                    moment_x[i] += moment.re * value;
-                    moment_y[i] += moment.im * value;
-                }
-                if wanted.torque {
-                    on_block[i] += arm.im * value;
-                }
-            }
-        }
-        if !wanted.torque {
-            return;
-        }
-        let weight = factor * sum.roll;
-        for ((column, series), mean) in [on_block, on_crank].into_iter().zip(&self.torque).zip(self.mean)
-        {
-            column.iter_mut().for_each(|value| *value += weight * mean);
-            for &(order, amplitude) in series {
-                let units = block.orders(order);
-                let amplitude = amplitude * sum.lag(order) * weight;
-                for (value, (cos, sin)) in column.iter_mut().zip(units.cos.iter().zip(&units.sin)) {
-                    *value += amplitude.re * cos - amplitude.im * sin;
-                }
-            }
-        }
     }
 }

@@ -83,7 +83,8 @@ pub(crate) struct Kinematics {
 
 impl Kinematics {
     pub fn new(loads: &LoadList) -> Self {
-        let (mut sums, mut zero_bounds) = (Vec::<LoadSum>::new(), vec![[0.0; 2]; loads.groups.len()]);
+        let (mut sums, mut zero_bounds) =
+            (Vec::<LoadSum>::new(), vec![[0.0; 2]; loads.groups.len()]);
         let count = count(&loads.list, false);
         for load in &loads.list {
             let place = &load.place;
@@ -176,11 +177,8 @@ pub(super) fn add_inertia(
 }
 
 impl Columns {
-    pub const ZERO: Self = Self {
-        force: [[0.0; BLOCK]; 2],
-        moment: [[0.0; BLOCK]; 2],
-        torque: [[0.0; BLOCK]; 2],
-    };
+    pub const ZERO: Self =
+        Self { force: [[0.0; BLOCK]; 2], moment: [[0.0; BLOCK]; 2], torque: [[0.0; BLOCK]; 2] };
 
     /// Adds the wanted ones of other columns.
     pub fn add(&mut self, other: &Self, wanted: Quantities) {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::gas::GasPressure;
 use super::piston::PistonInertia;
 use super::rod::RodInertia;
-use super::source::{ExactFactor, INERTIA, Point, Repeats, Scaling, Source};
+use super::source::{ExactFactor, INERTIA, Point, Repeats, Scaling, Source, at_point};
 use super::spectrum::GivenForce;
 use super::unbalance::TurningUnbalance;
 use super::{Load, PhasorSum, Phasors, Place, Term, Wanted, superpose};
@@ -182,7 +182,7 @@ impl LoadList {
 
     /// The sources at a point of a sweep.
     pub fn at_point(&self, point: &Point) -> Result<Vec<Arc<dyn Source>>> {
-        self.sources.iter().map(|source| source.at_point(point)).collect()
+        self.sources.iter().map(|source| at_point(source, point)).collect()
     }
 
     /// Σ weights of the torques of each source, and Σ of the magnitudes, of which bounds are made.

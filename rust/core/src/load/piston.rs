@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::kinematics::{AngleBlock, BLOCK, Columns, LoadSum, Quantities, add_inertia};
 use super::source::{
-    Column, ExactFactor, ForcePart, INERTIA, Parts, Point, Scale, Source, Tail, TorqueAmplitudes, is_equal,
+    Column, ExactFactor, ForcePart, INERTIA, Parts, Point, Scale, Source, Tail, TorqueAmplitudes,
+    is_equal,
 };
 use crate::Complex64;
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
@@ -74,8 +75,8 @@ impl Source for PistonInertia {
         }
     }
 
-    fn at_point(&self, point: &Point) -> Result<Arc<dyn Source>> {
-        Ok(Arc::new(Self(self.0.replaced(point.rod_ratio, point.pin_offset)?)))
+    fn at_point(&self, point: &Point) -> Result<Option<Arc<dyn Source>>> {
+        Ok(Some(Arc::new(Self(self.0.replaced(point.rod_ratio, point.pin_offset)?))))
     }
 
     fn exact(&self) -> ExactFactor {
@@ -89,16 +90,33 @@ impl Source for PistonInertia {
         wanted: Quantities,
         square: f64,
         columns: &mut Columns,
-    ) {
-        let add = |columns: &mut Columns| match (wanted.planar, wanted.torque) {
-            (true, true) => add::<true, true>(&self.0, sum, block, square, columns),
-            (true, false) => add::<true, false>(&self.0, sum, block, square, columns),
-            _ => add::<false, true>(&self.0, sum, block, square, columns),
-        };
+    ) -> Result<()> {
+        let yoke = self.0.proportions.has_infinite_rod();
+        let (mechanism, columns) = (&self.0, columns);
         vectorised(
             #[inline(always)]
-            || add(columns),
+            || match (wanted.planar, wanted.torque, yoke) {
+                (true, true, false) => {
+                    add::<true, true, false>(mechanism, sum, block, square, columns)
+                }
+                (true, true, true) => {
+                    add::<true, true, true>(mechanism, sum, block, square, columns)
+                }
+                (true, false, false) => {
+                    add::<true, false, false>(mechanism, sum, block, square, columns)
+                }
+                (true, false, true) => {
+                    add::<true, false, true>(mechanism, sum, block, square, columns)
+                }
+                (false, _, false) => {
+                    add::<false, true, false>(mechanism, sum, block, square, columns)
+                }
+                (false, _, true) => {
+                    add::<false, true, true>(mechanism, sum, block, square, columns)
+                }
+            },
         );
+        Ok(())
     }
 
     fn add_inertia(&self, sum: &LoadSum, angles: &CrankAngles, into: [&mut [f64]; 2]) {
@@ -110,7 +128,7 @@ impl Source for PistonInertia {
 }
 
 #[inline(always)]
-fn add<const PLANAR: bool, const TORQUE: bool>(
+fn add<const PLANAR: bool, const TORQUE: bool, const YOKE: bool>(
     mechanism: &Mechanism,
     sum: &LoadSum,
     block: &AngleBlock,
@@ -124,7 +142,7 @@ fn add<const PLANAR: bool, const TORQUE: bool>(
     let [force, moment, arm] = [sum.force, sum.moment, sum.arm].map(|sum| sum * -square);
     let [on_block, on_crank] = mechanism.senses().map(|sense| sense * square * sum.roll);
     for i in 0..BLOCK {
-        let motion = proportions.motion_at(&units.crank(sum.turned, i));
+        let motion = proportions.motion_of::<YOKE>(&units.crank(sum.turned, i));
         if PLANAR {
             force_x[i] += force.re * motion.acceleration;
             force_y[i] += force.im * motion.acceleration;

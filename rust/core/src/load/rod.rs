@@ -60,8 +60,8 @@ impl Source for RodInertia {
         0.9
     }
 
-    fn at_point(&self, point: &Point) -> Result<Arc<dyn Source>> {
-        Ok(Arc::new(Self(self.0.replaced(point.rod_ratio, point.pin_offset)?)))
+    fn at_point(&self, point: &Point) -> Result<Option<Arc<dyn Source>>> {
+        Ok(Some(Arc::new(Self(self.0.replaced(point.rod_ratio, point.pin_offset)?))))
     }
 
     fn exact(&self) -> ExactFactor {
@@ -75,9 +75,9 @@ impl Source for RodInertia {
         wanted: Quantities,
         square: f64,
         columns: &mut Columns,
-    ) {
+    ) -> Result<()> {
         if !wanted.torque {
-            return;
+            return Ok(());
         }
         let units = &*block.units(sum.ratio);
         let [on_block, on_crank] = self.0.senses().map(|sense| sense * square * sum.roll);
@@ -92,6 +92,7 @@ impl Source for RodInertia {
                 }
             },
         );
+        Ok(())
     }
 
     fn add_inertia(&self, sum: &LoadSum, angles: &CrankAngles, into: [&mut [f64]; 2]) {

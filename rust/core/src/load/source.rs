@@ -65,7 +65,13 @@ impl Scaling {
                 let rpm = omega * 30.0 / std::f64::consts::PI;
                 // Speeds of a table that was given in rpm come back with a rounding.
                 let share = |end: f64| ((rpm - end) / (at - end)).clamp(0.0, 1.0);
-                if rpm < at { share(below) } else if rpm > at { share(above) } else { 1.0 }
+                if rpm < at {
+                    share(below)
+                } else if rpm > at {
+                    share(above)
+                } else {
+                    1.0
+                }
             }
         }
     }
@@ -153,6 +159,10 @@ pub struct Point<'a> {
 pub type SourceUpTo = (Arc<dyn Source>, Vec<f64>);
 
 /// What acts at a place, over the weights of a load.
+///
+/// A source says what every reading asks of it; none asks which source it is. Another crate's needs its name,
+/// how it acts, its orders, their amplitudes and a bound of the rest; what else there is follows from these,
+/// and `check_source` runs it through every reading.
 pub trait Source: Debug + Send + Sync + Any {
     /// Under which its loads are counted: `inertia`, `gas`, or a name of its own.
     fn name(&self) -> &str;
@@ -160,10 +170,14 @@ pub trait Source: Debug + Send + Sync + Any {
     /// How it acts.
     fn parts(&self) -> Parts;
 
-    /// Whether another source is the same.
-    fn equals(&self, other: &dyn Source) -> bool;
+    /// Whether another source is the same; loads of equal sources share their amplitudes.
+    fn equals(&self, other: &dyn Source) -> bool {
+        let _ = other;
+        false
+    }
 
     /// The motion that it depends on.
+    #[doc(hidden)]
     fn mechanism(&self) -> Option<&Mechanism> {
         None
     }
@@ -171,7 +185,7 @@ pub trait Source: Debug + Send + Sync + Any {
     /// Amplitudes of the force; zero at orders that it does not have.
     fn force(&self, orders: &[Order], cancel: &Cancel) -> Result<Vec<Complex64>> {
         cancel.check()?;
-        Ok(vec![Complex64::default(); orders.len()])
+        Ok(vec![Complex64::default(); orders.len()]) // bounded: by the orders of a request
     }
 
     /// Whether its torque at these orders is to be integrated: that takes as long as waking another
@@ -184,7 +198,7 @@ pub trait Source: Debug + Send + Sync + Any {
     /// Amplitudes of its torque on the block and on the main crank, and their means.
     fn torque(&self, orders: &[Order], cancel: &Cancel) -> Result<TorqueAmplitudes> {
         cancel.check()?;
-        let zero = vec![Complex64::default(); orders.len()];
+        let zero = vec![Complex64::default(); orders.len()]; // bounded: by the orders of a request
         let harmonics = TorqueHarmonics { roll: zero.clone(), crank: zero };
         Ok(TorqueAmplitudes { harmonics, mean: [0.0; 2] })
     }
@@ -207,41 +221,99 @@ pub trait Source: Debug + Send + Sync + Any {
         Ok(None)
     }
 
-    /// Largest torque among those at whole degrees, where [`Source::scale`] has none.
+    /// Largest torque among those at whole degrees, of one with an open tail.
     fn largest_torque(&self) -> f64 {
         0.0
     }
 
     /// What a tolerance is relative to.
-    fn scale(&self) -> Scale;
+    fn scale(&self) -> Scale {
+        let Tail { force, torque } = self.beyond(0, true);
+        Scale { force, torque: (torque > 0.0).then_some(torque) }
+    }
 
     /// Rod ratio up to which every order of a mechanism without offset grows with it.
+    #[doc(hidden)]
     fn grows_up_to(&self, column: Column) -> f64 {
         let _ = column;
         0.0
     }
 
-    /// The source at a point of a sweep.
-    fn at_point(&self, point: &Point) -> Result<Arc<dyn Source>>;
+    /// The source at a point of a sweep, where it is another there.
+    fn at_point(&self, point: &Point) -> Result<Option<Arc<dyn Source>>> {
+        let _ = point;
+        Ok(None)
+    }
 
     /// Its factor in exact sums.
-    fn exact(&self) -> ExactFactor;
+    #[doc(hidden)]
+    fn exact(&self) -> ExactFactor {
+        ExactFactor::Unknown
+    }
 
-    /// Adds what loads of it add at a block of crank angles, of inertia times the square of a speed.
+    /// Adds what loads of it add at a block of crank angles, times a factor: of a source without kinematics
+    /// of its own the sum of its orders.
+    #[doc(hidden)]
     fn over_angle(
         &self,
         sum: &LoadSum,
         block: &AngleBlock,
         wanted: Quantities,
-        square: f64,
+        factor: f64,
         columns: &mut Columns,
-    );
+    ) -> Result<()> {
+        let cancel = Cancel::new();
+        let orders = self.orders(Order::HIGHEST);
+        let Columns { force: [force_x, force_y], moment: [moment_x, moment_y], torque } = columns;
+        let [force, moment, arm] = [sum.force, sum.moment, sum.arm].map(|sum| sum * factor);
+        let [on_block, on_crank] = torque;
+        let has_force = self.parts().force.is_some();
+        let forces = if has_force { self.force(&orders, &cancel)? } else { Vec::new() };
+        for (&order, amplitude) in orders.iter().zip(forces) {
+            let (units, amplitude) = (block.orders(order), amplitude * sum.lag(order));
+            for (i, (cos, sin)) in units.cos.iter().zip(&units.sin).enumerate() {
+                let value = amplitude.re * cos - amplitude.im * sin;
+                if wanted.planar {
+                    force_x[i] += force.re * value;
+                    force_y[i] += force.im * value;
+                    moment_x[i] += moment.re * value;
+                    moment_y[i] += moment.im * value;
+                }
+                if wanted.torque {
+                    on_block[i] += arm.im * value;
+                }
+            }
+        }
+        if !wanted.torque || !self.parts().roll {
+            return Ok(());
+        }
+        let weight = factor * sum.roll;
+        let TorqueAmplitudes { harmonics, mean } = self.torque(&orders, &cancel)?;
+        let both =
+            [on_block, on_crank].into_iter().zip([harmonics.roll, harmonics.crank]).zip(mean);
+        for ((column, series), mean) in both {
+            column.iter_mut().for_each(|value| *value += weight * mean);
+            for (&order, amplitude) in orders.iter().zip(series) {
+                let (units, amplitude) = (block.orders(order), amplitude * sum.lag(order) * weight);
+                for (value, (cos, sin)) in column.iter_mut().zip(units.cos.iter().zip(&units.sin)) {
+                    *value += amplitude.re * cos - amplitude.im * sin;
+                }
+            }
+        }
+        Ok(())
+    }
 
     /// Adds the moment of inertia of loads of it as seen from the main crank, kg·m², and its slope per
     /// radian.
+    #[doc(hidden)]
     fn add_inertia(&self, sum: &LoadSum, angles: &CrankAngles, into: [&mut [f64]; 2]) {
         let _ = (sum, angles, into);
     }
+}
+
+/// A source at a point of a sweep.
+pub(crate) fn at_point(source: &Arc<dyn Source>, point: &Point) -> Result<Arc<dyn Source>> {
+    Ok(source.at_point(point)?.unwrap_or_else(|| Arc::clone(source)))
 }
 
 impl PartialEq for dyn Source {

@@ -2,8 +2,8 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::gas::GasPressure;
-use super::source::GAS as GAS_NAME;
 use super::kinematics::{AngleBlock, Columns, Kinematics, Quantities};
+use super::source::GAS as GAS_NAME;
 use super::*;
 use crate::Spectrum;
 use crate::engine::{Details, Engine, Gas, Shaft, Station, Unbalance};
@@ -218,7 +218,8 @@ fn pressure_under_a_piston_is_a_load_of_the_other_sign() {
     let block = AngleBlock::new(&angles, 0..degrees.len());
     let (mut columns, wanted) = (Columns::ZERO, Quantities { planar: false, torque: true });
     for sum in &Kinematics::new(&loads).sums {
-        sum.source.over_angle(sum, &block, wanted, 0.0, &mut columns);
+        let factor = f64::from(u8::from(sum.group > 0));
+        sum.source.over_angle(sum, &block, wanted, factor, &mut columns).unwrap();
     }
     let orders: Vec<Order> = (1..400).map(|halves| Order::from_halves(halves).unwrap()).collect();
     let by_orders = wrenches(&loads, &loads.sources, true, &orders, &Cancel::new()).unwrap();
@@ -277,7 +278,8 @@ fn pressure_at_another_point_is_evaluated_anew() {
         source::Point { cycles: Some(&cycles), ..source::Point::default() },
     ];
     for point in points {
-        let [once, fresh] = [&known, source].map(|source| source.at_point(&point).unwrap());
+        let [once, fresh] =
+            [&known, source].map(|source| super::source::at_point(source, &point).unwrap());
         assert_eq!(torque(&*once), torque(&*fresh));
         assert_ne!(torque(&*once), torque(&*known));
     }

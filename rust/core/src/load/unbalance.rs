@@ -1,9 +1,7 @@
 //! A mass off the axis of a shaft that turns evenly.
 
-use std::sync::Arc;
-
 use super::kinematics::{AngleBlock, BLOCK, Columns, LoadSum, Quantities};
-use super::source::{ExactFactor, ForcePart, INERTIA, Parts, Point, Scale, Source, Tail, is_equal};
+use super::source::{ExactFactor, ForcePart, INERTIA, Parts, Scale, Source, Tail, is_equal};
 use crate::Complex64;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -51,10 +49,6 @@ impl Source for TurningUnbalance {
         Scale { force: 1.0, torque: None }
     }
 
-    fn at_point(&self, _: &Point) -> Result<Arc<dyn Source>> {
-        Ok(Arc::new(self.clone()))
-    }
-
     fn exact(&self) -> ExactFactor {
         ExactFactor::One
     }
@@ -66,7 +60,7 @@ impl Source for TurningUnbalance {
         wanted: Quantities,
         square: f64,
         columns: &mut Columns,
-    ) {
+    ) -> Result<()> {
         let units = &*block.units(sum.ratio);
         let Columns { force: [force_x, force_y], moment: [moment_x, moment_y], torque, .. } =
             columns;
@@ -85,5 +79,6 @@ impl Source for TurningUnbalance {
                 }
             },
         );
+        Ok(())
     }
 }

@@ -75,7 +75,8 @@ impl Amplitudes {
         orders: &[Order],
         cancel: &Cancel,
     ) -> Result<Vec<Wrench>> {
-        let (counts, groups) = ([false, true].map(|torque| count(some, torque)), loads.groups.len());
+        let (counts, groups) =
+            ([false, true].map(|torque| count(some, torque)), loads.groups.len());
         let phasors = Phasors { reference: loads.reference };
         let mut wrenches: Vec<Wrench> = memory::with_capacity(orders.len() * groups)?;
         for (k, &order) in orders.iter().enumerate() {

@@ -400,7 +400,7 @@ fn tail(
 
 /// Zero times infinity is zero.
 pub(crate) fn times(weight: f64, bound: f64) -> f64 {
-    if weight == 0.0 { 0.0 } else { weight * bound }
+    if weight == 0.0 || bound == 0.0 { 0.0 } else { weight * bound }
 }
 
 /// What a tolerance is relative to, of each group over what it scales with: for force the largest m·r of a
@@ -466,10 +466,13 @@ impl IntegratedOrders {
         let mut step = 2;
         let largest_of: Vec<f64> = sources.iter().map(|source| source.largest_torque()).collect();
         for load in loads.list.iter().filter(|load| sources[load.source].has_open_tail()) {
-            let (group, own) = (loads.group_of[load.source], load.roll.abs() * largest_of[load.source]);
-            let of_group = find_or_push(&mut groups, |of| of.group == group, || {
-                IntegratedGroup { group, tail: 0.0, allowed: 0.0 }
-            });
+            let (group, own) =
+                (loads.group_of[load.source], load.roll.abs() * largest_of[load.source]);
+            let of_group = find_or_push(
+                &mut groups,
+                |of| of.group == group,
+                || IntegratedGroup { group, tail: 0.0, allowed: 0.0 },
+            );
             of_group.allowed = of_group.allowed.max(rtol.max(LEAST_OF_INTEGRATED) * own);
             if load.parts.repeats == Repeats::EveryTwoTurns {
                 step = 1;

@@ -4,8 +4,8 @@
 use std::collections::BTreeSet;
 
 use super::balance::{Balance, Request, Vector};
-use super::quantity::Part;
 use super::flywheel::mean_inertias;
+use super::quantity::Part;
 use super::terms::terms;
 use crate::Complex64;
 use crate::engine::{Engine, Origin};
@@ -93,10 +93,7 @@ pub fn orders(engine: &Engine, cancel: &Cancel) -> Result<Vec<Order>> {
         let parts = terms(&bare, &request(true), [0.0; 2], &tried, cancel)?;
         let last = parts.iter().filter_map(|(origin, part)| {
             let sizes = |k: usize| {
-                [
-                    part.planar(Vector::Force, k).peak(),
-                    part.torque(Part::INERTIA, k).roll.norm(),
-                ]
+                [part.planar(Vector::Force, k).peak(), part.torque(Part::INERTIA, k).roll.norm()]
             };
             let sizes: Vec<_> = (0..tried.len()).map(sizes).collect();
             let largest =

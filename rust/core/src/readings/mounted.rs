@@ -10,6 +10,8 @@ use nalgebra::Vector3;
 
 use crate::Complex64;
 use crate::engine::Engine;
+use crate::load::source::Scaling;
+use crate::load::{Group, LoadList};
 use crate::mounts::equations::{Equations, LANES, lanes, rows};
 use crate::mounts::{
     ComplexVector6, Levels, Powertrain, State, Support, grade, motion_of_point, natural_at,
@@ -20,8 +22,6 @@ use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::numbers::pool;
-use crate::load::source::Scaling;
-use crate::load::{Group, LoadList};
 use crate::readings::balance::{ErrorBounds, Orders, angular_speed};
 use crate::readings::choice;
 use crate::wrench::Wrench;
@@ -126,7 +126,8 @@ impl EngineLoads {
         let factors: Vec<f64> =
             self.groups.iter().map(|group| group.scaling.factor(omega)).collect();
         self.unit.chunks(self.groups.len()).map(move |of_order| {
-            let scaled = of_order.iter().zip(&factors).map(|(wrench, factor)| wrench.scaled(*factor));
+            let scaled =
+                of_order.iter().zip(&factors).map(|(wrench, factor)| wrench.scaled(*factor));
             load(&scaled.fold(Wrench::default(), |sum, one| sum.plus(&one)))
         })
     }

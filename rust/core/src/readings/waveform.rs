@@ -6,9 +6,9 @@ use ndarray::{Array1, Array2};
 
 use crate::Complex64;
 use crate::engine::Engine;
+use crate::load::kinematics::{AngleBlock, BLOCK, Columns, Kinematics, Quantities, Units};
 use crate::load::source::INERTIA;
 use crate::load::{LoadList, find_or_push};
-use crate::load::kinematics::{AngleBlock, BLOCK, Columns, Kinematics, Quantities, Units};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, check};
 use crate::numbers::error::{Error, Result};
@@ -86,13 +86,16 @@ pub fn exact(
     let mut shape = Shape::new(&loads, request.torque);
     shape.zero_bounds = kinematics.zero_bounds(&factors);
     let wanted = Quantities { planar: true, torque: request.torque };
-    let part_of: Vec<usize> =
-        loads.groups.iter().map(|group| shape.part(&group.name).map_or(0, |part| part + 1)).collect();
+    let part_of: Vec<usize> = loads
+        .groups
+        .iter()
+        .map(|group| shape.part(&group.name).map_or(0, |part| part + 1))
+        .collect();
     in_blocks(theta_deg, &shape, cancel, |angles, columns| {
         let block = AngleBlock::new(angles, 0..angles.len());
         for sum in &kinematics.sums {
             let (factor, columns) = (factors[sum.group], &mut columns[part_of[sum.group]]);
-            sum.source.over_angle(sum, &block, wanted, factor, columns);
+            sum.source.over_angle(sum, &block, wanted, factor, columns)?;
         }
         if let [whole, parts @ ..] = columns {
             parts.iter().for_each(|part| whole.add(part, wanted));
@@ -142,7 +145,9 @@ impl Shape {
     /// Of loads, with torques if they are wanted.
     fn new(loads: &LoadList, torque: bool) -> Self {
         let mut parts: Vec<(Arc<str>, [bool; 2])> = Vec::new();
-        for (k, group) in loads.groups.iter().enumerate().filter(|(_, group)| *group.name != *INERTIA) {
+        for (k, group) in
+            loads.groups.iter().enumerate().filter(|(_, group)| *group.name != *INERTIA)
+        {
             let new = || (Arc::clone(&group.name), [false; 2]);
             let (_, has) = find_or_push(&mut parts, |(name, _)| *name == group.name, new);
             let [force, own_torque] = loads.has(k);
@@ -263,7 +268,8 @@ fn fill_blocks(
     pool::each(cancel, tasks, NUMBERS_PER_ANGLE * angles, block)?;
     let pair = |values: Vec<f64>| memory::array("theta_deg", (values.len() / 2, 2), values);
     let mut of_all = Vec::new();
-    for (([force, moment], torque), [has_planar, has_torque]) in planar.into_iter().zip(torques).zip(has)
+    for (([force, moment], torque), [has_planar, has_torque]) in
+        planar.into_iter().zip(torques).zip(has)
     {
         let planar = if has_planar { Some([pair(force)?, pair(moment)?]) } else { None };
         of_all.push((planar, has_torque.then(|| torque.map(Array1::from))));

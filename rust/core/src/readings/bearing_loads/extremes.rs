@@ -265,7 +265,8 @@ impl BearingLoadsModel {
         let sampled = curves.sampled()?;
         let force = sampled[0][1].sqrt();
         let terms = carried.rods.iter().map(|&(share, i)| share.abs() * terms[i]);
-        let rounding = LOAD_ROUNDING * (terms.sum::<f64>() + carried.waves.iter().map(|(_, wave)| wave.norm()).sum::<f64>());
+        let rounding = LOAD_ROUNDING
+            * (terms.sum::<f64>() + carried.waves.iter().map(|(_, wave)| wave.norm()).sum::<f64>());
         let tolerance = (LOAD_RESOLVED * force * force).max(2.0 * force * rounding);
         let [squares] = curves.extremes(sampled, &[tolerance])?;
         Ok(squares.map(|square| square.max(0.0).sqrt()))

@@ -122,7 +122,11 @@ impl Periodic {
     }
 
     /// Adds real and imaginary part at a block of angles.
-    fn add(waves: &[(i32, Complex64)], angles: &CrankAngles, [x, y]: [&mut AngleColumn; 2]) -> Result<()> {
+    fn add(
+        waves: &[(i32, Complex64)],
+        angles: &CrankAngles,
+        [x, y]: [&mut AngleColumn; 2],
+    ) -> Result<()> {
         for &(halves, at_start) in waves {
             let order = Order::from_halves(halves.unsigned_abs())?;
             let units = Units::new(angles, 0..angles.len(), order);
@@ -412,7 +416,8 @@ impl BearingLoadsModel {
         // First what turns with the crank, of which there always is some.
         let mut waves = vec![(2 * ratio, Complex64::ZERO)];
         for &(halves, wave) in all {
-            let sum = find_or_push(&mut waves, |(own, _)| *own == halves, || (halves, Complex64::ZERO));
+            let sum =
+                find_or_push(&mut waves, |(own, _)| *own == halves, || (halves, Complex64::ZERO));
             sum.1 += wave;
         }
         Carried { rods, waves, ratio, bound }

@@ -8,7 +8,7 @@
 use num_traits::{CheckedDiv, CheckedMul};
 
 use super::roots::{FormalSum, Share};
-use super::{ExactLoads, NumberedLoads, Levers, too_long, whole};
+use super::{ExactLoads, Levers, NumberedLoads, too_long, whole};
 use crate::engine::Engine;
 use crate::load::{Load, LoadList, Wanted, superpose};
 use crate::numbers::angle::Angle;

@@ -19,9 +19,9 @@ use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::order::Order;
+use crate::numbers::rational::{Multiples, Ratio, common_measure, decimal};
 use crate::readings::amplitude::Amplitudes;
 use crate::wrench::Wrench;
-use crate::numbers::rational::{Multiples, Ratio, common_measure, decimal};
 
 fn too_long() -> Error {
     Error::value("weights", "too many digits", "exact sums need simple ratios of masses and places")
@@ -185,7 +185,9 @@ impl NumberedLoads {
                         [x, y, vector.forward, vector.backward_conj]
                     });
                     let all = planar.as_flattened().iter().chain([&torque.roll]);
-                    acts.iter_mut().zip(all).for_each(|(acts, one)| *acts |= *one != Complex64::ZERO);
+                    acts.iter_mut()
+                        .zip(all)
+                        .for_each(|(acts, one)| *acts |= *one != Complex64::ZERO);
                 }
             }
         }

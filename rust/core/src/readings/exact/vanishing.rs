@@ -471,7 +471,8 @@ pub(crate) fn vanishing_of(
         obstacles.push("cylinders of different dimensions, whose gas torques have no ratio".into());
     }
     if has_numbered {
-        obstacles.push("loads that were given by numbers: they cancel with nothing for certain".into());
+        obstacles
+            .push("loads that were given by numbers: they cancel with nothing for certain".into());
     }
     obstacles.extend(errors);
     Ok(Vanishing { orders: orders.to_vec(), verdicts, within_rounding, obstacles })

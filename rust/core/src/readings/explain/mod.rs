@@ -20,11 +20,11 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::figure::rounded;
 use crate::numbers::order::Order;
-use crate::readings::quantity;
 use crate::readings::balance::{
     Balance, Orders, Request, UNIT_RPM, Vector, angular_speed, balance,
 };
 use crate::readings::exact::vanishing::{ProofQuantity, QUANTITIES, Verdict, vanishing_of};
+use crate::readings::quantity;
 use crate::readings::terms::terms;
 
 /// Highest order whose cancelling is explained.

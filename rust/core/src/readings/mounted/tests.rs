@@ -3,12 +3,12 @@
 use nalgebra::Vector3;
 
 use super::*;
-use crate::readings::balance::{Request, balance};
 use crate::engine::Station;
 use crate::mechanism::slider_crank::Cylinder;
 use crate::mounts::tests::{four_mounts, random};
 use crate::numbers::angle::Angle;
 use crate::numbers::draws;
+use crate::readings::balance::{Request, balance};
 use crate::readings::peaks::largest_vectors;
 
 fn degrees(degrees: f64) -> Angle {

@@ -30,8 +30,8 @@ use super::layout::{Layout, LayoutSum, Swung};
 use super::{Selection, Sweep, SweepAxes};
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::source::{Column, Point, Source};
 use crate::load::Harmonic;
+use crate::load::source::{Column, Point, Source, at_point};
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -96,7 +96,8 @@ impl Sweep {
                 let planar = [Quantity::FORCE, Quantity::MOMENT];
                 let torques = [Quantity::TORQUE, Quantity::CRANK_TORQUE];
                 let planar = planar.into_iter().filter(|_| force);
-                for quantity in planar.chain(torques.into_iter().filter(|_| torque && sweep.torque)) {
+                for quantity in planar.chain(torques.into_iter().filter(|_| torque && sweep.torque))
+                {
                     let quantity = quantity.part(Part::Of(&group.name));
                     selected.push((k, Selection { quantity, scaling: Some(group.scaling) }));
                 }
@@ -159,7 +160,7 @@ impl Sweep {
                 if !source.has_open_tail() {
                     continue;
                 }
-                let up_to = source.at_point(&at)?.up_to(last, cancel)?;
+                let up_to = at_point(source, &at)?.up_to(last, cancel)?;
                 let above = up_to.and_then(|(_, tails)| tails.last().copied()).unwrap_or(0.0);
                 tails[loads.group_of[k]] += weight.size * above;
             }
@@ -226,20 +227,20 @@ impl Sweep {
         if let Some(place) = known.iter().position(same) {
             return Ok(place);
         }
-        let found = self.evaluated(&**source, column, cancel)?;
+        let found = self.evaluated(source, column, cancel)?;
         known.push((Arc::clone(source), column, found));
         Ok(known.len() - 1)
     }
 
     fn evaluated(
         &self,
-        source: &dyn Source,
+        source: &Arc<dyn Source>,
         column: Column,
         cancel: &Cancel,
     ) -> Result<[Vec<SizeFactor>; 2]> {
         let orders = &self.orders;
         let values = |factor: fn(Complex64) -> SizeFactor| {
-            let TorqueHarmonics { roll, crank } = of(source, column, orders, cancel)?;
+            let TorqueHarmonics { roll, crank } = of(&**source, column, orders, cancel)?;
             Ok([roll, crank].map(|values| values.into_iter().map(factor).collect()))
         };
         let Some(mechanism) = source.mechanism().filter(|_| self.points() > 1) else {
@@ -248,7 +249,7 @@ impl Sweep {
         if source.has_open_tail() {
             let mut sizes = [vec![0.0_f64; orders.len()], vec![0.0; orders.len()]];
             for point in 0..self.points() {
-                let there = source.at_point(&self.proportions_at(point))?;
+                let there = at_point(source, &self.proportions_at(point))?;
                 let TorqueHarmonics { roll, crank } = of(&*there, column, orders, cancel)?;
                 for (sizes, values) in sizes.iter_mut().zip([roll, crank]) {
                     sizes.iter_mut().zip(values).for_each(|(s, v)| *s = s.max(v.norm()));
@@ -336,8 +337,8 @@ mod tests {
         let (source, column) = [(0, Column::Force), (0, Column::Roll), (1, Column::Roll)][kind];
         let source = &sweep.loads[0].sources[source];
         let [rod_ratio, pin_offset] = sweep.extremes;
-        let slowest = source.at_point(&Point { rod_ratio, pin_offset, cycles: None }).unwrap();
-        let bounds = sweep.evaluated(&*slowest, column, &cancel).unwrap();
+        let slowest = at_point(source, &Point { rod_ratio, pin_offset, cycles: None }).unwrap();
+        let bounds = sweep.evaluated(&slowest, column, &cancel).unwrap();
         let mut found = bounds.map(|bounds| {
             let bound = |factor| match factor {
                 SizeFactor::AtMost(bound) => [bound, 0.0],
@@ -346,7 +347,7 @@ mod tests {
             bounds.into_iter().map(bound).collect::<Vec<_>>()
         });
         for point in 0..sweep.points() {
-            let there = source.at_point(&sweep.proportions_at(point)).unwrap();
+            let there = at_point(source, &sweep.proportions_at(point)).unwrap();
             let TorqueHarmonics { roll, crank } = of(&*there, column, &orders, &cancel).unwrap();
             for (found, values) in found.iter_mut().zip([roll, crank]) {
                 found.iter_mut().zip(values).for_each(|([_, l], value)| *l = l.max(value.norm()));

@@ -8,13 +8,13 @@ use super::block::ROWS_SIDE_BY_SIDE;
 use super::harmonics::PointHarmonics;
 use super::layout::Layout;
 use super::{Selection, Sweep};
-use crate::readings::quantity::Quantity;
 use crate::Complex64;
 use crate::load::LoadList;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
 use crate::numbers::simd::{sin_cos_degrees, vectorised};
+use crate::readings::quantity::Quantity;
 
 /// Columns of numbers, one after the other, each followed by room that a block may read.
 pub(super) struct Padded<const N: usize> {

@@ -7,7 +7,7 @@ use super::layout::Layout;
 use super::{Selection, Sweep};
 use crate::Complex64;
 use crate::load::Harmonic;
-use crate::load::source::{Column, Point, Source};
+use crate::load::source::{Column, Point, Source, at_point};
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::mechanism::harmonics::table;
 use crate::numbers::cancel::Cancel;
@@ -36,7 +36,8 @@ impl PointHarmonics {
         let mut found: Vec<(Harmonic, PointColumns)> = Vec::new();
         for harmonic in layout.iter().flatten().map(|sum| sum.harmonic) {
             if found.iter().all(|(known, _)| *known != harmonic) {
-                let columns = sweep.columns(sources, harmonic, selection, points.clone(), cancel)?;
+                let columns =
+                    sweep.columns(sources, harmonic, selection, points.clone(), cancel)?;
                 found.push((harmonic, columns));
             }
         }
@@ -85,9 +86,9 @@ impl Sweep {
         for _ in &self.orders {
             columns.push([memory::zeros(points.len())?, memory::zeros(points.len())?]);
         }
-        let (source, column) = (&*sources[harmonic.source], harmonic.column);
+        let (source, column) = (&sources[harmonic.source], harmonic.column);
         let Some(mechanism) = source.mechanism() else {
-            let values = selection.among(of(source, column, &self.orders, cancel)?);
+            let values = selection.among(of(&**source, column, &self.orders, cancel)?);
             for ([re, im], value) in columns.iter_mut().zip(values) {
                 re.fill(value.re);
                 im.fill(value.im);
@@ -113,7 +114,7 @@ impl Sweep {
                 (re[row], im[row]) = (value.re, value.im);
             }
         };
-        let at = |point| source.at_point(&self.at(selection, point));
+        let at = |point| at_point(source, &self.at(selection, point));
         let values = |source: Arc<dyn Source>| {
             cancel.check()?;
             Ok(selection.among(of(&*source, column, &self.orders, cancel)?))

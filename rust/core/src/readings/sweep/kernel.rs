@@ -81,7 +81,8 @@ impl Job<'_> {
         let layouts = self.layouts()?;
         self.cancel.expect(layouts.len() * angles * points);
         for angle_slab in slabs(angles) {
-            let waves = Waves::new(sweep, self.selection.quantity, angle_slab.clone(), self.cancel)?;
+            let waves =
+                Waves::new(sweep, self.selection.quantity, angle_slab.clone(), self.cancel)?;
             for point_slab in slabs(points) {
                 let parts: Vec<Range<usize>> = parts(point_slab.clone(), PART).collect();
                 let each_part = sweep.loads.iter().zip(&layouts).flat_map(|of_engine| {

@@ -68,7 +68,9 @@ impl Sweep {
                 let count = count(&loads.list, !quantity.is_planar());
                 let rounding = rounding(count, order.number());
                 let mut sums = Vec::new();
-                for (term, parts) in terms.iter().filter_map(|t| Some((t, selection.parts(loads, t)?))) {
+                for (term, parts) in
+                    terms.iter().filter_map(|t| Some((t, selection.parts(loads, t)?)))
+                {
                     let harmonic = term.harmonic;
                     let sum = find_or_push(
                         &mut sums,
@@ -96,7 +98,6 @@ impl Sweep {
         }
         Ok(layouts)
     }
-
 }
 
 impl Selection<'_> {

@@ -262,7 +262,11 @@ impl Sweep {
         let has_others = self.scalings(quantity) != [Scaling::SpeedSquared];
         let finder = figure.is_of_sum().then(|| {
             let orders = &self.orders;
-            if has_others && !quantity.is_planar() { PeakFinder::about_mean(orders) } else { PeakFinder::new(orders) }
+            if has_others && !quantity.is_planar() {
+                PeakFinder::about_mean(orders)
+            } else {
+                PeakFinder::new(orders)
+            }
         });
         let finder = finder.transpose()?;
         let means = |selection: Selection, out: &mut [f64], factor: f64| {

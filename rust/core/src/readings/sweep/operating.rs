@@ -8,7 +8,7 @@ use super::axes::SweepAxes;
 use super::kernel::{Number, ROWS_PER_TASK};
 use super::{Selection, Sweep};
 use crate::Complex64;
-use crate::load::source::Scaling;
+use crate::load::source::{Scaling, at_point};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
@@ -175,7 +175,7 @@ impl Sweep {
             for point in 0..points {
                 let (mut mean, at) = (0.0, self.at(selection, point));
                 for k in (0..weights.len()).filter(|&k| counts(k)) {
-                    let own = loads.sources[k].at_point(&at)?.torque(&[], cancel)?.mean;
+                    let own = at_point(&loads.sources[k], &at)?.torque(&[], cancel)?.mean;
                     mean += weights[k].value * own[on_crank];
                 }
                 means.push(factor * mean);
@@ -221,7 +221,8 @@ impl<T: Number> Operating<'_, T> {
                     }
                 }
             } else {
-                let (factor, row) = (scaled.factors[place.speed], &scaled.rows[place.row * width..]);
+                let (factor, row) =
+                    (scaled.factors[place.speed], &scaled.rows[place.row * width..]);
                 if is_first {
                     // Adding zero makes −0 0.
                     let values = out.iter_mut().zip(row);

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::{Selection, Sweep};
 use crate::load::LoadList;
 use crate::load::kinematics::{AngleBlock, Columns, Kinematics, LoadSum, Quantities};
-use crate::load::source::Source;
+use crate::load::source::{Source, at_point};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
 use crate::readings::quantity::Kind;
@@ -43,7 +43,7 @@ impl Sweep {
         point: usize,
     ) -> Result<Vec<Arc<dyn Source>>> {
         let point = self.at(selection, point);
-        kinematics.sums.iter().map(|sum| sum.source.at_point(&point)).collect()
+        kinematics.sums.iter().map(|sum| at_point(&sum.source, &point)).collect()
     }
 }
 
@@ -57,7 +57,7 @@ impl Placed {
         factor: f64,
         block: &AngleBlock,
         outs: &mut impl Iterator<Item = &'o mut [f64]>,
-    ) {
+    ) -> Result<()> {
         let torque = !quantity.is_planar();
         let wanted = Quantities { planar: !torque, torque };
         let counts = |sum: &LoadSum| {
@@ -69,14 +69,14 @@ impl Placed {
         let [of_force, of_moment] = self.kinematics.zero_bounds(&factors);
         let mut fixed = Columns::ZERO;
         for sum in self.kinematics.sums.iter().filter(|sum| counts(sum) && is_fixed(sum)) {
-            sum.source.over_angle(sum, block, wanted, 1.0, &mut fixed);
+            sum.source.over_angle(sum, block, wanted, 1.0, &mut fixed)?;
         }
         let mut columns = Columns::ZERO;
         for (point, out) in self.points.iter().zip(outs) {
             columns.copy(&fixed, wanted);
             for (sum, source) in self.kinematics.sums.iter().zip(point) {
                 if counts(sum) && !is_fixed(sum) {
-                    source.over_angle(sum, block, wanted, 1.0, &mut columns);
+                    source.over_angle(sum, block, wanted, 1.0, &mut columns)?;
                 }
             }
             let Columns { force, moment, torque: [roll, crank], .. } = &columns;
@@ -96,5 +96,6 @@ impl Placed {
                 *pair = [factor * snapped(*x), factor * snapped(*y)];
             }
         }
+        Ok(())
     }
 }

@@ -102,7 +102,7 @@ impl Sweep {
                     Some(tiles) => (Some(tiles), range.start / TILE),
                     None => (own.as_ref(), 0),
                 };
-                let Some(tiles) = tiles else { return };
+                let Some(tiles) = tiles else { return Ok(()) };
                 vectorised(
                     #[inline(always)]
                     || {
@@ -115,6 +115,7 @@ impl Sweep {
                         }
                     },
                 );
+                Ok(())
             },
         )?;
         rows.add(&means, out)
@@ -159,11 +160,12 @@ impl Sweep {
                                 outs.iter_mut().filter_map(|out| out.chunks_mut(size).nth(k));
                             let block = AngleBlock::new(rows.angles, part);
                             for here in placed {
-                                here.write(selection, factor, &block, &mut outs);
+                                here.write(selection, factor, &block, &mut outs)?;
                             }
                         }
+                        Ok(())
                     },
-                );
+                )
             },
         )
     }
@@ -197,7 +199,7 @@ impl RowsOverAngle<'_> {
         &self,
         out: &mut [f64],
         prepare: impl Fn(Range<usize>) -> Result<P> + Sync,
-        work: impl Fn(&P, Range<usize>, Vec<&mut [f64]>) + Sync,
+        work: impl Fn(&P, Range<usize>, Vec<&mut [f64]>) -> Result<()> + Sync,
     ) -> Result<()> {
         let row = self.angles.len() * self.components;
         if out.is_empty() {
@@ -217,7 +219,7 @@ impl RowsOverAngle<'_> {
             }
             let tasks = parts.iter().zip(by_part).collect();
             pool::each(self.cancel, tasks, numbers, |(part, outs)| {
-                work(&prepared, part.clone(), outs);
+                work(&prepared, part.clone(), outs)?;
                 self.cancel.step()
             })
         };
@@ -243,6 +245,7 @@ mod tests {
                 if steps.fetch_add(1, Ordering::Relaxed) + 1 == last {
                     cancel.raise();
                 }
+                Ok(())
             };
             let result = rows.fill(&mut out, |_| Ok(()), work);
             (result, steps.into_inner(), cancel.progress().1)

@@ -1,9 +1,9 @@
 use ndarray::Array2;
 
 use super::*;
-use crate::quantity::Part;
 use crate::Order;
 use crate::engine::{Shaft, Station, Unbalance};
+use crate::quantity::Part;
 use crate::{Angle, Cylinder};
 
 const ORDERS: [u32; 4] = [1, 2, 3, 4];
@@ -107,16 +107,12 @@ fn without_spreads_a_sample_is_the_balance_bit_for_bit() {
                 let ([x, y], planar) = (known.xy(vector, k), known.planar(vector, k));
                 assert_eq!(*found, [x, y, planar.forward, planar.backward()]);
             }
-            assert_eq!(
-                *torque,
-                [known.wrenches[k].torque.roll, known.wrenches[k].torque.crank]
-            );
+            assert_eq!(*torque, [known.wrenches[k].torque.roll, known.wrenches[k].torque.crank]);
         }
         let [force, moment] =
             [Vector::Force, Vector::Moment].map(|v| known.peak(v, &Cancel::new()).unwrap());
-        let [roll, crank] = [false, true].map(|on_crank| {
-            known.torque_peak(Part::Whole, on_crank, &Cancel::new()).unwrap()
-        });
+        let [roll, crank] = [false, true]
+            .map(|on_crank| known.torque_peak(Part::Whole, on_crank, &Cancel::new()).unwrap());
         let peaks = [force, moment, roll, crank];
         assert_eq!(found.peaks, [peaks; 2]);
     }
@@ -190,9 +186,8 @@ fn a_sample_is_the_balance_of_the_engine_that_was_drawn() {
             }
             let [force, moment] =
                 [Vector::Force, Vector::Moment].map(|v| known.peak(v, &Cancel::new()).unwrap());
-            let [roll, crank] = [false, true].map(|on_crank| {
-                known.torque_peak(Part::Whole, on_crank, &Cancel::new()).unwrap()
-            });
+            let [roll, crank] = [false, true]
+                .map(|on_crank| known.torque_peak(Part::Whole, on_crank, &Cancel::new()).unwrap());
             let peaks = [force, moment, roll, crank];
             for (found, known) in found.peaks[s].iter().zip(peaks) {
                 assert!((found - known).abs() <= 1e-12 * known, "{s}: {found} {known}");

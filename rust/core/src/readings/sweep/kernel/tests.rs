@@ -2,10 +2,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::*;
-use crate::readings::quantity::Quantity;
 use crate::engine::{Engine, Hold, Station};
 use crate::numbers::error::Error;
 use crate::numbers::order::Order;
+use crate::readings::quantity::Quantity;
 use crate::readings::sweep::{Statistic, SweepAxes};
 use crate::{Angle, Cylinder};
 
