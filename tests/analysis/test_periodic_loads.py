@@ -75,9 +75,7 @@ def test_a_load_is_its_free_body_in_waveforms_balances_and_sweeps(seed: int) -> 
     balance = with_loads.balance(rpm, orders=orders)
     sweep = cp.sweep(with_loads, rpm=[1000.0, rpm], orders=orders)
     for quantity in QUANTITIES:
-        parts = [
-            periodic.net(load, THETA, rpm, plane)[quantity] for load in loads
-        ]
+        parts = [periodic.net(load, THETA, rpm, plane)[quantity] for load in loads]
         whole = getattr(exact, quantity) - getattr(before, quantity)
         size = np.abs(getattr(before, quantity)).max() + np.abs(parts).max() + 1.0
         # Roundings of some twenty terms.
@@ -105,7 +103,7 @@ def test_a_load_is_its_free_body_in_waveforms_balances_and_sweeps(seed: int) -> 
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_an_engine_with_a_load_is_the_sum_of_both(seed: int) -> None:
-    """In numbers and bounds, of orders given and chosen, about any point, on mounts, in bearings."""
+    """In numbers and bounds, of orders given and chosen, and about any point."""
     random = np.random.default_rng(100 + seed)
     bare, load = engine(seed), drawn(random)
     both = bare.with_loads([built(load)])
@@ -146,8 +144,10 @@ def test_a_load_of_no_size_changes_names_alone(seed: int) -> None:
         assert one.error_bound[quantity] == other.error_bound[quantity]
         mine, theirs = np.asarray(one._quantity(quantity)), np.asarray(other._quantity(quantity))
         assert np.array_equal(mine, theirs), quantity
-    proofs = [each.vanishing_orders([1, 2, 3, 4]).table.rows for each in (bare, nothing)]
-    assert proofs[0] == proofs[1]
+    proofs = [each.vanishing_orders([1, 2, 3, 4]) for each in (bare, nothing)]
+    for kind in ("force", "moment", "torque"):
+        mine, theirs = (getattr(each, kind).vanishing for each in proofs)
+        assert mine == theirs, kind
 
 
 def test_pistons_handed_over_as_loads_give_the_engine_again() -> None:
@@ -159,24 +159,27 @@ def test_pistons_handed_over_as_loads_give_the_engine_again() -> None:
     amount = cylinder.reciprocating_mass * cylinder.crank_radius * omega**2
     given = [
         cp.PeriodicLoad(
-            f"piston {k}", on="block", force={n: amount * a for n, a in enumerate(harmonics, 1) if a},
-            scaling="speed squared", rpm=3000.0, direction_deg=bank, phase_deg=tdc, z=z, cylinder=k,
+            f"piston {k}", on="block", force=dict(enumerate(amount * harmonics, 1)), z=z,
+            scaling="speed squared", rpm=3000.0, direction_deg=bank, phase_deg=tdc, cylinder=k,
         )
         for k, (bank, tdc, z) in enumerate(zip(v6.bank_deg, v6.tdc_deg, v6.z, strict=True), 1)
     ]  # fmt: skip
     light = v6.replace(cylinder=cylinder.replace(reciprocating_mass=0.0)).with_loads(given)
     for rpm in (1000.0, 4000.0):
-        for one, other in [
-            (v6, light), (v6.with_bank_angle(75, hold="pins"), light.with_bank_angle(75, hold="pins")),
-            (v6.with_bank_angle(75, hold="firing"), light.with_bank_angle(75, hold="firing")),
-        ]:  # fmt: skip
+        pins, firing = (
+            [each.with_bank_angle(75, hold=hold) for each in (v6, light)]  # type: ignore[arg-type]
+            for hold in ("pins", "firing")
+        )
+        for one, other in [(v6, light), pins, firing]:
             a, b = (each.balance(rpm, orders=range(1, 9)) for each in (one, other))
             for quantity in ("force", "moment"):
                 mine, theirs = a._quantity(quantity), b._quantity(quantity)
                 size = np.abs(np.asarray(mine)).max()
                 assert np.abs(np.asarray(mine) - np.asarray(theirs)).max() < 1e-13 * size * 8
     sweeps = [
-        cp.sweep(each, rpm=[1000.0, 4000.0], bank_angle_deg=[60, 75, 90], hold=hold, orders=[1, 2, 3])
+        cp.sweep(
+            each, rpm=[1000.0, 4000.0], bank_angle_deg=[60, 75, 90], hold=hold, orders=[1, 2, 3]
+        )
         for hold in ("pins", "firing")
         for each in (v6, light)
     ]
@@ -222,10 +225,12 @@ def test_proofs_hold_where_no_load_acts_and_are_undecided_where_one_does() -> No
     along_x = cp.PeriodicLoad("belt", on="shaft", force={1: 5, 0.5: 2}, z=six.reference_z)
     verdicts = six.with_loads([along_x]).vanishing_orders([0.5, 1, 2, 3])
     before = six.vanishing_orders([1, 2, 3])
-    assert verdicts.force.vanishing == (2, 3) and before.force.vanishing == (1, 2, 3)
+    assert verdicts.force.vanishing == (2, 3)
+    assert before.force.vanishing == (1, 2, 3)
     assert verdicts.moment.vanishing == (0.5, 1, 2, 3)
     balance = six.with_loads([along_x]).balance(3000)
-    assert balance.force[1].status == "summed" and balance.force[2].status == "zero, proved"
+    assert balance.force[1].status == "summed"
+    assert balance.force[2].status == "zero, proved"
     with pytest.raises(cp.InputError, match="loads"):
         six.with_loads([along_x]).closed_form(1, "force")
 
@@ -250,18 +255,22 @@ def test_bearings_carry_what_is_on_the_crank_and_the_crankcase_the_rest() -> Non
 def test_loads_survive_files_copies_and_changes(tmp_path: Any) -> None:  # noqa: ANN401 - a path
     random = np.random.default_rng(3)
     loads = [built(drawn(random), f"load {k}") for k in range(6)]
-    table = cp.PeriodicLoad("table", on="block", force={1: [1, 2], 2: [0, 1j]}, rpm=[0, 6000], crank=0)
+    table = cp.PeriodicLoad(
+        "table", on="block", force={1: [1, 2], 2: [0, 1j]}, rpm=[0, 6000], crank=0
+    )
     four = cp.Engine.preset("i4").with_loads([*loads, table])
     assert four.loads == (*loads, table)
-    assert pickle.loads(pickle.dumps(four)) == four == copy.deepcopy(four)
+    assert pickle.loads(pickle.dumps(four)) == four == copy.deepcopy(four)  # noqa: S301
     for suffix in ("toml", "json"):
         path = tmp_path / f"four.{suffix}"
         four.save(path)
-        assert cp.Engine.from_file(path).loads == four.loads
+        assert cp.Engine.load(path).loads == four.loads
     assert four.replace(name="other").loads == four.loads
     assert four.with_loads([]).loads == ()
-    assert hash(loads[0]) == hash(copy.copy(loads[0])) and loads[0].replace(z=0.5).z == 0.5
-    assert "load 0" in four.loads_counted and "load 0" in repr(four.balance(1000, torque=False))
+    assert hash(loads[0]) == hash(copy.copy(loads[0]))
+    assert loads[0].replace(z=0.5).z == 0.5
+    assert "load 0" in four.loads_counted
+    assert "load 0" in repr(four.balance(1000, torque=False))
 
 
 @pytest.mark.parametrize(

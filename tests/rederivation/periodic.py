@@ -1,8 +1,8 @@
-"""Periodic loads that are given, plainly: forces and torques over crank angle as free bodies see them.
+"""Periodic loads that are given, plainly: what free bodies see of them over crank angle.
 
-A load is a dictionary of its figures in SI: amplitudes of the force and of the torque by order of the
-crank, direction and phase in degrees, z and axis, the speed of its shaft over that of the crank, and
-what it acts on. Nothing here knows how crankpin sums.
+A load is a dictionary of its figures in SI: amplitudes of the force and of the torque by order of
+the crank, direction and phase in degrees, z and axis, the speed of its shaft over that of the
+crank, and what it acts on. Nothing here knows how crankpin sums.
 """
 
 from __future__ import annotations
@@ -39,10 +39,8 @@ def force_on_shaft(load: dict[str, Any], theta_deg: Array, rpm: float) -> tuple[
     return size * np.cos(angle), size * np.sin(angle)
 
 
-def net(
-    load: dict[str, Any], theta_deg: Array, rpm: float, plane: float
-) -> dict[str, Array]:
-    """Return force, moment about a plane, and torques on block and crank; a constant force left out.
+def net(load: dict[str, Any], theta_deg: Array, rpm: float, plane: float) -> dict[str, Array]:
+    """Return force, moment about a plane, torques on block and crank; without a constant force.
 
     Gears hold shafts at even speed. The sum of the moments of all inner forces is zero, so that the
     block bears what acts from outside, and what the crank is given less.

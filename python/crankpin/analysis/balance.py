@@ -158,9 +158,9 @@ class Balance(ByOrder[float]):
         if part not in ("", "inertia", "gas"):
             return False  # numbers that were given
         engine = self.engine if not part else self.engine.with_loads([])
-        if order % 1 and not engine.loads:
-            if kind_of(whole).planar or not self.fired or part == "inertia":
-                return True  # inertia has whole orders
+        bare = kind_of(whole).planar or not self.fired or part == "inertia"
+        if order % 1 and bare and not engine.loads:
+            return True  # inertia has whole orders
         if self.request.pairs is not None or (whole == "torque" and any(self.request.aside)):
             return False
         core, plane = engine_core(engine), self.request.reference_z

@@ -12,7 +12,7 @@ from crankpin._support.quantities import PART_WORDS, PLANE_VECTORS, QUANTITIES, 
 from crankpin._support.record import AbsentError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from crankpin._support.inputs import Order, Orders, Spectrum
 
@@ -108,11 +108,13 @@ class Request(NamedTuple):
 
     def check(self, quantity: str, names: Sequence[str] = ("inertia",)) -> None:
         """Raise an error if a quantity is not available, of the names of what makes it."""
-        whole, point, part = str(quantity).partition(".")
+        whole, point, _ = str(quantity).partition(".")
         kind = QUANTITIES[inputs.one_of("quantity", whole, QUANTITIES)]
         known = names if kind.planar else (*PART_WORDS, *names)
         if point:
-            inputs.one_of("quantity", quantity, [f"{whole}.{each}" for each in dict.fromkeys(known)])
+            inputs.one_of(
+                "quantity", quantity, [f"{whole}.{each}" for each in dict.fromkeys(known)]
+            )
         if self._has_torque or kind.planar:
             return
         if self.pairs is not None:

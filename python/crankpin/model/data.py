@@ -10,7 +10,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._core import ATMOSPHERE, InputError
-from crankpin._support import files, inputs, labels
+from crankpin._support import files, inputs
 from crankpin._support.record import AbsentError, read_only
 from crankpin._support.warnings import suppressed
 from crankpin.model import checks, engine_files

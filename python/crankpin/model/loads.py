@@ -267,7 +267,7 @@ class PeriodicLoad(Input):
             "ratio": self.ratio,
             "axis": [self.x, self.y],
             "crank": self.crank,
-            "cylinder": None if self.cylinder is None else self.cylinder - 1,
+            "cylinder": self.cylinder,
         }
         return json.dumps(fields)
 
@@ -281,7 +281,6 @@ class PeriodicLoad(Input):
             ((kind, rpm),) = over.items()
             scaling = "speed squared" if kind == "speed_squared" else "independent"
         x, y = fields.get("axis", (0.0, 0.0))
-        cylinder = fields.get("cylinder")
         table = isinstance(rpm, list)
         return cls(
             fields["name"],
@@ -298,7 +297,7 @@ class PeriodicLoad(Input):
             ratio=fields.get("ratio", 1.0),
             x=x,
             y=y,
-            cylinder=None if cylinder is None else cylinder + 1,
+            cylinder=fields.get("cylinder"),
         )
 
 

@@ -13,6 +13,7 @@ from crankpin import _core
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
 from crankpin._support.drawing import draw
+from crankpin._support.quantities import kind_of
 from crankpin._support.record import read_only
 from crankpin.analysis.waveform import OverAngle
 
@@ -181,7 +182,7 @@ class SweepWaveform(OverAngle):
 
     def _largest(self, quantity: str) -> NDArray[np.float64]:
         values = self.read(quantity)
-        sizes = np.hypot(*np.moveaxis(values, -1, 0)) if KINDS[quantity].planar else abs(values)
+        sizes = np.hypot(*np.moveaxis(values, -1, 0)) if kind_of(quantity).planar else abs(values)
         return np.asarray(sizes.max(axis=-1, initial=0.0))
 
     # --- pictures -------------------------------------------------------------------------------

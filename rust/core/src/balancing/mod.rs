@@ -83,9 +83,10 @@ fn over_square(
             (scaling, Some(omega)) => scaling.factor(omega) / (omega * omega),
             _ if wrench.is_zero() => continue,
             (_, None) => {
+                let what = if wrench.torque.peak() > 0.0 { "torque" } else { "force" };
                 let hint = format!(
-                    "order {order} of {} does not scale with speed as weights and shafts do; give the \
-                     crank speed, above 0, at which they cancel it, or leave it out of the engine",
+                    "the {what} of {} does not scale with speed as that of shafts does; give the crank \
+                     speed, above 0, at which they cancel it",
                     group.name
                 );
                 return Err(Error::value("rpm", "None", hint));

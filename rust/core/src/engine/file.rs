@@ -555,17 +555,18 @@ fn readable<'t>(format: &'static str, text: &'t str) -> Result<&'t str> {
 
 /// Rejects arrays in place of objects, which serde would read by position.
 fn check_tables(value: &serde_json::Value, place: &str) -> Result<()> {
-    const LISTS: [&str; 8] = [
+    const LISTS: [&str; 9] = [
         "cranks",
         "placements",
         "counterweights",
         "shafts",
         "unbalances",
+        "loads",
         "cycles",
         "mounts",
         "receivers",
     ];
-    const LISTS_OF_NUMBERS: [&str; 15] = [
+    const LISTS_OF_NUMBERS: [&str; 19] = [
         "mains",
         "theta_deg",
         "pressure",
@@ -581,6 +582,10 @@ fn check_tables(value: &serde_json::Value, place: &str) -> Result<()> {
         "real",
         "imaginary",
         "coordinates",
+        "force",
+        "torque",
+        "table",
+        "axis",
     ];
     let Some(table) = value.as_object() else {
         let reason = format!("{place}: give an object, {{ }}");

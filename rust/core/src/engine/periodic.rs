@@ -131,9 +131,28 @@ pub struct PeriodicLoad {
     /// Axis of a shaft of its own, x and y from that of the main crank, m.
     #[serde(default, skip_serializing_if = "is_default")]
     pub axis: [f64; 2],
-    /// Index of the cylinder with whose bank it turns as the bank angle changes.
-    #[serde(default, skip_serializing_if = "is_default")]
+    /// Index of the cylinder with whose bank it turns as the bank angle changes; in files its number, from 1.
+    #[serde(default, skip_serializing_if = "is_default", with = "number_from_one")]
     pub cylinder: Option<usize>,
+}
+
+/// Indices as people number cylinders.
+mod number_from_one {
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    #[expect(clippy::ref_option, reason = "as serde calls it")]
+    pub fn serialize<S: Serializer>(index: &Option<usize>, to: S) -> Result<S::Ok, S::Error> {
+        index.map(|index| index + 1).serialize(to)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<usize>, D::Error> {
+        let number = Option::<usize>::deserialize(from)?;
+        let index = number.map(|number| {
+            number.checked_sub(1).ok_or_else(|| D::Error::custom("give a cylinder's number, from 1"))
+        });
+        index.transpose()
+    }
 }
 
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
