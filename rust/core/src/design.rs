@@ -11,10 +11,13 @@ use self::objective::{ObjectiveFunction, Rotor, TurningPhasor, dot};
 use crate::Complex64;
 use crate::engine::{Engine, Origin};
 use crate::load::source::Repeats;
-use crate::load::{Arithmetic, Factor, Load, LoadList, PhasorSum, Phasors, Wanted, Weight};
-use crate::load::{Term, superpose};
+use crate::load::{
+    Arithmetic, Factor, Load, LoadIndex, LoadList, PhasorSum, Phasors, Term, Wanted, Weight,
+    superpose,
+};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
+use crate::numbers::index::List;
 use crate::numbers::limits;
 use crate::numbers::order::{self, Order};
 use crate::numbers::pool;
@@ -79,14 +82,14 @@ pub type Derived = (f64, Vec<f64>);
 struct Rotors<'a> {
     phasors: Phasors,
     /// Turns of the direction and of the crankpin of each load, by variable.
-    turns: &'a [[Vec<f64>; 2]],
+    turns: &'a List<LoadIndex, [Vec<f64>; 2]>,
 }
 
 impl Arithmetic for Rotors<'_> {
     type Unit = Rotor;
     type Sum = Vec<Rotor>;
 
-    fn phase(&self, load @ (k, _): (usize, &Load), times: i64) -> Rotor {
+    fn phase(&self, load @ (k, _): (LoadIndex, &Load), times: i64) -> Rotor {
         // At top dead centre the crankpin points along the bore.
         let [bores, pins] = &self.turns[k];
         let share = if load.1.parts.repeats == Repeats::EveryTwoTurns { 0.5 } else { 1.0 };
@@ -94,7 +97,7 @@ impl Arithmetic for Rotors<'_> {
         Rotor { phasor: self.phasors.phase(load, times), rates: rates.collect() }
     }
 
-    fn toward(&self, load @ (k, _): (usize, &Load), unit: &Rotor, conjugate: bool) -> Rotor {
+    fn toward(&self, load @ (k, _): (LoadIndex, &Load), unit: &Rotor, conjugate: bool) -> Rotor {
         let sign = if conjugate { -1.0 } else { 1.0 };
         let turned = unit.rates.iter().zip(&self.turns[k][0]);
         Rotor {
@@ -106,7 +109,7 @@ impl Arithmetic for Rotors<'_> {
     fn add(
         &self,
         sum: &mut Vec<Rotor>,
-        load: (usize, &Load),
+        load: (LoadIndex, &Load),
         weight: Weight,
         unit: &Rotor,
         times: Factor,
@@ -151,7 +154,7 @@ impl Objectives {
             }
             Origin::Shaft(_) => fixed(),
         };
-        let all_turns: Vec<_> = loads.list.iter().map(of_load).collect();
+        let all_turns = loads.list.map_to(of_load);
         let arithmetic =
             Rotors { phasors: Phasors { reference: loads.reference }, turns: &all_turns };
 

@@ -45,7 +45,7 @@ pub use numbers::crank_angles::CrankAngles;
 pub use numbers::error::{Error, Result};
 pub use numbers::order::Order;
 pub use numbers::{
-    angle, crank_angles, double, error, limits, memory, order, pool, rational, ring,
+    angle, crank_angles, double, error, index, limits, memory, order, pool, rational, ring,
 };
 pub use pressure::{Cycle, GasTorque};
 pub use readings::balance::{Balance, Orders, Request};

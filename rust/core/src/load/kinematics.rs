@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::SourceIndex;
 use super::source::Source;
 use super::{LoadList, count, find_or_push};
 use crate::Complex64;
@@ -46,7 +47,7 @@ pub(crate) struct Quantities {
 pub(crate) struct LoadSum {
     pub source: Arc<dyn Source>,
     /// Index of the source.
-    index: usize,
+    index: SourceIndex,
     phase: Angle,
     /// Speed of their crank or shaft.
     pub ratio: i32,

@@ -8,10 +8,11 @@ use super::rod::RodInertia;
 use super::source::{ExactFactor, Point, Repeats, Scaling, Source};
 use super::spectrum::GivenForce;
 use super::unbalance::TurningUnbalance;
-use super::{Load, PhasorSum, Phasors, Place, Term, Wanted, superpose};
+use super::{Load, LoadIndex, PhasorSum, Phasors, Place, SourceIndex, Term, Wanted, superpose};
 use crate::engine::{Crank, Engine, Origin, Unbalance};
 use crate::mechanism::Mechanism;
 use crate::numbers::error::Result;
+use crate::numbers::index::List;
 use crate::numbers::order::Order;
 
 /// Largest magnitudes of the weights of some loads.
@@ -25,12 +26,15 @@ pub(crate) struct LargestWeights {
     pub roll: f64,
 }
 
+/// The sources of loads.
+pub(crate) type Sources = List<SourceIndex, Arc<dyn Source>>;
+
 /// All loads of an engine about a reference plane.
 pub(crate) struct LoadList {
     /// Pistons, one for each cylinder; unbalances of cranks, then of shafts; pressures; rods.
-    pub list: Vec<Load>,
-    /// One of each kind: loads refer to them by index.
-    pub sources: Vec<Arc<dyn Source>>,
+    pub list: List<LoadIndex, Load>,
+    /// One of each kind.
+    pub sources: Sources,
     /// Reference plane z₀ of moments, m.
     pub reference: f64,
 }
@@ -39,7 +43,7 @@ impl LoadList {
     /// Loads of an engine. Pistons of equal crank radius, rod length and pin offset share a source, hence
     /// their harmonics; a spectrum is one source for all, with masses and radius in it.
     pub fn new(engine: &Engine, reference: f64) -> Self {
-        let mut loads = Self { list: Vec::new(), sources: Vec::new(), reference };
+        let mut loads = Self { list: List::default(), sources: List::default(), reference };
         let ratio = |i: usize| engine.cranks()[engine.crank_of(i)].ratio;
         let mechanism = |i: usize| Mechanism::new(&engine.stations()[i].cylinder, ratio(i));
         let along_bore = |i: usize| Place::along_bore(engine, i);
@@ -99,11 +103,8 @@ impl LoadList {
 
     pub(super) fn push(&mut self, place: Place, source: impl Source, weight: f64, roll: f64) {
         let parts = source.parts();
-        let index = self.sources.iter().position(|known| known.equals(&source));
-        let index = index.unwrap_or_else(|| {
-            self.sources.push(Arc::new(source));
-            self.sources.len() - 1
-        });
+        let known = self.sources.indices().find(|&known| self.sources[known].equals(&source));
+        let index = known.unwrap_or_else(|| self.sources.push(Arc::new(source)));
         self.list.push(Load { place, source: index, parts, weight, roll });
     }
 
@@ -122,14 +123,14 @@ impl LoadList {
     }
 
     /// The sources at a point of a sweep.
-    pub fn at_point(&self, point: &Point) -> Result<Vec<Arc<dyn Source>>> {
+    pub fn at_point(&self, point: &Point) -> Result<Sources> {
         self.sources.iter().map(|source| source.at_point(point)).collect()
     }
 
     /// Σ weights of the torques of each source that scales as given, m³, and Σ of the magnitudes, of which
     /// bounds are made.
-    pub fn volumes(&self) -> Vec<PhasorSum<f64>> {
-        let mut volumes = vec![PhasorSum::default(); self.sources.len()];
+    pub fn volumes(&self) -> List<SourceIndex, PhasorSum<f64>> {
+        let mut volumes = self.sources.map_to(|_| PhasorSum::default());
         for load in self.list.iter().filter(|load| load.parts.scaling == Scaling::Given) {
             volumes[load.source].value += load.roll;
             volumes[load.source].size += load.roll.abs();
@@ -144,7 +145,7 @@ impl LoadList {
     }
 
     /// Largest weights of the loads of a source, times the square of their speed.
-    pub fn largest_weights(&self, source: usize) -> LargestWeights {
+    pub fn largest_weights(&self, source: SourceIndex) -> LargestWeights {
         let mut largest = LargestWeights::default();
         for load in self.list.iter().filter(|load| load.source == source) {
             let square = f64::from(load.place.speed_squared());

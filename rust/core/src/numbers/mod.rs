@@ -8,6 +8,7 @@ pub mod decimal;
 pub mod double;
 pub mod error;
 pub mod figure;
+pub mod index;
 pub mod limits;
 pub mod memory;
 pub mod order;

@@ -4,9 +4,12 @@ use std::sync::Arc;
 
 use crate::Complex64;
 use crate::load::source::{Column, Scaling, Source, TorqueAmplitudes};
-use crate::load::{Harmonic, Load, LoadList, Phasors, Wanted, count, superpose};
+use crate::load::{
+    Harmonic, Load, LoadList, Phasors, SourceIndex, Sources, Wanted, count, superpose,
+};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
+use crate::numbers::index::List;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::wrench::{Planar, Wrench, rounding, snapped};
@@ -18,7 +21,7 @@ use crate::wrench::{Planar, Wrench, rounding, snapped};
 /// those of the torques of pressure on the block and on the crank. `sources` are those of the loads.
 pub(crate) fn wrenches(
     loads: &LoadList,
-    sources: &[Arc<dyn Source>],
+    sources: &Sources,
     torque: bool,
     orders: &[Order],
     cancel: &Cancel,
@@ -30,10 +33,10 @@ pub(crate) fn wrenches(
 
 /// Amplitudes of some sources at some orders.
 pub(crate) struct Amplitudes {
-    /// By source; empty of those without a force.
-    force: Vec<Vec<Complex64>>,
-    /// By source; none without a torque, or where none is wanted.
-    torque: Vec<Option<TorqueAmplitudes>>,
+    /// Empty of those without a force.
+    force: List<SourceIndex, Vec<Complex64>>,
+    /// None without a torque, or where none is wanted.
+    torque: List<SourceIndex, Option<TorqueAmplitudes>>,
 }
 
 /// Factors of a sum.
@@ -48,12 +51,7 @@ pub(crate) struct Amplitude {
 }
 
 impl Amplitudes {
-    pub fn new(
-        sources: &[Arc<dyn Source>],
-        torque: bool,
-        orders: &[Order],
-        cancel: &Cancel,
-    ) -> Result<Self> {
+    pub fn new(sources: &Sources, torque: bool, orders: &[Order], cancel: &Cancel) -> Result<Self> {
         let force = |source: &Arc<dyn Source>| {
             if source.parts().force.is_some() { source.force(orders, cancel) } else { Ok(vec![]) }
         };

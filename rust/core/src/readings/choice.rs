@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use crate::engine::{Engine, Origin};
 use crate::load::source::{Repeats, Scale, Scaling, Source, Tail};
-use crate::load::{LargestWeights, Load, LoadList, count};
+use crate::load::{LargestWeights, Load, LoadList, Sources, count};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -105,7 +105,7 @@ impl OrderSums {
 pub(crate) struct Candidate<'a> {
     pub engine: &'a Engine,
     pub loads: &'a LoadList,
-    pub sources: Vec<Arc<dyn Source>>,
+    pub sources: Sources,
     /// Whether it is the one before it with other cycles.
     pub repeats: bool,
 }
@@ -222,8 +222,8 @@ pub(crate) fn within_each(
         .collect::<Result<Vec<_>>>()?;
     let mut left_out = OrderSums::default().values();
     for cylinder in 0..engine.stations().len() {
-        let mut list = others.clone();
-        list.retain(|load| load.place.origin == Origin::Cylinder(cylinder));
+        let own = others.iter().filter(|load| load.place.origin == Origin::Cylinder(cylinder));
+        let list = own.copied().collect();
         let alone = LoadList { list, sources: loads.sources.clone(), ..*loads };
         let chosen = within(rtol, engine, &alone, torque, cancel)?;
         orders.extend(chosen.orders);
@@ -267,13 +267,13 @@ fn candidates(
     rtol: f64,
     scales: &OrderSums,
     loads: &LoadList,
-    sources: &[Arc<dyn Source>],
+    sources: &Sources,
     torque: bool,
 ) -> Result<Vec<Order>> {
     let count = count(&loads.list, torque) as f64;
     let (needed, enough) = (0.25 * rtol / count, NEGLIGIBLE_REST * rtol / count);
     let mut orders = Vec::new();
-    for (k, source) in sources.iter().enumerate() {
+    for (k, source) in sources.indices().zip(sources) {
         if source.parts().scaling == Scaling::Given {
             continue;
         }
@@ -332,12 +332,7 @@ fn lowest(is_enough: impl Fn(u32) -> bool) -> Option<u32> {
 
 /// Bounds over ω² of what orders beyond those evaluated add to force, moment and torque, as if nothing
 /// cancelled, with these sources in place of those of the loads.
-fn tail(
-    loads: &LoadList,
-    evaluated: &[Order],
-    torque: bool,
-    sources: &[Arc<dyn Source>],
-) -> OrderSums {
+fn tail(loads: &LoadList, evaluated: &[Order], torque: bool, sources: &Sources) -> OrderSums {
     let last = evaluated.last().map_or(0, |order| order.halves() / 2);
     // Another source may have the last order: those from the first one missing on are left out.
     let is_missing =
@@ -349,7 +344,7 @@ fn tail(
         }
         Scaling::Given => Tail::default(),
     };
-    let beyond: Vec<Tail> = sources.iter().map(inertia).collect();
+    let beyond = sources.map_to(inertia);
     let mut sum = OrderSums::default();
     for load in &loads.list {
         let (place, beyond) = (&load.place, beyond[load.source]);
@@ -402,7 +397,7 @@ pub(crate) struct GasOrders {
     /// What may be left out, N·m.
     pub allowed: f64,
     /// The sources, which keep their harmonics that were evaluated.
-    pub sources: Vec<Arc<dyn Source>>,
+    pub sources: Sources,
 }
 
 impl GasOrders {
@@ -413,12 +408,12 @@ impl GasOrders {
     pub fn new(
         rtol: f64,
         loads: &LoadList,
-        sources: &[Arc<dyn Source>],
+        sources: &Sources,
         mut highest: u32,
         cancel: &Cancel,
     ) -> Result<Self> {
         let (volumes, mut largest, mut step) = (loads.volumes(), 0.0_f64, 2);
-        let largest_of: Vec<f64> = sources.iter().map(|source| source.largest_torque()).collect();
+        let largest_of = sources.map_to(|source| source.largest_torque());
         for load in loads.list.iter().filter(|load| load.parts.scaling == Scaling::Given) {
             largest = largest.max(load.roll.abs() * largest_of[load.source]);
             if load.parts.repeats == Repeats::EveryTwoTurns {
@@ -427,11 +422,11 @@ impl GasOrders {
         }
         let allowed = rtol.max(LEAST_OF_GAS) * largest;
         if allowed == 0.0 {
-            return Ok(Self { sources: sources.to_vec(), ..Self::default() });
+            return Ok(Self { sources: sources.clone(), ..Self::default() });
         }
         loop {
             let mut tails = vec![0.0; 2 * highest as usize];
-            let mut known = Vec::new();
+            let mut known = Sources::default();
             for (source, weight) in sources.iter().zip(&volumes) {
                 let up_to = source.up_to(Order::whole(highest)?, cancel)?;
                 known.push(up_to.map_or_else(
@@ -463,8 +458,10 @@ mod tests {
 
     use super::*;
     use crate::engine::{Crank, Station};
+    use crate::load::SourceIndex;
     use crate::mechanism::slider_crank::Cylinder;
     use crate::numbers::angle::Angle;
+    use crate::numbers::index::ListIndex;
 
     #[test]
     fn the_lowest_order_that_is_enough_is_found() {
@@ -493,7 +490,9 @@ mod tests {
             let highest = *orders.last().unwrap();
             for (order, enough) in [(highest.halves() / 2, true), (highest.halves() / 2 - 1, false)]
             {
-                let beyond = loads.sources[1].beyond(order, true).torque * inertia.abs() / 4.0;
+                let beyond = loads.sources[SourceIndex::new(1)].beyond(order, true).torque
+                    * inertia.abs()
+                    / 4.0;
                 assert_eq!(beyond <= NEGLIGIBLE_REST * 1e-6 / 2.0, enough, "{inertia} {order}");
             }
             highest
@@ -565,13 +564,13 @@ mod tests {
         let engine = crate::load::tests::fired([Some(0); 3]).0;
         let once = LoadList::new(&engine, 0.0);
         let mut twice = LoadList::new(&engine, 0.0);
-        twice.list.extend(once.list.clone());
+        twice.list = once.list.iter().chain(&once.list).copied().collect();
         let evaluated = Order::all_whole(&[1, 2, 3, 4]).unwrap();
         let rest = |loads: &LoadList| tail(loads, &evaluated, true, &loads.sources).values();
         for (one, both) in rest(&once).into_iter().zip(rest(&twice)) {
             assert!((both - 2.0 * one).abs() <= 1e-14 * one, "{both} {one}");
         }
-        for (one, both) in once.volumes().into_iter().zip(twice.volumes()) {
+        for (one, both) in once.volumes().iter().zip(&twice.volumes()) {
             assert!((both.size - 2.0 * one.size).abs() <= 1e-14 * one.size);
             assert!((both.value - 2.0 * one.value).abs() <= 1e-14 * one.size);
         }

@@ -18,12 +18,14 @@ pub use self::rod::TurningAxes;
 use self::rod::{DrivenRod, RodColumns};
 pub use self::sections::{Part, Sections};
 use crate::Complex64;
+use crate::engine::CrankIndex;
 use crate::engine::{Engine, Origin};
 use crate::load::kinematics::{BLOCK, Units};
 use crate::load::{Load, LoadList};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, check, parts};
 use crate::numbers::error::{Error, Result};
+use crate::numbers::index::{List, ListIndex};
 use crate::numbers::simd::vectorised;
 use crate::numbers::{limits, memory, pool};
 use crate::readings::balance::angular_speed;
@@ -55,21 +57,21 @@ const MOST_SHARE: f64 = 1e6;
 pub struct BearingLoadsModel {
     rods: Vec<DrivenRod>,
     /// On each crank besides the forces of rods on its pins.
-    on_cranks: Vec<Vec<Turning>>,
+    on_cranks: List<CrankIndex, Vec<Turning>>,
     on_shafts: Vec<Turning>,
     /// Rods on each crankpin, by index.
     pins: Vec<Vec<usize>>,
     /// Main bearings by crank, those of one by place.
     mains: Vec<MainBearing>,
     /// Speed of each crank over that of the main one, negative where it turns the other way.
-    ratios: Vec<i32>,
+    ratios: List<CrankIndex, i32>,
 }
 
 /// A bearing of a crank in the crankcase.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MainBearing {
-    /// Index of its crank.
-    pub crank: usize,
+    /// Its crank.
+    pub crank: CrankIndex,
     /// Place along it, m.
     pub z: f64,
 }
@@ -143,22 +145,22 @@ impl BearingLoadsModel {
         }
         let omega = angular_speed(rpm)?;
         let square = omega * omega;
-        let cranks = 0..engine.cranks().len();
         let of_crank =
             |crank| engine.bearings(crank).into_iter().map(move |z| MainBearing { crank, z });
         let mut found = Self {
             rods: Vec::new(),
-            on_cranks: cranks.clone().map(|_| Vec::new()).collect(),
+            on_cranks: engine.cranks().map_to(|_| Vec::new()),
             on_shafts: Vec::new(),
             pins: engine.crankpins().into_iter().map(|pin| pin.cylinders).collect(),
-            mains: cranks.flat_map(of_crank).collect(),
-            ratios: engine.cranks().iter().map(|crank| crank.ratio).collect(),
+            mains: engine.cranks().indices().flat_map(of_crank).collect(),
+            ratios: engine.cranks().map_to(|crank| crank.ratio),
         };
         for load in LoadList::new(engine, 0.0).list.iter().filter(|load| load.is_turning()) {
             let crank = match load.place.origin {
                 Origin::Cylinder(i) => Some(engine.crank_of(i)),
                 Origin::Counterweight(k) => {
-                    Some(engine.counterweights()[k].pin.map_or(0, |i| engine.crank_of(i)))
+                    let pin = engine.counterweights()[k].pin;
+                    Some(pin.map_or(CrankIndex::MAIN, |i| engine.crank_of(i)))
                 }
                 Origin::Shaft(_) => None,
             };
@@ -178,12 +180,13 @@ impl BearingLoadsModel {
 
     /// Rejects loads too far from the bearings of their crank, or on a crank without any.
     fn check_levers(&self) -> Result<()> {
-        for (crank, turning) in self.on_cranks.iter().enumerate() {
+        for (crank, turning) in self.on_cranks.indices().zip(&self.on_cranks) {
             let rods = self.rods.iter().filter(|rod| rod.crank == crank).map(|rod| rod.z);
             for z in rods.chain(turning.iter().map(|load| load.z)) {
                 let levers = self.levers(crank, z);
                 if levers.is_empty() {
-                    let reason = format!("crank {} has no throws, hence no bearings", crank + 1);
+                    let number = crank.position() + 1;
+                    let reason = format!("crank {number} has no throws, hence no bearings");
                     return Err(Error::Undefined { argument: "bearing_loads", reason });
                 }
                 if levers.iter().any(|(_, share)| share.abs() > MOST_SHARE) {
@@ -205,7 +208,7 @@ impl BearingLoadsModel {
     }
 
     /// Number of the first main bearing of a crank, and all of them.
-    fn mains_of(&self, crank: usize) -> (usize, &[MainBearing]) {
+    fn mains_of(&self, crank: CrankIndex) -> (usize, &[MainBearing]) {
         let first = self.mains.partition_point(|main| main.crank < crank);
         let behind = self.mains.partition_point(|main| main.crank <= crank);
         (first, &self.mains[first..behind])
@@ -364,7 +367,12 @@ impl BearingLoadsModel {
     }
 
     /// Shares of rods and what turns with their crank, of which what cancels leaves its rounding.
-    fn cancelling(&self, rods: Vec<(f64, usize)>, turning: &[Complex64], crank: usize) -> Carried {
+    fn cancelling(
+        &self,
+        rods: Vec<(f64, usize)>,
+        turning: &[Complex64],
+        crank: CrankIndex,
+    ) -> Carried {
         let sizes = rods.iter().map(|&(share, i)| share.abs() * self.rods[i].size());
         let sizes = sizes.chain(turning.iter().map(|u| u.norm()));
         let bound = rounding(self.rods.len() + turning.len(), 1.0) * sizes.sum::<f64>();
@@ -372,7 +380,7 @@ impl BearingLoadsModel {
     }
 
     /// Main bearings of a crank that carry a load at some place, and their shares of it.
-    fn levers(&self, crank: usize, z: f64) -> Vec<(usize, f64)> {
+    fn levers(&self, crank: CrankIndex, z: f64) -> Vec<(usize, f64)> {
         let (first, mains) = self.mains_of(crank);
         if mains.is_empty() {
             return Vec::new();

@@ -11,11 +11,12 @@ use super::roots::{PartOfTurn, parts_of_turn};
 use super::vanishing::Verdict;
 use super::whole;
 use crate::Complex64;
-use crate::engine::{Engine, Station, first_equal};
+use crate::engine::{Engine, Station};
 use crate::firing::Firing;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
+use crate::numbers::index::{List, distinct};
 use crate::numbers::limits;
 use crate::numbers::order::Order;
 use crate::numbers::rational::{Multiples, Ratio};
@@ -39,7 +40,7 @@ pub struct Star {
 pub struct Stars {
     fire: Vec<Angle>,
     /// Halves of the angles, as parts of a turn.
-    halves: Vec<PartOfTurn>,
+    halves: List<usize, PartOfTurn>,
     weights: Vec<f64>,
     /// Whether each cylinder fires: those that do not have no vector, and make no order a major one.
     fires: Vec<bool>,
@@ -89,9 +90,9 @@ impl Stars {
             let sizes = [gear.crank_radius(), gear.rod_length(), gear.pin_offset().abs()];
             (sizes, engine.details()[i].bore, cycle_of(i), ratio(i).abs())
         };
-        let groups = first_equal(engine.stations().iter().enumerate().map(sizes)).into_iter();
+        let (_, groups) = distinct::<usize, _>(engine.stations().iter().enumerate().map(sizes));
         let mirrored = engine.stations().iter().map(|place| place.cylinder.pin_offset() < 0.0);
-        let groups: Vec<_> = groups.zip(mirrored).collect();
+        let groups: Vec<_> = groups.into_iter().zip(mirrored).collect();
         let sense = (0..groups.len()).map(|i| f64::from(ratio(i).signum()));
         Self::new(fire, sense.collect(), groups, fires(engine), cancel)
     }

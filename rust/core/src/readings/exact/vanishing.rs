@@ -38,18 +38,19 @@ use std::collections::BTreeMap;
 use self::terms::{Channel, Proof, Symbol, SymbolSums, SymbolTerm, View};
 use super::roots::{PartOfTurn, SymbolEntry};
 use super::star::Stars;
-use super::whole;
+use super::{MotionIndex, whole};
 use crate::Complex64;
-use crate::engine::Engine;
+use crate::engine::{Engine, Origin};
 use crate::firing::Firing;
 use crate::layout::Strokes;
-use crate::load::{Load, LoadList};
+use crate::load::source::ForcePart;
+use crate::load::{Load, LoadIndex, LoadList};
 use crate::mechanism::Mechanism;
 use crate::mechanism::harmonics;
-use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::index::List;
 use crate::numbers::order::{Order, check_list};
 use crate::numbers::ring::RootSum;
 use crate::readings::balance::{self, Orders, Request, Vector};
@@ -214,11 +215,12 @@ impl Proof {
 
     /// The number that symbols stand for, of directions and phases that are doubles.
     fn unit_of(&self, symbol: &Symbol, order: Order) -> Option<Complex64> {
-        let first = |list: &[PartOfTurn], index: usize, angle: fn(&Load) -> Angle| {
-            let place = list.iter().position(|part| part.symbol == index && index > 0);
-            let angle = place.map_or(Angle::ZERO, |i| angle(&self.loads.list[i]));
-            (index == 0 || angle.turns().is_none()).then_some(angle)
-        };
+        let first =
+            |list: &List<LoadIndex, PartOfTurn>, index: usize, angle: fn(&Load) -> Angle| {
+                let place = list.indices().find(|&load| list[load].symbol == index && index > 0);
+                let angle = place.map_or(Angle::ZERO, |load| angle(&self.loads.list[load]));
+                (index == 0 || angle.turns().is_none()).then_some(angle)
+            };
         let (index, entry) = symbol.direction;
         let direction = first(&self.roots.directions, index, |load| load.place.direction)?;
         let phase = first(&self.roots.phases, symbol.phase, |load| load.place.phase)?;
@@ -240,7 +242,7 @@ impl Proof {
     ) -> Result<bool> {
         use Channel::{Force, Gear, Masses, OddOfGear, OddOfMasses, OddOfRod, One, Rod};
         let of_motion =
-            |motion: usize| (*self.motions[motion].cylinder(), self.own_order(motion, order));
+            |motion: MotionIndex| (*self.motions[motion].cylinder(), self.own_order(motion, order));
         let ((cylinder, own), [masses, inertia]) = match channel {
             One => return Ok(true),
             Force(motion) | Masses(motion) | OddOfMasses(motion) => (of_motion(motion), [1.0, 0.0]),
@@ -283,14 +285,16 @@ impl Proof {
     /// Why a sum may be undecided.
     fn obstacles(&self) -> Vec<String> {
         let mut found = Vec::new();
-        let cylinders = self.gear_of.len();
-        let listed = |directions: &[PartOfTurn]| {
-            let numbers: Vec<String> = (1..)
-                .zip(&directions[..cylinders])
-                .filter(|(_, d)| d.symbol > 0)
-                .map(|(number, _): (usize, _)| number.to_string())
-                .take(12)
-                .collect();
+        let is_piston = |load: &&Load| load.parts.force == Some(ForcePart::Along);
+        let listed = |angles: &List<LoadIndex, PartOfTurn>| {
+            let number = |(load, angle): (&Load, &PartOfTurn)| match load.place.origin {
+                Origin::Cylinder(i) if is_piston(&load) && angle.symbol > 0 => {
+                    Some((i + 1).to_string())
+                }
+                _ => None,
+            };
+            let numbers: Vec<String> =
+                self.loads.list.iter().zip(angles).filter_map(number).take(12).collect();
             (!numbers.is_empty()).then(|| numbers.join(", "))
         };
         for (name, directions) in
@@ -305,17 +309,17 @@ impl Proof {
         if directions.into_iter().any(|(load, of)| load.is_turning() && of.symbol > 0) {
             found.push("angles of unbalances that are no simple part of a turn".to_owned());
         }
-        let speed = |motion: usize| self.motions[motion].ratio.unsigned_abs();
-        if (0..self.motions.len()).any(|motion| speed(motion) != speed(0)) {
+        let speeds = || self.motions.iter().map(|motion| motion.ratio.unsigned_abs());
+        if speeds().any(|speed| Some(speed) != speeds().next()) {
             found.push("cranks of different speeds".to_owned());
         } else if self.motions.len() > 1 {
             found.push("slider-cranks of different proportions".to_owned());
         }
-        let inertia = |(gear, _): &(Cylinder, u32)| gear.rod_inertia_excess();
-        if self.gears.iter().any(|gear| inertia(gear) != inertia(&self.gears[0])) {
+        let inertias = || self.gears.iter().map(|(gear, _)| gear.rod_inertia_excess());
+        if inertias().any(|inertia| Some(inertia) != inertias().next()) {
             found.push("rods of different moments of inertia".to_owned());
         }
-        if self.planar.units.len() > 1 {
+        if self.planar_units > 1 {
             found.push("masses times radius that are no rational multiples of each other".into());
         }
         if turning().any(|load| load.place.ratio.abs() > 1) {
@@ -325,7 +329,7 @@ impl Proof {
         if turning().any(beside) {
             found.push("roll torques of shafts, no rational multiples of pistons'".to_owned());
         }
-        if self.loads.list[..cylinders].iter().any(beside) {
+        if self.loads.list.iter().filter(is_piston).any(beside) {
             found.push("roll torques of forces on cranks beside the main one".to_owned());
         }
         let mut units: Vec<usize> =
@@ -476,8 +480,10 @@ fn evaluated(
     let orders = Orders::Given(orders.to_vec());
     let found = balance::balance(engine, &request, &orders, cancel)?;
     let loads = LoadList::new(engine, engine.reference(reference_z)?);
-    let volumes = loads.volumes().into_iter().zip(&loads.sources);
-    let largest: f64 = volumes.map(|(volume, source)| volume.size * source.largest_torque()).sum();
+    let volumes = loads.volumes();
+    let of_sources = volumes.iter().zip(&loads.sources);
+    let largest: f64 =
+        of_sources.map(|(volume, source)| volume.size * source.largest_torque()).sum();
     let zero = |k: usize| {
         let of = |vector: Vector| {
             let [x, y] = found.xy(vector, k);

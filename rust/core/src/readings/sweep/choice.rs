@@ -32,7 +32,7 @@ use super::{Quantity, Sweep, SweepAxes};
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::load::source::{Column, Point, Scaling, Source};
-use crate::load::{Harmonic, LoadList};
+use crate::load::{Harmonic, LoadList, Sources};
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -146,7 +146,7 @@ impl Sweep {
     fn largest(
         &self,
         layout: &Layout,
-        slowest: &[Arc<dyn Source>],
+        slowest: &Sources,
         quantity: Quantity,
         known: &mut Known,
         cancel: &Cancel,
@@ -189,7 +189,7 @@ impl Sweep {
     /// their bounds over the axes.
     fn factors(
         &self,
-        slowest: &[Arc<dyn Source>],
+        slowest: &Sources,
         Harmonic { source, column }: Harmonic,
         known: &mut Known,
         cancel: &Cancel,
@@ -287,7 +287,9 @@ mod tests {
     use super::*;
     use crate::Cylinder;
     use crate::engine::{Crank, Station};
+    use crate::load::SourceIndex;
     use crate::numbers::angle::Angle;
+    use crate::numbers::index::ListIndex;
 
     /// Bounds of a gear's harmonics over the axes, and the largest of those at any point.
     fn bounds_and_largest(
@@ -306,7 +308,7 @@ mod tests {
         let engines = vec![Arc::new(engine.unwrap())];
         let sweep = Sweep::new(engines, axes, orders.clone(), None, &cancel).unwrap();
         let (source, column) = [(0, Column::Force), (0, Column::Roll), (1, Column::Roll)][kind];
-        let source = &sweep.loads(0).sources[source];
+        let source = &sweep.loads(0).sources[SourceIndex::new(source)];
         let [rod_ratio, pin_offset] = sweep.extremes;
         let slowest = source.at_point(&Point { rod_ratio, pin_offset, cycles: None }).unwrap();
         let bounds = sweep.evaluated(&*slowest, column, &cancel).unwrap();

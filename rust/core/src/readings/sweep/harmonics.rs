@@ -6,8 +6,8 @@ use std::sync::Arc;
 use super::layout::Layout;
 use super::{Quantity, Sweep};
 use crate::Complex64;
-use crate::load::Harmonic;
 use crate::load::source::{Column, Point, Scaling, Source};
+use crate::load::{Harmonic, Sources};
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::mechanism::harmonics::table;
 use crate::numbers::cancel::Cancel;
@@ -27,7 +27,7 @@ impl PointHarmonics {
     /// Those of a layout.
     pub fn new(
         sweep: &Sweep,
-        (sources, layout): (&[Arc<dyn Source>], &Layout),
+        (sources, layout): (&Sources, &Layout),
         quantity: Quantity,
         points: &Range<usize>,
         cancel: &Cancel,
@@ -74,7 +74,7 @@ impl Sweep {
 
     fn columns(
         &self,
-        sources: &[Arc<dyn Source>],
+        sources: &Sources,
         harmonic: Harmonic,
         quantity: Quantity,
         points: Range<usize>,
