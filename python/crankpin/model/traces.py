@@ -446,8 +446,8 @@ class Traces(Tabled, Input):
             f"{len(self.theta_deg)} points ({self._raised_mean.grid}), "
             f"noise {units.figure(self.noise / 1e5, 'bar', 2)}",
             (
-                Column("crank angle", tuple(self.theta_deg.tolist()), "°", digits=10),
-                *(Column(k, tuple(each.tolist()), "Pa", digits=7) for k, each in curves.items()),
+                Column("crank angle", self.theta_deg, "°", digits=10),
+                *(Column(k, each, "Pa", digits=7) for k, each in curves.items()),
             ),
             note=self.origin,
         )
