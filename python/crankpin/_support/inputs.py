@@ -40,6 +40,7 @@ FASTEST_PISTON = 60.0
 """Mean piston speed, m/s, above which no engine runs: Formula 1 stays below 30."""
 
 MOST_NUMBERS = _core.LONGEST_AXIS
+LARGEST_RESULT = _core.LARGEST_RESULT
 """Maximum length of an array: a gibibyte."""
 
 PIECE = 2**16
@@ -155,6 +156,13 @@ def copied(values: NDArray[Any]) -> NDArray[np.float64]:
         piece = values[k : k + rows]
         copy[k : k + rows] = piece.astype(str) if single else piece
     return copy
+
+
+def fitting(name: str, size: int, hint: str) -> None:
+    """Raise an InputError if a result would take more bytes than the core lets a call return."""
+    if size > LARGEST_RESULT:
+        fault = f"the result would take {size} bytes, more than the limit of {LARGEST_RESULT}"
+        raise InputError(f"{name}: {fault}; {hint}")
 
 
 def _too_many(name: str, count: int) -> InputError:

@@ -19,6 +19,8 @@ from crankpin.model.cycle import Cycle
 from crankpin.model.traces import SHOWN_ORDERS, Traces
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
     from numpy.typing import NDArray
 
     from crankpin.model.cylinder import Cylinder
@@ -265,7 +267,7 @@ class PreparedTrace(TwoPanels, Tabled):
             Column("imep", tuple(each / 1e5 for each in imep), "bar"),
             Column("changes", tuple(of_imep), "%", digits=3),
             *(
-                Column(f"order {order:g}", tuple(each.tolist()), "%", digits=3)
+                Column(f"order {order:g}", each, "%", digits=3)
                 for order, each in zip(SHOWN_ORDERS, moved.T, strict=True)
             ),
         ]
@@ -358,13 +360,42 @@ def _filtered(traces: Traces, cutoff: float) -> Traces:
     if not 0.0 < cutoff < highest:
         hint = f"give an order above 0 and below {highest:g}, half the points of a turn"
         raise inputs.rejected("lowpass_order", cutoff, hint)
-    spectrum = np.fft.rfft(rows.ravel())
-    orders = np.arange(len(spectrum)) * 360.0 / (len(rows) * traces.period_deg)
-    spectrum *= 1.0 / (1.0 + (orders / cutoff) ** (2 * STEEPNESS))
-    smooth = np.fft.irfft(spectrum, rows.size).reshape(rows.shape)
+    smooth = _convolved(
+        rows,
+        lambda turns: 1.0 / (1.0 + (turns * 360.0 / traces.period_deg / cutoff) ** (2 * STEEPNESS)),
+    )
     if closed:
         smooth = np.column_stack([smooth, smooth[:, :1]])
     return traces.replace(pressure=smooth)
+
+
+def _convolved(
+    rows: NDArray[np.float64], gain: Callable[[NDArray[np.float64]], NDArray[np.float64]]
+) -> NDArray[np.float64]:
+    """Return rows, one after the other, their spectrum times a gain of periods in a row.
+
+    The transform of all is one over rows and one over columns, with a twist between, so that no
+    step takes long: Ctrl-C is answered between them.
+    """
+    count, length = rows.shape
+    twist = -2j * np.pi / rows.size * np.arange(length)
+    spectra = np.empty((count // 2 + 1, length), complex)
+    for part in _parts(length, count):
+        spectra[:, part] = np.fft.rfft(rows[:, part], axis=0)
+    for k, spectrum in enumerate(spectra):
+        turned = np.exp(k * twist)
+        turns = np.abs(np.fft.fftfreq(length, 1.0 / length) + k / count)
+        spectrum[:] = np.fft.ifft(np.fft.fft(spectrum * turned) * gain(turns)) * turned.conj()
+    smooth = np.empty(rows.shape)
+    for part in _parts(length, count):
+        smooth[:, part] = np.fft.irfft(spectra[:, part], count, axis=0)
+    return smooth
+
+
+def _parts(length: int, count: int) -> Iterator[slice]:
+    """Yield slices of columns of so many rows, each with at most so many numbers."""
+    step = max(1, inputs.PIECE // count)
+    return (slice(start, start + step) for start in range(0, length, step))
 
 
 def _window(traces: Traces, window_deg: object, fewest: int) -> NDArray[np.bool_]:

@@ -145,7 +145,7 @@ def _two_plane(given: Given) -> Shown:
         if len(radius) > 2 or min(radius) <= 0.0:
             raise rejected("--radius", given.text("--radius"), "give one length above 0, or two")
         grams = fix.amount_g_mm / (1e3 * np.array(radius))
-        weight = Column("weight", tuple(grams.tolist()), "g")
+        weight = Column("weight", grams, "g")
         table = changed(table, columns=(*table.columns, weight))
     return Shown(only(table), fix)
 

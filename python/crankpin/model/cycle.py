@@ -472,8 +472,8 @@ class Cycle(Tabled, Input, ComputedCycles):
         return Table(
             ", ".join(facts),
             (
-                Column("crank angle", tuple(self.theta_deg.tolist()), "°", digits=10),
-                Column("pressure", tuple(self.pressure.tolist()), "Pa", digits=7),
+                Column("crank angle", self.theta_deg, "°", digits=10),
+                Column("pressure", self.pressure, "Pa", digits=7),
             ),
             note=self.origin,
         )

@@ -242,7 +242,8 @@ class Traces(Tabled, Input):
         noise, of coarse digits and of vibration near half the sampling rate. Their median counts,
         so that a few steep angles do not.
         """
-        differences = np.abs(np.diff(self.pressure, 4, axis=1))
+        # By cycle, so that Ctrl-C is answered between them.
+        differences = np.array([np.abs(np.diff(each, 4)) for each in self.pressure])
         if not differences.size:
             return 0.0
         return float(OF_A_NORMAL * np.median(differences) / math.sqrt(OF_WHITE_NOISE))
@@ -446,8 +447,8 @@ class Traces(Tabled, Input):
             f"{len(self.theta_deg)} points ({self._raised_mean.grid}), "
             f"noise {units.figure(self.noise / 1e5, 'bar', 2)}",
             (
-                Column("crank angle", tuple(self.theta_deg.tolist()), "°", digits=10),
-                *(Column(k, tuple(each.tolist()), "Pa", digits=7) for k, each in curves.items()),
+                Column("crank angle", self.theta_deg, "°", digits=10),
+                *(Column(k, each, "Pa", digits=7) for k, each in curves.items()),
             ),
             note=self.origin,
         )

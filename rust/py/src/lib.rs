@@ -91,6 +91,7 @@ mod _core {
         module.add("HIGHEST_LISTED", figures::HIGHEST_LISTED)?;
         module.add("FEWEST_POINTS", crank_angles::FEWEST_POINTS)?;
         module.add("MOST_CYLINDERS", limits::MOST_CYLINDERS)?;
+        module.add("LARGEST_RESULT", limits::LARGEST_RESULT)?;
         module.add("LONGEST_AXIS", limits::LONGEST_AXIS)?;
         module.add("LONGEST_FILE", file::LONGEST_TEXT)?;
         let error = module.py().get_type::<crate::convert::InputError>();

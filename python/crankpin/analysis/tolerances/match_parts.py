@@ -547,7 +547,7 @@ class Match(Tabled):
             Column("set", tuple(k + 1 for k, _ in places)),
             Column("cylinder", tuple(cylinder + 1 for _, cylinder in places)),
             Column("piston", tuple(pistons)),
-            Column("piston mass", tuple(self.parts.pistons[np.array(pistons) - 1].tolist()), "kg"),
+            Column("piston mass", self.parts.pistons[np.array(pistons) - 1], "kg"),
         ]
         if self.parts.rods is not None:
             rods = [(self.assignment[k].rods or ())[cylinder] for k, cylinder in places]
