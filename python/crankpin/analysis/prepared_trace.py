@@ -470,7 +470,7 @@ def _convolved(
 
 
 def _parts(length: int, count: int) -> Iterator[slice]:
-    """Yield slices of columns of so many rows, each with at most so many numbers."""
+    """Yield slices of columns of ``count`` rows, none with more than :data:`inputs.PIECE` numbers."""
     step = max(1, inputs.PIECE // count)
     return (slice(start, start + step) for start in range(0, length, step))
 
