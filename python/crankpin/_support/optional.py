@@ -14,6 +14,7 @@ EXTRAS = {
     "anywidget": "view",
     "dask.array": "dask",
     "matplotlib": "plot",
+    "openpyxl": "excel",
     "scipy.optimize": "optimize",
     "sympy": "exact",
     "tqdm.auto": "progress",

@@ -173,6 +173,7 @@ OPTIONS: dict[str, dict[str, Any]] = {
         "help": "columns of angle and pressure, those of further cycles after them, by number from "
         "0 or name (default: 0,1 and all that are like 1); several cycles are averaged",
     },
+    "--sheet": {"metavar": "NAME", "help": "sheet of a spreadsheet (default: the first)"},
     "--recorded-rpm": {
         "metavar": "RPM",
         "help": "crank speed of a record over time of less than three cycles",
