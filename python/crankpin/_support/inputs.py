@@ -69,6 +69,19 @@ MOST_ITEMS = 10_000
 """Items in a list that is taken one by one, such as orders; an endless one is rejected."""
 
 
+BUFFER = 2**26
+"""Memory that is wanted before OpenBLAS takes its own, 32 MiB: without it, it ends the process."""
+
+
+def _take_buffer() -> None:
+    """Let OpenBLAS take the memory of its first product now: a MemoryError if there is none."""
+    np.empty(BUFFER, np.uint8)
+    np.ones((2, 2)) @ np.ones((2, 2))
+
+
+_take_buffer()
+
+
 # --- numbers ------------------------------------------------------------------------------------
 
 

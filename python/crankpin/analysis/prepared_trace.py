@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import inputs, labels, units
+from crankpin._support import inputs, labels, lazy, units
 from crankpin._support.drawing import TwoPanels
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.record import item_key
@@ -455,17 +455,18 @@ def _convolved(
     step takes long: Ctrl-C is answered between them.
     """
     count, length = rows.shape
+    fft = lazy.imported("numpy.fft")
     twist = -2j * np.pi / rows.size * np.arange(length)
     spectra = np.empty((count // 2 + 1, length), complex)
     for part in _parts(length, count):
-        spectra[:, part] = np.fft.rfft(rows[:, part], axis=0)
+        spectra[:, part] = fft.rfft(rows[:, part], axis=0)
     for k, spectrum in enumerate(spectra):
         turned = np.exp(k * twist)
-        turns = np.abs(np.fft.fftfreq(length, 1.0 / length) + k / count)
-        spectrum[:] = np.fft.ifft(np.fft.fft(spectrum * turned) * gain(turns)) * turned.conj()
+        turns = np.abs(fft.fftfreq(length, 1.0 / length) + k / count)
+        spectrum[:] = fft.ifft(fft.fft(spectrum * turned) * gain(turns)) * turned.conj()
     smooth = np.empty(rows.shape)
     for part in _parts(length, count):
-        smooth[:, part] = np.fft.irfft(spectra[:, part], count, axis=0)
+        smooth[:, part] = fft.irfft(spectra[:, part], count, axis=0)
     return smooth
 
 
