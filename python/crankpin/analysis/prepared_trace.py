@@ -471,7 +471,7 @@ def _convolved(
 
 
 def _parts(length: int, count: int) -> Iterator[slice]:
-    """Yield slices of columns of ``count`` rows, none with more than :data:`inputs.PIECE` numbers."""
+    """Yield slices of columns of ``count`` rows, of at most :data:`PIECE` numbers."""
     step = max(1, inputs.PIECE // count)
     return (slice(start, start + step) for start in range(0, length, step))
 
