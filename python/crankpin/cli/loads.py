@@ -145,7 +145,7 @@ def fired(given: Given, name: str) -> tuple[Engine, str]:
         raise rejected("--cycle", typed, hint)
     strokes = engine.strokes
     if named:
-        part = float(given.decimal("--cycle", load, "", "a part of full load")) if load else 1.0
+        part = given.one("--cycle", load, "", "a part of full load") if load else 1.0
         if not 0.0 <= part <= 1.0:
             raise rejected("--cycle", typed, "give a part of full load, 0 (idling) to 1")
         example: Any = kind or next(iter(EXAMPLES))

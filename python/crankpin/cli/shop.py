@@ -133,7 +133,7 @@ def _two_plane(given: Given) -> Shown:
     typed = given.text("--amounts")
     plain = given.text("--units") is None
     parts = [f"{each}g·mm" if plain and _is_plain(each) else each for each in typed.split(",")]
-    amounts = [float(given.decimal("--amounts", each, "kg·m")) / G_MM for each in parts]
+    amounts = [given.one("--amounts", each, "kg·m") / G_MM for each in parts]
     fix = two_plane_correction(
         np.round(amounts, 9),
         given.listed("--angles", given.text("--angles"), "°"),

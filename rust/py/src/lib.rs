@@ -27,6 +27,7 @@ mod search;
 mod slider_crank;
 mod sweep;
 mod tolerances;
+mod typed;
 mod vanishing;
 mod waveform;
 
@@ -74,6 +75,7 @@ mod _core {
         },
         sweep::Sweep,
         tolerances::{Tolerances, orders_of_samples, peaks_of_sums},
+        typed::{read_numbers, unit_factor, unit_symbol, unit_symbols, unit_terms},
         vanishing::{star, vanishing},
         waveform::{CrankAngles, waveform},
     };
