@@ -10,13 +10,13 @@ mod objective;
 use self::objective::{ObjectiveFunction, Rotor, TurningPhasor, dot};
 use crate::Complex64;
 use crate::engine::{Engine, Origin};
-use crate::load::source::Repeats;
+use crate::load::source::{Repeats, Scaling};
 use crate::load::{
     Arithmetic, Factor, Load, LoadIndex, LoadList, PhasorSum, Phasors, Term, Wanted, Weight,
     superpose,
 };
 use crate::numbers::cancel::Cancel;
-use crate::numbers::error::Result;
+use crate::numbers::error::{Error, Result};
 use crate::numbers::index::List;
 use crate::numbers::limits;
 use crate::numbers::order::{self, Order};
@@ -125,6 +125,8 @@ impl Arithmetic for Rotors<'_> {
 #[derive(Debug, Clone)]
 pub struct Objectives {
     functions: Vec<ObjectiveFunction>,
+    /// Number of variables.
+    variables: usize,
 }
 
 impl Objectives {
@@ -165,6 +167,13 @@ impl Objectives {
         if !all.is_empty() {
             order::check_list(&all)?;
         }
+        if let Some(half) = all.iter().find(|order| order.as_whole().is_none()) {
+            return Err(Error::value("orders", half, "give whole orders: inertia has no others"));
+        }
+        if loads.list.iter().any(|load| load.parts.scaling != Scaling::SpeedSquared) {
+            let reason = "it has loads that do not scale with the square of the speed".to_owned();
+            return Err(Error::Undefined { argument: "objectives", reason });
+        }
         let amplitudes = Amplitudes::new(&loads.sources, true, &all, cancel)?;
         let wanted = Wanted { planar: true, roll: true, by_bank: false };
         let by_order: Vec<[Vec<TurningPhasor>; 4]> = all
@@ -191,7 +200,8 @@ impl Objectives {
             }
             ObjectiveFunction::new(*objective, parts)
         };
-        Ok(Self { functions: objectives.iter().map(function).collect() })
+        let functions = objectives.iter().map(function).collect();
+        Ok(Self { functions, variables: variables.len() })
     }
 
     /// Weight of each objective.
@@ -219,6 +229,10 @@ impl Objectives {
     /// The objectives at points (points, variables) in radians, and their derivatives: (points,
     /// objectives) and (points, objectives, variables).
     pub fn evaluated(&self, points: &[Vec<f64>], cancel: &Cancel) -> Result<Vec<Vec<Derived>>> {
+        for point in points {
+            let found = point.len();
+            limits::same_length("points", found, "the objectives", self.variables, "variable")?;
+        }
         let chunks = pool::map(cancel, points.chunks(STARTS_PER_TASK).collect(), |chunk| {
             let of_point = |x: &Vec<f64>| {
                 cancel.check()?;
@@ -275,4 +289,31 @@ fn quantities(
         torque(|of| of.roll),
         torque(|of| of.crank),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn objectives_are_of_inertia_at_whole_orders() {
+        let (engine, _) = crate::load::tests::fired([Some(0); 3]);
+        let objective = |halves| {
+            let order = Some(Order::from_halves(halves).unwrap());
+            let quantity = ObjectiveQuantity::Roll;
+            Objective { quantity, reading: Reading::Peak, order }
+        };
+        let made = |engine: &Engine, halves| {
+            let variable = Variable { bores: vec![0.0; 3], pins: vec![1.0, 0.0, 0.0] };
+            Objectives::new(engine, &[variable], &[objective(halves)], &[], &[], &Cancel::new())
+        };
+        let found = made(&engine.without_gas(), 4).unwrap();
+        assert!(found.evaluated(&[vec![0.1]], &Cancel::new()).unwrap()[0][0].0 > 0.0);
+        for point in [vec![], vec![0.0; 2]] {
+            assert!(matches!(found.evaluated(&[point], &Cancel::new()), Err(Error::Length { .. })));
+        }
+        let text = made(&engine.without_gas(), 1).unwrap_err().to_string();
+        assert!(text.starts_with("orders = 0.5"), "{text}");
+        assert!(matches!(made(&engine, 4), Err(Error::Undefined { .. })));
+    }
 }

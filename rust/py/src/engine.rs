@@ -293,8 +293,11 @@ impl Engine {
             }
             None => Ok(engine),
         });
-        let engine = engine.or_raise()?;
-        Ok(pins.map_or(engine.clone(), |pins| engine.with_pins(&pins)).into())
+        let engine = engine.and_then(|engine| match pins {
+            Some(pins) => engine.with_pins(&pins),
+            None => Ok(engine),
+        });
+        Ok(engine.or_raise()?.into())
     }
 
     #[staticmethod]

@@ -300,13 +300,13 @@ impl Engine {
     }
 
     /// The same engine with its crankpins in these directions, from +x, at θ = 0, one for each cylinder.
-    #[must_use]
-    pub fn with_pins(&self, pins: &[Angle]) -> Self {
+    pub fn with_pins(&self, pins: &[Angle]) -> Result<Self> {
+        check_each_cylinder("pins", pins.len(), self.stations.len())?;
         let mut turned = self.clone();
         for (i, (station, &pin)) in turned.stations.iter_mut().zip(pins).enumerate() {
             station.tdc = self.cranks[self.crank_of[i]].tdc(station.bank, pin);
         }
-        turned
+        Ok(turned)
     }
 
     /// Rejects several cranks, where a quantity is defined for one alone.
@@ -633,6 +633,12 @@ mod tests {
         }
         let bored = Details { bore: Some(0.08), ..Details::default() };
         assert!(engine.with_details(vec![bored]).is_err());
+        for count in [0, 1, 3] {
+            assert!(matches!(
+                engine.with_pins(&vec![Angle::ZERO; count]),
+                Err(Error::Length { .. })
+            ));
+        }
         assert_eq!(engine.with_details(vec![bored; 2]).unwrap().details(), [bored; 2]);
         let rod = RodFigures { mass: -1.0, inertia: 0.0, to_crankpin: 0.0 };
         let negative = Details { rod: Some(rod), ..bored };

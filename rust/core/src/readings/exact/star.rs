@@ -61,7 +61,11 @@ impl Stars {
         fires: Vec<bool>,
         cancel: &Cancel,
     ) -> Result<Self> {
-        limits::same_length("mode_shape", weights.len(), "the engine", fire.len(), "cylinder")?;
+        let lists =
+            [("mode_shape", weights.len()), ("groups", groups.len()), ("fires", fires.len())];
+        for (argument, found) in lists {
+            limits::same_length(argument, found, "the engine", fire.len(), "cylinder")?;
+        }
         for (weight, &fires) in weights.iter_mut().zip(&fires) {
             *weight = if fires { *weight } else { 0.0 };
         }
@@ -166,6 +170,7 @@ fn fires(engine: &Engine) -> Vec<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numbers::error::Error;
 
     fn stars(fire: &[f64], weights: &[f64]) -> Stars {
         let fire = fire.iter().map(|&degrees| Angle::from_degrees(degrees).unwrap()).collect();
@@ -240,10 +245,12 @@ mod tests {
         )
         .unwrap();
         assert_eq!(at(&unlike, 1).verdict, Verdict::Undecided);
-        assert!(
-            Stars::new(Vec::new(), vec![1.0], vec![(0, false)], vec![true], &Cancel::new())
-                .is_err()
-        );
+        for [weights, groups, fires] in [[2, 1, 1], [1, 0, 1], [1, 1, 2], [0, 1, 1]] {
+            let groups = vec![(0, false); groups];
+            let (weights, fires) = (vec![1.0; weights], vec![true; fires]);
+            let found = Stars::new(vec![Angle::ZERO], weights, groups, fires, &Cancel::new());
+            assert!(matches!(found.err(), Some(Error::Length { .. })));
+        }
     }
 
     #[test]

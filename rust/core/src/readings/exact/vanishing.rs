@@ -410,6 +410,9 @@ pub(crate) fn vanishing_of(
     let strokes = firing.map_or(engine.strokes(), Firing::strokes);
     let proof = Proof::new(engine, reference_z, cancel)?;
     let gas = Stars::of_gas(engine, firing, cancel)?;
+    // Cycles of faster cranks begin at turns of their own, which nothing says.
+    let is_faster = |i| engine.cranks()[engine.crank_of(i)].ratio.abs() != 1;
+    let other_cycles = (0..engine.stations().len()).any(|i| engine.fires(i) && is_faster(i));
     let torques = [ProofQuantity::Torque, ProofQuantity::GasTorque];
     let torque = torques.iter().any(|torque| quantities.contains(torque));
     let (mut within_rounding, gas_remains) =
@@ -428,6 +431,10 @@ pub(crate) fn vanishing_of(
             let (verdict, error) = match (quantity, order.as_whole()) {
                 (ProofQuantity::GasTorque, None) if strokes == Strokes::Two => {
                     (Verdict::Vanishes, None)
+                }
+                (ProofQuantity::GasTorque, _) if other_cycles => {
+                    within[k] = false;
+                    (Verdict::Undecided, None)
                 }
                 (ProofQuantity::GasTorque, _) => gas.at(order).map_or_else(
                     |error| (Verdict::Undecided, Some(error)),
@@ -460,7 +467,10 @@ pub(crate) fn vanishing_of(
     }
     let undecided = verdicts.iter().flatten().any(|&v| v == Verdict::Undecided);
     let mut obstacles = if undecided { proof.obstacles() } else { Vec::new() };
-    if verdicts.iter().any(|verdicts| verdicts[9] == Verdict::Undecided) && gas.are_unlike() {
+    let gas_is_open = verdicts.iter().any(|verdicts| verdicts[9] == Verdict::Undecided);
+    if gas_is_open && other_cycles {
+        obstacles.push("gas on cranks of other speeds, whose cycles begin at no known turn".into());
+    } else if gas_is_open && gas.are_unlike() {
         obstacles.push("cylinders of different dimensions, whose gas torques have no ratio".into());
     }
     obstacles.extend(errors);
