@@ -71,6 +71,15 @@ CALLS = {
     "matching of 24 pistons": (
         "cp.match_parts(v12, np.linspace(0.39, 0.41, 24), sets=2, orders=[1, 2])"
     ),
+    "matching of 1000 pistons": "cp.match_parts(long, np.linspace(0.39, 0.41, 1000))",
+    "trace of 400 cycles, prepared": "cp.prepare_trace(traces, v6.cylinders[0], lowpass_order=50)",
+    "trace of 400 cycles, its table": (
+        "cp.prepare_trace(traces, bored, lowpass_order=50, intake_pressure=1e5).table"
+    ),
+    "frame of 20 million rows": (
+        "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders=[2], torque=False).to_csv('/dev/null')"
+    ),
+    "phasors of 500 cylinders": "five_hundred.balance(1000, orders=[1, 2]).plot(kind='phasors')",
     "design of a V16": (
         "cp.design(16, layout='vee', cylinder=v6.cylinders[0], bank_angle_deg=(45, 90), "
         "spacing=0.1, rpm=6000, by='total.moment.peak')"
@@ -113,6 +122,12 @@ v16 = cp.Engine.vee(
 )
 long = cp.Engine.inline(v6.cylinders[0], throws_deg=[7.3 * k for k in range(1000)], spacing=0.1)
 wrong_at_the_end = np.append(np.full(10**8 - 1, 0.3), 1.5) if "wrong" in {call!r} else None
+five_hundred = cp.Engine.inline(
+    v6.cylinders[0], throws_deg=[7.3 * k for k in range(500)], spacing=0.1
+)
+bored, thetas_of_cycle = v6.cylinders[0].replace(bore=0.08), np.arange(0, 720, 0.1)
+pressure = cp.Cycle.example().pressure_at(thetas_of_cycle) * np.linspace(0.9, 1.1, 400)[:, None]
+traces = cp.Traces(thetas_of_cycle, pressure)
 listed = ratios.tolist() if "listed" in {call!r} else None
 for line in sys.stdin:
     try:

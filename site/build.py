@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 from crankpin._support import units
 from crankpin.analysis import explain
-from crankpin.cli import arguments
 from crankpin.model import presets
 from crankpin.view import page
 
@@ -43,28 +42,6 @@ DRAWN = {
 """Quantities of the turning picture, and the library's units of them."""
 SHOWN = ("m", "kg", "kg·m", "N", "N·m", "kg·m²")
 """Units of the library that are shown in those of the setting."""
-INERTIAS = (
-    "kg·m²",
-    "kg·m2",
-    "kg·m^2",
-    "kgm²",
-    "kgm2",
-    "kg m²",
-    "kg m2",
-    "g·m²",
-    "lb·ft²",
-    "lb·in²",
-)
-"""Units of moments of inertia that may be typed, of those that the library reads."""
-HINTS = {
-    "m": "mm, in",
-    "kg": "g, lb, oz",
-    "rpm": "rpm",
-    "kg·m²": "kg·m², lb·ft²",
-    "°": "°",
-    "": "%",
-}
-
 LZMA = {
     "id": lzma.FILTER_LZMA1,
     "preset": 9 | lzma.PRESET_EXTREME,
@@ -149,39 +126,13 @@ def tables() -> dict[str, Any]:
         "version": cp.__version__,
         "units": {
             "settings": SETTINGS,
-            "typed": typed(),
             "shown": {setting: shown(setting) for setting in SETTINGS},
             "drawn": {setting: drawn(setting) for setting in SETTINGS[1:]} | {SETTINGS[0]: {}},
             "said": {setting: said(setting) for setting in SETTINGS[1:]} | {SETTINGS[0]: {}},
-            "hints": HINTS,
         },
         "presets": {name: preset(name) for name in presets.presets()},
         "page": page.template(),
         "groups": {title: names for title in GROUPS if (names := group(title))},
-    }
-
-
-def typed() -> dict[str, dict[str, str]]:
-    """Return what may be typed behind a number, and its factor to the library's unit."""
-    words = [*units.SYMBOLS, *units.ALIASES]
-    words += [word.lower() for word in words]
-    found = {
-        unit: {
-            word: f"{factor:f}"
-            for word in words
-            if (factor := units.exact(word, arguments.UNITS[unit])) is not None
-        }
-        for unit in ("m", "kg", "Pa")
-    }
-    found["kg·m²"] = {
-        word: f"{factor:f}"
-        for word in INERTIAS
-        if (factor := units.exact(word, arguments.UNITS["kg·m²"])) is not None
-    }
-    others: dict[str, dict[str, Decimal]] = arguments.OTHERS
-    return found | {
-        unit: {word: f"{factor:f}" for word, factor in words.items()}
-        for unit, words in others.items()
     }
 
 

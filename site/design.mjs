@@ -77,12 +77,12 @@ export class Design {
   }
 
   /** What the core builds: arguments of its call, or an engine's file as text; errors of fields in a list. */
-  request(units) {
+  request(core, units) {
     const faults = [];
     const read = {};
     for (const name of this.names) {
       try {
-        const value = valueOf(name, this.fields[name] ?? "", units, this.kind);
+        const value = valueOf(core, name, this.fields[name] ?? "", units, this.kind);
         if (value !== null) read[name] = value;
       } catch (error) {
         if (!(error instanceof TypingError)) throw error;
@@ -146,7 +146,7 @@ function fault(name, value, hint) {
 }
 
 /** The value of a field: a number in the library's unit, a text, a list; null if nothing is typed. */
-function valueOf(name, text, units, kind) {
+function valueOf(core, name, text, units, kind) {
   const field = FIELDS[name];
   const typed = text.trim();
   if (!typed && !field.choices) {
@@ -156,44 +156,28 @@ function valueOf(name, text, units, kind) {
   }
   if (field.choices) return name === "strokes" ? Number(typed) : typed;
   if (field.text) return typed;
+  const read = (unit, form, what) => quantity(core, typed, { unit, plain: plainUnit(unit, units), name, form, what });
   if (field.whole) {
-    const numbers = parts(typed).map((each) => (/^\d+$/.test(each) ? Number(each) : NaN));
-    if (!field.listed && numbers.length > 1 || numbers.some(Number.isNaN)) throw new TypingError(name, typed, "give a whole number");
-    return field.listed ? numbers : numbers[0];
+    const { values } = read("count", field.listed ? "list" : "number", "a whole number");
+    if (!values.every(Number.isInteger)) throw new TypingError(name, typed, "give a whole number");
+    return field.listed ? values : values[0];
   }
-  if (field.unit === "°") return field.listed ? parts(typed).map((each) => degrees(name, each)) : degrees(name, typed);
-  const plain = plainUnit(field.unit, units);
-  if (field.several) {
-    try {
-      return quantity(typed, field.unit, plain, name);
-    } catch (error) {
-      if (parts(typed).length === 1) throw error;
-    }
+  if (field.unit === "°") {
+    const { values, texts } = read("°", field.listed ? "list" : "number", "degrees, such as 90, 22.5 or 360/7");
+    const listed = texts.map((text, k) => degrees(text, values[k]));
+    return field.listed ? listed : listed[0];
   }
-  if (field.listed || field.several || kind === "lists") {
-    const listed = parts(typed, /\s*[,;]\s*|\s+(?=[-+−\d.])(?!\d+\/)/u);
-    const [, last] = /([^\d\s.¼-¾⅐-⅞]+)$/u.exec(listed.at(-1)) ?? [];
-    return listed.map((each) => quantity(each, field.unit, last ?? plain, name));
-  }
-  return quantity(typed, field.unit, plain, name);
+  const form = field.listed || kind === "lists" ? "list" : field.several ? "several" : "number";
+  const { values, listed } = read(field.unit, form);
+  return form === "list" || listed ? values.slice(0, MOST_LISTED) : values[0];
 }
 
 /** Decimals of degrees that are typed; a number of more was computed, and is no exact one. */
 const TYPED_DECIMALS = 6;
 
 /** Degrees stay a text: the library reads decimals and fractions exactly. */
-function degrees(name, text) {
-  const plain = text.replace(/\s*(°|deg|degrees)$/u, "").replace("−", "-");
-  if (!/^[-+]?[\d.]+(e[-+]?\d+)?(\/\d+)?$/iu.test(plain)) {
-    throw new TypingError(name, text, "give degrees, such as 90, 22.5 or 360/7");
-  }
-  return (plain.split(".")[1] ?? "").length > TYPED_DECIMALS && !plain.includes("/") ? Number(plain) : plain;
-}
-
-/** Parts of a list; a fraction may stand behind a whole number: 3 7/16. */
-function parts(text, between = /\s*[,;]\s*|\s+(?=[-+−\d.])/u) {
-  const listed = text.split(between).filter((each) => each !== "");
-  return listed.length > MOST_LISTED ? listed.slice(0, MOST_LISTED) : listed;
+function degrees(text, value) {
+  return (text.split(".")[1] ?? "").length > TYPED_DECIMALS && !text.includes("/") ? value : text;
 }
 
 /** The unit that a number has of which none is typed. */

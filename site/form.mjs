@@ -18,7 +18,8 @@ let forms = 0;
 
 export class Form {
   /** `changed` is told that a field has another text, `chosen` of a preset, `kindChosen` of a kind. */
-  constructor({ changed, chosen, kindChosen }) {
+  constructor(core, { changed, chosen, kindChosen }) {
+    this.core = core;
     this.act = { changed, chosen, kindChosen };
     this.id = `form-${++forms}`;
     this.preset = html("select", { id: `${this.id}-preset`, "data-field": "preset" }, html("option", { value: "" }, WORDS.ownEngine),
@@ -101,7 +102,7 @@ export class Form {
         const plain = plainUnit(unit, this.units);
         const list = FIELDS[name].listed || control.value.includes(",");
         if (unit === "°" || list || !plain) return;
-        control.value = withUnit(control.value, unit, plain);
+        control.value = withUnit(this.core, control.value, unit, plain);
         this.design.fields[name] = control.value;
       });
     }
@@ -155,7 +156,7 @@ const saidOf = ({ said, optional, unit } = {}) => (said ? `${said}${optional && 
 /** An error in the words of the fields; a length or mass that a hint ends with, which is the library's, as the setting has it. */
 export function inWords(hint, unit = "", units = "") {
   let text = hint.replaceAll("crank_radius", WORDS.crankRadius);
-  if (UNITS.hints[unit] && UNITS.shown[units]?.[unit]) {
+  if (UNITS.shown[units]?.[unit]) {
     const [shown, factor] = UNITS.shown[units][unit];
     text = text.replace(/= ([\d.e-]+)$/u, (_, number) => `= ${readable(number * factor)} ${shown}`);
   }

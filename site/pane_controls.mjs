@@ -24,8 +24,10 @@ export function paneFields(slot, key, fields, { units, again }) {
     const read = () => {
       const typed = control.value.trim();
       if (choices) return typed;
-      const one = (part) => quantity(part, unit, plainUnit(unit, units()), name);
-      return listed ? typed.split(/\s*[,;]\s*/u).filter(Boolean).map(one) : typed ? one(typed) : null;
+      if (!typed) return listed ? [] : null;
+      const form = listed ? "list" : "number";
+      const { values } = quantity(slot.core, typed, { unit, plain: plainUnit(unit, units()), name, form });
+      return listed ? values : values[0];
     };
     const follow = () => {
       try {

@@ -24,7 +24,7 @@ export class Slot {
     /** What the reader set in panes: controls by pane, and their values. */
     this.controls = {};
     this.settings = {};
-    this.form = new Form({
+    this.form = new Form(core, {
       changed: () => this.later(),
       chosen: (name) => this.take(Object.assign(Design.preset(name), { rpm: this.design.rpm })),
       kindChosen: (kind) => this.take(kind === "lists" && this.engine
@@ -76,7 +76,7 @@ export class Slot {
   /** The engine: its files, and what the core says that it is. */
   built() {
     const { core, design } = this;
-    const { call, file, gas, inertia } = design.request(this.units);
+    const { call, file, gas, inertia } = design.request(core, this.units);
     this.inertia = inertia;
     this.notes = [];
     const made = (more) => (call ? core.call("build", { ...call, ...more })

@@ -1,5 +1,5 @@
 // What the build takes from the library: units, presets, and the version.
 
-/** `typed`: unit of the library → what may be typed → its factor; `shown`: setting → unit → unit shown and factor. */
+/** `shown`: setting → unit → unit shown and factor. */
 export const { units: UNITS, presets: PRESETS, groups: GROUPS, version: VERSION, page: PAGE } =
   JSON.parse(document.getElementById("tables").textContent);

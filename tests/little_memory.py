@@ -15,7 +15,6 @@ import tempfile
 import warnings
 from pathlib import Path
 
-import numpy as np
 from fuzzing.calls import invoke, sound_call
 from fuzzing.surface import TARGETS
 
@@ -61,8 +60,6 @@ def make_calls(mib: int, pieces: int | None) -> None:
 def main() -> None:
     """Make the calls without a limit, which imports what they need, then with the limits."""
     warnings.simplefilter("ignore")
-    # OpenBLAS ends a process without memory for its first call.
-    np.linalg.lstsq(np.eye(3), np.ones(3))
     for call in CALLS:
         with contextlib.suppress(ValueError, OSError, TypeError):
             invoke(call)

@@ -12,6 +12,7 @@ __all__ = [
     "FEWEST_POINTS",
     "HIGHEST_LISTED",
     "HIGHEST_ORDER",
+    "LARGEST_RESULT",
     "LONGEST_AXIS",
     "LONGEST_FILE",
     "MOST_CYLINDERS",
@@ -75,6 +76,7 @@ __all__ = [
     "peaks_of_vectors",
     "piston_travel",
     "places_on_axis",
+    "read_numbers",
     "repeats_first",
     "rigid_body",
     "rod_parts",
@@ -86,6 +88,10 @@ __all__ = [
     "terms",
     "turning",
     "turning_points",
+    "unit_factor",
+    "unit_symbol",
+    "unit_symbols",
+    "unit_terms",
     "vanishing",
     "vee_throws",
     "volume_ratios",
@@ -100,6 +106,7 @@ FEWEST_POINTS: int
 HIGHEST_LISTED: int
 HIGHEST_ORDER: int
 MOST_CYLINDERS: int
+LARGEST_RESULT: int
 LONGEST_AXIS: int
 LONGEST_FILE: int
 
@@ -738,3 +745,20 @@ class Response:
     def at(self, point: Sequence[float] | str, derivative: str, of_subframe: bool) -> _Complex: ...
     def grades(self, point: Sequence[float] | str, of_subframe: bool) -> _Real: ...
     def power(self) -> _Real: ...
+
+def read_numbers(
+    argument: str,
+    text: str,
+    unit: str,
+    *,
+    form: str,
+    plain: str = "",
+    what: str = "a number",
+    infinite: bool = False,
+) -> tuple[list[float], str | None, bool, str | None]: ...
+def unit_symbols() -> tuple[list[tuple[str, int, tuple[int, int, int]]], list[tuple[str, str]]]: ...
+def unit_symbol(word: str) -> str | None: ...
+def unit_terms(unit: str) -> list[tuple[str, int]] | None: ...
+def unit_factor(
+    unit: str, dimension: tuple[int, ...] | None = None
+) -> tuple[int, int, int] | None: ...

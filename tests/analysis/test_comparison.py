@@ -118,3 +118,14 @@ def test_an_engine_that_is_lumped_differs_in_order_1_alone(seed: int) -> None:
     np.testing.assert_allclose(
         same.after.force.xy, same.before.force.xy, rtol=0, atol=1e-14 * same.before.force.peak.max()
     )
+
+
+def test_what_was_zero_has_no_change_in_tables() -> None:
+    shown = cp.compare(cp.Engine.preset("v6-60"), cp.Engine.preset("i4"), rpm=3000)
+    table = shown.table
+    assert np.isinf(shown.change("force")).any()
+    for before, after, cell in zip(
+        table["before"].values, table["after"].values, table["change"].cells(), strict=True
+    ):
+        assert (cell == "–") == (before == 0.0 and after != 0.0)
+    assert "inf" not in shown.to_csv() + table.text() + shown.to_latex()

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import warnings
+from functools import partial
 from typing import Any, NamedTuple
 
 import crankpin as cp
 import numpy as np
 import pytest
+from crankpin._support import inputs
+from crankpin.analysis import prepared_trace
 from numpy.typing import NDArray
 from rederivation import traces as again
 
@@ -158,6 +161,35 @@ def test_filters_take_noise_and_leave_orders_below_them(seed: int) -> None:
     wave = cp.Traces(THETA, np.array([5e5 + 1e5 * np.cos(np.radians(20.0 * THETA))] * 3))
     halved = cp.prepare_trace(wave, known.cylinder, lowpass_order=20).traces
     np.testing.assert_allclose(halved.pressure - 5e5, 0.5 * (wave.pressure - 5e5), atol=1e-3)
+
+
+def test_filters_transform_a_few_numbers_at_a_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ctrl-C is answered between them: one transform of everything took a third of a second."""
+    rng, sizes = np.random.default_rng(1), list[int]()
+
+    def recorded(transform: Any) -> Any:  # noqa: ANN401 - of numpy.fft
+        def of(values: NDArray[Any], *options: Any, **more: Any) -> NDArray[Any]:  # noqa: ANN401
+            sizes.append(np.size(values))
+            transformed: NDArray[Any] = transform(values, *options, **more)
+            return transformed
+
+        return of
+
+    def gain(steep: float, turns: NDArray[np.float64]) -> NDArray[np.float64]:
+        return 1.0 / (1.0 + (turns / steep) ** 8)
+
+    for count, length in [(1, 1), (1, 8), (2, 1), (2, 9), (7, 16), (8, 7), (300, 721)]:
+        rows, steep = rng.normal(size=(count, length)), rng.uniform(0.1, length)
+        spectrum = np.fft.fft(rows.ravel())
+        turns = np.abs(np.fft.fftfreq(rows.size, 1.0 / length))
+        spectrum *= gain(steep, turns)
+        expected = np.fft.ifft(spectrum).real.reshape(rows.shape)
+        with monkeypatch.context() as patched:
+            for name in ("fft", "ifft", "rfft", "irfft"):
+                patched.setattr(np.fft, name, recorded(getattr(np.fft, name)))
+            filtered = prepared_trace._convolved(rows, partial(gain, steep))
+        np.testing.assert_allclose(filtered, expected, atol=1e-13)
+    assert max(sizes) <= inputs.PIECE < rows.size
 
 
 def test_the_change_of_each_step_is_reported() -> None:

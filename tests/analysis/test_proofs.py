@@ -121,7 +121,8 @@ class Draft(NamedTuple):
             later = (np.round(turns) % 2 == 1).tolist()
             places = [p._replace(later=late) for p, late in zip(places, later, strict=True)]
         else:
-            places = [place._replace(cycle=0) for place in places]
+            # Whichever turns the cycles begin at.
+            places = [place._replace(cycle=0, later=k % 2 == 1) for k, place in enumerate(places)]
         return Sums(places, [*self.counterweights, *self.shafts], halves, self.middle)
 
 
@@ -132,6 +133,12 @@ def degrees(turns: Fraction) -> str:
 
 def unbalance(weight: Weight) -> cp.Unbalance:
     return cp.Unbalance(float(weight.amount), float(weight.z), degrees(weight.direction))
+
+
+def bob_weight(place: Place) -> Weight:
+    """What balances the mass that turns with a crankpin, and half of the piston's."""
+    amount = (place.turning + place.piston.mass / 2) * place.piston.radius
+    return Weight(amount, (place.bank - place.tdc + Fraction(1, 2)) % 1, place.z)
 
 
 class Drawing:
@@ -193,6 +200,8 @@ class Drawing:
             x, y, ratio = everywhere[crank]
             places[k] = places[k]._replace(ratio=ratio, axis=(x, y))
         weights = [self.weight(1, AXES[0]) for _ in range(2)] if self.chance(0.2) else []
+        if not cranks and self.chance(0.3):
+            weights = list(map(bob_weight, places))
         shafts = []
         if self.chance(0.2):
             shafts = [self.weight(self.one(RATIOS), self.one(AXES)) for _ in range(2)]
@@ -273,6 +282,78 @@ def test_mirrored_offsets_on_cranks_of_either_sense_cancel_in_pairs() -> None:
     assert engine.vanishing_orders([3]).force[3] == "vanishes"
 
 
+def test_nothing_is_known_of_gas_on_faster_cranks() -> None:
+    """At order 1 of a crank of ratio 2, half its own, it matters which of its turns fires."""
+    cylinder = cp.Cylinder(0.04, 0.13, 0.5)
+    twin = cp.Engine.from_lists(
+        cylinder,
+        tdc_deg=[0, 180],
+        bank_deg=[90, 90],
+        z=[0, 0.1],
+        cranks=[(0.1, 0.0, 2)],
+        crank=[1, 1],
+    )
+    found = twin.vanishing_orders([1, 2])
+    assert found.gas_torque.undecided == (1, 2)
+    assert any("gas on cranks of other speeds" in text for text in found.obstacles)
+
+
+# --- what is said -------------------------------------------------------------------------------
+
+COMPONENTS = {"force": ("x", "y"), "moment": ("x", "y"), "torque": ("z",)}
+
+
+def said(draft: Draft) -> Iterator[tuple[str, float, bool]]:
+    """Yield what is said to be zero, or left, with proof, and whether sixty digits agree."""
+    engine = draft.engine()
+    sums = {order: draft.sums(engine, 2 * order) for order in ORDERS}
+
+    def zero(quantity: str, order: int, parts: Sequence[str] = ()) -> bool:
+        of = parts or COMPONENTS[quantity]
+        return all(sums[order].is_zero(quantity, part) for part in of)
+
+    balance = engine.balance(3000.0, orders=list(ORDERS))
+    for order in ORDERS:
+        for quantity in ("force", "moment"):
+            if getattr(balance[order], quantity).status == "zero, proved":
+                yield f"balance: {quantity}", order, zero(quantity, order)
+            try:
+                form = engine.closed_form(order, "force" if quantity == "force" else "moment")
+            except cp.InputError:
+                continue
+            for part, (real, imaginary, square) in form._phasors.items():
+                nothing = form._zero or not any(real + imaginary + square)
+                yield f"form: {quantity} {part}", order, nothing == zero(quantity, order, [part])
+    for finding in engine.explain(3000.0).findings:
+        if finding.kind == "gas orders":
+            for half in finding.orders:
+                of_gas = draft.sums(engine, round(2 * half))
+                yield "gas: left", half, not of_gas.is_zero("gas_torque", "z")
+        orders = [int(order) for order in finding.orders if order in ORDERS]
+        if not finding.proved or finding.quantity not in {"force", "moment"}:
+            continue
+        for order in orders:
+            if finding.kind == "cancels":
+                yield f"explain: {finding.quantity}", order, zero(finding.quantity, order)
+            elif finding.kind == "hardware":
+                before, after = finding.values[:2], finding.values[2:4]
+                parts = zip(("forward", "backward"), before, after, strict=True)
+                gone = [part for part, was, now in parts if was and not now]
+                yield f"hardware: {finding.quantity}", order, zero(finding.quantity, order, gone)
+
+
+def test_nothing_that_is_said_to_be_proved_is_false() -> None:
+    counts: Counter[str] = Counter()
+    drawing = Drawing(45)
+    for k in range(150):
+        draft = drawing.draft(fired=k % 3 == 0)
+        for words, order, true in said(draft):
+            assert true, (words, order, draft)
+            counts[words.partition(":")[0]] += 1
+    assert min(counts[of] for of in ("balance", "form", "explain")) > 80, counts
+    assert min(counts["hardware"], counts["gas"]) > 0, counts
+
+
 @pytest.mark.parametrize("fired", [False, True])
 def test_no_proof_is_false(fired: bool) -> None:
     counts: Counter[tuple[str, bool]] = Counter()
@@ -280,6 +361,6 @@ def test_no_proof_is_false(fired: bool) -> None:
     while counts.total() < 10_000:
         draft = drawing.draft(fired=fired)
         assert wrong(draft, counts) == [], draft
-    # Some 70 in 100 are decided, and a third vanishes: neither is a matter of chance.
-    assert counts["vanishes", True] > 2500
+    # Some 70 in 100 are decided, and 22 or more vanish: neither is a matter of chance.
+    assert counts["vanishes", True] > 2000
     assert counts["remains", False] > 3500

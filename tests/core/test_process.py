@@ -191,14 +191,16 @@ MANY = "many = cp.Engine.inline(v6.cylinders[0], throws_deg=range(1000), spacing
         (20, "import pickle", "[pickle.dumps(v16) for _ in range(10**6)]"),
         (
             8,
-            # OpenBLAS ends the process where it has no memory for its first call.
             (
-                "np.linalg.lstsq(np.eye(3), np.ones(3)); "
                 "question = {'layout': 'vee', 'cylinder': v6.cylinders[0], 'bank_angle_deg': 90, "
                 "'spacing': 0.1, 'rpm': 6000, 'by': 'total.moment.peak'}; cp.design(4, **question)"
             ),
             "cp.design(16, **question)",
         ),
+        # Compiled modules that NumPy imports late.
+        (3, "cp.tolerances", "cp.tolerances(v6, 5000, pin_deg=0.1, samples=100)"),
+        (3, "cp.match_parts", "cp.match_parts(v6, np.linspace(0.4, 0.45, 6))"),
+        (0, "", "v6.save_html('v6.html')"),
     ],
 )
 def test_memory_that_is_not_there_raises_memory_error(
@@ -206,6 +208,25 @@ def test_memory_that_is_not_there_raises_memory_error(
 ) -> None:
     program = LITTLE_MEMORY.format(megabytes=megabytes, before=before, call=call)
     assert python(program) == "MemoryError\n"
+
+
+@linux
+@pytest.mark.parametrize("megabytes", [3, 16])
+def test_a_first_product_does_not_end_the_process(megabytes: float, tmp_path: Path) -> None:
+    """OpenBLAS does, where it has no memory for its buffer."""
+    program = f"""
+import resource, numpy
+used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (used + {megabytes} * 2**20, -1))
+try:
+    from crankpin import Engine
+except MemoryError:
+    print("MemoryError")
+"""
+    assert python(program) == "MemoryError\n"
+    page = f"v6.save_html({str(tmp_path / 'v6.html')!r}); raise MemoryError"
+    program = LITTLE_MEMORY.format(megabytes=megabytes, before="", call=page)
+    assert python(program) == "MemoryError\n"  # of the page or of the line
 
 
 @linux

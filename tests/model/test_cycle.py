@@ -191,21 +191,23 @@ def test_bounds_of_random_tables_hold_whatever_is_between_points(seed: int) -> N
         (CYLINDER.crank_radius, CYLINDER.rod_length, CYLINDER.pin_offset), 101325.0,
     )  # fmt: skip
     cycle = cp.Cycle(theta, values)
-    bound = cycle.resolution_bound(CYLINDER)
+    bound = cycle.resolution_bound(CYLINDER, 1)[0]
     assert (abs(cycle.torque_harmonics(CYLINDER, ORDERS) - phasors) < bound).all()
     assert 2.0 * abs(cycle.mean_torque(CYLINDER) - mean) < bound
 
 
 def test_bounds_fall_with_the_step_and_are_none_of_polynomials() -> None:
-    bounds = [sampled(np.arange(0, 720, step)).resolution_bound(CYLINDER) for step in (4, 2, 1)]
+    bounds = [
+        sampled(np.arange(0, 720, step)).resolution_bound(CYLINDER, 1)[0] for step in (4, 2, 1)
+    ]
     np.testing.assert_allclose(np.divide(bounds[:2], bounds[1:]), 2.0, rtol=0.02)
-    assert cp.Cycle.example().resolution_bound(CYLINDER) == 0.0
+    assert cp.Cycle.example().resolution_bound(CYLINDER, [0.5, 1]).tolist() == [0.0, 0.0]
     # Closed or open, and with a jump, whose step is none.
-    closed = sampled(np.linspace(0, 720, 721)).resolution_bound(CYLINDER)
+    closed = sampled(np.linspace(0, 720, 721)).resolution_bound(CYLINDER, 1)[0]
     np.testing.assert_allclose(closed, bounds[2], rtol=1e-12)
     corners = [0, 90, 180, 180, 360, 540, 540, 630]
     square = cp.Cycle(corners, [2e6] * 3 + [1e6] * 3 + [2e6] * 2)
-    assert square.resolution_bound(CYLINDER) < 1e-6  # rounding of pressures that are equal
+    assert square.resolution_bound(CYLINDER, 1)[0] < 1e-6  # rounding of pressures that are equal
 
 
 def test_too_few_points_have_no_error_estimate() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any
 
 import crankpin as cp
@@ -111,3 +112,161 @@ def test_what_is_wrong_is_warned_of_once() -> None:
             cp.Traces(THETA, pressure)[1].torque_harmonics(CYLINDER, 1)
         assert len(caught) == 1
         assert caught[0].filename == __file__
+
+
+MOTORED = cp.Cycle.motored(CYLINDER, compression_ratio=10.5).pressure_at(THETA)
+
+
+def burnt(seed: int, count: int = 50) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """Cycles of one compression and a combustion that varies, with noise and drift, Pa."""
+    rng = np.random.default_rng(seed)
+    strength = rng.normal(1.0, 0.03, (count, 1))
+    rows = MOTORED + strength * (cp.Cycle.example().pressure_at(THETA) - MOTORED)
+    noise = rng.uniform(0.0, 8e3)
+    return np.array(rows + rng.normal(0.0, noise, rows.shape) + rng.normal(0, 3e3, (count, 1)))
+
+
+def quietly(theta: Any, pressure: Any) -> cp.Traces:  # noqa: ANN401
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return cp.Traces(theta, pressure)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_spikes_and_odd_cycles_are_named_and_nothing_else(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    rows = burnt(seed)
+    assert len(cp.Traces(THETA, rows).anomalies) == 0
+    k = rng.permutation(50)[:7]
+    at = rng.integers(len(THETA), size=3)
+    height = rng.choice([-1.0, 1.0], 3) * rng.uniform(5.0, 60.0, 3)
+    rows[k[:3], at] += 1e5 * height
+    rows[k[3]] = MOTORED
+    shift = int(rng.choice([-40, -6, 6, 40, 300]))
+    rows[k[4]] = np.roll(rows[k[4]], shift)
+    rows[k[5]] = 5e5
+    rows[k[6], 760:820] += 5e5 * np.sin(np.arange(60))
+    with pytest.warns(UserWarning, match="measured pressure: traces") as caught:
+        traces = cp.Traces(THETA, rows)
+    assert len(caught) == 1
+    table = traces.anomalies
+    found = {
+        cycle: (kind, angle)
+        for cycle, kind, angle in zip(
+            *(table[name].values for name in ("cycle", "kind", "crank angle")), strict=True
+        )
+    }
+    kinds = ["misfire", "shifted", "unlike"]
+    expected = {int(k[j]): ("spike", THETA[at[j]]) for j in range(3)}
+    expected |= {int(k[3 + j]): (kind, None) for j, kind in enumerate(kinds)}
+    oscillates = found.pop(int(k[6]))
+    assert oscillates[0] == "oscillation"
+    assert 15.0 < oscillates[1] < 55.0
+    assert found == expected
+    (size,) = (
+        table["size"].values[j] for j, each in enumerate(table["cycle"].values) if each == k[4]
+    )
+    # A charge that differs by 1 % looks like 0.3°; beyond 40° the peak decides, of combustion too.
+    assert abs(size - shift / 2.0) < (2.0 if abs(shift) > 80 else 0.7)
+    left = cp.prepare_trace(traces, CYLINDER, leave_out="odd", spikes="replace")
+    assert len(left.traces) == 46
+    assert left.names[1] == "3 spikes replaced"
+    sound = np.delete(burnt(seed), k[3:], axis=0)
+    # Between neighbours noise stands in for noise.
+    assert abs(left.traces.pressure - sound).max() < 1e5
+    clean = cp.Traces(THETA, sound)
+    np.testing.assert_allclose(left.traces.cov(CYLINDER), clean.cov(CYLINDER), rtol=1e-2)
+
+
+def test_spikes_are_in_neither_offset_nor_spread() -> None:
+    """Fifty cycles with a spike of 60 bar in each: as the bench has them."""
+    rng = np.random.default_rng(5)
+    rows = burnt(5) + 0.3e5
+    spiked = rows.copy()
+    for row in spiked:
+        row[rng.integers(len(THETA))] += rng.choice([-6e6, 6e6])
+    window = (THETA + 360) % 720 - 360
+    spiked[::5, np.flatnonzero((window > -185) & (window < -175))[3]] -= 6e6
+    traces = quietly(THETA, spiked)
+    options: dict[str, Any] = {"intake_pressure": 0.95e5}
+    sound = cp.prepare_trace(cp.Traces(THETA, rows), CYLINDER, **options)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        kept = cp.prepare_trace(traces, CYLINDER, **options)
+    replaced = cp.prepare_trace(traces, CYLINDER, spikes="replace", **options)
+    for each in (kept, replaced):
+        np.testing.assert_allclose(each.offsets, sound.offsets, atol=500.0)
+    assert replaced.names[1] == "60 spikes replaced"
+    np.testing.assert_allclose(replaced.traces.cov(CYLINDER), sound.traces.cov(CYLINDER), rtol=0.01)
+    assert kept.traces.cov(CYLINDER) > 1.1 * sound.traces.cov(CYLINDER)
+    before, after = (each.cycle.torque_harmonics(CYLINDER, 12) for each in (sound, replaced))
+    np.testing.assert_allclose(after, before, rtol=2e-2)
+
+
+def test_slices_and_cycles_left_out_are_traces() -> None:
+    traces = measured(3)
+    assert traces[:10] == cp.Traces(THETA, traces.pressure[:10])
+    assert traces[::-1].pressure[0, 0] == traces.pressure[-1, 0]
+    assert traces.without([0, -1]) == cp.Traces(THETA, traces.pressure[1:-1])
+    assert traces.without(int(np.int64(3))) == traces.without([3])
+    for call, message in (
+        (lambda: traces[60:], "one cycle must stay"),
+        (lambda: traces.without(range(60)), "one cycle must stay"),
+        (lambda: traces.without([60]), "cycles = 60: give an index from 0 to 59"),
+        (lambda: traces[60], "index = 60: give an index from 0 to 59"),
+        (lambda: cp.prepare_trace(traces, CYLINDER, leave_out=[61]), "leave_out = 61: give"),
+        (lambda: cp.prepare_trace(traces, CYLINDER, leave_out="all"), "leave_out = 'all': give"),  # type: ignore[arg-type]
+        (lambda: cp.prepare_trace(traces, CYLINDER, spikes="cut"), "spikes = 'cut': give"),  # type: ignore[arg-type]
+    ):
+        with pytest.raises(cp.InputError, match=message):
+            call()
+    prepared = cp.prepare_trace(traces, CYLINDER, leave_out=[3, 7])
+    assert prepared.names == ("as measured, without cycles 3, 7",)
+    assert prepared.imep().shape == (1, 58)
+
+
+@pytest.mark.parametrize("start", [-720.0, -360.0, 0.0, 300.0])
+def test_angles_of_peaks_are_in_one_turn_of_the_cycle(start: float) -> None:
+    theta = start + np.arange(0.0, 720.0, 0.5)
+    rows = cp.Cycle.example().pressure_at(theta) * np.linspace(0.95, 1.05, 9)[:, None]
+    traces = cp.Traces(theta, rows)
+    np.testing.assert_allclose(traces.peaks_deg, 14.0)
+    assert traces.spread(CYLINDER)["mean"].values[1] == 14.0
+    assert "at 14°" in traces.mean.table.title
+    # About the opposite dead centre they are not torn apart.
+    with pytest.warns(UserWarning, match=r"peaks at -?\d+°, far from the firing") as caught:
+        far = cp.Traces(theta + 346.0, rows)
+    assert len(caught) == 1
+    assert np.ptp(far.peaks_deg) == 0.0
+    assert abs(abs(far.peaks_deg[0]) - 360.0) < 1e-9
+
+
+@pytest.mark.parametrize("shift", [90.0, 200.0, -150.0])
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("options", [{"lowpass_order": 60}, {"intake_pressure": 0.95e5}], ids=str)
+def test_one_wrong_dead_centre_is_warned_of_once(
+    shift: float, turned: bool, options: dict[str, Any]
+) -> None:
+    rows = burnt(2) + 4e4
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        traces = cp.Traces(THETA, rows if turned else np.roll(rows, round(2 * shift), axis=1))
+        tdc: dict[str, Any] = {"tdc_deg": shift} if turned else {}
+        prepared = cp.prepare_trace(traces, CYLINDER, **tdc, **options)
+        assert prepared.table.text()
+        assert prepared.imep().shape == (len(prepared.stages), 50)
+        if "lowpass_order" in options:  # pressure of the intake elsewhere makes it negative
+            prepared.cycle.imep(CYLINDER)
+            cp.Engine.preset("i4", cylinder=CYLINDER).with_cycle(prepared.cycle).balance(2000)
+    said = [str(each.message) for each in caught]
+    if "lowpass_order" in options:
+        assert len(said) == 1, said
+    assert "far from the firing top dead centre" in said[0]
+    assert not any("imep =" in each or "more than an encoder" in each for each in said), said
+
+
+def test_numbers_that_are_none_are_named_by_cycle_and_angle() -> None:
+    rows = burnt(0, 9)
+    rows[4, 700] = np.nan
+    with pytest.raises(cp.InputError, match=r"pressure has .* first nan in cycle 4 at -10°: give"):
+        cp.Traces(THETA, rows)

@@ -95,3 +95,9 @@ def test_tables_and_closed_forms_are_compiled(tmp_path: Path) -> None:
     assert run.returncode == 0, said[-2000:]
     assert "Missing character" not in (tmp_path / "all.log").read_text("latin-1")
     assert (tmp_path / "all.pdf").stat().st_size > 10_000
+
+
+def test_symbols_of_heads_are_mathematics() -> None:
+    text = cp.Engine.preset("v6-60").balance(3000).to_latex()
+    assert r"order & $|F_x|$ N & $|F_y|$ N & $|M_x|$ N$\cdot$m" in text
+    assert r"\_" not in text.split(r"\midrule")[0]

@@ -55,7 +55,7 @@ class Place(NamedTuple):
     """Which pressure acts on the piston."""
     area: Fraction = Fraction(1)
     later: bool = False
-    """Whether it fires at its top dead centre in the second turn."""
+    """Whether it fires at its top dead centre in the second turn of its crank."""
 
 
 class Weight(NamedTuple):
@@ -213,9 +213,12 @@ class Sums:
         self._add("torque", "z", *(sense * phase * part for part in roll))
 
     def _pressure(self, place: Place, cycle: int, halves: int, strokes: int) -> None:
+        own, beside = divmod(halves, abs(place.ratio))
+        if beside:
+            return
         radius, rod, _, offset, _ = place.piston
-        harmonic = gas(rod / radius, offset / radius, cycle, halves, strokes)
-        fire = place.tdc + place.later
+        harmonic = gas(rod / radius, offset / radius, cycle, own, strokes)
+        fire = place.tdc + Fraction(place.later, abs(place.ratio))
         factor = real(place.area * radius) * (1 if place.ratio > 0 else -1)
         self._add("gas_torque", "z", factor * harmonic * turned(-fire * halves / 2 % 1))
 

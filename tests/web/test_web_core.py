@@ -7,16 +7,16 @@ the last place from the true value. Both are within the bounds of rounding that 
 
 from __future__ import annotations
 
-import base64
 import json
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import crankpin as cp
 import numpy as np
 import pytest
+from core_in_page import Ask, Calls
 from crankpin import _core
 from crankpin.model import presets
 from crankpin.model.builders import FANS
@@ -24,64 +24,14 @@ from crankpin.view.figures import figures
 from several_cranks import fired_engine, random_engine
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, Page
+    from playwright.sync_api import Page
 
 pytestmark = pytest.mark.slow  # a browser
 
 ROOT = Path(__file__).parents[2]
-MODULE = ROOT / "target" / "web" / "crankpin.wasm"
-LOADER = ROOT / "site" / "core.mjs"
-NOT_BUILT = "the core for browsers is not built: packaging/web"
 RPM = 3000.0
 ORDERS = [1, 2, 3, 4, 6, 8]
 CYLINDER = cp.Cylinder(0.043, 0.145, 0.66, bore=0.086)
-
-Calls = list[tuple[str, dict[str, Any]]]
-Ask = Callable[[Calls], list[dict[str, Any]]]
-
-START = """async ([loader, module]) => {
-    const url = URL.createObjectURL(new Blob([loader], { type: "text/javascript" }));
-    const { load } = await import(url);
-    const bytes = Uint8Array.from(atob(module), (letter) => letter.charCodeAt(0));
-    globalThis.core = await load(bytes);
-}"""
-ASK = """(calls) => {
-    const answered = (name, given) => {
-        try {
-            return { result: core.call(name, given) };
-        } catch (error) {
-            const { message, argument, value, hint } = error;
-            return { error: { name: error.name, message, argument, value, hint } };
-        }
-    };
-    const long = (value) => Array.isArray(value) && value.length > 50 && Number.isFinite(value[0]);
-    const typed = (_, value) => (long(value) ? Float64Array.from(value) : value);
-    const plain = (_, value) => (ArrayBuffer.isView(value) ? [...value] : value);
-    const answers = JSON.parse(calls, typed).map(([name, given]) => answered(name, given));
-    return JSON.stringify(answers, plain);
-}"""
-
-
-@pytest.fixture(scope="module")
-def page(browser: Browser) -> Iterator[Page]:
-    """An empty page that has the core."""
-    if not MODULE.exists():
-        pytest.skip(NOT_BUILT)
-    page = browser.new_page()
-    asked: list[str] = []
-    page.on("request", lambda request: asked.append(request.url))
-    page.evaluate(
-        START, [LOADER.read_text("utf-8"), base64.b64encode(MODULE.read_bytes()).decode()]
-    )
-    yield page
-    assert all(url.startswith("blob:") for url in asked)  # nothing leaves
-    page.close()
-
-
-@pytest.fixture(scope="module")
-def ask(page: Page) -> Ask:
-    """Call the core, several times at once."""
-    return lambda calls: json.loads(page.evaluate(ASK, json.dumps(calls)))
 
 
 def results(ask: Ask, calls: Calls) -> list[Any]:

@@ -210,7 +210,7 @@ def test_a_link_opens_the_same_engine(open_workbench: Open, tmp_path: Path) -> N
 @pytest.mark.parametrize(
     ("name", "wrong", "part", "right"),
     [
-        ("stroke", "86 kg", "a unit of this kind (mm, in)", "86 mm"),
+        ("stroke", "86 kg", "with a unit (mm, in)", "86 mm"),
         ("rod_length", "40 mm", "the crank cannot turn", "145 mm"),
         ("bank_angle_deg", "181", "between 0 and 180", "180"),
         ("throws_deg", "0, x", "give degrees, such as", "0, 120"),
@@ -308,12 +308,12 @@ def test_a_hostile_link_says_what_is_wrong_and_freezes_nothing(
     assert engine(page) == cp.Engine.preset("i4")
 
 
-def test_all_of_it_is_less_than_680_kb(workbench: Path) -> None:
+def test_all_of_it_is_less_than_700_kb(workbench: Path) -> None:
     """Core, styles, scripts and presets are compressed, and a sixth longer as letters.
 
     A twelfth of it is that the core's loops are vectors.
     """
-    assert workbench.stat().st_size < 680_000
+    assert workbench.stat().st_size < 700_000
 
 
 def test_every_preset_is_the_library_s(open_workbench: Open) -> None:

@@ -6,12 +6,11 @@ import functools
 import inspect
 import re
 from collections.abc import Callable
-from importlib import import_module
 from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
-from crankpin._support import inputs, optional
+from crankpin._support import inputs, lazy, optional
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,7 +33,7 @@ def draw(result: object, ax: object = None, **options: object) -> Any:  # noqa: 
     """
     optional.library("matplotlib")
     plt = optional.library("matplotlib.pyplot")
-    import_module(PICTURES)
+    lazy.imported(PICTURES)
     figure = options.get("figure")
     takes_figure = "figure" in inspect.signature(picture.dispatch(type(result))).parameters
     if "figure" in options and not takes_figure:  # a property of lines too, which is not to be set
@@ -110,7 +109,7 @@ def inline_svg(result: object) -> str | None:
         optional.library("matplotlib")
     except ImportError:
         return None
-    import_module(PICTURES)
+    lazy.imported(PICTURES)
     return svg(result)
 
 

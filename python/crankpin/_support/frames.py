@@ -5,8 +5,10 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, overload
+
+import numpy as np
 
 from crankpin._support import files, inputs, labels, latex, optional, units
 from crankpin._support.record import AbsentItemError, Record, changed
@@ -26,6 +28,8 @@ SHOWN = 30
 """Rows of a long table in text: a screen."""
 SHOWN_IN_NOTEBOOKS = 60
 """Rows of a long table in a notebook."""
+ROWS = 2**12
+"""Rows that are written at once."""
 FORMULA = re.compile(r"\s*[=+\-@＝＋－＠]|[\t\n]")
 """Beginning of a text that a spreadsheet takes for a formula."""
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.ASCII | re.IGNORECASE)
@@ -122,7 +126,10 @@ class Tabled(Record):
             If pandas is not installed.
         """
         table = self.frames[frame]
-        data = {head: list(each.values) for head, each in table._distinct()}
+        data = {
+            head: each.data if isinstance(each.data, np.ndarray) else list(each.data)
+            for head, each in table._distinct()
+        }
         data_frame: pd.DataFrame = optional.library("pandas").DataFrame(data)
         data_frame.attrs.update(labels.attributes(table.loads))
         return data_frame
@@ -184,15 +191,15 @@ class Tabled(Record):
         Raises
         ------
         InputError
-            If there is no such frame, or the name ends otherwise.
+            If there is no such frame, the name ends otherwise, or the text would take more memory
+            than any result may.
         OSError
             If the file cannot be written.
         """
-        table, file = self.frames[frame], io.StringIO()
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(map(_inert, table.header))
-        writer.writerows(zip(*(map(_inert, each.values) for each in table.columns), strict=True))
-        return _written(file.getvalue(), path, ".csv")
+        table = self.frames[frame]
+        if path is None:
+            table._check_text()
+        return _written(_csv(table), path, ".csv")
 
     @overload
     def to_latex(self, path: None = None, *, frame: str = FIRST) -> str: ...
@@ -220,14 +227,32 @@ class Tabled(Record):
         Raises
         ------
         InputError
-            If there is no such frame, or the name ends otherwise.
+            If there is no such frame, the name ends otherwise, or the text would take more memory
+            than any result may.
         OSError
             If the file cannot be written.
         """
         table = self.frames[frame]
+        cells = table.cells()
         columns = "".join("l" if column.is_text else "r" for column in table.columns)
-        text = latex.table(table.title, table.header, table.cells(), table._notes(), columns)
+        text = latex.table(table.title, table.header, cells, table._notes(), columns)
         return _written(text, path, ".tex")
+
+
+def _csv(table: Table) -> Iterator[str]:
+    """Yield a table as CSV, some rows at a time."""
+    yield _lines([map(_inert, table.header)])
+    for start in range(0, len(table), ROWS):
+        part = slice(start, start + ROWS)
+        columns = (map(_inert, each._listed(part)) for each in table.columns)
+        yield _lines(zip(*columns, strict=True))
+
+
+def _lines(rows: Iterable[Iterable[object]]) -> str:
+    """Return rows of cells as lines of CSV."""
+    file = io.StringIO()
+    csv.writer(file, lineterminator="\n").writerows(rows)
+    return file.getvalue()
 
 
 def _inert(value: object) -> object:
@@ -238,9 +263,9 @@ def _inert(value: object) -> object:
     return f"'{text}" if FORMULA.match(text) and not NUMBER.fullmatch(text) else text
 
 
-def _written(text: str, path: str | Path | None, ending: str) -> str | None:
-    """Return a text, or write it to a file."""
+def _written(text: str | Iterable[str], path: str | Path | None, ending: str) -> str | None:
+    """Return a text, or write it to a file, in pieces as they come."""
     if path is None:
-        return text
+        return "".join(text)
     files.write(inputs.file_path(path, (ending,), f"name a {ending} file"), text)
     return None

@@ -40,6 +40,7 @@ FASTEST_PISTON = 60.0
 """Mean piston speed, m/s, above which no engine runs: Formula 1 stays below 30."""
 
 MOST_NUMBERS = _core.LONGEST_AXIS
+LARGEST_RESULT = _core.LARGEST_RESULT
 """Maximum length of an array: a gibibyte."""
 
 PIECE = 2**16
@@ -66,6 +67,19 @@ MANY_WORDS = 4
 
 MOST_ITEMS = 10_000
 """Items in a list that is taken one by one, such as orders; an endless one is rejected."""
+
+
+BUFFER = 2**26
+"""Memory that is wanted before OpenBLAS takes its own, 32 MiB: without it, it ends the process."""
+
+
+def _take_buffer() -> None:
+    """Let OpenBLAS take the memory of its first product now: a MemoryError if there is none."""
+    np.empty(BUFFER, np.uint8)
+    np.ones((2, 2)) @ np.ones((2, 2))
+
+
+_take_buffer()
 
 
 # --- numbers ------------------------------------------------------------------------------------
@@ -155,6 +169,13 @@ def copied(values: NDArray[Any]) -> NDArray[np.float64]:
         piece = values[k : k + rows]
         copy[k : k + rows] = piece.astype(str) if single else piece
     return copy
+
+
+def fitting(name: str, size: int, hint: str) -> None:
+    """Raise an InputError if a result would take more bytes than the core lets a call return."""
+    if size > LARGEST_RESULT:
+        fault = f"the result would take {size} bytes, more than the limit of {LARGEST_RESULT}"
+        raise InputError(f"{name}: {fault}; {hint}")
 
 
 def _too_many(name: str, count: int) -> InputError:

@@ -12,6 +12,9 @@ if TYPE_CHECKING:
 
 NUMBER = re.compile(r"(-?[\d.]+)(?:e([-+]?\d+))?", re.ASCII)
 
+SYMBOL = re.compile(r"(\|[A-Za-z](?:_[a-z])?\||\b[A-Z]_[a-z]\b)")
+"""Symbols of quantities as heads have them."""
+
 SPECIAL = {
     "\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
     **{character: f"\\{character}" for character in "&%$#_{}"},
@@ -59,6 +62,14 @@ def _cell(text: str) -> str:
     return rf"${figure} \times 10^{{{int(exponent)}}}$"
 
 
+def _head(text: str) -> str:
+    """Return a head of a column: symbols with an index in mathematics, ``|F_x|`` or ``M_z``."""
+    parts = SYMBOL.split(labels.printable(text))  # by turns text and symbols
+    return "".join(
+        f"${part}$" if k % 2 else part.translate(ESCAPES) for k, part in enumerate(parts)
+    )
+
+
 def _row(cells: Iterable[str]) -> str:
     """Return a row; one that begins with a bracket or a star is no option of the line before it."""
     row = " & ".join(cells)
@@ -96,7 +107,7 @@ def table(
             *caption,
             rf"\begin{{tabular}}{{{columns}}}",
             r"\toprule",
-            _row(map(escaped, heads)),
+            _row(map(_head, heads)),
             r"\midrule",
             *lines,
             r"\bottomrule",

@@ -1,17 +1,32 @@
-"""Public names of a package that are imported once they are read (PEP 562)."""
+"""Modules and names of them that are imported once they are used."""
 
 from __future__ import annotations
 
+import re
 import sys
 from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
+    from types import ModuleType
+
+NO_MEMORY = re.compile("failed to map segment|cannot allocate|paging file", re.IGNORECASE)
+"""What loaders of compiled modules say where there is no memory for one."""
+
+
+def imported(name: str) -> ModuleType:
+    """Import a module; where there is no memory for it that is a MemoryError, no ImportError."""
+    try:
+        return import_module(name)
+    except ImportError as error:
+        if NO_MEMORY.search(str(error)):
+            raise MemoryError(str(error)) from error
+        raise
 
 
 def attributes(module: str, homes: Mapping[str, Iterable[str]]) -> Callable[[str], object]:
-    """Return the ``__getattr__`` of a module, which keeps what was read.
+    """Return the ``__getattr__`` of a module (PEP 562), which keeps what was read.
 
     Parameters
     ----------
@@ -25,7 +40,7 @@ def attributes(module: str, homes: Mapping[str, Iterable[str]]) -> Callable[[str
     def attribute(name: str) -> object:
         if name not in home_of:
             raise AttributeError(f"module {module!r} has no attribute {name!r}")
-        home = import_module(home_of[name])
+        home = imported(home_of[name])
         value = home if home.__name__ == f"{module}.{name}" else getattr(home, name)
         setattr(sys.modules[module], name, value)
         return value

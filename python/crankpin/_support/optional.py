@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import importlib
 from typing import TYPE_CHECKING, Any
+
+from crankpin._support import lazy
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -14,6 +15,7 @@ EXTRAS = {
     "anywidget": "view",
     "dask.array": "dask",
     "matplotlib": "plot",
+    "openpyxl": "excel",
     "scipy.optimize": "optimize",
     "sympy": "exact",
     "tqdm.auto": "progress",
@@ -24,7 +26,7 @@ EXTRAS = {
 def library(name: str) -> Any:  # noqa: ANN401 - a module
     """Return a library, or raise an ImportError that names the extra to install."""
     try:
-        return importlib.import_module(name)
+        return lazy.imported(name)
     except ImportError as error:
         hint = f'pip install "crankpin[{EXTRAS.get(name, name)}]"'
         raise ImportError(f"{name} is not installed: {hint}") from error

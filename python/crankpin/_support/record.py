@@ -221,18 +221,18 @@ class Listed(Generic[Item]):
         return iter(self._listed())
 
 
-def item_key(place: Any, count: int) -> Any:  # noqa: ANN401 - an int or a slice
+def item_key(place: Any, count: int, name: str = "index") -> Any:  # noqa: ANN401 - an int or a slice
     """Return an index or a slice of a sequence, or raise an error that names it."""
     hint = f"give an index from 0 to {count - 1}, or a slice"
     try:
         if isinstance(place, slice):
             place.indices(count)
             return place
-        index = inputs.whole("index", place)
+        index = inputs.whole(name, place)
     except (TypeError, ValueError):
-        raise inputs.rejected("index", place, hint, AbsentItemError) from None
+        raise inputs.rejected(name, place, hint, AbsentItemError) from None
     if not -count <= index < count:
-        raise inputs.rejected("index", index, hint, AbsentItemError)
+        raise inputs.rejected(name, index, hint, AbsentItemError)
     return index
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Tabled
-from crankpin._support.record import AbsentItemError, Record, changed
+from crankpin._support.record import AbsentItemError, Record, changed, read_only
 from crankpin._support.warnings import without_controls
 
 if TYPE_CHECKING:
@@ -26,6 +26,10 @@ COUNTED = (
     "pin_offset", "load", "theta_deg", "after/before", "at most",
 )  # fmt: skip
 """Columns without unit in tables whose rows have units."""
+BYTES = 64
+"""Memory of a number or a short text as an object of Python."""
+IN_PARTS = "read the arrays, select some of the rows, or write CSV to a file"
+"""How to read what is too long for text."""
 TINY = "~0"
 """What stands for a number that is not zero, but too small to matter."""
 
@@ -35,8 +39,8 @@ class Column(Record):
 
     name: str
     """Head of the column."""
-    values: tuple[Any, ...]
-    """Numbers, texts, or both."""
+    data: tuple[Any, ...] | NDArray[Any]
+    """Numbers, texts, or both; of a long column an array, of any shape, read row by row."""
     unit: str = ""
     """Unit, as read by people; empty for texts, counts and ratios."""
     digits: int = 5
@@ -46,16 +50,34 @@ class Column(Record):
     least: float = 0.0
     """Magnitude below which numbers that are not zero are shown as :data:`TINY`."""
 
+    def __post_init__(self) -> None:
+        whole = isinstance(self.data, np.ndarray)
+        data = read_only(np.ravel(self.data)) if whole else tuple(self.data)
+        object.__setattr__(self, "data", data)
+
+    @property
+    def values(self) -> tuple[Any, ...]:
+        """Numbers, texts, or both, as objects of Python."""
+        inputs.fitting("table", BYTES * len(self), IN_PARTS)
+        return tuple(self._listed())
+
+    def _listed(self, rows: slice = slice(None)) -> Sequence[Any]:
+        """Return the values of some rows as objects."""
+        part = self.data[rows]
+        return part.tolist() if isinstance(part, np.ndarray) else part
+
+    def __len__(self) -> int:
+        return len(self.data)
+
     @property
     def header(self) -> str:
         """Name and unit."""
         return f"{self.name} {self.unit}".strip()
 
-    def cells(self) -> list[str]:
-        """Return the values as text, numbers rounded and exact zeros as 0."""
-        return [
-            _cell(each) if isinstance(each, str) else self._rounded(each) for each in self.values
-        ]
+    def cells(self, rows: int | None = None) -> list[str]:
+        """Return the first values, or all, as text, numbers rounded and exact zeros as 0."""
+        listed = self._listed(slice(rows))
+        return [_cell(each) if isinstance(each, str) else self._rounded(each) for each in listed]
 
     def _rounded(self, value: float | None) -> str:
         if value is None or value != value:  # noqa: PLR0124 - NaN, of any size of number
@@ -75,22 +97,26 @@ class Column(Record):
         shown = units.convert(self.unit, setting)
         if shown.unit == self.unit:
             return self
-        values = tuple(_times(each, shown.factor) for each in self.values)
+        values = _times(self.data, shown.factor)
         decimals = self.decimals
         if decimals is not None:
             decimals = max(0, decimals - round(math.log10(shown.factor)))
         return changed(
-            self, values=values, unit=shown.unit, decimals=decimals, least=self.least * shown.factor
+            self, data=values, unit=shown.unit, decimals=decimals, least=self.least * shown.factor
         )
 
     def _array(self) -> NDArray[Any]:
         """Return the values as an array, NaN where a number is missing."""
-        return np.array([math.nan if each is None else each for each in self.values])
+        if isinstance(self.data, np.ndarray) and self.data.dtype.kind != "O":
+            return self.data
+        return np.array([math.nan if each is None else each for each in self.data])
 
     @property
     def is_text(self) -> bool:
         """True if all values are texts: they are aligned at their left."""
-        return all(isinstance(each, str) for each in self.values)
+        if isinstance(self.data, np.ndarray):
+            return self.data.dtype.kind == "O"
+        return all(isinstance(each, str) for each in self.data)
 
 
 class Table(Tabled):
@@ -147,7 +173,7 @@ class Table(Tabled):
         """
         listed = [[label] if isinstance(label, str) else list(label) for label in labels]
         heads = [(head, "") if isinstance(head, str) else head for head in header]
-        numbers = [] if rows is None else rows.T.tolist()
+        numbers = [] if rows is None else list(rows.T)
         before, digits = len(heads) - len(numbers), 5 if rows is None else 10
         texts = zip(*listed, strict=True) if listed else [()] * before
         columns = [
@@ -155,7 +181,7 @@ class Table(Tabled):
             for (name, unit), values in zip(heads, texts, strict=False)
         ]
         columns += [
-            Column(name, tuple(values), unit, decimals=decimals)
+            Column(name, values, unit, decimals=decimals)
             for (name, unit), values in zip(heads[before:], numbers, strict=True)
         ]
         return cls(title, tuple(columns), note, loads, tuple(row_units))
@@ -192,11 +218,12 @@ class Table(Tabled):
         if not setting:
             return self
         columns = tuple(each._in(setting) for each in self.columns)
-        shown = [units.convert(unit, setting) for unit in self.row_units]
+        distinct = {unit: units.convert(unit, setting) for unit in {*self.row_units}}
+        shown = [distinct[unit] for unit in self.row_units]
         if shown:
             columns = tuple(self._by_row(each, shown) for each in columns)
         first, *others = self.title.split("\n")
-        if set(self.row_units) == {first.rpartition(", ")[2]}:
+        if {*distinct} == {first.rpartition(", ")[2]}:
             first, _ = units.after_comma(first, setting)
         name, colon, rest = first.partition(": ")  # of engines, which stay
         title = "\n".join(
@@ -212,15 +239,18 @@ class Table(Tabled):
         """Return a column without unit, its numbers and units those of each row."""
         if column.unit or column.name in COUNTED:
             return column
+        if isinstance(column.data, np.ndarray) and not column.is_text:
+            factors = np.fromiter((new.factor for new in shown), float, len(shown))
+            return changed(column, data=_times(column.data, factors))
         values = []
-        for value, unit, new in zip(column.values, self.row_units, shown, strict=True):
+        for value, unit, new in zip(column.data, self.row_units, shown, strict=True):
             each = value
             if not isinstance(value, str):
                 each = _times(value, new.factor)
             elif value == unit or (unit and value.endswith(f" {unit}")):
                 each = value.removesuffix(unit) + new.unit
             values.append(each)
-        return changed(column, values=tuple(values))
+        return changed(column, data=tuple(values))
 
     @property
     def table(self) -> Table:
@@ -233,7 +263,7 @@ class Table(Tabled):
         return [column.header for column in self.columns]
 
     def __len__(self) -> int:
-        return len(self.columns[0].values) if self.columns else 0
+        return len(self.columns[0]) if self.columns else 0
 
     def __getitem__(self, name: str) -> Column:
         """Return the column of a name, or raise an InputError."""
@@ -251,15 +281,31 @@ class Table(Tabled):
     def __contains__(self, name: object) -> bool:
         return isinstance(name, str) and any(column.name == name for column in self.columns)
 
-    def cells(self) -> list[list[str]]:
-        """Return the rows as text, numbers rounded and exact zeros as 0.
+    def cells(self, rows: int | None = None) -> list[list[str]]:
+        """Return the first rows, or all, as text, numbers rounded and exact zeros as 0.
+
+        Parameters
+        ----------
+        rows : int, optional
+            Number of rows; by default all.
 
         Returns
         -------
         list of list of str
             A list for each row.
+
+        Raises
+        ------
+        InputError
+            If the text would take more memory than any result may.
         """
-        return [list(row) for row in zip(*(each.cells() for each in self.columns), strict=True)]
+        self._check_text(rows)
+        return [list(row) for row in zip(*(each.cells(rows) for each in self.columns), strict=True)]
+
+    def _check_text(self, rows: int | None = None) -> None:
+        """Raise an InputError if the first rows, or all, take too much memory as text."""
+        count = len(self) if rows is None else min(rows, len(self))
+        inputs.fitting("table", BYTES * count * len(self.columns), IN_PARTS)
 
     def text(self, rows: int | None = None) -> str:
         """Return the first rows, or all, as aligned text, columns of words to the left.
@@ -275,7 +321,7 @@ class Table(Tabled):
             The lines, joined.
         """
         self = self._in(units.current())  # noqa: PLW0642
-        lines = [[*map(_cell, self.header)], *self.cells()[:rows]]
+        lines = [[*map(_cell, self.header)], *self.cells(rows)]
         widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
         leftwards = [column.is_text and len(self) > 0 for column in self.columns]
         body = (
@@ -305,7 +351,7 @@ class Table(Tabled):
         head = "".join(f"<th>{html.escape(_cell(name))}</th>" for name in self.header)
         body = "".join(
             "<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>"
-            for row in self.cells()[:rows]
+            for row in self.cells(rows)
         )
         title = "; ".join(without_controls(self.title).split("\n"))
         caption = f"<caption>{html.escape(title)}</caption>"
@@ -318,7 +364,7 @@ class Table(Tabled):
             yield f"{rows} of {len(self)} rows"
         if self.note:
             yield without_controls(self.note)
-        if any(each.least and TINY in each.cells()[:rows] for each in self.columns):
+        if any(each.least and TINY in each.cells(rows) for each in self.columns):
             yield f"{TINY}: not zero, but too small to matter."
         if self.loads:
             yield labels.in_words(self.loads)
@@ -357,8 +403,12 @@ class Item(Tabled):
         return Table.from_rows(type(self).__name__, ["field", "value"], rows)
 
 
-def _times(value: Any, factor: float) -> Any:  # noqa: ANN401 - a cell
+def _times(value: Any, factor: float | NDArray[np.float64]) -> Any:  # noqa: ANN401 - a cell, or several
     """Return a number times a factor; what is no number as it is."""
+    if isinstance(value, tuple):
+        return tuple(_times(each, factor) for each in value)
+    if isinstance(value, np.ndarray):
+        return value * factor if value.dtype.kind in "iuf" else value
     if value is None or isinstance(value, (str, bool)):
         return value
     return value * factor

@@ -12,54 +12,36 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
+from crankpin import _core
 from crankpin._support import inputs
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Mapping
     from types import TracebackType
 
-MASSES = {
-    "kg": Decimal(1), "g": Decimal("1e-3"), "mg": Decimal("1e-6"),
-    "lb": Decimal("0.45359237"), "oz": Decimal("0.028349523125"),
-}  # fmt: skip
-"""Unit of mass → kg."""
-LENGTHS = {
-    "m": Decimal(1), "cm": Decimal("1e-2"), "mm": Decimal("1e-3"), "µm": Decimal("1e-6"),
-    "in": Decimal("0.0254"), "ft": Decimal("0.3048"),
-}  # fmt: skip
-"""Unit of length → m."""
 ENERGIES = {
     "N·m": "J", "kN·m": "kJ", "MN·m": "MJ", "lbf·ft": "ft·lbf", "lbf·in": "in·lbf",
 }  # fmt: skip
 """Unit of torque → that of energy beside it, where they have different names."""
-GRAVITY = Decimal("9.80665")
-FORCES = {
-    "N": Decimal(1), "kN": Decimal(1000), "MN": Decimal(10**6),
-    "lbf": MASSES["lb"] * GRAVITY, "ozf": MASSES["oz"] * GRAVITY, "kgf": GRAVITY,
-}  # fmt: skip
-"""Unit of force → N."""
-PRESSURES = {
-    "Pa": Decimal(1), "hPa": Decimal(100), "kPa": Decimal(1000), "MPa": Decimal(10**6),
-    "mbar": Decimal(100), "bar": Decimal(10**5),
-    "psi": MASSES["lb"] * GRAVITY / LENGTHS["in"] ** 2,
-}  # fmt: skip
-"""Unit of pressure → Pa."""
-KINDS = (MASSES, LENGTHS, FORCES, PRESSURES)
+_symbols, _aliases = _core.unit_symbols()
+KINDS = tuple(
+    {
+        name: Decimal(number).scaleb(power) / below
+        for name, of, (number, power, below) in _symbols
+        if of == kind
+    }
+    for kind in range(4)
+)
+"""Units of mass, length, force and pressure → kg, m, N and Pa."""
+MASSES, LENGTHS, FORCES, PRESSURES = KINDS
 SYMBOLS = {name: (kind, factor) for kind, of in enumerate(KINDS) for name, factor in of.items()}
 """Unit → its kind, a place in :data:`KINDS`, and its factor to SI."""
-ALIASES = {
-    "gm": "g", "gms": "g", "gr": "g", "gram": "g", "grams": "g", "kgs": "kg", "kilo": "kg",
-    "lbs": "lb", "lbm": "lb", "pound": "lb", "pounds": "lb", "ounce": "oz", "ounces": "oz",
-    "ozs": "oz", '"': "in", "”": "in", "″": "in", "''": "in", "inch": "in", "inches": "in",
-    "'": "ft", "’": "ft", "′": "ft", "foot": "ft", "feet": "ft", "um": "µm", "μm": "µm",
-    "lbsf": "lbf", "kp": "kgf", "newton": "N", "metre": "m", "meter": "m",
-}  # fmt: skip
+ALIASES = dict(_aliases)
 """What people write → the unit."""
 HINT = 'give units of mass, length, force or pressure, such as "g, mm, lbf" or "oz·in"'
 LEAST_DIGITS = 3
 """Significant digits of a converted number in a text, at least."""
 
-_EXPONENTS = {"": 1, "²": 2, "³": 3, "2": 2, "3": 3, "^2": 2, "^3": 3}
 _SI = "|".join(sorted(
     ("kg", "g", "mg", "m", "cm", "mm", "µm", "N", "kN", "MN", *PRESSURES), key=len, reverse=True
 ))  # fmt: skip
@@ -166,34 +148,16 @@ def current() -> Setting:
 
 def symbol(word: str) -> str | None:
     """Return the unit that a word stands for, whatever its case; None if there is none."""
-    if word in SYMBOLS:
-        return word
-    lower = word.lower()
-    known = {name.lower(): name for name in reversed(SYMBOLS)}
-    return ALIASES.get(word) or ALIASES.get(lower) or known.get(lower)
+    return _core.unit_symbol(word)
 
 
 def exact(unit: str, dimension: Dimension | None = None) -> Decimal | None:
     """Return what a unit stands for in SI units; None where it is unknown, or of another kind."""
-    for written in (unit, *_joined(unit)):
-        try:
-            terms = _terms(written)
-        except KeyError:
-            continue
-        if dimension in (None, _dimension(terms)):
-            return math.prod(
-                (SYMBOLS[name][1] ** n for name, n in terms if name in SYMBOLS), start=Decimal(1)
-            )
-    return None
-
-
-def _joined(unit: str) -> Iterator[str]:
-    """Yield the products that a unit without a sign of multiplication can be: gmm, lb-ft."""
-    yield from (unit.replace(sign, "·") for sign in "- ." if sign in unit)
-    for k in range(1, len(unit)):
-        first, second = unit[:k], unit[k:]
-        if first in SYMBOLS and second in LENGTHS and SYMBOLS[first][0] != 1:  # no length first
-            yield f"{first}·{second}"
+    wanted = None if dimension is None else (*dimension, 0, 0)[:6]
+    if (factor := _core.unit_factor(unit, wanted)) is None:
+        return None
+    number, power, below = factor
+    return Decimal(number).scaleb(power) / below
 
 
 def convert(unit: str, setting: Mapping[Dimension, str] | None = None) -> Converted:
@@ -280,21 +244,9 @@ Terms = list[tuple[str, int]]
 
 def _terms(unit: str) -> Terms:
     """Return the symbols of a unit with their exponents; a KeyError for one that is unknown."""
-    found: Terms = []
-    for part, sign in _parts(unit):
-        match = re.fullmatch(r"(.*?)(\^?[23]|[²³]|)", part.strip())
-        name = match[1] if match else part
-        known = name if name in ("s", "rad") else symbol(name)
-        if known is None or match is None:
-            raise KeyError(unit)
-        found.append((known, sign * _EXPONENTS[match[2]]))
+    if (found := _core.unit_terms(unit)) is None:
+        raise KeyError(unit)
     return found
-
-
-def _parts(unit: str) -> list[tuple[str, int]]:
-    above, *below = unit.split("/")
-    pairs = [(each, 1) for each in re.split(r"[·*]", above)]
-    return pairs + [(each, -1) for part in below for each in re.split(r"[·*]", part)]
 
 
 def _dimension(terms: Terms) -> Dimension:

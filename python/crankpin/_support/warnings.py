@@ -32,9 +32,14 @@ def suppressed(beginning: str = "") -> Iterator[None]:
         _suppressed.reset(token)
 
 
+def is_suppressed(beginning: str) -> bool:
+    """Return whether warnings that begin so are suppressed: what they need is not computed."""
+    return beginning.startswith(_suppressed.get())
+
+
 def warn(message: str) -> None:
     """Warn the caller of crankpin, at the line of that call."""
-    if message.startswith(_suppressed.get()):
+    if is_suppressed(message):
         return
     level, frame = 1, sys._getframe()
     # By module, since constructors that dataclasses make have no file.

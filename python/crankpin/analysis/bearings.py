@@ -694,7 +694,7 @@ class BearingLoads(Tabled):
             f"{where}, largest loads {over}",
             (
                 _counted("cylinder", len(most)),
-                *(Column(name, tuple(each.tolist()), "N") for name, each in columns.items()),
+                *(Column(name, each, "N") for name, each in columns.items()),
                 Column("pulled for", tuple(in_tension), "°"),
             ),
             loads=self.loads_counted,
@@ -721,7 +721,7 @@ class BearingLoads(Tabled):
             "Crankpins as a whole, with the rods of all cylinders on them",
             (
                 Column("cylinders", tuple(shared)),
-                Column("largest", tuple(self.whole_crankpin_peak().tolist()), "N"),
+                Column("largest", self.whole_crankpin_peak(), "N"),
             ),
             loads=self.loads_counted,
         )
@@ -742,14 +742,14 @@ class BearingLoads(Tabled):
 
     def _of_mains(self) -> Table:
         loads = {"largest": self.peak("main"), "mean": self.mean("main")}
-        cranks = Column("crank", tuple(self.main_crank.tolist()))
+        cranks = Column("crank", self.main_crank)
         return Table(
             "Main bearings, which share the loads between them by the lever rule",
             (
                 _counted("main", len(self.main)),
                 *([cranks] if self.main_crank.any() else ()),
-                Column("z", tuple(self.main_z.tolist()), "m"),
-                *(Column(name, tuple(each.tolist()), "N") for name, each in loads.items()),
+                Column("z", self.main_z, "m"),
+                *(Column(name, each, "N") for name, each in loads.items()),
             ),
             loads=self.loads_counted,
         )

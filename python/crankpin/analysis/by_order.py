@@ -268,8 +268,16 @@ class ByOrder(Keyed, Quantities["NDArray[np.float64]", Value], Labelled, Generic
     # --- in other forms -----------------------------------------------------------------------
 
     def _arrays(self, quantities: Sequence[str]) -> tuple[dict[str, Any], dict[str, Any]]:
-        variables = export.variables(quantities, means=self._has_means)
-        return {**self.coords, "order": self.orders}, {
+        variables = list(export.variables(quantities, means=self._has_means))
+        coords = {**self.coords, "order": self.orders}
+        export.fitting(
+            coords,
+            *(
+                ((*self.dims, *dims), 16 if what in export.COMPLEX else 8)
+                for _, _, what, dims in variables
+            ),
+        )
+        return coords, {
             name: ((*self.dims, *dims), self.read(quantity, what), export.units(quantity))
             for name, quantity, what, dims in variables
         }

@@ -282,6 +282,7 @@ class Comparison(Tabled):
         title = f"{self.title} at {self.rpm:g} rpm: peaks"
         header = ["quantity", "order", "before", "after", "change %"]
         listed = np.array(rows).reshape(-1, 3)
+        listed[~np.isfinite(listed)] = np.nan  # relative to nothing
         return Table.from_rows(
             title,
             [*header[:-1], ("change", "%")],

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from functools import cache
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -22,6 +21,8 @@ if TYPE_CHECKING:
 
     from crankpin.analysis.request import Request
 
+SMALLER = "sweep one axis in parts, or use to_dask"
+"""How to have what is too large for memory."""
 Variable: TypeAlias = "tuple[tuple[str, ...], Any, dict[str, str]]"
 """Dimensions, values and attributes of a variable of a dataset."""
 TRAILING: dict[str, tuple[str, ...]] = {
@@ -37,6 +38,8 @@ TRAILING: dict[str, tuple[str, ...]] = {
 }
 """Array of a plane vector → its dimensions after the swept ones; a scalar has no ``axis``."""
 NOT_OF_SCALARS = ("forward", "backward", "peak_xy", "total_peak_xy")
+COMPLEX = ("phasors", "forward", "backward")
+"""Arrays of complex numbers."""
 MEANS = ("mean",)
 """Arrays that only torques have which more than inertia makes."""
 
@@ -229,14 +232,31 @@ def units(quantity: str) -> dict[str, str]:
     return {"units": kind_of(quantity).xarray_unit}
 
 
-def points(coords: Mapping[str, Any], times: int = 1) -> list[Column]:
-    """Return a column of each dimension, a row for each point, or several times all points."""
-    listed = itertools.product(*(np.asarray(values).tolist() for values in coords.values()))
-    columns = list(zip(*listed, strict=True)) or [()] * len(coords)
-    return [
-        Column(name, values * times, digits=10)
-        for name, values in zip(coords, columns, strict=True)
-    ]
+def fitting(coords: Mapping[str, Any], *arrays: tuple[Iterable[str], int]) -> None:
+    """Raise an InputError if arrays are too large together: of each its dimensions and bytes."""
+    lengths = {name: len(values) for name, values in coords.items()} | {"axis": 2}
+    size = sum(width * math.prod(lengths[dim] for dim in dims) for dims, width in arrays)
+    inputs.fitting("sweep" if {*coords} & {*labels.SWEPT} else "table", size, SMALLER)
+
+
+def points(coords: Mapping[str, Any], beside: int, times: int = 1) -> list[Column]:
+    """Return a column of each dimension, a row for each point, or several times all points.
+
+    Raises an InputError if these columns and as many ``beside`` them are too large.
+    """
+    fitting(coords, (coords, 8 * times * (len(coords) + beside)))
+    shape = tuple(len(values) for values in coords.values())
+    columns = []
+    for axis, (name, values) in enumerate(coords.items()):
+        along = column(values).reshape(-1, *(1,) * (len(shape) - axis - 1))
+        columns.append(Column(name, np.broadcast_to(along, (times, *shape)), digits=10))
+    return columns
+
+
+def column(values: object) -> NDArray[Any]:
+    """Return values as an array; texts as objects, which rows share."""
+    array = np.asarray(values)
+    return array.astype(object) if array.dtype.kind == "U" else array
 
 
 def _long(
@@ -247,15 +267,14 @@ def _long(
     """Return figures of each quantity and component, below each other."""
     count = math.prod(len(values) for values in coords.values())
 
-    def repeated(texts: Iterable[str]) -> tuple[str, ...]:
-        return tuple(text for text in texts for _ in range(count))
+    def repeated(name: str, texts: Iterable[str]) -> Column:
+        return Column(name, np.repeat(column([*texts]), count))
 
-    columns = points(coords, len(parts))
-    columns.append(Column("quantity", repeated(quantity for quantity, _, _ in parts)))
-    columns.append(Column("component", repeated(component for _, component, _ in parts)))
+    columns = points(coords, 6, len(parts))
+    columns.append(repeated("quantity", (quantity for quantity, _, _ in parts)))
+    columns.append(repeated("component", (component for _, component, _ in parts)))
     for head in parts[0][2]:
-        values = (figures[head].ravel().tolist() for *_, figures in parts)
-        columns.append(Column(head, tuple(itertools.chain.from_iterable(values))))
-    units = repeated(kind_of(quantity).unit for quantity, _, _ in parts)
-    columns.append(Column("unit", units))
+        columns.append(Column(head, np.concatenate([np.ravel(each[head]) for *_, each in parts])))
+    columns.append(repeated("unit", (kind_of(quantity).unit for quantity, _, _ in parts)))
+    units = tuple(columns[-1].data)
     return Table("Long form", tuple(columns), loads=loads, row_units=units)

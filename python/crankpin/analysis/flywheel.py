@@ -358,9 +358,9 @@ class Flywheel(TwoPanels, Tabled):
         matter = uneven > max(NEGLIGIBLE * uneven.max(initial=0.0), EQUAL)
         orders, uneven = orders[matter], uneven[matter]
         columns = (
-            Column("order", tuple(orders.tolist())),
-            Column("irregularity", tuple((100.0 * uneven).tolist()), "%"),
-            Column("swing", tuple(np.degrees(uneven / orders).tolist()), "°"),
+            Column("order", orders),
+            Column("irregularity", 100.0 * uneven, "%"),
+            Column("swing", np.degrees(uneven / orders), "°"),
         )
         title = "Irregularity and swing of each order alone"
         return Table(title, columns, loads=self.loads_counted)

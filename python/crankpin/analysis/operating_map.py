@@ -236,17 +236,16 @@ class OperatingMap(Tabled):
     def table(self) -> Table:
         """Largest of all bearings' loads, irregularity and swing by speed and load."""
         count = (len(self.rpm), 1 if self.load is None else len(self.load))
-        columns = [Column("speed", tuple(np.repeat(self.rpm, count[1]).tolist()), "rpm")]
+        columns = [Column("speed", np.repeat(self.rpm, count[1]), "rpm")]
         if self.load is not None:
-            columns.append(Column("load", tuple(np.tile(self.load, count[0]).tolist())))
+            columns.append(Column("load", np.tile(self.load, count[0])))
         for name, each in self.peaks.items():
-            largest = each.max(axis=-1).ravel()
-            columns.append(Column(name.replace("_", " "), tuple(largest.tolist()), "N"))
+            columns.append(Column(name.replace("_", " "), each.max(axis=-1), "N"))
         for name, unit, values, scale in (
             ("irregularity", "%", self.irregularity, 100.0),
             ("swing", "°", self.swing_deg, 1.0),
         ):
             if values is not None:
-                columns.append(Column(name, tuple((scale * values).ravel().tolist()), unit))
+                columns.append(Column(name, scale * values, unit))
         title = f"OperatingMap of {labels.name_of(self.engine)}: largest load of any bearing"
         return Table(title, tuple(columns), loads=self.loads_counted)

@@ -8,17 +8,20 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import inputs, labels, units
+from crankpin._support import inputs, labels, lazy, units
 from crankpin._support.drawing import TwoPanels
 from crankpin._support.frames import Frames, Tabled
+from crankpin._support.record import item_key
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed, warn
-from crankpin.model import checks
+from crankpin.model import checks, odd_cycles
 from crankpin.model.computed_cycles import area
 from crankpin.model.cycle import Cycle
 from crankpin.model.traces import SHOWN_ORDERS, Traces
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+
     from numpy.typing import NDArray
 
     from crankpin.model.cylinder import Cylinder
@@ -46,6 +49,8 @@ NOISY = 0.005
 """Noise over peak pressure from which it is warned of."""
 ROUNDING = 1e-12
 """Work below zero, over that of the peak pressure, that rounding makes."""
+NAMED = 5
+"""Cycles left out that a step names; of more it says how many."""
 FARTHEST_TDC = 5.0
 """Degrees by which encoders are off at most; more is another event or another cylinder's trace."""
 
@@ -62,6 +67,8 @@ def prepare_trace(
     exponent: float | Literal["fit"] | None = None,
     compression_ratio: float | None = None,
     window_deg: tuple[float, float] | None = None,
+    leave_out: Literal["odd"] | Iterable[int] | None = None,
+    spikes: Literal["replace"] | None = None,
 ) -> PreparedTrace:
     """Return measured pressure with the top dead centre found, noise filtered and offset removed.
 
@@ -98,6 +105,12 @@ def prepare_trace(
     window_deg : pair of float, optional
         Crank angles between which the reference is taken, degrees; by default -185 to -175 for the
         intake's pressure, -100 to -60 for a polytropic compression.
+    leave_out : "odd" or iterable of int, optional
+        Cycles to leave out before all else, by index from 0, or those that ``traces.anomalies``
+        names, spikes excepted.
+    spikes : "replace", optional
+        Replaces spikes by what the median over cycles has there, and the cycle beside it. Those
+        that stay are in imep and orders; offsets are computed without them.
 
     Returns
     -------
@@ -114,7 +127,8 @@ def prepare_trace(
     -----
     UserWarning
         If the top dead centre is far from that of the traces, much noise is left, pressure below
-        zero is left, or pressure takes work from the crank.
+        zero is left, or pressure takes work from the crank; of a peak far from the top dead centre,
+        which does all of this, once.
 
     Examples
     --------
@@ -133,6 +147,68 @@ def prepare_trace(
     if not isinstance(traces, Traces):
         raise inputs.rejected("traces", traces, "give crankpin.Traces, such as Traces.load(path)")
     area(cylinder)
+    _check_together(
+        motored, loss_angle_deg, tdc_deg, intake_pressure, exponent, compression_ratio, window_deg
+    )
+    tdc, reference = 0.0, None
+    with suppressed():  # Warned of where traces were made, and below.
+        traces, name = _without(traces, leave_out)
+        # Offsets are those of pressure without spikes, whether these stay or not.
+        clean = traces.replace(pressure=traces._oddities.repaired(traces.pressure))
+        names, stages = [name], [traces]
+        if spikes is not None:
+            inputs.one_of("spikes", spikes, ("replace",))
+            stages.append(clean)
+            names.append(_count_of_spikes(traces))
+        if motored is not None or tdc_deg is not None:
+            tdc, said = _top_dead_centre(motored, loss_angle_deg, tdc_deg)
+            theta = traces.theta_deg - tdc
+            stages.append(stages[-1].replace(theta_deg=theta))
+            clean = clean.replace(theta_deg=theta)
+            names.append(f"top dead centre at {tdc:.3g}° ({said})")
+        if lowpass_order is not None:
+            cutoff = inputs.finite("lowpass_order", lowpass_order)
+            stages.append(_filtered(stages[-1], cutoff))
+            clean = _filtered(clean, cutoff) if len(traces._oddities.spikes) else stages[-1]
+            names.append(f"low-pass at order {cutoff:g} (Butterworth, zero phase)")
+        offsets = np.zeros(len(traces))
+        if intake_pressure is not None:
+            window = _window(stages[-1], INTAKE if window_deg is None else window_deg, 1)
+            reference = _reference(intake_pressure, stages[-1].theta_deg[window] + tdc)
+            offsets = reference - clean.pressure[:, window].mean(axis=1)
+            said = f"intake at {reference / 1e5:.4g} bar"
+        elif exponent is not None:
+            window = _window(stages[-1], COMPRESSION if window_deg is None else window_deg, 3)
+            volume = _volumes(stages[-1], cylinder, compression_ratio, window)
+            offsets, said = _polytropic(clean.pressure[:, window], volume, exponent)
+        if intake_pressure is not None or exponent is not None:
+            stages.append(stages[-1].replace(pressure=stages[-1].pressure + offsets[:, None]))
+            spread = f" ± {offsets.std(ddof=1) / 1e5:.3f}" if len(offsets) > 1 else ""
+            names.append(f"{said}: {offsets.mean() / 1e5:+.3f}{spread} bar")
+    if len(stages) > 1:
+        # Of spikes traces have been warned of; a peak far from the dead centre is the cause of
+        # whatever else is wrong, and has been warned of where it is theirs.
+        last = stages[-1]
+        if _far_peak(last) is None:
+            with suppressed(odd_cycles.BEGINNING):
+                last.replace()
+        elif _far_peak(traces) is None:
+            checks.peak(last.theta_deg, last.pressure.mean(axis=0), last.period_deg)
+    found = PreparedTrace(cylinder, tuple(names), tuple(stages), tdc, offsets)
+    _warn(found, reference)
+    return found
+
+
+def _check_together(
+    motored: object,
+    loss_angle_deg: object,
+    tdc_deg: object,
+    intake_pressure: object,
+    exponent: object,
+    compression_ratio: object,
+    window_deg: object,
+) -> None:
+    """Reject arguments that exclude each other, or act only beside another."""
     if motored is not None and tdc_deg is not None:
         raise inputs.rejected("tdc_deg", tdc_deg, "motored gives it; leave one of them out")
     if intake_pressure is not None and exponent is not None:
@@ -144,43 +220,19 @@ def prepare_trace(
         inputs.only_with("exponent", compression_ratio=compression_ratio)
         if intake_pressure is None:
             inputs.only_with("intake_pressure", window_deg=window_deg)
-    names, stages = ["as measured"], [traces]
-    tdc, reference = 0.0, None
-    with suppressed():  # Warned of where traces were made, and below.
-        if motored is not None or tdc_deg is not None:
-            tdc, said = _top_dead_centre(motored, loss_angle_deg, tdc_deg)
-            stages.append(traces.replace(theta_deg=traces.theta_deg - tdc))
-            names.append(f"top dead centre at {tdc:.3g}° ({said})")
-        if lowpass_order is not None:
-            cutoff = inputs.finite("lowpass_order", lowpass_order)
-            stages.append(_filtered(stages[-1], cutoff))
-            names.append(f"low-pass at order {cutoff:g} (Butterworth, zero phase)")
-        offsets = np.zeros(len(traces))
-        if intake_pressure is not None:
-            window = _window(stages[-1], INTAKE if window_deg is None else window_deg, 1)
-            reference = _reference(intake_pressure, stages[-1].theta_deg[window] + tdc)
-            offsets = reference - stages[-1].pressure[:, window].mean(axis=1)
-            said = f"intake at {reference / 1e5:.4g} bar"
-        elif exponent is not None:
-            window = _window(stages[-1], COMPRESSION if window_deg is None else window_deg, 3)
-            volume = _volumes(stages[-1], cylinder, compression_ratio, window)
-            offsets, said = _polytropic(stages[-1].pressure[:, window], volume, exponent)
-        if intake_pressure is not None or exponent is not None:
-            stages.append(stages[-1].replace(pressure=stages[-1].pressure + offsets[:, None]))
-            spread = f" ± {offsets.std(ddof=1) / 1e5:.3f}" if len(offsets) > 1 else ""
-            names.append(f"{said}: {offsets.mean() / 1e5:+.3f}{spread} bar")
-    if len(stages) > 1:
-        stages[-1].replace()  # which warns of what is wrong with it
-    found = PreparedTrace(cylinder, tuple(names), tuple(stages), tdc, offsets)
-    _warn(found, reference)
-    return found
+
+
+def _far_peak(traces: Traces) -> float | None:
+    """Return the angle of the mean's peak if it is far from the firing top dead centre."""
+    return checks.far_peak(traces.theta_deg, traces.pressure.mean(axis=0), traces.period_deg)
 
 
 def _warn(found: PreparedTrace, reference: float | None) -> None:
     """Warn of a top dead centre that is far off, of noise, of negative work, and of other units."""
     if reference is not None:
         checks.absolute("intake_pressure", reference)
-    if abs(found.tdc_deg) > FARTHEST_TDC:
+    far = _far_peak(found.traces)
+    if far is None and abs(found.tdc_deg) > FARTHEST_TDC:
         warn(
             f"tdc_deg = {found.tdc_deg:.4g}: more than an encoder is off; are traces and motored "
             "of one cylinder and one encoder, and is the event of its origin that of the file?"
@@ -192,7 +244,7 @@ def _warn(found: PreparedTrace, reference: float | None) -> None:
             "peak: filter it with lowpass_order=…, and see how imep and orders change"
         )
     imep = float(found.traces.imep(found.cylinder).mean())
-    if imep < -ROUNDING * largest:
+    if far is None and imep < -ROUNDING * largest:
         warn(
             f"imep = {imep / 1e5:.3g} bar: pressure takes work from the crank. Is the trace a "
             "motored one? If not, is the top dead centre right?"
@@ -265,7 +317,7 @@ class PreparedTrace(TwoPanels, Tabled):
             Column("imep", tuple(each / 1e5 for each in imep), "bar"),
             Column("changes", tuple(of_imep), "%", digits=3),
             *(
-                Column(f"order {order:g}", tuple(each.tolist()), "%", digits=3)
+                Column(f"order {order:g}", each, "%", digits=3)
                 for order, each in zip(SHOWN_ORDERS, moved.T, strict=True)
             ),
         ]
@@ -310,6 +362,32 @@ class PreparedTrace(TwoPanels, Tabled):
 # --- steps ----------------------------------------------------------------------------------------
 
 
+def _without(traces: Traces, leave_out: object) -> tuple[Traces, str]:
+    """Return the traces without some cycles, and what was done."""
+    name = "as measured"
+    if leave_out is None:
+        return traces, name
+    kinds = {each.cycle: each.kind for each in traces._oddities.listed if each.kind != "spike"}
+    if isinstance(leave_out, str):
+        inputs.one_of("leave_out", leave_out, ("odd",))
+        out = list(kinds)
+    else:
+        hint = 'give indices of cycles, or "odd"'
+        listed = inputs.items("leave_out", leave_out, hint)
+        out = sorted({item_key(each, len(traces), "leave_out") % len(traces) for each in listed})
+    if not out:
+        return traces, f"{name}, no cycle left out"
+    said = [f"{k} ({kinds[k]})" if k in kinds else str(k) for k in out]
+    more = f" and {len(said) - NAMED} more" if len(said) > NAMED else ""
+    name += f", without cycle{'s' * (len(out) > 1)} {', '.join(said[:NAMED])}{more}"
+    return traces.without(out), name
+
+
+def _count_of_spikes(traces: Traces) -> str:
+    count = sum(each.kind == "spike" for each in traces._oddities.listed)
+    return f"{count} spike{'s' * (count != 1)} replaced"
+
+
 def _top_dead_centre(
     motored: Traces | Cycle | None, loss_angle_deg: float | None, tdc_deg: float | None
 ) -> tuple[float, str]:
@@ -319,7 +397,8 @@ def _top_dead_centre(
     if not isinstance(motored, (Traces, Cycle)):
         raise inputs.rejected("motored", motored, "give crankpin.Traces, or a Cycle")
     loss = LOSS_ANGLE if loss_angle_deg is None else inputs.finite("loss_angle_deg", loss_angle_deg)
-    at = compression_peak(motored)
+    # As far as encoders are off, whatever turn the file counts from.
+    at = float(checks.about_tdc(np.array([compression_peak(motored)]), motored.period_deg)[0])
     said = "assumed" if loss_angle_deg is None else "given"
     return at + loss, f"motored peak at {at:.3f}°, loss angle {loss:g}°, {said}"
 
@@ -358,13 +437,43 @@ def _filtered(traces: Traces, cutoff: float) -> Traces:
     if not 0.0 < cutoff < highest:
         hint = f"give an order above 0 and below {highest:g}, half the points of a turn"
         raise inputs.rejected("lowpass_order", cutoff, hint)
-    spectrum = np.fft.rfft(rows.ravel())
-    orders = np.arange(len(spectrum)) * 360.0 / (len(rows) * traces.period_deg)
-    spectrum *= 1.0 / (1.0 + (orders / cutoff) ** (2 * STEEPNESS))
-    smooth = np.fft.irfft(spectrum, rows.size).reshape(rows.shape)
+    smooth = _convolved(
+        rows,
+        lambda turns: 1.0 / (1.0 + (turns * 360.0 / traces.period_deg / cutoff) ** (2 * STEEPNESS)),
+    )
     if closed:
         smooth = np.column_stack([smooth, smooth[:, :1]])
     return traces.replace(pressure=smooth)
+
+
+def _convolved(
+    rows: NDArray[np.float64], gain: Callable[[NDArray[np.float64]], NDArray[np.float64]]
+) -> NDArray[np.float64]:
+    """Return rows, one after the other, their spectrum times a gain of periods in a row.
+
+    The transform of all is one over rows and one over columns, with a twist between, so that no
+    step takes long: Ctrl-C is answered between them.
+    """
+    count, length = rows.shape
+    fft = lazy.imported("numpy.fft")
+    twist = -2j * np.pi / rows.size * np.arange(length)
+    spectra = np.empty((count // 2 + 1, length), complex)
+    for part in _parts(length, count):
+        spectra[:, part] = fft.rfft(rows[:, part], axis=0)
+    for k, spectrum in enumerate(spectra):
+        turned = np.exp(k * twist)
+        turns = np.abs(fft.fftfreq(length, 1.0 / length) + k / count)
+        spectrum[:] = fft.ifft(fft.fft(spectrum * turned) * gain(turns)) * turned.conj()
+    smooth = np.empty(rows.shape)
+    for part in _parts(length, count):
+        smooth[:, part] = fft.irfft(spectra[:, part], count, axis=0)
+    return smooth
+
+
+def _parts(length: int, count: int) -> Iterator[slice]:
+    """Yield slices of columns of ``count`` rows, of at most :data:`PIECE` numbers."""
+    step = max(1, inputs.PIECE // count)
+    return (slice(start, start + step) for start in range(0, length, step))
 
 
 def _window(traces: Traces, window_deg: object, fewest: int) -> NDArray[np.bool_]:

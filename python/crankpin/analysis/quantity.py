@@ -384,7 +384,15 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
     @property
     def shape(self) -> tuple[int, ...]:
         """Lengths of the dimensions."""
-        return np.shape(self._read("phasors"))
+        if self.order == ALL:
+            return np.shape(self._read("phasors"))
+        orders = (len(self.orders),) if self.order is None else ()
+        return (*self._swept, *orders, *((2,) if self.kind.planar else ()))
+
+    @property
+    def _swept(self) -> tuple[int, ...]:
+        """Lengths of the dimensions before orders and axes."""
+        return tuple(len(values) for values in self.result.coords.values())
 
     @property
     def ndim(self) -> int:
@@ -430,12 +438,9 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
             keys, note = (*(self.orders[k] for k in shown), ALL), labels.not_shown(left_out)
         title = f"{self.kind.words}, {self.unit}"
         if self.result.dims:
-            columns = export.points(self.result.coords)
+            columns = export.points(self.result.coords, len(keys))
             columns += [
-                Column(
-                    ALL if key == ALL else f"order {key}",
-                    tuple(np.ravel(self[key]._read("peak")).tolist()),
-                )
+                Column(ALL if key == ALL else f"order {key}", self[key]._read("peak"))
                 for key in keys
             ]
         elif self._has_means:
@@ -447,7 +452,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
                 for head, what in self._columns().items()
             ]
         whole = title == f"{self.kind.words}, {self.unit}"
-        row_units = (self.unit,) * len(columns[0].values) if whole and columns else ()
+        row_units = (self.unit,) * len(columns[0]) if whole and columns else ()
         return Table(title, tuple(columns), note, self.loads_counted, row_units)
 
     @property
@@ -494,7 +499,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
             highest: Any = self.peak
             peak = units.figure(highest, self.unit, 5)
             return f"<Quantity {name}{which}: peak {peak}{loads}>"
-        dims, shape = self.result.dims, np.shape(self._read("peak"))
+        dims, shape = self.result.dims, self._swept
         if self.order is None:
             dims, shape, which = self.dims, self.shape, ""
         over = ", ".join(f"{d}: {n}" for d, n in zip(dims, shape, strict=True))
@@ -589,11 +594,9 @@ class OrderBalance(Quantities[Value, Value], Tabled, Generic[Value]):
 
     def _table_by_point(self) -> Table:
         """Return the largest peak of each quantity of a sweep at each point."""
-        columns = export.points(self.result.coords)
-        columns += [
-            Column(each.kind.vector_symbol, tuple(each.peak.ravel().tolist()), each.unit)
-            for each in self._each()
-        ]
+        shown = list(self._each())
+        columns = export.points(self.result.coords, len(shown))
+        columns += [Column(each.kind.vector_symbol, each.peak, each.unit) for each in shown]
         title = f"Peaks of {self._which}"
         return Table(title, tuple(columns), loads=self.loads_counted)
 

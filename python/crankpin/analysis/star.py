@@ -124,9 +124,9 @@ class StarDiagram(Keyed, Tabled):
         share = 100.0 * self.peak / longest if longest else np.zeros(len(sums))
         columns = (
             Column("order", self.orders, digits=10),
-            Column("sum", tuple(self.peak.tolist())),
-            Column("share", tuple(share.tolist()), "%", decimals=1),
-            Column("direction", tuple(np.angle(sums, deg=True).tolist()), "°", decimals=1),
+            Column("sum", self.peak),
+            Column("share", share, "%", decimals=1),
+            Column("direction", np.angle(sums, deg=True), "°", decimals=1),
             Column("", tuple(words)),
         )
         return Table(

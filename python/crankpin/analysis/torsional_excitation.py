@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-from itertools import product
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -157,8 +156,8 @@ class TorsionalExcitation(Tabled):
         shape = (-1, *self.gas.shape)
         columns = [Column("frequency", self._of_rows(self.angular_frequency), "rad/s")]
         columns += [
-            Column("amplitude", tuple(np.abs(self.torque).ravel().tolist()), "N·m"),
-            Column("phase", tuple(np.angle(self.torque.reshape(shape)).ravel().tolist()), "rad"),
+            Column("amplitude", np.abs(self.torque), "N·m"),
+            Column("phase", np.angle(self.torque.reshape(shape)), "rad"),
         ]
         return self._by_row(f"{title}{several} rpm", columns)
 
@@ -172,24 +171,24 @@ class TorsionalExcitation(Tabled):
         """
         gas = np.broadcast_to(self.gas, self.torque.shape)
         columns = [
-            Column(f"{name} {what}".strip(), tuple(of(part).ravel().tolist()), unit)
+            Column(f"{name} {what}".strip(), of(part), unit)
             for name, part in (("gas", gas), ("inertia", self.inertia))
             for what, of, unit in (("", np.abs, "N·m"), ("phase", np.angle, "rad"))
         ]
         return self._by_row("Torque of gas and of masses on the crank", columns)
 
-    def _of_rows(self, by_order: NDArray[np.float64]) -> tuple[float, ...]:
+    def _of_rows(self, by_order: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return values by speed and order for each cylinder."""
         rows = by_order.reshape(-1, 1, len(self.orders))
-        count = (len(rows), len(self.engine), len(self.orders))
-        return tuple(np.broadcast_to(rows, count).ravel().tolist())
+        return np.broadcast_to(rows, (len(rows), len(self.engine), len(self.orders)))
 
     def _by_row(self, title: str, columns: list[Column]) -> Table:
         """Return a table of columns by speed, cylinder and order."""
-        points = list(product(np.ravel(self.rpm).tolist(), range(len(self.engine)), self.orders))
-        speeds, numbers, orders = zip(*points, strict=True)
-        before = [Column("speed", speeds, "rpm")] if np.ndim(self.rpm) else []
-        before += [Column("cylinder", tuple(k + 1 for k in numbers)), Column("order", orders)]
+        speeds, cylinders = np.atleast_1d(self.rpm), range(1, len(self.engine) + 1)
+        orders = self.orders * (len(speeds) * len(cylinders))
+        each = np.repeat(cylinders, len(self.orders))
+        before = [Column("speed", np.repeat(speeds, len(each)), "rpm")] if np.ndim(self.rpm) else []
+        before += [Column("cylinder", np.tile(each, len(speeds))), Column("order", orders)]
         return Table(title, (*before, *columns), loads=self.loads_counted)
 
     def tangential(self) -> Table:

@@ -251,7 +251,10 @@ class VanishingOrders(Tabled):
 
     @property
     def gas_torque(self) -> Verdicts:
-        """Torque of gas: verdicts, of alike cylinders with one cycle; see also ``star_diagram``."""
+        """Torque of gas: verdicts, of alike cylinders with one cycle; see also ``star_diagram``.
+
+        Undecided where a cylinder is on a crank faster than the main one.
+        """
         return self._verdicts("gas_torque", "z")
 
     def _verdicts(self, quantity: str, component: str) -> Verdicts:

@@ -126,6 +126,7 @@ class OverAngle(Labelled):
 
     def _arrays(self, quantities: Sequence[str]) -> tuple[dict[str, Any], dict[str, Any]]:
         axes = {name: ("axis",) if kind_of(name).planar else () for name in quantities}
+        export.fitting(self.coords, *(((*self.dims, *axis), 8) for axis in axes.values()))
         return dict(self.coords), {
             name.replace(".", "_"): ((*self.dims, *axis), self.read(name), export.units(name))
             for name, axis in axes.items()

@@ -5,11 +5,10 @@ from __future__ import annotations
 import argparse
 import sys
 import warnings
-from importlib import import_module
 from typing import TYPE_CHECKING
 
 from crankpin._core import InputError, __version__
-from crankpin._support import units
+from crankpin._support import lazy, units
 from crankpin.cli import outputs
 from crankpin.cli.arguments import (
     COMMANDS,
@@ -124,7 +123,7 @@ class _Warnings:
 def registered(names: Iterable[str] = ORDER) -> Mapping[str, Callable[[Commands], None]]:
     """Import the modules of commands, by default of all; return all commands that are imported."""
     for name in names:
-        import_module(f"{__name__}.{ORDER[name]}")
+        lazy.imported(f"{__name__}.{ORDER[name]}")
     return COMMANDS
 
 

@@ -183,7 +183,7 @@ def _ratio(given: Given) -> tuple[float, float | None]:
             raise rejected("--rod-length", given.text("--rod-length"), "give a length above 0")
         return 0.5 * stroke / length, 0.5 * stroke
     above, _, below = typed.partition("/")
-    divisor = float(given.decimal("RATIO", below or "1", ""))
+    divisor = given.one("RATIO", below or "1", "")
     if not divisor:
         raise rejected("RATIO", typed, "give a number between 0 and 1, such as 0.3 or 1/3.5")
-    return float(given.decimal("RATIO", above, "")) / divisor, None
+    return given.one("RATIO", above, "") / divisor, None

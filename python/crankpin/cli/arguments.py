@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import argparse
-import contextlib
-import math
 import re
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, TypeAlias
-from unicodedata import normalize
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, units
 from crankpin._support.quantities import QUANTITIES
@@ -45,22 +43,6 @@ UNITS: dict[str, units.Dimension] = {
     "Pa": (0, 0, 0, 1),
 }
 """Unit that the library takes → what may be typed behind a number: any unit of that dimension."""
-OTHERS: dict[str, dict[str, Decimal]] = {
-    "°": {"°": Decimal(1), "deg": Decimal(1), "º": Decimal(1), "degrees": Decimal(1)},
-    "rpm": {"rpm": Decimal(1), "/min": Decimal(1), "1/min": Decimal(1)},
-    "": {"%": Decimal("0.01")},
-}
-"""Unit that the library takes, empty for ratios → units that are no mass, length or force."""
-
-NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\D.*)?", re.ASCII)
-FRACTION = re.compile(
-    r"([-+]?)(?:(\d+)(?:\s+|\s*-\s*))?(\d+)/(\d*[1-9]\d*)(?:\s*([^\d\s/].*))?", re.ASCII
-)
-"""A fraction, or a whole number and one, as rules in inches have them: 3 7/16in, 3-7/16", 1/2."""
-COMMA = re.compile(r"([-+]?\d+),(\d+)(\s*[^\d\s,.:=][^,:=]*)?")
-"""A number with a comma for its decimal point, as in most of Europe."""
-MOST_DECIMALS = 2
-"""Digits behind a comma up to which two numbers with one unit are one: 88,9mm, not 100,200mm."""
 
 
 # --- parsers ------------------------------------------------------------------------------------
@@ -173,6 +155,7 @@ OPTIONS: dict[str, dict[str, Any]] = {
         "help": "columns of angle and pressure, those of further cycles after them, by number from "
         "0 or name (default: 0,1 and all that are like 1); several cycles are averaged",
     },
+    "--sheet": {"metavar": "NAME", "help": "sheet of a spreadsheet (default: the first)"},
     "--recorded-rpm": {
         "metavar": "RPM",
         "help": "crank speed of a record over time of less than three cycles",
@@ -381,42 +364,28 @@ class Given:
         text: str | None = self.text(flag)
         return None if text is None else [name.strip() for name in text.split(",")]
 
-    def decimal(
-        self, flag: str, text: str, unit: str, what: str = "a number", *, infinite: bool = False
-    ) -> Decimal:
-        """Return a number, typed with a unit or without, in the library's unit.
+    def one(self, flag: str, text: str, unit: str = "", what: str = "a number") -> float:
+        """Return a number, typed with a unit or without, in the library's unit."""
+        return self._read(flag, text, unit, "number", what)[0][0]
 
-        It is finite, or ``inf`` where that is allowed.
+    def _read(
+        self, flag: str, text: str, unit: str, form: str, what: str, *, infinite: bool = False
+    ) -> tuple[list[float], bool]:
+        """Return numbers in the library's unit, finite ones unless ``inf`` is allowed.
+
+        And whether it is a list. A decimal comma that is read as a point is said.
         """
-        typed, factor = text.strip(), self._plain(unit)
-        number, word = _fraction(typed) if unit in UNITS else (None, None)
-        if number is None and (parts := NUMBER.fullmatch(typed)):
-            number, word = Decimal(parts[1]), parts[2]
-        if word is not None:
-            own = _factor(word.strip(), unit)
-            number, factor = (None, factor) if own is None else (number, own)
-            if (name := units.symbol(word.strip())) is not None and unit in UNITS:
-                self.written.setdefault(UNITS[unit], name)
-        elif number is None:
-            with contextlib.suppress(InvalidOperation):
-                number = Decimal(typed)
-        if number is None:
-            raise rejected(flag, text, f"give {what}{_hint(typed, unit)}")
-        if infinite and number == Decimal("inf"):
-            return number
-        # Decimals go far beyond floats; with these the arithmetic below could not overflow.
-        if not number.is_finite() or not math.isfinite(float(number)):
-            raise rejected(flag, text, "give a finite number")
-        return number * factor
-
-    def _plain(self, unit: str) -> Decimal:
-        """Return what a plain number of a unit stands for: in those of ``--units``.
-
-        Moments of inertia stay in kg·m², as the help has it: no flywheel is weighed in g·mm².
-        """
-        if unit not in UNITS or unit == "kg·m²":
-            return Decimal(1)
-        return units.exact(units.convert(unit, self._setting).unit) or Decimal(1)
+        # Plain moments of inertia stay in kg·m²: no flywheel is weighed in g·mm².
+        has_setting = unit in UNITS and unit != "kg·m²"
+        plain = units.convert(unit, self._setting).unit if has_setting else ""
+        values, word, is_listed, point = _core.read_numbers(
+            flag, text, unit, form=form, plain=plain, what=what, infinite=infinite
+        )
+        if point is not None:
+            self.said.append(f"{flag} {text.strip()} is read as {point}")
+        if word and unit in UNITS and (name := units.symbol(word)) is not None:
+            self.written.setdefault(UNITS[unit], name)
+        return values, is_listed
 
     def echo(self, flag: str, unit: str) -> str:
         """Return what was typed, with the unit that a plain number has."""
@@ -424,22 +393,9 @@ class Given:
         own = re.search(r"[^\d\s.,=:eE+/-]", text)
         return text if own else f"{text} {units.convert(unit, self._setting).unit}"
 
-    def _one(self, flag: str) -> str:
-        """Return what was typed for one number, a decimal comma as a point, which is said."""
-        text: str = self.text(flag)
-        match = COMMA.fullmatch(text.strip())
-        return text if match is None else self._point(flag, match)
-
-    def _point(self, flag: str, match: re.Match[str]) -> str:
-        """Return a number with a point for its comma, which is said."""
-        text = match[0]
-        point = f"{match[1]}.{match[2]}{match[3] or ''}"
-        self.said.append(f"{flag} {text} is read as {point}")
-        return point
-
     def number(self, flag: str, unit: str = "") -> float:
         """Return the number of an option that has one."""
-        return float(self.decimal(flag, self._one(flag), unit))
+        return self.one(flag, self.text(flag), unit)
 
     def optional(self, flag: str, unit: str = "") -> float | None:
         """Return the number of an option, if it is given."""
@@ -451,27 +407,24 @@ class Given:
         return None if text is None else self.listed(flag, text, unit, infinite=infinite)
 
     def listed(
-        self, flag: str, text: str, unit: str = "", *, infinite: bool = False
+        self,
+        flag: str,
+        text: str,
+        unit: str = "",
+        what: str = "a number",
+        *,
+        infinite: bool = False,
     ) -> list[float]:
         """Return the numbers of a text, separated by commas."""
-        match = COMMA.fullmatch(text.strip())
-        # Behind both numbers of a list there is a unit, or behind none; zero needs none.
-        if match is not None and match[3] is not None and int(match[1]) and unit in UNITS:
-            if len(match[2]) > MOST_DECIMALS:
-                hint = f"write {match[1]}.{match[2]}{match[3]}, or the unit behind both"
-                raise rejected(flag, text, hint)
-            text = self._point(flag, match)
-        return [
-            float(self.decimal(flag, part, unit, infinite=infinite)) for part in text.split(",")
-        ]
+        return self._read(flag, text, unit, "list", what, infinite=infinite)[0]
 
     def whole(self, flag: str) -> int:
         """Return a whole number."""
         text = self.text(flag)
-        found = self.decimal(flag, text, "count", "a whole number")
-        if found != int(found):
+        number = self.one(flag, text, "count", "a whole number")
+        if number != int(number):
             raise rejected(flag, text, "give a whole number")
-        return int(found)
+        return int(number)
 
     def whole_numbers(self, flag: str, hint: str = "give whole numbers, such as 1,2") -> list[int]:
         """Return a list of whole numbers."""
@@ -486,21 +439,9 @@ class Given:
         text = self.text(flag)
         if text is None:
             return None
-        if ":" not in text:
-            what = "one number, a list a,b,c or a range START:STOP:STEP"
-            numbers = [float(self.decimal(flag, part, unit, what)) for part in text.split(",")]
-            return np.array(numbers) if "," in text else numbers[0]
-        parts = text.split(":")
-        if len(parts) != 3:
-            raise rejected(flag, text, "give START:STOP:STEP, a,b,c or one number")
-        # In decimals, so that 0.2:0.4:0.1 has 0.3 and 0.4 as they would be typed.
-        start, stop, step = (self.decimal(flag, part, unit) for part in parts)
-        if float(step) == 0.0 or (stop - start) * step < 0:
-            raise rejected(flag, text, f"the step does not lead from {start} to {stop}")
-        steps = (stop - start) / step
-        if steps >= MOST_ROWS:
-            raise rejected(flag, text, f"{float(steps):.3g} steps; give {MOST_ROWS} at most")
-        return np.array([float(start + k * step) for k in range(int(steps) + 1)])
+        what = "one number, a list a,b,c or a range START:STOP:STEP"
+        numbers, is_listed = self._read(flag, text, unit, "range", what)
+        return np.array(numbers) if is_listed else numbers[0]
 
     def engines(self, names: Sequence[str] | None = None) -> dict[str, Engine]:
         """Return the engines of NAME…, by their titles, or by what was typed where these repeat."""
@@ -514,7 +455,7 @@ class Given:
                     raise presets.unknown("NAME", name, typed=True)
                 typed[member] = Engine.preset(member)
         if (plane := self._typed.get("reference_z")) is not None:
-            z = float(self.decimal("--reference-z", plane, "m"))
+            z = self.one("--reference-z", plane, "m")
             typed = {name: engine.replace(reference_z=z) for name, engine in typed.items()}
         titles = [engine.title if engine.name else "" for engine in typed.values()]
         return {
@@ -568,7 +509,7 @@ class Given:
                 raise rejected("--spectrum", text, hint)
             if order in amplitudes:
                 raise rejected("--spectrum", text, f"order {order} is given twice")
-            amplitudes[order] = float(self.decimal("--spectrum", amplitude, "kg·m"))
+            amplitudes[order] = self.one("--spectrum", amplitude, "kg·m")
         return amplitudes
 
     def frame(self) -> str | None:
@@ -598,32 +539,3 @@ class Given:
             hint = "it is there already; give another name, or --force to replace it"
             raise rejected(flag, str(file), hint)
         return file
-
-
-def _fraction(typed: str) -> tuple[Decimal | None, str | None]:
-    """Return a number that is written as a fraction, and the word behind it; None for others."""
-    # ½ is 1⁄2, and 3½ has a whole number before it.
-    spelt = re.sub(r"(\d?)([¼-¾⅐-⅞])", lambda m: f"{m[1]} {normalize('NFKC', m[2])}", typed)
-    match = FRACTION.fullmatch(spelt.replace("⁄", "/").strip())
-    if match is None:
-        return None, None
-    sign, whole, above, below, word = match.groups()
-    value = Decimal(whole or 0) + Decimal(above) / Decimal(below)
-    return (-value if sign == "-" else value), word
-
-
-def _factor(word: str, unit: str) -> Decimal | None:
-    """Return what a unit behind a number stands for in the library's unit; None for others."""
-    if unit not in UNITS:
-        return OTHERS.get(unit, {}).get(word.lower())
-    return units.exact(word, UNITS[unit])
-
-
-def _hint(typed: str, unit: str) -> str:
-    """Return what may be typed behind a number, and how a range is typed."""
-    if re.fullmatch(r"\d+(\.\d+)?\s*(-|–|\.\.|to)\s*\d+(\.\d+)?°?", typed):
-        low, high = re.findall(r"\d+(?:\.\d+)?", typed)
-        half = abs(float(high) - float(low)) / 2.0 or 1.0
-        return f", such as {low}:{high}:{10.0 ** math.floor(math.log10(half)):g}"
-    known = {"kg": "g, lb, oz", "m": "mm, in", "kg·m": "g·mm, oz·in", "": "%"}.get(unit)
-    return f", such as 12 or with a unit ({known})" if known and NUMBER.fullmatch(typed) else ""

@@ -85,11 +85,11 @@ def planes_of(given: Given) -> Planes:
     named = [name for name, equals, _ in parts if equals]
     if not named:
         what = "ends, webs, or places in m, such as 0,0.4"
-        return [float(given.decimal("--planes", each, "m", what)) for each in text.split(",")]
+        return given.listed("--planes", text, "m", what)
     if len(set(named)) < len(parts):
         hint = "give ends, webs, places, or a name of its own for each place"
         raise rejected("--planes", text, hint)
-    return {name.strip(): float(given.decimal("--planes", z, "m")) for name, _, z in parts}
+    return {name.strip(): given.one("--planes", z, "m") for name, _, z in parts}
 
 
 def mass(flag: str, what: str) -> Option:
@@ -222,7 +222,7 @@ def _coordinates(given: Given, flag: str) -> float | list[float | None] | None:
     if text is None or "," not in text:
         return given.optional(flag, "m")
     parts = text.split(",")
-    return [float(given.decimal(flag, part, "m")) if part.strip() else None for part in parts]
+    return [given.one(flag, part, "m") if part.strip() else None for part in parts]
 
 
 def _targets(given: Given) -> tuple[dict[str, float] | None, bool]:
@@ -237,5 +237,5 @@ def _targets(given: Given) -> tuple[dict[str, float] | None, bool]:
     per_cent = {value.strip().endswith("%") for _, _, value in pairs}
     if len(per_cent) > 1:
         raise rejected("--target", text, "give all values in %, or none")
-    values = {name.strip(): float(given.decimal("--target", value, "")) for name, _, value in pairs}
+    values = {name.strip(): given.one("--target", value, "") for name, _, value in pairs}
     return values, per_cent == {True}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs, labels
@@ -18,6 +18,8 @@ from crankpin.model.cycle import Cycle
 from crankpin.model.traces import Traces
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from crankpin.cli.arguments import Given
     from crankpin.model.cycle_files import FileOptions
     from crankpin.model.cylinder import Cylinder
@@ -34,6 +36,7 @@ OF_A_FILE = tuple(
         "--recorded-rpm",
         "--tdc",
         "--columns",
+        "--sheet",
     ]
 )
 """Options that need a file of ``--cycle``."""
@@ -142,13 +145,13 @@ def fired(given: Given, name: str) -> tuple[Engine, str]:
         raise rejected("--cycle", typed, hint)
     strokes = engine.strokes
     if named:
-        part = float(given.decimal("--cycle", load, "", "a part of full load")) if load else 1.0
+        part = given.one("--cycle", load, "", "a part of full load") if load else 1.0
         if not 0.0 <= part <= 1.0:
             raise rejected("--cycle", typed, "give a part of full load, 0 (idling) to 1")
         example: Any = kind or next(iter(EXAMPLES))
         cycle = Cycle.example(example, load=part, strokes=strokes)
     else:
-        cycle = _loaded(given, typed, strokes)
+        cycle = _loaded(Cycle.load, "--cycle", typed, _read_as(given, strokes))
     cylinders, note = _with_bores(engine, bore)
     try:
         driven = engine.replace(cylinder=cylinders).with_cycle(cycle, crankcase=crankcase)
@@ -181,6 +184,10 @@ def _with_bores(engine: Engine, bore: float | None) -> tuple[list[Cylinder], str
         "--lowpass-order", metavar="ORDER", help="order at which a low-pass halves the amplitude"
     ),
     option("--intake-pressure", metavar="P", help="absolute pressure of the intake, Pa or 0.95bar"),
+    option(
+        "--leave-out", metavar="N,…", help="cycles to leave out, from 0, or odd for those named"
+    ),
+    option("--spikes", choices=("replace",), help="replace spikes by the median over cycles"),
     option("--exponent", metavar="N", help="of a polytropic compression, such as 1.3, or fit"),
     option("--compression-ratio", metavar="R", help="largest over smallest volume"),
     "--units --csv --plot --save --force",
@@ -191,13 +198,15 @@ def _trace(given: Given) -> Shown:
     engine = given.engine("trace")
     cylinders, note = _with_bores(engine, given.optional("--bore", "m"))
     read_as = _read_as(given, engine.strokes)
-    traces = Traces.load(given.text("file"), **read_as)
-    motored = given.text("--motored")
+    traces = _loaded(Traces.load, "file", given.text("file"), read_as)
+    motored, left = given.text("--motored"), given.text("--leave-out")
     exponent = given.text("--exponent")
     prepared = prepare_trace(
         traces,
         cylinders[0],
-        motored=None if motored is None else Traces.load(motored, **read_as),
+        motored=motored and _loaded(Traces.load, "--motored", motored, read_as),
+        leave_out=left if left in (None, "odd") else given.whole_numbers("--leave-out"),
+        spikes=given.text("--spikes"),
         loss_angle_deg=given.optional("--loss-angle", "°"),
         lowpass_order=given.optional("--lowpass-order"),
         intake_pressure=given.optional("--intake-pressure", "Pa"),
@@ -210,9 +219,20 @@ def _trace(given: Given) -> Shown:
     )
 
 
-def _loaded(given: Given, path: str, strokes: int) -> Cycle:
-    """Return the cycle in a file, read as options say."""
-    return Cycle.load(path, **_read_as(given, strokes))
+Read = TypeVar("Read", Cycle, Traces)
+
+
+def _loaded(load: Callable[..., Read], option: str, path: str, read_as: FileOptions) -> Read:
+    """Return what is in a file, read as options say; of several files errors name theirs."""
+    try:
+        return load(path, **read_as)
+    except InputError as error:
+        if error.argument != "path" or error.hint is None:
+            raise
+        fault = str(error)[len("path ") : -len(f": {error.hint}")]
+        if fault.startswith("= "):
+            raise rejected(option, path, error.hint) from None
+        raise inputs.faulty(repr(labels.cut(Path(path).name)), fault, error.hint) from None
 
 
 def _read_as(given: Given, strokes: int) -> FileOptions:
@@ -232,5 +252,6 @@ def _read_as(given: Given, strokes: int) -> FileOptions:
         "recorded_rpm": given.optional("--recorded-rpm", "rpm"),
         "tdc_deg": given.optional("--tdc", "°") or 0.0,
         "columns": columns,
+        "sheet": given.text("--sheet"),
         "strokes": strokes,
     }

@@ -127,7 +127,7 @@ def _angles(given: Given, flag: str) -> Any:  # noqa: ANN401 - one angle or two,
     ends = [end.strip().removesuffix("°") for end in text.split(":")]
     for end in ends:
         if "/" not in end:
-            given.decimal(flag, end, "°", "one angle, or LOW:HIGH")
+            given.one(flag, end, "°", "one angle, or LOW:HIGH")
     if len(ends) > 2:
         raise rejected(flag, text, "give one angle, or LOW:HIGH")
     return ends[0] if len(ends) == 1 else tuple(ends)

@@ -322,7 +322,7 @@ def _crank(given: Given, flag: str, parts: list[str]) -> tuple[float, float, int
     """Return a further crankshaft: its axis, m, and its ratio."""
     if len(parts) != 3 or not parts[2].strip().lstrip("+-").isdecimal():
         raise rejected(flag, given.text(flag), "give X:Y:RATIO, such as 0.2:0:-1")
-    x, y = (float(given.decimal(flag, each, "m")) for each in parts[:2])
+    x, y = (given.one(flag, each, "m") for each in parts[:2])
     return x, y, int(parts[2])
 
 

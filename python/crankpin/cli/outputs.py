@@ -110,7 +110,7 @@ def in_short(table: Table, balance: Balance, *names: str) -> Table:
         f"Not shown: {len(heads) - len(kept)} orders (their peaks are below {labels.MATTERS:g} of "
         "the largest); --csv prints them."
     )
-    columns = (changed(each, values=tuple(each.values[k] for k in kept)) for each in table.columns)
+    columns = (changed(each, data=tuple(each.values[k] for k in kept)) for each in table.columns)
     row_units = tuple(table.row_units[k] for k in kept if table.row_units)
     notes = "\n".join(filter(None, [table.note, note])) if len(kept) < len(heads) else table.note
     return changed(table, columns=tuple(columns), note=notes, row_units=row_units)

@@ -133,7 +133,7 @@ def _two_plane(given: Given) -> Shown:
     typed = given.text("--amounts")
     plain = given.text("--units") is None
     parts = [f"{each}g·mm" if plain and _is_plain(each) else each for each in typed.split(",")]
-    amounts = [float(given.decimal("--amounts", each, "kg·m")) / G_MM for each in parts]
+    amounts = [given.one("--amounts", each, "kg·m") / G_MM for each in parts]
     fix = two_plane_correction(
         np.round(amounts, 9),
         given.listed("--angles", given.text("--angles"), "°"),
@@ -145,7 +145,7 @@ def _two_plane(given: Given) -> Shown:
         if len(radius) > 2 or min(radius) <= 0.0:
             raise rejected("--radius", given.text("--radius"), "give one length above 0, or two")
         grams = fix.amount_g_mm / (1e3 * np.array(radius))
-        weight = Column("weight", tuple(grams.tolist()), "g")
+        weight = Column("weight", grams, "g")
         table = changed(table, columns=(*table.columns, weight))
     return Shown(only(table), fix)
 

@@ -68,8 +68,11 @@ diesel 3e7."""
 LARGEST_PRESSURE = 5e7
 """Peak pressure, Pa, above which it is not in Pa: the highest of diesels are 3e7."""
 
-LEAST_ABSOLUTE = 1e4
+LEAST_ABSOLUTE = 1.5e4
 """Least pressure, Pa, below which gauge pressure is likely: an engine that idles has 2e4 Pa."""
+
+LARGEST_INTAKE = 6e5
+"""Least pressure, Pa, above which figures are in another unit: charged engines have up to 5e5."""
 
 NOISE = 0.05
 """Part of a cycle's points that noise may have below the least pressure; of gauge pressure two
@@ -231,6 +234,11 @@ def pressure(values: NDArray[np.float64]) -> None:
             f"pressure is as much as {most:g} Pa, more than any engine's: are its numbers in the "
             "unit that is named for them? Pressures are Pa here"
         )
+    elif least > LARGEST_INTAKE and most > PEAKED * least:
+        warn(
+            f"pressure is {least:g} Pa at its least, more than any intake has: are its numbers in "
+            "the unit that is named for them? Pressures are Pa here"
+        )
     elif float(np.quantile(values, NOISE)) < LEAST_ABSOLUTE:
         warn(
             f"pressure is {least:g} Pa at its least: is it gauge pressure? Pressures are absolute "
@@ -243,15 +251,28 @@ def pressure(values: NDArray[np.float64]) -> None:
         )
 
 
-def peak(theta_deg: NDArray[np.float64], values: NDArray[np.float64], period_deg: float) -> None:
-    """Warn of pressure whose peak is far from the firing top dead centre."""
+def about_tdc(theta_deg: NDArray[np.float64], period_deg: float) -> NDArray[np.float64]:
+    """Return crank angles in the cycle about the firing top dead centre, -360° to 360° or half."""
+    half = period_deg / 2.0
+    found: NDArray[np.float64] = (theta_deg + half) % period_deg - half
+    return found
+
+
+def far_peak(
+    theta_deg: NDArray[np.float64], values: NDArray[np.float64], period_deg: float
+) -> float | None:
+    """Return the crank angle of the peak of pressure if it is far from the firing dead centre."""
     most = values.max()
     if most < PEAKED * values.mean():
-        return
-    half = period_deg / 2.0
-    at = (theta_deg[values == most] + half) % period_deg - half
+        return None
+    at = about_tdc(theta_deg[values == most], period_deg)
     nearest = float(at[np.abs(at).argmin()])
-    if abs(nearest) > FARTHEST_PEAK:
+    return nearest if abs(nearest) > FARTHEST_PEAK else None
+
+
+def peak(theta_deg: NDArray[np.float64], values: NDArray[np.float64], period_deg: float) -> None:
+    """Warn of pressure whose peak is far from the firing top dead centre."""
+    if (nearest := far_peak(theta_deg, values, period_deg)) is not None:
         warn(
             f"theta_deg: pressure peaks at {nearest:.4g}°, far from the firing top dead centre, "
             "from which angles are counted here; load a file that counts from elsewhere with "

@@ -17,7 +17,7 @@ from crankpin._support.frames import Tabled
 from crankpin._support.record import Input, read_only
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
-from crankpin.model import checks, cycle_files
+from crankpin.model import checks, cycle_files, odd_cycles
 from crankpin.model.computed_cycles import ComputedCycles, area
 
 if TYPE_CHECKING:
@@ -142,7 +142,7 @@ class Cycle(Tabled, Input, ComputedCycles):
 
     @classmethod
     def load(cls, path: str | Path, **options: Unpack[FileOptions]) -> Cycle:
-        """Return the cycle in a text file of crank angle and pressure; of several their mean.
+        """Return the cycle in a file of crank angle and pressure; of several their mean.
 
         Parameters
         ----------
@@ -170,6 +170,8 @@ class Cycle(Tabled, Input, ComputedCycles):
             As for :class:`Cycle`.
         """
         theta, pressure, strokes, name, origin, degree = cycle_files.load(path, **options)
+        if degree is None:
+            odd_cycles.report(odd_cycles.find(theta, pressure, 180.0 * strokes))
         return cls(theta, pressure.mean(axis=0), strokes, name, degree, origin)
 
     def save(self, path: str | Path) -> None:
@@ -273,7 +275,8 @@ class Cycle(Tabled, Input, ComputedCycles):
             If the cylinder has no bore.
         """
         mean_pressure = self.work(cylinder) / (area(cylinder) * cylinder.travel)
-        checks.imep(mean_pressure)
+        if checks.far_peak(self.theta_deg, self.pressure, self.period_deg) is None:
+            checks.imep(mean_pressure)  # warned of where it was made
         return mean_pressure
 
     def mean_torque(self, cylinder: Cylinder) -> float:
@@ -396,29 +399,35 @@ class Cycle(Tabled, Input, ComputedCycles):
             np.maximum(error, abs(coarse - whole), out=error)
         return error
 
-    def resolution_bound(self, cylinder: Cylinder) -> float:
-        """Return a bound of every harmonic's error from the table's resolution, N·m.
+    def resolution_bound(
+        self, cylinder: Cylinder, orders: Order | Iterable[Order], *, crankcase: float = ATMOSPHERE
+    ) -> NDArray[np.float64]:
+        """Return a bound of the harmonics' error from the table's resolution, N·m: (n_orders,).
 
         It is proved for any pressure that between two neighbouring points stays between their two
         values, as it does where all its extremes are points: then it differs from the cubic there
         by their range and the cubic's at most. It falls with the step, where the error of smooth
-        pressure falls with its fourth power: far above :meth:`resolution_error`, and certain.
+        pressure falls with its fourth power: far above :meth:`resolution_error`, and certain. It is
+        one for all orders, and half of it one of the mean torque.
 
         Parameters
         ----------
         cylinder : Cylinder
             As in :meth:`torque_harmonics`.
+        orders : number or sequence of numbers
+            As in :meth:`torque_harmonics`.
+        crankcase : float, default 101325.0
+            As in :meth:`torque_harmonics`; it makes no error.
 
         Returns
         -------
-        float
-            Bound of the magnitude of the error of the phasor of any order, N·m, and of twice the
-            mean torque's; zero for polynomials.
+        ndarray of float, shape (n_orders,)
+            Bound of the magnitude of the error of each phasor, N·m; zero for polynomials.
 
         Raises
         ------
         InputError
-            If the cylinder has no bore.
+            As for :meth:`torque_harmonics`.
 
         Examples
         --------
@@ -427,14 +436,16 @@ class Cycle(Tabled, Input, ComputedCycles):
         >>> cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
         >>> theta = np.arange(-360, 360)
         >>> cycle = cp.Cycle(theta, 1e5 + 3e6 * np.exp(-(((theta - 15) / 30) ** 2)))
-        >>> round(cycle.resolution_bound(cylinder), 2)
-        2.23
+        >>> cycle.resolution_bound(cylinder, [12]).round(2)
+        array([2.23])
         >>> cycle.resolution_error(cylinder, [12]).round(5)  # an estimate
         array([8.e-05])
         """
+        listed = inputs.explicit_half_orders(orders)
+        checks.absolute("crankcase", inputs.number("crankcase", crankcase))
         scale = 2.0 * area(cylinder) / math.radians(self.period_deg)
         if self.degree is not None:
-            return 0.0
+            return np.zeros(len(listed))
         start = float(self.theta_deg[0])
         edges = np.append(self.theta_deg, start + self.period_deg)
         steps = np.diff(edges)
@@ -457,23 +468,24 @@ class Cycle(Tabled, Input, ComputedCycles):
         way = np.abs(moves).sum(axis=1)
         turns = (moves.min(axis=1) < 0.0) & (moves.max(axis=1) > 0.0)
         way += 2.0 * turns * np.abs(moves).max(axis=1)
-        return float(scale * (np.ptp(controls, axis=0) @ way))
+        return np.full(len(listed), scale * (np.ptp(controls, axis=0) @ way))
 
     @property
     def table(self) -> Table:
         """Pressure over crank angle."""
         peak = int(self.pressure.argmax())
+        at = float(checks.about_tdc(self.theta_deg[peak : peak + 1], self.period_deg)[0])
         facts = (
             labels.printable(self.name) or "Cycle",
             f"{'four' if self.strokes == 4 else 'two'}-stroke",
             f"{len(self.theta_deg)} points ({self.grid})",
-            f"{units.figure(self.pressure[peak] / 1e5, 'bar', 4)} at {self.theta_deg[peak]:.4g}°",
+            f"{units.figure(self.pressure[peak] / 1e5, 'bar', 4)} at {at:.4g}°",
         )
         return Table(
             ", ".join(facts),
             (
-                Column("crank angle", tuple(self.theta_deg.tolist()), "°", digits=10),
-                Column("pressure", tuple(self.pressure.tolist()), "Pa", digits=7),
+                Column("crank angle", self.theta_deg, "°", digits=10),
+                Column("pressure", self.pressure, "Pa", digits=7),
             ),
             note=self.origin,
         )

@@ -1,28 +1,28 @@
-"""Tables of cylinder pressure over crank angle in text files, of one cycle or many."""
+"""Tables of cylinder pressure over crank angle in files, of one cycle or many."""
 
 from __future__ import annotations
 
-import codecs
 import contextlib
 import json
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias, TypedDict
+from typing import TYPE_CHECKING, Literal, NamedTuple, TypedDict
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._support import files, inputs
 from crankpin._support.warnings import warn
+from crankpin.model import table_files
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Sequence
 
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from crankpin.model.cycle import Cycle
+    from crankpin.model.table_files import Column, Columns
 
-ENDINGS = (".csv", ".tsv", ".txt", ".dat", ".asc")
 HINT = "name a text file, .csv, .tsv, .txt, .dat or .asc"
 
 PRESSURE_UNITS = {
@@ -41,34 +41,40 @@ ANGLE_UNITS = {"deg": 1.0, "rad": 180.0 / np.pi} | TIME_UNITS
 """Unit → degrees, or seconds of records over time."""
 
 _PRESSURE = re.compile(r"(?<![a-z])([hkm]?pa|m?bar|psi)(?=[agd]?(?![a-z]))", re.IGNORECASE)
-_GAUGE = re.compile(r"gauge|gage|relative|bar_?g\b|psi_?g\b|pa_?g\b|\(g\)", re.IGNORECASE)
+_GAUGE = re.compile(
+    r"gauge|gage|relati[vo]|[üu]e?berdruck|bar_?g\b|psi_?g\b|pa_?g\b|\(g\)", re.IGNORECASE
+)
 _ABSOLUTE = re.compile(r"abs|bar_?a\b|psi_?a\b|pa_?a\b|\(a\)", re.IGNORECASE)
 _RADIANS = re.compile(r"(?<![a-z])rad(ians?)?(?![a-z])", re.IGNORECASE)
 _TIME = re.compile(r"\btime\b|\bt\b|\bZeit\b", re.IGNORECASE)
 _SECONDS = re.compile(r"(?<![a-z])(ms|s)(?![a-z])", re.IGNORECASE)
-_LINE = re.compile(r"\r\n|\r|\n")
-_FACT = re.compile(r"# (name|strokes|degree): ?(.*)")
-_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?"
-_COMMA_NUMBER = re.compile(_NUMBER.replace(r"\.", "[.,]"))
 
-_MARKS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
-"""Byte order marks, and what they stand for."""
 SIMILAR = 0.9
 """Correlation of two columns from which both are pressure: cycles of one cylinder have 0.99."""
 
-PIECE = 2**20
-"""Bytes that are read and converted at once: Ctrl-C is answered in between."""
 DIFFERENT = 1e-3
 """Part of a step by which angles of two cycles may differ and still be one grid."""
 INCOMPLETE = 0.9
-"""Part of the points of most blocks below which a block is no whole cycle."""
+"""Part of a period below which a block is no whole cycle."""
+GAP = 1.9
+"""Step over the usual one beside it from which lines are missing: a missing tooth makes it 2."""
+BESIDE = 5
+"""Steps at either side of which the median is the usual one."""
+RARE = 0.05
+"""Part of the steps of a file up to which gaps, or angles that stand twice, are faults of it."""
 RISE = (0.1, 0.25)
 """Parts of the range of pressure below and above which a compression begins and has passed; half
 of the compression pressure, before any combustion."""
 SPEEDS = 0.05
 """Relative difference of a speed from that of the record's cycles up to which it may be theirs."""
-
-Column: TypeAlias = int | str
+UNEVEN = 0.02
+"""Relative difference of a cycle's speed from the median from which it is named: idling engines
+have 0.01."""
+RECORDED_SPEEDS = (15.0, 40_000.0)
+"""Speeds, rpm, of ship's engines at their slowest and of models: others are of times in other
+units."""
+NAMED = 3
+"""Places that a warning names; of more it says how many."""
 
 
 class Recorded(NamedTuple):
@@ -84,29 +90,6 @@ class Recorded(NamedTuple):
     degree: int | None
 
 
-class _Text(NamedTuple):
-    """Parts of a file: facts of our own ones, cells of the header, numbers of the columns read."""
-
-    facts: dict[str, str]
-    header: list[str]
-    names: list[str]
-    """Cells of the line above the header, where it has as many; else empty."""
-    width: int
-    """Number of columns."""
-    places: list[int]
-    numbers: NDArray[np.float64]
-    """Numbers of the columns at these places: (n_rows, n_places)."""
-
-    def heads(self) -> list[str]:
-        """Return the head of each column read, with its name where that stands above."""
-        # Names with blanks of columns separated by blanks cannot be distinguished.
-        apart = len(self.header) == self.width
-        heads = [self.header[k] if apart else " ".join(self.header) for k in self.places]
-        if not self.names:
-            return heads
-        return [f"{self.names[k]} {head}" for k, head in zip(self.places, heads, strict=True)]
-
-
 class FileOptions(TypedDict, total=False):
     """Options of files of cycles: see :meth:`Traces.load`."""
 
@@ -116,97 +99,275 @@ class FileOptions(TypedDict, total=False):
     atmosphere: float
     tdc_deg: float
     columns: Sequence[Column] | None
+    sheet: str | None
     recorded_rpm: float | None
     strokes: int | None
     name: str | None
 
 
+class CylinderFileOptions(TypedDict, total=False):
+    """Options of files of several cylinders: see :meth:`Traces.load_cylinders`."""
+
+    pressure_unit: str | None
+    angle_unit: Literal["deg", "rad", "s", "ms"] | None
+    gauge: bool | None
+    atmosphere: float
+    sheet: str | None
+    recorded_rpm: float | None
+    strokes: int | None
+
+
 def load(
     path: str | Path,
     *,
+    columns: Sequence[Column] | None = None,
+    sheet: str | None = None,
+    tdc_deg: float = 0.0,
     pressure_unit: str | None = None,
     angle_unit: str | None = None,
     gauge: bool | None = None,
     atmosphere: float = _core.ATMOSPHERE,
-    tdc_deg: float = 0.0,
-    columns: Sequence[Column] | None = None,
     recorded_rpm: float | None = None,
     strokes: int | None = None,
     name: str | None = None,
 ) -> Recorded:
     """Return the cycles in a file: see :meth:`Traces.load`."""
-    file = inputs.file_path(path, ENDINGS, HINT)
+    file = inputs.file_path(path, table_files.ENDINGS, table_files.HINT)
     hint = "give two, of angle and pressure, or more of pressure"
     chosen = None if columns is None else inputs.items("columns", columns, hint)
     if chosen is not None and len(chosen) < 2:
         raise inputs.rejected("columns", columns, hint)
-    text = _read(file, chosen)
-    heads = text.heads()
-    numbers = text.numbers if chosen is not None else _of_cycles(text.numbers)
-    count = numbers.shape[1] - 1
-    left = text.numbers.shape[1] - numbers.shape[1]
-    strokes = inputs.strokes(_strokes(text.facts) if strokes is None else strokes)
+    text = table_files.read(file, chosen, sheet)
+    known = _name(text.facts.get("name", file.stem)) if name is None else name
+    options = (pressure_unit, angle_unit, gauge, atmosphere, recorded_rpm, strokes)
+    return _recorded(text, chosen is None, tdc_deg, known, *options)
+
+
+def load_cylinders(
+    path: str | Path,
+    columns: Sequence[Column | Sequence[Column]],
+    tdc_deg: ArrayLike,
+    *,
+    sheet: str | None = None,
+    pressure_unit: str | None = None,
+    angle_unit: str | None = None,
+    gauge: bool | None = None,
+    atmosphere: float = _core.ATMOSPHERE,
+    recorded_rpm: float | None = None,
+    strokes: int | None = None,
+) -> list[Recorded]:
+    """Return the cycles of several cylinders in a file: see :meth:`Traces.load_cylinders`."""
+    file = inputs.file_path(path, table_files.ENDINGS, table_files.HINT)
+    hint = "give that of angle, and one or a list for each cylinder"
+    angle, *cylinders = inputs.items("columns", columns, hint) or [None]
+    lists = [
+        inputs.items("columns", each, hint) if isinstance(each, (list, tuple)) else [each]
+        for each in cylinders
+    ]
+    if not lists or not all(lists):
+        raise inputs.rejected("columns", columns, hint)
+    centres = inputs.per_item("tdc_deg", tdc_deg, len(lists))
+    if len(centres) != len(lists):
+        fault = f"has {len(centres)} angles for {len(lists)} cylinders"
+        raise inputs.faulty("tdc_deg", fault, "give one for each column of pressure")
+    text = table_files.read(file, [angle, *(each for one in lists for each in one)], sheet)
+    options = (pressure_unit, angle_unit, gauge, atmosphere, recorded_rpm, strokes)
+    found, first = list[Recorded](), 1
+    for number, (one, centre) in enumerate(zip(lists, centres, strict=True), 1):
+        chosen = text.of([0, *range(first, first + len(one))])
+        first += len(one)
+        head = chosen.heads()[1] if text.headed else f"cylinder {number}"
+        found.append(_recorded(chosen, False, centre, f"{file.stem}, {head}", *options))
+    return found
+
+
+def _recorded(
+    text: Columns,
+    every: bool,
+    tdc_deg: float,
+    name: str,
+    pressure_unit: str | None,
+    angle_unit: str | None,
+    gauge: bool | None,
+    atmosphere: float,
+    recorded_rpm: float | None,
+    strokes: int | None,
+) -> Recorded:
+    """Return the cycles in columns that were read, of angle or time and of pressure."""
+    _check_heads(text)
+    heads, read = text.heads(), text.numbers.shape[1]
+    text = _of_cycles(text) if every else text
+    count = text.numbers.shape[1] - 1
+    known = _fact(text.facts, "strokes")
+    strokes = inputs.strokes((4 if known is None else known) if strokes is None else strokes)
     unit, by_unit = _angle_unit(angle_unit, heads[0])
-    where = numbers[:, 0] * ANGLE_UNITS[unit]
-    pressures = np.ascontiguousarray(numbers[:, 1:].T)
     of_pressure, by_pressure = _pressure_unit(pressure_unit, heads[1])
-    pressures *= PRESSURE_UNITS[of_pressure]
     above, by_gauge = _is_gauge(gauge, heads[1])
-    if above:
-        pressures += inputs.finite("atmosphere", atmosphere)
+    period = 180.0 * strokes
+    half = np.inf if unit in TIME_UNITS else period / 2.0 / ANGLE_UNITS[unit]
+    text = _ascending(text, half, ours=known is not None)
+    where = text.numbers[:, 0] * ANGLE_UNITS[unit]
+    pressures = np.ascontiguousarray(text.numbers[:, 1:].T)
+    for k, head in enumerate(text.heads()[1:]):
+        stated = of_pressure if pressure_unit is not None or not text.headed else None
+        pressures[k] *= PRESSURE_UNITS[stated or _unit_of(head) or of_pressure]
+        if above if gauge is not None else _says_gauge(head, above):
+            pressures[k] += inputs.finite("atmosphere", atmosphere)
     said = [f"{of_pressure} ({by_pressure})"]
     said.append(
         f"gauge ({by_gauge}), {atmosphere:g} Pa added" if above else f"absolute ({by_gauge})"
     )
-    period = 180.0 * strokes
     if unit in TIME_UNITS:
         rpm = _speed(where, pressures[0], recorded_rpm, period)
         where = 6.0 * rpm * where
         said.append(f"over time ({by_unit}) at {rpm:.6g} rpm")
+        _check_jumps(text, where, period / 2.0)
     else:
         inputs.only_with("a record over time", recorded_rpm=recorded_rpm)
         said.append(f"angles in {unit} ({by_unit})")
     tdc = inputs.finite("tdc_deg", tdc_deg)
     said.append(f"firing top dead centre at {tdc:g}° of the file")
-    theta, found, how = _cycles(where - tdc, pressures, period)
+    if known is None:
+        _warn_of_gaps(text, half)
+    theta, found, how = _cycles(text, where - tdc, pressures, period)
     many = len(found) > 1
-    said.insert(0, f"{len(found)} cycles {how}" if many else "1 cycle")
-    if chosen is None and left:
-        said.insert(1, f"{count} of {count + left} columns beside the first")
-    return Recorded(
-        theta,
-        found,
-        strokes,
-        _name(text.facts.get("name", file.stem)) if name is None else name,
-        ", ".join(said),
-        None if many else _fact(text.facts, "degree"),
-    )
+    said.insert(0, f"{len(found)} cycles {how}" if many else f"1 cycle{how[len('in a row') :]}")
+    if every and count < read - 1:
+        said.insert(1, f"{count} of {read - 1} columns beside the first")
+    degree = None if many else _fact(text.facts, "degree")
+    return Recorded(theta, found, strokes, name, ", ".join(said), degree)
 
 
-def _strokes(facts: dict[str, str]) -> int:
-    known = _fact(facts, "strokes")
-    return 4 if known is None else known
+# --- lines and columns ----------------------------------------------------------------------------
+
+
+def _check_heads(text: Columns) -> None:
+    """Reject a column of pressure in the place of angles."""
+    if not text.headed:
+        return
+    heads = text.heads()
+    if _PRESSURE.search(heads[0]) and not _PRESSURE.search(heads[1]):
+        first, second = text.places[:2]
+        fault = f"{first} and {second} are headed {inputs.shorten(heads[0])} and "
+        fault += inputs.shorten(heads[1])
+        hint = f"angle or time comes first; give columns=({second}, {first})"
+        raise inputs.faulty("columns", fault, hint)
+
+
+def _of_cycles(text: Columns) -> Columns:
+    """Return the columns of angle and first pressure, and of further cycles of that pressure."""
+    numbers, heads = text.numbers, text.heads()
+    kept, others = [0, 1], list[int]()
+    for k in range(2, numbers.shape[1]):
+        rows = np.isfinite(numbers[:, k])
+        first, values = numbers[rows, 1], numbers[rows, k]
+        if len(values) > 1 and _correlation(first, values) > SIMILAR:
+            if not rows.all():
+                at = text.where(int(np.flatnonzero(~rows)[0]), k)
+                hint = "give one in each line, or name the columns of the other cycles, columns=…"
+                raise inputs.faulty("path", f"has no number in {at}", hint)
+            kept.append(k)
+        elif text.headed and _PRESSURE.search(heads[k]):
+            others.append(text.places[k])
+    if others:
+        listed = _listed([str(k) for k in others])
+        warn(
+            f"columns {listed} are headed as pressure, but unlike column {text.places[1]}, and "
+            "left out: columns=… names those of one cylinder, and Traces.load_cylinders reads "
+            "several"
+        )
+    return text.of(kept)
+
+
+def _correlation(first: NDArray[np.float64], second: NDArray[np.float64]) -> float:
+    first, second = first - first.mean(), second - second.mean()
+    with np.errstate(all="ignore"):  # of another quantity they may be constant, or huge
+        return float(first @ second / np.sqrt((first @ first) * (second @ second)))
+
+
+def _ascending(text: Columns, half: float, *, ours: bool) -> Columns:
+    """Return lines whose angles or times ascend, or begin again, without those that are repeated.
+
+    In our own files, and those of others at few places, an angle that stands twice is one at which
+    pressure jumps.
+    """
+    where, lines = text.numbers[:, 0], text.lines
+    steps = np.diff(where)
+    falls = (steps < 0.0) & (steps >= -half)
+    if falls.any():
+        k = int(falls.argmax())
+        fault = f"has {where[k + 1]:.10g} after {where[k]:.10g} in {text.where(k + 1, 0)}"
+        down = 2 * int(falls.sum()) > len(steps)
+        hint = "sort the lines" if down else "is it a wrong figure, or the wrong column?"
+        raise inputs.faulty("path", fault, f"angles or times must ascend; {hint}")
+    _check_jumps(text, where, half)
+    same = np.append(False, steps == 0.0)
+    if ours or not same.any():
+        return text
+    again = same.copy()
+    again[1:] &= (text.numbers[1:] == text.numbers[:-1]).all(axis=1)
+    jumps = np.flatnonzero(same & ~again)
+    if len(jumps) > max(2, RARE * len(where)):
+        at = text.where(int(jumps[0]), 0)
+        hint = "write angles with more decimals"
+        raise inputs.faulty("path", f"has each angle more than once, first in {at}", hint)
+    if len(jumps):
+        listed = _listed([f"{where[k]:.10g} in lines {lines[k - 1]} and {lines[k]}" for k in jumps])
+        warn(f"column {text.places[0]} has twice {listed}: pressure is taken to jump there")
+    if again.any():
+        listed = _listed([str(k) for k in lines[again]])
+        warn(f"the file has lines twice, {listed} as the one before: they are left out")
+    return text._replace(numbers=text.numbers[~again], lines=lines[~again])
+
+
+def _check_jumps(text: Columns, where: NDArray[np.float64], half: float) -> None:
+    """Reject angles that jump by more than half a cycle."""
+    far = np.diff(where) > half
+    if far.any():
+        k = int(far.argmax())
+        before, after = text.numbers[k : k + 2, 0]
+        fault = f"has {after:.10g} after {before:.10g} in {text.where(k + 1, 0)}"
+        raise inputs.faulty("path", fault, "half a cycle and more is missing there")
+
+
+def _warn_of_gaps(text: Columns, half: float) -> None:
+    """Warn of lines that are missing, which few steps that are far wider than others show."""
+    where = text.numbers[:, 0]
+    steps = np.abs(np.diff(where))
+    inside = steps < half  # not where angles begin again
+    if len(steps) <= 2 * BESIDE:
+        return
+    wide = inside & (steps > GAP * np.median(steps[inside]))
+    gaps = list[int]()
+    for k in np.flatnonzero(wide) if int(wide.sum()) <= RARE * len(steps) else ():
+        beside = steps[max(0, k - BESIDE) : k + BESIDE + 1]
+        if steps[k] > GAP * np.median(beside):
+            gaps.append(int(k))
+    if gaps:
+        lines = text.lines
+        listed = _listed(
+            [
+                f"{where[k]:.10g} and {where[k + 1]:.10g} (lines {lines[k]} and {lines[k + 1]})"
+                for k in gaps
+            ]
+        )
+        warn(
+            f"column {text.places[0]} has nothing between {listed}: lines, or teeth of the "
+            "encoder, are missing, and pressure is interpolated there"
+        )
+
+
+def _listed(places: Sequence[str]) -> str:
+    """Return some places in words, and how many there are besides."""
+    more = f" and {len(places) - NAMED} more" if len(places) > NAMED else ""
+    return ", ".join(places[:NAMED]) + more
 
 
 # --- cycles ---------------------------------------------------------------------------------------
 
 
-def _of_cycles(numbers: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the columns of angle and first pressure, and of further cycles of that pressure."""
-    first = numbers[:, 1] - numbers[:, 1].mean()
-    kept = [0, 1]
-    for k in range(2, numbers.shape[1]):
-        with np.errstate(all="ignore"):  # a column may have no numbers, or infinite ones
-            values = numbers[:, k] - numbers[:, k].mean()
-            spread = float(np.sqrt((values @ values) * (first @ first)))
-            covariance = float(values @ first)
-        if covariance > SIMILAR * spread > 0.0:
-            kept.append(k)
-    return numbers[:, kept]
-
-
 def _cycles(
-    theta: NDArray[np.float64], pressures: NDArray[np.float64], period: float
+    text: Columns, theta: NDArray[np.float64], pressures: NDArray[np.float64], period: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], str]:
     """Return the grid of a cycle, the cycles in columns and blocks, and how they stood."""
     columns = "in columns" if len(pressures) > 1 else ""
@@ -215,7 +376,7 @@ def _cycles(
         return theta, pressures, columns
     resets = np.flatnonzero(steps < -period / 2.0) + 1
     if len(resets):
-        grid, found, left = _blocks(np.split(theta, resets), np.split(pressures, resets, 1), period)
+        grid, found, left = _blocks(text, theta, pressures, resets, period)
         how = f"in blocks{columns and ' and columns'}"
     else:
         step = float(np.median(steps))
@@ -225,28 +386,54 @@ def _cycles(
         grid, found = _resampled(theta, pressures, period, count)
         left = bool(theta[-1] - theta[0] > count * period + step / 2.0)
         how = f"in a row{columns and ' and columns'}"
+        rises = len(_rises(theta, pressures[0]))
+        if rises and abs(rises - count) > max(1.0, RARE * count):
+            warn(
+                f"pressure rises {rises} times in the file, which has {count} cycles of {period:g}°"
+                ": are angle_unit and strokes right?"
+            )
     return grid, found, how + (", an incomplete one left out" if left else "")
 
 
 def _blocks(
-    angles: list[NDArray[np.float64]], values: list[NDArray[np.float64]], period: float
+    text: Columns,
+    theta: NDArray[np.float64],
+    pressures: NDArray[np.float64],
+    resets: NDArray[np.intp],
+    period: float,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], bool]:
-    """Return blocks of rows on the grid of the first whole one, and whether any was left out."""
-    usual = float(np.median([len(each) for each in angles]))
-    whole = [
-        (theta, rows)
-        for theta, rows in zip(angles, values, strict=True)
-        if len(theta) >= INCOMPLETE * usual
-    ]
-    grid = whole[0][0]
+    """Return blocks of rows on the grid of most of them, and whether any was left out."""
+    angles, values = np.split(theta, resets), np.split(pressures, resets, 1)
+    first = [0, *resets.tolist()]
+    whole = [k for k, each in enumerate(angles) if _span(each) >= INCOMPLETE * period]
+    if not whole:
+        at, longest = text.where(0, 0), max(map(_span, angles))
+        fault = f"has angles that begin again after {longest:g}°, in blocks from {at}"
+        raise inputs.faulty("path", fault, f"a cycle has {period:g}°")
+    for k in whole:
+        if _span(angles[k]) > period * (1.0 + DIFFERENT):
+            fault = f"has {_span(angles[k]):g}° in the block that begins with"
+            fault += f" {text.where(first[k], 0)}"
+            raise inputs.faulty("path", fault, f"a cycle has {period:g}°")
+    between = [k for k in range(1, len(angles) - 1) if k not in whole]
+    if between:
+        listed = _listed([str(text.lines[first[k]]) for k in between])
+        warn(f"blocks of lines that begin in line {listed} are no whole cycles and left out")
+    usual = float(np.median([len(angles[k]) for k in whole]))
+    grid = min((angles[k] for k in whole), key=lambda each: abs(len(each) - usual))
     step = period / max(len(grid), 1)
     rows = [
-        each
-        if theta.shape == grid.shape and np.abs(theta - grid).max() < DIFFERENT * step
-        else np.array([_interpolated(theta, one, grid, period) for one in each])
-        for theta, each in whole
+        values[k]
+        if angles[k].shape == grid.shape and np.abs(angles[k] - grid).max() < DIFFERENT * step
+        else np.array([_interpolated(angles[k], one, grid, period) for one in values[k]])
+        for k in whole
     ]
     return grid, np.concatenate(rows), len(whole) < len(angles)
+
+
+def _span(theta: NDArray[np.float64]) -> float:
+    """Return what a block covers, degrees, with the step to its repetition."""
+    return float(theta[-1] - theta[0]) + float(np.median(np.diff(theta)) if len(theta) > 1 else 0.0)
 
 
 def _resampled(
@@ -307,9 +494,18 @@ def _speed(
             raise inputs.faulty("path", fault, "give the crank speed, recorded_rpm=…")
         return stated
     usual = float(np.median(np.diff(times)))
-    numbers = np.concatenate([[0.0], np.cumsum(np.round(np.diff(times) / usual))])
-    of_one = float(np.polyfit(numbers, times, 1)[0])
+    counts = np.maximum(1.0, np.round(np.diff(times) / usual))
+    of_one = float(np.polyfit(np.append(0.0, np.cumsum(counts)), times, 1)[0])
     rpm = period / 6.0 / of_one
+    if not RECORDED_SPEEDS[0] < rpm < RECORDED_SPEEDS[1]:
+        warn(
+            f"compressions of the record follow each other at {rpm:.4g} rpm; is the unit of "
+            "time right?"
+        )
+    of_each = usual * counts / np.diff(times) - 1.0
+    if (odd := np.flatnonzero(np.abs(of_each) > UNEVEN)).size:
+        listed = _listed([f"{100.0 * of_each[k]:+.1f} % after {times[k]:.6g} s" for k in odd])
+        warn(f"the speed of the record is not constant, as is assumed: {listed}")
     if stated is not None and abs(rpm - stated) > SPEEDS * stated:
         warn(
             f"recorded_rpm = {stated:g}: compressions of the record follow each other at {rpm:.5g} "
@@ -320,6 +516,9 @@ def _speed(
 
 def _rises(seconds: NDArray[np.float64], pressure: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the times at which pressure rises past a quarter of its range, once a compression."""
+    # Without spikes of two samples, which rise and fall at once.
+    around = np.pad(pressure, 2, mode="edge")
+    pressure = np.median(np.stack([around[k : k + len(pressure)] for k in range(5)]), axis=0)
     least, most = np.median(pressure), np.quantile(pressure, 0.999)
     low, high = (least + part * (most - least) for part in RISE)
     outside = np.flatnonzero((pressure < low) | (pressure > high))
@@ -334,89 +533,9 @@ def _rises(seconds: NDArray[np.float64], pressure: NDArray[np.float64]) -> NDArr
 # --- text -----------------------------------------------------------------------------------------
 
 
-def _pieces(file: Path) -> Iterator[list[str]]:
-    """Yield the lines of a text file, some at a time."""
-    with file.open("rb") as opened:
-        piece = opened.read(PIECE)
-        decoder, rest = codecs.getincrementaldecoder(_encoding(piece))("replace"), ""
-        while piece:
-            *lines, rest = _LINE.split(rest + decoder.decode(piece))
-            if len(rest) > PIECE:
-                raise inputs.faulty("path", f"has a line of more than {PIECE} characters", HINT)
-            yield lines
-            piece = opened.read(PIECE)
-        yield _LINE.split(rest + decoder.decode(b"", final=True))
-
-
-def _encoding(beginning: bytes) -> str:
-    for mark, encoding in _MARKS:
-        if beginning.startswith(mark):
-            return encoding
-    # Of UTF-16 text every second byte is zero, but of signs that no number has.
-    halves = beginning[::2], beginning[1::2]
-    for k, encoding in enumerate(("utf-16-be", "utf-16-le")):
-        if 2 * halves[k].count(0) > len(halves[k]) and not halves[1 - k].count(0):
-            return encoding
-    if b"\0" in beginning[:1000]:
-        raise inputs.faulty("path", "has NUL bytes and is no text", "export it as text, UTF-8")
-    try:
-        codecs.getincrementaldecoder("utf-8")().decode(beginning)
-    except UnicodeDecodeError:
-        return "latin-1"  # a degree sign of an old program
-    return "utf-8"
-
-
-def _read(file: Path, columns: list[Column] | None) -> _Text:
-    """Read a file piece by piece; of what it has only the numbers of the columns are kept."""
-    facts: dict[str, str] = {}
-    header = above = digits = ""
-    form: tuple[str | None, bool] | None = None
-    heads, names, places, width = list[str](), list[str](), list[int](), 0
-    parts: list[NDArray[np.float64]] = []
-    count = length = 0
-    for lines in _pieces(file):
-        rows = list[str]()
-        for line in lines:
-            stripped = line.strip()
-            if not stripped:
-                continue
-            if form is None:
-                if rule := _FACT.fullmatch(stripped):
-                    facts[rule[1]] = rule[2]
-                    continue
-                form = _separator(stripped)
-                if form is None:
-                    header, above = stripped.lstrip("#%!/ "), header
-                    digits = digits or (stripped if re.search(r"\d", stripped) else "")
-                    continue
-                heads, names = (_cells(each, form[0], comma=False) for each in (header, above))
-                width = len(_cells(stripped, *form))
-                names = names if len(names) == len(heads) == width else []
-                listed = range(width) if columns is None else columns
-                places = [_place(heads, names, column, width) for column in listed]
-            if stripped[0] not in "#%!":
-                rows.append(stripped)
-        if form is None:
-            length += sum(map(len, lines))
-            if length > _core.LONGEST_FILE:
-                break
-        elif rows:
-            part = _numbers(rows, form, places, columns is None, count)
-            parts.append(part)
-            count += len(part)
-            if count * len(places) > inputs.MOST_NUMBERS:
-                fault = f"has more than {inputs.MOST_NUMBERS} numbers"
-                raise inputs.faulty("path", fault, "choose columns, or split it")
-    if form is None:
-        hint = "separate them by commas, semicolons, tabs or blanks"
-        hint += f"; the first with digits is {inputs.shorten(digits)}" if digits else ""
-        raise inputs.faulty("path", "has no line of two numbers alone", hint)
-    return _Text(facts, heads, names, width, places, np.concatenate(parts))
-
-
 def save(cycle: Cycle, path: str | Path) -> None:
     """Write a cycle to a file that reads back as an equal one."""
-    file = inputs.file_path(path, ENDINGS, HINT)
+    file = inputs.file_path(path, table_files.TEXTS, HINT)
     separator = "\t" if file.suffix.lower() == ".tsv" else ","
     in_line = cycle.name.isprintable() and cycle.name == " ".join(cycle.name.split())
     name = cycle.name if in_line and not cycle.name.startswith('"') else json.dumps(cycle.name)
@@ -443,78 +562,6 @@ def _fact(facts: dict[str, str], name: str) -> int | None:
     return None if value is None else int(value[:9])
 
 
-def _separator(line: str) -> tuple[str | None, bool] | None:
-    """Return what separates the cells of a line of numbers and whether decimals have commas."""
-    for separator in ("\t", ";", ",", None):
-        cells = [cell for cell in _cells(line, separator, comma=False) if cell]
-        if len(cells) < 2 or not all(map(_COMMA_NUMBER.fullmatch, cells)):
-            continue
-        comma = any("," in cell for cell in cells)
-        if (
-            separator == ","
-            and len(cells) == 4
-            and all(cell.lstrip("+-").isdigit() for cell in cells)
-        ):
-            hint = "are decimals written with commas? Separate columns by semicolons or tabs"
-            fault = f"has a line of four whole numbers, {inputs.shorten(line)}"
-            raise inputs.faulty("path", fault, hint)
-        return separator, comma
-    return None
-
-
-def _cells(line: str, separator: str | None, comma: bool) -> list[str]:
-    cells = [cell.strip().strip('"').strip() for cell in line.split(separator)]
-    return [cell.replace(",", ".") for cell in cells] if comma else cells
-
-
-def _place(header: list[str], names: list[str], column: object, width: int) -> int:
-    if isinstance(column, str):
-        for heads in (header, names):
-            if column in heads:
-                return heads.index(column)
-        listed = ", ".join(map(repr, (names or header)[:10])) or "none"
-        raise inputs.rejected("columns", column, f"there is none; the file has {listed}")
-    place = inputs.whole("columns", column)
-    if not 0 <= place < width:
-        raise inputs.rejected("columns", place, f"give numbers from 0 to {width - 1}, or names")
-    return place
-
-
-def _numbers(
-    rows: list[str], form: tuple[str | None, bool], places: list[int], every: bool, before: int
-) -> NDArray[np.float64]:
-    """Return the numbers of lines in some columns; of all columns those beyond two may be none."""
-    separator, comma = form
-    plain = [row.replace(",", ".") for row in rows] if comma else rows
-    with contextlib.suppress(ValueError):
-        return np.loadtxt(
-            plain, delimiter=separator, usecols=places, ndmin=2, comments=None, quotechar='"'
-        )
-    found = list[list[float]]()
-    for row in rows:
-        cells = _cells(row, *form)
-        if not any(map(_is_number, cells)) or (len(cells) < 2 and not _is_number(cells[0])):
-            continue  # a title between blocks
-        values = list[float]()
-        for k, place in enumerate(places):
-            try:
-                values.append(float(cells[place].replace("D", "e").replace("d", "e")))
-            except (ValueError, IndexError):
-                if every and k > 1:
-                    values.append(np.nan)
-                    continue
-                shown = inputs.shorten(" ".join(cells))
-                number = before + len(found) + 1
-                fault = f"has no number in column {place} of line {number} of the numbers, {shown}"
-                raise inputs.faulty("path", fault, "give lines of as many numbers") from None
-        found.append(values)
-    return np.array(found).reshape(-1, len(places))
-
-
-def _is_number(cell: str) -> bool:
-    return _COMMA_NUMBER.fullmatch(cell) is not None
-
-
 def _angle_unit(stated: str | None, head: str) -> tuple[str, str]:
     """Return the unit of angles or times, and who says so."""
     if stated is not None:
@@ -531,8 +578,8 @@ def _pressure_unit(stated: str | None, head: str) -> tuple[str, str]:
     """Return the unit of pressures, and who says so."""
     if stated is not None:
         return inputs.one_of("pressure_unit", stated, PRESSURE_UNITS), "given"
-    found = {match[1].lower() for match in _PRESSURE.finditer(head)}
-    if len(found) != 1:
+    found = _unit_of(head)
+    if found is None:
         listed = ", ".join(PRESSURE_UNITS)
         raise inputs.rejected(
             "pressure_unit",
@@ -540,19 +587,31 @@ def _pressure_unit(stated: str | None, head: str) -> tuple[str, str]:
             "the file does not name one; head its column p [bar] or the like, or give one of "
             f"{listed}",
         )
-    (unit,) = found
-    return next(each for each in PRESSURE_UNITS if each.lower() == unit), "header"
+    return found, "header"
+
+
+def _unit_of(head: str) -> str | None:
+    """Return the one unit of pressure in a head."""
+    units = {match[1].lower() for match in _PRESSURE.finditer(head)}
+    found = [each for each in PRESSURE_UNITS if each.lower() in units]
+    return found[0] if len(found) == 1 else None
 
 
 def _is_gauge(stated: bool | None, head: str) -> tuple[bool, str]:
     """Return whether pressures are above that of the atmosphere, and who says so."""
     if stated is not None:
         return inputs.flag("gauge", stated), "given"
-    if bool(_GAUGE.search(head)) == bool(_ABSOLUTE.search(head)):
+    if (said := _says_gauge(head)) is None:
         raise inputs.rejected(
             "gauge",
             None,
             "the file does not state whether pressure is gauge or absolute; write one of these "
             "words into its header, or give gauge=True, or gauge=False for absolute pressure",
         )
-    return bool(_GAUGE.search(head)), "header"
+    return said, "header"
+
+
+def _says_gauge(head: str, otherwise: bool | None = None) -> bool | None:
+    """Return whether a head says gauge or absolute pressure."""
+    above, absolute = bool(_GAUGE.search(head)), bool(_ABSOLUTE.search(head))
+    return otherwise if above == absolute else above

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, overload
 
 import numpy as np
 
@@ -13,23 +13,25 @@ from crankpin._core import ATMOSPHERE
 from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
-from crankpin._support.record import AbsentError, Input, item_key, read_only
+from crankpin._support.record import AbsentError, Input, changed, item_key, read_only
 from crankpin._support.tables import Column, Table
-from crankpin._support.warnings import suppressed, warn
-from crankpin.model import checks, cycle_files
+from crankpin._support.warnings import is_suppressed, suppressed, warn
+from crankpin.model import checks, cycle_files, odd_cycles
 from crankpin.model.cycle import Cycle
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Sequence
     from pathlib import Path
-    from typing import Self, Unpack
+    from typing import Self, SupportsIndex, Unpack
 
     from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order
-    from crankpin.model.cycle_files import FileOptions
+    from crankpin.model.cycle_files import CylinderFileOptions, FileOptions
     from crankpin.model.cylinder import Cylinder
+    from crankpin.model.odd_cycles import Oddities
+    from crankpin.model.table_files import Column as FileColumn
 
 SHOWN_ORDERS: tuple[Order, ...] = (0.5, 1, 6, 12)
 """Orders whose torque is reported of measured traces: two low ones, and two that phases shift."""
@@ -69,7 +71,7 @@ class Traces(Tabled, Input):
     Warns
     -----
     UserWarning
-        As for :class:`Cycle`, once for all cycles.
+        As for :class:`Cycle`, once for all cycles; if there are spikes or odd cycles among them.
 
     Examples
     --------
@@ -110,7 +112,10 @@ class Traces(Tabled, Input):
             hint = f"give a row of {len(theta)} pressures for each cycle, one at every angle"
             raise inputs.faulty("pressure", f"has shape {rows.shape}", hint)
         if not np.isfinite(rows).all():
-            raise inputs.faulty("pressure", "has numbers that are not finite", "give finite ones")
+            cycle, k = np.argwhere(~np.isfinite(rows))[0].tolist()
+            fault = f"has numbers that are not finite, first {rows[cycle, k]} in cycle {cycle} at "
+            hint = "give finite ones, or leave the cycle out"
+            raise inputs.faulty("pressure", f"{fault}{theta[k]:.6g}°", hint)
         values = {
             "theta_deg": read_only(theta),
             "pressure": read_only(rows.copy()),
@@ -122,17 +127,21 @@ class Traces(Tabled, Input):
             object.__setattr__(self, field, value)
         least = float(rows.min())
         raised = -least if least < -ATMOSPHERE else 0.0
-        if raised:
+        if not is_suppressed(odd_cycles.BEGINNING):
+            odd_cycles.report(self._oddities)
+            rows = self._oddities.repaired(rows)
+            least = float(rows.min())
+        if least < -ATMOSPHERE:
             warn(f"pressure is {least:g} Pa at its least: {OFFSET}")
         else:
-            checks.pressure(self.pressure)
+            checks.pressure(rows)
         with suppressed("pressure "):
-            mean = Cycle(theta, rows.mean(axis=0) + raised, strokes, name, None, origin)
+            mean = Cycle(theta, self.pressure.mean(axis=0) + raised, strokes, name, None, origin)
         self.__dict__.update(_raised=raised, _mean=mean)
 
     @classmethod
     def load(cls, path: str | Path, **options: Unpack[FileOptions]) -> Self:
-        """Return the cycles in a text file with columns of crank angle, or time, and pressure.
+        """Return the cycles in a file with columns of crank angle, or time, and pressure.
 
         Cycles stand beside each other in columns, below each other in blocks whose angles begin
         again, or follow each other in angles or times that go on; incomplete ones are left out.
@@ -140,13 +149,16 @@ class Traces(Tabled, Input):
         unless columns are separated by commas too. Lines before the numbers, and lines that begin
         with ``#``, ``%`` or ``!``, are comments; the last before the numbers is the header, with
         the one above it if that has as many cells. Text is UTF-8, UTF-16 or Latin-1; long files
-        are read piece by piece. ``origin`` says what was read, and what of it is stated by the
+        are read piece by piece. Of spreadsheets the rows of a sheet are read alike. What is no
+        number is an error that names line and column; missing lines, repeated ones and angles that
+        stand twice are warned of. ``origin`` says what was read, and what of it is stated by the
         header or by arguments, or assumed.
 
         Parameters
         ----------
         path : str or pathlib.Path
-            ``.csv``, ``.tsv``, ``.txt``, ``.dat`` or ``.asc``.
+            ``.csv``, ``.tsv``, ``.txt``, ``.dat`` or ``.asc``, or ``.xlsx``, which needs
+            ``pip install "crankpin[excel]"``.
         **options : dict, optional
             ``pressure_unit``: ``"Pa"``, ``"hPa"``, ``"kPa"``, ``"MPa"``, ``"mbar"``, ``"bar"`` or
             ``"psi"``; by default what the header names.
@@ -160,8 +172,10 @@ class Traces(Tabled, Input):
             that.
             ``tdc_deg``: angle of the firing top dead centre as the file counts angles, from
             whatever event, degrees, by default 0.
-            ``columns``: numbers from 0, or names, of the columns of angle and pressure, those of
-            further cycles after them; by default the first two, and all that are like the second.
+            ``columns``: numbers from 0, or names, with or without unit, of the columns of angle and
+            pressure, those of further cycles after them; by default the first two, and all that are
+            like the second.
+            ``sheet``: name of the sheet of a spreadsheet, by default the first.
             ``strokes``: 4 or 2; by default 4, or what :meth:`Cycle.save` has written.
             ``name``: by default the name of the file, or what :meth:`Cycle.save` has written.
 
@@ -177,23 +191,138 @@ class Traces(Tabled, Input):
             neither; if it has no such columns; or as for :class:`Cycle`.
         OSError
             If the file cannot be read.
+        ImportError
+            If it is a spreadsheet and openpyxl is not installed.
 
         Warns
         -----
         UserWarning
-            If compressions follow each other at another speed than is given, or as for
-            :class:`Cycle`.
+            If compressions follow each other at another speed than is given, lines are missing or
+            repeated, or as for :class:`Traces`.
         """
         return cls(*cycle_files.load(path, **options)[:5])
+
+    @classmethod
+    def load_cylinders(
+        cls,
+        path: str | Path,
+        *,
+        columns: Sequence[FileColumn | Sequence[FileColumn]],
+        tdc_deg: ArrayLike,
+        **options: Unpack[CylinderFileOptions],
+    ) -> tuple[Self, ...]:
+        """Return the cycles of several cylinders that stand in one file.
+
+        Parameters
+        ----------
+        path : str or pathlib.Path
+            As in :meth:`load`.
+        columns : sequence of int, str or sequence of these
+            Column of the angle or time, and that of each cylinder's pressure, or a list of those of
+            its cycles; numbers from 0 or names.
+        tdc_deg : array_like
+            Angle of each cylinder's firing top dead centre as the file counts angles, degrees.
+        **options : dict, optional
+            As in :meth:`load`.
+
+        Returns
+        -------
+        tuple of Traces
+            The cycles of each cylinder, angles counted from its own firing top dead centre.
+
+        Raises
+        ------
+        InputError
+            As for :meth:`load`, or if there is not one angle for each cylinder.
+        OSError
+            If the file cannot be read.
+
+        Warns
+        -----
+        UserWarning
+            As for :meth:`load`.
+        """
+        read = cycle_files.load_cylinders(path, columns, tdc_deg, **options)
+        return tuple(cls(*each[:5]) for each in read)
 
     def __len__(self) -> int:
         return len(self.pressure)
 
-    def __getitem__(self, place: int) -> Cycle:
-        """Return one of the cycles, by its index from 0."""
-        index = inputs.whole("index", item_key(place, len(self)))
+    @overload
+    def __getitem__(self, place: SupportsIndex) -> Cycle: ...
+
+    @overload
+    def __getitem__(self, place: slice) -> Self: ...
+
+    def __getitem__(self, place: SupportsIndex | slice) -> Cycle | Self:
+        """Return one of the cycles, by its index from 0, or those of a slice."""
+        index = item_key(place, len(self))
+        if isinstance(index, slice):
+            return self._some(np.arange(len(self))[index], "index", place)
         self._check_offset()
         return self._cycle(self.pressure[index])
+
+    def without(self, cycles: int | Iterable[int]) -> Self:
+        """Return the other cycles.
+
+        Parameters
+        ----------
+        cycles : int or iterable of int
+            Indices of the cycles to leave out, from 0; -1 is the last.
+
+        Returns
+        -------
+        Traces
+            The cycles that stay.
+
+        Raises
+        ------
+        InputError
+            If there is no such cycle, or none would stay.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> import numpy as np
+        >>> theta = np.arange(-360.0, 360.0)
+        >>> traces = cp.Traces(theta, np.tile(cp.Cycle.example().pressure_at(theta), (5, 1)))
+        >>> len(traces.without([0, 3])), len(traces[:2])
+        (3, 2)
+        """
+        several = not isinstance(cycles, (int, np.integer)) or isinstance(cycles, bool)
+        listed = inputs.items("cycles", cycles, "give indices of cycles") if several else [cycles]
+        out = [item_key(each, len(self), "cycles") for each in listed]
+        return self._some(np.delete(np.arange(len(self)), out), "cycles", cycles)
+
+    def _some(self, kept: NDArray[np.intp], argument: str, value: object) -> Self:
+        """Return some of the cycles."""
+        if not len(kept):
+            raise inputs.rejected(argument, value, "one cycle must stay")
+        with suppressed():  # Warned of where all were given.
+            return self.replace(pressure=self.pressure[kept])
+
+    @functools.cached_property
+    def _oddities(self) -> Oddities:
+        return odd_cycles.find(self.theta_deg, self.pressure, 180.0 * self.strokes)
+
+    @property
+    def anomalies(self) -> Table:
+        """Spikes and odd cycles, by index, found beside the median over eight cycles and more.
+
+        Kinds: ``spike``, of few samples; ``oscillation``, many of them, as knock makes;
+        ``misfire``, whose expansion lacks pressure; ``shifted``, whose compression is earlier or
+        later than the others'; ``unlike``, without compression, or far from the median. Of fewer
+        cycles large spikes alone are found.
+        """
+        rows = [
+            (each.cycle, each.kind, None if math.isnan(each.at_deg) else each.at_deg, each.size)
+            for each in self._oddities.listed
+        ]
+        heads: list[str | tuple[str, str]] = ["cycle", "kind", ("crank angle", "°"), "size"]
+        row_units = tuple(each.unit for each in self._oddities.listed)
+        found = Table.from_rows(f"{self._title}: spikes and odd cycles", heads, rows)
+        unit = Column("unit", row_units or ())
+        return changed(found, columns=(*found.columns, unit), row_units=row_units)
 
     def __iter__(self) -> Iterator[Cycle]:
         """Return an iterator over the cycles."""
@@ -242,7 +371,8 @@ class Traces(Tabled, Input):
         noise, of coarse digits and of vibration near half the sampling rate. Their median counts,
         so that a few steep angles do not.
         """
-        differences = np.abs(np.diff(self.pressure, 4, axis=1))
+        # By cycle, so that Ctrl-C is answered between them.
+        differences = np.array([np.abs(np.diff(each, 4)) for each in self.pressure])
         if not differences.size:
             return 0.0
         return float(OF_A_NORMAL * np.median(differences) / math.sqrt(OF_WHITE_NOISE))
@@ -254,8 +384,14 @@ class Traces(Tabled, Input):
 
     @functools.cached_property
     def peaks_deg(self) -> NDArray[np.float64]:
-        """Crank angle of the largest pressure of each cycle, degrees: (n_cycles,)."""
-        return read_only(self.theta_deg[self.pressure.argmax(axis=1)])
+        """Crank angle of the largest pressure of each cycle, degrees: (n_cycles,).
+
+        In the cycle about the firing top dead centre, or about the peak of the mean cycle.
+        """
+        at = self.theta_deg[self.pressure.argmax(axis=1)]
+        mean = self._raised_mean
+        top = float(checks.about_tdc(mean.theta_deg[[mean.pressure.argmax()]], self.period_deg)[0])
+        return read_only(checks.about_tdc(at - top, self.period_deg) + top)
 
     def imep(self, cylinder: Cylinder) -> NDArray[np.float64]:
         """Return the indicated mean effective pressure of each cycle, Pa: (n_cycles,).
@@ -446,8 +582,8 @@ class Traces(Tabled, Input):
             f"{len(self.theta_deg)} points ({self._raised_mean.grid}), "
             f"noise {units.figure(self.noise / 1e5, 'bar', 2)}",
             (
-                Column("crank angle", tuple(self.theta_deg.tolist()), "°", digits=10),
-                *(Column(k, tuple(each.tolist()), "Pa", digits=7) for k, each in curves.items()),
+                Column("crank angle", self.theta_deg, "°", digits=10),
+                *(Column(k, each, "Pa", digits=7) for k, each in curves.items()),
             ),
             note=self.origin,
         )

@@ -39,7 +39,7 @@ from crankpin.plot.style import colours, foreground, muted, outlined, write
 from crankpin.plot.words import drawn_quantity, joined, loads_of, nonzero_in, number, rounded
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from matplotlib.axes import Axes
     from matplotlib.figure import FigureBase
@@ -95,15 +95,17 @@ def phasors(
     figure, axes, _ = make_panels(None, figure, len(rows), len(shown), row_height=row_height)
     groups = list(dict.fromkeys(arm.group for arm in arms))
     inks = dict(zip(groups, colours(axes[0, 0], len(groups)), strict=True))
+    font = FontProperties(size="small")
+    widths = {part: points_of(figure, part, font) for part in {arm.part for arm in arms}}
     aside = crowded = False
     for column, order in enumerate(shown):
         for row, part in enumerate(rows):
             panel, total = axes[row, column], complex(sums[row, column])
             # Corners of the polygon, from the origin on.
             chain = np.cumsum([0.0, *(arm.phasors[row, column] for arm in arms)])
-            room, names, fits = _polygon(panel, arms, chain, total, inks, style)
+            room, names, fits = _polygon(panel, arms, chain, total, widths, inks, style)
             _frame(panel, chain, room)
-            _name(panel, names, fits)
+            _name(panel, names, widths, fits)
             unit, factor = units.convert(QUANTITIES[kind].unit)
             length = f"{rounded(abs(total) * factor, 4)} {unit}" if total else "0"
             set_panel_title(panel, f"order {order} {part}".strip(), length)
@@ -131,13 +133,15 @@ def _polygon(
     arms: Sequence[Contribution],
     chain: NDArray[np.complex128],
     total: complex,
+    widths: Mapping[str, float],
     inks: dict[str, Any],
     style: dict[str, Any],
 ) -> tuple[float, list[tuple[str, complex, complex]], bool]:
     """Draw arms and sum; return the room that arrows moved aside need, points, and names.
 
-    Names come with their place in data, and how far aside of it they stand, points; the last value
-    is False where there is no room for all of them, and those of long arrows come first.
+    ``widths`` are those of the names, points. Names come with their place in data, and how far
+    aside of it they stand, points; the last value is False where there is no room for all of them,
+    and those of long arrows come first.
     """
     lengths = abs(np.diff(chain))
     longest = lengths.max(initial=0.0)
@@ -147,8 +151,7 @@ def _polygon(
     drawn = [k for k in range(len(arms)) if lengths[k] > NOTHING * longest]
     arrows = [(complex(chain[k]), complex(chain[k + 1])) for k in drawn]
     lanes = _lanes(arrows)
-    font = FontProperties(size="small")
-    beside = lane = 5.0 + max(points_of(ax, arms[k].part, font) for k in drawn)
+    beside = lane = 5.0 + max(widths[arms[k].part] for k in drawn)
     whole = lane * max(lanes) <= MOST_ROOM * _points(ax) and lane * len(
         drawn
     ) <= MOST_NAMES * _points(ax)
@@ -174,7 +177,12 @@ def _polygon(
     return lane * max(lanes), names, whole
 
 
-def _name(ax: Axes, names: Sequence[tuple[str, complex, complex]], whole: bool) -> None:
+def _name(
+    ax: Axes,
+    names: Sequence[tuple[str, complex, complex]],
+    widths: Mapping[str, float],
+    whole: bool,
+) -> None:
     """Write names beside their arrows; those that would overlap one before are added to it.
 
     Where there is no room for the ``whole`` of them they are left out.
@@ -185,7 +193,7 @@ def _name(ax: Axes, names: Sequence[tuple[str, complex, complex]], whole: bool) 
     between = points_of(ax, ", ", font)
     written: list[tuple[list[str], float, complex, complex]] = []
     for text, place, aside in names:
-        length = points_of(ax, text, font)
+        length = widths[text]
         for k, (texts, before, other, apart) in enumerate(written):
             width = before + between + length
             gap = scale * (place - other) + aside - apart
@@ -212,18 +220,20 @@ def arrow(
     """Draw an arrow between two points, moved aside by a distance in points."""
     inches = ax.get_figure(root=True).dpi_scale_trans  # type: ignore[union-attr]
     aside = ScaledTranslation(shift.real / 72.0, shift.imag / 72.0, inches)
-    ax.add_patch(
-        FancyArrowPatch(
-            (start.real, start.imag),
-            (end.real, end.imag),
-            arrowstyle="-|>",
-            mutation_scale=head,
-            shrinkA=0.0,
-            shrinkB=0.0,
-            transform=ax.transData + aside,
-            **style,
-        )
+    drawn = FancyArrowPatch(
+        (start.real, start.imag),
+        (end.real, end.imag),
+        arrowstyle="-|>",
+        mutation_scale=head,
+        shrinkA=0.0,
+        shrinkB=0.0,
+        transform=ax.transData + aside,
+        **style,
     )
+    # The limits of the axes are set, and no arrow ends outside: neither they nor the layout need
+    # its extent, which takes longer than the arrow.
+    drawn.set_in_layout(False)
+    ax.add_artist(drawn)
 
 
 def _lanes(arrows: Sequence[tuple[complex, complex]]) -> list[int]:

@@ -10,11 +10,14 @@ mod objective;
 use self::objective::{ObjectiveFunction, Rotor, TurningPhasor, dot};
 use crate::Complex64;
 use crate::engine::{Engine, Origin};
-use crate::load::source::Repeats;
-use crate::load::{Arithmetic, Factor, Load, LoadList, PhasorSum, Phasors, Wanted, Weight};
-use crate::load::{Term, superpose};
+use crate::load::source::{Repeats, Scaling};
+use crate::load::{
+    Arithmetic, Factor, Load, LoadIndex, LoadList, PhasorSum, Phasors, Term, Wanted, Weight,
+    superpose,
+};
 use crate::numbers::cancel::Cancel;
-use crate::numbers::error::Result;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::index::List;
 use crate::numbers::limits;
 use crate::numbers::order::{self, Order};
 use crate::numbers::pool;
@@ -79,14 +82,14 @@ pub type Derived = (f64, Vec<f64>);
 struct Rotors<'a> {
     phasors: Phasors,
     /// Turns of the direction and of the crankpin of each load, by variable.
-    turns: &'a [[Vec<f64>; 2]],
+    turns: &'a List<LoadIndex, [Vec<f64>; 2]>,
 }
 
 impl Arithmetic for Rotors<'_> {
     type Unit = Rotor;
     type Sum = Vec<Rotor>;
 
-    fn phase(&self, load @ (k, _): (usize, &Load), times: i64) -> Rotor {
+    fn phase(&self, load @ (k, _): (LoadIndex, &Load), times: i64) -> Rotor {
         // At top dead centre the crankpin points along the bore.
         let [bores, pins] = &self.turns[k];
         let share = if load.1.parts.repeats == Repeats::EveryTwoTurns { 0.5 } else { 1.0 };
@@ -94,7 +97,7 @@ impl Arithmetic for Rotors<'_> {
         Rotor { phasor: self.phasors.phase(load, times), rates: rates.collect() }
     }
 
-    fn toward(&self, load @ (k, _): (usize, &Load), unit: &Rotor, conjugate: bool) -> Rotor {
+    fn toward(&self, load @ (k, _): (LoadIndex, &Load), unit: &Rotor, conjugate: bool) -> Rotor {
         let sign = if conjugate { -1.0 } else { 1.0 };
         let turned = unit.rates.iter().zip(&self.turns[k][0]);
         Rotor {
@@ -106,7 +109,7 @@ impl Arithmetic for Rotors<'_> {
     fn add(
         &self,
         sum: &mut Vec<Rotor>,
-        load: (usize, &Load),
+        load: (LoadIndex, &Load),
         weight: Weight,
         unit: &Rotor,
         times: Factor,
@@ -122,6 +125,8 @@ impl Arithmetic for Rotors<'_> {
 #[derive(Debug, Clone)]
 pub struct Objectives {
     functions: Vec<ObjectiveFunction>,
+    /// Number of variables.
+    variables: usize,
 }
 
 impl Objectives {
@@ -152,7 +157,7 @@ impl Objectives {
             Origin::Shaft(_) => fixed(),
             Origin::Load(k) => engine.loads()[k].cylinder.map_or_else(fixed, of_cylinder),
         };
-        let all_turns: Vec<_> = loads.list.iter().map(of_load).collect();
+        let all_turns = loads.list.map_to(of_load);
         let arithmetic =
             Rotors { phasors: Phasors { reference: loads.reference }, turns: &all_turns };
 
@@ -162,6 +167,13 @@ impl Objectives {
         all.dedup();
         if !all.is_empty() {
             order::check_list(&all)?;
+        }
+        if let Some(half) = all.iter().find(|order| order.as_whole().is_none()) {
+            return Err(Error::value("orders", half, "give whole orders: inertia has no others"));
+        }
+        if loads.list.iter().any(|load| load.parts.scaling != Scaling::SpeedSquared) {
+            let reason = "it has loads that do not scale with the square of the speed".to_owned();
+            return Err(Error::Undefined { argument: "objectives", reason });
         }
         let amplitudes = Amplitudes::new(&loads.sources, true, &all, cancel)?;
         let wanted = Wanted { planar: true, roll: true, by_bank: false };
@@ -189,7 +201,8 @@ impl Objectives {
             }
             ObjectiveFunction::new(*objective, parts)
         };
-        Ok(Self { functions: objectives.iter().map(function).collect() })
+        let functions = objectives.iter().map(function).collect();
+        Ok(Self { functions, variables: variables.len() })
     }
 
     /// Weight of each objective.
@@ -217,6 +230,10 @@ impl Objectives {
     /// The objectives at points (points, variables) in radians, and their derivatives: (points,
     /// objectives) and (points, objectives, variables).
     pub fn evaluated(&self, points: &[Vec<f64>], cancel: &Cancel) -> Result<Vec<Vec<Derived>>> {
+        for point in points {
+            let found = point.len();
+            limits::same_length("points", found, "the objectives", self.variables, "variable")?;
+        }
         let chunks = pool::map(cancel, points.chunks(STARTS_PER_TASK).collect(), |chunk| {
             let of_point = |x: &Vec<f64>| {
                 cancel.check()?;
@@ -273,4 +290,31 @@ fn quantities(
         torque(|of| of.roll),
         torque(|of| of.crank),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn objectives_are_of_inertia_at_whole_orders() {
+        let (engine, _) = crate::load::tests::fired([Some(0); 3]);
+        let objective = |halves| {
+            let order = Some(Order::from_halves(halves).unwrap());
+            let quantity = ObjectiveQuantity::Roll;
+            Objective { quantity, reading: Reading::Peak, order }
+        };
+        let made = |engine: &Engine, halves| {
+            let variable = Variable { bores: vec![0.0; 3], pins: vec![1.0, 0.0, 0.0] };
+            Objectives::new(engine, &[variable], &[objective(halves)], &[], &[], &Cancel::new())
+        };
+        let found = made(&engine.without_gas(), 4).unwrap();
+        assert!(found.evaluated(&[vec![0.1]], &Cancel::new()).unwrap()[0][0].0 > 0.0);
+        for point in [vec![], vec![0.0; 2]] {
+            assert!(matches!(found.evaluated(&[point], &Cancel::new()), Err(Error::Length { .. })));
+        }
+        let text = made(&engine.without_gas(), 1).unwrap_err().to_string();
+        assert!(text.starts_with("orders = 0.5"), "{text}");
+        assert!(matches!(made(&engine, 4), Err(Error::Undefined { .. })));
+    }
 }

@@ -1,22 +1,26 @@
 //! How a reciprocating engine shakes, and which engine does not.
 //!
-//! A file is one idea, and imports run one way:
+//! A file is one idea, and a module imports only those above it:
 //! - [`numbers`]: errors, limits, cancellation, threads, memory; angles, orders, fractions, sums of
-//!   roots of unity;
+//!   roots of unity; indices;
+//! - [`wrench`]: force, moment and torque of one order;
 //! - [`mechanism`]: one cylinder's running gear and its harmonics;
 //! - [`pressure`]: cylinder pressure over a cycle, and the torque of it;
 //! - [`mounts`]: a rigid body on elastic mounts, without an engine;
-//! - [`engine`]: running gears, banks and shafts in their places, layouts, files;
-//! - [`wrench`] and `load`: every load of an engine in one list, superposed order by order;
+//! - [`matching`]: parts of different masses assigned to cylinders;
+//! - [`engine`]: running gears, banks, cranks and shafts in their places, layouts, files;
+//! - [`firing`]: firing orders, their intervals, gas exchange;
+//! - `load`: every load of an engine in one list, superposed order by order;
 //! - [`readings`] of that list: balances, waveforms and their peaks, bearing loads, sweeps, tolerances,
 //!   exact answers, explanations in words;
 //! - [`balancing`]: counterweights and balance shafts fitted to an engine;
-//! - [`firing`] and [`search`].
+//! - [`design`]: objectives of angles that vary, and their derivatives;
+//! - [`search`]: crank arrangements.
 //!
 //! Conventions: SI units; x to the right, y up and z from the front to the flywheel, seen from the
 //! flywheel, where the crank turns counter-clockwise; a quantity of order n is `Re(P·e^{inθ})`
-//! with `P` its peak phasor. Indices, of cylinders from 0 and of orders in their lists, are those of slices:
-//! one that is out of range panics.
+//! with `P` its peak phasor. Indices, of cylinders from 0 and of orders in their lists, are those of slices,
+//! and of other lists of an engine types of their own ([`index`]): one that is out of range panics.
 
 #![forbid(unsafe_code)]
 
@@ -45,7 +49,7 @@ pub use numbers::crank_angles::CrankAngles;
 pub use numbers::error::{Error, Result};
 pub use numbers::order::Order;
 pub use numbers::{
-    angle, crank_angles, double, error, limits, memory, order, pool, rational, ring,
+    angle, crank_angles, double, error, index, limits, memory, order, pool, rational, ring,
 };
 pub use pressure::{Cycle, GasTorque};
 pub use readings::balance::{Balance, Orders, Request};

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use common::{angle, mixed, weighted};
 use crankpin_core::bearing_loads::{Bearing, BearingLoadsModel, Part, TurningAxes};
 use crankpin_core::engine::crankpins::Bay;
-use crankpin_core::engine::{Details, Gas};
+use crankpin_core::engine::{CrankIndex, Details, Gas};
 use crankpin_core::pressure::{Cycle, Given};
 use crankpin_core::waveform::exact;
 use crankpin_core::{
@@ -158,7 +158,10 @@ fn cancellation_stops_every_reading() {
     assert_eq!(model.loads(&thetas, &cancel), Err(Error::Cancelled));
     let turned = model.turned(Bearing::Main, TurningAxes::Crank, &thetas, &cancel);
     assert_eq!(turned, Err(Error::Cancelled));
-    assert_eq!(model.sections(Part::Crank(0), &thetas, &cancel), Err(Error::Cancelled));
+    assert_eq!(
+        model.sections(Part::Crank(CrankIndex::MAIN), &thetas, &cancel),
+        Err(Error::Cancelled)
+    );
     assert_eq!(model.tension(720, &cancel), Err(Error::Cancelled));
 }
 
@@ -167,15 +170,20 @@ fn bearings_are_between_throws_unless_they_are_given() {
     // Cylinders of one bank, or as far apart as a crank radius, are on throws of their own.
     let z = [0.05, 0.1, 0.17, 0.21, 0.29, 0.33, 0.4];
     let throws = [0.05, 0.1, 0.19, 0.31, 0.4];
-    let places = |of: &Engine| of.throw_places(0).iter().map(|place| place.z).collect::<Vec<_>>();
+    let places = |of: &Engine| {
+        of.throw_places(CrankIndex::MAIN).iter().map(|place| place.z).collect::<Vec<_>>()
+    };
     assert_close(&places(&mixed()), &throws);
     let in_one_bank = |place: &Station| Station { bank: angle(60.0), ..*place };
     let inline = mixed().stations().iter().map(in_one_bank).collect();
     assert_close(&places(&Engine::new("", "", inline).unwrap()), &z);
-    let bearings = mixed().bearings(0);
+    let bearings = mixed().bearings(CrankIndex::MAIN);
     assert_close(&bearings, &[0.025, 0.075, 0.145, 0.25, 0.355, 0.445]);
-    assert_eq!(mixed().with_mains(bearings.clone()).unwrap().bearings(0), bearings);
-    assert_close(&yoke().with_mains(Vec::new()).unwrap().bearings(0), &[-0.05, 0.05]);
+    assert_eq!(mixed().with_mains(bearings.clone()).unwrap().bearings(CrankIndex::MAIN), bearings);
+    assert_close(
+        &yoke().with_mains(Vec::new()).unwrap().bearings(CrankIndex::MAIN),
+        &[-0.05, 0.05],
+    );
     for mains in [vec![0.06, 0.5], vec![0.0, 0.35], vec![0.0, z[1], 0.5]] {
         let error = mixed().with_mains(mains).unwrap_err().to_string();
         assert!(error.starts_with("mains = [") && error.contains("the throw of"), "{error}");

@@ -7,9 +7,10 @@ use std::sync::Arc;
 use common::random::{angles, cylinders, weighted};
 use common::{InArrays, angle};
 use crankpin_core::balance::{Balance, Request, Vector};
-use crankpin_core::engine::{Details, Gas, Origin};
+use crankpin_core::engine::{CrankIndex, Details, Gas, Origin};
 use crankpin_core::exact::vanishing::{QUANTITIES, Verdict, vanishing};
 use crankpin_core::flywheel::{CycleGrid, Drive, Evenness};
+use crankpin_core::index::ListIndex;
 use crankpin_core::pressure::Given;
 use crankpin_core::quantity::{Part, Quantity};
 use crankpin_core::sweep::{Statistic, SweepAxes};
@@ -108,15 +109,23 @@ fn cylinders_on_two_cranks_share_no_crankpin_nor_throw() {
     let beside = Crank { axis: [0.2, 0.0], ratio: 1 };
     let apart = engine.with_cranks(vec![Crank::MAIN, beside], vec![0, 1]).unwrap();
     let pins = |engine: &Engine| -> Vec<(usize, Vec<usize>)> {
-        engine.throws().into_iter().flatten().map(|pin| (pin.crank, pin.cylinders)).collect()
+        engine
+            .throws()
+            .into_iter()
+            .flatten()
+            .map(|pin| (pin.crank.position(), pin.cylinders))
+            .collect()
     };
     assert_eq!(pins(&engine), [(0, vec![0, 1])]);
     assert_eq!(pins(&apart), [(0, vec![0]), (1, vec![1])]);
     // Throws and bearings along the main crank are of what is on it.
-    assert_eq!(apart.throw_places(0).len(), 1);
-    assert_eq!(apart.throw_places(0)[0].cylinders, [0]);
+    assert_eq!(apart.throw_places(CrankIndex::MAIN).len(), 1);
+    assert_eq!(apart.throw_places(CrankIndex::MAIN)[0].cylinders, [0]);
     let none = engine.with_cranks(vec![Crank::MAIN, beside], vec![1, 1]).unwrap();
-    assert!(none.throw_places(0).is_empty() && none.bearings(0).is_empty());
+    assert!(
+        none.throw_places(CrankIndex::MAIN).is_empty()
+            && none.bearings(CrankIndex::MAIN).is_empty()
+    );
 }
 
 #[test]
@@ -146,7 +155,7 @@ proptest! {
         let cylinder = cylinder % engine.stations().len();
         let still: Vec<Station> =
             engine.stations().iter().map(|p| Station { rotating_mass: 0.0, ..*p }).collect();
-        let on: Vec<usize> = (0..still.len()).map(|i| engine.crank_of(i)).collect();
+        let on: Vec<usize> = (0..still.len()).map(|i| engine.crank_of(i).position()).collect();
         let still = Engine::new("", "", still).unwrap();
         let still = still.with_cranks(engine.cranks().to_vec(), on).unwrap();
         let weight = Unbalance { amount: 0.1, angle: angle(0.0), z: 0.0, pin: Some(cylinder) };
@@ -164,7 +173,7 @@ proptest! {
     #[test]
     fn pins_say_as_much_as_top_dead_centres(engine in engines()) {
         let pins: Vec<_> = (0..engine.stations().len()).map(|i| engine.pin(i)).collect();
-        let again = engine.with_pins(&pins);
+        let again = engine.with_pins(&pins).unwrap();
         for (i, pin) in pins.iter().enumerate() {
             let ratio = engine.cranks()[engine.crank_of(i)].ratio.unsigned_abs();
             let apart = again.stations()[i].tdc.degrees() - engine.stations()[i].tdc.degrees();

@@ -4,6 +4,8 @@ use crate::array::frozen;
 use crankpin_core::bearing_loads::{
     self, Bearing, BearingLoads, Extremes, Part, Sections, TurningAxes,
 };
+use crankpin_core::engine::CrankIndex;
+use crankpin_core::index::ListIndex;
 use crankpin_macros::guarded;
 use numpy::{PyArray2, PyArray3, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -88,7 +90,7 @@ impl BearingLoadsModel {
 
     /// Index of the crank and place of each main bearing.
     fn mains(&self) -> Vec<(usize, f64)> {
-        self.0.mains().iter().map(|main| (main.crank, main.z)).collect()
+        self.0.mains().iter().map(|main| (main.crank.position(), main.z)).collect()
     }
 
     /// Shear and bending of a crank, by its index, or of the crankcase.
@@ -99,8 +101,8 @@ impl BearingLoadsModel {
         crank: usize,
         theta_deg: PyReadonlyArray1<'py, f64>,
     ) -> PyResult<(Bound<'py, PyArray3<f64>>, Bound<'py, PyArray3<f64>>)> {
-        let part =
-            choice("part", part, &[("crank", Part::Crank(crank)), ("crankcase", Part::Crankcase)])?;
+        let crank = Part::Crank(CrankIndex::new(crank));
+        let part = choice("part", part, &[("crank", crank), ("crankcase", Part::Crankcase)])?;
         let thetas = theta_deg.as_slice()?;
         let found = interrupt::run(py, |cancel| self.0.sections(part, thetas, cancel))?;
         let Sections { shear, bending } = found;

@@ -8,8 +8,10 @@ use crankpin_core as core;
 use crankpin_core::engine::crankpins::Crankpin;
 use crankpin_core::engine::radial::Radial;
 use crankpin_core::engine::{
-    Crank, Details, Gas, Hold, PeriodicLoad, RodFigures, Shaft, Station, Unbalance, file, periodic,
+    Crank, CrankIndex, Details, Gas, Hold, PeriodicLoad, RodFigures, Shaft, Station, Unbalance,
+    file, periodic,
 };
+use crankpin_core::index::ListIndex;
 use crankpin_core::layout::{
     Fan, FiringOrder, FiringRule, Inline, Numbering, Side, Spacing, Strokes, Vee,
 };
@@ -61,7 +63,7 @@ type Kept = (Option<f64>, Option<f64>, Option<(f64, f64, f64)>, bool);
 type Pin = (Vec<usize>, f64, f64, usize);
 
 fn pin(pin: &Crankpin) -> Pin {
-    (numbers(&pin.cylinders), pin.pin.degrees(), pin.z, pin.crank)
+    (numbers(&pin.cylinders), pin.pin.degrees(), pin.z, pin.crank.position())
 }
 
 /// Axis and speed ratio of each crankshaft, the main one first, and of each cylinder the index of its own.
@@ -292,8 +294,11 @@ impl Engine {
             }
             None => Ok(engine),
         });
-        let engine = engine.or_raise()?;
-        Ok(pins.map_or(engine.clone(), |pins| engine.with_pins(&pins)).into())
+        let engine = engine.and_then(|engine| match pins {
+            Some(pins) => engine.with_pins(&pins),
+            None => Ok(engine),
+        });
+        Ok(engine.or_raise()?.into())
     }
 
     #[staticmethod]
@@ -462,7 +467,7 @@ impl Engine {
     /// Places of main bearings, given or by default.
     #[getter]
     fn bearings(&self) -> Vec<f64> {
-        self.0.bearings(0)
+        self.0.bearings(CrankIndex::MAIN)
     }
 
     /// Crankpins from front to flywheel, those of one throw a list.
@@ -491,7 +496,7 @@ impl Engine {
     #[getter]
     fn cranks(&self) -> Cranks {
         let crank = |&Crank { axis: [x, y], ratio }: &Crank| (x, y, ratio);
-        let of = (0..self.0.stations().len()).map(|i| self.0.crank_of(i));
+        let of = (0..self.0.stations().len()).map(|i| self.0.crank_of(i).position());
         (self.0.cranks().iter().map(crank).collect(), of.collect())
     }
 

@@ -27,6 +27,7 @@ mod search;
 mod slider_crank;
 mod sweep;
 mod tolerances;
+mod typed;
 mod vanishing;
 mod waveform;
 
@@ -74,6 +75,7 @@ mod _core {
         },
         sweep::Sweep,
         tolerances::{Tolerances, orders_of_samples, peaks_of_sums},
+        typed::{read_numbers, unit_factor, unit_symbol, unit_symbols, unit_terms},
         vanishing::{star, vanishing},
         waveform::{CrankAngles, waveform},
     };
@@ -91,6 +93,7 @@ mod _core {
         module.add("HIGHEST_LISTED", figures::HIGHEST_LISTED)?;
         module.add("FEWEST_POINTS", crank_angles::FEWEST_POINTS)?;
         module.add("MOST_CYLINDERS", limits::MOST_CYLINDERS)?;
+        module.add("LARGEST_RESULT", limits::LARGEST_RESULT)?;
         module.add("LONGEST_AXIS", limits::LONGEST_AXIS)?;
         module.add("LONGEST_FILE", file::LONGEST_TEXT)?;
         let error = module.py().get_type::<crate::convert::InputError>();

@@ -216,7 +216,7 @@ pub fn rigid_body(
     Ok((rows, body.principal_moments(), body.missing_inertia()))
 }
 
-/// Rejects a mount that there is not.
+/// Checks the figures of a mount.
 #[guarded]
 #[pyfunction]
 pub fn check_mount(figures: Figures) -> PyResult<()> {

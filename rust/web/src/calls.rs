@@ -5,12 +5,12 @@ use serde_json::{Map, Value, json};
 
 use crate::answer::{self, Columns};
 use crate::arguments::Arguments;
-use crate::{balance, balancing, build, engine, figures, mounts, readings, words};
+use crate::{balance, balancing, build, engine, figures, mounts, readings, typed, words};
 
 type Call = fn(&mut Arguments, &mut Columns) -> Result<Value>;
 
 /// Every call, for `site/core.mjs` and README.md.
-const CALLS: [(&str, Call); 16] = [
+const CALLS: [(&str, Call); 17] = [
     ("balance", balance::balance),
     ("balance_shafts", balancing::balance_shafts),
     ("bank_angles", readings::bank_angles),
@@ -22,6 +22,7 @@ const CALLS: [(&str, Call); 16] = [
     ("firing", readings::firing),
     ("harmonics", readings::piston_harmonics),
     ("mounts", mounts::mounts),
+    ("quantity", typed::quantity),
     ("read", engine::read),
     ("sweep", readings::sweep),
     ("vanishing", engine::vanishing),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crankpin_core::engine::file;
+use crankpin_core::engine::{CrankIndex, file};
 use crankpin_core::exact::vanishing::{ProofQuantity, QUANTITIES, Verdict, vanishing as of};
 use crankpin_core::mounts::Powertrain;
 use crankpin_core::{Cancel, Engine, Firing, Order, Result};
@@ -45,7 +45,7 @@ fn summary(engine: &Engine, powertrain: Option<&Powertrain>) -> Result<Value> {
         "z": stations.iter().map(|p| p.z).collect::<Vec<_>>(),
         "bank": (0..count).map(bank).collect::<Vec<_>>(),
         "bank_angle_deg": engine.banks().ok().map(|banks| banks.angle().degrees()),
-        "cranks": cranks.collect::<Vec<_>>(), "mains": engine.bearings(0),
+        "cranks": cranks.collect::<Vec<_>>(), "mains": engine.bearings(CrankIndex::MAIN),
         "reference_z": engine.reference(None)?,
         "counterweights": engine.counterweights().len(), "shafts": engine.shafts().len(),
         "fired": engine.gas().is_some(), "mounted": powertrain.is_some(),

@@ -13,6 +13,7 @@ mod engine;
 mod figures;
 mod mounts;
 mod readings;
+mod typed;
 mod words;
 
 use std::cell::RefCell;

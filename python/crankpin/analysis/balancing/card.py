@@ -217,8 +217,8 @@ class Card(Tabled):
             unit = QUANTITIES[name].unit
             words = tuple(self._direction(name, each) for each in factors)
             columns += [
-                Column(f"{name}, longest", tuple(longest.tolist()), unit, digits=4),
-                Column("shortest", tuple(abs(shortest).tolist()), unit, digits=4),
+                Column(f"{name}, longest", longest, unit, digits=4),
+                Column("shortest", abs(shortest), unit, digits=4),
                 Column("direction of the longest" if name == "force" else "ends move", words),
             ]
         title = f"What order 1 leaves {labels.at_speed(self.rpm)}, half axes"

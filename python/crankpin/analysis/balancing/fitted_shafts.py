@@ -247,8 +247,8 @@ class BalanceShafts(Listed[Shaft], Tabled):
             Column(
                 "part", tuple("forward" if each.ratio > 0 else "backward" for each in self.hardware)
             ),
-            Column("force", tuple(abs(self.force).tolist()), "kg·m"),
-            Column("moment", tuple(abs(self.moment).tolist()), "kg·m²"),
+            Column("force", abs(self.force), "kg·m"),
+            Column("moment", abs(self.moment), "kg·m²"),
         ]
         known = [each for each in self.bearings if each is not None]
         if len(known) == len(self):

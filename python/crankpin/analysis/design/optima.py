@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crankpin._support import optional
+from crankpin._support import lazy, optional
 from crankpin.analysis.arrangements.cranks import HALF, TURN, Crank, Exact, simple
 
 if TYPE_CHECKING:
@@ -174,7 +174,7 @@ def of_several_angles(
     steps = 0
     for k, family in enumerate(families):
         merit, (low, high) = merit_of(family), _limits(family)
-        random = np.random.default_rng([seed, k])
+        random = lazy.imported("numpy.random").default_rng([seed, k])
         minima: list[Optimum] = []
         starts, needed = 0, FEWEST_STARTS
         while starts < needed:

@@ -156,7 +156,7 @@ class AdaptiveLaw(Tabled):
         before, orders = self.cancellation.before, self.cancellation.orders
         shape = self.frequency.shape
         speeds = np.repeat(np.atleast_1d(np.asarray(before.rpm, dtype=float)), len(orders))
-        columns = [Column("rpm", tuple(speeds.tolist()), digits=10)] if before.dims else []
+        columns = [Column("rpm", speeds, digits=10)] if before.dims else []
         columns.append(Column("order", tuple(orders) * (shape[0] if before.dims else 1)))
         figures = [
             ("f", self.frequency, "Hz"),
@@ -165,10 +165,8 @@ class AdaptiveLaw(Tabled):
             ("largest step", self.largest_step, ""),
             ("rate", self.rate, "dB/update"),
         ]
-        columns += [
-            Column(name, tuple(np.ravel(values).tolist()), unit) for name, values, unit in figures
-        ]
-        columns.append(Column("stable", tuple(np.ravel(self.stable).tolist())))
+        columns += [Column(name, values, unit) for name, values, unit in figures]
+        columns.append(Column("stable", self.stable))
         title = before._title(f"adaptive law of step {self.step:g}, by order")
         note = (
             f"It converges below the largest step, and with a phase error below {QUARTER:g}°. "

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from crankpin._support import inputs, labels, optional
+from crankpin._support import inputs, labels, lazy, optional
 from crankpin._support import progress as progress_bar
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
@@ -492,7 +492,7 @@ class Question:
             words = "Least squares of the linear equations of decoupling, within bounds"
             return self._result(self.linear(), words, 1, 1)
         optional.library("scipy.optimize")
-        random = np.random.default_rng(seed)
+        random = lazy.imported("numpy.random").default_rng(seed)
         begins = [self.start, self.linear()] if "stiffness" in kinds else [self.start]
         while len(begins) < starts:
             begins.append(self._value(random.uniform(size=len(self.low))))

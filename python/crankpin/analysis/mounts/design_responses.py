@@ -223,12 +223,12 @@ class DesignResponses(Tabled):
     @property
     def table(self) -> Table:
         """Natural frequencies, and the largest rms of the force on the body, of each design."""
-        columns = [Column("design", tuple(range(len(self))))]
+        columns = [Column("design", np.arange(len(self)))]
         for k, values in enumerate(self.frequency.T.tolist()):
             known = (None if math.isnan(each) else each for each in values)
             columns.append(Column(f"f{k + 1}", tuple(known), "Hz"))
-        for axis, values in zip("xyz", self.body_force_rms.T.tolist(), strict=True):
-            columns.append(Column(f"F_{axis} rms", tuple(values), "N"))
+        for axis, values in zip("xyz", self.body_force_rms.T, strict=True):
+            columns.append(Column(f"F_{axis} rms", values, "N"))
         name = labels.name_of(self.powertrain.engine)
         title = f"{name} on {len(self)} designs of its mounts: largest force on the body"
         return Table(title, tuple(columns), loads=self.loads_counted)

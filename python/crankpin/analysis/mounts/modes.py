@@ -128,19 +128,16 @@ class MountModes(Tabled):
         )
 
     def _by_mode(self) -> list[Column]:
-        return [
-            Column("mode", tuple(range(1, 7))),
-            Column("f", tuple(self.frequency.tolist()), "Hz"),
-        ]
+        return [Column("mode", tuple(range(1, 7))), Column("f", self.frequency, "Hz")]
 
     @property
     def table(self) -> Table:
         """Frequencies, kinetic energy by coordinate, purity, loss factors."""
         columns = self._by_mode()
         for name, place in zip(COORDINATES, PLACES, strict=True):
-            columns.append(Column(name, tuple(self.energy[place].tolist()), "%", decimals=1))
-        columns.append(Column("purity", tuple(self.purity.tolist()), "%", decimals=1))
-        columns.append(Column("loss factor", tuple(self.loss_factor.tolist())))
+            columns.append(Column(name, self.energy[place], "%", decimals=1))
+        columns.append(Column("purity", self.purity, "%", decimals=1))
+        columns.append(Column("loss factor", self.loss_factor))
         title = self._title("kinetic energy φₖ(Mφ)ₖ of each mode")
         return Table(title, tuple(columns), self._notes())
 

@@ -152,7 +152,7 @@ class PointMotion(Tabled):
         result, order, note = self.result, self.order, ""
         whole = result.dims or order is not None
         if result.dims:
-            columns = [Column("rpm", tuple(np.asarray(result.rpm).tolist()), digits=10)]
+            columns = [Column("rpm", np.asarray(result.rpm), digits=10)]
             order = ALL if order is None else order
         elif whole:
             columns = [Column("order", (order,))]
@@ -165,7 +165,7 @@ class PointMotion(Tabled):
                 values = np.atleast_1d(moved[order].rms)
             else:
                 values = np.append(np.asarray(moved.rms)[places], moved.total.rms)
-            columns.append(Column(f"{name} rms", tuple(values.tolist()), unit))
+            columns.append(Column(f"{name} rms", values, unit))
         if self.order in (None, ALL):
             grades = np.atleast_1d(self.grade).tolist()
             columns.append(
@@ -724,8 +724,7 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         """
         force, note = self.body_force, ""
         if self.dims:
-            speeds = tuple(np.asarray(self.rpm).tolist())
-            columns = [Column("rpm", speeds, digits=10)]
+            columns = [Column("rpm", np.asarray(self.rpm), digits=10)]
             force = force.total
         else:
             places, note = self._shown()
@@ -739,12 +738,12 @@ class MountResponse(MountQuantities, Keyed, Tabled):
                 return values
             return np.concatenate([values[places], np.asarray(getattr(vector.total, what))[None]])
 
-        for axis, values in zip("xyz", peaks(force, "peak_xyz").T.tolist(), strict=True):
-            columns.append(Column(f"|F_{axis}|", tuple(values), "N"))
-        columns.append(Column("|F|", tuple(peaks(force, "peak").tolist()), "N"))
+        for axis, values in zip("xyz", peaks(force, "peak_xyz").T, strict=True):
+            columns.append(Column(f"|F_{axis}|", values, "N"))
+        columns.append(Column("|F|", peaks(force, "peak"), "N"))
         for name, vector in self.mount_force.items():
             of_mount = vector.total if self.dims else vector
-            columns.append(Column(name, tuple(peaks(of_mount, "peak").tolist()), "N"))
+            columns.append(Column(name, peaks(of_mount, "peak"), "N"))
         title = self._title("peaks of the force on the body, and of each mount")
         return Table(title, tuple(columns), note, loads=self.loads_counted)
 
@@ -823,8 +822,8 @@ class MountResponse(MountQuantities, Keyed, Tabled):
             unit = "N" if name.startswith("F") else "N·m"
             if not np.any(load) and not np.any(support):
                 continue
-            columns.append(Column(f"|{name}| of the engine", tuple(np.abs(load).tolist()), unit))
-            columns.append(Column(f"|{name}| on the body", tuple(np.abs(support).tolist()), unit))
+            columns.append(Column(f"|{name}| of the engine", np.abs(load), unit))
+            columns.append(Column(f"|{name}| on the body", np.abs(support), unit))
             listed = (None if np.isnan(each) else each for each in ratio.tolist())
             columns.append(Column(f"T {name}", tuple(listed)))
         at = "the CG" if self._point is None else f"{self._point} m"

@@ -135,9 +135,9 @@ class MountRobustness(Tabled):
             each += zip(heads, self.mass_bounds, strict=True)
         if self.cg:
             each += zip(("f least by CG", "f largest by CG"), self.cg_range, strict=True)
-        columns += [Column(head, tuple(values.tolist()), "Hz") for head, values in each]
+        columns += [Column(head, values, "Hz") for head, values in each]
         for head, values in (("purity", self.purity), ("least purity", self.least_purity)):
-            columns.append(Column(head, tuple(values.tolist()), "%", decimals=1))
+            columns.append(Column(head, values, "%", decimals=1))
         shares = sorted({100.0 * share for share in self.stiffness})
         parts = [f"stiffness ± {' or '.join(f'{share:g}' for share in shares)} %"]
         parts += [f"mass ± {100 * self.mass:g} %"] if self.mass else []
@@ -177,8 +177,8 @@ class MountRobustness(Tabled):
 
     def _of_cg(self) -> Table:
         columns = [Column("mode", tuple(range(1, 7)))]
-        columns.append(Column("f", tuple(self.frequency.tolist()), "Hz"))
+        columns.append(Column("f", self.frequency, "Hz"))
         for axis, values in zip("xyz", self.cg_slope, strict=True):
-            columns.append(Column(f"df/d{axis}", tuple((1e-3 * values).tolist()), "Hz/mm"))
+            columns.append(Column(f"df/d{axis}", 1e-3 * values, "Hz/mm"))
         name = labels.name_of(self.powertrain.engine)
         return Table(f"{name} on its mounts: frequencies by the place of the CG", tuple(columns))

@@ -142,7 +142,7 @@ class VectorQuantity(Keyed, Tabled):
         order = ALL if order is None and result.dims else order
         vector = changed(self, order=order)
         if result.dims:
-            columns = [Column("rpm", tuple(np.asarray(result.rpm).tolist()), digits=10)]
+            columns = [Column("rpm", np.asarray(result.rpm), digits=10)]
         elif order is not None:
             columns = [Column("order", (order,))]
         else:
@@ -154,7 +154,7 @@ class VectorQuantity(Keyed, Tabled):
             rms = np.append(rms[places], self.total.rms)
         heads = ("peak along x", "along y", "along z", "longest", "rms")
         for head, values in zip(heads, (*peaks.T, rms), strict=True):
-            columns.append(Column(head, tuple(values.tolist()), self.unit))
+            columns.append(Column(head, values, self.unit))
         which = of_order(order)
         title = result._title(f"{self.words}{which and f',{which}'}")
         return Table(title, tuple(columns), note, loads=result.loads_counted)

@@ -37,7 +37,7 @@ def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Datas
     variables: dict[str, Any] = {}
     for name, quantity, what, trailing in export.variables(quantities, means=whole._has_means):
         dims = (*lengths, *trailing)
-        kind = np.complex128 if what in ("phasors", "forward", "backward") else np.float64
+        kind = np.complex128 if what in export.COMPLEX else np.float64
         slices = [part for dim in lengths for part in (axes[dim], (dim,))]
         if whole.orders:
             values = dask.blockwise(

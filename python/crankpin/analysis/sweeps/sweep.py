@@ -679,12 +679,11 @@ class Sweep(ByOrder[Any]):
 
     def _by_point(self, title: str, peaks: Callable[[str], NDArray[np.float64]]) -> Table:
         """Return a table of the points, with a peak of each quantity."""
-        columns = export.points(self.coords)
-        for name in self.request.quantities:
-            if name != "crank_torque":
-                kind = QUANTITIES[name]
-                values = tuple(peaks(name).ravel().tolist())
-                columns.append(Column(kind.vector_symbol, values, kind.unit))
+        names = [name for name in self.request.quantities if name != "crank_torque"]
+        columns = export.points(self.coords, len(names))
+        for name in names:
+            kind = QUANTITIES[name]
+            columns.append(Column(kind.vector_symbol, peaks(name), kind.unit))
         return Table(title, tuple(columns), loads=self.loads_counted)
 
     def _title(self, of: str = "") -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import inputs
+from crankpin._support import inputs, lazy
 from crankpin._support import progress as progress_bar
 from crankpin._support.frames import Tabled
 from crankpin._support.quantities import PLANE_VECTORS
@@ -338,7 +338,7 @@ def _sequence(sets: Sequence[NDArray[np.intp]], parts: int) -> list[int]:
 
 
 def _random_starts(kinds: Sequence[Kind], seed: int, number: int) -> list[list[list[int]]]:
-    random = np.random.default_rng(seed)
+    random = lazy.imported("numpy.random").default_rng(seed)
     sizes = [len(kind.parts) for kind in kinds]
     return [[random.permutation(size).tolist() for size in sizes] for _ in range(number)]
 
@@ -547,7 +547,7 @@ class Match(Tabled):
             Column("set", tuple(k + 1 for k, _ in places)),
             Column("cylinder", tuple(cylinder + 1 for _, cylinder in places)),
             Column("piston", tuple(pistons)),
-            Column("piston mass", tuple(self.parts.pistons[np.array(pistons) - 1].tolist()), "kg"),
+            Column("piston mass", self.parts.pistons[np.array(pistons) - 1], "kg"),
         ]
         if self.parts.rods is not None:
             rods = [(self.assignment[k].rods or ())[cylinder] for k, cylinder in places]

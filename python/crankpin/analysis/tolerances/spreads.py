@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
-from crankpin._support import inputs, labels, units
+from crankpin._support import inputs, labels, lazy, units
 from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import crankpins
 from crankpin.model.shafts import Unbalance
@@ -158,9 +158,9 @@ def deviations(spreads: Spreads, samples: int, seed: int) -> dict[str, NDArray[n
     Each figure has a generator of its own, spawned from the seed, that draws sample after sample:
     a sample does not depend on how many follow, nor on what else spreads.
     """
-    deviations = {}
+    deviations, numbers = {}, lazy.imported("numpy.random")
     for stream, (name, each) in enumerate(zip(FIGURES, spreads.values, strict=True)):
-        random = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(stream,)))
+        random = numbers.default_rng(numbers.SeedSequence(seed, spawn_key=(stream,)))
         values = np.empty((samples if each else 0, len(each)))
         rows = PIECE // max(len(each), 1)
         for start in range(0, len(values), rows):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import inputs
+from crankpin._support import inputs, lazy
 from crankpin._support import progress as progress_bar
 from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.request import Request, engine_core
@@ -166,9 +166,10 @@ def tolerances(
 
 def _seed(seed: object) -> int:
     """Return a seed, drawn of a generator."""
-    if isinstance(seed, np.random.SeedSequence):
+    numbers = lazy.imported("numpy.random")
+    if isinstance(seed, numbers.SeedSequence):
         return int(seed.generate_state(1, np.uint64)[0])
-    if isinstance(seed, np.random.Generator):
+    if isinstance(seed, numbers.Generator):
         return int(seed.integers(MOST_SEEDS, dtype=np.uint64))
     number = inputs.whole("seed", seed)
     if not 0 <= number < MOST_SEEDS:

@@ -1,7 +1,7 @@
 //! Crankpins, throws and main bearings, read off an engine's stations.
 
 use super::layout::MOST_ROUNDING;
-use super::{Engine, Unbalance};
+use super::{CrankIndex, Engine, Unbalance};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result, shorten};
 
@@ -13,8 +13,8 @@ const SAME_PLACE: f64 = 1e-6;
 pub struct Crankpin {
     /// Cylinders by index, ascending.
     pub cylinders: Vec<usize>,
-    /// Index of its crank.
-    pub crank: usize,
+    /// Its crank.
+    pub crank: CrankIndex,
     /// Direction from +x at θ = 0.
     pub pin: Angle,
     /// Place along the crank, midway between its cylinders', m.
@@ -99,9 +99,9 @@ impl Engine {
         pins
     }
 
-    /// Places of the throws along a crank, by its index, ascending; those at one place are one.
+    /// Places of the throws along a crank, ascending; those at one place are one.
     #[must_use]
-    pub fn throw_places(&self, crank: usize) -> Vec<ThrowPlace> {
+    pub fn throw_places(&self, crank: CrankIndex) -> Vec<ThrowPlace> {
         let most = SAME_PLACE * self.largest_crank_radius();
         let place = |throw: Vec<Crankpin>| ThrowPlace {
             z: middle(throw.iter().map(|pin| pin.z)),
@@ -120,12 +120,12 @@ impl Engine {
         places
     }
 
-    /// Places of the bearings along a crank, by its index, ascending, m: along the main one those given,
+    /// Places of the bearings along a crank, ascending, m: along the main one those given,
     /// or else one midway between neighbouring throws and one as far beyond the first and the last as the
     /// next is from them; none where it has no throws.
     #[must_use]
-    pub fn bearings(&self, crank: usize) -> Vec<f64> {
-        if crank == 0 && !self.mains().is_empty() {
+    pub fn bearings(&self, crank: CrankIndex) -> Vec<f64> {
+        if crank == CrankIndex::MAIN && !self.mains().is_empty() {
             return self.mains().to_vec();
         }
         let places: Vec<f64> = self.throw_places(crank).iter().map(|place| place.z).collect();
@@ -144,7 +144,8 @@ impl Engine {
     /// The bays of the main crank that have throws, from front to flywheel.
     #[must_use]
     pub fn bays(&self) -> Vec<Bay> {
-        let (places, bearings) = (self.throw_places(0), self.bearings(0));
+        let (places, bearings) =
+            (self.throw_places(CrankIndex::MAIN), self.bearings(CrankIndex::MAIN));
         let bay = |pair: &[f64]| {
             let [front, rear] = [pair[0], pair[1]];
             let between = || places.iter().filter(|place| front < place.z && place.z < rear);
@@ -164,7 +165,7 @@ impl Engine {
         let stations = bay.cylinders.iter().map(|&i| self.stations()[i]).collect();
         let banks: Vec<usize> = bay.cylinders.iter().map(|&i| self.bank_of(i)).collect();
         let of_main = |weight: &Unbalance| {
-            let on_main = weight.pin.is_none_or(|i| self.crank_of(i) == 0);
+            let on_main = weight.pin.is_none_or(|i| self.crank_of(i) == CrankIndex::MAIN);
             on_main && front <= weight.z && weight.z < rear
         };
         // The cylinder at whose pin a weight is may be in another bay.
@@ -182,7 +183,7 @@ impl Engine {
     pub(super) fn check_throws_between(&self, mains: &[f64]) -> Result<()> {
         let [front, .., rear] = mains else { return Ok(()) };
         let outside = |z: f64| !(*front < z && z < *rear) || mains.contains(&z);
-        match self.throw_places(0).into_iter().find(|place| outside(place.z)) {
+        match self.throw_places(CrankIndex::MAIN).into_iter().find(|place| outside(place.z)) {
             None => Ok(()),
             Some(place) => {
                 let number = place.cylinders[0] + 1;

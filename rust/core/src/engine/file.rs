@@ -11,6 +11,7 @@ use crate::mounts::Powertrain;
 use crate::mounts::file::PowertrainEntry;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result, shorten};
+use crate::numbers::index::ListIndex;
 use crate::pressure::{ATMOSPHERE, Cycle};
 
 /// Version of the schema that this file reads and writes.
@@ -286,7 +287,7 @@ impl EngineFile {
             z: p.z,
             rotating_mass: Some(p.rotating_mass),
             bank: numbered.then(|| number(engine.bank_of(i))),
-            crank: engine.crank_of(i),
+            crank: engine.crank_of(i).position(),
             cycle: engine.gas().and_then(|gas| gas.cycle_of[i]).map(|cycle| cycle + 1),
             second_turn: engine.gas().is_some_and(|gas| gas.later[i]),
             cylinder: (!shared).then_some(parts[i]),
@@ -304,8 +305,10 @@ impl EngineFile {
             counterweights: engine.counterweights().iter().map(WeightEntry::of).collect(),
             shafts: engine.shafts().iter().map(BalanceShaft::of).collect(),
             loads: engine.loads().to_vec(),
-            cranks: engine.cranks()[1..]
+            cranks: engine
+                .cranks()
                 .iter()
+                .skip(1)
                 .map(|&Crank { axis: [x, y], ratio }| OtherCrank { x, y, ratio })
                 .collect(),
             crankcase: engine.gas().map(|gas| gas.crankcase),
@@ -671,7 +674,8 @@ mod tests {
                 let other = Crank { axis: [0.25, -0.125], ratio: -1 };
                 let crank_of = (0..engine.stations().len()).map(|i| i % 2).collect();
                 let engine = engine.with_cranks(vec![Crank::MAIN, other], crank_of).unwrap();
-                let engine = engine.with_mains(engine.bearings(0)).unwrap();
+                let engine =
+                    engine.with_mains(engine.bearings(crate::engine::CrankIndex::MAIN)).unwrap();
                 engine.with_counterweights(weights).unwrap().with_shafts(shafts).unwrap()
             },
         )

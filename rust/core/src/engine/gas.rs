@@ -7,6 +7,7 @@ use super::{Engine, check_each_cylinder};
 use crate::mechanism::slider_crank::piston_area;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::index::ListIndex;
 use crate::numbers::limits;
 use crate::pressure::{ATMOSPHERE, Cycle};
 
@@ -113,7 +114,7 @@ impl Engine {
                 let hint = "gas pressure counts on cranks of ratio 1 or -1, whose cycles are the \
                             main crank's";
                 return Err(Error::value(
-                    format!("cranks[{}].ratio", self.crank_of[i]),
+                    format!("cranks[{}].ratio", self.crank_of[i].position()),
                     ratio,
                     hint,
                 ));

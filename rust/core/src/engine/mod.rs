@@ -28,7 +28,23 @@ use crate::mechanism::slider_crank::Cylinder;
 use crate::mechanism::spectrum::Spectrum;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::index::{List, ListIndex, distinct, list_index};
 use crate::numbers::limits;
+
+list_index! {
+    /// Index of a crank, the main one first.
+    pub CrankIndex
+}
+
+list_index! {
+    /// Index of a running gear, among those of an engine that differ.
+    pub GearIndex
+}
+
+impl CrankIndex {
+    /// That of the main crank.
+    pub const MAIN: Self = Self(0);
+}
 
 /// One cylinder in its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -106,9 +122,9 @@ pub struct Engine {
     strokes: Strokes,
     stations: Vec<Station>,
     /// Running gears that differ, in the order in which cylinders have them.
-    gears: Vec<Cylinder>,
+    gears: List<GearIndex, Cylinder>,
     /// Index of each cylinder's running gear.
-    gear_of: Vec<usize>,
+    gear_of: Vec<GearIndex>,
     /// Force of every cylinder, masses and radius in it, in place of that of its slider-crank.
     spectrum: Option<Spectrum>,
     /// Index of each cylinder's bank, in the order in which cylinders have them.
@@ -116,9 +132,9 @@ pub struct Engine {
     /// The right one of two banks.
     right: Option<usize>,
     /// The main crank, then others.
-    cranks: Vec<Crank>,
+    cranks: List<CrankIndex, Crank>,
     /// Index of each cylinder's crank.
-    crank_of: Vec<usize>,
+    crank_of: Vec<CrankIndex>,
     counterweights: Vec<Unbalance>,
     shafts: Vec<Shaft>,
     /// Periodic loads besides.
@@ -142,7 +158,7 @@ impl Engine {
         source: impl Into<String>,
         stations: Vec<Station>,
     ) -> Result<Self> {
-        let (_, mut banks) = distinct(stations.iter().map(|p| p.bank.reduced()));
+        let (_, mut banks) = distinct::<usize, _>(stations.iter().map(|p| p.bank.reduced()));
         // Of opposite bores those nearer to +x are the right bank: a flat engine's at 0°.
         if let Some(first) = stations.first()
             && stations.iter().any(|p| p.bank.reduced().degrees() < first.bank.reduced().degrees())
@@ -182,9 +198,9 @@ impl Engine {
             gears,
             gear_of,
             spectrum: None,
-            bank_of: distinct(bank_keys.iter()).1,
-            cranks: vec![Crank::MAIN],
-            crank_of: vec![0; count],
+            bank_of: distinct::<usize, _>(bank_keys.iter()).1,
+            cranks: List::new(vec![Crank::MAIN]),
+            crank_of: vec![CrankIndex::MAIN; count],
             counterweights: Vec::new(),
             shafts: Vec::new(),
             loads: Vec::new(),
@@ -228,13 +244,13 @@ impl Engine {
 
     /// Running gears that differ; cylinders refer to them by index.
     #[must_use]
-    pub fn gears(&self) -> &[Cylinder] {
+    pub fn gears(&self) -> &List<GearIndex, Cylinder> {
         &self.gears
     }
 
     /// Index of a cylinder's running gear.
     #[must_use]
-    pub fn gear_of(&self, cylinder: usize) -> usize {
+    pub fn gear_of(&self, cylinder: usize) -> GearIndex {
         self.gear_of[cylinder]
     }
 
@@ -271,13 +287,13 @@ impl Engine {
 
     /// The main crank, then others.
     #[must_use]
-    pub fn cranks(&self) -> &[Crank] {
+    pub fn cranks(&self) -> &List<CrankIndex, Crank> {
         &self.cranks
     }
 
     /// Index of a cylinder's crank.
     #[must_use]
-    pub fn crank_of(&self, cylinder: usize) -> usize {
+    pub fn crank_of(&self, cylinder: usize) -> CrankIndex {
         self.crank_of[cylinder]
     }
 
@@ -289,13 +305,13 @@ impl Engine {
     }
 
     /// The same engine with its crankpins in these directions, from +x, at θ = 0, one for each cylinder.
-    #[must_use]
-    pub fn with_pins(&self, pins: &[Angle]) -> Self {
+    pub fn with_pins(&self, pins: &[Angle]) -> Result<Self> {
+        check_each_cylinder("pins", pins.len(), self.stations.len())?;
         let mut turned = self.clone();
         for (i, (station, &pin)) in turned.stations.iter_mut().zip(pins).enumerate() {
             station.tdc = self.cranks[self.crank_of[i]].tdc(station.bank, pin);
         }
-        turned
+        Ok(turned)
     }
 
     /// Rejects several cranks, where a quantity is defined for one alone.
@@ -413,7 +429,8 @@ impl Engine {
             let hint = format!("give the number of a crank, below {}", cranks.len());
             return Err(Error::value(format!("crank_of[{k}]"), crank_of[k], hint));
         }
-        let engine = Self { cranks, crank_of, ..self.clone() };
+        let crank_of = crank_of.into_iter().map(CrankIndex::new).collect();
+        let engine = Self { cranks: List::new(cranks), crank_of, ..self.clone() };
         engine.check_throws_between(&engine.mains)?;
         engine.with_known_torque()
     }
@@ -513,26 +530,6 @@ fn check_number(cylinders: usize) -> Result<()> {
 /// Rejects a list that has not one entry for each cylinder.
 fn check_each_cylinder(argument: &str, found: usize, expected: usize) -> Result<()> {
     limits::same_length(argument, found, "the engine", expected, "cylinder")
-}
-
-/// Index of the first value equal to each, in the list of the values themselves.
-pub(crate) fn first_equal<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<usize> {
-    let values: Vec<T> = values.collect();
-    let first = |value| values.iter().position(|other| other == value);
-    values.iter().enumerate().map(|(i, value)| first(value).unwrap_or(i)).collect()
-}
-
-/// Values without repetition, and of each value its index among these.
-pub(crate) fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> (Vec<T>, Vec<usize>) {
-    let mut found: Vec<T> = Vec::new();
-    let index = |value| {
-        found.iter().position(|other| *other == value).unwrap_or_else(|| {
-            found.push(value);
-            found.len() - 1
-        })
-    };
-    let index_of = values.map(index).collect();
-    (found, index_of)
 }
 
 #[cfg(test)]
@@ -642,6 +639,12 @@ mod tests {
         }
         let bored = Details { bore: Some(0.08), ..Details::default() };
         assert!(engine.with_details(vec![bored]).is_err());
+        for count in [0, 1, 3] {
+            assert!(matches!(
+                engine.with_pins(&vec![Angle::ZERO; count]),
+                Err(Error::Length { .. })
+            ));
+        }
         assert_eq!(engine.with_details(vec![bored; 2]).unwrap().details(), [bored; 2]);
         let rod = RodFigures { mass: -1.0, inertia: 0.0, to_crankpin: 0.0 };
         let negative = Details { rod: Some(rod), ..bored };

@@ -4,11 +4,12 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Crank, Engine};
+use super::{Crank, CrankIndex, Engine};
 use crate::Complex64;
 use crate::load::source::{GAS, INERTIA};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::index::ListIndex;
 use crate::numbers::limits;
 
 /// Most loads of an engine.
@@ -149,7 +150,9 @@ mod number_from_one {
     pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<usize>, D::Error> {
         let number = Option::<usize>::deserialize(from)?;
         let index = number.map(|number| {
-            number.checked_sub(1).ok_or_else(|| D::Error::custom("give a cylinder's number, from 1"))
+            number
+                .checked_sub(1)
+                .ok_or_else(|| D::Error::custom("give a cylinder's number, from 1"))
         });
         index.transpose()
     }
@@ -281,7 +284,7 @@ impl PeriodicLoad {
     pub fn shaft(&self, engine: &Engine) -> ([f64; 2], f64) {
         match self.crank {
             Some(crank) => {
-                let Crank { axis, ratio } = engine.cranks()[crank];
+                let Crank { axis, ratio } = engine.cranks()[CrankIndex::new(crank)];
                 (axis, f64::from(ratio))
             }
             None => (self.axis, self.ratio),

@@ -96,8 +96,8 @@ impl Firing {
             let order = engine.firing_order().parse()?;
             let of_gas = |gas: &Gas| {
                 // Whichever turn is called the first.
-                let same = |way: &Self| {
-                    let second = way.in_second_turn();
+                let same = |firing_of_order: &Self| {
+                    let second = firing_of_order.in_second_turn();
                     let turned: Vec<bool> =
                         firing(engine).map(|i| second[i] != gas.later[i]).collect();
                     turned.iter().all(|each| *each == turned[0])
@@ -105,7 +105,7 @@ impl Firing {
                 Ok(Self::all_named(engine, &order, strokes)?.into_iter().find(same))
             };
             return match engine.gas().map_or(Ok(None), of_gas)? {
-                Some(way) => Ok(way),
+                Some(firing) => Ok(firing),
                 None => Self::named(engine, &order, strokes, cancel),
             };
         }
@@ -253,7 +253,7 @@ mod tests {
             let later = schedule.later();
             assert!(!later[0]);
             assert_eq!(&Firing::with_later(&engine, Strokes::Four, &later).unwrap(), schedule);
-            // Factor after the first firing, and the angles 40° on.
+            // Times after the first firing, and angles 40° later.
             let after = |i: usize| {
                 let top: f64 = (tdcs[i] - tdcs[0] + 360.0) % 360.0;
                 top + if later[i] { 360.0 } else { 0.0 }

@@ -151,7 +151,7 @@ impl Firing {
         let stations = self.engine.stations();
         let first = &stations[0];
         let second = |(place, time): (&Station, &Angle)| {
-            // Factor are those of highest points, which with pin offsets lie beside the dead centres.
+            // Times are those of highest points, which with pin offsets lie beside the dead centres.
             let past = highest_after_tdc(place) - highest_after_tdc(first);
             let phase = first.tdc.reduced().degrees() + time.degrees() - past;
             let turn = (phase - place.tdc.reduced().degrees()) / 360.0;

@@ -5,12 +5,14 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::source::{Repeats, Scaling, Source};
+use super::{GroupIndex, SourceIndex};
 use super::{LoadList, count, find_or_push};
 use crate::Complex64;
 use crate::mechanism::Mechanism;
 use crate::mechanism::slider_crank::CrankPosition;
 use crate::numbers::angle::Angle;
 use crate::numbers::crank_angles::CrankAngles;
+use crate::numbers::index::List;
 use crate::numbers::order::Order;
 use crate::wrench::rounding;
 
@@ -44,9 +46,9 @@ pub(crate) struct Quantities {
 pub(crate) struct LoadSum {
     pub source: Arc<dyn Source>,
     /// Index of the source.
-    index: usize,
+    index: SourceIndex,
     /// Index into [`LoadList::groups`].
-    pub group: usize,
+    pub group: GroupIndex,
     phase: Angle,
     /// Speed of their crank or shaft.
     pub ratio: i32,
@@ -77,14 +79,14 @@ impl LoadSum {
 pub(crate) struct Kinematics {
     pub sums: Vec<LoadSum>,
     /// Bounds of the rounding errors of force and moment that cancel, of each group over what it scales with.
-    zero_bounds: Vec<[f64; 2]>,
-    scalings: Vec<Scaling>,
+    zero_bounds: List<GroupIndex, [f64; 2]>,
+    scalings: List<GroupIndex, Scaling>,
 }
 
 impl Kinematics {
     pub fn new(loads: &LoadList) -> Self {
         let (mut sums, mut zero_bounds) =
-            (Vec::<LoadSum>::new(), vec![[0.0; 2]; loads.groups.len()]);
+            (Vec::<LoadSum>::new(), loads.groups.map_to(|_| [0.0; 2]));
         let count = count(&loads.list, false);
         for load in &loads.list {
             let place = &load.place;
@@ -126,23 +128,23 @@ impl Kinematics {
             sum.arm += place.axis.conj() * force;
             sum.roll += load.roll * square;
         }
-        let scalings = loads.groups.iter().map(|group| group.scaling).collect();
+        let scalings = loads.groups.map_to(|group| group.scaling);
         Self { sums, zero_bounds, scalings }
     }
 
     /// What each group is multiplied by at a speed, rad/s.
-    pub fn factors(&self, omega: f64) -> Vec<f64> {
-        self.scalings.iter().map(|scaling| scaling.factor(omega)).collect()
+    pub fn factors(&self, omega: f64) -> List<GroupIndex, f64> {
+        self.scalings.map_to(|scaling| scaling.factor(omega))
     }
 
     /// 1 for each group of a scaling, or for all, 0 for the others.
-    pub fn factors_of(&self, scaling: Option<Scaling>) -> Vec<f64> {
+    pub fn factors_of(&self, scaling: Option<Scaling>) -> List<GroupIndex, f64> {
         let counts = |own: &Scaling| scaling.is_none_or(|scaling| scaling == *own);
-        self.scalings.iter().map(|own| f64::from(u8::from(counts(own)))).collect()
+        self.scalings.map_to(|own| f64::from(u8::from(counts(own))))
     }
 
     /// Bounds of the rounding errors of force and moment that cancel: of groups times factors.
-    pub fn zero_bounds(&self, factors: &[f64]) -> [f64; 2] {
+    pub fn zero_bounds(&self, factors: &List<GroupIndex, f64>) -> [f64; 2] {
         let bounds = self.zero_bounds.iter().zip(factors);
         bounds.fold([0.0; 2], |sum, (own, factor)| {
             [sum[0] + own[0] * factor, sum[1] + own[1] * factor]

@@ -8,11 +8,14 @@ use super::rod::RodInertia;
 use super::source::{ExactFactor, INERTIA, Point, Repeats, Scaling, Source, at_point};
 use super::spectrum::GivenForce;
 use super::unbalance::TurningUnbalance;
-use super::{Load, PhasorSum, Phasors, Place, Term, Wanted, superpose};
+use super::{
+    GroupIndex, Load, LoadIndex, PhasorSum, Phasors, Place, SourceIndex, Term, Wanted, superpose,
+};
 use crate::Complex64;
 use crate::engine::{Crank, Engine, Origin, Unbalance};
 use crate::mechanism::Mechanism;
 use crate::numbers::error::Result;
+use crate::numbers::index::List;
 use crate::numbers::order::Order;
 
 /// Largest magnitudes of the weights of some loads.
@@ -25,6 +28,9 @@ pub(crate) struct LargestWeights {
     /// Of the torque.
     pub roll: f64,
 }
+
+/// The sources of loads.
+pub(crate) type Sources = List<SourceIndex, Arc<dyn Source>>;
 
 /// Sources that are counted together: of one name and scaling.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,13 +54,13 @@ impl Group {
 #[derive(Debug, Clone)]
 pub(crate) struct LoadList {
     /// Pistons, one for each cylinder; unbalances of cranks, then of shafts; pressures; rods.
-    pub list: Vec<Load>,
-    /// One of each kind: loads refer to them by index.
-    pub sources: Vec<Arc<dyn Source>>,
+    pub list: List<LoadIndex, Load>,
+    /// One of each kind.
+    pub sources: Sources,
     /// Names and scalings of the sources that differ; inertia is the first.
-    pub groups: Vec<Group>,
-    /// Index of the group of each source.
-    pub group_of: Vec<usize>,
+    pub groups: List<GroupIndex, Group>,
+    /// Group of each source.
+    pub group_of: List<SourceIndex, GroupIndex>,
     /// Reference plane z₀ of moments, m.
     pub reference: f64,
 }
@@ -63,9 +69,10 @@ impl LoadList {
     /// Loads of an engine. Pistons of equal crank radius, rod length and pin offset share a source, hence
     /// their harmonics; a spectrum is one source for all, with masses and radius in it.
     pub fn new(engine: &Engine, reference: f64) -> Self {
-        let inertia = Group { name: INERTIA.into(), scaling: Scaling::SpeedSquared };
-        let (list, sources, group_of) = (Vec::new(), Vec::new(), Vec::new());
-        let mut loads = Self { list, sources, groups: vec![inertia], group_of, reference };
+        let mut groups = List::default();
+        groups.push(Group { name: INERTIA.into(), scaling: Scaling::SpeedSquared });
+        let (list, sources, group_of) = (List::default(), List::default(), List::default());
+        let mut loads = Self { list, sources, groups, group_of, reference };
         let ratio = |i: usize| engine.cranks()[engine.crank_of(i)].ratio;
         let mechanism = |i: usize| Mechanism::new(&engine.stations()[i].cylinder, ratio(i));
         let along_bore = |i: usize| Place::along_bore(engine, i);
@@ -126,15 +133,12 @@ impl LoadList {
 
     pub(super) fn push(&mut self, place: Place, source: impl Source, weight: f64, roll: f64) {
         let parts = source.parts();
-        let index = self.sources.iter().position(|known| known.equals(&source));
-        let index = index.unwrap_or_else(|| {
-            let known = self.groups.iter().position(|group| group.has(&source));
-            self.group_of.push(known.unwrap_or(self.groups.len()));
-            if known.is_none() {
-                self.groups.push(Group::of(&source));
-            }
-            self.sources.push(Arc::new(source));
-            self.sources.len() - 1
+        let known = self.sources.indices().find(|&known| self.sources[known].equals(&source));
+        let index = known.unwrap_or_else(|| {
+            let known = self.groups.indices().find(|&group| self.groups[group].has(&source));
+            let group = known.unwrap_or_else(|| self.groups.push(Group::of(&source)));
+            self.group_of.push(group);
+            self.sources.push(Arc::new(source))
         });
         self.list.push(Load { place, source: index, parts, weight, roll });
     }
@@ -154,12 +158,12 @@ impl LoadList {
     }
 
     /// Group of a source.
-    pub fn group(&self, source: usize) -> &Group {
+    pub fn group(&self, source: SourceIndex) -> &Group {
         &self.groups[self.group_of[source]]
     }
 
     /// Whether a group has forces, and torques.
-    pub fn has(&self, group: usize) -> [bool; 2] {
+    pub fn has(&self, group: GroupIndex) -> [bool; 2] {
         let mut has = [false; 2];
         for load in self.list.iter().filter(|load| self.group_of[load.source] == group) {
             let force = load.parts.force.is_some();
@@ -181,13 +185,13 @@ impl LoadList {
     }
 
     /// The sources at a point of a sweep.
-    pub fn at_point(&self, point: &Point) -> Result<Vec<Arc<dyn Source>>> {
+    pub fn at_point(&self, point: &Point) -> Result<Sources> {
         self.sources.iter().map(|source| at_point(source, point)).collect()
     }
 
     /// Σ weights of the torques of each source, and Σ of the magnitudes, of which bounds are made.
-    pub fn torque_weights(&self) -> Vec<PhasorSum<f64>> {
-        let mut weights = vec![PhasorSum::default(); self.sources.len()];
+    pub fn torque_weights(&self) -> List<SourceIndex, PhasorSum<f64>> {
+        let mut weights = self.sources.map_to(|_| PhasorSum::default());
         for load in &self.list {
             weights[load.source].value += load.roll;
             weights[load.source].size += load.roll.abs();
@@ -202,7 +206,7 @@ impl LoadList {
     }
 
     /// Largest weights of the loads of a source, times the square of their speed.
-    pub fn largest_weights(&self, source: usize) -> LargestWeights {
+    pub fn largest_weights(&self, source: SourceIndex) -> LargestWeights {
         let mut largest = LargestWeights::default();
         for load in self.list.iter().filter(|load| load.source == source) {
             let square = f64::from(load.place.speed_squared());

@@ -35,20 +35,35 @@ pub(crate) mod source;
 mod spectrum;
 mod unbalance;
 
-pub(crate) use self::list::{Group, LargestWeights, LoadList};
+pub(crate) use self::list::{Group, LargestWeights, LoadList, Sources};
 pub(crate) use self::place::Place;
 use self::source::{Column, ForcePart, Parts, Repeats, Scaling};
 use crate::Complex64;
 use crate::engine::Hold;
+use crate::numbers::index::{ListIndex, list_index};
 use crate::numbers::order::Order;
 use crate::wrench::Planar;
+
+list_index! {
+    /// Index of a load in a [`LoadList`].
+    pub(crate) LoadIndex
+}
+
+list_index! {
+    /// Index of a source in a [`LoadList`].
+    pub(crate) SourceIndex
+}
+
+list_index! {
+    /// Index of a group in a [`LoadList`].
+    pub(crate) GroupIndex
+}
 
 /// A periodic load on the engine: a place, and a source with its weights.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Load {
     pub place: Place,
-    /// Index into [`LoadList::sources`].
-    pub source: usize,
+    pub source: SourceIndex,
     /// Those of the source.
     pub parts: Parts,
     /// Of the force: m·r of a piston, the unbalance of a shaft, kg·m. Below zero, as the other weight,
@@ -61,8 +76,7 @@ pub(crate) struct Load {
 /// Factor of a sum, which depends on the order: an amplitude of a source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub(crate) struct Harmonic {
-    /// Index into [`LoadList::sources`].
-    pub source: usize,
+    pub source: SourceIndex,
     pub column: Column,
 }
 
@@ -96,16 +110,16 @@ pub(crate) trait Arithmetic {
     type Sum: Default;
 
     /// `e^{i·times·φ}` of a load; with its index in the list.
-    fn phase(&self, load: (usize, &Load), times: i64) -> Self::Unit;
+    fn phase(&self, load: (LoadIndex, &Load), times: i64) -> Self::Unit;
 
     /// A unit phasor times `e^{iβ}`, or its conjugate.
-    fn toward(&self, load: (usize, &Load), unit: &Self::Unit, conjugate: bool) -> Self::Unit;
+    fn toward(&self, load: (LoadIndex, &Load), unit: &Self::Unit, conjugate: bool) -> Self::Unit;
 
     /// Adds a load's weight times a unit phasor, times half a whole number and a power of i.
     fn add(
         &self,
         sum: &mut Self::Sum,
-        load: (usize, &Load),
+        load: (LoadIndex, &Load),
         weight: Weight,
         unit: &Self::Unit,
         times: Factor,
@@ -143,7 +157,8 @@ pub(crate) fn superpose<A: Arithmetic>(
     wanted: Wanted,
 ) -> Vec<Term<A::Sum>> {
     let mut terms = Vec::new();
-    for at @ (_, load) in loads.iter().enumerate().filter(|(_, load)| load.acts_at(order)) {
+    let acting = loads.iter().enumerate().filter(|(_, load)| load.acts_at(order));
+    for at @ (_, load) in acting.map(|(i, load)| (LoadIndex::new(i), load)) {
         let (parts, place) = (load.parts, &load.place);
         let square = place.speed_squared();
         let phase = arithmetic.phase(at, -load.phase_multiple(order));
@@ -232,11 +247,16 @@ impl Arithmetic for Phasors {
     type Unit = Complex64;
     type Sum = PhasorSum;
 
-    fn phase(&self, (_, load): (usize, &Load), times: i64) -> Complex64 {
+    fn phase(&self, (_, load): (LoadIndex, &Load), times: i64) -> Complex64 {
         load.place.phase.cis(times)
     }
 
-    fn toward(&self, (_, load): (usize, &Load), unit: &Complex64, conjugate: bool) -> Complex64 {
+    fn toward(
+        &self,
+        (_, load): (LoadIndex, &Load),
+        unit: &Complex64,
+        conjugate: bool,
+    ) -> Complex64 {
         unit * if conjugate { load.place.unit.conj() } else { load.place.unit }
     }
 
@@ -244,7 +264,7 @@ impl Arithmetic for Phasors {
     fn add(
         &self,
         sum: &mut PhasorSum,
-        (_, load): (usize, &Load),
+        (_, load): (LoadIndex, &Load),
         weight: Weight,
         unit: &Complex64,
         times: Factor,

@@ -359,7 +359,7 @@ fn complex_modes(matrix: &ComplexMatrix6) -> Option<([Complex64; 6], ComplexMatr
             turned[(q, q)] += tangent * between;
             (turned[(p, q)], turned[(q, p)]) = (Complex64::ZERO, Complex64::ZERO);
         }
-        // Not of numbers that are none, either.
+        // NaN fails the comparison too.
         let is_sound = vectors.norm_squared() <= LARGEST_VECTORS;
         if is_done || !is_sound {
             return is_sound.then(|| (from_fn(|k| turned[(k, k)]), vectors));

@@ -36,7 +36,7 @@ use crate::numbers::error::{Error, Result};
 pub const MOST_MOUNTS: usize = 1000;
 /// Least over largest pivot of a matrix that has an inverse.
 const LEAST_PIVOT: f64 = 1e-14;
-/// Roundings of a number that sums of a dozen products, and turns of Jacobi's method, make.
+/// Rounding errors that a number gathers in sums of a dozen products and in rotations of Jacobi's method.
 const ROUNDINGS: f64 = 16.0;
 
 /// Complex 6 × 6 matrix of the motion.

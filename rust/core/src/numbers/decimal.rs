@@ -45,6 +45,93 @@ pub(crate) fn parse(text: &str) -> Option<(i128, i128)> {
     Some(if scale < 0 { (number * power, 1) } else { (number, power) })
 }
 
+/// A number as it is typed, exactly: `number / below · 10^power`; `below` is 1 of decimals.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Exact {
+    /// Whole number above.
+    pub number: i128,
+    /// Power of ten that it is multiplied by.
+    pub power: i32,
+    /// Whole number below, > 0.
+    pub below: i128,
+}
+
+/// Digits of a typed number that are read: more than doubles hold.
+const MOST_READ: usize = 21;
+
+impl Exact {
+    /// One.
+    pub const ONE: Self = Self { number: 1, power: 0, below: 1 };
+
+    /// Of digits with or without a point; None of no digits, or of too large an exponent.
+    pub(crate) fn new(digits: &str, exponent: &str) -> Option<Self> {
+        let (whole, decimals) = digits.split_once('.').unwrap_or((digits, ""));
+        let mut power: i32 = if exponent.is_empty() { 0 } else { exponent.parse().ok()? };
+        let all = format!("{whole}{decimals}");
+        let significant = all.trim_start_matches('0');
+        let read = &significant[..significant.len().min(MOST_READ)];
+        power = power.checked_sub(i32::try_from(decimals.len()).ok()?)?;
+        power = power.checked_add(i32::try_from(significant.len() - read.len()).ok()?)?;
+        let number = if read.is_empty() && !all.is_empty() { 0 } else { read.parse().ok()? };
+        Some(Self { number, power, below: 1 })
+    }
+
+    /// The number of the other sign.
+    pub(crate) fn negative(self) -> Self {
+        Self { number: -self.number, ..self }
+    }
+
+    /// A product; None where it overflows.
+    pub(crate) fn times(self, other: Self) -> Option<Self> {
+        Some(Self {
+            number: self.number.checked_mul(other.number)?,
+            power: self.power.checked_add(other.power)?,
+            below: self.below.checked_mul(other.below)?,
+        })
+    }
+
+    /// One over it; None of zero, or below it.
+    pub(crate) fn inverse(self) -> Option<Self> {
+        let inverse =
+            Self { number: self.below, power: self.power.checked_neg()?, below: self.number };
+        (self.number > 0).then_some(inverse)
+    }
+
+    /// A sum; None where it overflows.
+    pub(crate) fn plus(self, other: Self) -> Option<Self> {
+        let power = self.power.min(other.power);
+        let whole = |of: Self, below: i128| {
+            let shift = 10_i128.checked_pow((of.power - power).unsigned_abs())?;
+            of.number.checked_mul(shift)?.checked_mul(below)
+        };
+        let number = whole(self, other.below)?.checked_add(whole(other, self.below)?)?;
+        Some(Self { number, power, below: self.below.checked_mul(other.below)? })
+    }
+
+    /// The nearest double; infinite beyond the largest.
+    #[must_use]
+    pub fn value(self) -> f64 {
+        let decimal =
+            |number: i128, power: i32| format!("{number}e{power}").parse().unwrap_or(f64::NAN);
+        if self.below == 1 {
+            return decimal(self.number, self.power);
+        }
+        // As many digits of the quotient as there is room for, and one for the rest.
+        let (mut number, mut power) = (self.number, self.power);
+        while number != 0
+            && let Some(more) = number.checked_mul(10)
+        {
+            (number, power) = (more, power - 1);
+        }
+        let rest = i128::from(number % self.below != 0) * number.signum();
+        let quotient = number / self.below;
+        quotient.checked_mul(10).map_or_else(
+            || decimal(quotient, power),
+            |quotient| decimal(quotient + rest, power - 1),
+        )
+    }
+}
+
 /// Distance to the next double away from zero.
 pub(crate) fn ulp(x: f64) -> f64 {
     let x = x.abs();

@@ -54,7 +54,7 @@ impl Double {
         Self::sum(sum.high, sum.low + self.low)
     }
 
-    /// Factor another, to twice a double's digits.
+    /// Product with another, to twice a double's digits.
     #[must_use]
     #[inline]
     pub fn times(self, other: Self) -> Self {

@@ -8,6 +8,7 @@ pub mod decimal;
 pub mod double;
 pub mod error;
 pub mod figure;
+pub mod index;
 pub mod limits;
 pub mod memory;
 pub mod order;
@@ -17,6 +18,8 @@ pub mod rational;
 pub mod ring;
 pub(crate) mod simd;
 pub(crate) mod singular_values;
+pub mod typed;
+pub mod units;
 
 /// Numbers between -1 and 1 that repeat after 2^31 (a linear congruential generator).
 #[cfg(test)]

@@ -53,7 +53,7 @@ impl Ring {
         }
         for _ in 0..period {
             powers.push(power.clone());
-            // Factor ζ: shift, and take the leading term off with `Φ_N`, which is monic.
+            // Times ζ: shift, and take the leading term off with `Φ_N`, which is monic.
             let leading = power.pop().unwrap_or(0);
             power.insert(0, 0);
             for (term, coefficient) in power.iter_mut().zip(&minimal) {

@@ -3,11 +3,11 @@
 use std::sync::LazyLock;
 
 use super::Cycle;
+use super::Strokes;
 use super::chamber::{
     Chamber, Curves, DEGREE, NARROWEST, RESOLVED, absolute, exponent, is_resolved, within,
 };
 use super::period_deg;
-use crate::engine::layout::Strokes;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::chebyshev::{coefficient, largest_of_last, node, points};
 use crate::numbers::error::{Error, Result};

@@ -1,7 +1,7 @@
 //! The volume over a piston, and cycles that are put together of smooth curves.
 
+use super::Strokes;
 use super::{Cycle, Given, MOST_POINTS, period_deg};
-use crate::engine::layout::Strokes;
 use crate::mechanism::slider_crank::{Cylinder, Proportions, piston_area};
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::chebyshev::{largest_of_last, points};

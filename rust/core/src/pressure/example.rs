@@ -1,9 +1,9 @@
 //! Cycles to begin with: computed, of no engine in particular.
 
 use super::Cycle;
+use super::Strokes;
 use super::burn::{Heat, WallLoss, Wiebe};
 use super::chamber::Chamber;
-use crate::engine::layout::Strokes;
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};

@@ -2,9 +2,9 @@
 
 use std::sync::{LazyLock, Mutex};
 
+use super::Strokes;
 use super::{Cycle, period_deg};
 use crate::Complex64;
-use crate::engine::layout::Strokes;
 use crate::mechanism::slider_crank::{Motion, Proportions};
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::cancel::Cancel;
@@ -38,7 +38,7 @@ impl GasTorque {
 #[derive(Debug, Default)]
 pub(super) struct LastTorques([Mutex<Option<Integrated>>; 2]);
 
-/// A torque, and what it is of.
+/// A torque, and the figures on which it depends.
 #[derive(Debug)]
 struct Integrated {
     proportions: Proportions,
@@ -75,7 +75,7 @@ const JUMP_OF_ROUNDING: f64 = 1e-12;
 
 /// A quadrature rule, and up to where it reaches rounding.
 struct Rule {
-    /// Points besides those that the polynomial of pressure takes.
+    /// Points beyond those that integrate the polynomial of pressure exactly.
     points: u32,
     /// Largest phase, radians, of the highest order over half a panel.
     phase: f64,
@@ -303,7 +303,7 @@ impl Cycle {
         let period = period_deg(self.strokes).to_radians();
         let mut sorted: Vec<usize> = (0..orders.len()).collect();
         sorted.sort_unstable_by_key(|&k| orders[k]);
-        // Half orders are none of a two-stroke's.
+        // A two-stroke has no half orders.
         sorted.retain(|&k| self.strokes == Strokes::Four || orders[k].as_whole().is_some());
         let halves: Vec<u32> = sorted.iter().map(|&k| orders[k].halves()).collect();
         let highest = halves.last().map_or(0.0, |&halves| 0.5 * f64::from(halves));

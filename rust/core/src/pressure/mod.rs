@@ -10,13 +10,14 @@ pub mod example;
 mod harmonics;
 mod interpolant;
 pub mod map;
+mod strokes;
 
 use serde::{Deserialize, Serialize};
 
 pub use self::harmonics::GasTorque;
 use self::harmonics::LastTorques;
 use self::interpolant::Panels;
-use crate::engine::layout::Strokes;
+pub use self::strokes::Strokes;
 use crate::numbers::crank_angles::{FEWEST_POINTS, check_grid, repeats_first};
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;

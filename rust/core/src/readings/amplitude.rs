@@ -4,9 +4,12 @@ use std::sync::Arc;
 
 use crate::Complex64;
 use crate::load::source::{Column, Source, TorqueAmplitudes};
-use crate::load::{Harmonic, Load, LoadList, Phasors, Wanted, count, superpose};
+use crate::load::{
+    GroupIndex, Harmonic, Load, LoadList, Phasors, SourceIndex, Sources, Wanted, count, superpose,
+};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
+use crate::numbers::index::{List, ListIndex};
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::wrench::Wrench;
@@ -18,11 +21,11 @@ use crate::wrench::Wrench;
 /// of the loads.
 pub(crate) fn wrenches(
     loads: &LoadList,
-    sources: &[Arc<dyn Source>],
+    sources: &Sources,
     torque: bool,
     orders: &[Order],
     cancel: &Cancel,
-) -> Result<(Vec<Wrench>, Vec<[f64; 2]>)> {
+) -> Result<(Vec<Wrench>, List<GroupIndex, [f64; 2]>)> {
     let amplitudes = Amplitudes::new(sources, torque, orders, cancel)?;
     let wrenches = amplitudes.wrenches(loads, &loads.list, torque, orders, cancel)?;
     Ok((wrenches, amplitudes.means(loads, &loads.list)))
@@ -30,10 +33,10 @@ pub(crate) fn wrenches(
 
 /// Amplitudes of some sources at some orders.
 pub(crate) struct Amplitudes {
-    /// By source; empty of those without a force.
-    force: Vec<Vec<Complex64>>,
-    /// By source; none without a torque, or where none is wanted.
-    torque: Vec<Option<TorqueAmplitudes>>,
+    /// Empty of those without a force.
+    force: List<SourceIndex, Vec<Complex64>>,
+    /// None without a torque, or where none is wanted.
+    torque: List<SourceIndex, Option<TorqueAmplitudes>>,
 }
 
 /// Factors of a sum.
@@ -48,12 +51,7 @@ pub(crate) struct Amplitude {
 }
 
 impl Amplitudes {
-    pub fn new(
-        sources: &[Arc<dyn Source>],
-        torque: bool,
-        orders: &[Order],
-        cancel: &Cancel,
-    ) -> Result<Self> {
+    pub fn new(sources: &Sources, torque: bool, orders: &[Order], cancel: &Cancel) -> Result<Self> {
         let force = |source: &Arc<dyn Source>| {
             if source.parts().force.is_some() { source.force(orders, cancel) } else { Ok(vec![]) }
         };
@@ -91,7 +89,7 @@ impl Amplitudes {
             for term in superpose(&phasors, some, order, wanted) {
                 let amplitude = self.of(term.harmonic, k);
                 let [force, moment] = term.planar();
-                let wrench = &mut of_order[loads.group_of[term.harmonic.source]];
+                let wrench = &mut of_order[loads.group_of[term.harmonic.source].position()];
                 wrench.force.add_scaled(&force, amplitude.force);
                 wrench.moment.add_scaled(&moment, amplitude.force);
                 let torque = &mut wrench.torque;
@@ -107,8 +105,8 @@ impl Amplitudes {
     }
 
     /// Mean torques on the block and on the crank, of some of an engine's loads, by group.
-    pub fn means(&self, loads: &LoadList, some: &[Load]) -> Vec<[f64; 2]> {
-        let mut means = vec![[0.0; 2]; loads.groups.len()];
+    pub fn means(&self, loads: &LoadList, some: &[Load]) -> List<GroupIndex, [f64; 2]> {
+        let mut means = loads.groups.map_to(|_| [0.0; 2]);
         for load in some {
             let Some(torque) = &self.torque[load.source] else { continue };
             let of_group = &mut means[loads.group_of[load.source]];

@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::{Load, LoadList, count};
+use crate::load::{GroupIndex, Load, LoadList, count};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::index::List;
 use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
@@ -232,7 +233,7 @@ impl Balance {
         some: &[Load],
         orders: Vec<Order>,
         wrenches: &[Wrench],
-        means: &[[f64; 2]],
+        means: &List<GroupIndex, [f64; 2]>,
         omega: f64,
     ) -> Result<Self> {
         let counts = [false, true].map(|torque| count(some, torque));

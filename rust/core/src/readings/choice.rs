@@ -7,11 +7,14 @@
 
 use std::sync::Arc;
 
-use crate::engine::{Engine, distinct};
+use crate::engine::Engine;
 use crate::load::source::{Repeats, Scale, Source, Tail};
-use crate::load::{Group, LargestWeights, Load, LoadList, count, find_or_push};
+use crate::load::{
+    Group, GroupIndex, LargestWeights, Load, LoadList, Sources, count, find_or_push,
+};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::index::{List, ListIndex, distinct};
 use crate::numbers::limits;
 use crate::numbers::order::{self, Order};
 use crate::readings::amplitude::wrenches;
@@ -41,9 +44,9 @@ pub(crate) struct Chosen {
     /// Wrenches of each order and group.
     wrenches: Vec<Wrench>,
     /// Mean torques of each group on the block and on the crank.
-    means: Vec<[f64; 2]>,
+    means: List<GroupIndex, [f64; 2]>,
     /// Bounds of what all orders left out add, of each group.
-    left_out: Vec<OrderSums>,
+    left_out: List<GroupIndex, OrderSums>,
 }
 
 impl Chosen {
@@ -118,7 +121,7 @@ pub(crate) fn bounds(left_out: &[OrderSums], groups: &[Group], omega: f64) -> Er
 pub(crate) struct Candidate<'a> {
     pub engine: &'a Engine,
     pub loads: &'a LoadList,
-    pub sources: Vec<Arc<dyn Source>>,
+    pub sources: Sources,
     /// Whether it is the one before it with other cycles.
     pub repeats: bool,
 }
@@ -130,7 +133,7 @@ pub(crate) struct Choice {
     /// Orders of the torques of each engine that are integrated.
     pub integrated: Vec<IntegratedOrders>,
     /// Bounds of what orders above those add, of each engine and group.
-    pub rest: Vec<Vec<OrderSums>>,
+    pub rest: Vec<List<GroupIndex, OrderSums>>,
     /// What may be left out, of each engine and group.
     allowed: Vec<f64>,
 }
@@ -154,7 +157,7 @@ impl Choice {
         let last = orders.last().map_or(0, |order| order.halves().div_ceil(2));
         let highest = last.clamp(FIRST_INTEGRATED, HIGHEST_INTEGRATED);
         let (mut integrated, mut all) = (Vec::new(), orders.clone());
-        let (mut rest, mut allowed) = (Vec::<Vec<OrderSums>>::new(), Vec::new());
+        let (mut rest, mut allowed) = (Vec::<List<GroupIndex, OrderSums>>::new(), Vec::new());
         for (Candidate { loads, sources, repeats, .. }, scales) in candidates.iter().zip(all_scales)
         {
             let mut above = match rest.last() {
@@ -170,7 +173,7 @@ impl Choice {
             let first = allowed.len() - 3 * scales.len();
             for &IntegratedGroup { group, tail, allowed: own } in &of_engine.groups {
                 above[group].torque = tail;
-                allowed[first + 3 * group + 2] = own;
+                allowed[first + 3 * group.position() + 2] = own;
             }
             rest.push(above);
             all.extend(&of_engine.orders);
@@ -183,7 +186,7 @@ impl Choice {
 
     /// Which orders are kept, of sizes of each order, engine and group, and bounds of what each engine
     /// leaves out, by group.
-    pub fn few(&self, sizes: &[OrderSums]) -> (Vec<bool>, Vec<Vec<OrderSums>>) {
+    pub fn few(&self, sizes: &[OrderSums]) -> (Vec<bool>, Vec<List<GroupIndex, OrderSums>>) {
         let flat = |sums: &[OrderSums]| -> Vec<f64> {
             sums.iter().flat_map(|sums| sums.values()).collect()
         };
@@ -209,7 +212,7 @@ pub(crate) fn evaluated(
         Orders::Given(orders) => {
             order::check_list(orders)?;
             let (wrenches, means) = wrenches(loads, &loads.sources, torque, orders, cancel)?;
-            let left_out = vec![OrderSums::default(); loads.groups.len()];
+            let left_out = loads.groups.map_to(|_| OrderSums::default());
             let kept = vec![true; orders.len()];
             Ok(Chosen { orders: orders.clone(), kept, wrenches, means, left_out })
         }
@@ -251,15 +254,15 @@ pub(crate) fn within_each(
         .iter()
         .map(|load| Order::whole(load.place.ratio.unsigned_abs()))
         .collect::<Result<Vec<_>>>()?;
-    let mut left_out = vec![OrderSums::default(); loads.groups.len()];
-    let (_, by_origin) = distinct(others.iter().map(|load| load.place.origin));
-    for origin in 0..by_origin.iter().max().map_or(0, |last| last + 1) {
+    let mut left_out = loads.groups.map_to(|_| OrderSums::default());
+    let (origins, by_origin) = distinct::<usize, _>(others.iter().map(|load| load.place.origin));
+    for origin in origins.indices() {
         let own = others.iter().zip(&by_origin).filter(|(_, of)| **of == origin);
         let alone = LoadList { list: own.map(|(load, _)| *load).collect(), ..loads.clone() };
         let chosen = within(rtol, engine, &alone, torque, cancel)?;
         let kept = chosen.orders.iter().zip(&chosen.kept).filter(|(_, kept)| **kept);
         orders.extend(kept.map(|(order, _)| *order));
-        for (sum, lost) in left_out.iter_mut().zip(chosen.left_out) {
+        for (sum, lost) in left_out.iter_mut().zip(&chosen.left_out) {
             let sums = sum.values().into_iter().zip(lost.values()).map(|(sum, lost)| sum + lost);
             let mut all = sums;
             *sum = OrderSums::from_values(std::array::from_fn(|_| all.next().unwrap_or(0.0)));
@@ -300,15 +303,16 @@ fn few<S: AsRef<[f64]>>(sizes: &[S], allowed: &[f64], lost: &mut [f64]) -> Vec<b
 /// harmonics decrease most slowly.
 fn candidates(
     rtol: f64,
-    scales: &[OrderSums],
+    scales: &List<GroupIndex, OrderSums>,
     loads: &LoadList,
-    sources: &[Arc<dyn Source>],
+    sources: &Sources,
     torque: bool,
 ) -> Result<Vec<Order>> {
     let count = count(&loads.list, torque) as f64;
     let (needed, enough) = (0.25 * rtol / count, NEGLIGIBLE_REST * rtol / count);
     let mut orders = Vec::new();
-    for (k, source) in sources.iter().enumerate().filter(|(_, source)| !source.has_open_tail()) {
+    let closed = sources.indices().zip(sources).filter(|(_, source)| !source.has_open_tail());
+    for (k, source) in closed {
         // What a weight is over that which the tolerance is relative to.
         let LargestWeights { force, arm, roll } = loads.largest_weights(k);
         let scales = &scales[loads.group_of[k]];
@@ -367,8 +371,8 @@ fn tail(
     loads: &LoadList,
     evaluated: &[Order],
     torque: bool,
-    sources: &[Arc<dyn Source>],
-) -> Vec<OrderSums> {
+    sources: &Sources,
+) -> List<GroupIndex, OrderSums> {
     let last = evaluated.last();
     // Another source may have the last order: those from the first one missing on are left out.
     let is_missing = |own: &Order| evaluated.binary_search(own).is_err();
@@ -381,8 +385,8 @@ fn tail(
         let evaluated = last.map_or(0, |order| order.halves());
         source.beyond(missing.map_or(evaluated, |order| order.halves() - 1), torque)
     };
-    let beyond: Vec<Tail> = sources.iter().map(beyond).collect();
-    let mut sums = vec![OrderSums::default(); loads.groups.len()];
+    let beyond = sources.map_to(beyond);
+    let mut sums = loads.groups.map_to(|_| OrderSums::default());
     for load in &loads.list {
         let (place, beyond) = (&load.place, beyond[load.source]);
         let square = f64::from(place.speed_squared());
@@ -408,9 +412,9 @@ pub(crate) fn times(weight: f64, bound: f64) -> f64 {
 /// load that has weight; for torque the largest m·r², amplitude of a torque, or force times crank radius or
 /// the distance of its axis from the crank. Where rod inertia makes more of order 1, what it makes: about
 /// J·r/l.
-fn scales(engine: &Engine, loads: &LoadList) -> Vec<OrderSums> {
-    let mut scales = vec![OrderSums::default(); loads.groups.len()];
-    let mut levers = vec![0.0_f64; loads.groups.len()];
+fn scales(engine: &Engine, loads: &LoadList) -> List<GroupIndex, OrderSums> {
+    let mut scales = loads.groups.map_to(|_| OrderSums::default());
+    let mut levers = loads.groups.map_to(|_| 0.0_f64);
     for load in &loads.list {
         let (place, group) = (&load.place, loads.group_of[load.source]);
         let Scale { force: of_force, torque: of_torque } = loads.source(load).scale();
@@ -425,7 +429,7 @@ fn scales(engine: &Engine, loads: &LoadList) -> Vec<OrderSums> {
             levers[group] = levers[group].max(place.lever(loads.reference).abs());
         }
     }
-    scales.iter_mut().zip(levers).for_each(|(sums, lever)| sums.moment = sums.force * lever);
+    scales.iter_mut().zip(&levers).for_each(|(sums, lever)| sums.moment = sums.force * lever);
     scales
 }
 
@@ -437,13 +441,13 @@ pub(crate) struct IntegratedOrders {
     /// The groups that have such torques.
     pub groups: Vec<IntegratedGroup>,
     /// The sources, which keep their harmonics that were evaluated.
-    pub sources: Vec<Arc<dyn Source>>,
+    pub sources: Sources,
 }
 
 /// Integrated torques of a group.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct IntegratedGroup {
-    pub group: usize,
+    pub group: GroupIndex,
     /// Bound of the sum of the orders above those.
     pub tail: f64,
     /// What may be left out, over what the group scales with.
@@ -458,13 +462,13 @@ impl IntegratedOrders {
     pub fn new(
         rtol: f64,
         loads: &LoadList,
-        sources: &[Arc<dyn Source>],
+        sources: &Sources,
         mut highest: u32,
         cancel: &Cancel,
     ) -> Result<Self> {
         let mut groups: Vec<IntegratedGroup> = Vec::new();
         let mut step = 2;
-        let largest_of: Vec<f64> = sources.iter().map(|source| source.largest_torque()).collect();
+        let largest_of = sources.map_to(|source| source.largest_torque());
         for load in loads.list.iter().filter(|load| sources[load.source].has_open_tail()) {
             let (group, own) =
                 (loads.group_of[load.source], load.roll.abs() * largest_of[load.source]);
@@ -480,13 +484,13 @@ impl IntegratedOrders {
         }
         groups.retain(|group| group.allowed > 0.0);
         if groups.is_empty() {
-            return Ok(Self { sources: sources.to_vec(), ..Self::default() });
+            return Ok(Self { sources: sources.clone(), ..Self::default() });
         }
         let weights = loads.torque_weights();
         loop {
-            let mut tails = vec![vec![0.0; 2 * highest as usize]; groups.len()];
-            let mut known = Vec::new();
-            for (k, (source, weight)) in sources.iter().zip(&weights).enumerate() {
+            let mut tails = vec![vec![0.0; 2 * highest as usize]; groups.len()]; // bounded: orders
+            let mut known = Sources::default();
+            for (k, (source, weight)) in sources.indices().zip(sources.iter().zip(&weights)) {
                 let own = groups.iter().position(|of| of.group == loads.group_of[k]);
                 let up_to = source.up_to(Order::whole(highest)?, cancel)?;
                 let Some((own, (with_harmonics, of_source))) = own.zip(up_to) else {
@@ -521,8 +525,10 @@ mod tests {
 
     use super::*;
     use crate::engine::{Crank, Station};
+    use crate::load::SourceIndex;
     use crate::mechanism::slider_crank::Cylinder;
     use crate::numbers::angle::Angle;
+    use crate::numbers::index::ListIndex;
 
     #[test]
     fn the_lowest_order_that_is_enough_is_found() {
@@ -546,12 +552,14 @@ mod tests {
             let engine = Engine::new("", "", vec![place]).unwrap();
             let loads = LoadList::new(&engine, 0.0);
             // Against a scale of its own a heavier rod takes more orders.
-            let scales = [OrderSums { force: 1e9, moment: 1e9, torque: 4.0 }];
+            let scales = List::new(vec![OrderSums { force: 1e9, moment: 1e9, torque: 4.0 }]);
             let orders = candidates(1e-6, &scales, &loads, &loads.sources, true).unwrap();
             let highest = *orders.last().unwrap();
             for (order, enough) in [(highest.halves() / 2, true), (highest.halves() / 2 - 1, false)]
             {
-                let beyond = loads.sources[1].beyond(2 * order, true).torque * inertia.abs() / 4.0;
+                let beyond = loads.sources[SourceIndex::new(1)].beyond(2 * order, true).torque
+                    * inertia.abs()
+                    / 4.0;
                 assert_eq!(beyond <= NEGLIGIBLE_REST * 1e-6 / 2.0, enough, "{inertia} {order}");
             }
             highest
@@ -575,7 +583,7 @@ mod tests {
         };
         let found = bounds(&opposite);
         assert_eq!(bounds(&ahead), found);
-        assert!(found.0[0].values().iter().all(|&bound| bound > 0.0));
+        assert!(found.0[GroupIndex::default()].values().iter().all(|&bound| bound > 0.0));
         assert!(found.2[0].tail > 0.0 && found.2[0].allowed > 0.0);
     }
 
@@ -589,7 +597,8 @@ mod tests {
             let engine = Engine::new("", "", vec![place]).unwrap();
             let engine = engine.with_cranks(vec![Crank::MAIN, crank], vec![1]).unwrap();
             let loads = LoadList::new(&engine, 0.1);
-            tail(&loads, &Order::all_whole(orders).unwrap(), true, &loads.sources)[0]
+            tail(&loads, &Order::all_whole(orders).unwrap(), true, &loads.sources)
+                [GroupIndex::default()]
         };
         let parts = [(0.5, 0.0, 0.0), (0.5, 0.01, 0.0), (0.0, 0.0, 1e-3), (0.5, 0.01, -1e-3)];
         for (ratio, (mass, offset, inertia)) in
@@ -618,13 +627,15 @@ mod tests {
         let engine = crate::load::tests::fired([Some(0); 3]).0;
         let once = LoadList::new(&engine, 0.0);
         let mut twice = LoadList::new(&engine, 0.0);
-        twice.list.extend(once.list.clone());
+        twice.list = once.list.iter().chain(&once.list).copied().collect();
         let evaluated = Order::all_whole(&[1, 2, 3, 4]).unwrap();
-        let rest = |loads: &LoadList| tail(loads, &evaluated, true, &loads.sources)[0].values();
+        let rest = |loads: &LoadList| {
+            tail(loads, &evaluated, true, &loads.sources)[GroupIndex::default()].values()
+        };
         for (one, both) in rest(&once).into_iter().zip(rest(&twice)) {
             assert!((both - 2.0 * one).abs() <= 1e-14 * one, "{both} {one}");
         }
-        for (one, both) in once.torque_weights().into_iter().zip(twice.torque_weights()) {
+        for (one, both) in once.torque_weights().iter().zip(&twice.torque_weights()) {
             assert!((both.size - 2.0 * one.size).abs() <= 1e-14 * one.size);
             assert!((both.value - 2.0 * one.value).abs() <= 1e-14 * one.size);
         }

@@ -11,6 +11,7 @@ use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
+use crate::numbers::index::ListIndex;
 use crate::pressure::Cycle;
 
 /// Mass of the block, which is not known, over that of the pistons: 90 kg for two litres.
@@ -183,7 +184,7 @@ fn cylinders(engine: &Engine) -> Vec<DrawnCylinder> {
         DrawnCylinder {
             number: i + 1,
             bank: if swapped { 1 - bank } else { bank },
-            crank,
+            crank: crank.position(),
             crank_radius: parts.crank_radius(),
             rod_length: drawn_rod(parts),
             yoke: parts.has_infinite_rod(),

@@ -11,13 +11,14 @@ use nalgebra::Vector3;
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::load::source::Scaling;
-use crate::load::{Group, LoadList};
+use crate::load::{Group, GroupIndex, LoadList};
 use crate::mounts::equations::{Equations, LANES, lanes, rows};
 use crate::mounts::{
     ComplexVector6, Levels, Powertrain, State, Support, grade, motion_of_point, natural_at,
 };
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::index::List;
 use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
@@ -53,7 +54,7 @@ pub(crate) struct EngineLoads {
     pub error_bound: ErrorBounds,
     /// Angular speed of the crank at each speed.
     pub omega: Vec<f64>,
-    groups: Vec<Group>,
+    groups: List<GroupIndex, Group>,
     /// At each order of each group, over what it scales with.
     unit: Vec<Wrench>,
 }

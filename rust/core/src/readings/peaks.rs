@@ -194,9 +194,12 @@ pub fn largest_sums(
     means: &[f64],
     cancel: &Cancel,
 ) -> Result<Vec<f64>> {
-    order::check_list(orders)?;
+    let rows = check_rows(orders, phasors)?;
+    if !means.is_empty() {
+        limits::same_length("means", means.len(), "the phasors", rows, "row")?;
+    }
     let finder = PeakFinder::about_mean(orders)?;
-    let mut peaks = memory::zeros(phasors.len() / orders.len())?;
+    let mut peaks = memory::zeros(rows)?;
     let rows = phasors.chunks(SUMS_PER_TASK * orders.len());
     let parts = memory::collected(peaks.chunks_mut(SUMS_PER_TASK).zip(rows).enumerate())?;
     pool::map(cancel, parts, |(part, (peaks, rows))| {
@@ -210,6 +213,14 @@ pub fn largest_sums(
     Ok(peaks)
 }
 
+/// Number of rows of one phasor of each order; rejects a row that is cut.
+fn check_rows<T>(orders: &[Order], phasors: &[T]) -> Result<usize> {
+    order::check_list(orders)?;
+    let rows = phasors.len().div_ceil(orders.len());
+    limits::same_length("phasors", phasors.len(), "rows of orders", rows * orders.len(), "phasor")?;
+    Ok(rows)
+}
+
 /// Largest magnitude along x, y and z, and largest length, of each sum of orders of vectors in space: rows
 /// of peak phasors, one of each order.
 pub fn largest_vectors(
@@ -217,7 +228,7 @@ pub fn largest_vectors(
     phasors: &[[Complex64; 3]],
     cancel: &Cancel,
 ) -> Result<Vec<[f64; 4]>> {
-    order::check_list(orders)?;
+    check_rows(orders, phasors)?;
     let rows = phasors.chunks_exact(orders.len());
     if let [_] = orders {
         let of_ellipse = |[x, y, z]: &[Complex64; 3]| {

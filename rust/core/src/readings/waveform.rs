@@ -86,11 +86,7 @@ pub fn exact(
     let mut shape = Shape::new(&loads, request.torque);
     shape.zero_bounds = kinematics.zero_bounds(&factors);
     let wanted = Quantities { planar: true, torque: request.torque };
-    let part_of: Vec<usize> = loads
-        .groups
-        .iter()
-        .map(|group| shape.part(&group.name).map_or(0, |part| part + 1))
-        .collect();
+    let part_of = loads.groups.map_to(|group| shape.part(&group.name).map_or(0, |part| part + 1));
     in_blocks(theta_deg, &shape, cancel, |angles, columns| {
         let block = AngleBlock::new(angles, 0..angles.len());
         for sum in &kinematics.sums {
@@ -146,7 +142,7 @@ impl Shape {
     fn new(loads: &LoadList, torque: bool) -> Self {
         let mut parts: Vec<(Arc<str>, [bool; 2])> = Vec::new();
         for (k, group) in
-            loads.groups.iter().enumerate().filter(|(_, group)| *group.name != *INERTIA)
+            loads.groups.indices().zip(&loads.groups).filter(|(_, group)| *group.name != *INERTIA)
         {
             let new = || (Arc::clone(&group.name), [false; 2]);
             let (_, has) = find_or_push(&mut parts, |(name, _)| *name == group.name, new);

@@ -7,6 +7,7 @@ pub mod random;
 use std::sync::Arc;
 
 use crankpin_core::balance::{Balance, Vector, balance};
+use crankpin_core::index::ListIndex;
 use crankpin_core::quantity::Quantity;
 use crankpin_core::sweep::{Statistic, SweepAxes};
 use crankpin_core::{
@@ -137,7 +138,7 @@ pub fn there(engine: &Engine, axes: &SweepAxes) -> Engine {
 /// An engine with its stations changed, its cranks, counterweights and shafts as they are.
 pub fn changed(engine: &Engine, change: impl Fn(&Station) -> Station) -> Engine {
     let stations = engine.stations();
-    let crank_of = (0..stations.len()).map(|i| engine.crank_of(i)).collect();
+    let crank_of = (0..stations.len()).map(|i| engine.crank_of(i).position()).collect();
     Engine::new("", "", stations.iter().map(change).collect())
         .and_then(|changed| changed.with_cranks(engine.cranks().to_vec(), crank_of))
         .and_then(|changed| changed.with_counterweights(engine.counterweights().to_vec()))

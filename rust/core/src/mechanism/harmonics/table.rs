@@ -55,7 +55,8 @@ pub fn write_offset(
     out: &mut [Complex64],
     cancel: &Cancel,
 ) -> Result<()> {
-    let pairs = rod_ratios.len().min(offsets.len());
+    let pairs = rod_ratios.len();
+    limits::same_length("offset", offsets.len(), "rod_ratio", pairs, "value")?;
     fill(pairs, orders.len(), out, cancel, |range, rows| {
         let pairs = rod_ratios[range.clone()].iter().zip(&offsets[range]);
         for ((&rod_ratio, &offset), row) in pairs.zip(rows.chunks_exact_mut(orders.len())) {

@@ -98,7 +98,7 @@ impl RootSum {
             return Ok(vec![checked(odd.and_then(|odd| cosines[0].checked_sub(odd)))?]);
         }
         // Φ_N reads the same backwards: ζ^{−φ/2}Φ_N(ζ) = b₀ + Σ bⱼ·2cos(2πj/N) = 0, b_{φ/2} = 1.
-        // Factor 2cos(2πs/N) it takes away the highest cosine.
+        // Multiplied by 2cos(2πs/N) it cancels the highest cosine.
         let half = modulus.len() / 2;
         let nonzero: Vec<(i64, i128)> =
             (-(half as i64)..).zip(modulus).filter(|&(_, coefficient)| coefficient != 0).collect();

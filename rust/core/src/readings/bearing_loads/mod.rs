@@ -18,12 +18,13 @@ pub use self::rod::TurningAxes;
 use self::rod::{DrivenRod, RodColumns};
 pub use self::sections::{Part, Sections};
 use crate::Complex64;
-use crate::engine::{ActsOn, Engine, Origin};
+use crate::engine::{ActsOn, CrankIndex, Engine, Origin};
 use crate::load::kinematics::{AngleColumn, BLOCK, Units};
 use crate::load::{Load, LoadList, find_or_push, given};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, check, parts};
 use crate::numbers::error::{Error, Result};
+use crate::numbers::index::{List, ListIndex};
 use crate::numbers::order::Order;
 use crate::numbers::simd::vectorised;
 use crate::numbers::{limits, memory, pool};
@@ -56,7 +57,7 @@ const MOST_SHARE: f64 = 1e6;
 pub struct BearingLoadsModel {
     rods: Vec<DrivenRod>,
     /// On each crank besides the forces of rods on its pins.
-    on_cranks: Vec<Vec<Periodic>>,
+    on_cranks: List<CrankIndex, Vec<Periodic>>,
     /// On the crankcase besides: by balance shafts, and further loads.
     on_crankcase: Vec<Periodic>,
     /// Rods on each crankpin, by index.
@@ -64,14 +65,14 @@ pub struct BearingLoadsModel {
     /// Main bearings by crank, those of one by place.
     mains: Vec<MainBearing>,
     /// Speed of each crank over that of the main one, negative where it turns the other way.
-    ratios: Vec<i32>,
+    ratios: List<CrankIndex, i32>,
 }
 
 /// A bearing of a crank in the crankcase.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MainBearing {
-    /// Index of its crank.
-    pub crank: usize,
+    /// Its crank.
+    pub crank: CrankIndex,
     /// Place along it, m.
     pub z: f64,
 }
@@ -157,22 +158,22 @@ impl BearingLoadsModel {
         }
         let omega = angular_speed(rpm)?;
         let square = omega * omega;
-        let cranks = 0..engine.cranks().len();
         let of_crank =
             |crank| engine.bearings(crank).into_iter().map(move |z| MainBearing { crank, z });
         let mut found = Self {
             rods: Vec::new(),
-            on_cranks: cranks.clone().map(|_| Vec::new()).collect(),
+            on_cranks: engine.cranks().map_to(|_| Vec::new()),
             on_crankcase: Vec::new(),
             pins: engine.crankpins().into_iter().map(|pin| pin.cylinders).collect(),
-            mains: cranks.flat_map(of_crank).collect(),
-            ratios: engine.cranks().iter().map(|crank| crank.ratio).collect(),
+            mains: engine.cranks().indices().flat_map(of_crank).collect(),
+            ratios: engine.cranks().map_to(|crank| crank.ratio),
         };
         for load in LoadList::new(engine, 0.0).list.iter().filter(|load| load.is_turning()) {
             let crank = match load.place.origin {
                 Origin::Cylinder(i) => Some(engine.crank_of(i)),
                 Origin::Counterweight(k) => {
-                    Some(engine.counterweights()[k].pin.map_or(0, |i| engine.crank_of(i)))
+                    let pin = engine.counterweights()[k].pin;
+                    Some(pin.map_or(CrankIndex::MAIN, |i| engine.crank_of(i)))
                 }
                 Origin::Shaft(_) | Origin::Load(_) => None,
             };
@@ -197,7 +198,7 @@ impl BearingLoadsModel {
             if load.on == ActsOn::Both {
                 found.on_crankcase.push(Periodic { z, waves: against() });
             }
-            let crank = load.on_crank().filter(|_| load.on != ActsOn::Block);
+            let crank = load.on_crank().filter(|_| load.on != ActsOn::Block).map(CrankIndex::new);
             let on = crank.map_or(&mut found.on_crankcase, |crank| &mut found.on_cranks[crank]);
             on.push(Periodic { z, waves });
         }
@@ -207,12 +208,13 @@ impl BearingLoadsModel {
 
     /// Rejects loads too far from the bearings of their crank, or on a crank without any.
     fn check_levers(&self) -> Result<()> {
-        for (crank, turning) in self.on_cranks.iter().enumerate() {
+        for (crank, turning) in self.on_cranks.indices().zip(&self.on_cranks) {
             let rods = self.rods.iter().filter(|rod| rod.crank == crank).map(|rod| rod.z);
             for z in rods.chain(turning.iter().map(|load| load.z)) {
                 let levers = self.levers(crank, z);
                 if levers.is_empty() {
-                    let reason = format!("crank {} has no throws, hence no bearings", crank + 1);
+                    let number = crank.position() + 1;
+                    let reason = format!("crank {number} has no throws, hence no bearings");
                     return Err(Error::Undefined { argument: "bearing_loads", reason });
                 }
                 if levers.iter().any(|(_, share)| share.abs() > MOST_SHARE) {
@@ -234,7 +236,7 @@ impl BearingLoadsModel {
     }
 
     /// Number of the first main bearing of a crank, and all of them.
-    fn mains_of(&self, crank: usize) -> (usize, &[MainBearing]) {
+    fn mains_of(&self, crank: CrankIndex) -> (usize, &[MainBearing]) {
         let first = self.mains.partition_point(|main| main.crank < crank);
         let behind = self.mains.partition_point(|main| main.crank <= crank);
         (first, &self.mains[first..behind])
@@ -407,7 +409,7 @@ impl BearingLoadsModel {
         &self,
         rods: Vec<(f64, usize)>,
         all: &[(i32, Complex64)],
-        crank: usize,
+        crank: CrankIndex,
     ) -> Carried {
         let sizes = rods.iter().map(|&(share, i)| share.abs() * self.rods[i].size());
         let sizes = sizes.chain(all.iter().map(|(_, wave)| wave.norm()));
@@ -424,7 +426,7 @@ impl BearingLoadsModel {
     }
 
     /// Main bearings of a crank that carry a load at some place, and their shares of it.
-    fn levers(&self, crank: usize, z: f64) -> Vec<(usize, f64)> {
+    fn levers(&self, crank: CrankIndex, z: f64) -> Vec<(usize, f64)> {
         let (first, mains) = self.mains_of(crank);
         if mains.is_empty() {
             return Vec::new();

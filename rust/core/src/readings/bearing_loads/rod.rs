@@ -16,6 +16,7 @@
 use std::sync::Arc;
 
 use crate::Complex64;
+use crate::engine::CrankIndex;
 use crate::engine::Engine;
 use crate::load::Place;
 use crate::load::kinematics::{AngleColumn, BLOCK, Units};
@@ -37,8 +38,7 @@ pub enum TurningAxes {
 /// A cylinder's piston and rod at a speed.
 pub(super) struct DrivenRod {
     proportions: Proportions,
-    /// Index of its crank.
-    pub crank: usize,
+    pub crank: CrankIndex,
     /// Speed of that over the main one's, negative where it turns the other way.
     pub ratio: i32,
     /// `e^{−iφ}` of the angle φ of its own crank at top dead centre.

@@ -3,6 +3,7 @@
 use ndarray::{Array3, Axis};
 
 use super::{BearingLoadsModel, Periodic, check_angles, vectors};
+use crate::engine::CrankIndex;
 use crate::load::kinematics::BLOCK;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, parts};
@@ -11,8 +12,8 @@ use crate::numbers::error::Result;
 /// What is cut at some z.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
-    /// The crankshaft of an index, which rods and unbalances load and main bearings support.
-    Crank(usize),
+    /// A crankshaft, which rods and unbalances load and main bearings support.
+    Crank(CrankIndex),
     /// The crankcase, which main bearings, walls, heads and balance shafts load.
     Crankcase,
 }
@@ -39,7 +40,7 @@ impl BearingLoadsModel {
             Part::Crank(crank) => (-1.0, &self.on_cranks[crank]),
             Part::Crankcase => (1.0, &self.on_crankcase),
         };
-        let is_cut = |crank: usize| matches!(part, Part::Crank(cut) if cut == crank);
+        let is_cut = |crank: CrankIndex| matches!(part, Part::Crank(cut) if cut == crank);
         for (main, row) in self.mains.iter().zip(loads.main.outer_iter()) {
             if part == Part::Crankcase || is_cut(main.crank) {
                 shear.index_axis_mut(Axis(0), at(main.z)).scaled_add(sign, &row);

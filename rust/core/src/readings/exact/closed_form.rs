@@ -10,10 +10,11 @@ use num_traits::{CheckedDiv, CheckedMul};
 use super::roots::{FormalSum, Share};
 use super::{ExactLoads, Levers, NumberedLoads, too_long, whole};
 use crate::engine::Engine;
-use crate::load::{Load, LoadList, Wanted, superpose};
+use crate::load::{Load, LoadIndex, LoadList, Wanted, superpose};
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::index::List;
 use crate::numbers::order::Order;
 use crate::numbers::rational::{Multiples, Ratio, common_measure, nearest};
 use crate::numbers::ring::{LARGEST_REDUCED, RootSum};
@@ -161,11 +162,11 @@ pub fn closed_form(
         let hint = "no load given by numbers at this order: engine.with_loads([]) has none";
         return Err(refused("loads", "that act", hint));
     }
-    if motions.len() > 1 {
+    let [motion] = &*motions else {
         return Err(refused("cylinders", "of different proportions", "rods and offsets alike"));
-    }
+    };
     loads.list.retain(|load| load.parts.force.is_some() && load.acts_at(order));
-    let offset = motions[0].cylinder().pin_offset();
+    let offset = motion.cylinder().pin_offset();
     let (unit, weights) = weights(&loads.list, cancel)?;
     if loads.list.len() > engine.stations().len() {
         if order > Order::FIRST {
@@ -206,7 +207,7 @@ pub fn closed_form(
             phase: part_of_turn("tdc_deg", place.phase)?,
         });
     }
-    let has_none = motions[0].cylinder().has_infinite_rod() || (offset == 0.0 && order.is_odd());
+    let has_none = motion.cylinder().has_infinite_rod() || (offset == 0.0 && order.is_odd());
     let no_harmonic = order > Order::FIRST && has_none;
     let (denominator, [forward, backward_conj]) = sums(&loads, order, &products, moment, cancel)?;
     // x = f + b*, y = −i(f − b*), b* conjugate.
@@ -235,6 +236,7 @@ fn sums(
     cancel: &Cancel,
 ) -> Result<(i128, [RootSum; 2])> {
     let (weights, measure) = whole(products)?;
+    let weights: List<LoadIndex, i128> = List::new(weights);
     let wanted = Wanted { planar: true, roll: false, by_bank: false };
     let terms = superpose(&FormalSum::new(loads, cancel)?, &loads.list, order, wanted);
     let of = |side: usize| -> Result<Vec<(i128, i128, i128)>> {

@@ -11,13 +11,14 @@ pub mod vanishing;
 use num_traits::{CheckedAdd, CheckedDiv, CheckedMul, Signed};
 
 use crate::Complex64;
-use crate::engine::{Engine, distinct};
+use crate::engine::Engine;
 use crate::load::source::ExactFactor;
-use crate::load::{Load, LoadList};
+use crate::load::{Load, LoadIndex, LoadList, SourceIndex};
 use crate::mechanism::Mechanism;
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::index::{List, list_index};
 use crate::numbers::order::Order;
 use crate::numbers::rational::{Multiples, Ratio, common_measure, decimal};
 use crate::readings::amplitude::Amplitudes;
@@ -64,14 +65,19 @@ impl TypedProportions {
     }
 }
 
+list_index! {
+    /// Index of a motion that loads of exact sums have.
+    pub(crate) MotionIndex
+}
+
 /// Loads of which exact sums are made, and their motions.
 struct ExactLoads {
     loads: LoadList,
     /// Motions that differ as typed, or in the speed of their cranks, whichever the sense: offsets are on
     /// the side to which the crankpin swings.
-    motions: Vec<Mechanism>,
-    /// Index of the motion of each source that has one.
-    motion_of: Vec<Option<usize>>,
+    motions: List<MotionIndex, Mechanism>,
+    /// Motion of each source that has one.
+    motion_of: List<SourceIndex, Option<MotionIndex>>,
 }
 
 impl ExactLoads {
@@ -82,23 +88,19 @@ impl ExactLoads {
         }
         let mut loads = LoadList::new(engine, engine.reference(reference)?);
         loads.retain_exact();
-        let mechanisms: Vec<(usize, &Mechanism)> = (0..)
-            .zip(&loads.sources)
-            .filter_map(|(k, source)| Some((k, source.mechanism()?)))
-            .filter(|(k, _)| loads.list.iter().any(|load| load.source == *k))
-            .collect();
-        // Quotients of doubles may differ where proportions are equal as typed.
-        let typed = |(_, of): &(usize, &Mechanism)| {
-            (TypedProportions::of(of.cylinder()), of.ratio.unsigned_abs())
-        };
-        let (mut motions, mut motion_of) = (Vec::new(), vec![None; loads.sources.len()]);
-        let (_, index_of) = distinct(mechanisms.iter().map(typed));
-        for ((source, mechanism), motion) in mechanisms.iter().zip(index_of) {
-            motion_of[*source] = Some(motion);
-            if motion == motions.len() {
-                motions.push(**mechanism);
-            }
+        let acts = |source: &SourceIndex| loads.list.iter().any(|load| load.source == *source);
+        let mechanism = |source| Some((source, loads.sources[source].mechanism()?));
+        let mechanisms = loads.sources.indices().filter(acts).filter_map(mechanism);
+        let mut motion_of = loads.sources.map_to(|_| None);
+        let mut motions: List<MotionIndex, ((TypedProportions, u32), Mechanism)> = List::default();
+        for (source, mechanism) in mechanisms {
+            // Quotients of doubles may differ where proportions are equal as typed.
+            let proportions = TypedProportions::of(mechanism.cylinder());
+            let typed = (proportions, mechanism.ratio.unsigned_abs());
+            let known = motions.indices().find(|&known| motions[known].0 == typed);
+            motion_of[source] = Some(known.unwrap_or_else(|| motions.push((typed, *mechanism))));
         }
+        let motions = motions.map_to(|(_, mechanism)| *mechanism);
         Ok(Self { loads, motions, motion_of })
     }
 }
@@ -108,7 +110,7 @@ struct Levers {
     /// Lengths of which none is a rational multiple of another.
     units: Vec<f64>,
     /// For each load, unit and multiple.
-    of: Vec<Vec<(usize, Ratio)>>,
+    of: List<LoadIndex, Vec<(usize, Ratio)>>,
 }
 
 impl Levers {
@@ -149,8 +151,8 @@ impl Levers {
             }
             Ok(lever)
         };
-        let levers = places.iter().map(lever).collect::<Result<_>>()?;
-        Ok(Self { units, of: levers })
+        let of = places.iter().map(lever).collect::<Result<_>>()?;
+        Ok(Self { units, of })
     }
 }
 

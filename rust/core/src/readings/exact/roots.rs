@@ -1,10 +1,11 @@
 //! Loads in exact numbers: roots of unity, times symbols for angles that are no simple parts of a turn.
 
-use crate::load::{Arithmetic, Factor, Load, LoadList, Weight};
+use crate::load::{Arithmetic, Factor, Load, LoadIndex, LoadList, Weight};
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::decimal::WITHIN_ULP;
 use crate::numbers::error::Result;
+use crate::numbers::index::List;
 use crate::numbers::rational::{Ratio, recognise};
 
 /// Angles of more parts of a turn are symbols: those of six decimals have 3.6e8 at most.
@@ -19,11 +20,11 @@ pub(super) struct PartOfTurn {
 
 /// Simple parts of a turn as they are; others by one index where they are equal or, if `in_steps`, a
 /// simple part of a turn apart.
-pub(super) fn parts_of_turn(
+pub(super) fn parts_of_turn<I>(
     angles: impl Iterator<Item = Angle>,
     in_steps: bool,
     cancel: &Cancel,
-) -> Result<Vec<PartOfTurn>> {
+) -> Result<List<I, PartOfTurn>> {
     let mut others: Vec<Angle> = Vec::new();
     let part = |angle: Angle| {
         if let Some(turns) = simple(angle) {
@@ -88,7 +89,7 @@ impl UnityRoot {
 /// A load's part of a sum: a number of halves of its weight times a root.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Share {
-    pub load: usize,
+    pub load: LoadIndex,
     pub weight: Weight,
     pub root: UnityRoot,
     pub halves: i32,
@@ -96,8 +97,8 @@ pub(super) struct Share {
 
 /// Arithmetic of proofs and closed forms: sums are lists of what each load adds.
 pub(super) struct FormalSum {
-    pub directions: Vec<PartOfTurn>,
-    pub phases: Vec<PartOfTurn>,
+    pub directions: List<LoadIndex, PartOfTurn>,
+    pub phases: List<LoadIndex, PartOfTurn>,
 }
 
 impl FormalSum {
@@ -115,14 +116,14 @@ impl Arithmetic for FormalSum {
     type Unit = UnityRoot;
     type Sum = Vec<Share>;
 
-    fn phase(&self, (i, _): (usize, &Load), times: i64) -> UnityRoot {
+    fn phase(&self, (i, _): (LoadIndex, &Load), times: i64) -> UnityRoot {
         let PartOfTurn { turns, symbol } = self.phases[i];
         let none =
             UnityRoot { turns: Ratio::ZERO, direction: (0, SymbolEntry::UnityRoot), phase: symbol };
         none.turned(turns * i128::from(times))
     }
 
-    fn toward(&self, (i, _): (usize, &Load), unit: &UnityRoot, conjugate: bool) -> UnityRoot {
+    fn toward(&self, (i, _): (LoadIndex, &Load), unit: &UnityRoot, conjugate: bool) -> UnityRoot {
         let PartOfTurn { turns, symbol } = self.directions[i];
         let entry =
             if conjugate && symbol > 0 { SymbolEntry::Conjugate } else { SymbolEntry::UnityRoot };
@@ -133,7 +134,7 @@ impl Arithmetic for FormalSum {
     fn add(
         &self,
         sum: &mut Vec<Share>,
-        (load, _): (usize, &Load),
+        (load, _): (LoadIndex, &Load),
         weight: Weight,
         unit: &UnityRoot,
         Factor { halves, quarters }: Factor,

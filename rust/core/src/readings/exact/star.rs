@@ -11,11 +11,12 @@ use super::roots::{PartOfTurn, parts_of_turn};
 use super::vanishing::Verdict;
 use super::whole;
 use crate::Complex64;
-use crate::engine::{Engine, Station, first_equal};
+use crate::engine::{Engine, Station};
 use crate::firing::Firing;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
+use crate::numbers::index::{List, distinct};
 use crate::numbers::limits;
 use crate::numbers::order::Order;
 use crate::numbers::rational::{Multiples, Ratio};
@@ -39,7 +40,7 @@ pub struct Star {
 pub struct Stars {
     fire: Vec<Angle>,
     /// Halves of the angles, as parts of a turn.
-    halves: Vec<PartOfTurn>,
+    halves: List<usize, PartOfTurn>,
     weights: Vec<f64>,
     /// Whether each cylinder fires: those that do not have no vector, and make no order a major one.
     fires: Vec<bool>,
@@ -60,7 +61,11 @@ impl Stars {
         fires: Vec<bool>,
         cancel: &Cancel,
     ) -> Result<Self> {
-        limits::same_length("mode_shape", weights.len(), "the engine", fire.len(), "cylinder")?;
+        let lists =
+            [("mode_shape", weights.len()), ("groups", groups.len()), ("fires", fires.len())];
+        for (argument, found) in lists {
+            limits::same_length(argument, found, "the engine", fire.len(), "cylinder")?;
+        }
         for (weight, &fires) in weights.iter_mut().zip(&fires) {
             *weight = if fires { *weight } else { 0.0 };
         }
@@ -89,9 +94,9 @@ impl Stars {
             let sizes = [gear.crank_radius(), gear.rod_length(), gear.pin_offset().abs()];
             (sizes, engine.details()[i].bore, cycle_of(i), ratio(i).abs())
         };
-        let groups = first_equal(engine.stations().iter().enumerate().map(sizes)).into_iter();
+        let (_, groups) = distinct::<usize, _>(engine.stations().iter().enumerate().map(sizes));
         let mirrored = engine.stations().iter().map(|place| place.cylinder.pin_offset() < 0.0);
-        let groups: Vec<_> = groups.zip(mirrored).collect();
+        let groups: Vec<_> = groups.into_iter().zip(mirrored).collect();
         let sense = (0..groups.len()).map(|i| f64::from(ratio(i).signum()));
         Self::new(fire, sense.collect(), groups, fires(engine), cancel)
     }
@@ -165,6 +170,7 @@ fn fires(engine: &Engine) -> Vec<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numbers::error::Error;
 
     fn stars(fire: &[f64], weights: &[f64]) -> Stars {
         let fire = fire.iter().map(|&degrees| Angle::from_degrees(degrees).unwrap()).collect();
@@ -239,10 +245,12 @@ mod tests {
         )
         .unwrap();
         assert_eq!(at(&unlike, 1).verdict, Verdict::Undecided);
-        assert!(
-            Stars::new(Vec::new(), vec![1.0], vec![(0, false)], vec![true], &Cancel::new())
-                .is_err()
-        );
+        for [weights, groups, fires] in [[2, 1, 1], [1, 0, 1], [1, 1, 2], [0, 1, 1]] {
+            let groups = vec![(0, false); groups];
+            let (weights, fires) = (vec![1.0; weights], vec![true; fires]);
+            let found = Stars::new(vec![Angle::ZERO], weights, groups, fires, &Cancel::new());
+            assert!(matches!(found.err(), Some(Error::Length { .. })));
+        }
     }
 
     #[test]

@@ -38,18 +38,19 @@ use std::collections::BTreeMap;
 use self::terms::{Channel, Proof, Symbol, SymbolSums, SymbolTerm, View};
 use super::roots::{PartOfTurn, SymbolEntry};
 use super::star::Stars;
-use super::{NumberedLoads, whole};
+use super::{MotionIndex, NumberedLoads, whole};
 use crate::Complex64;
-use crate::engine::Engine;
+use crate::engine::{Engine, Origin};
 use crate::firing::Firing;
 use crate::layout::Strokes;
-use crate::load::{Load, LoadList};
+use crate::load::source::ForcePart;
+use crate::load::{Load, LoadIndex, LoadList};
 use crate::mechanism::Mechanism;
 use crate::mechanism::harmonics;
-use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::index::List;
 use crate::numbers::order::{Order, check_list};
 use crate::numbers::ring::RootSum;
 use crate::readings::balance::{self, Orders, Request, Vector};
@@ -215,11 +216,12 @@ impl Proof {
 
     /// The number that symbols stand for, of directions and phases that are doubles.
     fn unit_of(&self, symbol: &Symbol, order: Order) -> Option<Complex64> {
-        let first = |list: &[PartOfTurn], index: usize, angle: fn(&Load) -> Angle| {
-            let place = list.iter().position(|part| part.symbol == index && index > 0);
-            let angle = place.map_or(Angle::ZERO, |i| angle(&self.loads.list[i]));
-            (index == 0 || angle.turns().is_none()).then_some(angle)
-        };
+        let first =
+            |list: &List<LoadIndex, PartOfTurn>, index: usize, angle: fn(&Load) -> Angle| {
+                let place = list.indices().find(|&load| list[load].symbol == index && index > 0);
+                let angle = place.map_or(Angle::ZERO, |load| angle(&self.loads.list[load]));
+                (index == 0 || angle.turns().is_none()).then_some(angle)
+            };
         let (index, entry) = symbol.direction;
         let direction = first(&self.roots.directions, index, |load| load.place.direction)?;
         let phase = first(&self.roots.phases, symbol.phase, |load| load.place.phase)?;
@@ -241,7 +243,7 @@ impl Proof {
     ) -> Result<bool> {
         use Channel::{Force, Gear, Masses, OddOfGear, OddOfMasses, OddOfRod, One, Rod};
         let of_motion =
-            |motion: usize| (*self.motions[motion].cylinder(), self.own_order(motion, order));
+            |motion: MotionIndex| (*self.motions[motion].cylinder(), self.own_order(motion, order));
         let ((cylinder, own), [masses, inertia]) = match channel {
             One => return Ok(true),
             Force(motion) | Masses(motion) | OddOfMasses(motion) => (of_motion(motion), [1.0, 0.0]),
@@ -284,14 +286,16 @@ impl Proof {
     /// Why a sum may be undecided.
     fn obstacles(&self) -> Vec<String> {
         let mut found = Vec::new();
-        let cylinders = self.gear_of.len();
-        let listed = |directions: &[PartOfTurn]| {
-            let numbers: Vec<String> = (1..)
-                .zip(&directions[..cylinders])
-                .filter(|(_, d)| d.symbol > 0)
-                .map(|(number, _): (usize, _)| number.to_string())
-                .take(12)
-                .collect();
+        let is_piston = |load: &&Load| load.parts.force == Some(ForcePart::Along);
+        let listed = |angles: &List<LoadIndex, PartOfTurn>| {
+            let number = |(load, angle): (&Load, &PartOfTurn)| match load.place.origin {
+                Origin::Cylinder(i) if is_piston(&load) && angle.symbol > 0 => {
+                    Some((i + 1).to_string())
+                }
+                _ => None,
+            };
+            let numbers: Vec<String> =
+                self.loads.list.iter().zip(angles).filter_map(number).take(12).collect();
             (!numbers.is_empty()).then(|| numbers.join(", "))
         };
         for (name, directions) in
@@ -306,17 +310,17 @@ impl Proof {
         if directions.into_iter().any(|(load, of)| load.is_turning() && of.symbol > 0) {
             found.push("angles of unbalances that are no simple part of a turn".to_owned());
         }
-        let speed = |motion: usize| self.motions[motion].ratio.unsigned_abs();
-        if (0..self.motions.len()).any(|motion| speed(motion) != speed(0)) {
+        let speeds = || self.motions.iter().map(|motion| motion.ratio.unsigned_abs());
+        if speeds().any(|speed| Some(speed) != speeds().next()) {
             found.push("cranks of different speeds".to_owned());
         } else if self.motions.len() > 1 {
             found.push("slider-cranks of different proportions".to_owned());
         }
-        let inertia = |(gear, _): &(Cylinder, u32)| gear.rod_inertia_excess();
-        if self.gears.iter().any(|gear| inertia(gear) != inertia(&self.gears[0])) {
+        let inertias = || self.gears.iter().map(|(gear, _)| gear.rod_inertia_excess());
+        if inertias().any(|inertia| Some(inertia) != inertias().next()) {
             found.push("rods of different moments of inertia".to_owned());
         }
-        if self.planar.units.len() > 1 {
+        if self.planar_units > 1 {
             found.push("masses times radius that are no rational multiples of each other".into());
         }
         if turning().any(|load| load.place.ratio.abs() > 1) {
@@ -326,7 +330,7 @@ impl Proof {
         if turning().any(beside) {
             found.push("roll torques of shafts, no rational multiples of pistons'".to_owned());
         }
-        if self.loads.list[..cylinders].iter().any(beside) {
+        if self.loads.list.iter().filter(is_piston).any(beside) {
             found.push("roll torques of forces on cranks beside the main one".to_owned());
         }
         let mut units: Vec<usize> =
@@ -409,6 +413,9 @@ pub(crate) fn vanishing_of(
     let strokes = firing.map_or(engine.strokes(), Firing::strokes);
     let proof = Proof::new(engine, reference_z, cancel)?;
     let gas = Stars::of_gas(engine, firing, cancel)?;
+    // Cycles of faster cranks begin at turns of their own, which nothing says.
+    let is_faster = |i| engine.cranks()[engine.crank_of(i)].ratio.abs() != 1;
+    let other_cycles = (0..engine.stations().len()).any(|i| engine.fires(i) && is_faster(i));
     let torques = [ProofQuantity::Torque, ProofQuantity::GasTorque];
     let torque = torques.iter().any(|torque| quantities.contains(torque));
     let (mut within_rounding, gas_remains) =
@@ -430,6 +437,10 @@ pub(crate) fn vanishing_of(
             let (verdict, error) = match (quantity, order.as_whole()) {
                 (ProofQuantity::GasTorque, None) if strokes == Strokes::Two => {
                     (Verdict::Vanishes, None)
+                }
+                (ProofQuantity::GasTorque, _) if other_cycles => {
+                    within[k] = false;
+                    (Verdict::Undecided, None)
                 }
                 (ProofQuantity::GasTorque, _) => gas.at(order).map_or_else(
                     |error| (Verdict::Undecided, Some(error)),
@@ -467,7 +478,10 @@ pub(crate) fn vanishing_of(
     }
     let undecided = verdicts.iter().flatten().any(|&v| v == Verdict::Undecided);
     let mut obstacles = if undecided { proof.obstacles() } else { Vec::new() };
-    if verdicts.iter().any(|verdicts| verdicts[9] == Verdict::Undecided) && gas.are_unlike() {
+    let gas_is_open = verdicts.iter().any(|verdicts| verdicts[9] == Verdict::Undecided);
+    if gas_is_open && other_cycles {
+        obstacles.push("gas on cranks of other speeds, whose cycles begin at no known turn".into());
+    } else if gas_is_open && gas.are_unlike() {
         obstacles.push("cylinders of different dimensions, whose gas torques have no ratio".into());
     }
     if has_numbered {
@@ -492,8 +506,10 @@ fn evaluated(
     let all = balance::balance(engine, &request, &orders, cancel)?;
     let found = all.of_part(Part::INERTIA);
     let loads = LoadList::new(engine, engine.reference(reference_z)?);
-    let volumes = loads.torque_weights().into_iter().zip(&loads.sources);
-    let largest: f64 = volumes.map(|(volume, source)| volume.size * source.largest_torque()).sum();
+    let weights = loads.torque_weights();
+    let of_sources = weights.iter().zip(&loads.sources);
+    let largest: f64 =
+        of_sources.map(|(weight, source)| weight.size * source.largest_torque()).sum();
     let zero = |k: usize| {
         let of = |vector: Vector| {
             let [x, y] = found.xy(vector, k);

@@ -270,7 +270,7 @@ impl Acting {
 }
 
 impl Weights {
-    /// In words, none as nothing.
+    /// Name in words; empty for none.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

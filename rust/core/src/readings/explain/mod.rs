@@ -13,6 +13,7 @@ use std::sync::Arc;
 pub use self::finding::{Finding, Row};
 pub use self::sentences::Wording;
 use self::sums::{Sums, proofs_of};
+use crate::engine::CrankIndex;
 use crate::engine::{Engine, Unbalance};
 use crate::firing::Firing;
 use crate::mechanism::harmonics;
@@ -263,7 +264,7 @@ fn firing(engine: &Arc<Engine>, cancel: &Cancel) -> Result<Vec<Finding>> {
 fn shared_pins(engine: &Engine) -> Option<Finding> {
     /// Parts of a degree that pins at one place differ by less than.
     const SAME_PIN: f64 = 1e6;
-    let mut pins: Vec<((f64, f64, usize), Vec<usize>)> = Vec::new();
+    let mut pins: Vec<((f64, f64, CrankIndex), Vec<usize>)> = Vec::new();
     for (i, station) in engine.stations().iter().enumerate() {
         let pin = (engine.pin(i).degrees() * SAME_PIN).round_ties_even();
         let place = (station.z, pin, engine.crank_of(i));

@@ -1,4 +1,5 @@
 use super::*;
+use crate::numbers::error::Error;
 use proptest::prelude::*;
 
 /// Peaks of these orders, never cancelled.
@@ -25,6 +26,21 @@ fn sampled(orders: &[u32], phasors: &[Complex64], points: usize) -> f64 {
         orders.iter().zip(phasors).map(term).sum::<f64>().abs()
     };
     (0..points).map(at).fold(0.0, f64::max)
+}
+
+#[test]
+fn rows_of_phasors_are_whole() {
+    let orders = Order::all_whole(&[1, 2]).unwrap();
+    let sums = |phasors: usize, means: usize| {
+        let (phasors, means) = (vec![Complex64::ONE; phasors], vec![0.0; means]);
+        largest_sums(&orders, &phasors, &means, &Cancel::new())
+    };
+    assert_eq!(sums(4, 2).unwrap().len(), 2);
+    for (phasors, means) in [(3, 0), (4, 1), (4, 3), (1, 1)] {
+        assert!(matches!(sums(phasors, means), Err(Error::Length { .. })), "{phasors} {means}");
+    }
+    let vectors = largest_vectors(&orders, &[[Complex64::ONE; 3]; 3], &Cancel::new());
+    assert!(matches!(vectors, Err(Error::Length { .. })));
 }
 
 #[test]

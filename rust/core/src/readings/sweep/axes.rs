@@ -109,8 +109,7 @@ impl SweepAxes {
     }
 }
 
-/// The least and the largest value of an axis, or twice a value that is no number; nothing where it
-/// is not swept.
+/// Least and largest value of an axis, NaN twice if it has one; `None` where it is not swept.
 fn ends(values: Option<&[f64]>, cancel: &Cancel) -> Result<[Option<f64>; 2]> {
     let Some(values) = values else { return Ok([None; 2]) };
     let (mut least, mut most, mut is_nan) = (f64::INFINITY, f64::NEG_INFINITY, false);

@@ -30,8 +30,8 @@ use super::layout::{Layout, LayoutSum, Swung};
 use super::{Selection, Sweep, SweepAxes};
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::Harmonic;
 use crate::load::source::{Column, Point, Source, at_point};
+use crate::load::{GroupIndex, Harmonic, Sources};
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -91,7 +91,7 @@ impl Sweep {
             }
             // Of each group the quantities that it makes.
             let mut selected = Vec::new();
-            for (k, group) in loads.groups.iter().enumerate() {
+            for (k, group) in loads.groups.indices().zip(&loads.groups) {
                 let [force, torque] = loads.has(k);
                 let planar = [Quantity::FORCE, Quantity::MOMENT];
                 let torques = [Quantity::TORQUE, Quantity::CRANK_TORQUE];
@@ -106,7 +106,7 @@ impl Sweep {
                 let selections: Vec<Selection> = selected.iter().map(|(_, one)| *one).collect();
                 layouts = sweep.layouts(engine, loads, &selections)?;
             }
-            let mut of_engine = vec![vec![OrderSums::default(); loads.groups.len()]; sizes.len()];
+            let mut of_engine = vec![loads.groups.map_to(|_| OrderSums::default()); sizes.len()]; // bounded: orders
             for ((group, selection), layout) in selected.into_iter().zip(&layouts) {
                 let largest = sweep.largest(layout, slowest, selection, &mut known, cancel)?;
                 for (sums, size) in of_engine.iter_mut().zip(largest) {
@@ -114,7 +114,7 @@ impl Sweep {
                     *sum = sum.max(size);
                 }
             }
-            sizes.iter_mut().zip(of_engine).for_each(|(sizes, sums)| sizes.extend(sums));
+            sizes.iter_mut().zip(&of_engine).for_each(|(sizes, sums)| sizes.extend(&**sums));
         }
         let flat: Vec<OrderSums> = sizes.iter().flatten().copied().collect();
         let (kept, left_out) = choice.few(&flat);
@@ -143,8 +143,8 @@ impl Sweep {
         candidate: &Candidate,
         integrated: &IntegratedOrders,
         cancel: &Cancel,
-    ) -> Result<Vec<(usize, f64)>> {
-        let mut worst: Vec<(usize, f64)> =
+    ) -> Result<Vec<(GroupIndex, f64)>> {
+        let mut worst: Vec<(GroupIndex, f64)> =
             integrated.groups.iter().map(|of| (of.group, of.tail)).collect();
         let Some(&last) = integrated.orders.last().filter(|_| self.points() > 1) else {
             return Ok(worst);
@@ -155,8 +155,9 @@ impl Sweep {
         for point in 0..self.points() {
             cancel.check()?;
             let at = self.proportions_at(point);
-            let mut tails = vec![0.0; loads.groups.len()];
-            for (k, (source, weight)) in candidate.sources.iter().zip(&weights).enumerate() {
+            let mut tails = loads.groups.map_to(|_| 0.0);
+            let sources = candidate.sources.indices().zip(candidate.sources.iter().zip(&weights));
+            for (k, (source, weight)) in sources {
                 if !source.has_open_tail() {
                     continue;
                 }
@@ -174,7 +175,7 @@ impl Sweep {
     fn largest(
         &self,
         layout: &Layout,
-        slowest: &[Arc<dyn Source>],
+        slowest: &Sources,
         selection: Selection,
         known: &mut Known,
         cancel: &Cancel,
@@ -217,7 +218,7 @@ impl Sweep {
     /// their bounds over the axes.
     fn factors(
         &self,
-        slowest: &[Arc<dyn Source>],
+        slowest: &Sources,
         Harmonic { source, column }: Harmonic,
         known: &mut Known,
         cancel: &Cancel,
@@ -316,7 +317,9 @@ mod tests {
     use super::*;
     use crate::Cylinder;
     use crate::engine::{Crank, Station};
+    use crate::load::SourceIndex;
     use crate::numbers::angle::Angle;
+    use crate::numbers::index::ListIndex;
 
     /// Bounds of a gear's harmonics over the axes, and the largest of those at any point.
     fn bounds_and_largest(
@@ -335,7 +338,7 @@ mod tests {
         let engines = vec![Arc::new(engine.unwrap())];
         let sweep = Sweep::new(engines, axes, orders.clone(), None, &cancel).unwrap();
         let (source, column) = [(0, Column::Force), (0, Column::Roll), (1, Column::Roll)][kind];
-        let source = &sweep.loads[0].sources[source];
+        let source = &sweep.loads[0].sources[SourceIndex::new(source)];
         let [rod_ratio, pin_offset] = sweep.extremes;
         let slowest = at_point(source, &Point { rod_ratio, pin_offset, cycles: None }).unwrap();
         let bounds = sweep.evaluated(&slowest, column, &cancel).unwrap();

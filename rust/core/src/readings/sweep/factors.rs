@@ -101,7 +101,7 @@ impl Coefficients {
         cancel: &Cancel,
     ) -> Result<Self> {
         let count = points.len();
-        let sources = &loads.sources[..];
+        let sources = &loads.sources;
         let harmonics = PointHarmonics::new(sweep, (sources, layout), selection, &points, cancel)?;
         let mut by_order = memory::with_capacity(layout.len())?;
         for (k, sums) in layout.iter().enumerate() {

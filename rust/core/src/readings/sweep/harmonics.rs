@@ -6,8 +6,8 @@ use std::sync::Arc;
 use super::layout::Layout;
 use super::{Selection, Sweep};
 use crate::Complex64;
-use crate::load::Harmonic;
 use crate::load::source::{Column, Point, Source, at_point};
+use crate::load::{Harmonic, Sources};
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::mechanism::harmonics::table;
 use crate::numbers::cancel::Cancel;
@@ -28,7 +28,7 @@ impl PointHarmonics {
     /// Those of a layout.
     pub fn new(
         sweep: &Sweep,
-        (sources, layout): (&[Arc<dyn Source>], &Layout),
+        (sources, layout): (&Sources, &Layout),
         selection: Selection,
         points: &Range<usize>,
         cancel: &Cancel,
@@ -76,7 +76,7 @@ impl Sweep {
 
     fn columns(
         &self,
-        sources: &[Arc<dyn Source>],
+        sources: &Sources,
         harmonic: Harmonic,
         selection: Selection,
         points: Range<usize>,

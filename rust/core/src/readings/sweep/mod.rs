@@ -131,7 +131,7 @@ impl Sweep {
             cancel.check()?;
             engine.check_speeds(&axes.rpm)?;
             let list = LoadList::new(engine, engine.reference(reference_z)?);
-            for (k, group) in list.groups.iter().enumerate() {
+            for (k, group) in list.groups.indices().zip(&list.groups) {
                 let new = || (group.clone(), [false; 2]);
                 let (_, has) = find_or_push(&mut groups, |(own, _)| own == group, new);
                 has.iter_mut().zip(list.has(k)).for_each(|(has, own)| *has |= own);

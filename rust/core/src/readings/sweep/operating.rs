@@ -8,6 +8,7 @@ use super::axes::SweepAxes;
 use super::kernel::{Number, ROWS_PER_TASK};
 use super::{Selection, Sweep};
 use crate::Complex64;
+use crate::load::SourceIndex;
 use crate::load::source::{Scaling, at_point};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -165,7 +166,7 @@ impl Sweep {
         let (angles, points) = (self.bank_angles().len(), self.points_of(selection));
         for (loads, out) in self.loads.iter().zip(out.chunks_mut(angles * points)) {
             let weights = loads.torque_weights();
-            let counts = |k: usize| {
+            let counts = |k: SourceIndex| {
                 let group = loads.group(k);
                 weights[k].size > 0.0
                     && scaling.is_none_or(|own| own == group.scaling)
@@ -174,7 +175,7 @@ impl Sweep {
             let mut means = memory::with_capacity(points)?;
             for point in 0..points {
                 let (mut mean, at) = (0.0, self.at(selection, point));
-                for k in (0..weights.len()).filter(|&k| counts(k)) {
+                for k in weights.indices().filter(|&k| counts(k)) {
                     let own = at_point(&loads.sources[k], &at)?.torque(&[], cancel)?.mean;
                     mean += weights[k].value * own[on_crank];
                 }

@@ -4,18 +4,19 @@
 use std::sync::Arc;
 
 use super::{Selection, Sweep};
-use crate::load::LoadList;
 use crate::load::kinematics::{AngleBlock, Columns, Kinematics, LoadSum, Quantities};
 use crate::load::source::{Source, at_point};
+use crate::load::{GroupIndex, LoadList};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
+use crate::numbers::index::List;
 use crate::readings::quantity::Kind;
 
 /// An engine at one bank angle.
 pub(super) struct Placed {
     pub kinematics: Kinematics,
     /// Names of the groups of its sums.
-    names: Vec<Arc<str>>,
+    names: List<GroupIndex, Arc<str>>,
     /// Sources of the sums at points.
     pub points: Vec<Vec<Arc<dyn Source>>>,
 }
@@ -31,7 +32,7 @@ impl Sweep {
             }
             None => &self.loads[engine],
         };
-        let names = loads.groups.iter().map(|group| Arc::clone(&group.name)).collect();
+        let names = loads.groups.map_to(|group| Arc::clone(&group.name));
         Ok(Placed { kinematics: Kinematics::new(loads), names, points: Vec::new() })
     }
 

@@ -11,11 +11,14 @@ use std::rc::Rc;
 use super::amplitudes::{SampleAmplitudes, amplitudes};
 use super::{Deviations, Parameter, SAMPLES_AT_ONCE, pins};
 use crate::Complex64;
-use crate::engine::{Engine, Origin, Station, distinct};
-use crate::load::{Arithmetic, Factor, Load, LoadList, Phasors, Wanted, Weight, superpose};
+use crate::engine::{Engine, Origin, Station};
+use crate::load::{
+    Arithmetic, Factor, Load, LoadIndex, LoadList, Phasors, Wanted, Weight, superpose,
+};
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::index::{List, ListIndex, distinct, list_index};
 use crate::numbers::order::Order;
 use crate::numbers::simd::{sin_cos_degrees, vectorised};
 
@@ -33,6 +36,11 @@ pub(super) struct SampleSums {
     pub moment: [Complexes; 2],
     /// On the block and on the crank.
     pub torque: [Complexes; 2],
+}
+
+list_index! {
+    /// Index of a cylinder with the speed of its crank, among those that differ.
+    DrivenIndex
 }
 
 /// Load of a pin that deviates.
@@ -62,8 +70,8 @@ pub(super) struct Terms {
     deviating: Vec<Deviating>,
     pin_of: Vec<usize>,
     /// Different cylinders with the speeds of their cranks, and which of them is in each place.
-    cylinders: Vec<(Cylinder, i32)>,
-    cylinder_of: Vec<usize>,
+    mechanisms: List<DrivenIndex, (Cylinder, i32)>,
+    mechanism_of: Vec<DrivenIndex>,
     /// Speed of each pin's crank over that of the main one.
     ratio_of: Vec<i32>,
 }
@@ -84,12 +92,12 @@ impl Terms {
         // Every pin carries mass: a tolerance of none is an unbalance too.
         let laden = engine.stations().iter().map(|p| Station { rotating_mass: 1.0, ..*p });
         let count = engine.stations().len();
-        let crank_of = (0..count).map(|i| engine.crank_of(i)).collect();
+        let crank_of = (0..count).map(|i| engine.crank_of(i).position()).collect();
         let laden = Engine::new("", "", laden.collect())?
             .with_cranks(engine.cranks().to_vec(), crank_of)?
             .with_counterweights(engine.counterweights().to_vec())?;
         let ratio = |i: usize| engine.cranks()[engine.crank_of(i)].ratio;
-        let (cylinders, cylinder_of) =
+        let (mechanisms, mechanism_of) =
             distinct((0..count).map(|i| (engine.stations()[i].cylinder, ratio(i))));
         let mut ratio_of = vec![1; pins(pin_of)];
         for (i, &pin) in pin_of.iter().enumerate() {
@@ -117,8 +125,8 @@ impl Terms {
             deviating: loads.list.iter().filter_map(deviating).collect(),
             loads,
             pin_of: pin_of.to_vec(),
-            cylinders,
-            cylinder_of,
+            mechanisms,
+            mechanism_of,
             ratio_of,
         })
     }
@@ -164,8 +172,8 @@ impl Terms {
             let lengths = (&[of.0.crank_radius()][..], &[of.0.rod_length()][..]);
             amplitudes(of, self.torque, lengths, numbers, cancel)
         };
-        let nominal: Vec<SampleAmplitudes> =
-            self.cylinders.iter().map(nominal).collect::<Result<_>>()?;
+        let nominal: List<DrivenIndex, SampleAmplitudes> =
+            self.mechanisms.iter().map(nominal).collect::<Result<_>>()?;
         let mut one = SampleAmplitudes::default();
         one[0] = vec![[vec![1.0], vec![0.0]]; orders.len()];
         let deviates = |figure: Parameter| !deviations[figure as usize].is_empty();
@@ -173,7 +181,7 @@ impl Terms {
             cancel.check()?;
             let radius = around(cylinder.crank_radius(), &radii[self.pin_of[i]]);
             let rod = around(cylinder.rod_length(), &rods[i]);
-            let of = &self.cylinders[self.cylinder_of[i]];
+            let of = &self.mechanisms[self.mechanism_of[i]];
             amplitudes(of, self.torque, (&radius, &rod), numbers, cancel)
         };
         let changed: Vec<SampleAmplitudes> =
@@ -206,7 +214,7 @@ impl Terms {
             let Station { cylinder, rotating_mass, z, .. } = *place;
             let radius = around(cylinder.crank_radius(), &radii[pin]);
             let lever = (around(-reference, &around(z, &places[i])), z - reference);
-            let of_cylinder = &nominal[self.cylinder_of[i]];
+            let of_cylinder = &nominal[self.mechanism_of[i]];
             let of_cylinder = [changed.get(i).unwrap_or(of_cylinder), of_cylinder];
             let (parts, amplitudes) = match kind {
                 DeviatingKind::Piston(_) => {
@@ -227,7 +235,8 @@ impl Terms {
             };
             Drawn { parts, lever, amplitudes, turns }
         };
-        let loads: Vec<Drawn> = self.deviating.iter().zip(&self.loads.list).map(drawn).collect();
+        let loads = self.deviating.iter().zip(&self.loads.list);
+        let loads: List<LoadIndex, Drawn> = loads.map(drawn).collect();
         let wanted = Wanted { planar: true, roll: self.torque, by_bank: false };
         for (k, &order) in orders.iter().enumerate() {
             cancel.check()?;
@@ -328,7 +337,7 @@ impl Drawn<'_> {
 
 /// Arithmetic of samples at one order: unit phasors, and complex weights less the nominal ones.
 struct Samples<'a> {
-    loads: &'a [Drawn<'a>],
+    loads: &'a List<LoadIndex, Drawn<'a>>,
     /// Index of the order.
     k: usize,
     phasors: Phasors,
@@ -339,18 +348,18 @@ impl Arithmetic for Samples<'_> {
     /// One, of torques those on the block and on the crank; none where nothing was added.
     type Sum = Vec<Complexes>;
 
-    fn phase(&self, load: (usize, &Load), times: i64) -> Self::Unit {
+    fn phase(&self, load: (LoadIndex, &Load), times: i64) -> Self::Unit {
         (self.phasors.phase(load, times), Rc::new(self.loads[load.0].changes(self.k)))
     }
 
-    fn toward(&self, load: (usize, &Load), unit: &Self::Unit, conjugate: bool) -> Self::Unit {
+    fn toward(&self, load: (LoadIndex, &Load), unit: &Self::Unit, conjugate: bool) -> Self::Unit {
         (self.phasors.toward(load, &unit.0, conjugate), Rc::clone(&unit.1))
     }
 
     fn add(
         &self,
         sum: &mut Self::Sum,
-        (_, load): (usize, &Load),
+        (_, load): (LoadIndex, &Load),
         weight: Weight,
         (unit, changes): &Self::Unit,
         times: Factor,

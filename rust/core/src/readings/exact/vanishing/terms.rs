@@ -4,17 +4,23 @@
 use num_traits::CheckedMul;
 
 use super::super::roots::{FormalSum, PartOfTurn, Share, SymbolEntry, parts_of_turn};
-use super::super::{ExactLoads, Levers, TypedProportions, too_long};
+use super::super::{ExactLoads, Levers, MotionIndex, TypedProportions, too_long};
 use super::ProofQuantity;
-use crate::engine::{Engine, distinct, first_equal};
+use crate::engine::{Engine, Origin};
 use crate::load::source::{Column, ExactFactor};
-use crate::load::{self, Harmonic, Load, LoadList, Wanted, superpose};
+use crate::load::{self, Harmonic, Load, LoadIndex, LoadList, SourceIndex, Wanted, superpose};
 use crate::mechanism::Mechanism;
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
+use crate::numbers::index::{List, distinct, list_index};
 use crate::numbers::order::Order;
 use crate::numbers::rational::{Multiples, Ratio};
+
+list_index! {
+    /// Index of a running gear with the speed of its crank, whichever its sense, among those that differ.
+    pub(in crate::readings::exact) DrivenGearIndex
+}
 
 /// Harmonic by which a sum is multiplied; of pin offsets the odd parts apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
@@ -23,16 +29,16 @@ pub(super) enum Channel {
     #[default]
     One,
     /// Of the force of a motion.
-    Force(usize),
+    Force(MotionIndex),
     /// Torque of the masses of a motion.
-    Masses(usize),
-    OddOfMasses(usize),
+    Masses(MotionIndex),
+    OddOfMasses(MotionIndex),
     /// Torque of the rod inertia of a motion.
-    Rod(usize),
-    OddOfRod(usize),
+    Rod(MotionIndex),
+    OddOfRod(MotionIndex),
     /// Torque of a whole running gear, masses and rod.
-    Gear(usize),
-    OddOfGear(usize),
+    Gear(DrivenGearIndex),
+    OddOfGear(DrivenGearIndex),
 }
 
 /// Lists of weights that have no rational relation to each other's.
@@ -93,24 +99,26 @@ pub(super) type SymbolSums = Vec<load::Term<Vec<Share>>>;
 pub(super) struct Proof {
     pub loads: LoadList,
     /// Motions, of proportions and speed of a crank.
-    pub motions: Vec<Mechanism>,
+    pub motions: List<MotionIndex, Mechanism>,
     /// Motion of each source that has one.
-    motion_of: Vec<Option<usize>>,
+    motion_of: List<SourceIndex, Option<MotionIndex>>,
     pub roots: FormalSum,
     /// Directions, equal ones by one symbol.
-    bores: Vec<PartOfTurn>,
-    /// For each list of weights, unit and multiple of every load; arms have two weights a load.
-    pub planar: Multiples,
-    masses: Multiples,
-    rods: Multiples,
-    arms: Multiples,
+    bores: List<LoadIndex, PartOfTurn>,
+    /// For each list of weights, unit and multiple of every load; of arms along x and y.
+    planar: List<LoadIndex, (usize, Ratio)>,
+    masses: List<LoadIndex, (usize, Ratio)>,
+    rods: List<LoadIndex, (usize, Ratio)>,
+    arms: List<LoadIndex, [(usize, Ratio); 2]>,
+    /// Number of units of m·r and unbalances.
+    pub planar_units: usize,
     pub levers: Levers,
     /// For each motion the first of its size but for the sign of the offset.
-    mirrored: Vec<usize>,
+    mirrored: List<MotionIndex, MotionIndex>,
     /// Running gears that differ, each with the speed of its crank, whichever its sense.
-    pub gears: Vec<(Cylinder, u32)>,
-    /// Running gear of each cylinder, and the first of its size but for the sign of the offset.
-    pub gear_of: Vec<(usize, usize)>,
+    pub gears: List<DrivenGearIndex, (Cylinder, u32)>,
+    /// Running gear of each load of a cylinder, and the first of its size but for the sign of the offset.
+    gear_of: List<LoadIndex, Option<[DrivenGearIndex; 2]>>,
 }
 
 impl Proof {
@@ -120,6 +128,7 @@ impl Proof {
         let weights = |of: &dyn Fn(&Load) -> f64| {
             Multiples::new(&loads.list.iter().map(of).collect::<Vec<_>>(), cancel)
         };
+        let planar = weights(&|load| load.weight)?;
         let roll_of = |factor: ExactFactor| {
             let loads = &loads;
             move |load: &Load| if loads.source(load).exact() == factor { load.roll } else { 0.0 }
@@ -128,35 +137,41 @@ impl Proof {
             let axis = load.place.axis;
             [axis.re, axis.im].map(|arm| load.weight * arm)
         };
-        let arms = loads.list.iter().flat_map(arm);
+        let arms: Vec<f64> = loads.list.iter().flat_map(arm).collect();
+        let arms = Multiples::new(&arms, cancel)?.of;
         let bores = loads.list.iter().map(|load| load.place.direction);
-        let sizes = motions.iter().map(|motion| {
+        let mirrored = motions.first_equal(|motion| {
             (TypedProportions::of(motion.cylinder()).mirrored(), motion.ratio.unsigned_abs())
         });
         let driven = |i: usize| {
             let crank = engine.cranks()[engine.crank_of(i)];
             (engine.gears()[engine.gear_of(i)], crank.ratio.unsigned_abs())
         };
-        let (gears, of_cylinder) = distinct((0..engine.stations().len()).map(driven));
-        let of_gear = first_equal(gears.iter().map(|(gear, speed)| {
+        let (gears, of_cylinder) =
+            distinct::<DrivenGearIndex, _>((0..engine.stations().len()).map(driven));
+        let first_of_size = gears.first_equal(|(gear, speed)| {
             let inertia = gear.rod_inertia_excess();
             let offset = gear.pin_offset().abs();
             let mass = gear.reciprocating_mass();
             ([gear.crank_radius(), gear.rod_length(), offset, mass, inertia], *speed)
-        }));
-        let gear_of = of_cylinder.into_iter().map(|gear| (gear, of_gear[gear]));
+        });
+        let gear_of = loads.list.map_to(|load| match load.place.origin {
+            Origin::Cylinder(i) => Some([of_cylinder[i], first_of_size[of_cylinder[i]]]),
+            Origin::Counterweight(_) | Origin::Shaft(_) | Origin::Load(_) => None,
+        });
         Ok(Self {
             roots: FormalSum::new(&loads, cancel)?,
             bores: parts_of_turn(bores, false, cancel)?,
-            planar: weights(&|load| load.weight)?,
-            masses: weights(&roll_of(ExactFactor::Piston))?,
-            rods: weights(&roll_of(ExactFactor::Rod))?,
-            arms: Multiples::new(&arms.collect::<Vec<_>>(), cancel)?,
+            planar_units: planar.units.len(),
+            planar: List::new(planar.of),
+            masses: List::new(weights(&roll_of(ExactFactor::Piston))?.of),
+            rods: List::new(weights(&roll_of(ExactFactor::Rod))?.of),
+            arms: List::new(arms.as_chunks().0.to_vec()),
             levers,
-            mirrored: first_equal(sizes),
+            mirrored,
             motions,
             motion_of,
-            gear_of: gear_of.collect(),
+            gear_of,
             gears,
             loads,
         })
@@ -168,12 +183,17 @@ impl Proof {
     }
 
     /// Multiple of the speed of its own crank that an order is for a motion.
-    pub fn own_order(&self, motion: usize, order: Order) -> u32 {
+    pub fn own_order(&self, motion: MotionIndex, order: Order) -> u32 {
         order.halves() / 2 / self.motions[motion].ratio.unsigned_abs()
     }
 
     /// Channels of a piston's force and their signs; none where its harmonic is zero.
-    fn force_channels(&self, motion: usize, order: Order, view: View) -> Vec<(Channel, i128)> {
+    fn force_channels(
+        &self,
+        motion: MotionIndex,
+        order: Order,
+        view: View,
+    ) -> Vec<(Channel, i128)> {
         use Channel::{Force, One};
         let own = self.own_order(motion, order);
         let (mirrored, odd) = (self.mirrored[motion], own % 2 == 1);
@@ -194,13 +214,13 @@ impl Proof {
 
     /// Channels of a torque and their signs: of a motion or of a running gear, `own` or the first of
     /// its size.
-    fn torque_channels(
+    fn torque_channels<I: Copy>(
         &self,
-        (motion, load): (usize, usize),
+        (motion, load): (MotionIndex, LoadIndex),
         order: Order,
         view: View,
-        [whole, odd]: [fn(usize) -> Channel; 2],
-        (own, mirrored): (usize, usize),
+        [whole, odd]: [fn(I) -> Channel; 2],
+        [own, mirrored]: [I; 2],
     ) -> Vec<(Channel, i128)> {
         let cylinder = self.motions[motion].cylinder();
         if cylinder.has_infinite_rod() && self.own_order(motion, order) != 2 {
@@ -228,7 +248,7 @@ impl Proof {
         order: Order,
         view: View,
     ) -> Vec<(Channel, i128)> {
-        let both = |motion: usize| (motion, self.mirrored[motion]);
+        let both = |motion: MotionIndex| [motion, self.mirrored[motion]];
         let Some(motion) = self.motion_of[harmonic.source] else { return vec![(Channel::One, 1)] };
         let at = (motion, share.load);
         match (harmonic.column, self.exact(share.load)) {
@@ -243,7 +263,7 @@ impl Proof {
                 both(motion),
             ),
             (Column::Roll, _) if view.gears => {
-                let of_gear = self.gear_of[share.load];
+                let Some(of_gear) = self.gear_of[share.load] else { return vec![] };
                 self.torque_channels(at, order, view, [Channel::Gear, Channel::OddOfGear], of_gear)
             }
             (Column::Roll, _) => {
@@ -254,7 +274,7 @@ impl Proof {
     }
 
     /// Factor of a load.
-    fn exact(&self, load: usize) -> ExactFactor {
+    fn exact(&self, load: LoadIndex) -> ExactFactor {
         self.loads.source(&self.loads.list[load]).exact()
     }
 
@@ -263,14 +283,12 @@ impl Proof {
         use load::Weight;
         let i = share.load;
         let (list, (unit, weight)) = match share.weight {
-            Weight::Force | Weight::Moment => (SymbolWeights::Planar, self.planar.of[i]),
+            Weight::Force | Weight::Moment => (SymbolWeights::Planar, self.planar[i]),
             Weight::Roll if view.gears => (SymbolWeights::Gear, (0, Ratio::ONE)),
-            Weight::Roll if self.exact(i) == ExactFactor::Rod => {
-                (SymbolWeights::Rod, self.rods.of[i])
-            }
-            Weight::Roll => (SymbolWeights::Masses, self.masses.of[i]),
-            Weight::ArmX => (SymbolWeights::Arm, self.arms.of[2 * i]),
-            Weight::ArmY => (SymbolWeights::Arm, self.arms.of[2 * i + 1]),
+            Weight::Roll if self.exact(i) == ExactFactor::Rod => (SymbolWeights::Rod, self.rods[i]),
+            Weight::Roll => (SymbolWeights::Masses, self.masses[i]),
+            Weight::ArmX => (SymbolWeights::Arm, self.arms[i][0]),
+            Weight::ArmY => (SymbolWeights::Arm, self.arms[i][1]),
         };
         let weight = weight.checked_mul(&Ratio::from(i128::from(share.halves)));
         let weight = weight.ok_or_else(too_long)?;

@@ -95,8 +95,11 @@ fn gas_of_unlike_cylinders_remains_where_it_is_evaluated() {
 #[test]
 fn harmonics_that_underflow_remain() {
     let single = engine(&[(0.0, 90.0, 0.0, 0.45, 0.0)]);
-    let force =
-        harmonics::coefficients(&single.gears()[0].proportions(), &[1000], &crate::Cancel::new());
+    let force = harmonics::coefficients(
+        &single.stations()[0].cylinder.proportions(),
+        &[1000],
+        &crate::Cancel::new(),
+    );
     assert_eq!(force.unwrap()[0].norm(), 0.0);
     assert_eq!(verdicts(&single, 1000)[1], R);
 }
@@ -456,11 +459,11 @@ fn rod_inertia_that_nearly_cancels_torque_is_never_a_false_proof() {
         let found = vanishing(&single(inertia), &[1], None, &crate::Cancel::new()).unwrap();
         (found.verdicts[0][8], found.within_rounding[0][8], !found.obstacles.is_empty())
     };
-    let proportions = single(0.0).gears()[0].proportions();
+    let proportions = single(0.0).stations()[0].cylinder.proportions();
     let cancel = crate::Cancel::new();
     let [masses, rod] = [harmonics::torque::torque, harmonics::rod::torque]
         .map(|torque| torque(&proportions, &[1], &cancel).unwrap().roll[0]);
-    let cancelling = -(masses / rod).re * single(0.0).gears()[0].second_moment();
+    let cancelling = -(masses / rod).re * single(0.0).stations()[0].cylinder.second_moment();
     // To four digits it is that of the rod at hand.
     assert!((cancelling / -2.558e-4 - 1.0).abs() < 1e-3, "{cancelling}");
     for inertia in [-2.558e-4, 2.558e-4, cancelling * (1.0 + 1e-5), cancelling * (1.0 - 1e-5)] {
