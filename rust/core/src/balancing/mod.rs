@@ -7,6 +7,7 @@
 mod angle_lists;
 pub mod bob_weight;
 pub mod card;
+pub mod counterweights;
 mod discs;
 mod least_squares;
 pub mod shafts;
@@ -18,32 +19,10 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits::SMALLEST;
 use crate::numbers::order::Order;
-use crate::readings::balance::{Orders, Request, UNIT_RPM, angular_speed, balance};
+use crate::readings::balance::angular_speed;
+use crate::readings::turning::over_square;
+pub use crate::readings::turning::{TurningPart, turning};
 use crate::wrench::Wrench;
-
-/// Force and moment that turn with a shaft, x + iy at θ = 0, over ω².
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct TurningPart {
-    /// Force, kg·m.
-    pub force: Complex64,
-    /// Moment about the reference plane, kg·m².
-    pub moment: Complex64,
-}
-
-impl TurningPart {
-    /// Part of an order's wrench that turns with a shaft of this ratio.
-    fn of(wrench: &Wrench, ratio: i32) -> Self {
-        let [force, moment] = [wrench.force, wrench.moment]
-            .map(|vector| if ratio > 0 { vector.forward } else { vector.backward() });
-        Self { force, moment }
-    }
-}
-
-/// Part of an engine's force and moment that turns with a shaft of this ratio, over ω².
-pub fn turning(engine: &Engine, ratio: i32, cancel: &Cancel) -> Result<TurningPart> {
-    let order = Order::whole(ratio.unsigned_abs())?;
-    Ok(TurningPart::of(&over_square(engine, order, false, cancel)?, ratio))
-}
 
 /// Phasor of an order of the roll torque on the block, over ω²; with that of gas pressure, which does
 /// not scale with speed, at the speed of a fired engine.
@@ -74,12 +53,6 @@ fn roll_of(engine: &Engine, wrench: &Wrench, rpm: Option<f64>) -> Result<Complex
             Err(Error::value("rpm", "None", hint))
         }
     }
-}
-
-fn over_square(engine: &Engine, order: Order, torque: bool, cancel: &Cancel) -> Result<Wrench> {
-    let request = Request { rpm: UNIT_RPM, reference_z: None, torque };
-    let found = balance(engine, &request, &Orders::Given(vec![order]), cancel)?;
-    Ok(found.wrenches[0])
 }
 
 /// Forces at places along a shaft as taken by two planes, front and rear, by the lever rule.
@@ -115,6 +88,53 @@ fn without_rounding(values: &mut [Complex64]) {
             *value = Complex64::default();
         }
     }
+}
+
+/// Part of the terms of a sum that is more than the errors of a fit leave.
+const NOTICEABLE: f64 = 1e-6;
+
+/// What hardware brings about at an order that the engine does not have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Appearing {
+    /// A force.
+    Force,
+    /// A moment about the reference plane.
+    Moment,
+    /// A roll torque of inertia.
+    Roll,
+}
+
+/// Forces, moments and roll torques that vanish in an engine and not in the same with other hardware, at
+/// the orders of its cranks and shafts.
+pub fn appearing(
+    before: &Engine,
+    after: &Engine,
+    cancel: &Cancel,
+) -> Result<Vec<(Order, Appearing)>> {
+    let cranks = after.cranks().iter().map(|crank| crank.ratio);
+    let ratios = cranks.chain(after.shafts().iter().map(|shaft| shaft.ratio));
+    let orders: std::collections::BTreeSet<u32> = ratios.map(i32::unsigned_abs).collect();
+    let mut found = Vec::new();
+    for order in orders {
+        let order = Order::whole(order)?;
+        // Hardware changes what inertia does alone.
+        let [was, is] = [before, after].map(|engine| {
+            let wrench = over_square(&engine.without_gas(), order, true, cancel)?;
+            let (force, moment, torque) = (wrench.force, wrench.moment, wrench.inertia);
+            Ok([
+                (force.peak(), force.size),
+                (moment.peak(), moment.size),
+                (torque.roll.norm(), torque.size),
+            ])
+        });
+        let kinds = [Appearing::Force, Appearing::Moment, Appearing::Roll];
+        for ((kind, (was, _)), (is, size)) in kinds.into_iter().zip(was?).zip(is?) {
+            if was == 0.0 && is > NOTICEABLE * size {
+                found.push((order, kind));
+            }
+        }
+    }
+    Ok(found)
 }
 
 #[cfg(test)]

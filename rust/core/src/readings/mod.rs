@@ -16,4 +16,5 @@ pub mod peaks;
 pub mod sweep;
 pub mod terms;
 pub mod tolerances;
+pub mod turning;
 pub mod waveform;
