@@ -47,6 +47,7 @@ export const bobPane = {
         rows: pins.map(({ cylinders, rotating, reciprocating }, k) =>
           [cylinders.join(", "), rotating, reciprocating, ...found.map((each) => each.pins[k].bob_weight)]),
       }),
+      ...(pins.every(({ rotating }) => rotating > 0) ? [] : [html("p", { class: "hint" }, WORDS.noRotatingMass)]),
       tableOf({
         ...named, title: WORDS.bobLeaves(short(rpm, 3)),
         columns: [{ label: "balance factor" }, { label: "longest force", unit: "N" }, { label: "force x", unit: "N" }, { label: "force y", unit: "N" },

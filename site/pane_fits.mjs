@@ -40,7 +40,8 @@ const MASS_COLUMNS = [
   { label: "no." }, { label: "place z", unit: "m" }, { label: "unbalance", unit: "kg·m", key: "unbalance" }, { label: "angle °" },
 ];
 
-const weightRows = (list) => list.map(({ z, amount, angle_deg: angle }, k) => [`${k + 1}`, z, amount, Number(angle)]);
+const weightRows = (list) => list.map(({ z, amount, angle_deg: angle, crank }, k) =>
+  [crank ? `${k + 1}, crank ${crank}` : `${k + 1}`, z, amount, Number(angle)]);
 
 export const counterweightsPane = {
   key: "counterweights",

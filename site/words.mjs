@@ -68,6 +68,7 @@ export const WORDS = {
   tooMany: (count, most) => `${count} cylinders: the workbench draws up to ${most}; the library takes more.`,
   factors: "Balance factors, such as 50 %, 52 %",
   bobWeights: "Bob weights on each crankpin",
+  noRotatingMass: "Rotating masses are not known: these bob weights lack the big ends and bearings.",
   bobLeaves: (rpm) => `What order 1 keeps at ${rpm} rpm`,
   vectors: { force: "shaking force", moment: "rocking moment" },
   leastAt: (name, factor) => `The longest ${name} of order 1 is the smallest at ${factor}.`,

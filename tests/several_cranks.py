@@ -76,6 +76,17 @@ class Draft:
             for _ in range(int(random.integers(0, 3)))
         ]
         self.reference_z = 0.07
+        # Weights that keep their direction, on cranks that have throws.
+        carrying = sorted(set(self.crank_of) - {0})
+        self.weights += [
+            cp.Unbalance(
+                float(random.uniform(1e-3, 0.02)),
+                float(random.uniform(-0.5, 0.5)),
+                float(random.uniform(0, 360)),
+                crank=crank,
+            )
+            for crank in carrying[: int(random.integers(0, 3))]
+        ]
 
     def engine(self) -> cp.Engine:
         """Return the engine that the lists describe."""
@@ -110,6 +121,10 @@ class Draft:
         image.__dict__.update(self.__dict__)
         image.cranks = [self.cranks[0], *((-x, y, -ratio) for x, y, ratio in self.cranks[1:])]
         image.bank_deg = 180.0 - self.bank_deg
+        image.weights = [
+            weight.replace(angle_deg=180.0 - float(weight.angle_deg)) if weight.crank else weight
+            for weight in self.weights
+        ]
         image.shafts = [
             shaft.replace(
                 ratio=-shaft.ratio,

@@ -383,6 +383,157 @@ def test_a_bob_weight_on_a_crank_that_turns_against_the_main_one_meets_the_backw
     assert "what turns with the crank of each piston" in text
 
 
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_weight_on_a_crank_is_one_at_its_pin_turned(seed: int) -> None:
+    """A free weight in the direction of a crankpin, and one at the pin, ahead by as much."""
+    engine = random_engine(seed)
+    rows, crank_of = engine._core.cranks
+    k = seed % len(engine)
+    crank, ahead = crank_of[k], 77.0
+    along = float(engine.pin_deg[k]) + math.copysign(ahead, rows[crank][2])
+    free = engine.with_counterweights([cp.Unbalance(0.02, 0.3, along, crank=crank)])
+    at_pin = engine.with_counterweights([cp.Unbalance(0.02, 0.3, ahead, pin=k + 1)])
+    found, expected = (each.balance(RPM, orders=ORDERS) for each in (free, at_pin))
+    for name in QUANTITIES:
+        apart = np.asarray(getattr(found, name)) - np.asarray(getattr(expected, name))
+        assert np.abs(apart).max() <= 1e-10 * size(engine, RPM), name  # angles of a few roundings
+    turned = free.with_first_tdc(33.0).balance(RPM, orders=ORDERS)
+    same_at_pin = at_pin.with_first_tdc(33.0).balance(RPM, orders=ORDERS)
+    apart = np.asarray(turned.force) - np.asarray(same_at_pin.force)
+    assert np.abs(apart).max() <= 1e-10 * size(engine, RPM)
+    assert cp.Engine.from_toml(free.to_toml()) == cp.Engine.from_json(free.to_json()) == free
+
+
+def test_weights_are_on_cranks_that_are_there() -> None:
+    engine = pair()
+    with pytest.raises(cp.InputError, match=r"counterweights\[0\].crank = 2: give the number"):
+        engine.with_counterweights([cp.Unbalance(0.01, 0.0, crank=2)])
+    with pytest.raises(cp.InputError, match="crank = 1: leave it out: a weight at a crankpin"):
+        cp.Unbalance(0.01, 0.0, pin=1, crank=1)
+    with pytest.raises(cp.InputError, match="the shaft carries it"):
+        cp.Shaft(1, [cp.Unbalance(0.01, 0.0, crank=1)])
+    with pytest.raises(cp.InputError, match="of ratio 1 or -1"):
+        cp.counterweights(pair(ratio=2), planes={"web": (0.0, 1)})
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_fastest_piston_is_that_of_any_crank(seed: int) -> None:
+    """Twice the distance between its dead centres in a turn of its own crank."""
+    engine = random_engine(seed, ratios=(1, -1, 2, -3))
+    rows, crank_of = engine._core.cranks
+    speeds = []
+    for cylinder, crank in zip(engine.cylinders, crank_of, strict=True):
+        heights = cylinder.position(np.linspace(0.0, 360.0, 3601))
+        speeds.append(2.0 * np.ptp(heights) * abs(rows[crank][2]) * RPM / 60.0)
+    found = cp.sweep(engine, rpm=[RPM / 2, RPM]).mean_piston_speed
+    assert found == pytest.approx(max(speeds), rel=1e-6)
+    assert engine._core.mean_piston_speed(RPM) == found
+    longer = cp.sweep(engine, rpm=[RPM], pin_offset=[0.0, 0.004]).mean_piston_speed
+    moved = [each.replace(pin_offset=0.004) for each in engine.cylinders]
+    expected = engine.replace(cylinder=moved)._core.mean_piston_speed(RPM)
+    assert longer == pytest.approx(expected, rel=1e-12)
+
+
+def test_a_fast_piston_on_a_second_crank_is_warned_of() -> None:
+    engine = pair(ratio=4)
+    with pytest.warns(UserWarning, match="mean piston speed is 80 m/s"):
+        engine.balance(6000)
+
+
+def test_pistons_on_faster_cranks_do_not_fire() -> None:
+    fast = pair(ratio=2)
+    for ask in (
+        lambda: fast.firing("1-2"),
+        fast.firing_orders,
+        lambda: fast.replace(firing_order="1-2"),
+    ):
+        with pytest.raises(cp.InputError, match=r"cranks\[1\].ratio = 2: cylinders but dummy"):
+            ask()
+    assert "fires" not in str(fast.explain(RPM))
+    still = fast.replace(cylinder=[fast.cylinders[0], fast.cylinders[1].replace(dummy=True)])
+    assert still.firing("1").order == (1,)
+
+
+def test_forces_are_relative_to_that_of_a_piston_on_its_own_crank() -> None:
+    fast = cp.Engine.from_lists(
+        cp.Cylinder(0.04, 0.14, 0.5), tdc_deg=[0], bank_deg=[90], z=[0], cranks=[(0.2, 0, 2)],
+        crank=[1],
+    )  # fmt: skip
+    assert "Order 2 leaves a shaking force of one piston's first-order force" in str(fast.explain())
+    assert fast.explain(RPM).unit == pytest.approx(fast.balance(RPM)[2].force.peak)
+
+
+def apart() -> cp.Engine:
+    """Two throws that are opposite, 0.6 m apart."""
+    return cp.Engine.from_lists(
+        cp.Cylinder(0.043, 0.145, 0.0), tdc_deg=[0, 180], bank_deg=[90, 90], z=[0, 0],
+        cranks=[(0.6, 0, 1)], crank=[0, 1], rotating_mass=1.0,
+    )  # fmt: skip
+
+
+def test_throws_on_axes_apart_make_a_roll_torque_that_is_told_and_removed() -> None:
+    """m·r·ω²·a = 0.043 kg·m · 0.6 m · ω²: no force and no moment across the crank."""
+    engine = apart()
+    torque = 0.043 * 0.6
+    fit = cp.counterweights(engine)
+    assert {weight.crank for weight in fit.hardware} == {0, 1}
+    assert fit.exact
+    residual = fit.frames["residual"]
+    rows = dict(zip(residual["state"].values[-2:], residual["longest"].values[-2:], strict=True))
+    assert rows == {"before": pytest.approx(torque), "after": 0.0}
+    assert "about the axis of the main crank" in residual["quantity"].values[-1]
+    at = 3000 * np.pi / 30
+    said = f"Order 1 leaves a roll torque of {torque * at**2 / 1e3:.3g} kN·m about the axis of the"
+    assert said in str(engine.explain(3000))
+    assert "counterweights on the cranks could remove it" in str(engine.explain(3000))
+    assert "|M_z| is about the axis of the main crank." in str(engine.balance(3000))
+    moved = str(engine.balance(3000).about((0.3, 0.1, 0.0)))
+    assert "|M_z| is about the axis at x = 0.3 m, y = 0.1 m." in moved
+
+
+def test_a_card_has_the_roll_torque_of_cranks_apart() -> None:
+    """Pistons pull against each other: weights at 100 % push as much, sideways."""
+    engine = apart().replace(cylinder=cp.Cylinder(0.043, 0.145, 0.5))
+    bob = cp.bob_weight(engine)
+    residual = bob.card([0.0, 0.5, 1.0], rpm=3000).frames["residual"]
+    (name,) = (each.name for each in residual.columns if each.name.startswith("roll torque about"))
+    expected = [
+        cp.bob_weight(engine, factor).fitted.balance(3000)[1].torque.peak
+        for factor in (0.0, 0.5, 1.0)
+    ]
+    factors = residual["factor"].values
+    found = [residual[name].values[factors.index(each)] for each in (0.0, 50.0, 100.0)]
+    assert found == pytest.approx(expected, rel=1e-9)
+    assert max(found) > 100.0
+
+
+OPPOSED = """
+schema = 1
+cranks = [{ x = 0.0, y = 0.5, ratio = -1 }]
+placements = [
+  { tdc_deg = 0, bank_deg = 90, z = 0 }, { tdc_deg = 20, bank_deg = 270, z = 0, crank = 1 },
+  { tdc_deg = 0, bank_deg = 90, z = 0.1 }, { tdc_deg = 0, bank_deg = 270, z = 0.2, crank = 1 }
+]
+cylinder = { crank_radius = 0.04, rod_length = 0.12, reciprocating_mass = 0.7, bore = 0.07 }
+"""
+
+
+def test_pistons_that_face_each_other_share_a_chamber_that_is_not_known() -> None:
+    engine = cp.Engine.from_toml(OPPOSED)
+    assert engine._core.facing_pistons() == [[1, 2]]
+    order = engine.firing_orders()[0].firing_order
+    fired = engine.replace(firing_order=order)
+    with pytest.warns(UserWarning, match="pistons 1 and 2 face each other in one bore"):
+        fired.with_cycle(cp.Cycle.example())
+    petrol = cp.Cycle.example()
+    fired.with_cycle([petrol, None, petrol, petrol])  # one of the two alone
+    beside = cp.Engine.from_toml(OPPOSED.replace("x = 0.0", "x = 0.01"))
+    assert beside._core.facing_pistons() == []
+    # Away from each other, as of a boxer on two cranks.
+    back = cp.Engine.from_toml(OPPOSED.replace("y = 0.5", "y = -0.5"))
+    assert back._core.facing_pistons() == []
+
+
 def test_what_counterweights_leave_is_said_of_one_sense_alone() -> None:
     ranked = [cp.rank([pair(ratio=ratio)], 3000, by="[1].force.backward") for ratio in (1, -1)]
     leaves = ["what the best counterweight leaves" in each.table.title for each in ranked]
@@ -515,9 +666,21 @@ def test_each_crank_is_loaded_as_that_of_an_engine_of_its_own(seed: int) -> None
             rotating_mass=engine.rotating_mass[own],
             mains=loads.main_z[loads.main_crank == k],
         ).with_counterweights(
-            each.replace(pin=own.tolist().index(each.pin - 1) + 1)
-            for each in engine.counterweights
-            if each.pin is not None and each.pin - 1 in own
+            [
+                *(
+                    each.replace(pin=own.tolist().index(each.pin - 1) + 1)
+                    for each in engine.counterweights
+                    if each.pin is not None and each.pin - 1 in own
+                ),
+                *(
+                    each.replace(
+                        crank=0,
+                        angle_deg=(-1.0) ** is_turned * float(each.angle_deg) + 180.0 * is_turned,
+                    )
+                    for each in engine.counterweights
+                    if each.pin is None and each.crank == k
+                ),
+            ]
         )
         expected = cp.bearing_loads(alone, speed * RPM, speed * loads.theta_deg)
         mirror = np.array([-1.0 if is_turned else 1.0, 1.0])

@@ -193,6 +193,20 @@ def test_reference_plane_matters_where_a_force_is_left(capsys: CAPTURE) -> None:
     assert front[0, 2] > 0.0
 
 
+def test_balance_is_about_the_point_that_is_typed(capsys: CAPTURE, tmp_path: Path) -> None:
+    path = tmp_path / "boxer.toml"
+    cp.Engine.preset("single").save(path)
+    argv = ["balance", str(path), "--orders", "1,2", "--csv", "--about"]
+    whole = cp.Engine.load(path).balance(3000, orders=(1, 2))
+    for typed, point in (("100mm,-0.2,0.3", (0.1, -0.2, 0.3)), ("0.3", 0.3)):
+        moved = whole.about(point)
+        _, _, values = numbers(printed(capsys, *argv, typed))
+        found = np.hstack([moved.force.peak_xy, moved.moment.peak_xy, moved.torque.peak[:, None]])
+        np.testing.assert_array_equal(values[:-1], found)
+    assert main([*argv, "1,2"]) == 2
+    assert "--about = 1,2: give X,Y,Z or Z, m" in capsys.readouterr().err
+
+
 # --- sweep --------------------------------------------------------------------------------------
 
 

@@ -118,6 +118,36 @@ def test_the_star_has_every_crankpin_with_its_numbers(engine: cp.Engine) -> None
         assert k in _numbers(nearest.get_text())
 
 
+def test_each_of_several_cranks_has_a_star_and_a_line_of_its_own() -> None:
+    """Cranks that turn against each other, the second 0.2 m beside the first: one star each."""
+    engine = cp.Engine.from_lists(
+        cp.Cylinder(0.04, 0.14, 0.5), tdc_deg=[0, 180, 0, 120], bank_deg=[90] * 4,
+        z=[0, 0.1, 0, 0.1], cranks=[(0.2, 0, -1)], crank=[0, 0, 1, 1], rotating_mass=0.3,
+    ).with_counterweights([cp.Unbalance(0.01, 0.05, 30.0, crank=1)])  # fmt: skip
+    theta = 30.0
+    at = geometry(engine, theta)
+    arms = at.crankpin - at.axis
+    ax = engine.plot(kind="star", theta_deg=theta)
+    first, second, *pins = map(middle, outlines(ax, PINS))
+    assert first == 0.0
+    assert second.real > 0.1
+    centres = np.array([first, first, second, second])
+    assert len(pins) == 4
+    for place in centres + arms:
+        assert min(abs(place - pin) for pin in pins) < 1e-9
+    assert {"main crank", "crank 1 −1×"} <= set(words(ax))
+    (weight,) = outlines(ax, UNBALANCES)[4:]
+    towards = float(np.degrees(np.angle(weight.mean() - second)))
+    assert towards == pytest.approx(30.0 - theta, abs=5.0)
+    side = engine.plot(kind="side", theta_deg=theta)
+    lines = [middle(each).imag for each in outlines(side, PINS)[:2]]
+    assert lines[0] == 0.0
+    assert lines[1] < -0.1
+    assert {"main crank", "crank 1 −1×"} <= set(words(side))
+    for ax in (engine.plot(kind="section", theta_deg=theta), *np.ravel(engine.plot())):
+        figure_of(ax).canvas.draw()
+
+
 def _angle(a: complex, b: complex) -> float:
     return abs(float(np.angle(a / b)))
 

@@ -107,6 +107,12 @@ def name_of(engine: Titled) -> str:
     return printable(engine.title)
 
 
+def about_axis(cranks: Sequence[tuple[float, float, int]]) -> str:
+    """Return about which axis a roll torque is, of cranks as x, y and ratio; none of one axis."""
+    apart = any((x, y) != (0.0, 0.0) for x, y, _ in cranks)
+    return " about the axis of the main crank" if apart else ""
+
+
 def printable(text: str) -> str:
     """Return a text in one line, control characters as spaces."""
     return " ".join(without_controls(text).split())

@@ -54,7 +54,7 @@ def over_square(engine: Engine, orders: Sequence[Order]) -> Balance:
 
 def mean_piston_speed(engine: Engine, rpm: float) -> float:
     """Return the largest mean piston speed of any cylinder, m/s."""
-    return 4.0 * engine_core(engine).largest_crank_radius * rpm / 60.0
+    return engine_core(engine).mean_piston_speed(rpm)
 
 
 class Balance(ByOrder[float]):
@@ -336,4 +336,16 @@ class Balance(ByOrder[float]):
             ]
         which = " of the orders given" if self.request.orders is not None else ""
         title = f"{labels.name_of(self.engine)} {labels.at_speed(self.rpm)}: peaks{which}"
-        return Table(title, tuple(columns), labels.not_shown(left_out), loads=self.loads_counted)
+        notes = [labels.not_shown(left_out)]
+        if "torque" in names:
+            notes.append(self._roll_axis())
+        note = " ".join(filter(None, notes))
+        return Table(title, tuple(columns), note, loads=self.loads_counted)
+
+    def _roll_axis(self) -> str:
+        """Return about which axis the roll torque is, where there are several to choose from."""
+        x, y = self.request.aside
+        if x or y:
+            return f"|M_z| is about the axis at x = {x:g} m, y = {y:g} m."
+        about = labels.about_axis(engine_core(self.engine).cranks[0])
+        return f"|M_z| is{about}." if about else ""

@@ -104,21 +104,23 @@ class Weight(NamedTuple):
     """Direction from +x, degrees."""
     axis: complex = 0j
     """Axis that it turns about, m; 0 of the main crank."""
+    crank: int = 0
+    """Index of the crank that carries it; 0 of balance shafts too."""
 
 
 def weights_on_crank(engine: Engine, theta_deg: float = 0.0) -> list[Weight]:
     """Return the counterweights, turned to a crank angle."""
-    pins, (axes, ratios) = engine.pin_deg, _cranks(engine)
+    pins, (cranks, crank_of) = engine.pin_deg, engine._core.cranks
     weights = []
     for each in engine.counterweights:
-        if each.pin is None:
-            weights.append(_turned(each, theta_deg))
-            continue
-        k = each.pin - 1
-        # Ahead of the pin in the sense in which its crank turns.
-        ahead = np.sign(ratios[k]) * inputs.degrees(each.angle_deg)
-        angle = float(pins[k] + ratios[k] * theta_deg + ahead)
-        weights.append(Weight(each.z, each.amount, angle % 360.0, complex(axes[k])))
+        crank = each.crank if each.pin is None else crank_of[each.pin - 1]
+        x, y, ratio = cranks[crank]
+        angle = inputs.degrees(each.angle_deg)
+        if each.pin is not None:
+            # Ahead of the pin in the sense in which its crank turns.
+            angle = float(pins[each.pin - 1] + np.sign(ratio) * angle)
+        turned = (angle + ratio * theta_deg) % 360.0
+        weights.append(Weight(each.z, each.amount, turned, complex(x, y), crank))
     return weights
 
 
@@ -127,7 +129,8 @@ def rotating_masses(engine: Engine, theta_deg: float = 0.0) -> list[Weight]:
     amounts = engine.rotating_mass * [each.crank_radius for each in engine.cylinders]
     axes, ratios = _cranks(engine)
     angles = engine.pin_deg + ratios * theta_deg
-    lists = (engine.z.tolist(), amounts.tolist(), angles.tolist(), axes.tolist())
+    crank_of = engine._core.cranks[1]
+    lists = (engine.z.tolist(), amounts.tolist(), angles.tolist(), axes.tolist(), crank_of)
     return [Weight(*each) for each in zip(*lists, strict=True) if each[1]]
 
 

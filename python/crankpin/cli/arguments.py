@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Orders, Spectrum
+    from crankpin.analysis.balance import Balance
     from crankpin.cli.outputs import Shown
 
 PROG = "crankpin"
@@ -112,6 +113,11 @@ OPTIONS: dict[str, dict[str, Any]] = {
     "--reference-z": {
         "metavar": "Z",
         "help": "plane about which moments are taken, m (default: the engine's)",
+    },
+    "--about": {
+        "metavar": "X,Y,Z",
+        "help": "point about which moments and roll torque are taken, m: X,Y,Z or Z; X and Y are "
+        "from the axis of the main crank (default: that axis)",
     },
     "--spectrum": {
         "metavar": "N=A,…",
@@ -462,6 +468,15 @@ class Given:
             title if title and titles.count(title) == 1 else name: engine
             for title, (name, engine) in zip(titles, typed.items(), strict=True)
         }
+
+    def about(self, balance: Balance) -> Balance:
+        """Return a balance about the point of ``--about``, if it is given."""
+        point = self.numbers("--about", "m")
+        if point is None:
+            return balance
+        if len(point) not in (1, 3):
+            raise rejected("--about", self.text("--about"), "give X,Y,Z or Z, m")
+        return balance.about(point if len(point) == 3 else point[0])
 
     def engine(self, command: str) -> Engine:
         """Return the engine of a command that takes one."""

@@ -38,12 +38,14 @@ HALF_ORDERS = (
 @command(
     "balance",
     "peaks of force, moment and torque at one speed, order by order",
-    "name --rpm --orders --rtol --quantity --reference-z --spectrum --units --csv --plot",
+    "name --rpm --orders --rtol --quantity --reference-z --about --spectrum --units --csv --plot",
     example="balance v6-60 --rpm 6000 --plot v6.png",
 )
 def _balance(given: Given) -> Shown:
     engine, chosen = given.engine("balance"), given.chosen()
-    balance = engine.balance(given.number("--rpm", "rpm"), spectrum=given.spectrum(), **chosen)
+    balance = given.about(
+        engine.balance(given.number("--rpm", "rpm"), spectrum=given.spectrum(), **chosen)
+    )
     note = ""
     if chosen["orders"] == "auto":
         note = left_out(balance)

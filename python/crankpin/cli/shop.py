@@ -11,7 +11,7 @@ from crankpin._support import inputs
 from crankpin._support.record import changed
 from crankpin._support.tables import Column
 from crankpin.analysis.balancing.bob_weight import bob_weight
-from crankpin.analysis.balancing.card import PARTS
+from crankpin.analysis.balancing.card import PARTS, RODS
 from crankpin.analysis.balancing.two_plane import G_MM, two_plane_correction
 from crankpin.analysis.tolerances.match_parts import match_parts
 from crankpin.cli.arguments import command, option, rejected
@@ -20,6 +20,14 @@ from crankpin.cli.outputs import Shown, only
 
 if TYPE_CHECKING:
     from crankpin.cli.arguments import Given
+
+
+def _default(part: str) -> str:
+    """Return what counts where a part is not weighed."""
+    if part in RODS:
+        return "default: that of the engine's rod, or named as not counted"
+    return "default: the engine's, without any part of its kind"
+
 
 FLAGS = {part: f"--{part.replace(' ', '-')}" for part in PARTS}
 """Part that is weighed → its option."""
@@ -34,7 +42,7 @@ FLAGS = {part: f"--{part.replace(' ', '-')}" for part in PARTS}
             flag,
             group="weighed parts, of one cylinder or A,B,… of each",
             metavar="MASS,…",
-            help=f"{PARTS[part]} (default: the engine's masses)",
+            help=f"{PARTS[part]} ({_default(part)})",
         )
         for part, flag in FLAGS.items()
     ),

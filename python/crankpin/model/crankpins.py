@@ -23,10 +23,10 @@ class Crankpin(NamedTuple):
 
 
 class Bay(NamedTuple):
-    """Part of the main crankshaft between two main bearings, with one throw or several.
+    """Part of a crankshaft between two main bearings, with one throw or several.
 
-    Bearings are the engine's :attr:`~crankpin.Engine.mains`. Webs are midway between a throw and
-    the bearing or throw beside it.
+    Bearings of the main one are the engine's :attr:`~crankpin.Engine.mains`. Webs are midway
+    between a throw and the bearing or throw beside it.
     """
 
     cylinders: tuple[int, ...]
@@ -35,6 +35,8 @@ class Bay(NamedTuple):
     """Places of the throws along the crank, each midway between its crankpins, m."""
     bearings: tuple[float, float]
     """Places of the main bearings in front and behind, m."""
+    crank: int = 0
+    """Index of its crankshaft: 0 is the main one."""
 
     @property
     def z(self) -> float:
@@ -47,10 +49,10 @@ class Bay(NamedTuple):
         front, rear = self.bearings
         return tuple((one + other) / 2.0 for one, other in pairwise([front, *self.throws, rear]))
 
-    def holds(self, z: float) -> bool:
+    def holds(self, z: float, crank: int = 0) -> bool:
         """Return whether a place is between the bearings; one at a bearing is behind it."""
         front, rear = self.bearings
-        return front <= z < rear
+        return crank == self.crank and front <= z < rear
 
 
 def throws(engine: Engine) -> list[list[Crankpin]]:
@@ -75,11 +77,11 @@ def crankpins(engine: Engine) -> tuple[Crankpin, ...]:
 
 
 def bays(engine: Engine) -> tuple[Bay, ...]:
-    """Return the bays of the main crankshaft that have throws, from front to flywheel.
+    """Return the bays of all cranks that have throws, crank by crank from front to flywheel.
 
     Throws at one place are one.
     """
     return tuple(
-        Bay(tuple(cylinders), tuple(throws), (front, rear))
-        for cylinders, throws, (front, rear) in engine._core.bays()
+        Bay(tuple(cylinders), tuple(throws), (front, rear), crank)
+        for cylinders, throws, (front, rear), crank in engine._core.bays()
     )

@@ -12,7 +12,7 @@ from crankpin import _core
 from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import files, inputs
 from crankpin._support.record import AbsentError, read_only
-from crankpin._support.warnings import suppressed
+from crankpin._support.warnings import suppressed, warn
 from crankpin.model import checks, engine_files
 from crankpin.model import loads as periodic
 from crankpin.model import shafts as rotating
@@ -617,8 +617,8 @@ class EngineData:
         Warns
         -----
         UserWarning
-            If the pressure takes more work from the crank than an engine does, or ``crankcase``
-            seems to be in another unit.
+            If the pressure takes more work from the crank than an engine does, ``crankcase`` seems
+            to be in another unit, or two pistons face each other in one bore.
 
         Examples
         --------
@@ -657,6 +657,7 @@ class EngineData:
         fired = self._core.with_cycles(distinct, cycle_of, below)
         checks.absolute("crankcase", below)
         _warn_of_work(each, self.cylinders)
+        _warn_of_facing(fired)
         return type(self)(fired)
 
     def with_bank_angle(self, bank_angle_deg: Angle, *, hold: Hold) -> Self:
@@ -804,6 +805,7 @@ class EngineData:
             of_core = {each: Cycle._of(each) for each in distinct}
             pressures = [None if each is None else of_core[each] for each in core.cycles]
             _warn_of_work(pressures, read.cylinders)
+            _warn_of_facing(core)
         for name in ("tdc_deg", "bank_deg"):
             angles = getattr(core, name).tolist()
             checks.radians(name, angles, angles)
@@ -952,6 +954,18 @@ def _warn_of_work(cycles: Sequence[Cycle | None], cylinders: Sequence[Cylinder])
     for cycle, cylinder in dict.fromkeys(zip(cycles, cylinders, strict=True)):
         if cycle is not None:
             cycle.imep(cylinder)  # which warns
+
+
+def _warn_of_facing(core: _CoreEngine) -> None:
+    """Warn of pistons that share a chamber, each of which has a cycle of its own."""
+    pairs = core.facing_pistons()
+    if pairs:
+        named = ", ".join(f"{one} and {other}" for one, other in pairs[:4])
+        more = ", …" if len(pairs) > 4 else ""
+        warn(
+            f"pistons {named}{more} face each other in one bore: they share one chamber, which "
+            "fires once, and each is computed with a chamber and a cycle of its own"
+        )
 
 
 def _is_kept(value: object) -> bool:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Angle
     from crankpin._support.record import Item
 
-_Weight: TypeAlias = tuple[float, str, float, int | None]
+_Weight: TypeAlias = tuple[float, str, float, int | None, int]
 
 
 class Unbalance(Input):
@@ -33,12 +33,15 @@ class Unbalance(Input):
         the direction in which the crank turns: 180 is opposite.
     pin : int, optional
         Number of a cylinder whose crankpin it follows wherever the pin moves, such as 1; None for
-        a weight that keeps its direction. On the crankshaft only.
+        a weight that keeps its direction. On the cranks only.
+    crank : int, default 0
+        Index of the crank that carries it, as in :meth:`Engine.from_lists`: 0 is the main one. Left
+        out with ``pin``, whose crank it is on, and on balance shafts.
 
     Raises
     ------
     InputError
-        If the amount is below zero, or a figure is not finite.
+        If the amount is below zero, a figure is not finite, or ``pin`` and ``crank`` are given.
 
     Examples
     --------
@@ -56,9 +59,15 @@ class Unbalance(Input):
     z: float
     angle_deg: float | str
     pin: int | None
+    crank: int
 
     def __init__(
-        self, amount: float, z: float, angle_deg: Angle = 0.0, pin: int | None = None
+        self,
+        amount: float,
+        z: float,
+        angle_deg: Angle = 0.0,
+        pin: int | None = None,
+        crank: int = 0,
     ) -> None:
         object.__setattr__(self, "amount", inputs.finite("amount", amount))
         object.__setattr__(self, "z", inputs.finite("z", z))
@@ -74,6 +83,13 @@ class Unbalance(Input):
             if pin < 1:
                 raise inputs.rejected("pin", pin, "give the number of a cylinder, from 1")
         object.__setattr__(self, "pin", pin)
+        on = inputs.whole("crank", crank)
+        if on < 0:
+            raise inputs.rejected("crank", on, "give the number of a crank, 0 for the main one")
+        if on and pin is not None:
+            hint = "leave it out: a weight at a crankpin is on the crank of that"
+            raise inputs.rejected("crank", on, hint)
+        object.__setattr__(self, "crank", on)
 
 
 class Shaft(Input):
@@ -141,30 +157,36 @@ class Shaft(Input):
             if each.pin is not None:
                 hint = "leave it out: only the crankshaft has crankpins"
                 raise inputs.rejected(f"unbalances[{k}].pin", each.pin, hint)
+            if each.crank:
+                hint = "leave it out: the shaft carries it"
+                raise inputs.rejected(f"unbalances[{k}].crank", each.crank, hint)
 
 
 def with_counterweights(core: _core.Engine, weights: Iterable[Unbalance]) -> _core.Engine:
-    """Return an engine with these unbalances on its crankshaft."""
+    """Return an engine with these unbalances on its cranks."""
     listed = listed_items("counterweights", weights, Unbalance)
     made = core.with_counterweights([_weight(weight) for weight in listed])
     checks.hardware(core, listed, ())
     return made
 
 
+def with_more(
+    core: _core.Engine, weights: Iterable[Unbalance] = (), shafts: Iterable[Shaft] = ()
+) -> _core.Engine:
+    """Return an engine with these in addition to what it has, of which nothing is warned."""
+    core = core.with_counterweights([*core.counterweights, *map(_weight, weights)])
+    return core.with_shafts([*core.shafts, *map(_shaft, shafts)])
+
+
 def counterweights(core: _core.Engine) -> tuple[Unbalance, ...]:
-    """Return the unbalances on the crankshaft besides the rotating masses."""
+    """Return the unbalances on the cranks besides the rotating masses."""
     return tuple(unbalance_of(weight) for weight in core.counterweights)
 
 
 def with_shafts(core: _core.Engine, given: Iterable[Shaft]) -> _core.Engine:
     """Return an engine with these balance shafts."""
     listed = listed_items("shafts", given, Shaft)
-    made = core.with_shafts(
-        [
-            (each.name, each.ratio, each.x, each.y, [_weight(u) for u in each.unbalances])
-            for each in listed
-        ]
-    )
+    made = core.with_shafts([_shaft(each) for each in listed])
     checks.hardware(core, (), listed)
     return made
 
@@ -204,14 +226,18 @@ def listed_items(name: str, given: object, kind: type[Item]) -> tuple[Item, ...]
 def _weight(unbalance: Unbalance) -> _Weight:
     pin = None if unbalance.pin is None else unbalance.pin - 1
     angle = inputs.angle("angle_deg", unbalance.angle_deg)
-    return (unbalance.amount, angle, unbalance.z, pin)
+    return (unbalance.amount, angle, unbalance.z, pin, unbalance.crank)
+
+
+def _shaft(shaft: Shaft) -> tuple[str, int, float, float, list[_Weight]]:
+    return (shaft.name, shaft.ratio, shaft.x, shaft.y, [_weight(u) for u in shaft.unbalances])
 
 
 def unbalance_of(weight: _Weight) -> Unbalance:
     """Return an unbalance of the core."""
-    amount, angle, z, pin = weight
+    amount, angle, z, pin, crank = weight
     with suppressed():  # Warned of where it was given.
-        return Unbalance(amount, z, readable(angle), None if pin is None else pin + 1)
+        return Unbalance(amount, z, readable(angle), None if pin is None else pin + 1, crank)
 
 
 def readable(angle: str) -> float | str:
@@ -222,6 +248,6 @@ def readable(angle: str) -> float | str:
 
 
 def _text(weight: _Weight) -> str:
-    amount, angle, z, pin = weight
-    place = "" if pin is None else f"pin {pin + 1} + "
+    amount, angle, z, pin, crank = weight
+    place = f"pin {pin + 1} + " if pin is not None else f"crank {crank}, " if crank else ""
     return f"{amount:.4g} kg·m at {place}{inputs.degrees(angle):.6g}°, z = {z:.4g} m"

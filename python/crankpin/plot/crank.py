@@ -63,46 +63,80 @@ WEIGHTS = "crankpin counterweights"
 # --- star ---------------------------------------------------------------------------------------
 
 
+def cranks_with_parts(engine: Engine) -> list[int]:
+    """Return the indices of the cranks that have throws or weights."""
+    carrying = {weight.crank for weight in weights_on_crank(engine)}
+    return sorted(carrying | {pin.crank for throw in throws(engine) for pin in throw}) or [0]
+
+
+def crank_text(engine: Engine, crank: int) -> str:
+    """Return the words at one of several cranks: which one, and how it turns."""
+    ratio = engine._core.cranks[0][crank][2]
+    return shaft_text(f"crank {crank}", ratio) if crank else "main crank"
+
+
 def star(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     """Draw crankpins in their directions, numbered, with rotating masses and counterweights.
 
-    Unbalances of one direction are added up; the area of their disc or sector is as the sum.
+    Unbalances of one direction are added up; the area of their disc or sector is as the sum. Stars
+    of several cranks are beside each other.
     """
     ink = inks_of(ax)
     largest = crank_radius(engine)
-    pins = pins_in_line(engine, theta_deg)
     half = 0.65 * JOURNAL * largest
-    rotating = by_direction(rotating_masses(engine, theta_deg))
-    weights = by_direction(weights_on_crank(engine, theta_deg))
-    radii = radius_of_amounts(engine, [*rotating.values(), *weights.values()])
+    shown = cranks_with_parts(engine)
+    pins = {crank: pins_in_line(engine, theta_deg, crank) for crank in shown}
+    masses, weights = rotating_masses(engine, theta_deg), weights_on_crank(engine, theta_deg)
+    rotating, balancing = (
+        [
+            (crank, *each)
+            for crank in shown
+            for each in by_direction(one for one in kind if one.crank == crank).items()
+        ]
+        for kind in (masses, weights)
+    )
+    radii = radius_of_amounts(engine, [amount for *_, amount in [*rotating, *balancing]])
     # Rotating masses are round and at their pins, so that they do not look like counterweights.
     rounds = [AS_LARGE * radius for radius in radii[: len(rotating)]]
-    sectors = [
-        *(disc(largest * at, radius) for at, radius in zip(rotating, rounds, strict=True)),
-        *(
-            wedge(0.0, radius, float(np.degrees(np.angle(at))))
-            for at, radius in zip(weights, radii[len(rotating) :], strict=True)
-        ),
-    ]
-    faces = [ink.journal] * len(rotating) + [ink.weight] * len(weights)
-    add(ax, sectors, facecolor=faces, edgecolor=ink.line, linewidth=0.6, zorder=2, gid=UNBALANCES)
-    looks = {"facecolor": ink.web, "edgecolor": ink.line, "linewidth": 0.8, "zorder": 3}
-    add(ax, [bar(0.0, at, 2.6 * half, 1.3 * half) for at in pins], **(looks | style))
-    journals = [disc(0.0, 1.5 * half), *(disc(at, half) for at in pins)]
-    faces = [ink.paper] + [ink.journal] * len(pins)
-    add(ax, journals, facecolor=faces, edgecolor=ink.line, linewidth=0.8, zorder=4, gid=PINS)
-    circle = largest * direction(np.linspace(0.0, 360.0, 181))
-    ax.plot(circle.real, circle.imag, color=ink.faint, linewidth=0.8, linestyle="-", zorder=1)
-    arrow_round(ax, largest, _widest_gap([*pins]), ink)
     reach = max([1.25 * largest, *radii[len(rotating) :], *(largest + each for each in rounds)])
     limit = 1.25 * reach
+    centres = {crank: complex(2.0 * limit * k) for k, crank in enumerate(shown)}
+    sectors = [
+        *(
+            disc(centres[crank] + largest * at, radius)
+            for (crank, at, _), radius in zip(rotating, rounds, strict=True)
+        ),
+        *(
+            wedge(centres[crank], radius, float(np.degrees(np.angle(at))))
+            for (crank, at, _), radius in zip(balancing, radii[len(rotating) :], strict=True)
+        ),
+    ]
+    faces = [ink.journal] * len(rotating) + [ink.weight] * len(balancing)
+    add(ax, sectors, facecolor=faces, edgecolor=ink.line, linewidth=0.6, zorder=2, gid=UNBALANCES)
+    looks = {"facecolor": ink.web, "edgecolor": ink.line, "linewidth": 0.8, "zorder": 3}
+    places = [(centres[crank], centres[crank] + at) for crank in shown for at in pins[crank]]
+    add(ax, [bar(axis, at, 2.6 * half, 1.3 * half) for axis, at in places], **(looks | style))
+    journals = [
+        *(disc(centre, 1.5 * half) for centre in centres.values()),
+        *(disc(at, half) for _, at in places),
+    ]
+    faces = [ink.paper] * len(centres) + [ink.journal] * len(places)
+    add(ax, journals, facecolor=faces, edgecolor=ink.line, linewidth=0.8, zorder=4, gid=PINS)
     # The layout may make the axes smaller yet.
-    scale = 0.8 * 72.0 * inches_of(ax) / (2.0 * limit)
-    for at, cylinders in _numbers(ax, pins, scale * reach).items():
-        outside(ax, reach * at, listed(cylinders))
+    scale = 0.8 * 72.0 * inches_of(ax) / (2.0 * limit * len(shown))
+    for crank, centre in centres.items():
+        circle = centre + largest * direction(np.linspace(0.0, 360.0, 181))
+        ax.plot(circle.real, circle.imag, color=ink.faint, linewidth=0.8, linestyle="-", zorder=1)
+        gap = _widest_gap([*pins[crank]]) if pins[crank] else 0.0
+        arrow_round(ax, largest, gap, ink, centre, engine._core.cranks[0][crank][2])
+        for at, cylinders in _numbers(ax, pins[crank], scale * reach).items():
+            outside(ax, centre + reach * at, listed(cylinders), centre)
+        if len(shown) > 1:
+            text = plain_text(crank_text(engine, crank))
+            write(ax, text, centre - 1.1j * limit, -3.0j, va="top", fontsize="x-small")
     ax.set_aspect("equal")
-    ax.set_xlim(-limit, limit)
-    ax.set_ylim(-limit, limit)
+    ax.set_xlim(-limit, limit + 2.0 * limit * (len(shown) - 1))
+    ax.set_ylim(-limit if len(shown) == 1 else -1.3 * limit, limit)
     ax.set_axis_off()
 
 
@@ -154,19 +188,26 @@ class Stretch(NamedTuple):
 
 
 def side(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
-    """Draw journals, crankpins, webs, unbalances and balance shafts over z, as seen from x < 0."""
+    """Draw journals, crankpins, webs, unbalances and balance shafts over z, as seen from x < 0.
+
+    Several cranks are below each other, each about a line of its own.
+    """
     ink = inks_of(ax)
     at = geometry(engine, theta_deg)
     up = (at.crankpin - at.axis).imag  # every crank on one line
     drawn, pitch = _stretches(engine)
     thick = 0.09 * pitch
     half = JOURNAL * crank_radius(engine)
-    front, back = drawn[0][0].low - 2.0 * thick, drawn[-1][-1].high + 4.0 * thick
+    front = min(throw[0].low for throw in drawn) - 2.0 * thick
+    back = max(throw[-1].high for throw in drawn) + 4.0 * thick
+    lines = _lines(engine)
     per_metre = 0.7 * 72.0 * inches_of(ax) / (back - front)
-    journals, webs = [_rectangle(front, back, -half, half)], []
+    journals = [_rectangle(front, back, line - half, line + half) for line in lines.values()]
+    webs = []
     reach = 2.0 * crank_radius(engine)
     for throw in drawn:
-        heights = [float(up[stretch.pin.cylinders[0] - 1]) for stretch in throw]
+        line = lines[throw[0].pin.crank]
+        heights = [line + float(up[stretch.pin.cylinders[0] - 1]) for stretch in throw]
         for (_, low, high), height in zip(throw, heights, strict=True):
             journals.append(_rectangle(low, high, height - half, height + half))
         middle = 0.5 * (throw[0].low + throw[-1].high)
@@ -175,11 +216,11 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
             # Numbers of pins side by side have the room between throws too.
             z = middle + (k - 0.5 * (len(throw) - 1)) * room
             points = _number(
-                ax, z, height, 1.2 * half, stretch.pin.cylinders, 0.9 * room * per_metre
+                ax, z, height, line, 1.2 * half, stretch.pin.cylinders, 0.9 * room * per_metre
             )
-            reach = max(reach, abs(height) + 1.2 * half + points / per_metre)
+            reach = max(reach, abs(height - line) + 1.2 * half + points / per_metre)
         # Webs: from the main journal to a pin, from pin to pin, and back to the main journal.
-        joined = zip([0.0, *heights], [*heights, 0.0], strict=True)
+        joined = zip([line, *heights], [*heights, line], strict=True)
         edges = [throw[0].low, *(stretch.high for stretch in throw)]
         for (a, b), z in zip(joined, edges, strict=True):
             low, high = min(a, b) - 1.2 * half, max(a, b) + 1.2 * half
@@ -188,19 +229,35 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     add(ax, journals, gid=PINS, **looks)
     add(ax, webs, **(looks | {"facecolor": ink.web} | style))
     flywheel = 1.5 * crank_radius(engine)
-    wheel = _rectangle(back, back + 2.0 * thick, -flywheel, flywheel)
-    add(ax, [wheel], facecolor=ink.metal, edgecolor=ink.line, linewidth=0.8, zorder=3)
-    _weights(engine, ax, theta_deg, ink, thick)
+    wheels = [
+        _rectangle(back, back + 2.0 * thick, line - flywheel, line + flywheel)
+        for line in lines.values()
+    ]
+    add(ax, wheels, facecolor=ink.metal, edgecolor=ink.line, linewidth=0.8, zorder=3)
+    _weights(engine, ax, theta_deg, ink, thick, lines)
     _shafts(engine, ax, theta_deg, ink, (front, back + 2.0 * thick), thick)
-    ax.update_datalim([(front - thick, -reach), (back + 3.0 * thick, reach)])
+    low = min(lines.values()) - reach
+    ax.update_datalim([(front - thick, low), (back + 3.0 * thick, lines[min(lines)] + reach)])
+    if len(lines) > 1:
+        for crank, line in lines.items():
+            name, end = plain_text(crank_text(engine, crank)), complex(back + 2.0 * thick, line)
+            write(ax, name, end, 4.0 + 0j, ha="left", fontsize="x-small")
     to_scale = pitch > 0.5 * crank_radius(engine)
     ax.set_aspect("equal" if to_scale else "auto")
     ax.autoscale_view()
     (upright,) = in_units(ax.yaxis, "y, m")
-    ax.set_ylabel(upright)
+    ax.set_ylabel(upright if len(lines) == 1 else f"{upright}, cranks apart")
     along = "z, m" if to_scale else "z, m (not to the scale of y)"
     (along,) = in_units(ax.xaxis, along)
     ax.set_xlabel(along)
+
+
+def _lines(engine: Engine) -> dict[int, float]:
+    """Return the height at which each crank is drawn: the first at its own, others below it, m."""
+    first, *others = cranks_with_parts(engine)
+    below = min([0.0, *(shaft.y for shaft in engine.shafts)])
+    apart = 4.5 * crank_radius(engine)
+    return {first: 0.0} | {crank: below - apart * k for k, crank in enumerate(others, 1)}
 
 
 def _stretches(engine: Engine) -> tuple[list[list[Stretch]], float]:
@@ -211,7 +268,10 @@ def _stretches(engine: Engine) -> tuple[list[list[Stretch]], float]:
     """
     throw_list = throws(engine)
     middles = [float(np.mean([pin.z for pin in throw])) for throw in throw_list]
-    apart = np.diff(np.sort(middles))
+    cranks = np.array([throw[0].crank for throw in throw_list])
+    apart = np.concatenate(
+        [np.diff(np.sort(np.array(middles)[cranks == crank])) for crank in set(cranks.tolist())]
+    )
     pitch = float(apart[apart > 0.0].min(initial=np.inf))
     if not np.isfinite(pitch):
         pitch = 1.2 * float(assumed_bores(engine).max())
@@ -224,7 +284,7 @@ def _stretches(engine: Engine) -> tuple[list[list[Stretch]], float]:
 
 
 def _number(
-    ax: Axes, z: float, y: float, clear: float, cylinders: Sequence[int], room: float
+    ax: Axes, z: float, y: float, line: float, clear: float, cylinders: Sequence[int], room: float
 ) -> float:
     """Write the numbers of a pin's cylinders on the side of it that is away from the axis.
 
@@ -234,15 +294,20 @@ def _number(
     text, font = listed(cylinders), FontProperties(size="small")
     if points_of(ax, text, font) > room:
         text = text.replace(", ", "\n")
-    up = 1.0 if y > -1e-9 * clear else -1.0
+    up = 1.0 if y - line > -1e-9 * clear else -1.0
     write(ax, text, complex(z, y + up * clear), 3.0j * up, va="bottom" if up > 0.0 else "top")
     return 3.0 + LINE * font.get_size_in_points() * (text.count("\n") + 1)
 
 
-def _weights(engine: Engine, ax: Axes, theta: float, ink: Inks, thick: float) -> None:
+def _weights(
+    engine: Engine, ax: Axes, theta: float, ink: Inks, thick: float, lines: dict[int, float]
+) -> None:
     weights = weights_on_crank(engine, theta)
     radii = radius_of_amounts(engine, [each.amount for each in weights])
-    plates = [_plate(each, radius, 0.0, thick) for each, radius in zip(weights, radii, strict=True)]
+    plates = [
+        _plate(each, radius, lines[each.crank], thick)
+        for each, radius in zip(weights, radii, strict=True)
+    ]
     add(ax, plates, facecolor=ink.weight, edgecolor=ink.line, linewidth=0.8, zorder=4, gid=WEIGHTS)
 
 

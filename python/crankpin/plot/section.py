@@ -77,7 +77,8 @@ def _walls(engine: Engine, ax: Axes, at: Geometry, bores: NDArray[np.float64], i
         ax.plot(corners.real, corners.imag, color=ink.line, linewidth=1.2, linestyle="-", zorder=2)
         axis = at.foot[k] + np.array([0.0, heads[k]]) * at.along[k]
         ax.plot(axis.real, axis.imag, color=ink.faint, linewidth=0.6, linestyle="-.", zorder=1)
-        outside(ax, axis[1], listed([each + 1 for each in cylinders]))
+        numbers = listed([each + 1 for each in cylinders])
+        outside(ax, axis[1], numbers, complex(at.axis[k]))
         reached.append(corners)
     # Numbers need room beyond the heads.
     ax.update_datalim(points(1.06 * np.concatenate(reached)))
@@ -97,11 +98,16 @@ def _crank(engine: Engine, ax: Axes, at: Geometry, ink: Inks) -> None:
     pins = zip(at.axis.tolist(), at.crankpin.round(9).tolist(), strict=True)
     webs = [bar(*each, 1.3 * width, width) for each in dict.fromkeys(pins)]
     add(ax, webs, facecolor=ink.web, edgecolor=ink.line, linewidth=0.6, zorder=3)
-    journals = [disc(axis, 0.5 * width) for axis in dict.fromkeys([0j, *at.axis.tolist()])]
+    axes = dict.fromkeys([0j, *at.axis.tolist(), *(each.axis for each in weights)])
+    journals = [disc(axis, 0.5 * width) for axis in axes]
     add(ax, journals, facecolor=ink.paper, edgecolor=ink.line, zorder=3.1)
-    arc = 1.7 * largest * direction(np.linspace(-75.0, -15.0, 25))
-    ax.plot(arc.real, arc.imag, color=ink.faint, linewidth=1.0, linestyle="-", zorder=2)
-    arrow_round(ax, 1.7 * largest, -15.0, ink)
+    carrying = {weight.axis for weight in weights} | set(at.axis.tolist())
+    for x, y, ratio in engine._core.cranks[0]:
+        axis = complex(x, y)
+        if axis in carrying or not axis:
+            arc = axis + 1.7 * largest * direction(np.linspace(-75.0, -15.0, 25))
+            ax.plot(arc.real, arc.imag, color=ink.faint, linewidth=1.0, linestyle="-", zorder=2)
+            arrow_round(ax, 1.7 * largest, -15.0 if ratio > 0 else -75.0, ink, axis, ratio)
 
 
 def _moving_parts(

@@ -145,12 +145,14 @@ def add(ax: Axes, outlines: Iterable[NDArray[np.complex128]], **style: Any) -> N
 # --- crank and unbalances -----------------------------------------------------------------------
 
 
-def pins_in_line(engine: Engine, theta_deg: float = 0.0) -> dict[complex, list[int]]:
-    """Return the crankpins as seen from the flywheel: place from the axis, m → cylinders there."""
+def pins_in_line(
+    engine: Engine, theta_deg: float = 0.0, crank: int = 0
+) -> dict[complex, list[int]]:
+    """Return the pins of a crank seen from the flywheel: place from its axis, m → cylinders."""
     places = geometry(engine, theta_deg)
     at = places.crankpin - places.axis
     pins: dict[complex, list[int]] = {}
-    for pin in crankpins(engine):
+    for pin in (pin for pin in crankpins(engine) if pin.crank == crank):
         place = complex(at[pin.cylinders[0] - 1].round(9))
         pins.setdefault(place, []).extend(pin.cylinders)
     return {complex(at[numbers[0] - 1]): sorted(numbers) for numbers in pins.values()}
@@ -190,9 +192,9 @@ def listed(numbers: Sequence[int]) -> str:
     return ", ".join(map(str, numbers))
 
 
-def outside(ax: Axes, place: complex, text: str) -> None:
-    """Write beyond a point, as seen from the origin."""
-    towards = place / abs(place)
+def outside(ax: Axes, place: complex, text: str, centre: complex = 0j) -> None:
+    """Write beyond a point, as seen from another."""
+    towards = (place - centre) / abs(place - centre)
     left, bottom = text_corner(towards)
     ha = {0.0: "left", -0.5: "center", -1.0: "right"}[left]
     va = {0.0: "bottom", -0.5: "center", -1.0: "top"}[bottom]
@@ -207,9 +209,12 @@ def text_corner(towards: complex) -> tuple[float, float]:
     return left, bottom
 
 
-def arrow_round(ax: Axes, radius: float, at_deg: float, ink: Inks) -> None:
-    """Draw the head of an arrow that goes round the crank's axis counter-clockwise."""
-    tip, tail = (radius * complex(direction(at_deg + turn)) for turn in (2.0, -2.0))
+def arrow_round(
+    ax: Axes, radius: float, at_deg: float, ink: Inks, centre: complex = 0j, ratio: float = 1.0
+) -> None:
+    """Draw the head of an arrow that goes round a crank's axis as it turns."""
+    turns = (2.0, -2.0) if ratio > 0.0 else (-2.0, 2.0)
+    tip, tail = (centre + radius * complex(direction(at_deg + turn)) for turn in turns)
     look = {"arrowstyle": "-|>", "color": ink.faint, "linewidth": 1.0, "shrinkA": 0, "shrinkB": 0}
     ax.annotate("", (tip.real, tip.imag), (tail.real, tail.imag), arrowprops=look)
 

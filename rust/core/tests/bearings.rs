@@ -197,7 +197,8 @@ fn bays_are_between_bearings_and_have_what_turns_there() {
     assert_eq!(cylinders, [0, 1, 2, 3, 4, 5, 6]);
     assert_close(&bays.iter().map(Bay::z).collect::<Vec<_>>(), &[0.05, 0.1, 0.19, 0.31, 0.4]);
     // A weight at the pin of a cylinder of another bay has the angle of that pin, exactly.
-    let weight = |pin, z| Unbalance { amount: 0.01, angle: angle(180.0), z, pin };
+    let weight =
+        |pin, z| Unbalance { amount: 0.01, angle: angle(180.0), z, pin, crank: CrankIndex::MAIN };
     let weights = vec![weight(Some(6), 0.16), weight(None, 0.25), weight(None, 0.6)];
     let engine = mixed().with_counterweights(weights).unwrap();
     let alone: Vec<Engine> = bays.iter().map(|bay| engine.of_bay(bay).unwrap()).collect();

@@ -10,6 +10,7 @@ use std::f64::consts::TAU;
 
 use common::{angle, by_orders};
 use crankpin_core::balance::{Orders, Request, Vector};
+use crankpin_core::engine::CrankIndex;
 use crankpin_core::engine::Unbalance;
 use crankpin_core::{Cancel, Complex64, Crank, Cylinder, Engine, Station, harmonics, waveform};
 
@@ -47,7 +48,7 @@ fn engine(cranks: &[Crank], pieces: &[Piece]) -> Engine {
     };
     let weights = pieces.iter().enumerate().map(|(i, s)| {
         let [amount, ahead] = s.weight;
-        Unbalance { amount, angle: angle(ahead), z: s.z, pin: Some(i) }
+        Unbalance { amount, angle: angle(ahead), z: s.z, pin: Some(i), crank: CrankIndex::MAIN }
     });
     Engine::new("", "", pieces.iter().map(place).collect())
         .and_then(|e| e.with_counterweights(weights.filter(|w| w.amount > 0.0).collect()))

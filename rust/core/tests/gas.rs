@@ -8,7 +8,7 @@ use std::sync::Arc;
 use common::{InArrays, angle};
 use crankpin_core::balance::{Balance, Orders, Request, balance};
 use crankpin_core::engine::layout::Strokes;
-use crankpin_core::engine::{Details, Gas, file};
+use crankpin_core::engine::{CrankIndex, Details, Gas, file};
 use crankpin_core::pressure::Given;
 use crankpin_core::quantity::{Part, Quantity};
 use crankpin_core::sweep::{MapAxes, Statistic, SweepAxes};
@@ -302,7 +302,8 @@ fn fired_vee([ratio, offset]: [f64; 2]) -> Engine {
         rotating_mass: 0.0,
     };
     let known = Details { bore: Some(BORE), ..Details::default() };
-    let weight = Unbalance { amount: 0.005, angle: angle(33.0), z: 0.1, pin: None };
+    let weight =
+        Unbalance { amount: 0.005, angle: angle(33.0), z: 0.1, pin: None, crank: CrankIndex::MAIN };
     let (name, axis) = (String::new(), [0.1, -0.05]);
     let beside = Shaft { name, ratio: 2, axis, unbalances: vec![weight] };
     Engine::new("", "", vec![place(30.0, 350.0, 0.0), place(100.0, 50.0, 0.1)])

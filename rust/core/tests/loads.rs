@@ -7,6 +7,7 @@ use std::f64::consts::TAU;
 use common::random::{angles, engines, stations, vees, weighted};
 use common::{InArrays, angle, by_orders, changed, kinematics, scales, turning, whole, xy};
 use crankpin_core::balance::{Vector, balance};
+use crankpin_core::engine::CrankIndex;
 use crankpin_core::exact::vanishing::{ProofQuantity as Sum, QUANTITIES, Verdict, vanishing};
 use crankpin_core::harmonics;
 use crankpin_core::quantity::Quantity;
@@ -184,7 +185,7 @@ proptest! {
         ratio in prop_oneof![Just(1), Just(-1), Just(2), Just(-3)],
     ) {
         let before = of(&engine);
-        let weight = Unbalance { amount, angle: at, z, pin: None };
+        let weight = Unbalance { amount, angle: at, z, pin: None, crank: CrankIndex::MAIN };
         let opposite = Unbalance { angle: at + HALF, ..weight };
         let on_crank = |more: &[Unbalance]| {
             let all = [engine.counterweights(), more].concat();
@@ -311,7 +312,7 @@ proptest! {
         let stations = stations.into_iter().map(|p| if centred { no_offset(p) } else { p });
         let plain = Engine::new("", "", stations.collect()).unwrap();
         let opposite = |i: usize, amount: f64, z: f64| {
-            Unbalance { amount, angle: HALF, z, pin: Some(i) }
+            Unbalance { amount, angle: HALF, z, pin: Some(i), crank: CrankIndex::MAIN }
         };
         let bob = plain.stations().iter().enumerate().flat_map(|(i, p)| {
             let c = p.cylinder;
@@ -465,7 +466,8 @@ fn lanchester(a: [f64; 2], b: [f64; 2]) -> (Engine, Balance) {
     let a2 = harmonics::coefficients(&cylinder.proportions(), &[2], &Cancel::new()).unwrap()[0];
     let amount = cylinder.first_order() * a2.re / 2.0;
     // The force points up at the first top dead centre, the weights down.
-    let down = Unbalance { amount, angle: angle(270.0), z: 0.15, pin: None };
+    let down =
+        Unbalance { amount, angle: angle(270.0), z: 0.15, pin: None, crank: CrankIndex::MAIN };
     let shafts = vec![shaft(2, a, vec![down]), shaft(-2, b, vec![down])];
     let engine = i4.with_shafts(shafts).unwrap();
     let request = Request { reference_z: None, ..REQUEST };
@@ -527,8 +529,9 @@ fn one_counter_rotating_shaft_leaves_a_rolling_couple() {
         rotating_mass: 0.0,
     };
     let amount = 0.5 * cylinder.first_order();
-    let bob = Unbalance { amount, angle: HALF, z: 0.0, pin: Some(0) };
-    let down = Unbalance { amount, angle: angle(270.0), z: 0.0, pin: None };
+    let bob = Unbalance { amount, angle: HALF, z: 0.0, pin: Some(0), crank: CrankIndex::MAIN };
+    let down =
+        Unbalance { amount, angle: angle(270.0), z: 0.0, pin: None, crank: CrankIndex::MAIN };
     let single = Engine::new("", "", vec![place]).unwrap();
     let with = |axis| {
         let engine = single.with_counterweights(vec![bob]).unwrap();

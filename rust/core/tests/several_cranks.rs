@@ -158,7 +158,7 @@ proptest! {
         let on: Vec<usize> = (0..still.len()).map(|i| engine.crank_of(i).position()).collect();
         let still = Engine::new("", "", still).unwrap();
         let still = still.with_cranks(engine.cranks().to_vec(), on).unwrap();
-        let weight = Unbalance { amount: 0.1, angle: angle(0.0), z: 0.0, pin: Some(cylinder) };
+        let weight = Unbalance { amount: 0.1, angle: angle(0.0), z: 0.0, pin: Some(cylinder), crank: CrankIndex::MAIN };
         let laden = still.with_counterweights(vec![weight]).unwrap();
         let ratio = engine.cranks()[engine.crank_of(cylinder)].ratio;
         let k = orders().iter().position(|o| o.as_whole() == Some(ratio.unsigned_abs())).unwrap();

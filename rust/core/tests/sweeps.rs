@@ -9,6 +9,7 @@ use common::{
     there, turning, weighted, whole, xy,
 };
 use crankpin_core::balance::Vector;
+use crankpin_core::engine::CrankIndex;
 use crankpin_core::peaks::PeakFinder;
 use crankpin_core::quantity::{Part, Quantity};
 use crankpin_core::slider_crank::Proportions;
@@ -983,7 +984,13 @@ fn even_three() -> Arc<Engine> {
 /// A cylinder, whose orders all peak together, with a shaft of an order far above those that count.
 fn with_fast_shaft() -> Arc<Engine> {
     let single = Station { ..even_three().stations()[0] };
-    let against = Unbalance { amount: 1e-6, angle: Angle::QUARTER_TURN, z: single.z, pin: None };
+    let against = Unbalance {
+        amount: 1e-6,
+        angle: Angle::QUARTER_TURN,
+        z: single.z,
+        pin: None,
+        crank: CrankIndex::MAIN,
+    };
     let shaft = Shaft { name: String::new(), ratio: 20, axis: [0.0; 2], unbalances: vec![against] };
     let engine = Engine::new("", "", vec![single]).unwrap();
     Arc::new(engine.with_shafts(vec![shaft]).unwrap())
@@ -998,7 +1005,7 @@ fn balanced_at(ratio: f64) -> Arc<Engine> {
     let (tdc, bank) = (Angle::ZERO, Angle::QUARTER_TURN);
     let single = Station { cylinder, tdc, bank, z, rotating_mass: 0.0 };
     let amount = 0.5 * 0.5 * 0.05 * second / 4.0;
-    let against = Unbalance { amount, angle: -bank, z, pin: None };
+    let against = Unbalance { amount, angle: -bank, z, pin: None, crank: CrankIndex::MAIN };
     let shaft =
         |ratio| Shaft { name: String::new(), ratio, axis: [0.0; 2], unbalances: vec![against] };
     let engine = Engine::new("", "", vec![single]).unwrap();

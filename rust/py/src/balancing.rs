@@ -1,8 +1,11 @@
 //! Counterweights and balance shafts.
 
+use crankpin_core::balancing::counterweights::{self, Keep, Plane, Target};
 use crankpin_core::balancing::shafts::{self, Remove};
-use crankpin_core::balancing::weights::{self, Minimise, Target};
-use crankpin_core::balancing::{self, bob_weight, card};
+use crankpin_core::balancing::weights::Minimise;
+use crankpin_core::balancing::{self, Appearing, bob_weight, card};
+use crankpin_core::engine::CrankIndex;
+use crankpin_core::index::ListIndex;
 use crankpin_core::{Complex64, Order};
 use crankpin_macros::guarded;
 use ndarray::Array1;
@@ -38,6 +41,32 @@ pub fn turning(engine: &Bound<'_, Engine>, ratio: i32) -> PyResult<Pair> {
     Ok((found.force, found.moment))
 }
 
+/// What each bay exerts on its main bearings of what turns with its crank, over ω².
+#[guarded]
+#[pyfunction]
+pub fn bay_loads(engine: &Bound<'_, Engine>) -> PyResult<Vec<Pair>> {
+    let core = &engine.get().0;
+    let found = interrupt::run(engine.py(), |cancel| counterweights::bay_loads(core, cancel))?;
+    Ok(found.iter().map(|part| (part.force, part.moment)).collect())
+}
+
+/// Orders, and quantities of them, that vanish in an engine and not in the same with other hardware.
+#[guarded]
+#[pyfunction]
+pub fn appearing(before: &Bound<'_, Engine>, after: &Engine) -> PyResult<Vec<(u32, &'static str)>> {
+    let (core, after) = (&before.get().0, &after.0);
+    let found = interrupt::run(before.py(), |cancel| balancing::appearing(core, after, cancel))?;
+    let named = |(order, kind): (Order, Appearing)| {
+        let name = match kind {
+            Appearing::Force => "force",
+            Appearing::Moment => "moment",
+            Appearing::Roll => "torque",
+        };
+        Some((order.as_whole()?, name))
+    };
+    Ok(found.into_iter().filter_map(named).collect())
+}
+
 /// Roll torque of an order over ω², with that of gas pressure at a speed.
 #[guarded]
 #[pyfunction]
@@ -50,39 +79,56 @@ pub fn roll_torque(
     interrupt::run(engine.py(), |cancel| balancing::roll_torque(core, order, rpm, cancel))
 }
 
-/// Weights that remove the most of an engine's forward force and moment: plane, place among its angles and
-/// weight of each, whether they are proved to exert what was wanted, and the part of it that is missing.
+/// Weights that remove the most of what an engine, each of its bays or each half of its cranks exerts at
+/// order 1: plane, place among its angles and weight of each, whether they are proved to exert what was
+/// wanted, and the part of it that is missing.
 ///
-/// `parts` are the names of what matters, each with the share of the reciprocating mass to balance, none for
-/// all.
+/// `planes` are places and indices of cranks. `parts` are the names of what matters, each with the share of
+/// the reciprocating mass to balance, none for all; `keep` those of sums that weights of bays must not
+/// change, none for those that vanish.
 #[guarded]
 #[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "those of crankpin.counterweights")]
 pub fn fit_weights(
     engine: &Bound<'_, Engine>,
-    z: Vec<f64>,
+    planes: Vec<(f64, usize)>,
     bounds: Vec<f64>,
     angles: Option<Vec<Vec<f64>>>,
     parts: Vec<(String, Option<f64>)>,
     length: Option<f64>,
     minimise: &str,
+    target: &str,
+    keep: Option<Vec<String>>,
 ) -> PyResult<(Vec<PlacedWeight>, bool, f64)> {
     let words = [("squares", Minimise::Squares), ("largest", Minimise::Largest)];
     let minimise = choice("minimise", minimise, &words)?;
-    let target = |name: &str| match parts.iter().find(|(part, _)| part == name) {
+    let part_of = |name: &str| match parts.iter().find(|(part, _)| part == name) {
         None => Target::Ignored,
         Some((_, None)) => Target::All,
         Some((_, Some(factor))) => Target::Share(*factor),
     };
-    let (force, moment) = (target("force"), target("moment"));
+    let (force, moment) = (part_of("force"), part_of("moment"));
+    let keep = keep.map_or(Keep::Vanishing, |names| {
+        Keep::Named(["force", "moment"].map(|name| names.iter().any(|kept| kept == name)))
+    });
+    let planes = read_planes(planes);
     let core = &engine.get().0;
-    let (unbalances, found) = interrupt::run(engine.py(), |cancel| {
-        let (z, bounds, angles) = (z.as_slice(), bounds.as_slice(), angles.as_deref());
-        let fit = weights::Fit { z, bounds, angles, force, moment, length, minimise };
-        weights::external(core, &fit, cancel)
+    let found = interrupt::run(engine.py(), |cancel| {
+        let (planes, bounds, angles) = (planes.as_slice(), bounds.as_slice(), angles.as_deref());
+        let fit = counterweights::Fit { planes, bounds, angles, force, moment, length, minimise };
+        let bays = match target {
+            "external" => return counterweights::external(core, &fit, cancel),
+            "internal" => counterweights::bays(core),
+            _ => counterweights::half_cranks(core)?,
+        };
+        counterweights::internal(core, &fit, &bays, keep, cancel)
     })?;
-    let each = found.list.iter().zip(&unbalances);
-    let each = each.map(|(placed, unbalance)| (placed.plane, placed.angle, weight(unbalance)));
-    Ok((each.collect(), found.reached, found.missing))
+    let each = found.list.iter().map(|one| (one.plane, one.angle, weight(&one.unbalance)));
+    Ok((each.collect(), found.exact, found.missing))
+}
+
+fn read_planes(planes: Vec<(f64, usize)>) -> Vec<Plane> {
+    planes.into_iter().map(|(z, crank)| Plane { z, crank: CrankIndex::new(crank) }).collect()
 }
 
 /// The engine with counterweights that balance a bob weight of this factor at each crankpin.
@@ -108,12 +154,12 @@ type Correction = (usize, f64, f64, f64, Option<f64>, Option<f64>);
 pub fn corrections(
     engine: &Bound<'_, Engine>,
     factor: f64,
-    planes: Vec<f64>,
+    planes: Vec<(f64, usize)>,
     radii: Option<Vec<f64>>,
     oil: f64,
     balanced_to: Option<Vec<f64>>,
 ) -> PyResult<Vec<Correction>> {
-    let core = &engine.get().0;
+    let (core, planes) = (&engine.get().0, read_planes(planes));
     let found = interrupt::run(engine.py(), |cancel| {
         let (planes, radii) = (planes.as_slice(), radii.as_deref());
         let balanced_to = balanced_to.as_deref();
@@ -157,6 +203,16 @@ impl FirstOrder {
         let axes: Vec<_> = factors.iter().map(|&k| self.0.half_axes(vector, k)).collect();
         let column = |k: usize| frozen(py, axes.iter().map(|each| each[k]).collect::<Array1<_>>());
         Ok((column(0)?, column(1)?))
+    }
+
+    /// Whether there is a roll torque about the axis of the main crank at some factor.
+    fn has_roll(&self) -> bool {
+        self.0.has_roll()
+    }
+
+    /// Roll torque by factor.
+    fn roll<'py>(&self, py: Python<'py>, factors: Vec<f64>) -> PyResult<Column<'py>> {
+        frozen(py, factors.iter().map(|&k| self.0.roll(k)).collect::<Array1<_>>())
     }
 
     /// Factor of the least longest vector.

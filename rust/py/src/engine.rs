@@ -51,10 +51,13 @@ where
     Err(python_error(Error::value(argument, format!("\"{value}\""), hint)))
 }
 
-/// Amount in kg·m, degrees as text that reads back exactly, z in m, index of the pin's cylinder.
-pub type Weight = (f64, String, f64, Option<usize>);
+/// Amount in kg·m, degrees as text that reads back exactly, z in m, index of the pin's cylinder, index of
+/// the crank.
+pub type Weight = (f64, String, f64, Option<usize>, usize);
 /// The same, its angle read.
-type GivenWeight = (f64, Angle, f64, Option<usize>);
+type GivenWeight = (f64, Angle, f64, Option<usize>, usize);
+/// Numbers of the cylinders, places of the throws and of the bearings, index of the crank.
+type BayLists = (Vec<usize>, Vec<f64>, [f64; 2], usize);
 
 /// Bore, piston mass, the rod's mass, inertia and place of its centre, and whether it is a dummy.
 type Kept = (Option<f64>, Option<f64>, Option<(f64, f64, f64)>, bool);
@@ -76,11 +79,12 @@ pub fn numbers(cylinders: &[usize]) -> Vec<usize> {
 
 /// An unbalance for Python.
 pub fn weight(unbalance: &Unbalance) -> Weight {
-    (unbalance.amount, unbalance.angle.to_string(), unbalance.z, unbalance.pin)
+    let Unbalance { amount, angle, z, pin, crank } = *unbalance;
+    (amount, angle.to_string(), z, pin, crank.position())
 }
 
-fn unbalance((amount, angle, z, pin): GivenWeight) -> Unbalance {
-    Unbalance { amount, angle: angle.0, z, pin }
+fn unbalance((amount, angle, z, pin, crank): GivenWeight) -> Unbalance {
+    Unbalance { amount, angle: angle.0, z, pin, crank: CrankIndex::new(crank) }
 }
 
 /// What a change of bank angle holds.
@@ -447,6 +451,16 @@ impl Engine {
         self.0.largest_crank_radius()
     }
 
+    /// Largest mean piston speed of any cylinder at a crank speed, m/s.
+    fn mean_piston_speed(&self, rpm: f64) -> f64 {
+        self.0.mean_piston_speed(rpm)
+    }
+
+    /// Numbers of pistons that face each other in one bore, and both fire.
+    fn facing_pistons(&self) -> Vec<[usize; 2]> {
+        self.0.facing_pistons().into_iter().map(|pair| pair.map(|k| k + 1)).collect()
+    }
+
     #[getter]
     fn middle(&self) -> f64 {
         self.0.middle()
@@ -481,16 +495,11 @@ impl Engine {
         self.0.crankpins().iter().map(pin).collect()
     }
 
-    /// Numbers of the cylinders, places of the throws and of the bearings of each bay of the main crank.
-    fn bays(&self) -> Vec<(Vec<usize>, Vec<f64>, [f64; 2])> {
+    /// The bays of all cranks.
+    fn bays(&self) -> Vec<BayLists> {
         let bays = self.0.bays().into_iter();
-        bays.map(|bay| (numbers(&bay.cylinders), bay.throws, bay.bearings)).collect()
-    }
-
-    /// Each bay as an engine of its own.
-    fn of_bays(&self) -> PyResult<Vec<Self>> {
-        let bays = self.0.bays();
-        bays.iter().map(|bay| self.0.of_bay(bay).or_raise().map(Self::from)).collect()
+        bays.map(|bay| (numbers(&bay.cylinders), bay.throws, bay.bearings, bay.crank.position()))
+            .collect()
     }
 
     #[getter]

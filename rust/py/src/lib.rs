@@ -46,8 +46,8 @@ mod _core {
     use crate::{
         balance::{Balance, angular_speed, balance, bounds_about, terms},
         balancing::{
-            FirstOrder, corrections, fit_shafts, fit_weights, masses_on_pins, pair_heights,
-            roll_torque, shared, turning, with_bob_weights,
+            FirstOrder, appearing, bay_loads, corrections, fit_shafts, fit_weights, masses_on_pins,
+            pair_heights, roll_torque, shared, turning, with_bob_weights,
         },
         bearing_loads::BearingLoadsModel,
         closed_form::closed_form,

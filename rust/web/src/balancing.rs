@@ -1,7 +1,9 @@
 //! Counterweights and balance shafts that fit an engine.
 
+use crankpin_core::balancing::counterweights::{Fit, Plane, Target, bays, external};
 use crankpin_core::balancing::shafts::{Remove, ShaftRequest, fit};
-use crankpin_core::balancing::weights::{Fit, Minimise, Target, external};
+use crankpin_core::balancing::weights::Minimise;
+use crankpin_core::engine::CrankIndex;
 use crankpin_core::engine::crankpins::Bay;
 use crankpin_core::{Cancel, Result};
 use serde_json::{Value, json};
@@ -15,10 +17,14 @@ pub fn counterweights(arguments: &mut Arguments, _: &mut Columns) -> Result<Valu
     let (engine, powertrain) = arguments.mounted()?;
     let words = [("squares", Minimise::Squares), ("largest", Minimise::Largest)];
     let minimise = arguments.word("minimise", &words)?;
-    let webs = || engine.bays().iter().flat_map(Bay::webs).collect();
-    let planes: Vec<f64> = arguments.optional("planes")?.unwrap_or_else(webs);
+    let on_main: Option<Vec<f64>> = arguments.optional("planes")?;
+    let webs = |bay: &Bay| bay.webs().into_iter().map(|z| Plane { z, crank: bay.crank }).collect();
+    let planes: Vec<Plane> = match &on_main {
+        Some(places) => places.iter().map(|&z| Plane { z, crank: CrankIndex::MAIN }).collect(),
+        None => bays(&engine).iter().flat_map::<Vec<Plane>, _>(webs).collect(),
+    };
     let fit = Fit {
-        z: &planes,
+        planes: &planes,
         bounds: &vec![f64::INFINITY; planes.len()],
         angles: None,
         force: Target::All,
@@ -26,11 +32,11 @@ pub fn counterweights(arguments: &mut Arguments, _: &mut Columns) -> Result<Valu
         length: None,
         minimise,
     };
-    let (weights, fitted) = external(&engine, &fit, &Cancel::new())?;
+    let fitted = external(&engine, &fit, &Cancel::new())?;
+    let weights = fitted.list.iter().map(|one| one.unbalance);
     let all = engine.counterweights().iter().copied().chain(weights).collect();
     let mut answer = written(&engine.with_counterweights(all)?, powertrain.as_ref())?;
-    answer["fit"] =
-        json!({ "planes": planes, "reached": fitted.reached, "missing": fitted.missing });
+    answer["fit"] = json!({ "planes": planes.iter().map(|plane| plane.z).collect::<Vec<_>>(), "reached": fitted.exact, "missing": fitted.missing });
     Ok(answer)
 }
 

@@ -330,6 +330,7 @@ def test_free_place_of_one_shaft_cancels_the_roll_torque_of_its_order() -> None:
 RATIOS = (1, -1, 2, -2, 4, -4)
 
 
+@pytest.mark.filterwarnings("ignore:.*which vanishes without this hardware")
 @pytest.mark.parametrize("name", UNLIKE)
 def test_unlike_cylinders(name: str) -> None:
     """Unbalances by the lever rule from sampled waveforms; with them as masses nothing is left."""
@@ -434,6 +435,7 @@ def test_axes_that_would_leave_the_engine_stay_with_a_warning() -> None:
     cp.balance_shafts(engine, -3, x=0.1, y=0.1)
 
 
+@pytest.mark.filterwarnings("ignore:.*which vanishes without this hardware")
 def test_shafts_in_a_single_plane_share_a_force() -> None:
     fit = cp.balance_shafts(I4, [2, 2, -2, -2], x=0, y=0, planes=[0.0], remove="force")
     left = fit.fitted.balance(RPM, orders=[2])[2].force.peak
@@ -452,6 +454,7 @@ def test_tables_show_angles_that_are_fractions() -> None:
     assert "74.805" in repr(shown)
 
 
+@pytest.mark.filterwarnings("ignore:.*which vanishes without this hardware")
 def test_force_alone_and_moment_alone() -> None:
     for planes in (None, (0.02, 0.4), (0.0, 0.2, 0.5)):
         force = cp.balance_shafts(HEAVIER, -1, planes=planes, remove="force")
@@ -532,6 +535,7 @@ planes_or_free = st.none() | st.lists(
 )
 
 
+@pytest.mark.filterwarnings("ignore:.*which vanishes without this hardware")
 @settings(max_examples=40, deadline=None)
 @given(engine=engines, chosen=ratios, planes=planes_or_free)
 def test_a_shaft_changes_its_own_part_alone(
@@ -546,6 +550,7 @@ def test_a_shaft_changes_its_own_part_alone(
                 assert abs(after - before) <= ROUNDING * size
 
 
+@pytest.mark.filterwarnings("ignore:.*which vanishes without this hardware")
 @settings(max_examples=40, deadline=None)
 @given(engine=engines, chosen=ratios, planes=planes_or_free)
 def test_what_stays_never_exceeds_the_start(
@@ -700,6 +705,7 @@ def roll_left(fit: cp.types.BalanceShafts) -> float:
     return next(part.after for part in fit.parts() if part.quantity == "torque")
 
 
+@pytest.mark.filterwarnings("ignore:.*which vanishes without this hardware")
 @pytest.mark.parametrize(
     ("engine", "ratios", "options"),
     [
@@ -767,3 +773,12 @@ def test_cylinders_the_smallest_number_apart_are_at_one_place() -> None:
         near, same = (cp.balance_shafts(engine, ratios) for engine in (both, one))
         assert near.unbalance == pytest.approx(same.unbalance, rel=1e-12)
         assert near.residual.force.peak == pytest.approx(same.residual.force.peak, abs=1e-14)
+
+
+def test_shafts_within_the_throws_are_noted() -> None:
+    """A couple needs no place beside the crank, where the shaft would be."""
+    i3 = cp.Engine.preset("i3")
+    assert "Inside the crank: shaft 1; x= and y=" in cp.balance_shafts(i3, -1).table.note
+    assert not cp.balance_shafts(i3, -1, x=0.1, y=0.0).table.note
+    two = cp.balance_shafts(i3, [-1, -1], x=[0.1, 0.02], y=0.0)
+    assert "Inside the crank: shaft 2;" in two.table.note

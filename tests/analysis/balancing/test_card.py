@@ -224,3 +224,58 @@ def test_parts_that_are_wrong(parts: object) -> None:
         cp.bob_weight(cp.Engine.preset("i4"), parts=parts)  # type: ignore[arg-type]
     with pytest.raises(cp.InputError, match=r"52 % is 0\.52"):
         cp.bob_weight(cp.Engine.preset("i4"), factor=52)
+
+
+def rodded_twin() -> cp.Engine:
+    """A V-twin whose pistons weigh 482 g and whose rods 640 g, 189 g of them at the small end."""
+    rod = cp.Rod(0.64, 0.003, 0.15, 0.15 * 0.189 / 0.64)
+    cylinder = cp.Cylinder.from_rod(rod, 0.045, 0.482)
+    return cp.Engine.vee(cylinder, bank_angle_deg=60, throws_deg=[0], spacing=0.1)
+
+
+def test_ends_of_rods_that_are_not_weighed_are_those_of_the_engine() -> None:
+    """480 + 100 g of pistons and 189 g of the rod each, of which half, and 451 g of the big end."""
+    bob = cp.bob_weight(rodded_twin(), parts={"piston": 0.48, "pin": 0.1})
+    assert bob.grams == pytest.approx([2 * (0.5 * (480.0 + 100.0 + 189.0) + 451.0)])
+    assert bob.of_rods == ("small end",)
+    for frame in (bob.table, bob.card().table, bob.card().frames["bob weights"]):
+        assert "Not weighed, but of the engine's rods: small end." in frame.note
+        assert "Not weighed, and not counted: locks, rings." in frame.note
+    everything = cp.bob_weight(rodded_twin(), parts=PARTS)
+    assert everything.grams == pytest.approx([2 * (0.5 * 830.0 + 472.0)])
+    assert not everything.table.note
+    assert cp.bob_weight(rodded_twin()).parts == {}
+
+
+def test_a_card_says_what_was_not_weighed() -> None:
+    engine = rodded_twin().replace(cylinder=cp.Cylinder(0.045, 0.15, 0.671))
+    note = cp.bob_weight(engine, parts={"piston": 0.48, "pin": 0.1}).card().table.note
+    assert "Not weighed, and not counted: locks, rings, small end." in note
+
+
+@pytest.mark.parametrize("name", ["v8-crossplane", "single"])
+def test_bob_weights_without_rotating_masses_are_not_given_as_known(name: str) -> None:
+    bob = cp.bob_weight(cp.Engine.preset(name))
+    for frame in (bob.table, bob.card().frames["bob weights"]):
+        assert "Rotating masses are not known: bob weights lack the big ends" in frame.note
+    known = cp.bob_weight(cp.Engine.preset(name, rotating_mass=0.4))
+    assert not known.table.note
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_crankshaft_at_its_bob_weights_takes_nothing(seed: int) -> None:
+    """Also where rods beside each other share a pin and its oil, which is midway between them."""
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(1, 4))
+    engine = cp.Engine.vee(
+        cp.Cylinder(0.04, 0.14, 0.5),
+        bank_angle_deg=float(rng.choice([45.0, 60.0, 90.0])),
+        throws_deg=(90.0 * rng.integers(0, 4, count)).tolist(),
+        spacing=0.1,
+        bank_stagger=float(rng.choice([0.0, 0.021])),
+        rotating_mass=0.4,
+    )
+    bob = cp.bob_weight(engine, float(rng.choice([0.0, 0.5, 0.52])), OIL)
+    card = bob.card(planes=[-0.05, 0.3], balanced_to=bob.mass)
+    amounts = card.frames["correction"]["unbalance"].values if card.frames["correction"] else ()
+    assert max(amounts, default=0.0) < 1e-6  # g·mm, of oil of 160 g·mm

@@ -5,7 +5,8 @@ from __future__ import annotations
 import copy
 import pickle
 import sys
-from typing import Any, Literal
+import warnings
+from typing import TYPE_CHECKING, Any, Literal
 
 import crankpin as cp
 import numpy as np
@@ -16,6 +17,9 @@ from crankpin.model import crankpins
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import first_order, time_domain
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 UNIT = cp.Cylinder(crank_radius=1.0, rod_length=4.0, reciprocating_mass=1.0)
 """Forces of order 1 are in units of m·r·ω², couples in m·r·ω² times the spacing."""
@@ -272,6 +276,7 @@ def test_one_plane_leaves_the_least_of_both(seed: int) -> None:
 # --- targets -------------------------------------------------------------------------------------
 
 
+@pytest.mark.filterwarnings("ignore:.*which vanishes without this hardware")
 def test_a_target_that_is_left_out_does_not_matter() -> None:
     twin = cp.Engine.vee(UNIT, bank_angle_deg=90, throws_deg=[0], spacing=1.0, bank_stagger=0.4)
     force = cp.counterweights(twin, planes=[1.0], factor={"force": 0.5})
@@ -340,6 +345,7 @@ def test_weights_beside_the_right_ones_are_not_called_exact() -> None:
     assert enough.exact
 
 
+@pytest.mark.filterwarnings("ignore:.*which vanishes without this hardware")
 def test_one_plane_is_exact_only_where_that_is_proved() -> None:
     single = preset("single")
     assert cp.counterweights(single, planes=[0.0]).exact
@@ -378,6 +384,7 @@ def test_internal_weights_relieve_every_throw() -> None:
     assert part.verdicts["moment"] == {"forward": "vanishes", "backward": "vanishes"}
 
 
+@pytest.mark.filterwarnings("ignore:.*which vanishes without this hardware")
 def test_one_web_for_a_throw_leaves_the_least_loads_on_its_bearings() -> None:
     """Webs 1, 4, 5, 8 of an inline-4: each throw's bearings are 0.5 from it, the web 0.25."""
     webs = cp.counterweights(I4, planes="webs").places
@@ -393,7 +400,7 @@ def test_one_web_for_a_throw_leaves_the_least_loads_on_its_bearings() -> None:
     weights = np.linspace(0.0, 1.0, 100_001)
     best = weights[np.argmin([loads(w) for w in weights])]
     assert [w.amount for w in fitted.hardware] == pytest.approx([best] * 4, abs=2e-5)
-    few = cp.counterweights(I4, planes=dict(webs[:2]), target="internal")
+    few = cp.counterweights(I4, planes=dict(webs[:2]), target="internal", keep=())
     assert len(few.hardware) == 2
     assert not few.exact
 
@@ -408,6 +415,160 @@ def test_internal_weights_count_those_there_are() -> None:
     together = fitted.fitted.balance(UNIT_SPEED, orders=[1])[1]
     assert complex(together.force.forward) == pytest.approx(0.1)
     assert fitted.fitted.counterweights[:3] == tuple(there)
+
+
+# --- what is balanced stays so --------------------------------------------------------------------
+
+SIX = cp.Engine.from_firing_order(
+    cp.Cylinder.from_bore_stroke(bore=0.108, stroke=0.14, rod_length=0.24, reciprocating_mass=2.5),
+    "1-5-3-6-2-4",
+    spacing=0.13,
+)
+
+
+def some_webs(engine: cp.Engine, *numbers: int) -> dict[str, float]:
+    webs = cp.counterweights(engine, planes="webs").places
+    return {f"web {k}": webs[k - 1][1] for k in numbers}
+
+
+@pytest.mark.parametrize("target", ["internal", "half cranks"])
+def test_a_balanced_six_stays_so_with_weights_in_four_webs(
+    target: Literal["internal", "half cranks"],
+) -> None:
+    """Weights of webs 6 and 7 opposite those of 1 and 12 relieve the middle main bearing."""
+    fit = cp.counterweights(SIX, planes=some_webs(SIX, 1, 6, 7, 12), target=target)
+    one, six, seven, twelve = (
+        weight.amount * np.exp(1j * np.radians(float(weight.angle_deg))) for weight in fit.hardware
+    )
+    assert six == pytest.approx(-one)
+    assert seven == pytest.approx(-twelve)
+    after = fit.fitted.balance(3000)
+    assert after[1].force.peak <= 1e-9
+    assert after[1].moment.peak <= 1e-9
+    assert fit.vanishes
+    before, relieved = (
+        cp.bearing_loads(engine, 3000).peak("main")[3] for engine in (SIX, fit.fitted)
+    )
+    assert relieved < 0.9 * before
+    assert fit.exact == (target == "half cranks")
+
+
+def test_sums_that_are_named_stay_and_others_need_not() -> None:
+    planes = some_webs(SIX, 1, 6, 7, 12)
+    with pytest.warns(UserWarning, match="shaking force of order 1, which vanishes without"):
+        free = cp.counterweights(SIX, planes=planes, target="internal", keep=())
+    assert free.fitted.balance(3000)[1].force.peak > 1e4
+    assert free.residual[1].force.forward == pytest.approx(
+        sum(
+            weight.amount * np.exp(1j * np.radians(float(weight.angle_deg)))
+            for weight in free.hardware
+        )
+    )
+    kept = cp.counterweights(SIX, planes=planes, target="internal", keep=["force"])
+    assert kept.fitted.balance(3000)[1].force.peak <= 1e-9
+    with pytest.raises(cp.InputError, match="keep"):
+        cp.counterweights(SIX, planes=planes, target="internal", keep="all")  # type: ignore[arg-type]
+    with pytest.raises(cp.InputError, match="external weights remove"):
+        cp.counterweights(SIX, planes=planes, keep=["force"])
+    with pytest.raises(cp.InputError, match="leave out the angles, or keep nothing"):
+        cp.counterweights(SIX, planes=planes, target="internal", angles_deg=[0, 90, 180, 270])
+    with pytest.raises(cp.InputError, match="larger than their bound"):
+        cp.counterweights(SIX, planes=planes, target="internal", bound=0.01)
+    with pytest.raises(cp.InputError, match="as many bays on either side"):
+        cp.counterweights(I3, planes="webs", target="half cranks")
+
+
+def lone_throws(engine: cp.Engine) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Forward force of each throw, its place, and half of the distance of its bearings."""
+    bays = crankpins.bays(engine)
+    force = np.array([
+        sum(
+            (0.5 * engine.cylinders[k - 1].reciprocating_mass + engine.rotating_mass[k - 1])
+            * engine.cylinders[k - 1].crank_radius
+            * np.exp(1j * np.radians(engine.pin_deg[k - 1]))
+            for k in bay.cylinders
+        )
+        for bay in bays
+    ])  # fmt: skip
+    z = np.array([bay.z for bay in bays])
+    return force, z, np.array([(bay.bearings[1] - bay.bearings[0]) / 2 for bay in bays])
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_weights_that_keep_sums_are_the_least_squares_of_numpy(seed: int) -> None:
+    """Few directions and masses, so that sums vanish; some webs of a throw, or none.
+
+    Least squares of what the throws do to their bearings, in the space of weights that change no
+    sum that vanishes: a null space of NumPy's, and the least of those that do the same.
+    """
+    rng = np.random.default_rng(seed)
+    count = int(rng.choice([2, 3, 4, 6]))
+    step = int(rng.choice([90, 120, 180]))
+    engine = cp.Engine.inline(
+        cp.Cylinder(0.05, 0.15, 1.0),
+        throws_deg=(step * rng.integers(0, 4, count)).tolist(),
+        spacing=0.1,
+        rotating_mass=rng.choice([0.0, 1.0], count).tolist(),
+    )
+    webs = cp.counterweights(engine, planes="webs").places
+    chosen = np.flatnonzero(rng.random(len(webs)) < 0.6)
+    if not len(chosen):
+        return
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        fit = cp.counterweights(engine, planes=dict(webs[k] for k in chosen), target="internal")
+    force, z, half = lone_throws(engine)
+    at = np.array([webs[k][1] for k in chosen])
+    bay = chosen // 2
+    rows = np.zeros((2 * count, len(chosen)))
+    rows[2 * bay, np.arange(len(chosen))] = 1.0
+    rows[2 * bay + 1, np.arange(len(chosen))] = (at - z[bay]) / half[bay]
+    target = np.zeros(2 * count, complex)
+    target[::2] = -force
+    sums = [force.sum(), ((z - engine.reference_z) * force).sum()]
+    levers = np.stack([np.ones(len(at)), at - engine.reference_z])
+    kept = levers[[k for k in (0, 1) if abs(sums[k]) < 1e-12]]
+    _, sizes, right = np.linalg.svd(kept) if len(kept) else (0, np.zeros(0), np.eye(len(at)))
+    null = right[np.count_nonzero(sizes > 1e-9) :].T
+    best = null @ np.linalg.lstsq(rows @ null, target, rcond=1e-9)[0]
+    found = np.zeros(len(chosen), complex)
+    names = [webs[k][0] for k in chosen]
+    for name, weight in fit.by_plane:
+        found[names.index(name)] += weight.amount * np.exp(1j * np.radians(float(weight.angle_deg)))
+    np.testing.assert_allclose(found, best, atol=1e-9)
+    after = fit.residual[1]
+    for name, total in zip(("force", "moment"), sums, strict=True):
+        if abs(total) < 1e-12:
+            assert abs(complex(getattr(after, name).forward)) <= 1e-12
+            assert fit.verdicts[name]["forward"] == "vanishes"
+
+
+@pytest.mark.parametrize(
+    ("fit", "what"),
+    [
+        (lambda: cp.counterweights(I4, planes=[0.5], factor={"moment": 0.3}), None),
+        (
+            lambda: cp.balance_shafts(I4, [2, -2], planes=[0.0], x=0, y=0),
+            "rocking moment of order 2",
+        ),
+        (
+            lambda: cp.balance_shafts(I3, -1, planes=[0.0], x=0, y=0),
+            "shaking force of order 1",
+        ),
+        (
+            lambda: cp.bob_weight(I4.replace(rotating_mass=[0.3, 0.0, 0.3, 0.3])),
+            None,
+        ),
+    ],
+)  # fmt: skip
+def test_hardware_that_spoils_an_order_is_warned_of(
+    fit: Callable[[], object], what: str | None
+) -> None:
+    if what is None:
+        fit()
+        return
+    with pytest.warns(UserWarning, match=f"{what}.*, which vanishes without this hardware"):
+        fit()
 
 
 # --- least weights, bounds and drilling places ---------------------------------------------------
@@ -524,6 +685,7 @@ def test_a_plane_that_is_blind_to_what_is_missing_is_at_its_bound() -> None:
     assert [w.amount for w in fitted.hardware] == pytest.approx([fitted.largest] * 4, rel=1e-5)
 
 
+@pytest.mark.filterwarnings("ignore:.*which vanishes without this hardware")
 def test_a_bound_that_binds_leaves_the_least() -> None:
     fitted = cp.counterweights(CROSSPLANE, planes="ends", bound=0.5)
     assert not fitted.exact
@@ -617,6 +779,7 @@ def random_fit(seed: int) -> dict[str, Any]:
     }
 
 
+@pytest.mark.filterwarnings("ignore:.*which vanishes without this hardware")
 @pytest.mark.parametrize("seed", [None, *range(120)])
 def test_weights_at_drilling_places_are_the_least_of_a_conic_solver(seed: int | None) -> None:
     """SciPy on the same question, in two steps: what is left, then the squares that leave it."""
@@ -694,6 +857,7 @@ def test_a_full_plane_chooses_between_angles_that_see_as_much() -> None:
     assert [weight.amount for weight in fitted.hardware] == pytest.approx([0.003125] * 2, rel=1e-9)
 
 
+@pytest.mark.filterwarnings("ignore:.*which vanishes without this hardware")
 @pytest.mark.parametrize("seed", range(200))
 def test_full_planes_have_the_least_squares_of_all_that_leave_the_same(seed: int) -> None:
     """SciPy on the whole problem; a force at sixths of a turn, which residuals often bisect."""
@@ -735,6 +899,7 @@ def test_full_planes_have_the_least_squares_of_all_that_leave_the_same(seed: int
         assert 0.5 * ((sums @ ours) ** 2).sum() <= least.fun + 2e-9
 
 
+@pytest.mark.filterwarnings("ignore:.*which vanishes without this hardware")
 @pytest.mark.parametrize("seed", range(60))
 def test_the_least_largest_of_planes_near_each_other_is_that_of_a_linear_program(seed: int) -> None:
     optimize = pytest.importorskip("scipy.optimize")
@@ -795,6 +960,7 @@ def test_weights_in_planes_micrometres_apart_are_those_of_numpy(seed: int) -> No
     assert fitted.exact
 
 
+@pytest.mark.filterwarnings("ignore:.*which vanishes without this hardware")
 def test_fits_need_nothing_but_the_core(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "scipy.optimize", None)
     options: list[dict[str, Any]] = [
@@ -939,6 +1105,7 @@ def test_arguments_that_do_not_fit_are_named(given_: dict[str, Any], words: str)
         cp.counterweights(None, planes="ends")  # type: ignore[arg-type]
 
 
+@pytest.mark.filterwarnings("ignore:.*which vanishes without this hardware")
 def test_a_factor_of_none_removes_all_of_its_part() -> None:
     planes = {"A": -0.3, "B": 0.4}
     engine = preset("i3")

@@ -10,10 +10,11 @@ from crankpin import _core
 from crankpin._support import inputs
 from crankpin._support.warnings import warn
 from crankpin.analysis.balancing.fitted_shafts import BalanceShafts
+from crankpin.analysis.balancing.fitting import warn_of_appearing
 from crankpin.analysis.balancing.planes import Turning, ends
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks
-from crankpin.model.shafts import Shaft, unbalance_of
+from crankpin.model.shafts import Shaft, unbalance_of, with_more
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -91,8 +92,8 @@ def balance_shafts(
     Warns
     -----
     UserWarning
-        If free axes that cancel the roll torque would be too far from the crank axis, or a
-        place seems to be in millimetres.
+        If free axes that cancel the roll torque would be too far from the crank axis, a place
+        seems to be in millimetres, or an order that vanishes appears with the shafts.
 
     Notes
     -----
@@ -140,7 +141,7 @@ def balance_shafts(
         )
     first, last = ends(engine)[0], ends(engine)[-1]
     supports = (first, last) if first < last else None
-    return BalanceShafts(
+    fit = BalanceShafts(
         engine,
         tuple(
             Shaft(each.ratio, tuple(map(unbalance_of, weights)), x, y)
@@ -150,6 +151,8 @@ def balance_shafts(
         tuple(each.bearings or supports for each in requests),
         speed,
     )
+    warn_of_appearing(engine, with_more(core, shafts=fit.hardware))
+    return fit
 
 
 # --- arguments, one for all shafts or one for each -----------------------------------------------

@@ -13,21 +13,22 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs
 from crankpin._support.record import changed
+from crankpin._support.warnings import suppressed
 from crankpin.analysis.balancing import planes as correction_planes
 from crankpin.analysis.balancing.balance_shafts import balance_shafts
 from crankpin.analysis.balancing.balancers import BalancerOption, BalancerOptions
+from crankpin.analysis.balancing.fitting import Fit, fitted
 from crankpin.analysis.balancing.planes import turning
 from crankpin.analysis.ranking.objectives import listed as listed_objectives
 from crankpin.analysis.request import engine_core
 from crankpin.analysis.sweeps.sweep import sweep
-from crankpin.model.shafts import unbalance_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Orders
     from crankpin.analysis.balancing.balance_shafts import Remove
-    from crankpin.analysis.balancing.planes import Planes, Turning
+    from crankpin.analysis.balancing.planes import Place, Planes, Turning
     from crankpin.analysis.ranking.objectives import Measure, Objective
     from crankpin.model.engine import Engine
     from crankpin.model.shafts import Shaft, Unbalance
@@ -144,11 +145,11 @@ def balancer_options(
     speed, most = inputs.number("rpm", rpm), inputs.whole("most_shafts", most_shafts)
     if most < 0:
         raise inputs.rejected("most_shafts", most, "give 0 or more")
-    z = tuple(correction_planes.named(engine, planes).values())
+    places_of_weights = correction_planes.named(engine, planes)
     ratios = _ratios(
         inputs.explicit_orders(shaft_orders, "shaft_orders"), with_weights=with_weights
     )
-    weights = _counterweights(engine, z, speed) if with_weights else ()
+    weights = _counterweights(engine, places_of_weights) if with_weights else ()
     sets = balancer_sets(engine, weights, ratios, _axes(places, ratios), most, speed)
     swept = sweep([each.fitted for each in sets], rpm=speed, orders=orders, rtol=rtol)
     values = np.column_stack([each.values(swept)[:, 0] for each in objectives])
@@ -197,11 +198,13 @@ class Part(NamedTuple):
     remove: Remove
 
 
-def _counterweights(engine: Engine, z: tuple[float, ...], rpm: float) -> tuple[Unbalance, ...]:
-    """Return counterweights at places z that remove the forward part of order 1."""
-    # As a shaft that turns with the crank, on its axis.
-    ((_, weights, _),), _ = _core.fit_shafts(engine._core, [(1, (0.0, 0.0), z, "both")], rpm)
-    return tuple(map(unbalance_of, weights))
+def _counterweights(engine: Engine, planes: Mapping[str, Place]) -> tuple[Unbalance, ...]:
+    """Return counterweights in planes that remove what turns with their cranks at order 1."""
+    # As of shafts, a moment counts as much as a force over half the distance of the cylinders.
+    length = float(np.ptp(engine.z)) / 2.0 or None
+    fit = Fit("external", (("force", None), ("moment", None)), "squares", length)
+    found = fitted(engine, planes, dict.fromkeys(planes, math.inf), None, fit)
+    return tuple(weight for _, weight in found.unbalances)
 
 
 def balancer_sets(
@@ -224,7 +227,8 @@ def balancer_sets(
     choices: list[list[Part | None]] = [[None] for _ in removals]
     for parts, (ratio, listed) in zip(choices, removals.items(), strict=True):
         for what in listed:
-            fit = balance_shafts(engine, ratio, x=0, y=0, remove=what, rpm=rpm)
+            with suppressed():  # of sets that are compared
+                fit = balance_shafts(engine, ratio, x=0, y=0, remove=what, rpm=rpm)
             parts.append(Part(fit[0], what))
     weighted = {
         weights: engine.with_counterweights([*engine.counterweights, *weights])
@@ -239,10 +243,10 @@ def balancer_sets(
             (each.shaft.ratio, places.get(each.shaft.ratio, (None, None)), None, each.remove)
             for each in chosen
         ]
-        fitted, _ = _core.fit_shafts(engine._core, wanted, rpm)
+        placed, _ = _core.fit_shafts(engine._core, wanted, rpm)
         shafts = tuple(
             dataclasses.replace(each.shaft, x=x, y=y)
-            for each, ((x, y), *_) in zip(chosen, fitted, strict=True)
+            for each, ((x, y), *_) in zip(chosen, placed, strict=True)
         )
         for weights, other in weighted.items():
             with_shafts = other.with_shafts([*engine.shafts, *shafts])

@@ -18,8 +18,15 @@ from crankpin._support.record import read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import over_square
 from crankpin.analysis.balancing import planes as correction_planes
-from crankpin.analysis.balancing.card import Card, remarks_by_factor, weighed, with_parts
-from crankpin.analysis.balancing.fitting import check_factor, with_bob_weights
+from crankpin.analysis.balancing.card import (
+    Card,
+    from_rods,
+    remarks,
+    remarks_by_factor,
+    weighed,
+    with_parts,
+)
+from crankpin.analysis.balancing.fitting import check_factor, warn_of_appearing, with_bob_weights
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks
 from crankpin.model.crankpins import Crankpin, crankpins
@@ -66,7 +73,9 @@ def bob_weight(
     parts : mapping of str to array_like, optional
         Weighed parts of a cylinder, kg: a number for all cylinders, or one for each. ``"piston"``,
         ``"pin"``, ``"locks"``, ``"rings"`` and ``"small end"`` add up to the reciprocating mass,
-        ``"big end"`` and ``"bearings"`` to the rotating mass; by default the engine's.
+        ``"big end"`` and ``"bearings"`` to the rotating mass; by default the engine's. An end of a
+        rod that is left out beside other parts of its kind is that of the cylinder's rod, if it has
+        one; tables name what is neither.
 
     Returns
     -------
@@ -81,7 +90,7 @@ def bob_weight(
     Warns
     -----
     UserWarning
-        If ``oil`` seems to be in grams.
+        If ``oil`` seems to be in grams, or an order that vanishes appears with the bob weights.
 
     Examples
     --------
@@ -102,9 +111,13 @@ def bob_weight(
     if not 0.0 <= of_oil <= 1e6:
         raise inputs.rejected("oil", of_oil, "give the oil of a crankpin in kilograms, 0 or more")
     of_parts = weighed(engine, {} if parts is None else parts)
+    ends = from_rods(engine, of_parts)
+    of_parts |= ends
     engine = with_parts(engine, of_parts)
     checks.oil(of_oil, engine.cylinders[0].reciprocating_mass)
-    return BobWeight(engine, part, of_oil, of_parts)
+    bob = BobWeight(engine, part, of_oil, of_parts, tuple(ends))
+    warn_of_appearing(engine, _core.with_bob_weights(engine_core(engine), part))
+    return bob
 
 
 class BobWeight(Tabled):
@@ -132,6 +145,8 @@ class BobWeight(Tabled):
     """Oil of each crankpin, kg."""
     parts: Mapping[str, NDArray[np.float64]] = field(default_factory=dict)
     """Weighed parts of each cylinder, kg: part to (n_cylinders,); empty where none were given."""
+    of_rods: tuple[str, ...] = ()
+    """Parts that were not weighed: those of the engine's rods."""
 
     def __post_init__(self) -> None:
         engine_core(self.engine)
@@ -315,6 +330,7 @@ class BobWeight(Tabled):
             [(_numbers(pin),) for pin in self.crankpins],
             rows,
             decimals=1,
+            note=remarks(self),
         )
 
     @property
@@ -404,6 +420,7 @@ class BobWeight(Tabled):
         Bob weight of each crankpin
         cylinders  crankpin °  rotating g  reciprocating g  oil g  at 50 % g  at 60 % g
         1                  90       500.0            500.0      0      750.0      800.0
+        Not weighed, and not counted: locks, rings, small end.
         """
         shares = inputs.vector("factors", self.factor if factors is None else factors)
         check_factor("factors", shares)
@@ -426,7 +443,10 @@ class BobWeight(Tabled):
             tuple(dict.fromkeys(shares.tolist())),
             speed,
             (named[0], named[1]),
-            tuple((*place, each) for place, each in zip(places.items(), radii, strict=True)),
+            tuple(
+                (name, place.z, each, place.crank)
+                for (name, place), each in zip(places.items(), radii, strict=True)
+            ),
             weights,
         )
 

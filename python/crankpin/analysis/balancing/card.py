@@ -37,6 +37,8 @@ PARTS = {
 }
 """Part of a cylinder that is weighed → what it counts as."""
 RECIPROCATING, ROTATING = "reciprocating", "rotating"
+RODS = {"small end": RECIPROCATING, "big end": ROTATING}
+"""End of a rod → what it counts as."""
 G_MM = 1e6
 """Gram millimetres to a kg·m."""
 ROUNDING = 1e-12
@@ -96,6 +98,37 @@ def weighed(engine: Engine, parts: object) -> dict[str, NDArray[np.float64]]:
     return {part: found[part] for part in PARTS if part in found}
 
 
+def from_rods(
+    engine: Engine, parts: Mapping[str, NDArray[np.float64]]
+) -> dict[str, NDArray[np.float64]]:
+    """Return the ends of the engine's rods that were not weighed though other such parts were."""
+    rods = [cylinder.rod for cylinder in engine.cylinders]
+    if any(rod is None for rod in rods):
+        return {}
+    return {
+        end: np.array([getattr(rod, f"{kind}_mass") for rod in rods])
+        for end, kind in RODS.items()
+        if end not in parts and any(PARTS[part] == kind for part in parts)
+    }
+
+
+def remarks(bob: BobWeight) -> str:
+    """Return what of the masses of a bob weight is not known, and what is the engine's."""
+    kinds = {PARTS[part] for part in bob.parts}
+    left_out = [part for part, kind in PARTS.items() if kind in kinds and part not in bob.parts]
+    texts = []
+    if bob.of_rods:
+        texts.append(f"Not weighed, but of the engine's rods: {', '.join(bob.of_rods)}.")
+    if left_out:
+        texts.append(f"Not weighed, and not counted: {', '.join(left_out)}.")
+    if not bob.rotating.all():
+        texts.append(
+            "Rotating masses are not known: bob weights lack the big ends and bearings, which are "
+            "balanced wholly."
+        )
+    return " ".join(texts)
+
+
 def with_parts(engine: Engine, parts: Mapping[str, NDArray[np.float64]]) -> Engine:
     """Return an engine of these parts; a kind of which none is given stays as it is."""
     sums = {
@@ -139,8 +172,8 @@ class Card(Tabled):
     """Crank speed of the residuals."""
     sides: tuple[str, str]
     """What is on the right and on the left of the engine, seen from the flywheel."""
-    planes: tuple[tuple[str, float, float | None], ...]
-    """Planes of the correction: name, place along the crank, m, and radius, m, or None."""
+    planes: tuple[tuple[str, float, float | None, int], ...]
+    """Planes of the correction: name, place along the crank, m, radius, m, or None, and crank."""
     balanced_to: tuple[float, ...] | None
     """Bob weight to which the crankshaft is balanced now, of each crankpin, kg; None if unknown."""
 
@@ -168,6 +201,7 @@ class Card(Tabled):
             [row[:3] for row in rows],
             numbers[:, :1] if alike else numbers,
             decimals=1,
+            note=remarks(bob),
         )
 
     @property
@@ -190,6 +224,7 @@ class Card(Tabled):
             [(", ".join(map(str, pin.cylinders)), pin.pin_deg) for pin in bob.crankpins],
             1e3 * np.stack(masses, axis=1),
             decimals=1,
+            note=remarks(bob),
         )
 
     @cached_property
@@ -221,8 +256,15 @@ class Card(Tabled):
                 Column("shortest", abs(shortest), unit, digits=4),
                 Column("direction of the longest" if name == "force" else "ends move", words),
             ]
+        nothing = "Nothing of order 1 is left at any factor"
+        if bob._first_order.has_roll():
+            about = labels.about_axis(engine_core(bob.engine).cranks[0])
+            torques = (omega_squared * bob._first_order.roll(factors)).tolist()
+            if about:
+                columns.append(Column(f"roll torque{about}", tuple(torques), "N·m", digits=4))
+            nothing += f" but a roll torque of {torques[0]:.4g} N·m, which no weight changes"
         title = f"What order 1 leaves {labels.at_speed(self.rpm)}, half axes"
-        note = "" if len(columns) > 2 else "Nothing of order 1 is left at any factor."
+        note = "" if len(columns) > 2 else f"{nothing}."
         return Table(title, tuple(columns), note)
 
     def _direction(self, quantity: str, factor: float) -> str:
@@ -230,7 +272,7 @@ class Card(Tabled):
         return self.bob._first_order.direction(quantity, factor, self.sides)
 
     def _correction(self) -> Table:
-        names, places, at = zip(*self.planes, strict=True)
+        names, places, at, cranks = zip(*self.planes, strict=True)
         radii = None if None in at else at
         core = engine_core(self.bob.engine)
         heads: list[tuple[str, str, int | None]] = [
@@ -247,7 +289,12 @@ class Card(Tabled):
         for factor in self.factors:
             share = f"{100.0 * factor:.6g} %"
             for plane, amount, adding, drilling, mass, slug in _core.corrections(
-                core, factor, places, radii, self.bob.oil, self.balanced_to
+                core,
+                factor,
+                list(zip(places, cranks, strict=True)),
+                radii,
+                self.bob.oil,
+                self.balanced_to,
             ):
                 angles = (adding, drilling)
                 row: tuple[Any, ...] = (share, names[plane], places[plane], G_MM * amount, *angles)

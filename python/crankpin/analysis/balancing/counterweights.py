@@ -6,6 +6,7 @@ import itertools
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, overload
 
+from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
@@ -14,10 +15,11 @@ from crankpin._support.record import read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import over_square
 from crankpin.analysis.balancing import planes as correction_planes
-from crankpin.analysis.balancing.fitting import Fit, bay_loads, external, internal, left_by
+from crankpin.analysis.balancing.fitting import Fit, bay_loads, fitted, left_by, warn_of_appearing
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks
 from crankpin.model.crankpins import bays
+from crankpin.model.shafts import with_more
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -29,7 +31,7 @@ if TYPE_CHECKING:
 
     from crankpin._support.inputs import Angles
     from crankpin.analysis.balance import Balance
-    from crankpin.analysis.balancing.fitting import Minimise, Target
+    from crankpin.analysis.balancing.fitting import Keep, Minimise, Target
     from crankpin.analysis.balancing.planes import Planes
     from crankpin.model.engine import Engine
     from crankpin.model.shafts import Unbalance
@@ -44,13 +46,14 @@ def counterweights(
     *,
     planes: Planes = "webs",
     target: Target = "external",
+    keep: Keep = "vanishing",
     factor: float | Mapping[str, float | None] | None = None,
     minimise: Minimise = "squares",
     bound: float | Mapping[str, float] | None = None,
     angles_deg: Angles | Mapping[str, Angles] | None = None,
     length: float | None = None,
 ) -> Counterweights:
-    """Return the counterweights that remove the most of the forward force and moment of order 1.
+    """Return the counterweights that remove the most force and moment of order 1 with their cranks.
 
     Parameters
     ----------
@@ -59,11 +62,17 @@ def counterweights(
     planes : {"webs", "ends"}, sequence of float or mapping of str to float, default "webs"
         Where weights can be: ``"webs"``, both webs of every throw, each midway between the crankpin
         and its main bearing (bearings are midway between neighbouring throws); ``"ends"``, at the
-        first and the last cylinder; a list of places z, m; or a mapping name → z.
-    target : {"external", "internal"}, default "external"
+        first and the last cylinder, both on every crank as fast as the main one; a list of places
+        z, m; or a mapping name → z. Those are on the main crank; ``(z, crank)`` in place of z is on
+        another, by its index.
+    target : {"external", "internal", "half cranks"}, default "external"
         ``"external"``: force and moment of the whole engine. ``"internal"``: force and moment that
-        each throw exerts on its own two main bearings, by weights between these. That relieves
-        bearings and crankshaft, and the engine as a whole too.
+        each throw exerts on its own two main bearings, by weights between these, which relieves
+        bearings and crankshaft. ``"half cranks"``: the same of each half of a crank, in front of
+        the main bearing in its middle and behind it.
+    keep : {"vanishing"} or sequence of {"force", "moment"}, default "vanishing"
+        Sums of the whole engine that weights of throws or half cranks do not change: those that
+        vanish, so that a balanced engine stays so, or those named; an empty list for none.
     factor : float or mapping of str to float or None, optional
         Share of the reciprocating mass that is balanced, besides all rotating mass, as by
         :func:`crankpin.bob_weight`: 0.52 leaves 4 % of the pistons' forward part turned round. By
@@ -98,14 +107,18 @@ def counterweights(
     Warns
     -----
     UserWarning
-        If a bound or a place seems to be in another unit.
+        If a bound or a place seems to be in another unit, or an order that vanishes appears with
+        the weights.
 
     Notes
     -----
-    Weights on the crankshaft change forward parts only, those that turn with it; the best residual
-    is the backward part. A weight u (kg·m, with its direction) at z makes the force u·ω² and
-    the moment i(z − z₀)·u·ω². These are two equations, so that weights at two places remove any
-    forward force and moment, and at more places there is a choice.
+    Weights on a crankshaft change parts only that turn with it: forward ones on the main crank, of
+    which the best residual is the backward part, backward ones on a crank that turns against it. Of
+    several cranks of one sense each removes what it carries itself, so that its roll torque about
+    other axes goes too, and an equal share of what all else exerts in that sense. A weight u
+    (kg·m, with its direction) at z makes the force u·ω² and the moment i(z − z₀)·u·ω². These are
+    two equations of a sense, so that weights at two places remove any force and moment in it, and
+    at more places there is a choice.
 
     Examples
     --------
@@ -125,14 +138,20 @@ def counterweights(
     core = engine_core(engine)
     places = correction_planes.named(engine, planes)
     names = list(places)
-    fit = Fit.checked(target, factor, minimise, length)
+    fit = Fit.checked(target, factor, minimise, length, keep)
     limits = correction_planes.bounds(names, bound)
     checks.bounds(core, limits.values())
     checks.place(core, "length", fit.length, middle=0.0)
-    fitted = (external if fit.target == "external" else internal)(
-        engine, places, limits, correction_planes.angles(names, angles_deg), fit
+    allowed = correction_planes.angles(names, angles_deg)
+    found = Counterweights(
+        engine,
+        tuple((name, place.z) for name, place in places.items()),
+        fit,
+        *fitted(engine, places, limits, allowed, fit),
+        tuple(place.crank for place in places.values()),
     )
-    return Counterweights(engine, tuple(places.items()), fit, *fitted)
+    warn_of_appearing(engine, with_more(core, found.hardware))
+    return found
 
 
 class Counterweights(Tabled):
@@ -163,6 +182,8 @@ class Counterweights(Tabled):
     those with room within bounds and angles, not by the size of the residual."""
     missing: float
     """Part of what was wanted that they do not remove; 0 where they are exact."""
+    cranks: tuple[int, ...] = ()
+    """Index of the crank of each place; 0 is the main one."""
 
     def __post_init__(self) -> None:
         if not isinstance(self.fit, Fit):
@@ -198,34 +219,50 @@ class Counterweights(Tabled):
         """Quantity → part → verdict on the residual at order 1.
 
         Verdicts are "vanishes", "remains" or "undecided", on the forward and the backward part of
-        ``"force"`` and ``"moment"``. Backward parts are those of the engine, which no counterweight
-        changes, decided by :meth:`Engine.vanishing_orders`. Forward parts vanish where the weights
-        are ``exact`` and were to remove all; where they are not, "remains" is a finding of floating
+        ``"force"`` and ``"moment"``. Parts that no crank with planes turns with are those of the
+        engine, decided by :meth:`Engine.vanishing_orders`. Others vanish where the weights are
+        ``exact`` and were to remove all; where they are not, "remains" is a finding of floating
         point: more than a millionth of what the weights exert.
         """
         decided = self.engine.vanishing_orders([1])
-        verdicts = {}
-        for name in ("force", "moment"):
-            before = getattr(decided, name)
-            if self._meets(name):
-                factor = dict(self.fit.parts)[name]
-                forward = "vanishes"
-                if factor is not None:
-                    left = left_by(self.engine, factor).vanishing_orders([1])
-                    forward = getattr(left, name).forward[1]
-            elif not self.by_plane:
-                forward = before.forward[1]
-            else:
-                size = NOTICEABLE * sum(weight.amount for weight in self.hardware)
-                if name == "moment":
-                    size *= max(abs(z - self.engine.reference_z) for _, z in self.places)
-                stays = abs(complex(getattr(self.residual[1], name).forward))
-                forward = "remains" if stays > size else "undecided"
-            verdicts[name] = {"forward": forward, "backward": before.backward[1]}
-        return read_only(verdicts)
+        ratios = [ratio for _, _, ratio in engine_core(self.engine).cranks[0]]
+        weighed = {ratios[crank] for crank in self.cranks}
+        return read_only(
+            {
+                name: {
+                    part: self._verdict(name, part)
+                    if ratio in weighed
+                    else getattr(getattr(decided, name), part)[1]
+                    for part, ratio in (("forward", 1), ("backward", -1))
+                }
+                for name in PLANE_VECTORS
+            }
+        )
+
+    def _verdict(self, name: str, part: str) -> str:
+        """Return the verdict on a part that weights change."""
+        if self._meets(name):
+            factor = dict(self.fit.parts)[name]
+            if factor is None:
+                return "vanishes"
+            left = left_by(self.engine, factor).vanishing_orders([1])
+            return str(getattr(getattr(left, name), part)[1])
+        before = str(getattr(getattr(self.engine.vanishing_orders([1]), name), part)[1])
+        if not self.by_plane or (self._keeps(name) and before == "vanishes"):
+            return before
+        size = NOTICEABLE * sum(weight.amount for weight in self.hardware)
+        if name == "moment":
+            size *= max(abs(z - self.engine.reference_z) for _, z in self.places)
+        stays = abs(complex(getattr(getattr(self.residual[1], name), part)))
+        return "remains" if stays > size else "undecided"
+
+    def _keeps(self, name: str) -> bool:
+        """Return whether the weights were to leave a sum of the engine that vanishes as it is."""
+        keep = self.fit.keep
+        return self.fit.target != "external" and (keep is None or name in keep)
 
     def _meets(self, name: str) -> bool:
-        """Return whether the forward part is exactly the one wanted."""
+        """Return whether what the weights change is exactly what was wanted."""
         parts = dict(self.fit.parts)
         if not self.exact or name not in parts:
             return False
@@ -237,7 +274,8 @@ class Counterweights(Tabled):
         inside = all(
             any(bay.holds(weight.z) for bay in listed) for weight in self.engine.counterweights
         )
-        inside = inside and not self.engine.shafts
+        # What pistons of other cranks exert in a sense is in none of its bays.
+        inside = inside and not self.engine.shafts and len(self.engine._core.cranks[0]) == 1
         return inside and (
             name == "force" or ("force" in parts and parts["force"] == parts["moment"])
         )
@@ -246,8 +284,8 @@ class Counterweights(Tabled):
     def vanishes(self) -> bool:
         """True if all force and moment of order 1 is proved to vanish.
 
-        The forward parts by the rank of the equations, which the weights solve; the weights as
-        rounded numbers leave :meth:`Engine.vanishing_orders` of the fitted engine undecided.
+        Those that weights change by the rank of the equations, which the weights solve; the weights
+        as rounded numbers leave :meth:`Engine.vanishing_orders` of the fitted engine undecided.
         """
         return all(
             word == "vanishes" for parts in self.verdicts.values() for word in parts.values()
@@ -255,9 +293,10 @@ class Counterweights(Tabled):
 
     @property
     def bay_loads(self) -> NDArray[np.complex128]:
-        """Forward force (kg·m) and moment (kg·m²) of each throw on its main bearings, over ω².
+        """Force (kg·m) and moment (kg·m²) of each throw on its main bearings, over ω².
 
-        (n_throws, 2), from front to flywheel, with the weights; moments about the throw's place.
+        What turns with its crank: (n_throws, 2), crank by crank from front to flywheel, with the
+        weights; moments about the throw's place.
         """
         return bay_loads(self.fitted)
 
@@ -287,6 +326,18 @@ class Counterweights(Tabled):
             vector, kind = getattr(balance[1], name), QUANTITIES[name]
             head = f"{kind.words}, {kind.unit_over_square}"
             rows.append((head, state, float(vector.peak), abs(vector.minor)))
+        core = engine_core(self.engine)
+        torques = {
+            state: float(abs(_core.roll_torque(engine_core(bare), 1, None)))
+            for state, bare in (
+                ("before", self.engine.with_cycle(None)),
+                ("after", self.fitted.with_cycle(None)),
+            )
+        }
+        if any(torques.values()):
+            unit = QUANTITIES["torque"].unit_over_square
+            head = f"roll torque{labels.about_axis(core.cranks[0])}, {unit}"
+            rows += [(head, state, torque, 0.0) for state, torque in torques.items()]
         words = [
             f"{part} {quantity} {verdict}"
             for quantity, parts in self.verdicts.items()

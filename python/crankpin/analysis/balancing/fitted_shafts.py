@@ -18,6 +18,7 @@ from crankpin._support.record import Listed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import Balance, balance
 from crankpin.analysis.bearings import on_shaft_bearings
+from crankpin.analysis.request import engine_core
 from crankpin.model.shafts import Shaft
 
 if TYPE_CHECKING:
@@ -232,8 +233,21 @@ class BalanceShafts(Listed[Shaft], Tabled):
                 f"Places count the torque of gas pressure at {self.rpm:g} rpm: it does not scale "
                 "with the square of the speed as the shafts' torques do."
             )
+        if inside := self._inside():
+            numbers = ", ".join(map(str, inside))
+            note = f"{note} Inside the crank: shaft {numbers}; x= and y= place it beside.".strip()
         title = f"{labels.cut(labels.name_of(self.engine))}: balance shafts"
         return Table.from_rows(title, (*heads, ("phase", "°")), rows, note=note)
+
+    def _inside(self) -> list[int]:
+        """Return the numbers of the shafts whose axes are within the throws of a crank."""
+        core = engine_core(self.engine)
+        radius = core.largest_crank_radius
+        return [
+            number
+            for number, shaft in enumerate(self.hardware, 1)
+            if any(math.hypot(shaft.x - x, shaft.y - y) < radius for x, y, _ in core.cranks[0])
+        ]
 
     @property
     def frames(self) -> Frames:

@@ -6,16 +6,16 @@ Forces and moments of order 1 over ω², in kg·m and kg·m²: one fit serves ev
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import inputs
+from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS
 from crankpin._support.record import read_only
-from crankpin.analysis.balancing.planes import turning
+from crankpin._support.warnings import warn
 from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import bays
 from crankpin.model.engine import Engine
@@ -24,11 +24,13 @@ from crankpin.model.shafts import unbalance_of
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from crankpin.model.crankpins import Bay
+    from crankpin.analysis.balancing.planes import Place
     from crankpin.model.shafts import Unbalance
 
 LARGEST_FACTOR = 10.0
-Target: TypeAlias = Literal["external", "internal"]
+Target: TypeAlias = Literal["external", "internal", "half cranks"]
+TARGETS = ["external", "internal", "half cranks"]
+Keep: TypeAlias = Literal["vanishing"] | Sequence[Literal["force", "moment"]]
 Minimise: TypeAlias = Literal["squares", "largest"]
 
 
@@ -44,11 +46,19 @@ class Fit:
     """What is least of weights that do the same."""
     length: float | None
     """Length by which moments compare with forces, m; None for the longest lever."""
+    keep: tuple[str, ...] | None = None
+    """Sums of the engine that weights of bays must not change; None for those that vanish."""
 
     @classmethod
-    def checked(cls, target: object, factor: object, minimise: object, length: object) -> Fit:
+    def checked(
+        cls, target: object, factor: object, minimise: object, length: object, keep: object
+    ) -> Fit:
         """Return the options, or raise an InputError that names the argument at fault."""
-        wanted = inputs.one_of("target", target, ["external", "internal"])
+        wanted = inputs.one_of("target", target, TARGETS)
+        kept = _kept(keep)
+        if wanted == "external" and kept is not None:
+            hint = "leave it out: external weights remove these sums"
+            raise inputs.rejected("keep", keep, hint)
         comparing = inputs.optional_number("length", length)
         if comparing is not None and not 1e-6 <= comparing <= 1e6:
             raise inputs.rejected("length", comparing, "give a length in metres, 1e-6 to 1e6")
@@ -57,7 +67,17 @@ class Fit:
             tuple(_parts(factor).items()),
             inputs.one_of("minimise", minimise, ["squares", "largest"]),  # type: ignore[arg-type]
             comparing,
+            kept,
         )
+
+
+def _kept(given: object) -> tuple[str, ...] | None:
+    if isinstance(given, str):
+        inputs.one_of("keep", given, ["vanishing"])
+        return None
+    hint = 'give "vanishing", or a list of "force" and "moment", which may be empty'
+    names = inputs.items("keep", given, hint)
+    return tuple(inputs.one_of("keep", name, PLANE_VECTORS) for name in names)
 
 
 def _parts(given: object) -> dict[str, float | None]:
@@ -109,31 +129,35 @@ def with_bob_weights(engine: Engine, factor: float) -> Engine:
     return Engine(_core.with_bob_weights(engine_core(engine), factor))
 
 
-# --- the whole engine ---------------------------------------------------------------------------
+# --- fits -----------------------------------------------------------------------------------------
 
 
-def external(
+def fitted(
     engine: Engine,
-    planes: Mapping[str, float],
+    planes: Mapping[str, Place],
     bounds: Mapping[str, float],
     angles: Mapping[str, tuple[str, ...]] | None,
     fit: Fit,
 ) -> Fitted:
-    """Return the weights that remove the most of an engine's forward force and moment."""
-    names, places = list(planes), list(planes.values())
+    """Return the weights that remove the most of what turns with the cranks that have planes."""
+    names = list(planes)
+    if fit.target != "external":
+        _check_between(engine, planes, fit.target)
     allowed = None
     if angles is not None:
         allowed = [
             np.deg2rad([inputs.degrees(angle) for angle in angles[name]]).tolist() for name in names
         ]
-    found, reached, missing = _core.fit_weights(
+    found, exact, missing = _core.fit_weights(
         engine_core(engine),
-        places,
+        list(planes.values()),
         [bounds[name] for name in names],
         allowed,
         fit.parts,
         fit.length,
         fit.minimise,
+        fit.target,
+        fit.keep,
     )
     unbalances = []
     for place, angle, each in found:
@@ -141,100 +165,42 @@ def external(
         if angles is not None:
             weight = dataclasses.replace(weight, angle_deg=angles[names[place]][angle])
         unbalances.append((names[place], weight))
-    usable = [z for name, z in planes.items() if bounds[name] > 0.0]
-    exact = reached and can_remove(engine, usable, fit)
-    return Fitted(tuple(unbalances), exact, 0.0 if exact else missing)
-
-
-def can_remove(engine: Engine, places: list[float], fit: Fit) -> bool:
-    """Return whether weights of any size at these places can do all that is wanted.
-
-    Decided without floating-point sums. A weight u at z makes the force u and the moment
-    i(z − z₀)·u: two equations, whose rank is the number of different places, up to two. So two
-    places serve any force and moment. One place z serves a force, or a moment if it is not z₀; it
-    serves both if there is no forward moment about z itself, which is proved in integers.
-    """
-    different, plane = sorted(set(places)), engine.reference_z
-    factors = dict(fit.parts)
-    engines = {
-        name: [engine] if factor is None else [engine, left_by(engine, factor)]
-        for name, factor in factors.items()
-    }
-    wanted = [name for name in factors if not all(_vanishes(e, name, plane) for e in engines[name])]
-    if not wanted or len(different) >= 2:
-        return True
-    if not different:
-        return False
-    (z,) = different
-    if len(factors) == 1:
-        return wanted == ["force"] or z != plane
-    beside = all(_vanishes(each, "moment", z) for each in engines["moment"])
-    return beside and (factors["force"] == factors["moment"] or z == plane)
+    return Fitted(tuple(unbalances), exact, missing)
 
 
 def left_by(engine: Engine, factor: float) -> Engine:
-    """Return the engine that bob weights leave, without shafts: its forward part is to stay."""
+    """Return the engine that bob weights leave, without shafts: its cranks' own part is to stay."""
     return with_bob_weights(engine, factor).with_shafts(())
 
 
-def _vanishes(engine: Engine, quantity: str, plane: float) -> bool:
-    """Return whether the forward part of order 1 is proved to vanish."""
-    found = engine.vanishing_orders([1], reference_z=plane)
-    return bool(getattr(found, quantity).forward[1] == "vanishes")
-
-
-# --- bay by bay -----------------------------------------------------------------------------------
-
-
-def internal(
-    engine: Engine,
-    planes: Mapping[str, float],
-    bounds: Mapping[str, float],
-    angles: Mapping[str, tuple[str, ...]] | None,
-    fit: Fit,
-) -> Fitted:
-    """Return the weights that remove the most of each bay's forward force and moment."""
-    listed = bays(engine)
-    inside = [_between(bay, planes) for bay in listed]
-    for name, z in planes.items():
-        if not any(name in each for each in inside):
+def _check_between(engine: Engine, planes: Mapping[str, Place], target: Target) -> None:
+    """Raise an InputError of a plane that is in no bay."""
+    for name, (z, crank) in planes.items():
+        listed = [bay for bay in bays(engine) if bay.crank == crank]
+        if listed and not any(bay.holds(z, crank) for bay in listed):
             ends = f"{listed[0].bearings[0]:.6g} to {listed[-1].bearings[1]:.6g} m"
-            hint = 'for target="internal" give places between those of a throw'
+            hint = f'for target="{target}" give places between those of a throw'
             hint = f"is beyond the main bearings ({ends}); {hint}"
             raise inputs.faulty(f'planes["{name}"]', f"= {z:.6g}", hint)
-    found = [
-        external(
-            alone,
-            within,
-            bounds,
-            angles,
-            dataclasses.replace(
-                fit,
-                target="external",
-                length=fit.length or (bay.bearings[1] - bay.bearings[0]) / 2.0,
-            ),
-        )
-        if within
-        else Fitted((), exact=False, missing=1.0)
-        for bay, alone, within in zip(listed, _of_bays(engine), inside, strict=True)
-    ]
-    return Fitted(
-        tuple(one for each in found for one in each.unbalances),
-        all(each.exact for each in found),
-        max(each.missing for each in found),
-    )
-
-
-def _between(bay: Bay, planes: Mapping[str, float]) -> dict[str, float]:
-    return {name: z for name, z in planes.items() if bay.holds(z)}
 
 
 def bay_loads(engine: Engine) -> NDArray[np.complex128]:
-    """Return what each throw exerts on its main bearings: forward force and moment, (n_bays, 2)."""
-    found = [turning(each, 1) for each in _of_bays(engine)]
-    return read_only(np.array(found, dtype=np.complex128))
+    """Return what each throw exerts on its main bearings: force and moment, (n_bays, 2)."""
+    found = np.array(_core.bay_loads(engine_core(engine)), dtype=np.complex128)
+    return read_only(found.reshape(-1, 2))
 
 
-def _of_bays(engine: Engine) -> list[Engine]:
-    """Return each bay with what rotates there: engines of their throws, about them."""
-    return list(map(Engine, engine._core.of_bays()))
+# --- what hardware must not bring about ---------------------------------------------------------
+
+APPEARING = {"force": "shaking force", "moment": "rocking moment", "torque": "roll torque"}
+
+
+def warn_of_appearing(engine: Engine, with_hardware: _core.Engine) -> None:
+    """Warn of orders that vanish in an engine and not in the same with other hardware."""
+    found = _core.appearing(engine_core(engine), with_hardware)
+    if found:
+        words = [f"{APPEARING[name]} of order {order}" for order, name in found]
+        warn(
+            f"{labels.name_of(engine)}: the fitted engine has a {' and a '.join(words)}, which "
+            "vanishes without this hardware"
+        )

@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 from itertools import zip_longest
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
+import numpy as np
+
 from crankpin import _core
 from crankpin._support import inputs
 from crankpin.analysis.request import engine_core
@@ -18,7 +20,7 @@ if TYPE_CHECKING:
 
     from crankpin.model.engine import Engine
 
-Planes: TypeAlias = "ArrayLike | Mapping[str, float]"
+Planes: TypeAlias = "ArrayLike | Mapping[str, float | tuple[float, int]]"
 HINT = 'give "ends", "webs", a list of places or a mapping name → place in metres'
 MOST = 200
 """Largest number of planes."""
@@ -26,16 +28,28 @@ MOST_ANGLES = 10_000
 """Largest number of angles of all planes together: a step of the fit takes 40 ms then."""
 
 
-def named(engine: Engine, planes: Planes) -> dict[str, float]:
-    """Return places of planes, m, by name, from front to flywheel or as given."""
+class Place(NamedTuple):
+    """A plane in which a crank can have weights."""
+
+    z: float
+    """Place along the crank, m."""
+    crank: int = 0
+    """Index of the crank: 0 is the main one."""
+
+
+def named(engine: Engine, planes: Planes) -> dict[str, Place]:
+    """Return planes by name, from front to flywheel or as given.
+
+    Those that have a name of their own are on every crank that turns as fast as the main one.
+    """
     if isinstance(planes, str):
-        if inputs.one_of("planes", planes, ["ends", "webs"]) == "ends":
-            front, rear = float(engine.z.min()), float(engine.z.max())
-            return {"front": front, "rear": rear} if front < rear else {"crankpin": front}
+        word = inputs.one_of("planes", planes, ["ends", "webs"])
+        ratios = [ratio for _, _, ratio in engine_core(engine).cranks[0]]
         return {
-            f"throw {number} {side}" if len(bay.webs) == 2 else f"bay {number} web {k}": z
-            for number, bay in enumerate(bays(engine), start=1)
-            for k, (side, z) in enumerate(zip_longest(("front", "rear"), bay.webs), start=1)
+            name: place
+            for crank, ratio in enumerate(ratios)
+            if abs(ratio) == 1
+            for name, place in (_ends if word == "ends" else _webs)(engine, crank)
         }
     if isinstance(planes, Mapping):
         places = {inputs.text("planes", name): _place(name, z) for name, z in planes.items()}
@@ -44,17 +58,48 @@ def named(engine: Engine, planes: Planes) -> dict[str, float]:
         places = {f"plane {k}": _place(k - 1, z) for k, z in enumerate(listed, start=1)}
     if not 1 <= len(places) <= MOST:
         raise inputs.faulty("planes", f"has {len(places)} places", f"give 1 to {MOST}")
-    checks.place(engine_core(engine), "planes", *places.values())
+    checks.place(engine_core(engine), "planes", *(place.z for place in places.values()))
     return places
 
 
-def _place(key: object, value: object) -> float:
-    place = inputs.number(f"planes[{inputs.shorten(key)}]", value)
+def _ends(engine: Engine, crank: int) -> list[tuple[str, Place]]:
+    """Return planes at the first and the last cylinder of a crank."""
+    on = np.array(engine_core(engine).cranks[1]) == crank
+    if not on.any():
+        return []
+    front, rear = float(engine.z[on].min()), float(engine.z[on].max())
+    ends = [("front", front), ("rear", rear)] if front < rear else [("crankpin", front)]
+    return [(_on_crank(name, crank), Place(z, crank)) for name, z in ends]
+
+
+def _webs(engine: Engine, crank: int) -> list[tuple[str, Place]]:
+    """Return planes at the webs of a crank."""
+    listed = [bay for bay in bays(engine) if bay.crank == crank]
+    names = [
+        (f"throw {number} {side}" if len(bay.webs) == 2 else f"bay {number} web {k}", z)
+        for number, bay in enumerate(listed, start=1)
+        for k, (side, z) in enumerate(zip_longest(("front", "rear"), bay.webs), start=1)
+    ]
+    return [(_on_crank(name, crank), Place(z, crank)) for name, z in names]
+
+
+def _on_crank(name: str, crank: int) -> str:
+    return f"crank {crank} {name}" if crank else name
+
+
+def _place(key: object, value: object) -> Place:
+    name, crank = f"planes[{inputs.shorten(key)}]", 0
+    if isinstance(value, tuple):
+        if len(value) != 2:
+            raise inputs.rejected(name, value, "give a place in m, or it and the number of a crank")
+        value, on = value
+        crank = inputs.whole(name, on)
+        if crank < 0:
+            raise inputs.rejected(name, crank, "give the number of a crank, 0 for the main one")
+    place = inputs.number(name, value)
     if not abs(place) <= 1e30:
-        raise inputs.rejected(
-            f"planes[{inputs.shorten(key)}]", place, "give a finite place in metres"
-        )
-    return place
+        raise inputs.rejected(name, place, "give a finite place in metres")
+    return Place(place, crank)
 
 
 def bounds(names: Sequence[str], limits: object) -> dict[str, float]:

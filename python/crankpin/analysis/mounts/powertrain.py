@@ -507,7 +507,7 @@ class Powertrain(Input):
         Raises
         ------
         InputError
-            If the engine has no cycles, or no such cylinder.
+            If the engine has no cycles, no such cylinder, or none that fires besides it.
         """
         number = inputs.whole("cylinder", cylinder)
         cycles = self.engine.cycles
@@ -519,8 +519,10 @@ class Powertrain(Input):
             raise inputs.rejected("cylinder", number, f"give a number from 1 to {len(cycles)}")
         listed: list[Any] = [*cycles]
         listed[number - 1] = None
-        engine = self.engine.with_cycle(listed, crankcase=self.engine.crankcase)
-        return self.replace(engine=engine)
+        if all(one is None for one in listed):
+            hint = "it is the last that fires; give engine.with_cycle(None), without gas at all"
+            raise inputs.rejected("cylinder", number, hint)
+        return self.replace(engine=self.engine.with_cycle(listed))
 
     # --- pages ------------------------------------------------------------------------------------
 

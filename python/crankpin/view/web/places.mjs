@@ -90,9 +90,12 @@ export function extremeHeights(cylinder) {
 
 /** Counterweights on their cranks, and those of balance shafts. */
 function weights(figures, cylinders) {
-  const main = { pin_deg: 0, ratio: 1, axis: [0, 0] };
-  const counterweights = figures.counterweights.map(({ amount, angle_deg: angle, pin, z }) => {
-    const { pin_deg: from, ratio, axis } = pin === null ? main : cylinders[pin];
+  const counterweights = figures.counterweights.map(({ amount, angle_deg: angle, pin, z, crank }) => {
+    if (pin === null) {
+      const { x, y, ratio } = figures.cranks[crank];
+      return { kind: "counterweight", ratio, axis: [x, y], amount, start: unit(angle), z };
+    }
+    const { pin_deg: from, ratio, axis } = cylinders[pin];
     // Ahead of the pin in the sense in which its crank turns.
     const start = unit(from + Math.sign(ratio) * angle);
     return { kind: "counterweight", ratio, axis, amount, start, z };

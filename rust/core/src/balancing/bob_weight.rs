@@ -2,16 +2,18 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{TurningPart, turning};
+use super::TurningPart;
 use crate::Complex64;
-use crate::engine::{Engine, Unbalance};
+use crate::engine::{CrankIndex, Engine, Unbalance};
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::figure::rounded;
 use crate::numbers::limits::SMALLEST;
+use crate::numbers::order::Order;
 use crate::readings::balance::Vector;
 use crate::readings::explain::words::{across, turns};
+use crate::readings::turning::over_square;
 
 /// Largest share of the reciprocating mass that is balanced.
 pub const LARGEST_FACTOR: f64 = 10.0;
@@ -31,7 +33,7 @@ pub fn with_bob_weights(engine: &Engine, factor: f64) -> Result<Engine> {
         let gear = &station.cylinder;
         let mass = bob_weight([station.rotating_mass, gear.reciprocating_mass()], factor);
         let (amount, angle) = (mass * gear.crank_radius(), Angle::HALF_TURN);
-        Unbalance { amount, angle, z: station.z, pin: Some(i) }
+        Unbalance { amount, angle, z: station.z, pin: Some(i), crank: CrankIndex::MAIN }
     };
     let weights = engine.stations().iter().enumerate().map(weight);
     engine.with_counterweights(weights.filter(|weight| weight.amount >= SMALLEST).collect())
@@ -42,7 +44,7 @@ pub(super) fn bob_weight([rotating, reciprocating]: [f64; 2], factor: f64) -> f6
     rotating + factor * reciprocating
 }
 
-/// Force and moment of order 1 by balance factor, over ω².
+/// Force, moment and roll torque of order 1 by balance factor, over ω².
 ///
 /// ```
 /// # let single = crankpin_core::engine::file::from_toml(
@@ -65,6 +67,8 @@ pub struct FirstOrder {
     /// Forward and backward part.
     force: [Part; 2],
     moment: [Part; 2],
+    /// Roll torque of inertia about the axis of the main crank, which weights change about other axes.
+    roll: Part,
 }
 
 /// Part of a vector that turns in one sense, by balance factor.
@@ -126,11 +130,21 @@ impl FirstOrder {
         let of_force: f64 = weights.iter().map(|weight| weight.amount).sum();
         let lever = |weight: &Unbalance| (weight.z - reference).abs();
         let of_moment: f64 = weights.iter().map(|weight| weight.amount * lever(weight)).sum();
-        let mut found = Self { force: [Part::default(); 2], moment: [Part::default(); 2] };
+        let [start, end] = [&bare, &weighted]
+            .map(|engine| over_square(&engine.bare(), Order::FIRST, true, None, cancel));
+        let (start, end) = (start?, end?);
+        let arm = |weight: &Unbalance| {
+            let [x, y] = engine.cranks()[engine.crank_carrying(weight)].axis;
+            weight.amount * x.hypot(y)
+        };
+        let arms: f64 = weights.iter().map(arm).sum();
+        let change =
+            if arms == 0.0 { Complex64::default() } else { end.torque.roll - start.torque.roll };
+        let roll = Part { start: start.torque.roll, change, size: arms };
+        let mut found = Self { force: [Part::default(); 2], moment: [Part::default(); 2], roll };
         for (sense, ratio) in [1, -1].into_iter().enumerate() {
             let changes = engine.cranks().iter().any(|crank| crank.ratio == ratio);
-            let [one, other] = [&bare, &weighted].map(|engine| turning(engine, ratio, cancel));
-            let (one, other): (TurningPart, TurningPart) = (one?, other?);
+            let [one, other] = [&start, &end].map(|wrench| TurningPart::of(wrench, ratio));
             let part = |start: Complex64, end: Complex64, size: f64| {
                 let change = if changes { end - start } else { Complex64::default() };
                 Part { start, change, size }
@@ -152,6 +166,18 @@ impl FirstOrder {
     #[must_use]
     pub fn exists(&self, vector: Vector) -> bool {
         self.parts(vector).iter().any(Part::exists)
+    }
+
+    /// Roll torque about the axis of the main crank, kg·m².
+    #[must_use]
+    pub fn roll(&self, factor: f64) -> f64 {
+        self.roll.at(factor).norm()
+    }
+
+    /// Whether there is a roll torque of order 1 at some factor.
+    #[must_use]
+    pub fn has_roll(&self) -> bool {
+        self.roll.exists()
     }
 
     /// Longest and shortest half axis, kg·m or kg·m²; the shortest below zero where the vector turns against
@@ -317,8 +343,11 @@ mod tests {
         let root = (8.0_f64 / 3.0).sqrt();
         // A handful of roundings of figures of about 2.
         assert!((found[1] - root).abs() < 4e-15 && (found[0] + root).abs() < 4e-15);
-        let both =
-            FirstOrder { force: [part(1.0, 2.0), part(3.0, 1.0)], moment: [Part::default(); 2] };
+        let both = FirstOrder {
+            force: [part(1.0, 2.0), part(3.0, 1.0)],
+            moment: [Part::default(); 2],
+            roll: Part::default(),
+        };
         assert_eq!((both.least(Vector::Force), both.least(Vector::Moment)), (Some(0.0), None));
         assert!(both.exists(Vector::Force) && !both.exists(Vector::Moment));
         assert_eq!(both.half_axes(Vector::Force, 0.0), [4.0, -2.0]);

@@ -1,9 +1,10 @@
 //! What a balancing shop works from: the bob weight of each crankpin, and the correction of a crankshaft.
 
 use super::bob_weight::bob_weight;
-use super::weights::{Fit, Minimise, Target, external};
+use super::counterweights::{Fit, FittedWeight, Plane, Target, external};
+use super::weights::Minimise;
 use crate::engine::crankpins::Crankpin;
-use crate::engine::{Engine, Unbalance};
+use crate::engine::{CrankIndex, Engine, Unbalance};
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -47,8 +48,8 @@ pub fn pins(engine: &Engine) -> Vec<PinMasses> {
 /// Planes in which a crankshaft is corrected, and what it is balanced to now.
 #[derive(Debug, Clone, Copy)]
 pub struct CorrectionRequest<'a> {
-    /// Places of the planes, m.
-    pub planes: &'a [f64],
+    /// The planes.
+    pub planes: &'a [Plane],
     /// Radius of the weight or hole in each, m; none where it is not known.
     pub radii: Option<&'a [f64]>,
     /// Oil of each crankpin, kg.
@@ -82,7 +83,7 @@ pub fn corrections(
 ) -> Result<Vec<Correction>> {
     let engine = as_it_is(engine, request)?;
     let fit = Fit {
-        z: request.planes,
+        planes: request.planes,
         bounds: &vec![f64::INFINITY; request.planes.len()],
         angles: None,
         force: Target::Share(factor),
@@ -90,8 +91,8 @@ pub fn corrections(
         length: None,
         minimise: Minimise::Squares,
     };
-    let (unbalances, fitted) = external(&engine, &fit, cancel)?;
-    let correction = |(unbalance, plane): (Unbalance, usize)| {
+    let fitted = external(&engine, &fit, cancel)?;
+    let correction = |FittedWeight { unbalance, plane, .. }: FittedWeight| {
         let mass = request.radii.map(|radii| unbalance.amount / radii[plane]);
         Correction {
             plane,
@@ -101,27 +102,35 @@ pub fn corrections(
             heavy_metal: mass.map(|mass| mass * HEAVY_METAL / (HEAVY_METAL - STEEL)),
         }
     };
-    let planes = fitted.list.iter().map(|weight| weight.plane);
-    Ok(unbalances.into_iter().zip(planes).map(correction).collect())
+    Ok(fitted.list.into_iter().map(correction).collect())
 }
 
-/// The engine with the oil of its crankpins, and what its crankshaft has now.
+/// The engine with the oil of its crankpins, midway between the rods of each, and what its cranks have now.
 fn as_it_is(engine: &Engine, request: &CorrectionRequest) -> Result<Engine> {
     let pins = engine.crankpins();
-    let mut masses: Vec<f64> = engine.stations().iter().map(|place| place.rotating_mass).collect();
-    for pin in &pins {
-        masses[pin.cylinders[0]] += request.oil;
-    }
-    let engine = engine.with_rotating_masses(&masses)?;
-    let Some(bobs) = request.balanced_to else { return Ok(engine) };
-    limits::same_length("balanced_to", bobs.len(), "the engine", pins.len(), "crankpin")?;
-    let weight = |(pin, &mass): (&Crankpin, &f64)| {
-        let first = pin.cylinders[0];
-        let amount = mass * engine.stations()[first].cylinder.crank_radius();
-        Unbalance { amount, angle: Angle::HALF_TURN, z: pin.z, pin: Some(first) }
+    let mut weights = Vec::new();
+    let bobs = if let Some(bobs) = request.balanced_to {
+        limits::same_length("balanced_to", bobs.len(), "the engine", pins.len(), "crankpin")?;
+        bobs.to_vec()
+    } else {
+        weights.extend_from_slice(engine.counterweights());
+        vec![0.0; pins.len()]
     };
-    let weights = pins.iter().zip(bobs).map(weight).filter(|weight| weight.amount > 0.0);
-    engine.with_counterweights(weights.collect())
+    for (pin, bob) in pins.iter().zip(bobs) {
+        let first = pin.cylinders[0];
+        let along = (request.oil - bob) * engine.stations()[first].cylinder.crank_radius();
+        let angle = if along < 0.0 { Angle::HALF_TURN } else { Angle::ZERO };
+        if along != 0.0 {
+            weights.push(Unbalance {
+                amount: along.abs(),
+                angle,
+                z: pin.z,
+                pin: Some(first),
+                crank: CrankIndex::MAIN,
+            });
+        }
+    }
+    engine.with_counterweights(weights)
 }
 
 #[cfg(test)]
@@ -164,7 +173,7 @@ mod tests {
         let (engine, cancel) = (v8(), Cancel::new());
         let needed = |factor, balanced_to: Option<&[f64]>| {
             let request = CorrectionRequest {
-                planes: &[-0.05, 0.35],
+                planes: &[-0.05, 0.35].map(|z| Plane { z, crank: CrankIndex::MAIN }),
                 radii: Some(&[0.08, 0.1]),
                 oil: 0.004,
                 balanced_to,
@@ -191,7 +200,7 @@ mod tests {
             assert!((opposite.abs() - 180.0).abs() < 1e-9);
         }
         let wrong =
-            CorrectionRequest { planes: &[0.0], radii: None, oil: 0.0, balanced_to: Some(&[1.0]) };
+            CorrectionRequest { planes: &[], radii: None, oil: 0.0, balanced_to: Some(&[1.0]) };
         let error = corrections(&engine, 0.5, &wrong, &cancel).unwrap_err().to_string();
         assert!(error.starts_with("balanced_to has 1 entries"), "{error}");
     }

@@ -7,6 +7,7 @@
 mod angle_lists;
 pub mod bob_weight;
 pub mod card;
+pub mod counterweights;
 mod discs;
 mod least_squares;
 pub mod shafts;
@@ -14,39 +15,12 @@ pub mod weights;
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::LoadList;
-use crate::load::source::Scaling;
 use crate::numbers::cancel::Cancel;
-use crate::numbers::error::{Error, Result};
+use crate::numbers::error::Result;
 use crate::numbers::limits::SMALLEST;
 use crate::numbers::order::Order;
-use crate::readings::amplitude::wrenches;
-use crate::readings::balance::angular_speed;
-use crate::wrench::Wrench;
-
-/// Force and moment that turn with a shaft, x + iy at θ = 0, over ω².
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct TurningPart {
-    /// Force, kg·m.
-    pub force: Complex64,
-    /// Moment about the reference plane, kg·m².
-    pub moment: Complex64,
-}
-
-impl TurningPart {
-    /// Part of an order's wrench that turns with a shaft of this ratio.
-    fn of(wrench: &Wrench, ratio: i32) -> Self {
-        let [force, moment] = [wrench.force, wrench.moment]
-            .map(|vector| if ratio > 0 { vector.forward } else { vector.backward() });
-        Self { force, moment }
-    }
-}
-
-/// Part of an engine's force and moment that turns with a shaft of this ratio, over ω².
-pub fn turning(engine: &Engine, ratio: i32, cancel: &Cancel) -> Result<TurningPart> {
-    let order = Order::whole(ratio.unsigned_abs())?;
-    Ok(TurningPart::of(&over_square(engine, order, false, None, cancel)?, ratio))
-}
+use crate::readings::turning::over_square;
+pub use crate::readings::turning::{TurningPart, turning};
 
 /// Phasor of an order of the roll torque on the block, over ω²; with what does not scale so, as that of gas
 /// pressure, at a speed.
@@ -57,44 +31,6 @@ pub fn roll_torque(
     cancel: &Cancel,
 ) -> Result<Complex64> {
     Ok(over_square(engine, order, true, rpm, cancel)?.torque.roll)
-}
-
-/// The wrench of an order over ω², at a speed where some of it does not scale so.
-fn over_square(
-    engine: &Engine,
-    order: Order,
-    torque: bool,
-    rpm: Option<f64>,
-    cancel: &Cancel,
-) -> Result<Wrench> {
-    let omega = rpm.map(angular_speed).transpose()?;
-    if let Some(rpm) = rpm.filter(|_| omega == Some(0.0)) {
-        let hint = "shafts make no force at rest; give a speed above 0";
-        return Err(Error::figure("rpm", rpm, hint));
-    }
-    engine.check_speeds(rpm.as_slice())?;
-    let loads = LoadList::new(engine, engine.reference(None)?);
-    let torque = torque && engine.spectrum().is_none();
-    let (by_group, _) = wrenches(&loads, &loads.sources, torque, &[order], cancel)?;
-    let mut sum = Wrench::default();
-    for (group, wrench) in loads.groups.iter().zip(&by_group) {
-        let factor = match (group.scaling, omega) {
-            (Scaling::SpeedSquared, _) => 1.0,
-            (scaling, Some(omega)) => scaling.factor(omega) / (omega * omega),
-            _ if wrench.is_zero() => continue,
-            (_, None) => {
-                let what = if wrench.torque.peak() > 0.0 { "torque" } else { "force" };
-                let hint = format!(
-                    "the {what} of {} does not scale with speed as that of shafts does; give the crank \
-                     speed, above 0, at which they cancel it",
-                    group.name
-                );
-                return Err(Error::value("rpm", "None", hint));
-            }
-        };
-        sum = sum.plus(&wrench.scaled(factor));
-    }
-    Ok(sum)
 }
 
 /// Forces at places along a shaft as taken by two planes, front and rear, by the lever rule.
@@ -130,6 +66,53 @@ fn without_rounding(values: &mut [Complex64]) {
             *value = Complex64::default();
         }
     }
+}
+
+/// Part of the terms of a sum that is more than the errors of a fit leave.
+const NOTICEABLE: f64 = 1e-6;
+
+/// What hardware brings about at an order that the engine does not have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Appearing {
+    /// A force.
+    Force,
+    /// A moment about the reference plane.
+    Moment,
+    /// A roll torque of inertia.
+    Roll,
+}
+
+/// Forces, moments and roll torques that vanish in an engine and not in the same with other hardware, at
+/// the orders of its cranks and shafts.
+pub fn appearing(
+    before: &Engine,
+    after: &Engine,
+    cancel: &Cancel,
+) -> Result<Vec<(Order, Appearing)>> {
+    let cranks = after.cranks().iter().map(|crank| crank.ratio);
+    let ratios = cranks.chain(after.shafts().iter().map(|shaft| shaft.ratio));
+    let orders: std::collections::BTreeSet<u32> = ratios.map(i32::unsigned_abs).collect();
+    let mut found = Vec::new();
+    for order in orders {
+        let order = Order::whole(order)?;
+        // Hardware changes what inertia does alone.
+        let [was, is] = [before, after].map(|engine| {
+            let wrench = over_square(&engine.bare(), order, true, None, cancel)?;
+            let (force, moment, torque) = (wrench.force, wrench.moment, wrench.torque);
+            Ok([
+                (force.peak(), force.size),
+                (moment.peak(), moment.size),
+                (torque.roll.norm(), torque.size),
+            ])
+        });
+        let kinds = [Appearing::Force, Appearing::Moment, Appearing::Roll];
+        for ((kind, (was, _)), (is, size)) in kinds.into_iter().zip(was?).zip(is?) {
+            if was == 0.0 && is > NOTICEABLE * size {
+                found.push((order, kind));
+            }
+        }
+    }
+    Ok(found)
 }
 
 #[cfg(test)]

@@ -5,14 +5,15 @@ use std::collections::BTreeSet;
 use nalgebra::DMatrix;
 
 use super::least_squares::least_squares;
-use super::{NEGLIGIBLE, TurningPart, half_length, over_square, weights};
+use super::{NEGLIGIBLE, TurningPart, half_length, weights};
 use crate::Complex64;
-use crate::engine::{Engine, Shaft, Unbalance};
+use crate::engine::{CrankIndex, Engine, Shaft, Unbalance};
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
+use crate::readings::turning::over_square;
 
 /// What a shaft is to remove of its part of an order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -214,7 +215,7 @@ fn free_planes(engine: &Engine, wanted: &TurningPart, reference: f64) -> Vec<f64
 pub fn unbalance(vector: Complex64, z: f64) -> Result<Unbalance> {
     let degrees = ((vector.arg().to_degrees() * DECIMALS).round() / DECIMALS).rem_euclid(360.0);
     let angle = Angle::from_degrees(degrees)?;
-    Ok(Unbalance { amount: vector.norm(), angle, z, pin: None })
+    Ok(Unbalance { amount: vector.norm(), angle, z, pin: None, crank: CrankIndex::MAIN })
 }
 
 /// A shaft on the crank axis.

@@ -10,12 +10,9 @@
 
 use nalgebra::{DMatrix, RowVector2};
 
-use super::bob_weight::with_bob_weights;
 use super::least_squares::{RANK_TOLERANCE, least_squares};
-use super::shafts::unbalance;
-use super::{NEGLIGIBLE, TurningPart, angle_lists, discs, turning, without_rounding};
+use super::{NEGLIGIBLE, TurningPart, angle_lists, discs, without_rounding};
 use crate::Complex64;
-use crate::engine::{Engine, Unbalance};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::singular_values::SingularValues;
@@ -71,84 +68,6 @@ pub struct FittedWeights {
     pub reached: bool,
     /// Part of the target that they do not exert.
     pub missing: f64,
-}
-
-/// What weights are to do to a force or moment.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Target {
-    /// It does not matter.
-    Ignored,
-    /// All of it is to go.
-    All,
-    /// It is to be what bob weights of this share of the reciprocating mass leave.
-    Share(f64),
-}
-
-/// Weights that are wanted of an engine.
-#[derive(Debug, Clone)]
-pub struct Fit<'a> {
-    /// Places of the planes, m.
-    pub z: &'a [f64],
-    /// Largest mass·radius of each plane, kg·m; infinite for none.
-    pub bounds: &'a [f64],
-    /// Angles allowed in each plane, radians; None for any.
-    pub angles: Option<&'a [Vec<f64>]>,
-    /// What is to be done to the force.
-    pub force: Target,
-    /// What is to be done to the moment.
-    pub moment: Target,
-    /// Length over which a moment counts as much as a force, m; by default the longest lever of a plane or
-    /// a cylinder.
-    pub length: Option<f64>,
-    /// What is minimised of weights that do the same.
-    pub minimise: Minimise,
-}
-
-/// Part of two figures below which their difference is rounding.
-const NOTHING: f64 = 1e-14;
-
-/// The unbalances at some places that remove the most of an engine's forward force and moment of order 1;
-/// whether they are proved to remove all that weights of any size there could, and the part that is
-/// missing.
-///
-/// Where they cannot remove both, they leave the least |force|² + |moment/length|².
-pub fn external(
-    engine: &Engine,
-    fit: &Fit,
-    cancel: &Cancel,
-) -> Result<(Vec<Unbalance>, FittedWeights)> {
-    let reference = engine.reference(None)?;
-    let places = fit.z.iter().copied().chain(engine.stations().iter().map(|station| station.z));
-    let longest = places.map(|z| (z - reference).abs()).fold(0.0, f64::max);
-    let there = turning(engine, 1, cancel)?;
-    let wanted = |target, part: fn(&TurningPart) -> Complex64| -> Result<_> {
-        let left = match target {
-            Target::Ignored => return Ok(None),
-            Target::All => Complex64::default(),
-            // Shafts stay: what weights on the crank are to leave is its own.
-            Target::Share(factor) => {
-                let balanced = with_bob_weights(engine, factor)?.with_shafts(Vec::new())?;
-                part(&turning(&balanced, 1, cancel)?)
-            }
-        };
-        let change = left - part(&there);
-        // Two figures that agree leave their rounding, not a weight.
-        let is_none = change.norm() <= NOTHING * (left.norm() + part(&there).norm());
-        Ok(Some(if is_none { Complex64::default() } else { change }))
-    };
-    let request = WeightRequest {
-        z: fit.z,
-        reference,
-        length: fit.length.unwrap_or(if longest > 0.0 { longest } else { 1.0 }),
-        force: wanted(fit.force, |part| part.force)?,
-        moment: wanted(fit.moment, |part| part.moment)?,
-        bounds: fit.bounds,
-        angles: fit.angles,
-        minimise: fit.minimise,
-    };
-    let fitted = least(&request, cancel)?;
-    let each = fitted.list.iter().map(|one| unbalance(one.vector, fit.z[one.plane]));
-    Ok((each.collect::<Result<_>>()?, fitted))
 }
 
 /// Vectors in the cross-section, a row for each plane or for each equation.
@@ -517,7 +436,7 @@ pub(super) fn complex(vectors: &Vectors) -> Vec<Complex64> {
     vectors.row_iter().map(|row| Complex64::new(row[0], row[1])).collect()
 }
 
-fn vectors(rows: &[Complex64]) -> Vectors {
+pub(super) fn vectors(rows: &[Complex64]) -> Vectors {
     Vectors::from_fn(rows.len(), 2, |k, j| if j == 0 { rows[k].re } else { rows[k].im })
 }
 

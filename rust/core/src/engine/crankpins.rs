@@ -1,9 +1,10 @@
 //! Crankpins, throws and main bearings, read off an engine's stations.
 
 use super::layout::MOST_ROUNDING;
-use super::{CrankIndex, Engine, Unbalance};
+use super::{Crank, CrankIndex, Engine, Unbalance};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result, shorten};
+use crate::numbers::index::{List, ListIndex};
 
 /// Distance along the crank, in crank radii, up to which two throws are at one place.
 const SAME_PLACE: f64 = 1e-6;
@@ -30,7 +31,7 @@ pub struct ThrowPlace {
     pub cylinders: Vec<usize>,
 }
 
-/// Part of the main crank between two main bearings, with one throw or several.
+/// Part of a crank between two main bearings, with one throw or several.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bay {
     /// Cylinders by index, ascending.
@@ -39,6 +40,8 @@ pub struct Bay {
     pub throws: Vec<f64>,
     /// Places of the bearings in front and behind, m.
     pub bearings: [f64; 2],
+    /// Index of its crank.
+    pub crank: CrankIndex,
 }
 
 impl Bay {
@@ -141,11 +144,14 @@ impl Engine {
         [&[2.0 * first - front][..], &between, &[2.0 * last - rear]].concat()
     }
 
-    /// The bays of the main crank that have throws, from front to flywheel.
+    /// The bays of all cranks that have throws, crank by crank from front to flywheel.
     #[must_use]
     pub fn bays(&self) -> Vec<Bay> {
-        let (places, bearings) =
-            (self.throw_places(CrankIndex::MAIN), self.bearings(CrankIndex::MAIN));
+        self.cranks().indices().flat_map(|crank| self.bays_of(crank)).collect()
+    }
+
+    fn bays_of(&self, crank: CrankIndex) -> Vec<Bay> {
+        let (places, bearings) = (self.throw_places(crank), self.bearings(crank));
         let bay = |pair: &[f64]| {
             let [front, rear] = [pair[0], pair[1]];
             let between = || places.iter().filter(|place| front < place.z && place.z < rear);
@@ -153,28 +159,42 @@ impl Engine {
             let mut cylinders: Vec<usize> =
                 between().flat_map(|place| &place.cylinders).copied().collect();
             cylinders.sort_unstable();
-            (!throws.is_empty()).then_some(Bay { cylinders, throws, bearings: [front, rear] })
+            (!throws.is_empty()).then_some(Bay {
+                cylinders,
+                throws,
+                bearings: [front, rear],
+                crank,
+            })
         };
         bearings.windows(2).filter_map(bay).collect()
     }
 
-    /// The cylinders of a bay and what the main crank carries in it, as an engine of its own with moments
-    /// about the bay's plane.
+    /// The cylinders of a bay and what its crank carries in it, as an engine of its own with moments about
+    /// the bay's plane; on another crank than the main one, which has no cylinders then.
     pub fn of_bay(&self, bay: &Bay) -> Result<Self> {
         let [front, rear] = bay.bearings;
         let stations = bay.cylinders.iter().map(|&i| self.stations()[i]).collect();
         let banks: Vec<usize> = bay.cylinders.iter().map(|&i| self.bank_of(i)).collect();
-        let of_main = |weight: &Unbalance| {
-            let on_main = weight.pin.is_none_or(|i| self.crank_of(i) == CrankIndex::MAIN);
-            on_main && front <= weight.z && weight.z < rear
+        let (mut cranks, mut own) = (List::new(vec![Crank::MAIN]), CrankIndex::MAIN);
+        if bay.crank != CrankIndex::MAIN {
+            own = cranks.push(self.cranks()[bay.crank]);
+        }
+        let is_inside = |weight: &Unbalance| {
+            self.crank_carrying(weight) == bay.crank && front <= weight.z && weight.z < rear
         };
         // The cylinder at whose pin a weight is may be in another bay.
         let at_own_angle = |weight: Unbalance| {
-            let pin = weight.pin.map_or(Angle::ZERO, |i| self.pin(i));
-            Unbalance { angle: (pin + weight.angle).reduced(), pin: None, ..weight }
+            let angle = match weight.pin {
+                None => weight.angle,
+                Some(i) if self.cranks()[bay.crank].ratio < 0 => self.pin(i) - weight.angle,
+                Some(i) => self.pin(i) + weight.angle,
+            };
+            Unbalance { angle: angle.reduced(), pin: None, crank: own, ..weight }
         };
-        let weights = self.counterweights().iter().copied().filter(of_main).map(at_own_angle);
+
+        let weights = self.counterweights().iter().copied().filter(is_inside).map(at_own_angle);
         Self::in_banks("", "", stations, &banks)?
+            .with_cranks(cranks.to_vec(), vec![own.position(); bay.cylinders.len()])?
             .with_counterweights(weights.collect())?
             .with_reference(Some(bay.z()))
     }

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::layout::Strokes;
-use super::{Crank, Details, Engine, Gas, PeriodicLoad, RodFigures, Shaft, Station, Unbalance};
+use super::{
+    Crank, CrankIndex, Details, Engine, Gas, PeriodicLoad, RodFigures, Shaft, Station, Unbalance,
+};
 use crate::mechanism::slider_crank::Cylinder;
 use crate::mounts::Powertrain;
 use crate::mounts::file::PowertrainEntry;
@@ -148,6 +150,9 @@ struct WeightEntry {
     /// Number of the cylinder whose crankpin the angle is measured from.
     #[serde(default, skip_serializing_if = "is_default")]
     pin: Option<usize>,
+    /// Number of the crank that carries it, as of a cylinder; that of the pin, where it has one.
+    #[serde(default, skip_serializing_if = "is_default")]
+    crank: usize,
 }
 
 #[derive(Serialize, Deserialize, PartialEq)]
@@ -170,6 +175,7 @@ impl WeightEntry {
             angle_deg: Degrees::of(unbalance.angle),
             z: unbalance.z,
             pin: unbalance.pin.map(|index| index + 1),
+            crank: unbalance.crank.position(),
         }
     }
 
@@ -179,7 +185,8 @@ impl WeightEntry {
             number.checked_sub(1).ok_or_else(|| Error::value(format!("{place}.pin"), 0, hint))
         });
         let angle = self.angle_deg.angle(&format!("{place}.angle_deg"))?;
-        Ok(Unbalance { amount: self.amount, angle, z: self.z, pin: pin.transpose()? })
+        let (amount, z, crank) = (self.amount, self.z, CrankIndex::new(self.crank));
+        Ok(Unbalance { amount, angle, z, pin: pin.transpose()?, crank })
     }
 }
 
@@ -644,6 +651,7 @@ mod tests {
             angle: Angle::from_degrees(angle).unwrap(),
             z,
             pin,
+            crank: CrankIndex::MAIN,
         });
         let weights = proptest::collection::vec(weight, 0..3);
         let shaft = (prop_oneof![-2..0, 1..3], [-9.0..9.0, -9.0..9.0], weights.clone());
@@ -748,7 +756,13 @@ mod tests {
             rotating_mass: 0.0,
         };
         let angle = Angle::from_degree_fraction(123_456_789, 1_000_000).unwrap();
-        let weight = Unbalance { amount: 0.1 / 3.0, angle, z: -0.1 / 7.0, pin: None };
+        let weight = Unbalance {
+            amount: 0.1 / 3.0,
+            angle,
+            z: -0.1 / 7.0,
+            pin: None,
+            crank: CrankIndex::MAIN,
+        };
         let shaft = Shaft {
             name: String::new(),
             ratio: -2,

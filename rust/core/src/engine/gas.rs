@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use super::layout::Strokes;
-use super::{Engine, check_each_cylinder};
+use super::layout::{MOST_ROUNDING, Strokes};
+use super::{CrankIndex, Engine, check_each_cylinder};
+use crate::Complex64;
 use crate::mechanism::slider_crank::piston_area;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
@@ -55,6 +56,37 @@ impl Engine {
     pub fn fires(&self, cylinder: usize) -> bool {
         let has_cycle = self.gas.as_ref().is_none_or(|gas| gas.cycle_of[cylinder].is_some());
         has_cycle && !self.details[cylinder].dummy
+    }
+
+    /// Whether all cylinders but dummy pistons are on cranks as fast as the main one, whose cycles are theirs.
+    #[must_use]
+    pub fn fires_in_main_cycles(&self) -> bool {
+        let is_slow = |(of, &crank): (&super::Details, &CrankIndex)| {
+            of.dummy || self.cranks[crank].ratio.abs() == 1
+        };
+        self.details.iter().zip(&self.crank_of).all(is_slow)
+    }
+
+    /// Pairs of cylinders that fire and whose pistons face each other along one bore, on different cranks:
+    /// they are two sides of one chamber.
+    #[must_use]
+    pub fn facing_pistons(&self) -> Vec<[usize; 2]> {
+        /// Distances below this part of that between two axes are rounding.
+        const ROUNDING: f64 = 1e-9;
+        let facing = |one: usize, other: usize| {
+            let [a, b] = [one, other].map(|i| &self.stations[i]);
+            let [from, to] = [one, other].map(|i| self.cranks[self.crank_of[i]].axis);
+            let apart = Complex64::new(to[0] - from[0], to[1] - from[1]);
+            let along = apart * a.bank.cis(-1);
+            let turned = (b.bank - a.bank - Angle::HALF_TURN).reduced().degrees();
+            let is_opposite = turned.min(360.0 - turned) <= MOST_ROUNDING;
+            let is_beside = (a.z - b.z).abs().max(along.im.abs()) > ROUNDING * apart.norm();
+            is_opposite && !is_beside && along.re > 0.0 && self.fires(one) && self.fires(other)
+        };
+        let cylinders = self.stations.len();
+        let pairs = (0..cylinders).flat_map(|i| (0..cylinders).map(move |k| [i, k]));
+        let crank = |i: usize| self.crank_of[i];
+        pairs.filter(|&[i, k]| i < k && crank(i) != crank(k) && facing(i, k)).collect()
     }
 
     /// Cycle of a cylinder and absolute pressure in the crankcase, Pa, where pressure counts.
@@ -109,18 +141,20 @@ impl Engine {
                 let hint = "gas pressure needs the bore; give bore=… to each Cylinder, m";
                 return Err(Error::value(format!("cylinder[{i}].bore"), "None", hint));
             }
-            let ratio = self.cranks[self.crank_of[i]].ratio;
-            if ratio.abs() != 1 {
-                let hint = "gas pressure counts on cranks of ratio 1 or -1, whose cycles are the \
-                            main crank's";
-                return Err(Error::value(
-                    format!("cranks[{}].ratio", self.crank_of[i].position()),
-                    ratio,
-                    hint,
-                ));
-            }
+            self.check_cycle_is_of_main_crank(i, "gas pressure counts")?;
         }
         Ok(self)
+    }
+
+    /// Rejects a cylinder whose crank does not turn as fast as the main one: its cycles are other ones.
+    pub(crate) fn check_cycle_is_of_main_crank(&self, cylinder: usize, what: &str) -> Result<()> {
+        let crank = self.crank_of[cylinder];
+        let ratio = self.cranks[crank].ratio;
+        if ratio.abs() == 1 {
+            return Ok(());
+        }
+        let hint = format!("{what} on cranks of ratio 1 or -1, whose cycles are the main crank's");
+        Err(Error::value(format!("cranks[{}].ratio", crank.position()), ratio, hint))
     }
 
     /// Rejects a cycle of other strokes than the engine's, by its place in a list.

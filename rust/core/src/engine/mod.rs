@@ -297,6 +297,12 @@ impl Engine {
         self.crank_of[cylinder]
     }
 
+    /// Index of the crank that carries an unbalance: that of its pin, where it has one.
+    #[must_use]
+    pub fn crank_carrying(&self, unbalance: &Unbalance) -> CrankIndex {
+        unbalance.pin.map_or(unbalance.crank, |cylinder| self.crank_of[cylinder])
+    }
+
     /// Direction of a cylinder's crankpin, from +x, at θ = 0.
     #[must_use]
     pub fn pin(&self, cylinder: usize) -> Angle {
@@ -323,7 +329,7 @@ impl Engine {
         Err(Error::Undefined { argument, reason })
     }
 
-    /// Unbalances that the crankshaft carries besides the rotating masses of the cylinders.
+    /// Unbalances that the cranks carry besides the rotating masses of the cylinders.
     #[must_use]
     pub fn counterweights(&self) -> &[Unbalance] {
         &self.counterweights
@@ -340,7 +346,13 @@ impl Engine {
     pub fn crank_unbalances(&self) -> impl Iterator<Item = (Origin, Unbalance)> {
         let mass = |(i, place): (usize, &Station)| {
             let amount = place.rotating_mass * place.cylinder.crank_radius();
-            let unbalance = Unbalance { amount, angle: Angle::ZERO, z: place.z, pin: Some(i) };
+            let unbalance = Unbalance {
+                amount,
+                angle: Angle::ZERO,
+                z: place.z,
+                pin: Some(i),
+                crank: CrankIndex::MAIN,
+            };
             (Origin::Cylinder(i), unbalance)
         };
         let masses = self.stations.iter().enumerate().map(mass);
@@ -388,6 +400,22 @@ impl Engine {
         &self.mains
     }
 
+    /// Largest mean piston speed of any cylinder at a speed of the main crank, m/s: two travels of its
+    /// piston in a turn of its own crank.
+    #[must_use]
+    pub fn mean_piston_speed(&self, rpm: f64) -> f64 {
+        self.mean_piston_speed_of(rpm, Cylinder::travel)
+    }
+
+    /// The same with the travel of each cylinder's piston, m.
+    pub(crate) fn mean_piston_speed_of(&self, rpm: f64, travel: impl Fn(&Cylinder) -> f64) -> f64 {
+        let per_turn = |i: usize| {
+            let ratio = self.cranks[self.crank_of[i]].ratio;
+            2.0 * travel(&self.stations[i].cylinder) * f64::from(ratio.abs())
+        };
+        (0..self.stations.len()).map(per_turn).fold(0.0, f64::max) * rpm / 60.0
+    }
+
     /// Largest crank radius of any cylinder, m.
     #[must_use]
     pub fn largest_crank_radius(&self) -> f64 {
@@ -404,7 +432,8 @@ impl Engine {
         turned.delay_loads(turn);
         // What is fixed to a shaft starts from where it was so much earlier.
         for weight in turned.counterweights.iter_mut().filter(|weight| weight.pin.is_none()) {
-            weight.angle = (weight.angle - turn).reduced();
+            let ratio = self.cranks[weight.crank].ratio;
+            weight.angle = (weight.angle - turn.times(ratio)).reduced();
         }
         for shaft in &mut turned.shafts {
             for unbalance in &mut shaft.unbalances {
@@ -432,7 +461,7 @@ impl Engine {
         let crank_of = crank_of.into_iter().map(CrankIndex::new).collect();
         let engine = Self { cranks: List::new(cranks), crank_of, ..self.clone() };
         engine.check_throws_between(&engine.mains)?;
-        engine.with_known_torque()
+        engine.with_counterweights(engine.counterweights.clone())?.with_known_torque()
     }
 
     /// The same engine with these masses at its crankpins, one for each cylinder, kg.
@@ -445,12 +474,13 @@ impl Engine {
         Ok(engine)
     }
 
-    /// The same engine with these counterweights on the crankshaft instead of those it has.
+    /// The same engine with these counterweights on its cranks instead of those it has.
     pub fn with_counterweights(&self, counterweights: Vec<Unbalance>) -> Result<Self> {
         shaft::check_count("counterweights", counterweights.len())?;
         let checked = counterweights.into_iter().enumerate();
+        let (cylinders, cranks) = (self.stations.len(), self.cranks.len());
         let checked =
-            checked.map(|(i, u)| u.checked(&format!("counterweights[{i}]"), self.stations.len()));
+            checked.map(|(i, u)| u.checked(&format!("counterweights[{i}]"), cylinders, cranks));
         Ok(Self { counterweights: checked.collect::<Result<_>>()?, ..self.clone() })
     }
 
@@ -652,7 +682,7 @@ mod tests {
     }
 
     fn weight(angle: f64, pin: Option<usize>) -> Unbalance {
-        Unbalance { amount: 0.01, angle: degrees(angle), z: 0.2, pin }
+        Unbalance { amount: 0.01, angle: degrees(angle), z: 0.2, pin, crank: CrankIndex::MAIN }
     }
 
     #[test]
@@ -680,7 +710,13 @@ mod tests {
         let engine = Engine::new("", "", stations).unwrap();
         let engine = engine.with_counterweights(vec![weight(30.0, None)]).unwrap();
         let found: Vec<(Origin, Unbalance)> = engine.crank_unbalances().collect();
-        let mass = Unbalance { amount: 0.4 * 0.05, angle: Angle::ZERO, z: 0.1, pin: Some(1) };
+        let mass = Unbalance {
+            amount: 0.4 * 0.05,
+            angle: Angle::ZERO,
+            z: 0.1,
+            pin: Some(1),
+            crank: CrankIndex::MAIN,
+        };
         let expected =
             [(Origin::Cylinder(1), mass), (Origin::Counterweight(0), weight(30.0, None))];
         assert_eq!(found, expected);

@@ -407,6 +407,12 @@ impl Engine {
         Ok(Self { loads: checked.collect::<Result<_>>()?, ..self.clone() })
     }
 
+    /// The same engine with nothing but its moving parts: without pressure and further loads.
+    #[must_use]
+    pub fn bare(&self) -> Self {
+        Self { loads: Vec::new(), ..self.without_gas() }
+    }
+
     /// Rejects crank speeds that a load's table does not have, rpm.
     pub(crate) fn check_speeds(&self, rpm: &[f64]) -> Result<()> {
         for load in &self.loads {

@@ -1,7 +1,9 @@
 //! What rotates: shafts at a fixed ratio to the crankshaft, and the unbalances that they carry.
 
+use super::CrankIndex;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::index::ListIndex;
 use crate::numbers::limits;
 
 /// Mass times eccentricity on a shaft (unbalance, ISO 21940).
@@ -16,6 +18,9 @@ pub struct Unbalance {
     pub z: f64,
     /// Index of the cylinder whose crankpin it follows where pins move (a bob weight on a pin).
     pub pin: Option<usize>,
+    /// Index of the crank that carries it, 0 for the main one; 0 with `pin`, whose crank it is on, and on
+    /// balance shafts.
+    pub crank: CrankIndex,
 }
 
 /// Part of an engine to which a load belongs, by index.
@@ -94,9 +99,17 @@ pub(super) fn check_rotation(place: &str, ratio: i32, axis: [f64; 2]) -> Result<
 
 impl Unbalance {
     /// Checked, its angle reduced to one turn; `place` is its name in errors.
-    pub(super) fn checked(mut self, place: &str, cylinders: usize) -> Result<Self> {
+    pub(super) fn checked(mut self, place: &str, cylinders: usize, cranks: usize) -> Result<Self> {
         limits::not_negative(&format!("{place}.amount"), self.amount)?;
         limits::finite(&format!("{place}.z"), self.z)?;
+        if self.crank.position() >= cranks {
+            let hint = format!("give the number of a crank, below {cranks}");
+            return Err(Error::value(format!("{place}.crank"), self.crank.position(), hint));
+        }
+        if self.pin.is_some() && self.crank != CrankIndex::MAIN {
+            let hint = "leave it out: a weight at a crankpin is on the crank of that";
+            return Err(Error::value(format!("{place}.crank"), self.crank.position(), hint));
+        }
         if let Some(pin) = self.pin
             && pin >= cylinders
         {
@@ -120,7 +133,12 @@ impl Shaft {
                 let hint = "leave it out: only the crankshaft has crankpins";
                 return Err(Error::value(format!("{place}.pin"), pin + 1, hint));
             }
-            *unbalance = unbalance.checked(&place, 0)?;
+            if unbalance.crank != CrankIndex::MAIN {
+                let hint = "leave it out: the shaft carries it";
+                let crank = unbalance.crank.position();
+                return Err(Error::value(format!("{place}.crank"), crank, hint));
+            }
+            *unbalance = unbalance.checked(&place, 0, 1)?;
         }
         Ok(self)
     }

@@ -23,7 +23,7 @@ impl Firing {
         order: &FiringOrder,
         strokes: Strokes,
     ) -> Result<Vec<Self>> {
-        let highest = highest_points(engine);
+        let highest = highest_points(engine)?;
         let count = highest.len();
         let dummies: Vec<bool> = engine.details().iter().map(|details| details.dummy).collect();
         order.check_names_all(&dummies)?;
@@ -77,7 +77,7 @@ impl Firing {
             return Ok(found);
         }
         let later = vec![false; engine.stations().len()];
-        let within_a_turn = Self::assemble(engine, &highest_points(engine), Strokes::Two, &later);
+        let within_a_turn = Self::assemble(engine, &highest_points(engine)?, Strokes::Two, &later);
         let sequence = shorten(&within_a_turn.to_string().replace('-', ", "));
         let mut hint =
             format!("this crank cannot fire in this order: its TDC sequence is {sequence}");
@@ -122,7 +122,7 @@ impl Firing {
 
     /// Every schedule for an engine to fire, the most even first.
     pub fn all(engine: &Arc<Engine>, strokes: Strokes, cancel: &Cancel) -> Result<Vec<Self>> {
-        let highest = highest_points(engine);
+        let highest = highest_points(engine)?;
         // The first begins the cycle, whose turns are those of the others.
         let others: Vec<usize> = firing(engine).skip(1).collect();
         let count = others.len() + 1;

@@ -1,11 +1,18 @@
 //! Turning points of pistons, and the angles that count as one.
 
+use super::schedule::firing;
 use crate::engine::{Engine, Station};
 use crate::layout::MOST_ROUNDING;
 use crate::numbers::angle::Angle;
+use crate::numbers::error::Result;
 
 /// Crank angles at which pistons are highest, after the first one's, within a turn.
-pub(super) fn highest_points(engine: &Engine) -> Vec<Angle> {
+///
+/// Rejects pistons that are highest more than once in it and not dummies, which never fire.
+pub(super) fn highest_points(engine: &Engine) -> Result<Vec<Angle>> {
+    for cylinder in firing(engine) {
+        engine.check_cycle_is_of_main_crank(cylinder, "cylinders but dummy pistons fire")?;
+    }
     let stations = engine.stations();
     let (first, past_first) = (stations[0].tdc, highest_after_tdc(&stations[0]));
     let mut highest: Vec<Angle> = stations
@@ -28,7 +35,7 @@ pub(super) fn highest_points(engine: &Engine) -> Vec<Angle> {
             highest[pair[1]] = highest[pair[0]];
         }
     }
-    highest
+    Ok(highest)
 }
 
 /// Degrees after top dead centre at which crank and rod are in line.

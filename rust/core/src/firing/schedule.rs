@@ -59,7 +59,7 @@ impl Firing {
             let hint = "give 0 or 1 for each cylinder, 0 for the first and in a two-stroke";
             return Err(Error::value("revolutions", format!("{later:?}"), hint));
         }
-        Ok(Self::assemble(engine, &highest_points(engine), strokes, later))
+        Ok(Self::assemble(engine, &highest_points(engine)?, strokes, later))
     }
 
     pub(super) fn assemble(

@@ -87,8 +87,8 @@ impl LoadList {
                 loads.push(along_bore(i), PistonInertia(mechanism(i)), weight, roll);
             }
         }
-        for (origin, Unbalance { amount, angle, z, pin }) in engine.crank_unbalances() {
-            let mut place = Place::on_main(origin, angle, z);
+        for (origin, Unbalance { amount, angle, z, pin, crank }) in engine.crank_unbalances() {
+            let mut place = Place::on_main(origin, angle, z).on(engine.cranks()[crank]);
             if let Some(i) = pin {
                 // A crankpin points along its bore at top dead centre.
                 let bore = engine.stations()[i].bank;

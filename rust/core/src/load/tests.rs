@@ -6,7 +6,7 @@ use super::kinematics::{AngleBlock, Columns, Kinematics, Quantities};
 use super::source::GAS as GAS_NAME;
 use super::*;
 use crate::Spectrum;
-use crate::engine::{Details, Engine, Gas, Shaft, Station, Unbalance};
+use crate::engine::{CrankIndex, Details, Engine, Gas, Shaft, Station, Unbalance};
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
@@ -40,7 +40,7 @@ fn cis(degrees: f64) -> Complex64 {
 }
 
 fn unbalance(amount: f64, degrees: f64, z: f64, pin: Option<usize>) -> Unbalance {
-    Unbalance { amount, angle: angle(degrees), z, pin }
+    Unbalance { amount, angle: angle(degrees), z, pin, crank: CrankIndex::MAIN }
 }
 
 /// A vee of three cylinders, two of one gear, with weights at pins and elsewhere, and shafts.

@@ -68,6 +68,7 @@ pub struct DrawnUnbalance {
     angle_deg: f64,
     z: f64,
     pin: Option<usize>,
+    crank: usize,
 }
 
 /// A cylinder; lengths in m.
@@ -148,17 +149,18 @@ impl Drawing {
 }
 
 fn unbalances(list: &[Unbalance]) -> Vec<DrawnUnbalance> {
-    let drawn = |&Unbalance { amount, angle, z, pin }: &Unbalance| DrawnUnbalance {
+    let drawn = |&Unbalance { amount, angle, z, pin, crank }: &Unbalance| DrawnUnbalance {
         amount,
         angle_deg: angle.degrees(),
         z,
         pin,
+        crank: crank.position(),
     };
     list.iter().map(drawn).collect()
 }
 
 fn firing(engine: &Arc<Engine>, cancel: &Cancel) -> Result<Option<Vec<Option<f64>>>> {
-    if engine.firing_order().is_empty() {
+    if engine.firing_order().is_empty() || !engine.fires_in_main_cycles() {
         return Ok(None);
     }
     let angles = Firing::own(engine, cancel)?.angles().into_iter().map(Angle::degrees);

@@ -17,4 +17,5 @@ pub mod quantity;
 pub mod sweep;
 pub mod terms;
 pub mod tolerances;
+pub mod turning;
 pub mod waveform;

@@ -51,25 +51,48 @@ pub fn terms(
     for (name, place) in [("x", x), ("y", y)] {
         limits::finite(name, place)?;
     }
+    let (cylinders, weights) = (engine.stations().len(), engine.counterweights().len());
+    let count = |origin: fn(usize) -> Origin, count: usize| (0..count).map(origin);
+    let parts = count(Origin::Cylinder, cylinders)
+        .chain(count(Origin::Counterweight, weights))
+        .chain(count(Origin::Shaft, engine.shafts().len()))
+        .chain(count(Origin::Load, engine.loads().len()));
+    let own = |origin| match origin {
+        Origin::Cylinder(i) => i,
+        Origin::Counterweight(k) => cylinders + k,
+        Origin::Shaft(k) => cylinders + weights + k,
+        Origin::Load(k) => cylinders + weights + engine.shafts().len() + k,
+    };
+    let parts: Vec<Origin> = parts.collect();
+    let sums = sums_by(engine, request, aside, orders, (parts.len(), &own), cancel)?;
+    Ok(parts.into_iter().zip(sums).collect())
+}
+
+/// The sums of groups of parts: as many as said, of each part by the index of its group.
+pub(super) fn sums_by(
+    engine: &Engine,
+    request: &Request,
+    [x, y]: [f64; 2],
+    orders: &[Order],
+    (groups, group_of): (usize, &dyn Fn(Origin) -> usize),
+    cancel: &Cancel,
+) -> Result<Vec<Balance>> {
     let omega = angular_speed(request.rpm)?;
     engine.check_speeds(&[request.rpm])?;
     let torque = request.torque && engine.spectrum().is_none();
     let loads = LoadList::new(engine, engine.reference(request.reference_z)?);
     let amplitudes = Amplitudes::new(&loads.sources, torque, orders, cancel)?;
-    let count = |origin: fn(usize) -> Origin, count: usize| (0..count).map(origin);
-    let parts = count(Origin::Cylinder, engine.stations().len())
-        .chain(count(Origin::Counterweight, engine.counterweights().len()))
-        .chain(count(Origin::Shaft, engine.shafts().len()))
-        .chain(count(Origin::Load, engine.loads().len()));
-    let of_part = |origin: Origin| {
-        let own: Vec<Load> =
-            loads.list.iter().filter(|l| l.place.origin == origin).copied().collect();
+    let mut own: Vec<Vec<Load>> = vec![Vec::new(); groups]; // bounded: by the parts of an engine
+    for load in &loads.list {
+        own[group_of(load.place.origin)].push(*load);
+    }
+    let of_group = |own: Vec<Load>| {
         let wrenches = amplitudes.wrenches(&loads, &own, torque, orders, cancel)?;
         let means = amplitudes.means(&loads, &own);
         let part = Balance::of(&loads, &own, orders.to_vec(), &wrenches, &means, omega)?;
         let mut part = part.moved([x, y, 0.0]);
         part.has_torque = torque;
-        Ok((origin, part))
+        Ok(part)
     };
-    parts.map(of_part).collect()
+    own.into_iter().map(of_group).collect()
 }

@@ -7,6 +7,7 @@ pub mod random;
 use std::sync::Arc;
 
 use crankpin_core::balance::{Balance, Vector, balance};
+use crankpin_core::engine::CrankIndex;
 use crankpin_core::index::ListIndex;
 use crankpin_core::quantity::Quantity;
 use crankpin_core::sweep::{Statistic, SweepAxes};
@@ -48,7 +49,13 @@ pub fn mixed() -> Arc<Engine> {
 
 /// The [`mixed`] engine with counterweights, free and at pins, and balance shafts either way round.
 pub fn weighted() -> Arc<Engine> {
-    let weight = |amount, degrees, z, pin| Unbalance { amount, angle: angle(degrees), z, pin };
+    let weight = |amount, degrees, z, pin| Unbalance {
+        amount,
+        angle: angle(degrees),
+        z,
+        pin,
+        crank: CrankIndex::MAIN,
+    };
     let shaft = |ratio, axis, unbalances| Shaft { name: String::new(), ratio, axis, unbalances };
     let engine = mixed().with_counterweights(vec![
         weight(0.02, 200.0, -0.02, None),

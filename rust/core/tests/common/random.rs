@@ -1,5 +1,6 @@
 //! Random engines.
 
+use crankpin_core::engine::CrankIndex;
 use crankpin_core::{Angle, Cylinder, Engine, Shaft, Station, Unbalance};
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -58,6 +59,7 @@ fn unbalances(most: usize) -> impl Strategy<Value = Vec<Unbalance>> {
         angle,
         z,
         pin: None,
+        crank: CrankIndex::MAIN,
     });
     proptest::collection::vec(one, 0..most)
 }

@@ -172,8 +172,7 @@ impl BearingLoadsModel {
             let crank = match load.place.origin {
                 Origin::Cylinder(i) => Some(engine.crank_of(i)),
                 Origin::Counterweight(k) => {
-                    let pin = engine.counterweights()[k].pin;
-                    Some(pin.map_or(CrankIndex::MAIN, |i| engine.crank_of(i)))
+                    Some(engine.crank_carrying(&engine.counterweights()[k]))
                 }
                 Origin::Shaft(_) | Origin::Load(_) => None,
             };

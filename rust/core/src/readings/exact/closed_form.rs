@@ -272,7 +272,7 @@ fn phasor(sum: &RootSum, cancel: &Cancel) -> Result<Phasor> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::{Shaft, Station, Unbalance};
+    use crate::engine::{CrankIndex, Shaft, Station, Unbalance};
     use crate::mechanism::slider_crank::Cylinder;
     use crate::readings::balance::{Request, Vector, balance};
 
@@ -315,7 +315,13 @@ mod tests {
     #[test]
     fn shafts_turn_with_the_crank_or_against_it() {
         let shaft = |ratio| {
-            let unbalance = Unbalance { amount: 0.0125, angle: Angle::ZERO, z: 0.0, pin: None };
+            let unbalance = Unbalance {
+                amount: 0.0125,
+                angle: Angle::ZERO,
+                z: 0.0,
+                pin: None,
+                crank: CrankIndex::MAIN,
+            };
             Shaft { name: String::new(), ratio, axis: [0.0; 2], unbalances: vec![unbalance] }
         };
         let engine = crossplane().with_shafts(vec![shaft(1), shaft(-1)]).unwrap();

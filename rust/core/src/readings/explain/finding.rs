@@ -53,6 +53,13 @@ pub enum Finding {
         /// Whether the main crank is the only one.
         one_sense: bool,
     },
+    /// Roll torque of order 1 that forces on several axes make about that of the main crank.
+    Roll {
+        /// Peak, N·m.
+        peak: f64,
+        /// What counterweights on the cranks leave of it.
+        kept: f64,
+    },
     /// Orders that cancel though pistons make them.
     Cancels {
         /// Force or moment.
@@ -130,8 +137,8 @@ pub enum Weights {
     No,
     /// On the main crank.
     OnMain,
-    /// On other cranks.
-    OnOthers,
+    /// On cranks besides the main one, or on others.
+    OnCranks,
 }
 
 /// Why an order cancels.
@@ -215,6 +222,9 @@ impl Finding {
                 reason: if *one_sense { "one sense" } else { "own sense" },
                 ..row("bob weights")
             },
+            Self::Roll { peak, kept } => {
+                Row { orders: vec![Order::FIRST], values: vec![*peak, *kept], ..row("roll") }
+            }
             Self::Cancels { orders, reason, pairs, proved, .. } => Row {
                 orders: orders.clone(),
                 reason: reason.name(),
@@ -276,7 +286,7 @@ impl Weights {
         match self {
             Self::No => "",
             Self::OnMain => "counterweights",
-            Self::OnOthers => "counterweights on other cranks",
+            Self::OnCranks => "counterweights on other cranks",
         }
     }
 }

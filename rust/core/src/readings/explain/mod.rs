@@ -13,10 +13,9 @@ use std::sync::Arc;
 pub use self::finding::{Finding, Row};
 pub use self::sentences::Wording;
 use self::sums::{Sums, proofs_of};
-use crate::engine::CrankIndex;
-use crate::engine::{Engine, Unbalance};
+use crate::engine::{CrankIndex, Engine, Origin, Unbalance};
 use crate::firing::Firing;
-use crate::mechanism::harmonics;
+use crate::load::LoadList;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::figure::rounded;
@@ -27,6 +26,7 @@ use crate::readings::balance::{
 use crate::readings::exact::vanishing::{ProofQuantity, QUANTITIES, Verdict, vanishing_of};
 use crate::readings::quantity;
 use crate::readings::terms::terms;
+use crate::readings::turning::{RollOfAxes, roll_of_axes};
 
 /// Highest order whose cancelling is explained.
 const HIGHEST: u32 = 12;
@@ -127,15 +127,19 @@ pub fn explain(
 
 // --- what figures are relative to ---
 
-/// First-order force over ω² of the strongest piston, or of a throw.
+/// First-order force over ω² of the strongest piston, or of a throw: the order of its own crank.
 fn strongest(engine: &Engine, cancel: &Cancel) -> Result<(f64, Part)> {
+    let loads = LoadList::new(engine, engine.reference(None)?);
     let mut pistons: f64 = 0.0;
-    for gear in engine.gears() {
-        let first = harmonics::coefficients(&gear.proportions(), &[1], cancel)?[0];
-        pistons = pistons.max(gear.reciprocating_mass() * gear.crank_radius() * first.norm());
+    let mut throws: f64 = 0.0;
+    for load in &loads.list {
+        let Origin::Cylinder(_) = load.place.origin else { continue };
+        let first = Order::whole(load.place.ratio.unsigned_abs())?;
+        let force = loads.source(load).force(&[first], cancel)?[0].norm();
+        let size = force * load.weight.abs() * f64::from(load.place.speed_squared());
+        let largest = if load.is_turning() { &mut throws } else { &mut pistons };
+        *largest = largest.max(size);
     }
-    let throws = engine.stations().iter().map(|at| at.rotating_mass * at.cylinder.crank_radius());
-    let throws = throws.fold(0.0, f64::max);
     Ok(if pistons > MATTERS * throws { (pistons, Part::Piston) } else { (throws, Part::Throw) })
 }
 
@@ -183,6 +187,7 @@ fn of_vectors(engine: &Engine, rpm: f64, units: [f64; 2], cancel: &Cancel) -> Re
         found.extend(remedy);
         found.extend(weights.take_if(|_| by_weights));
     }
+    found.extend(roll_beside(engine, rpm, units[0], cancel)?);
     let made: Vec<bool> = (0..orders.len()).map(|k| both[0].is_made(k)).collect();
     let banks = engine.cylinders_of_banks();
     found.extend(both.iter().flat_map(|sums| sums.cancelling(&made, &banks)));
@@ -192,6 +197,20 @@ fn of_vectors(engine: &Engine, rpm: f64, units: [f64; 2], cancel: &Cancel) -> Re
         bounds: [both[0].rest() + force, both[1].rest() + moment],
     });
     Ok(found)
+}
+
+/// The roll torque that cranks on several axes make at order 1, in a unit of force that matters.
+fn roll_beside(engine: &Engine, rpm: f64, unit: f64, cancel: &Cancel) -> Result<Option<Finding>> {
+    let axes = engine.cranks().iter().map(|crank| crank.axis[0].hypot(crank.axis[1]));
+    let furthest = axes.fold(0.0, f64::max);
+    if furthest == 0.0 || engine.spectrum().is_some() {
+        return Ok(None);
+    }
+    let square = angular_speed(rpm)?.powi(2);
+    let RollOfAxes { whole, beside, kept } = roll_of_axes(engine, cancel)?;
+    let [whole, beside, kept] = [whole, beside, kept].map(|torque| torque * square);
+    let matters = whole.min(beside) > MATTERS * unit * furthest;
+    Ok(matters.then_some(Finding::Roll { peak: whole, kept }))
 }
 
 /// The bob weight that removes what turns with a crank: half of the pistons'.
@@ -234,7 +253,7 @@ fn torques(engine: &Engine, rpm: f64, cancel: &Cancel) -> Result<Vec<Finding>> {
 
 /// How the engine fires, and the orders of gas torque that this leaves.
 fn firing(engine: &Arc<Engine>, cancel: &Cancel) -> Result<Vec<Finding>> {
-    if engine.firing_order().is_empty() {
+    if engine.firing_order().is_empty() || !engine.fires_in_main_cycles() {
         return Ok(Vec::new());
     }
     let fires = Firing::own(engine, cancel)?;

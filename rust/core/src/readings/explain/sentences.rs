@@ -143,6 +143,21 @@ impl Explanation {
                      with {crank} at order 1, of force and moment"
                 )
             }
+            Finding::Roll { peak, kept } => {
+                let size = |torque: f64| self.size(torque, Vector::Moment, false, wording);
+                let left = if *kept <= LINE * *peak {
+                    "could remove it".to_owned()
+                } else if *kept < (1.0 - SAME) * *peak {
+                    format!("could bring it down to {}", size(*kept))
+                } else {
+                    "do not lessen it".to_owned()
+                };
+                format!(
+                    "order 1 leaves a roll torque of {} about the axis of the main crank, as cranks on \
+                     other axes push and pull beside it: counterweights on the cranks {left}",
+                    size(*peak)
+                )
+            }
             Finding::Cancels { vector, orders: list, reason, pairs, proved } => {
                 let several = list.len() > 1;
                 let (what, zero) = (words(*vector), zero(*proved));
@@ -277,7 +292,7 @@ impl Explanation {
     ) -> String {
         let fitted = !self.engine.counterweights().is_empty();
         let mut other = if fitted { "other counterweights" } else { "counterweights" }.to_owned();
-        if weights == Weights::OnOthers {
+        if weights == Weights::OnCranks {
             other.push_str(" on the cranks");
         }
         let speed = if order == Order::FIRST { "crank speed" } else { "twice crank speed" };
@@ -347,7 +362,7 @@ impl Explanation {
         match &left.collect::<Vec<_>>()[..] {
             [] => {
                 let force = self.unit_force();
-                format!("no {other}order is as large as a millionth of {force}")
+                format!("no {other}order of force or moment is as large as a millionth of {force}")
             }
             left => format!("all {other}orders together make at most {}", listed(left)),
         }

@@ -3,10 +3,11 @@
 use super::MATTERS;
 use super::finding::{Acting, Finding, Reason, Weights};
 use crate::Complex64;
-use crate::engine::{Engine, Origin};
+use crate::engine::{CrankIndex, Engine, Origin};
 use crate::numbers::order::Order;
 use crate::readings::balance::{Balance, Vector};
 use crate::readings::exact::vanishing::Verdict;
+use crate::readings::turning::cranks_by_sense;
 use crate::wrench::Planar;
 
 /// Phasors that differ by less of the largest are taken for equal.
@@ -195,19 +196,17 @@ impl<'a> Sums<'a> {
         if worth == [false; 2] {
             return None;
         }
-        let is_of_crank = |ratio: i32| {
-            let of = |i: usize| self.engine.cranks()[self.engine.crank_of(i)].ratio;
-            ratio == 1 || (0..self.cylinders.len()).any(|i| of(i) == ratio)
-        };
-        let weighed = [0, 1].map(|sense| worth[sense] && is_of_crank(parts[sense].0));
+        // Weights on faster cranks have other orders.
+        let cranks = cranks_by_sense(self.engine);
+        let weighed = [0, 1].map(|sense| worth[sense] && order == 1 && !cranks[sense].1.is_empty());
         let reached = if weighed == [false; 2] { worth } else { weighed };
         let kept = (0..2).filter(|&sense| !reached[sense]);
         let kept = kept.fold(0.0, |sum, sense| sum + parts[sense].1);
         let shafts = (0..2).filter(|&sense| worth[sense] && !weighed[sense]);
         let weights = match weighed {
             [false, false] => Weights::No,
-            [true, false] if order == 1 => Weights::OnMain,
-            _ => Weights::OnOthers,
+            [true, false] if cranks[0].1 == [CrankIndex::MAIN] => Weights::OnMain,
+            _ => Weights::OnCranks,
         };
         Some(Finding::Remedy {
             vector: self.vector,

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::engine::layout::{FiringOrder, Inline, Numbering, Side, Spacing, Strokes, Vee};
-use crate::engine::{Crank, Shaft, Station};
+use crate::engine::{Crank, CrankIndex, Shaft, Station};
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::draws;
@@ -76,7 +76,13 @@ fn cylinders_that_fire_together_fire_evenly() {
 
 #[test]
 fn hardware_is_named_by_what_it_does() {
-    let weight = |amount: f64| Unbalance { amount, angle: angle(180.0), z: 0.0, pin: Some(0) };
+    let weight = |amount: f64| Unbalance {
+        amount,
+        angle: angle(180.0),
+        z: 0.0,
+        pin: Some(0),
+        crank: CrankIndex::MAIN,
+    };
     let single = inline(&[0.0], 0.5);
     let half = single.with_counterweights(vec![weight(0.5 * 0.5 * 0.043)]).unwrap();
     let texts = sentences(half.clone(), Some(3000.0));
@@ -147,7 +153,13 @@ fn every_finding_has_a_sentence() {
             };
             vee.engine(cylinder(0.4)).unwrap()
         };
-        let weight = Unbalance { amount: 0.01, angle: angle(200.0), z: 0.1, pin: None };
+        let weight = Unbalance {
+            amount: 0.01,
+            angle: angle(200.0),
+            z: 0.1,
+            pin: None,
+            crank: CrankIndex::MAIN,
+        };
         let engine = engine.with_counterweights(vec![weight; choose(3)]).unwrap();
         let engine = Arc::new(engine);
         let rpm = [None, Some(0.0), Some(3000.0)][choose(3)];

@@ -26,6 +26,7 @@ use crate::Complex64;
 use crate::engine::Engine;
 use crate::load::source::Scaling;
 use crate::load::{Group, LoadList, find_or_push};
+use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -182,10 +183,21 @@ impl Sweep {
     /// Largest mean piston speed of any cylinder at any speed, m/s.
     #[must_use]
     pub fn mean_piston_speed(&self) -> f64 {
-        let radius = self.engines.iter().map(|e| e.largest_crank_radius()).fold(0.0, f64::max);
-        let omega = self.omegas.iter().copied().fold(0.0, f64::max);
-        // Four radii a turn.
-        4.0 * radius * omega / std::f64::consts::TAU
+        let rpm = self.axes.rpm.iter().copied().fold(0.0, f64::max);
+        let [ratio, offset] = self.extremes;
+        // Shorter rods and larger offsets make the travel longer.
+        let travel = |cylinder: &Cylinder| {
+            let radius = cylinder.crank_radius();
+            let rod = match ratio {
+                None => cylinder.rod_length(),
+                Some(ratio) => radius / ratio,
+            };
+            let offset = offset.unwrap_or(cylinder.pin_offset());
+            let swept = Cylinder::new(radius, rod, 0.0, offset);
+            swept.map_or(2.0 * radius, |swept| swept.travel())
+        };
+        let speeds = self.engines.iter().map(|engine| engine.mean_piston_speed_of(rpm, travel));
+        speeds.fold(0.0, f64::max)
     }
 
     /// Multiples of crank speed.

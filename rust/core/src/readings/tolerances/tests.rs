@@ -2,7 +2,7 @@ use ndarray::Array2;
 
 use super::*;
 use crate::Order;
-use crate::engine::{Shaft, Station, Unbalance};
+use crate::engine::{CrankIndex, Shaft, Station, Unbalance};
 use crate::quantity::Part;
 use crate::{Angle, Cylinder};
 
@@ -32,7 +32,13 @@ fn engine() -> Engine {
         place([0.045, 0.16, 0.4, 0.003, 0.0], [130.0, 60.0], 0.1, 0.5),
         place([0.05, 0.16, 0.5, 0.0, 0.0], [300.0, 120.0], 0.2, 0.4),
     ];
-    let weight = |amount, degrees, z, pin| Unbalance { amount, angle: angle(degrees), z, pin };
+    let weight = |amount, degrees, z, pin| Unbalance {
+        amount,
+        angle: angle(degrees),
+        z,
+        pin,
+        crank: CrankIndex::MAIN,
+    };
     let shaft = Shaft {
         name: String::new(),
         ratio: -2,
@@ -151,6 +157,7 @@ fn a_sample_is_the_balance_of_the_engine_that_was_drawn() {
             let mut weights = engine.counterweights().to_vec();
             weights.extend(stations.iter().enumerate().filter(|(_, p)| p.rotating_mass < 0.0).map(
                 |(i, p)| Unbalance {
+                    crank: CrankIndex::MAIN,
                     amount: -p.rotating_mass * p.cylinder.crank_radius(),
                     angle: Angle::HALF_TURN,
                     z: p.z,

@@ -4,7 +4,7 @@ use proptest::sample::select;
 use std::sync::Arc;
 
 use super::*;
-use crate::engine::{Details, Gas, Hold, Shaft, Station, Unbalance};
+use crate::engine::{CrankIndex, Details, Gas, Hold, Shaft, Station, Unbalance};
 use crate::pressure::{Cycle, Given};
 use crate::search::{Bank, Criterion, Search};
 use crate::{Angle, Cylinder};
@@ -348,6 +348,7 @@ fn weights() -> impl Strategy<Value = (Vec<Unbalance>, Vec<Shaft>)> {
             angle: Angle::from_degrees(degrees).unwrap(),
             z,
             pin: None,
+            crank: CrankIndex::MAIN,
         })
     };
     let arm = || select(vec![0.0, 0.1, -0.1, 0.2, 0.1 * 2.0_f64.sqrt()]);
@@ -389,7 +390,8 @@ proptest! {
 
 #[test]
 fn an_undecided_roll_torque_of_a_shaft_is_named() {
-    let unbalance = Unbalance { amount: 10.0, angle: Angle::ZERO, z: 0.0, pin: None };
+    let unbalance =
+        Unbalance { amount: 10.0, angle: Angle::ZERO, z: 0.0, pin: None, crank: CrankIndex::MAIN };
     let shaft =
         Shaft { name: String::new(), ratio: 1, axis: [0.0, 0.1], unbalances: vec![unbalance] };
     let engine = engine(&[(0.0, 0.0, 0.0, 400.0, 0.0)]).with_shafts(vec![shaft]).unwrap();
@@ -408,7 +410,8 @@ fn roll_torques_of_shafts_cancel_where_one_leads_by_a_quarter() {
         let torque = |beside: f64, above: f64| {
             let shaft = |axis, degrees: f64| {
                 let angle = Angle::from_degrees(degrees).unwrap();
-                let unbalance = Unbalance { amount: 0.004, angle, z: 0.1, pin: None };
+                let unbalance =
+                    Unbalance { amount: 0.004, angle, z: 0.1, pin: None, crank: CrankIndex::MAIN };
                 Shaft { name: String::new(), ratio, axis, unbalances: vec![unbalance] }
             };
             let shafts = vec![shaft([0.1, 0.0], beside), shaft([0.0, 0.1], above)];
