@@ -89,7 +89,7 @@ pub fn dead_text(fires: impl Iterator<Item = bool>) -> String {
 }
 
 /// A text in one line, without characters that cannot be seen.
-fn in_one_line(text: &str) -> String {
+pub(crate) fn in_one_line(text: &str) -> String {
     // A letter in front: an accent by itself is escaped, one behind a letter is seen.
     let is_seen = |c: char| {
         c.is_whitespace()

@@ -86,7 +86,7 @@ pub fn listed_orders(engine: &Engine) -> Result<Vec<Order>> {
 
 /// Orders of the cylinders that are more than a rest, of their cranks, and of shafts.
 pub fn orders(engine: &Engine, cancel: &Cancel) -> Result<Vec<Order>> {
-    let bare = engine.without_gas();
+    let bare = engine.bare();
     let mut count = HIGHEST_LISTED;
     let last = loop {
         let tried = all((1..=2 * count).collect())?;
@@ -135,7 +135,7 @@ pub fn group_terms(
         }
         Origin::Shaft(_) | Origin::Load(_) => (Parts::Standing, still),
     };
-    let all = terms(&engine.without_gas(), &request(torque), [0.0; 2], orders, cancel)?;
+    let all = terms(&engine.bare(), &request(torque), [0.0; 2], orders, cancel)?;
     let own = |(origin, part): &(Origin, Balance)| {
         let (kind, group) = group(*origin);
         (kind == parts).then(|| (group, part.clone()))
@@ -199,13 +199,8 @@ pub struct Sizes {
 /// What the cylinders make one by one.
 pub fn sizes(engine: &Engine, cancel: &Cancel) -> Result<Sizes> {
     let speeds: Vec<u32> = speeds(engine).into_iter().collect();
-    let parts = terms(
-        &engine.without_gas(),
-        &request(false),
-        [0.0; 2],
-        &Order::all_whole(&speeds)?,
-        cancel,
-    )?;
+    let parts =
+        terms(&engine.bare(), &request(false), [0.0; 2], &Order::all_whole(&speeds)?, cancel)?;
     let reference = engine.reference(None)?.abs();
     let mut found = Sizes::default();
     for (origin, part) in &parts {

@@ -5,6 +5,7 @@ use super::finding::{Acting, Finding, Reason, Weights};
 use super::words::{ACROSS, listed, number, orders, sense};
 use crate::engine::Engine;
 use crate::engine::loads::dead_text;
+use crate::engine::loads::in_one_line;
 use crate::numbers::figure::{rounded, significant};
 use crate::numbers::order::Order;
 use crate::readings::balance::Vector;
@@ -186,6 +187,23 @@ impl Explanation {
                 self.fires(order, intervals_deg, *even)
             }
             Finding::GasOrders { orders, firing, even } => self.gas_orders(orders, firing, *even),
+            Finding::GivenLoad { name, largest: None } => {
+                format!(
+                    "the load \"{}\" acts too; give a speed for what it adds",
+                    in_one_line(name)
+                )
+            }
+            Finding::GivenLoad { name, largest: Some(both) } => {
+                let one = |(largest, (what, unit)): (&Option<(Order, f64)>, (&str, &str))| {
+                    let (order, peak) = (*largest)?;
+                    let figure = wording.figure(peak, unit, false);
+                    Some(format!("a {what} of {figure} at {}", orders(&[order])))
+                };
+                let adds = both.iter().zip([("force", "N"), ("torque", "N·m")]).filter_map(one);
+                let adds = adds.collect::<Vec<_>>().join(" and ");
+                let adds = if adds.is_empty() { "nothing that shakes".to_owned() } else { adds };
+                format!("the load \"{}\" adds {adds}", in_one_line(name))
+            }
             Finding::Articulated { rows } => format!(
                 "{} rods share a crankpin: each rod is computed on the crankpin itself; a master rod \
                  with articulated rods, which moves its pistons differently, is not modelled",
