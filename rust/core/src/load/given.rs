@@ -59,12 +59,15 @@ pub(super) fn push(loads: &mut LoadList, engine: &Engine) {
             let series = |share: f64| -> Series {
                 torque
                     .iter()
+                    .filter(|(_, a)| *a * share != Complex64::ZERO)
                     .filter_map(|&(n, a)| Some((Order::from_halves(n).ok()?, a * share)))
                     .collect()
             };
             let force = if load.net_force() { of_row(&load.force.0) } else { Vec::new() };
             let [along, across] = components(&force, if load.turning { ratio } else { 0.0 });
             let torques = given(along, shares.map(series), shares.map(|share| share * mean));
+            // A load of no size has a name, and no part in any sum.
+            loads.name_group(&torques);
             let Parts { force, roll, .. } = torques.parts();
             if force.is_some() || roll {
                 let [weight, roll] = [force.is_some(), roll].map(|has| f64::from(u8::from(has)));
@@ -151,7 +154,7 @@ fn components(force: &[(u32, Complex64)], ratio: f64) -> [Series; 2] {
     [along, across].map(|mut series| {
         series.sort_by_key(|(halves, _)| *halves);
         let order = |(halves, a)| Some((Order::from_halves(u32::try_from(halves).ok()?).ok()?, a));
-        series.into_iter().filter_map(order).collect()
+        series.into_iter().filter(|(_, a)| *a != Complex64::ZERO).filter_map(order).collect()
     })
 }
 

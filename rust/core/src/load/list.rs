@@ -135,12 +135,17 @@ impl LoadList {
         let parts = source.parts();
         let known = self.sources.indices().find(|&known| self.sources[known].equals(&source));
         let index = known.unwrap_or_else(|| {
-            let known = self.groups.indices().find(|&group| self.groups[group].has(&source));
-            let group = known.unwrap_or_else(|| self.groups.push(Group::of(&source)));
+            let group = self.name_group(&source);
             self.group_of.push(group);
             self.sources.push(Arc::new(source))
         });
         self.list.push(Load { place, source: index, parts, weight, roll });
+    }
+
+    /// The group of a source, which is there from now on.
+    pub(super) fn name_group(&mut self, source: &dyn Source) -> GroupIndex {
+        let known = self.groups.indices().find(|&group| self.groups[group].has(source));
+        known.unwrap_or_else(|| self.groups.push(Group::of(source)))
     }
 
     fn push_unbalance(&mut self, place: Place, amount: f64) {
