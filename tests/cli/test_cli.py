@@ -198,7 +198,7 @@ def test_balance_is_about_the_point_that_is_typed(capsys: CAPTURE, tmp_path: Pat
     cp.Engine.preset("single").save(path)
     argv = ["balance", str(path), "--orders", "1,2", "--csv", "--about"]
     whole = cp.Engine.load(path).balance(3000, orders=(1, 2))
-    for typed, point in (("100mm,-0.2,0.3", (0.1, -0.2, 0.3)), ("0.3", 0.3)):
+    for typed, point in (("100mm,-200mm,300mm", (0.1, -0.2, 0.3)), ("0.3", 0.3)):
         moved = whole.about(point)
         _, _, values = numbers(printed(capsys, *argv, typed))
         found = np.hstack([moved.force.peak_xy, moved.moment.peak_xy, moved.torque.peak[:, None]])
