@@ -97,22 +97,22 @@ impl Source for PistonInertia {
             #[inline(always)]
             || match (wanted.planar, wanted.torque, yoke) {
                 (true, true, false) => {
-                    add::<true, true, false>(mechanism, sum, block, square, columns)
+                    add::<true, true, false>(mechanism, sum, block, square, columns);
                 }
                 (true, true, true) => {
-                    add::<true, true, true>(mechanism, sum, block, square, columns)
+                    add::<true, true, true>(mechanism, sum, block, square, columns);
                 }
                 (true, false, false) => {
-                    add::<true, false, false>(mechanism, sum, block, square, columns)
+                    add::<true, false, false>(mechanism, sum, block, square, columns);
                 }
                 (true, false, true) => {
-                    add::<true, false, true>(mechanism, sum, block, square, columns)
+                    add::<true, false, true>(mechanism, sum, block, square, columns);
                 }
                 (false, _, false) => {
-                    add::<false, true, false>(mechanism, sum, block, square, columns)
+                    add::<false, true, false>(mechanism, sum, block, square, columns);
                 }
                 (false, _, true) => {
-                    add::<false, true, true>(mechanism, sum, block, square, columns)
+                    add::<false, true, true>(mechanism, sum, block, square, columns);
                 }
             },
         );

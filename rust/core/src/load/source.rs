@@ -292,7 +292,9 @@ pub trait Source: Debug + Send + Sync + Any {
         let both =
             [on_block, on_crank].into_iter().zip([harmonics.roll, harmonics.crank]).zip(mean);
         for ((column, series), mean) in both {
-            column.iter_mut().for_each(|value| *value += weight * mean);
+            for value in column.iter_mut() {
+                *value += weight * mean;
+            }
             for (&order, amplitude) in orders.iter().zip(series) {
                 let (units, amplitude) = (block.orders(order), amplitude * sum.lag(order) * weight);
                 for (value, (cos, sin)) in column.iter_mut().zip(units.cos.iter().zip(&units.sin)) {

@@ -14,6 +14,9 @@ use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::wrench::Wrench;
 
+/// Mean torques of each group on the block and on the main crank.
+pub(crate) type Means = List<GroupIndex, [f64; 2]>;
+
 /// Wrenches of the given orders, in their order and of each group of the loads, over what the group scales
 /// with, and the mean torques of each group; what vanishes to within rounding is zero.
 ///
@@ -25,7 +28,7 @@ pub(crate) fn wrenches(
     torque: bool,
     orders: &[Order],
     cancel: &Cancel,
-) -> Result<(Vec<Wrench>, List<GroupIndex, [f64; 2]>)> {
+) -> Result<(Vec<Wrench>, Means)> {
     let amplitudes = Amplitudes::new(sources, torque, orders, cancel)?;
     let wrenches = amplitudes.wrenches(loads, &loads.list, torque, orders, cancel)?;
     Ok((wrenches, amplitudes.means(loads, &loads.list)))
@@ -105,7 +108,7 @@ impl Amplitudes {
     }
 
     /// Mean torques on the block and on the crank, of some of an engine's loads, by group.
-    pub fn means(&self, loads: &LoadList, some: &[Load]) -> List<GroupIndex, [f64; 2]> {
+    pub fn means(&self, loads: &LoadList, some: &[Load]) -> Means {
         let mut means = loads.groups.map_to(|_| [0.0; 2]);
         for load in some {
             let Some(torque) = &self.torque[load.source] else { continue };

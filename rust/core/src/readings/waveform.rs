@@ -94,7 +94,9 @@ pub fn exact(
             sum.source.over_angle(sum, &block, wanted, factor, columns)?;
         }
         if let [whole, parts @ ..] = columns {
-            parts.iter().for_each(|part| whole.add(part, wanted));
+            for part in parts.iter() {
+                whole.add(part, wanted);
+            }
         }
         Ok(())
     })
@@ -147,7 +149,7 @@ impl Shape {
             let new = || (Arc::clone(&group.name), [false; 2]);
             let (_, has) = find_or_push(&mut parts, |(name, _)| *name == group.name, new);
             let [force, own_torque] = loads.has(k);
-            (has[0], has[1]) = (has[0] | force, has[1] | own_torque & torque);
+            (has[0], has[1]) = (has[0] || force, has[1] || own_torque && torque);
         }
         parts.retain(|(_, has)| *has != [false; 2]);
         Self { torque, parts, zero_bounds: [0.0; 2] }

@@ -149,7 +149,9 @@ impl Sweep {
         let Some(&last) = integrated.orders.last().filter(|_| self.points() > 1) else {
             return Ok(worst);
         };
-        worst.iter_mut().for_each(|(_, tail)| *tail = 0.0);
+        for (_, tail) in &mut worst {
+            *tail = 0.0;
+        }
         let loads = candidate.loads;
         let weights = loads.torque_weights();
         for point in 0..self.points() {
@@ -165,7 +167,9 @@ impl Sweep {
                 let above = up_to.and_then(|(_, tails)| tails.last().copied()).unwrap_or(0.0);
                 tails[loads.group_of[k]] += weight.size * above;
             }
-            worst.iter_mut().for_each(|(group, tail)| *tail = tail.max(tails[*group]));
+            for (group, tail) in &mut worst {
+                *tail = tail.max(tails[*group]);
+            }
         }
         Ok(worst)
     }
