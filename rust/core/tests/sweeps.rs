@@ -621,8 +621,11 @@ fn a_sweep_tells_what_it_is() {
     assert_eq!(all.shape(), [2, 3, 2, 5, 4, 1]);
     assert_eq!((all.orders(), all.omitted()), (&whole(&[4, 2, 1])[..], &[][..]));
     assert_eq!(all.error_bound().values(), [0.0; 3]);
-    // Twice the stroke of the longest, 0.1 m, a turn; 100 turns a second.
-    assert!((all.mean_piston_speed() - 20.0).abs() < 1e-14);
+    // Twice the travel of the longest a turn; 100 turns a second.
+    let (r, l, e) = (0.05, 0.05 / 0.3, 0.001_f64);
+    let reach = |arm: f64| (arm * arm - e * e).sqrt();
+    let travel = reach(l + r) - reach(l - r);
+    assert!((all.mean_piston_speed() - 200.0 * travel).abs() < 1e-12);
     let tails: [(Quantity, Statistic, &[usize]); 11] = [
         (Quantity::FORCE, Statistic::Amplitude, &[3, 2]),
         (Quantity::MOMENT, Statistic::Length, &[3]),

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
+use super::loads::{GAS, INERTIA};
 use super::{Crank, CrankIndex, Engine};
 use crate::Complex64;
-use crate::load::source::{GAS, INERTIA};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::ListIndex;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::kinematics::{AngleBlock, Columns, LoadSum, Quantities};
 use crate::Complex64;
+pub use crate::engine::loads::{GAS, INERTIA};
 use crate::mechanism::Mechanism;
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::cancel::Cancel;
@@ -13,11 +14,6 @@ use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 use crate::pressure::Cycle;
-
-/// Name of what moving parts make.
-pub const INERTIA: &str = "inertia";
-/// Name of what the pressure in cylinders makes.
-pub const GAS: &str = "gas";
 
 /// How a source acts at its place.
 #[derive(Debug, Clone, Copy, PartialEq)]

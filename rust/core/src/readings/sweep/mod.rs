@@ -75,16 +75,17 @@ pub enum Statistic {
 /// # )?;
 /// use std::sync::Arc;
 ///
-/// use crankpin_core::sweep::{SweepAxes, Statistic, Quantity, Sweep};
+/// use crankpin_core::quantity::Quantity;
+/// use crankpin_core::sweep::{SweepAxes, Statistic, Sweep};
 /// use crankpin_core::{Cancel, Order};
 ///
 /// let rpm = vec![1000.0, 2000.0];
 /// let axes = SweepAxes { bank_angle: None, rod_ratio: None, pin_offset: None, rpm, map: None };
 /// let orders = Order::all_whole(&[1, 2])?;
 /// let sweep = Sweep::new(vec![Arc::new(four)], axes, orders, None, &Cancel::new())?;
-/// assert_eq!(sweep.result_shape(Quantity::Force, Statistic::Length), [1, 1, 1, 1, 2, 1, 2]);
+/// assert_eq!(sweep.result_shape(Quantity::FORCE, Statistic::Length), [1, 1, 1, 1, 2, 1, 2]);
 /// let mut peaks = vec![0.0; 4]; // by speed and order, N
-/// sweep.write_peaks(Quantity::Force, Statistic::Length, &mut peaks, &Cancel::new())?;
+/// sweep.write_peaks(Quantity::FORCE, Statistic::Length, &mut peaks, &Cancel::new())?;
 /// assert_eq!((peaks[0], peaks[2]), (0.0, 0.0));
 /// assert!((peaks[3] / peaks[1] - 4.0).abs() < 1e-12);
 /// # Ok::<(), crankpin_core::Error>(())
