@@ -34,11 +34,11 @@ type Columns<'py> =
 /// What all loads make, what those of each name but `inertia` make, and the balance whose orders were summed.
 type Parts<'py> = (Columns<'py>, Vec<(String, Columns<'py>)>, Option<Balance>);
 
-fn columns<'py>(
-    py: Python<'py>,
+fn columns(
+    py: Python<'_>,
     planar: Option<[Array2<f64>; 2]>,
     torque: Option<[Array1<f64>; 2]>,
-) -> PyResult<Columns<'py>> {
+) -> PyResult<Columns<'_>> {
     let planar =
         planar.map(|[force, moment]| PyResult::Ok([frozen(py, force)?, frozen(py, moment)?]));
     let torque = torque.map(|[roll, crank]| PyResult::Ok([frozen(py, roll)?, frozen(py, crank)?]));
