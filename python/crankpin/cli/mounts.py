@@ -110,7 +110,8 @@ def _at_rest(given: Given, powertrain: Powertrain) -> Shown:
     option(
         "--by",
         default="decoupling",
-        help="what is minimised: decoupling, mount_force[N] or body_force[N] of an order N "
+        help="what is minimised: decoupling, purity (what lacks of it), mount_force[N] or "
+        "body_force[N] of an order N "
         "(default: %(default)s)",
     ),
     option(
@@ -150,7 +151,7 @@ def _at_rest(given: Given, powertrain: Powertrain) -> Shown:
     option(
         "--modes-between",
         metavar="LOW,HIGH",
-        help="frequencies between which all six modes are, Hz",
+        help="frequencies between which all modes are, Hz",
         group="requirements",
     ),
     option(

@@ -298,7 +298,7 @@ def test_largest_gain_of_an_inertial_actuator() -> None:
     assert "margin 6.021 dB" in f.table.note
     beyond = p.velocity_feedback(actuator, gain=5000.0)
     assert beyond.margin_db < 0.0
-    assert "UNSTABLE" in beyond.table.note
+    assert ", unstable: margin" in beyond.table.note
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -311,6 +311,98 @@ def test_largest_gain_is_that_of_routh(seed: int) -> None:
     )
     found = bouncing(*body).velocity_feedback(actuator).largest_gain
     assert found == pytest.approx(again.largest_gain(body, own), rel=1e-6)
+
+
+def growth(
+    p: cp.Powertrain, actuator: cp.Actuator, damping: np.ndarray, gain: float
+) -> tuple[float, float]:
+    """Return the largest real part of the roots of powertrain and actuator, over the frequency.
+
+    ``damping`` is the viscous one of each mount. Also the least distance to the axis of a root.
+    """
+    mass, stiffness = (np.array(each) for each in p._core.matrices(None))
+    count = len(mass)
+    rows = np.array(p._core.deflections())[:, :, :6]
+    viscous = np.zeros((count, count))
+    for row, along in zip(rows, damping, strict=True):
+        viscous[:6, :6] += row.T @ np.diag(along) @ row
+    assert count == 6
+    place = np.zeros(7)
+    place[:3] = actuator.direction
+    place[3:6] = np.cross(np.subtract(actuator.at, p.body.cg), actuator.direction)
+    both = place.copy()
+    both[6] = -1.0
+    moving, omega = float(actuator.mass or 0), 2 * np.pi * float(actuator.resonance or 0)
+    m, k, c = np.diag([0.0] * 6 + [moving]), np.zeros((7, 7)), np.zeros((7, 7))
+    m[:6, :6], k[:6, :6], c[:6, :6] = mass, stiffness.real, viscous
+    k += moving * omega**2 * np.outer(both, both)
+    c += 2.0 * actuator.damping_ratio * moving * omega * np.outer(both, both)
+    c += gain * np.outer(both, place)
+    inverse = np.linalg.inv(m)
+    whole = np.block([[np.zeros((7, 7)), np.eye(7)], [-inverse @ k, -inverse @ c]])
+    roots = np.linalg.eigvals(whole)
+    share = roots.real / np.abs(roots)
+    return float(share.max()), float(np.abs(share).min())
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_largest_gain_is_that_of_eigenvalues_or_nothing_damps_a_mode(seed: int) -> None:
+    """Systems of few values: of mounts and actuator all, some or none are damped."""
+    draw = np.random.default_rng(seed)
+    damping = draw.choice([0.0, 0.0, 60.0, 300.0], (4, 3)) * draw.choice([0.0, 1.0, 1.0])
+    mounts = [
+        mount.replace(damping=tuple(each), loss_factor=0.0, tilt_deg=draw.choice([0.0, 35.0]))
+        for mount, each in zip(FOUR, damping, strict=True)
+    ]
+    p = P.replace(mounts=mounts)
+    actuator = cp.Actuator(
+        "a",
+        tuple(draw.choice([0.0, 0.1, 0.2], 3)),
+        (*draw.choice([0.0, 1.0], 2), 1.0),
+        mass=draw.choice([1.0, 4.0]),
+        resonance=draw.choice([2.0, 5.0, 12.0]),
+        damping_ratio=draw.choice([0.0, 0.1, 0.4]),
+    )
+    try:
+        found = p.velocity_feedback(actuator)
+    except cp.InputError as error:
+        said = str(error)
+    else:
+        limit = found.largest_gain
+        assert growth(p, actuator, damping, 0.999 * limit)[0] < 0.0
+        assert growth(p, actuator, damping, 1.001 * limit)[0] > 0.0
+        return
+    assert said.startswith("nothing damps the mode at ")
+    # A root is on the axis without gain; where nothing is damped any gain makes one grow.
+    assert growth(p, actuator, damping, 0.0)[1] < 1e-9
+    if not damping.any() and actuator.damping_ratio == 0.0:
+        for gain in (1e-3, 1.0, 1e3):
+            assert growth(p, actuator, damping, gain)[0] > 0.0
+
+
+def test_feedback_asks_for_damping_of_what_it_drives() -> None:
+    bare = P.replace(mounts=[mount.replace(loss_factor=0.0) for mount in FOUR])
+    with pytest.raises(cp.InputError, match=r"^nothing damps the mode at .*damping_ratio"):
+        bare.velocity_feedback(SIDE.replace(resonance=4))
+    # The mounts' damping is enough, and so is damping along what it drives.
+    assert P.velocity_feedback(SIDE.replace(resonance=4)).largest_gain > 0.0
+    up = cp.Actuator("up", BODY.cg, (0, 1, 0), mass=2, resonance=4)
+    along = [mount.replace(loss_factor=(0, 0.1, 0)) for mount in FOUR]
+    assert P.replace(mounts=along).velocity_feedback(up).onset is not None
+
+
+def test_feedback_is_that_within_the_tables_of_stiffness() -> None:
+    frequency = np.array([1.0, 30.0, 200.0])
+    stiffness = np.multiply.outer(np.ones(3), np.array([1.5e5, 3e5, 1.2e5]) * (1 + 0.1j))
+    measured = [mount.replace(loss_factor=0.0, table=(frequency, stiffness)) for mount in FOUR]
+    actuator = SIDE.replace(resonance=4, damping_ratio=0.2)
+    plain = P.velocity_feedback(actuator)
+    found = P.replace(mounts=measured).velocity_feedback(actuator)
+    assert found.largest_gain == pytest.approx(plain.largest_gain, rel=1e-9)
+    assert "within the tables of stiffness, 1 to 200 Hz" in found.table.note
+    short = [mount.replace(table=(frequency[1:], stiffness[1:])) for mount in measured]
+    with pytest.raises(cp.InputError, match=r"^tables of stiffness have 30 to 200 Hz in common: "):
+        P.replace(mounts=short).velocity_feedback(actuator)
 
 
 # --- inputs ---------------------------------------------------------------------------------------

@@ -63,7 +63,7 @@ class DrivenResponse(MountResponse):
         forces = np.reshape(np.asarray(self.forces, dtype=complex), (-1, len(places)))
         return ((places, np.ascontiguousarray(forces), self.engine_runs),)
 
-    def _of_speed(self, index: int) -> dict[str, Any]:
+    def _of_speed(self, index: int | slice) -> dict[str, Any]:
         return {"forces": self.forces[index]}
 
     def _of_order(self) -> dict[str, Any]:
