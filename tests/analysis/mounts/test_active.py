@@ -10,7 +10,7 @@ from typing import Any
 import crankpin as cp
 import numpy as np
 import pytest
-from crankpin.analysis.mounts.phasors import optimal
+from crankpin.analysis.mounts.phasors import least_largest, optimal
 from rederivation import active as again
 
 PRESETS = ("single", "i4", "v6-60", "v8-crossplane")
@@ -109,6 +109,78 @@ def test_phasors_are_optimal_within_their_bounds(seed: int) -> None:
     weight = effort * float(np.linalg.norm(effect, 2)) ** 2
     # The central path ends 1e-12 from the least; the dual is near the best to its square root.
     assert again.dual_gap(target.astype(complex), effect, bounds, weight, found) < 1e-10
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_the_largest_receiver_is_the_least_that_there_is(seed: int) -> None:
+    """Weights of the receivers give a bound from below, which the largest meets (Lawson)."""
+    draw = np.random.default_rng(seed)
+    widths = [int(draw.choice([1, 3])) for _ in range(draw.integers(2, 6))]
+    actuators, rows = int(draw.integers(1, 4)), sum(widths)
+    effect = draw.normal(size=(rows, actuators)) + 1j * draw.normal(size=(rows, actuators))
+    effect *= 10 ** draw.uniform(-6, 3)
+    target = 10 ** draw.uniform(-3, 3) * (draw.normal(size=rows) + 1j * draw.normal(size=rows))
+    free = np.linalg.lstsq(effect, -target, rcond=None)[0]
+    bounds = np.abs(free) * draw.uniform(0.3, 2.0, actuators)
+    if seed % 3:
+        bounds[:] = np.inf
+    start = optimal(target[None], effect[None], bounds[None], 0.0)
+    found = least_largest(target[None], effect[None], bounds[None], widths, start)[0]
+    assert (np.abs(found) <= bounds * (1 + 1e-9)).all()
+    groups = np.split(np.arange(rows), np.cumsum(widths)[:-1])
+
+    def sizes(phasors: np.ndarray) -> np.ndarray:
+        left = target + effect @ phasors
+        return np.array([np.linalg.norm(left[group]) for group in groups])
+
+    largest = sizes(found).max()
+    assert largest <= sizes(start[0]).max() * (1 + 1e-12)
+    # No convex combination of squares is larger at its own least.
+    weights = np.ones(len(groups)) / len(groups)
+    least = 0.0
+    for _ in range(400):
+        root = np.sqrt(np.repeat(weights, widths))
+        weighted = optimal((root * target)[None], (root[:, None] * effect)[None], bounds[None], 0.0)
+        each = sizes(weighted[0])
+        least = max(least, float(np.sqrt((weights * each**2).sum())))
+        weights = weights * each / (weights * each).sum()
+    assert least <= largest * (1 + 1e-6)
+    # Lawson's weights converge slowly.
+    assert largest <= least * (1 + 0.02) + 1e-12 * np.abs(target).max()
+
+
+def test_receivers_are_points_names_and_motions() -> None:
+    frequency = np.array([0.1, 1e4])
+    transfer = np.array([[[1e-7]], [[2e-7]], [[0.0]]]).reshape(3, 1)
+    rail = cp.Receptance(
+        [(P.names[0], "y")], (frequency, np.full((2, 1, 1), 1e-7 - 1e-9j)), {"rail": [transfer] * 2}
+    )
+    r = P.on(rail).response(3000.0, orders=[2])
+    c = r.cancel(HEAD, "rail")
+    # One force at one coordinate moves the rail: it is still.
+    assert c.residual[0] < 1e-9
+    assert c.receivers[0][0] == "rail"
+    assert c.forces == pytest.approx(r.cancel(HEAD, [r.at("rail")]).forces)
+    up = r.cancel(HEAD, {"up": ("rail", (0, 1, 0))})
+    assert up.forces == pytest.approx(c.forces)
+    raft = cp.Subframe(BODY.replace(mass=300.0), [m.replace(stiffness=1e6) for m in FOUR])
+    soft = P.on(raft).response(3000.0, orders=[2])
+    point = soft.at((0.1, -0.2, 0.1), on="support")
+    still = soft.cancel(HEAD, [(point, (0, 1, 0))])
+    assert still.residual[0] < 1e-9
+    moved = still.response.at((0.1, -0.2, 0.1), on="support").velocity[2]
+    assert abs(moved.y) < 1e-9 * abs(point.velocity[2].y)
+    mounts = P.response([800.0, 3000.0], orders=[2]).cancel([HEAD, SIDE], "mount_force")
+    least = mounts.before.cancel([HEAD, SIDE], "mount_force", norm="largest")
+    force = [max(v[2].peak[k] for v in c.response.mount_force.values())
+             for c in (mounts, least) for k in (0, 1)]  # fmt: skip
+    assert force[2] < force[0]
+    assert force[3] < force[1]
+    for wrong, said in [({"norm": "max"}, "norm = 'max'"), ({"effort": 0.1}, "effort = 0.1")]:
+        with pytest.raises(cp.InputError, match=said):
+            mounts.before.cancel(HEAD, "mount_force", **{"norm": "largest", **wrong})
+    with pytest.raises(cp.InputError, match="at = 'roof'"):
+        r.cancel(HEAD, ["roof"])
 
 
 @pytest.mark.parametrize("seed", range(8))

@@ -35,6 +35,8 @@ BESIDE = np.geomspace(1e-6, 0.3, 60)
 """Distances from each mode, over its frequency, at which more are taken."""
 HALVINGS = 60
 """Halvings of a bracket: to the last digit."""
+ROUNDING = 1e-12
+"""Share by which the ends of a table are left, for rounding of angular speeds."""
 UNDAMPED = 1e-12
 """Loss factor below which rounding makes it, and nothing damps a mode."""
 UNMOVED = 1e-9
@@ -88,7 +90,9 @@ class VelocityFeedback(Tabled):
         mounts = (*self.powertrain.mounts, *getattr(support, "mounts", ()))
         tables = [mount.table[0] for mount in mounts if mount.table is not None]
         ends = [(table[0], table[-1]) for table in tables] or [(0.0, np.inf)]
-        return max(low for low, _ in ends), min(high for _, high in ends)
+        # Within, where rounding of an angular speed leaves them.
+        inside = max(low for low, _ in ends), min(high for _, high in ends)
+        return inside[0] * (1.0 + ROUNDING), inside[1] * (1.0 - ROUNDING)
 
     def _beyond(self, low: float, high: float) -> InputError:
         """Return the error of tables that do not reach to where roots turn."""

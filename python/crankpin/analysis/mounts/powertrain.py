@@ -650,8 +650,12 @@ class Powertrain(Input):
         """
         file = engine_files.checked(path)
         toml = engine_files.is_toml(file)
-        text = self._core.to_text(self.engine._core, toml)
+        text = self._text(toml=toml)
         files.write(file, engine_files.commented(text) if toml else text)
+
+    def _text(self, *, toml: bool) -> str:
+        """Return the text of an engine file."""
+        return self._core.to_text(self.engine._core, toml)
 
     @classmethod
     def load(cls, path: str | Path) -> Self:

@@ -664,6 +664,7 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         orders: Orders | None = None,
         watch: Any = None,  # noqa: ANN401 - as above
         effort: float = 0.0,
+        norm: Literal["rms", "largest"] = "rms",
     ) -> Cancellation:
         """Return the forces of actuators that leave the least at receivers, order by order.
 
@@ -672,9 +673,10 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         actuators : Actuator or sequence of Actuator
             What pushes, of distinct names.
         at : sequence, mapping or {"body_force", "mount_force"}
-            What is minimised: the motion of points (x, y, z), or of pairs (point, direction) along
-            a direction, in a list or by name in a mapping; or the mounts' sum, or the sum of
-            squares of their forces.
+            What is minimised: the velocity of points (x, y, z) of the powertrain, of receivers of a
+            receptance by name, such as ``"seat rail"``, or of motions of :meth:`at`, which may be
+            of a subframe; or of pairs of one of these and a direction, along that; in a list or by
+            name in a mapping. Or the mounts' sum, or their forces.
         orders : number or sequence of numbers, optional
             Orders to cancel, of those of the response; by default all.
         watch : sequence or mapping, optional
@@ -682,6 +684,8 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         effort : float, default 0.0
             Weight of the squares of forces, over the largest of what they do at the receivers:
             1e-4 gives up a little for smaller forces.
+        norm : {"rms", "largest"}, default "rms"
+            What is minimised of several receivers: the sum of squares, or the largest of them.
 
         Returns
         -------
@@ -703,14 +707,14 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         ... ]
         >>> p = cp.Powertrain(cp.Engine.preset("i4"), body, mounts)
         >>> shaker = cp.Actuator("shaker", at=(0.22, -0.12, 0.43), direction=(0, 1, 0), force=200)
-        >>> seat = {"seat": ((0.22, -0.12, 0.43), (0, 1, 0))}
-        >>> c = p.response(3000).cancel(shaker, seat, orders=2)
+        >>> foot = {"foot": ((0.22, -0.12, 0.43), (0, 1, 0))}
+        >>> c = p.response(3000).cancel(shaker, foot, orders=2)
         >>> c.response[2].body_force.peak < c.before[2].body_force.peak
         True
         """
         # By way of the powertrain: what it returns is made of responses.
         return self.powertrain._cancelled(
-            self, actuators, at, orders=orders, watch=watch, effort=effort
+            self, actuators, at, orders=orders, watch=watch, effort=effort, norm=norm
         )
 
     def worst(self, quantity: Literal["mount_force", "body_force"] = "mount_force") -> WorstForce:
