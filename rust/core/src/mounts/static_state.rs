@@ -8,6 +8,9 @@ use super::{Powertrain, ROUNDINGS, motion_of_point, support_polygon};
 use crate::numbers::error::Result;
 use crate::numbers::limits;
 
+/// Largest bound of rounding, over the largest value, that tells zeros from others.
+const MEANINGFUL: f64 = 1e-6;
+
 /// A body at rest on its mounts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Static {
@@ -64,13 +67,13 @@ fn bodies_at_rest<const N: usize>(
     let mut force = [Vec::new(), Vec::new(), Vec::new()];
     for (cause, load) in loads.iter().enumerate() {
         let (motion, rounding) = modes.flexed(bodies, load);
-        let moved = nonzero(&motion, &rounding);
+        let moved = nonzero(&motion, &rounding, motion.amax());
         displacement[cause] = std::array::from_fn(|k| moved[k]);
         let mounts = powertrain.all_mounts().enumerate().zip(&stiffnesses);
-        let forces = mounts.map(|(mount, along)| {
-            let [force, bound] = bodies.force(mount, along, [&motion, &rounding]);
-            nonzero(&force, &bound).into()
-        });
+        let pairs: Vec<_> =
+            mounts.map(|(mount, along)| bodies.force(mount, along, [&motion, &rounding])).collect();
+        let largest = pairs.iter().map(|[force, _]| force.amax()).fold(0.0, f64::max);
+        let forces = pairs.iter().map(|[force, bound]| nonzero(force, bound, largest).into());
         force[cause] = forces.collect();
     }
     let places: Vec<_> = powertrain.mounts().iter().map(super::Mount::at).collect();
@@ -79,12 +82,16 @@ fn bodies_at_rest<const N: usize>(
     Ok(Static { displacement, force, support_margin, support_corners })
 }
 
-/// Zero in place of what is within its bound of rounding.
+/// Zero in place of what is within its bound of rounding, where that says something: of bodies and stiffnesses many
+/// powers of ten apart it is beyond what there is.
 fn nonzero<const N: usize>(
     values: &SVector<f64, N>,
     rounding: &SVector<f64, N>,
+    largest: f64,
 ) -> SVector<f64, N> {
-    values.zip_map(rounding, |value, bound| if value.abs() <= bound { 0.0 } else { value })
+    values.zip_map(rounding, |value, bound| {
+        if value.abs() <= bound && bound <= MEANINGFUL * largest { 0.0 } else { value }
+    })
 }
 
 impl<const N: usize> NaturalModes<N> {
