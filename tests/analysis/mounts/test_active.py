@@ -119,7 +119,8 @@ def test_the_largest_receiver_is_the_least_that_there_is(seed: int) -> None:
     actuators, rows = int(draw.integers(1, 4)), sum(widths)
     effect = draw.normal(size=(rows, actuators)) + 1j * draw.normal(size=(rows, actuators))
     effect *= 10 ** draw.uniform(-6, 3)
-    target = 10 ** draw.uniform(-3, 3) * (draw.normal(size=rows) + 1j * draw.normal(size=rows))
+    target = (draw.normal(size=rows) + 1j * draw.normal(size=rows)).astype(complex)
+    target *= 10 ** draw.uniform(-3, 3)
     free = np.linalg.lstsq(effect, -target, rcond=None)[0]
     bounds = np.abs(free) * draw.uniform(0.3, 2.0, actuators)
     if seed % 3:
@@ -176,9 +177,13 @@ def test_receivers_are_points_names_and_motions() -> None:
              for c in (mounts, least) for k in (0, 1)]  # fmt: skip
     assert force[2] < force[0]
     assert force[3] < force[1]
-    for wrong, said in [({"norm": "max"}, "norm = 'max'"), ({"effort": 0.1}, "effort = 0.1")]:
+    wrongs: list[tuple[dict[str, Any], str]] = [
+        ({"norm": "max"}, "norm = 'max'"),
+        ({"norm": "largest", "effort": 0.1}, r"effort = 0\.1"),
+    ]
+    for wrong, said in wrongs:
         with pytest.raises(cp.InputError, match=said):
-            mounts.before.cancel(HEAD, "mount_force", **{"norm": "largest", **wrong})
+            mounts.before.cancel(HEAD, "mount_force", **wrong)
     with pytest.raises(cp.InputError, match="at = 'roof'"):
         r.cancel(HEAD, ["roof"])
 

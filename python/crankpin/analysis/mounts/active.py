@@ -176,7 +176,7 @@ class Cancellation(Tabled):
             return np.asarray(np.linalg.norm(values, axis=-1))
         ends = np.cumsum([1 if direction else 3 for *_, direction in self.receivers])
         parts = np.split(values, ends[:-1], axis=-1)
-        return np.max([np.linalg.norm(part, axis=-1) for part in parts], axis=0)
+        return np.asarray(np.max([np.linalg.norm(part, axis=-1) for part in parts], axis=0))
 
     @property
     def used(self) -> NDArray[np.float64]:
@@ -500,7 +500,9 @@ def _places(name: str, given: object, response: MountResponse) -> tuple[Place, .
             pairs = [("", [value for _, value in pairs])]
     places: list[Place] = []
     for key, value in pairs:
-        parts = [value] if isinstance(value, str | PointMotion) else inputs.items(name, value, hint)
+        parts: Any = (
+            [value] if isinstance(value, str | PointMotion) else inputs.items(name, value, hint)
+        )
         along = None
         if len(parts) == 2:
             direction = np.array(_vector(f"{name}: direction", parts[1]))

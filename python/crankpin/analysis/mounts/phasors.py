@@ -129,7 +129,7 @@ def _minimax(
         scale = 1.0 / np.sqrt(np.diag(curvature))
         inner = np.linalg.lstsq(scale[:, None] * curvature * scale, -scale * gradient, rcond=None)
         step = scale * inner[0]
-        decrement = float(np.sqrt(max(-(gradient @ step), 0.0)))
+        decrement = float(np.sqrt(max(-float(gradient @ step), 0.0)))
         if decrement <= CENTRED:
             # No further than two of each barrier above the least.
             if 2.0 * len(barriers) * mu <= GAP * t:
