@@ -238,7 +238,7 @@ def test_points_of_the_support_are_printed_and_drawn(tmp_path: Path, capsys: CAP
 
 def test_an_engine_on_mounts_is_made_in_the_shell(tmp_path: Path, capsys: CAPTURE) -> None:
     path = tmp_path / "made.toml"
-    typed = ["new", "i4", "--body", "148:0.02,70mm,0.09:8,7.5,5"]
+    typed = ["new", "i4", "--body", "148:20mm,70mm,90mm:8,7.5,5"]
     typed += [
         "--mount",
         "right:0.28,0,-0.09:220000,80000,80000:0.1",
