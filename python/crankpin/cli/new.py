@@ -190,7 +190,7 @@ def _on_mounts(given: Given, engine: Engine) -> Powertrain | None:
         raise inputs.faulty(flag, "is left out", f"a body on mounts needs it, beside {other}")
     mass, cg, inertia = _fields(given, "--body", body, "MASS:X,Y,Z:IX,IY,IZ", 3)
     rigid = RigidBody(
-        float(given.decimal("--body", mass, "kg")),
+        given.one("--body", mass, "kg"),
         given.listed("--body", cg, "m"),
         given.listed("--body", inertia),
     )
@@ -199,7 +199,7 @@ def _on_mounts(given: Given, engine: Engine) -> Powertrain | None:
         fields = _fields(given, "--mount", each, "NAME:X,Y,Z:K or NAME:X,Y,Z:K:LOSS", 3, 4)
         stiffness = given.listed("--mount", fields[2])
         along = stiffness if len(stiffness) > 1 else stiffness[0]
-        loss = float(given.decimal("--mount", fields[3], "")) if len(fields) > 3 else 0.0
+        loss = given.one("--mount", fields[3]) if len(fields) > 3 else 0.0
         place = given.listed("--mount", fields[1], "m")
         carried.append(Mount(fields[0].strip(), place, along, loss_factor=loss))
     return Powertrain(engine, rigid, carried)
