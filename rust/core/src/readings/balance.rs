@@ -65,6 +65,8 @@ pub struct Balance {
     pub error_bound: ErrorBounds,
     /// Whether torque is known: it was wanted, and the engine has no given spectrum of forces.
     pub has_torque: bool,
+    /// What the orders left out add, those of inertia over ω².
+    left_out: OrderSums,
     /// Numbers of loads that have a force, and of all, on which rounding depends.
     counts: [usize; 2],
 }
@@ -127,8 +129,9 @@ impl Balance {
         loads: &[Load],
     ) -> Self {
         let (omitted, left, error_bound) = (Vec::new(), Vec::new(), ErrorBounds::default());
-        let counts = [false, true].map(|torque| count(loads, torque));
-        Self { orders, omitted, wrenches, left, mean, error_bound, has_torque, counts }
+        let (left_out, counts) =
+            (OrderSums::default(), [false, true].map(|torque| count(loads, torque)));
+        Self { orders, omitted, wrenches, left, mean, error_bound, has_torque, left_out, counts }
     }
 
     /// The balance of one order alone, if it was evaluated here.
@@ -143,6 +146,7 @@ impl Balance {
             wrenches: vec![wrench],
             left: Vec::new(),
             error_bound: ErrorBounds::default(),
+            left_out: OrderSums::default(),
             ..*self
         })
     }
@@ -160,6 +164,16 @@ impl Balance {
     #[must_use]
     pub fn zero_bound(&self, vector: Vector, k: usize) -> f64 {
         self.planar(vector, k).size * rounding(self.counts[0], self.orders[k].number())
+    }
+
+    /// Bounds of what the orders left out add at another speed, rad/s.
+    pub(crate) fn error_bound_at(&self, omega: f64) -> ErrorBounds {
+        self.left_out.bounds(omega * omega)
+    }
+
+    /// Bounds of rounding over the sizes of sums, of planar vectors and of torques of an order.
+    pub(crate) fn roundings(&self, order: Order) -> [f64; 2] {
+        self.counts.map(|count| rounding(count, order.number()))
     }
 
     /// A part of the torques of the k-th order.
@@ -284,6 +298,7 @@ pub fn balance(
         mean: chosen.mean,
         error_bound: chosen.left_out.bounds(square),
         has_torque: torque,
+        left_out: chosen.left_out,
         counts: [false, true].map(|torque| count(&loads.list, torque)),
     })
 }

@@ -20,8 +20,8 @@ use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::numbers::pool;
-use crate::readings::balance::{ErrorBounds, Orders, Request, angular_speed, balance};
-use crate::wrench::Wrench;
+use crate::readings::balance::{ErrorBounds, Orders, Request, UNIT_RPM, angular_speed, balance};
+use crate::wrench::{Planar, Wrench, snapped};
 
 /// Points solved between two checks for cancellation.
 const POINTS_PER_TASK: usize = 256;
@@ -52,6 +52,8 @@ pub(crate) struct EngineLoads {
     pub omega: Vec<f64>,
     /// At each order, with parts by inertia over ω².
     unit: Vec<Wrench>,
+    /// Bounds of rounding over the sizes of sums, of planar vectors and of torques, at each order.
+    roundings: Vec<[f64; 2]>,
 }
 
 /// One order at one speed.
@@ -75,10 +77,13 @@ pub enum Derivative {
     Acceleration,
 }
 
-/// Load of a wrench about the CG: three forces, three moments.
-fn load(wrench: &Wrench) -> ComplexVector6 {
-    let ([force_x, force_y], [pitch, yaw]) = (wrench.force.xy(0.0), wrench.moment.xy(0.0));
-    ComplexVector6::new(force_x, force_y, Complex64::ZERO, pitch, yaw, wrench.torque().roll)
+/// Load of a wrench about the CG: three forces, three moments, zero where they are within rounding.
+fn load(wrench: &Wrench, [of_plane, of_torque]: [f64; 2]) -> ComplexVector6 {
+    let along = |planar: &Planar| planar.xy(planar.size * of_plane);
+    let ([force_x, force_y], [pitch, yaw]) = (along(&wrench.force), along(&wrench.moment));
+    let torque = wrench.torque();
+    let roll = snapped(torque.roll, torque.size * of_torque);
+    ComplexVector6::new(force_x, force_y, Complex64::ZERO, pitch, yaw, roll)
 }
 
 impl EngineLoads {
@@ -98,17 +103,11 @@ impl EngineLoads {
         for &rpm in rpm {
             omega.push(angular_speed(rpm)?);
         }
-        let at = |rpm: f64| {
-            let request = Request { rpm, reference_z: Some(cg.z), torque: true };
-            balance(engine, &request, orders, cancel)
-        };
         // At 1 rad/s, where parts by inertia are over ω².
-        let unit = at(60.0 / TAU)?;
-        let fastest = rpm.iter().copied().fold(0.0, f64::max);
-        let error_bound = match orders {
-            Orders::Auto { .. } => at(fastest)?.error_bound,
-            Orders::Given(_) => ErrorBounds::default(),
-        };
+        let request = Request { rpm: UNIT_RPM, reference_z: Some(cg.z), torque: true };
+        let unit = balance(engine, &request, orders, cancel)?;
+        let error_bound = unit.error_bound_at(omega.iter().copied().fold(0.0, f64::max));
+        let roundings = unit.orders.iter().map(|&order| unit.roundings(order)).collect();
         let about_cg: Vec<Wrench> =
             unit.wrenches.iter().map(|wrench| wrench.moved([cg.x, cg.y, 0.0])).collect();
         Ok(Self {
@@ -117,17 +116,19 @@ impl EngineLoads {
             error_bound: error_bound.moved([cg.x, cg.y, 0.0]),
             omega,
             unit: about_cg,
+            roundings,
         })
     }
 
     /// Load of each order over (nω)², and that of gas pressure.
     pub fn amplitudes(&self) -> Vec<[ComplexVector6; 2]> {
-        let parts = |(wrench, order): (&Wrench, &Order)| {
+        let parts = |((wrench, order), &rounding): ((&Wrench, &Order), _)| {
             let gas = Wrench { gas: wrench.gas, ..Wrench::default() };
             let inertia = Wrench { gas: crate::wrench::Torque::default(), ..*wrench };
-            [load(&inertia) / Complex64::from(order.number().powi(2)), load(&gas)]
+            let by_square = load(&inertia, rounding) / Complex64::from(order.number().powi(2));
+            [by_square, load(&gas, rounding)]
         };
-        self.unit.iter().zip(&self.orders).map(parts).collect()
+        self.unit.iter().zip(&self.orders).zip(&self.roundings).map(parts).collect()
     }
 }
 
@@ -159,8 +160,10 @@ impl Response {
         limits::result_size("response", &[rpm.len(), count, 6], size_of::<Complex64>(), hint)?;
         let mut loads = memory::with_capacity(rpm.len() * count)?;
         for omega in &of_engine.omega {
-            let wrenches = of_engine.unit.iter();
-            loads.extend(wrenches.map(|wrench| load(&wrench.at_speed(omega * omega))));
+            let wrenches = of_engine.unit.iter().zip(&of_engine.roundings);
+            loads.extend(
+                wrenches.map(|(wrench, &rounding)| load(&wrench.at_speed(omega * omega), rounding)),
+            );
         }
         let EngineLoads { orders, omitted, error_bound, omega, .. } = of_engine;
         Ok(Self {
@@ -344,11 +347,16 @@ impl Response {
     #[must_use]
     pub fn about(&self, point: [f64; 3], loads: &[ComplexVector6]) -> Vec<ComplexVector6> {
         let arm = self.powertrain.body().cg() - Vector3::from(point);
-        let moved = motion_of_point(&arm).transpose().map(Complex64::from);
+        let arms = motion_of_point(&arm).transpose();
         let about = |load: &ComplexVector6| {
-            let mut sum = moved * load.fixed_rows::<3>(0);
+            let force = load.fixed_rows::<3>(0);
+            let mut sum = arms.map(Complex64::from) * force;
+            let size = arms.abs() * force.map(Complex64::norm);
             for k in 3..6 {
                 sum[k] += load[k];
+                // What rounding leaves of moments that cancel is none.
+                let bound = 8.0 * f64::EPSILON * (size[k] + load[k].norm());
+                sum[k] = snapped(sum[k], bound);
             }
             sum
         };
