@@ -20,8 +20,8 @@ pub struct Torque {
     pub roll: Complex64,
     /// On the crank: peak phasor.
     pub crank: Complex64,
-    /// Σ|terms|.
-    pub size: f64,
+    /// Σ|terms| on the block and on the crank: a force at an arm turns the block alone.
+    pub sizes: [f64; 2],
 }
 
 /// Force, moment about a point, and torque of one order: peak phasors.
@@ -124,7 +124,7 @@ impl Torque {
         Self {
             roll: self.roll + other.roll,
             crank: self.crank + other.crank,
-            size: self.size + other.size,
+            sizes: [0, 1].map(|on| self.sizes[on] + other.sizes[on]),
         }
     }
 
@@ -133,7 +133,7 @@ impl Torque {
     pub fn scaled(&self, factor: f64) -> Self {
         // As of vectors.
         let [roll, crank] = [self.roll, self.crank].map(|t| t * factor + Complex64::default());
-        Self { roll, crank, size: self.size * factor }
+        Self { roll, crank, sizes: self.sizes.map(|size| size * factor) }
     }
 
     /// The larger of the two.
@@ -171,7 +171,7 @@ impl Wrench {
         moved.moment.add_scaled(&self.force.quarter_turned(), Complex64::new(-z, 0.0));
         let [force_x, force_y] = self.force.xy(0.0);
         moved.inertia.roll -= force_y * x - force_x * y;
-        moved.inertia.size += self.force.size * (x.abs() + y.abs());
+        moved.inertia.sizes[0] += self.force.size * (x.abs() + y.abs());
         moved
     }
 }

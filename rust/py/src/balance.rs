@@ -164,8 +164,9 @@ impl Balance {
 
     fn zero_bound<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let orders = 0..self.0.orders.len();
-        let bounds: Array1<f64> = if let Some(part) = part(name) {
-            orders.map(|k| self.0.torque_zero_bound(part, k)).collect()
+        let bounds: Array1<f64> = if part(name).is_some() {
+            let (part, on_crank) = torque(name)?;
+            orders.map(|k| self.0.torque_zero_bounds(part, k)[usize::from(on_crank)]).collect()
         } else {
             let vector = vector(name)?;
             orders.map(|k| self.0.zero_bound(vector, k)).collect()

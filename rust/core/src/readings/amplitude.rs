@@ -92,15 +92,18 @@ impl Amplitudes {
                 };
                 torque.roll += term.roll.value * amplitude.roll;
                 torque.crank += term.roll.value * amplitude.crank;
-                torque.size += term.roll.size * amplitude.roll.norm().max(amplitude.crank.norm());
+                for (size, of) in torque.sizes.iter_mut().zip([amplitude.roll, amplitude.crank]) {
+                    *size += term.roll.size * of.norm();
+                }
             }
             let [of_force, of_torque] = counts.map(|count| rounding(count, order.number()));
             let snap = |vector: &Planar| vector.snapped(vector.size * of_force);
             (wrench.force, wrench.moment) = (snap(&wrench.force), snap(&wrench.moment));
             for torque in [&mut wrench.inertia, &mut wrench.gas] {
-                let bound = torque.size * of_torque;
-                for phasor in [&mut torque.roll, &mut torque.crank] {
-                    *phasor = snapped(*phasor, bound);
+                for (phasor, size) in
+                    [&mut torque.roll, &mut torque.crank].into_iter().zip(torque.sizes)
+                {
+                    *phasor = snapped(*phasor, size * of_torque);
                 }
             }
             Ok(wrench)

@@ -82,7 +82,7 @@ fn load(wrench: &Wrench, [of_plane, of_torque]: [f64; 2]) -> ComplexVector6 {
     let along = |planar: &Planar| planar.xy(planar.size * of_plane);
     let ([force_x, force_y], [pitch, yaw]) = (along(&wrench.force), along(&wrench.moment));
     let torque = wrench.torque();
-    let roll = snapped(torque.roll, torque.size * of_torque);
+    let roll = snapped(torque.roll, torque.sizes[0] * of_torque);
     ComplexVector6::new(force_x, force_y, Complex64::ZERO, pitch, yaw, roll)
 }
 
