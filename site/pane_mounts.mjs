@@ -15,7 +15,17 @@ export const mountsPane = {
     const named = { units, name: engine.summary.name };
     const { coordinates } = WORDS;
     // Where most of a mode's energy is says what it is called.
-    const main = (energies) => coordinates[energies.indexOf(Math.max(...energies))];
+    const main = (energies) => {
+      const most = energies.indexOf(Math.max(...energies)), name = coordinates[most % coordinates.length];
+      return most < coordinates.length ? name : `${WORDS.subframe} ${name}`;
+    };
+    // Of a subframe, whose coordinates follow, the sum.
+    const shares = (energies) => {
+      const below = energies.slice(coordinates.length);
+      const sum = below.length > 0 ? [below.reduce((a, b) => a + b, 0)] : [];
+      return [...energies.slice(0, coordinates.length), ...sum];
+    };
+    const bodies = modes.frequency.length > coordinates.length ? [...coordinates, WORDS.subframe] : coordinates;
     const ofModes = modes.frequency.map((frequency, k) => [`${k + 1}`, frequency]);
     // Of causes there is the weight alone: nobody asked for torque and thrust.
     const [[sag], [weights]] = [still.displacement, still.force];
@@ -23,9 +33,9 @@ export const mountsPane = {
       html("p", { class: "hint" }, WORDS.mountsSaid),
       tableOf({
         ...named, title: WORDS.modes,
-        columns: [{ label: "mode" }, { label: "frequency Hz", key: "frequency" }, { label: "mainly" }, ...coordinates.map((label) => ({ label: `${label} %`, decimals: 1 })),
+        columns: [{ label: "mode" }, { label: "frequency Hz", key: "frequency" }, { label: "mainly" }, ...bodies.map((label) => ({ label: `${label} %`, decimals: 1 })),
           { label: "purity %", key: "purity", decimals: 1 }, { label: "loss factor" }],
-        rows: ofModes.map((row, k) => [...row, main(modes.energy[k]), ...modes.energy[k], modes.purity[k], modes.loss_factor[k]]),
+        rows: ofModes.map((row, k) => [...row, main(modes.energy[k]), ...shares(modes.energy[k]), modes.purity[k], modes.loss_factor[k]]),
       }),
       tableOf({
         ...named, title: WORDS.strain,

@@ -82,6 +82,7 @@ export const WORDS = {
   coordinates: ["lateral", "bounce", "fore-aft", "pitch", "yaw", "roll"],
   mountsSaid: "Lateral, bounce and fore-aft are along x, y and z; pitch, yaw and roll about them. Modes are of the mounts’ dynamic stiffness, sag of the static one.",
   strain: "Elastic energy of each mode, by mount",
+  subframe: "subframe",
   sag: "Displacement of the centre of gravity at rest",
   margin: "inside the mounts’ polygon by",
   footer: "Computed here by crankpin’s own core; nothing is sent or loaded.",

@@ -718,3 +718,16 @@ def test_a_crank_that_is_not_there_cannot_be_cut() -> None:
     with pytest.raises(cp.InputError, match="crank = 2: give the index of a crank, 0 to 1"):
         loads.shear("crank", crank=2)
     assert loads.frames["mains"].columns[1].values == (0, 0, 1, 1)
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_bounds_of_zeros_are_those_of_the_sweep(seed: int) -> None:
+    """Of each quantity its own terms: a force at an arm is none of the torque on the crank."""
+    engine = random_engine(seed)
+    orders = range(1, 13)
+    balance = engine.balance(3000.0, orders=orders)
+    sweep = cp.sweep(engine, rpm=[3000.0], orders=orders)
+    for name in QUANTITIES:
+        found = getattr(balance, name).zero_bound
+        expected = getattr(sweep, name).zero_bound[0]
+        np.testing.assert_allclose(found, expected, rtol=1e-12, err_msg=name)

@@ -197,3 +197,87 @@ def test_errors_of_a_fit_name_the_option(
 ) -> None:
     assert main(["mounts-fit", str(car), *typed]) == 2
     assert hint in capsys.readouterr().err
+
+
+# --- at rest, robustness, points, and files from the shell ----------------------------------------
+
+
+def test_torque_of_the_engine_gear_gravity_and_robustness(car: Path, capsys: CAPTURE) -> None:
+    gravity = (0.0, -9.7, 1.3)
+    typed = ("--torque", "engine", "--gear", "12.5", "--gravity", "0,-9.7,1.3")
+    text = printed(capsys, car, *typed, "--robustness", "0.1")
+    expected = CAR.static("engine", gear_ratio=12.5, gravity=gravity)
+    assert expected.table.text() in text
+    assert CAR.robustness(0.1).table.text() in text
+    assert printed(capsys, car, "--robustness", "0.1", "--frame", "robustness") == (
+        f"{CAR.robustness(0.1).table.text()}\n"
+    )
+
+
+def test_points_of_the_support_are_printed_and_drawn(tmp_path: Path, capsys: CAPTURE) -> None:
+    base = cp.Subframe(
+        cp.RigidBody(100, (0, -0.1, 0.2), (9, 12, 6)),
+        [mount.replace(stiffness=8e5, loss_factor=0.1) for mount in CAR.mounts],
+    )
+    CAR.on(base).save(path := tmp_path / "soft.toml")
+    typed = (path, "--rpm", "800:900:50", "--at", "0,-0.1,0.2", "--on", "support")
+    picture = tmp_path / "rail.png"
+    text = printed(capsys, *typed, "--picture", "map", "--plot", picture)
+    motion = CAR.on(base).response([800, 850, 900]).at((0, -0.1, 0.2), on="support")
+    assert motion.table.text() in text
+    assert picture.stat().st_size > 5000
+    assert CAR.on(base).modes().frames["subframe"].text() in printed(capsys, path)
+    zero = cp.Receptance(
+        [("rear", "y")], ([1.0, 5000.0], [[[0.0]]] * 2), {"seat": [[[1e-7]] * 3] * 2}
+    )
+    CAR.on(zero).save(path)
+    text = printed(capsys, path, "--rpm", "800", "--orders", "2", "--at", "seat")
+    assert "motion of 'seat'" in text
+    assert "support = a receptance" in failed(capsys, path)
+
+
+def test_an_engine_on_mounts_is_made_in_the_shell(tmp_path: Path, capsys: CAPTURE) -> None:
+    path = tmp_path / "made.toml"
+    typed = ["new", "i4", "--body", "148:20mm,70mm,90mm:8,7.5,5"]
+    typed += [
+        "--mount",
+        "right:0.28,0,-0.09:220000,80000,80000:0.1",
+        "--mount",
+        "left:-0.28,0,0:1e5",
+    ]
+    typed += ["--mount", "rear:0,-0.12,0.55:1e5"]
+    assert main([*typed, "-o", str(path)]) == 0
+    assert f"try crankpin mounts {path}" in capsys.readouterr().out
+    made = cp.Powertrain.load(path)
+    assert made.body == cp.RigidBody(148, (0.02, 0.07, 0.09), (8, 7.5, 5))
+    assert made.names == ("right", "left", "rear")
+    assert made.mounts[0].stiffness == (2.2e5, 8e4, 8e4)
+    assert made.mounts[0].loss_factor == (0.1, 0.1, 0.1)
+    assert made.modes().table.text() in printed(capsys, path)
+    assert main(typed) == 0
+    assert "[powertrain.body]" in capsys.readouterr().out
+    for wrong, said in [
+        (["--body", "148:0,0,0:8,7,5"], "--mount is left out"),
+        (["--mount", "a:0,0,0:1e5"], "--body is left out"),
+        (["--body", "148", "--mount", "a:0,0,0:1e5"], "give MASS:X,Y,Z:IX,IY,IZ"),
+        (["--body", "148:0,0,0:8,7,5", "--mount", "a:0,0"], "give NAME:X,Y,Z:K"),
+    ]:
+        assert main(["new", "i4", *wrong]) == 2
+        assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("typed", "hint"),
+    [
+        (["--rpm", "800", "--gear", "3"], "--gear = 3: acts without --rpm alone"),
+        (["--rpm", "800", "--robustness", "0.1"], "--robustness = 0.1: acts without --rpm alone"),
+        (["--rpm", "800", "--on", "support"], "--on = support: needs --at"),
+        (["--rpm", "800", "--at", "0,0,0", "--on", "support"], "no subframe carries the mounts"),
+        (["--rpm", "800", "--at", "rail"], "no receptance with receivers carries the mounts"),
+        (["--rpm", "800", "--at", "0,0,0", "--mount", "rear"], "cannot be combined with --at"),
+    ],
+)
+def test_further_errors_name_the_option(
+    car: Path, capsys: CAPTURE, typed: list[str], hint: str
+) -> None:
+    assert hint in failed(capsys, car, *typed)

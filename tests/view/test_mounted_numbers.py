@@ -169,7 +169,7 @@ def test_hydraulic_mounts_and_tables(open_engine: Open, seed: int) -> None:
         page.evaluate("mounts => crankpin.set({ mounts })", states)
 
 
-@pytest.mark.filterwarnings("ignore:mounts = .* is free:UserWarning")
+@pytest.mark.filterwarnings("ignore:mounts = .* (is|are) free:UserWarning")
 def test_few_mounts_leave_motions_of_exactly_zero(open_engine: Open) -> None:
     for places in ([(0.3, 0, 0), (-0.3, 0, 0)], [(0.1, 0.0, 0.0)]):
         mounts = [cp.Mount(f"{k}", at, 2e5, loss_factor=0.1) for k, at in enumerate(places)]

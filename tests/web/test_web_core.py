@@ -323,6 +323,14 @@ def test_modes_are_the_librarys(ask: Ask, tmp_path: Path) -> None:
     (found,) = results(ask, [("mounts", {"engine": text})])
     modes = powertrain.modes()
     assert np.allclose(found["modes"]["frequency"], modes.frequency, rtol=1e-10)
+    raft = cp.Subframe(body.replace(mass=300.0), [m.replace(stiffness=5e5) for m in mounts])
+    soft = powertrain.on(raft)
+    soft.save(tmp_path / "soft.toml")
+    text = (tmp_path / "soft.toml").read_text("utf-8")
+    (found,) = results(ask, [("mounts", {"engine": text})])
+    assert np.allclose(found["modes"]["frequency"], soft.modes().frequency, rtol=1e-10)
+    assert found["mounts"][4] == "subframe: 0"
+    assert np.allclose(found["static"]["displacement"][0][:3], soft.static().sag, rtol=1e-9)
     other = ask([("mounts", {"engine": engine.to_toml()})])[0]["error"]
     assert other["argument"] == "powertrain"
 

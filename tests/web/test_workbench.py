@@ -443,12 +443,16 @@ def cells(page: Page, name: str) -> list[float]:
     return [float(cell.get_attribute("data-value") or "nan") for cell in shown]
 
 
-def test_an_engine_on_mounts(open_workbench: Open, tmp_path: Path) -> None:
+@pytest.mark.parametrize("on", ["ground", "subframe"])
+def test_an_engine_on_mounts(open_workbench: Open, tmp_path: Path, on: str) -> None:
     i4 = cp.Engine.preset("i4").with_cycle(cp.Cycle.example())
     body = cp.RigidBody(mass=148, cg=(0.02, 0.07, 0.09), inertia=(8.1, 7.6, 4.9))
     places = {"right": (0.28, 0, -0.09), "left": (-0.28, 0, -0.09), "rear": (0, -0.12, 0.55)}
     mounts = [cp.Mount(name, at, stiffness=(2.2e5, 8e4, 9e4)) for name, at in places.items()]
     car = cp.Powertrain(i4, body, mounts)
+    if on == "subframe":
+        raft = cp.RigidBody(mass=90, cg=(0, -0.2, 0.2), inertia=(6, 7, 5))
+        car = car.on(cp.Subframe(raft, [mount.replace(stiffness=5e5) for mount in mounts]))
     car.save(tmp_path / "car.toml")
     page = open_workbench()
     take_file(page, tmp_path / "car.toml")
@@ -456,7 +460,8 @@ def test_an_engine_on_mounts(open_workbench: Open, tmp_path: Path) -> None:
     modes, still = car.modes(), car.static()
     assert cells(page, "frequency") == pytest.approx(modes.frequency, rel=1e-12)
     assert cells(page, "purity") == pytest.approx(modes.purity, rel=1e-9)
-    assert cells(page, "force-y") == pytest.approx(still.weight_force[:, 1], rel=1e-9)
+    forces = [*still.weight_force[:, 1], *still.ground_preload[:, 1]]
+    assert cells(page, "force-y") == pytest.approx(forces, rel=1e-9)
     mainly = page.locator(".mounts table").first.locator("tbody td:nth-child(3)")
     assert mainly.all_inner_texts() == list(modes.dominant)
     assert field(page, "gas").locator("option:checked").inner_text() == "as in the file"

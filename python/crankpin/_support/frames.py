@@ -41,8 +41,12 @@ class Frames(Mapping[str, "Table"]):
     A table is computed when it is read, in the units that :func:`crankpin.units` has set.
     """
 
-    def __init__(self, makers: Mapping[str, Callable[[], Table]]) -> None:
-        self._makers = dict(makers)
+    def __init__(
+        self,
+        makers: Mapping[str, Callable[[], Table]],
+        head: Callable[[int], Table | None] = lambda _: None,
+    ) -> None:
+        self._makers, self._beginning = dict(makers), head
 
     def __getitem__(self, name: str) -> Table:
         """Return the table of a name, or raise an InputError."""
@@ -55,22 +59,28 @@ class Frames(Mapping[str, "Table"]):
     def __len__(self) -> int:
         return len(self._makers)
 
-    def _shown(self) -> Iterator[Table]:
+    def _first(self, name: str, rows: int | None) -> Table:
+        """Return a table, of one that is long its first rows if they can be computed alone."""
+        head = self._beginning(rows) if rows is not None and name == FIRST else None
+        return self[name] if head is None else head._in(units.current())
+
+    def _shown(self, rows: int | None) -> Iterator[Table]:
         """Yield the tables; of neighbours that count the same loads the last one says so."""
-        tables = list(self.values())
+        tables = [self._first(name, rows) for name in self]
         for table, below in zip(tables, [*tables[1:], None], strict=True):
             once = below is not None and below.loads == table.loads
             yield changed(table, loads="") if once else table
 
     def text(self, rows: int | None = None) -> str:
         """Return the tables as text below each other, the first rows of each or all."""
-        return "\n\n".join(each.text(rows) for each in self._shown())
+        return "\n\n".join(each.text(rows) for each in self._shown(rows))
 
     def __repr__(self) -> str:
         return self.text(SHOWN)
 
     def _repr_html_(self) -> str:
-        return "".join(each.html(SHOWN_IN_NOTEBOOKS) for each in self._shown())
+        rows = SHOWN_IN_NOTEBOOKS
+        return "".join(each.html(rows) for each in self._shown(rows))
 
 
 class Tabled(Record):
@@ -88,7 +98,11 @@ class Tabled(Record):
 
     def _frames(self, **further: Callable[[], Table]) -> Frames:
         """Return the table, and further frames by name."""
-        return Frames({FIRST: lambda: self.table} | further)
+        return Frames({FIRST: lambda: self.table} | further, self._beginning)
+
+    def _beginning(self, rows: int) -> Table | None:
+        """Return the first rows of a long table, computed alone; None where all are computed."""
+        return None
 
     @property
     def _brief(self) -> str:

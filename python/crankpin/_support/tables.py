@@ -132,6 +132,8 @@ class Table(Tabled):
     """Loads that its numbers count, where more could: the last line under the table."""
     row_units: tuple[str, ...] = ()
     """Unit of the numbers of each row in columns without unit; empty for none."""
+    whole: int = 0
+    """Number of the rows of which these are the first; 0 for all."""
 
     @classmethod
     def from_rows(
@@ -320,8 +322,8 @@ class Table(Tabled):
         str
             The lines, joined.
         """
-        self = self._in(units.current())  # noqa: PLW0642
-        lines = [[*map(_cell, self.header)], *self.cells(rows)]
+        self = self._cut(rows)._in(units.current())  # noqa: PLW0642
+        lines = [[*map(_cell, self.header)], *self.cells()]
         widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
         leftwards = [column.is_text and len(self) > 0 for column in self.columns]
         body = (
@@ -331,7 +333,7 @@ class Table(Tabled):
             ).rstrip()
             for line in lines
         )
-        title, notes = without_controls(self.title), self._notes(rows)
+        title, notes = without_controls(self.title), self._notes()
         return "\n".join(filter(None, [title, *body, *notes]))
 
     def html(self, rows: int | None = None) -> str:
@@ -347,24 +349,32 @@ class Table(Tabled):
         str
             HTML.
         """
-        self = self._in(units.current())  # noqa: PLW0642
+        self = self._cut(rows)._in(units.current())  # noqa: PLW0642
         head = "".join(f"<th>{html.escape(_cell(name))}</th>" for name in self.header)
         body = "".join(
             "<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>"
-            for row in self.cells(rows)
+            for row in self.cells()
         )
         title = "; ".join(without_controls(self.title).split("\n"))
         caption = f"<caption>{html.escape(title)}</caption>"
-        notes = "".join(f"<p>{html.escape(note)}</p>" for note in self._notes(rows))
+        notes = "".join(f"<p>{html.escape(note)}</p>" for note in self._notes())
         return f"<table>{caption}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{notes}"
 
-    def _notes(self, rows: int | None = None) -> Iterable[str]:
+    def _cut(self, rows: int | None) -> Table:
+        """Return the first rows."""
+        if rows is None or rows >= len(self):
+            return self
+        columns = tuple(changed(each, data=each.data[:rows]) for each in self.columns)
+        whole = self.whole or len(self)
+        return changed(self, columns=columns, row_units=self.row_units[:rows], whole=whole)
+
+    def _notes(self) -> Iterable[str]:
         """Yield the lines under the table."""
-        if rows is not None and rows < len(self):
-            yield f"{rows} of {len(self)} rows"
+        if self.whole > len(self):
+            yield f"{len(self)} of {self.whole} rows"
         if self.note:
             yield without_controls(self.note)
-        if any(each.least and TINY in each.cells(rows) for each in self.columns):
+        if any(each.least and TINY in each.cells() for each in self.columns):
             yield f"{TINY}: not zero, but too small to matter."
         if self.loads:
             yield labels.in_words(self.loads)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,6 +17,8 @@ from crankpin.cli.outputs import Shown
 if TYPE_CHECKING:
     from crankpin.cli.arguments import Given
 
+AT_REST = ("--torque", "--gear", "--gravity", "--robustness")
+"""Options of what is computed without a response."""
 PICTURES = ("cuts", "map", "waterfall", "spectrum")
 
 
@@ -30,10 +33,30 @@ PICTURES = ("cuts", "map", "waterfall", "spectrum")
         help="crank speeds, for the response to the engine's orders (default: modes and axes)",
     ),
     option("--frequency", help="frequency at which modes take stiffness that depends on it, Hz"),
-    option("--torque", help="mean torque that leaves the unit at rest, N·m (default: 0)"),
+    option(
+        "--torque",
+        metavar="N·M",
+        help="mean torque of the crank at rest, N·m, or engine for that of its cycle (default: 0)",
+    ),
+    option("--gear", metavar="RATIO", help="crank speed over that of the shaft that takes it"),
+    option("--gravity", metavar="X,Y,Z", help="acceleration at rest, m/s² (default: 0,-9.80665,0)"),
+    option(
+        "--robustness",
+        metavar="SHARE",
+        help="tolerance of all stiffnesses, such as 0.1: bounds of frequencies, least purity found",
+    ),
     option("--misfire", metavar="CYLINDER", help="number of a cylinder that does not fire"),
     "--orders --rtol",
-    option("--at", metavar="X,Y,Z", help="point of which the motion is printed, m"),
+    option(
+        "--at",
+        metavar="X,Y,Z",
+        help="point of which the motion is printed and drawn, m, or the name of a receiver",
+    ),
+    option(
+        "--on",
+        choices=("powertrain", "support"),
+        help="what the point of --at moves with: support, the subframe (default: powertrain)",
+    ),
     option("--mount", metavar="NAME", help="mount of the picture (default: the sum of all)"),
     option(
         "--picture",
@@ -49,7 +72,10 @@ PICTURES = ("cuts", "map", "waterfall", "spectrum")
         "first (default: 800)",
     ),
     "--controls --units",
-    option("--frame", choices=(FIRST, "strain", "axes", "static", "loads", "power")),
+    option(
+        "--frame",
+        choices=(FIRST, "strain", "subframe", "axes", "static", "robustness", "loads", "power"),
+    ),
     "--csv --plot",
     example="mounts car.toml --rpm 600:6000:20 --plot run-up.png",
     note="A range is START:STOP:STEP (stop included), a list a,b,c, or one number.",
@@ -74,32 +100,45 @@ def _mounts(given: Given) -> Shown:
         raise rejected("--controls", typed, "needs --html")
     if rpm is None:
         return _at_rest(given, powertrain)
-    for flag in ("--torque", *(() if page is not None else ("--frequency",))):
+    for flag in (*AT_REST, *(() if page is not None else ("--frequency",))):
         if (typed := given.text(flag)) is not None:
             raise rejected(flag, typed, "acts without --rpm alone")
     if np.size(rpm) > MOST_ROWS:
         raise inputs.faulty("--rpm", f"has {np.size(rpm)} speeds", f"give {MOST_ROWS} at most")
     response = powertrain.response(rpm, **given.chosen())
-    frames: Frames = response.frames
-    if (point := given.numbers("--at", "m")) is not None:
-        frames = response.at(point).frames
-    return Shown(
-        frames, response, {"mount": given.text("--mount"), "kind": given.text("--picture")}
-    )
+    options = {"mount": given.text("--mount"), "kind": given.text("--picture")}
+    if (typed := given.text("--at")) is None:
+        if (on := given.text("--on")) is not None:
+            raise rejected("--on", on, "needs --at")
+        return Shown(response.frames, response, options)
+    if (mount := options.pop("mount")) is not None:
+        raise rejected("--mount", mount, "cannot be combined with --at: a picture has one of them")
+    place: Any = given.numbers("--at", "m") if "," in typed else typed
+    moved = response.at(place, given.text("--on") or "powertrain")
+    return Shown(moved.frames, moved, options)
 
 
 def _at_rest(given: Given, powertrain: Powertrain) -> Shown:
     """Return modes, axes and the static state; what free motions leave undefined is left out."""
-    for flag in ("--at", "--mount", "--picture"):
+    for flag in ("--at", "--on", "--mount", "--picture"):
         if (typed := given.text(flag)) is not None:
             raise rejected(flag, typed, "needs --rpm")
     frequency = given.optional("--frequency")
     modes = powertrain.modes(frequency)
-    makers: dict[str, Any] = {FIRST: lambda: modes.table, "strain": lambda: modes.frames["strain"]}
+    makers: dict[str, Any] = {name: partial(modes.frames.get, name) for name in modes.frames}
     if not modes.free:
-        axes = powertrain.axes(frequency)
-        static = powertrain.static(given.optional("--torque") or 0.0)
+        axes, options = powertrain.axes(frequency), dict[str, Any]()
+        if (typed := given.text("--torque")) is not None:
+            options["torque"] = typed if typed == "engine" else given.optional("--torque")
+        if (ratio := given.optional("--gear")) is not None:
+            options["gear_ratio"] = ratio
+        if (gravity := given.numbers("--gravity")) is not None:
+            options["gravity"] = gravity
+        static = powertrain.static(**options)
         makers |= {"axes": lambda: axes.table, "static": lambda: static.table}
+    if (share := given.optional("--robustness")) is not None:
+        robust = powertrain.robustness(share, frequency=frequency)
+        makers |= {"robustness": lambda: robust.table}
     return Shown(Frames(makers), modes)
 
 
@@ -110,7 +149,8 @@ def _at_rest(given: Given, powertrain: Powertrain) -> Shown:
     option(
         "--by",
         default="decoupling",
-        help="what is minimised: decoupling, mount_force[N] or body_force[N] of an order N "
+        help="what is minimised: decoupling, purity (what lacks of it), mount_force[N] or "
+        "body_force[N] of an order N "
         "(default: %(default)s)",
     ),
     option(
@@ -150,7 +190,7 @@ def _at_rest(given: Given, powertrain: Powertrain) -> Shown:
     option(
         "--modes-between",
         metavar="LOW,HIGH",
-        help="frequencies between which all six modes are, Hz",
+        help="frequencies between which all modes are, Hz",
         group="requirements",
     ),
     option(

@@ -11,11 +11,13 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from crankpin._support import inputs, units
+from crankpin.analysis.mounts.powertrain import Powertrain
 from crankpin.cli.arguments import PROG, command, option, rejected
 from crankpin.model import checks, engine_files, presets
 from crankpin.model.cylinder import Cylinder, Rod
 from crankpin.model.data import allowed
 from crankpin.model.engine import Engine
+from crankpin.model.mounts import Mount, RigidBody
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -103,6 +105,7 @@ def _wrapped(names: Iterable[str]) -> str:
 
 
 PARTS = "parts of one cylinder, or A,B,… of each (default: a nominal half litre)"
+ON_MOUNTS = "body and mounts, for crankpin mounts"
 SHAPE = "layout (default: that of the preset)"
 METAVARS = {
     "angles": "A,B,…", "metres": "Z,…", "whole": "N", "wholes": "N,…", "text": "TEXT", "m": "M",
@@ -130,6 +133,19 @@ METAVARS = {
         action="store_true",
         help="of firing-order: pins that are shared, whatever the intervals of a vee are then",
     ),
+    option(
+        "--body",
+        group=ON_MOUNTS,
+        metavar="MASS:X,Y,Z:IX,IY,IZ",
+        help="all that moves: mass, centre of gravity, m, moments of inertia about it, kg·m²",
+    ),
+    option(
+        "--mount",
+        group=ON_MOUNTS,
+        metavar="NAME:X,Y,Z:K[:LOSS]",
+        action="append",
+        help="place, m, stiffness, N/m, or K,K,K along x, y and z, and loss factor; once for each",
+    ),
     option("--name", help="name of the engine (default: that of its kind)"),
     "--units",
     option(
@@ -151,14 +167,50 @@ def _new(given: Given) -> str:
     notes = list[str]()
     cylinder, rotating = _parts(given, notes)
     engine = _engine(given, cylinder, rotating, notes)
+    powertrain = _on_mounts(given, engine)
     if file is None:
-        return engine_files.commented(engine.to_toml())
-    engine.save(file)
+        whole = engine.to_toml() if powertrain is None else powertrain._text(toml=True)
+        return engine_files.commented(whole)
+    (powertrain or engine).save(file)
     # An echo: in the units of --units, or else as typed.
     with units.Shown(given.written | units.current()):
         said = units.in_text("".join(f"{note}\n" for note in notes))
         made = repr(engine)
-    return f"{made}\n{said}Written to {file}: try {PROG} balance {shlex.quote(str(file))}\n"
+    command = "balance" if powertrain is None else "mounts"
+    return f"{made}\n{said}Written to {file}: try {PROG} {command} {shlex.quote(str(file))}\n"
+
+
+def _on_mounts(given: Given, engine: Engine) -> Powertrain | None:
+    """Return the engine on the body and mounts of options, if they are given."""
+    body, mounts = given.text("--body"), given.text("--mount") or []
+    if body is None and not mounts:
+        return None
+    if body is None or not mounts:
+        flag, other = ("--mount", "--body") if body is not None else ("--body", "--mount")
+        raise inputs.faulty(flag, "is left out", f"a body on mounts needs it, beside {other}")
+    mass, cg, inertia = _fields(given, "--body", body, "MASS:X,Y,Z:IX,IY,IZ", 3)
+    rigid = RigidBody(
+        given.one("--body", mass, "kg"),
+        given.listed("--body", cg, "m"),
+        given.listed("--body", inertia),
+    )
+    carried = []
+    for each in mounts:
+        fields = _fields(given, "--mount", each, "NAME:X,Y,Z:K or NAME:X,Y,Z:K:LOSS", 3, 4)
+        stiffness = given.listed("--mount", fields[2])
+        along = stiffness if len(stiffness) > 1 else stiffness[0]
+        loss = given.one("--mount", fields[3]) if len(fields) > 3 else 0.0
+        place = given.listed("--mount", fields[1], "m")
+        carried.append(Mount(fields[0].strip(), place, along, loss_factor=loss))
+    return Powertrain(engine, rigid, carried)
+
+
+def _fields(given: Given, flag: str, text: str, form: str, *counts: int) -> list[str]:
+    """Return the parts of an option between colons."""
+    fields = text.split(":")
+    if len(fields) not in counts:
+        raise rejected(flag, text, f"give {form}")
+    return fields
 
 
 def _engine(

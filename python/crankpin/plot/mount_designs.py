@@ -140,7 +140,7 @@ def _robustness(result: MountRobustness, ax: Axes | None = None, **style: object
         causes.append(("mass and inertia", result.mass_bounds))
     if result.cg:
         causes.append(("centre of gravity", result.cg_range))
-    rows = np.arange(1, 7)
+    rows = np.arange(1, len(result.frequency) + 1)
     height = 0.8 / max(len(causes), 1)
     for k, ((name, (low, high)), look) in enumerate(
         zip(causes, series(ax, len(causes), style), strict=True)
@@ -152,19 +152,22 @@ def _robustness(result: MountRobustness, ax: Axes | None = None, **style: object
     ax.vlines(result.frequency, rows - 0.45, rows + 0.45, label="nominal", **mark)
     pure = zip(result.purity, result.least_purity, strict=True)
     ax.set_yticks(rows, [f"{k + 1}:  {a:.0f} → {b:.0f} %" for k, (a, b) in enumerate(pure)])
-    ax.set_ylim(6.6, 0.4)
+    ax.set_ylim(rows[-1] + 0.6, 0.4)
     ax.tick_params(axis="y", length=0)
     numeric(ax.xaxis)
     ends = [high for _, (_, high) in causes] or [result.frequency]
     from_zero(ax, float(np.max(ends)), name="x")
     label_x(ax, "natural frequency, Hz")
-    label_y(ax, "purity → least purity")
-    title = result.table.title.partition(": ")[2]
-    set_title(ax, labels.name_of(result.powertrain.engine), joined("on its mounts", title))
+    label_y(ax, "purity → least found")
+    name = labels.name_of(result.powertrain.engine)
+    on, _, title = result.table.title.removeprefix(name).strip().partition(": ")
+    set_title(ax, name, joined(on, title))
     add_legend(ax, last="nominal")
     return ax
 
 
+SAME = 1e-9
+"""Relative difference of roll stiffnesses, by rounding, within which one axis is drawn."""
 VIEWS = (("from the side", 2, 1), ("from the flywheel", 0, 1), ("from above", 2, 0))
 """Name of a view, and the axes to the right and up."""
 
@@ -181,14 +184,20 @@ def _axes(
     places = {mount.name: np.array(mount.at) for mount in powertrain.mounts}
     corners = np.array([places[name] for name in powertrain.static().support_polygon])
     everything = np.array([*places.values(), cg, result.elastic_foot])
+    own, dynamic = result.roll_stiffness, result.dynamic_roll_stiffness
+    is_dynamic = abs(dynamic - own) > SAME * own
     reach = 0.5 * float(np.ptp(everything, axis=0).max()) or 0.1
     lines = [
         ("torque roll axis", cg, result.torque_roll),
         ("elastic roll axis", result.elastic_foot, result.elastic),
+        *(
+            [("with dynamic stiffness", result.dynamic_elastic_foot, result.dynamic_elastic)]
+            * is_dynamic
+        ),
         ("crank", np.zeros(3), np.array([0.0, 0.0, 1.0])),
     ]
     for place, (name, right, up) in zip(panels.axes.flat, views, strict=True):
-        looks = series(place, 2, style)
+        looks = series(place, len(lines) - 1, style)
         looks.append({"color": muted(place, 0.6), "linestyle": ":", "linewidth": 1.2})
         outline: dict[str, Any] = {"color": muted(place, 0.15), "zorder": 0, "linewidth": 1.0}
         place.fill(corners[:, right], corners[:, up], label="polygon of the mounts", **outline)
@@ -217,6 +226,7 @@ def _axes(
         if not panels.single:
             set_panel_title(place, name)
     words = f"{rounded(result.angle_deg)}° and {rounded(1e3 * result.distance)} mm between the axes"
+    words += " at rest" if is_dynamic else ""
     panels.set_title(
         labels.name_of(powertrain.engine), joined("axes of roll", units.in_text(words))
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from matplotlib.collections import LineCollection
@@ -11,8 +11,10 @@ from matplotlib.patches import Rectangle
 
 from crankpin._support import inputs, labels
 from crankpin._support.drawing import picture
-from crankpin.analysis.mounts.modes import COORDINATES, PLACES, MountModes
-from crankpin.analysis.mounts.response import MountResponse
+from crankpin.analysis.mounts.modes import COORDINATES, OF_SUBFRAME, PLACES, MountModes
+from crankpin.analysis.mounts.response import READ, MountResponse, PointMotion
+from crankpin.analysis.quantity import ALL
+from crankpin.model.supports import Receptance
 from crankpin.plot.layout import (
     add_legend,
     axes_or_new,
@@ -34,7 +36,7 @@ from crankpin.plot.style import (
     tint,
 )
 from crankpin.plot.ticks import from_zero, numeric, span
-from crankpin.plot.words import joined, number, rounded
+from crankpin.plot.words import joined, number, plain_text, rounded
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -67,7 +69,9 @@ SEEN = 1e-3
 def _modes(result: MountModes, ax: Axes | None = None, **style: object) -> Axes:
     """Draw a row for each mode, darker where more of its kinetic energy is."""
     ax = axes_or_new(ax)
-    energy = result.energy[list(PLACES)].T
+    energy, names = result.energy[list(PLACES)].T, list(COORDINATES)
+    if len(result.energy) > 6:
+        energy, names = np.column_stack([energy, result.subframe_share]), [*names, OF_SUBFRAME]
     (colour,) = colours(ax, 1)
     # From the background to what texts are still read on.
     shades = LinearSegmentedColormap.from_list(
@@ -82,9 +86,9 @@ def _modes(result: MountModes, ax: Axes | None = None, **style: object) -> Axes:
             ax.add_patch(cell)
         look: dict[str, Any] = {"ha": "center", "va": "center", "color": foreground(ax)}
         ax.text(place, mode, rounded(share, 2) if abs(share) >= 100.0 * SEEN else "0", **look)
-    ax.set_xticks(range(6), COORDINATES)
+    ax.set_xticks(range(len(names)), names)
     frequencies = [f"{k + 1}:  {rounded(f, 3)} Hz" for k, f in enumerate(result.frequency)]
-    ax.set_yticks(range(6), frequencies)
+    ax.set_yticks(range(len(frequencies)), frequencies)
     ax.tick_params(length=0.0)
     ax.spines[:].set_visible(False)
     hatched = "hatched: below zero" if ax.patches else ""
@@ -93,30 +97,70 @@ def _modes(result: MountModes, ax: Axes | None = None, **style: object) -> Axes:
     return ax
 
 
+class Drawn(NamedTuple):
+    """A vector by order, in the unit in which it is drawn."""
+
+    vector: VectorQuantity
+    unit: str = "N"
+    factor: float = 1.0
+
+    def read(self, order: Order | str | None, name: str = "peak") -> NDArray[np.float64]:
+        """Return an array of the vector at an order, at ``"all"``, or of every order."""
+        return self.factor * np.asarray(getattr(self.vector[order], name))  # type: ignore[index]
+
+
 @picture.register(MountResponse)
 def _response(
     result: MountResponse,
     ax: Axes | None = None,
     *,
-    kind: str | None = None,
     mount: str | None = None,
+    **options: Any,  # noqa: ANN401 - as `_picture` takes them
+) -> Axes:
+    name = mount if mount is None else inputs.one_of("mount", mount, result.powertrain.names)
+    force = result.body_force if name is None else result.mount_force[name]
+    words = "force on the body" if name is None else f"force of mount {name}"
+    return _picture(result, Drawn(force), words, ax, **options)
+
+
+@picture.register(PointMotion)
+def _point(
+    motion: PointMotion,
+    ax: Axes | None = None,
+    *,
+    quantity: str = "velocity",
+    **options: Any,  # noqa: ANN401 - as above
+) -> Axes:
+    name = inputs.one_of("quantity", quantity, READ)
+    given = {"orders": None if motion.order == ALL else motion.order} | options
+    words = plain_text(f"{name} of {motion._words}")
+    return _picture(
+        motion.result, Drawn(motion._moved(name)[None], *READ[name]), words, ax, **given
+    )
+
+
+def _picture(
+    result: MountResponse,
+    drawn: Drawn,
+    words: str,
+    ax: Axes | None,
+    *,
+    kind: str | None = None,
     orders: Orders | None = None,
     label: str | None = None,
     **style: object,
 ) -> Axes:
+    """Draw a vector by order, of a kind."""
     kinds = {"cuts": _cuts, "map": _map, "waterfall": _waterfall, "spectrum": _spectrum}
     several = bool(result.dims)
     chosen = inputs.one_of("kind", kind or ("cuts" if several else "spectrum"), kinds)
     if several == (chosen == "spectrum"):
         hint = "give one speed, as r.sel(rpm=…)" if several else "needs several speeds"
         raise inputs.rejected("kind", chosen, hint)
-    name = mount if mount is None else inputs.one_of("mount", mount, result.powertrain.names)
-    force = result.body_force if name is None else result.mount_force[name]
     ax = axes_or_new(ax)
-    shown = _orders(result, force, orders)
-    notes = kinds[chosen](ax, result, force, shown, label, style)
+    shown = _orders(result, drawn, orders)
+    notes = kinds[chosen](ax, result, drawn, shown, label, style)
     speed = "" if several else f"{number(float(result.rpm))} rpm"
-    words = "force on the body" if name is None else f"force of mount {name}"
     set_title(
         ax,
         labels.name_of(result.powertrain.engine),
@@ -126,15 +170,13 @@ def _response(
     return ax
 
 
-def _orders(
-    result: MountResponse, force: VectorQuantity, orders: Orders | None
-) -> tuple[Order, ...]:
+def _orders(result: MountResponse, drawn: Drawn, orders: Orders | None) -> tuple[Order, ...]:
     """Return the orders given, or those that are seen beside the largest, ascending."""
     if orders is not None:
         return tuple(inputs.explicit_half_orders(orders))
     if result.request.orders is not None:
         return result.orders
-    largest = np.reshape(force.peak, (-1, len(result.orders))).max(axis=0, initial=0.0)
+    largest = np.reshape(drawn.read(None), (-1, len(result.orders))).max(axis=0, initial=0.0)
     kept = largest > SEEN * largest.max(initial=0.0)
     return tuple(order for order, is_seen in zip(result.orders, kept, strict=True) if is_seen)
 
@@ -142,18 +184,18 @@ def _orders(
 def _cuts(
     ax: Axes,
     result: MountResponse,
-    force: VectorQuantity,
+    drawn: Drawn,
     orders: tuple[Order, ...],
     label: str | None,
     style: dict[str, Any],
 ) -> str:
     """Draw the largest orders over speed, and all together."""
-    peaks = {order: np.asarray(force[order].peak) for order in orders}
+    peaks = {order: drawn.read(order) for order in orders}
     by_size = sorted(orders, key=lambda order: -float(peaks[order].max()))
     kept = sorted(by_size if result.request.orders is not None else by_size[:MOST_CURVES])
     rpm = np.asarray(result.rpm)
     along = np.argsort(rpm, kind="stable")
-    total = np.asarray(force.total.peak)
+    total = drawn.read(ALL)
     first = ", ".join(filter(None, [label, "all orders"]))
     bold: dict[str, Any] = {"color": foreground(ax), "linewidth": 1.8}
     (look,) = series(ax, 1, bold | style)
@@ -165,7 +207,7 @@ def _cuts(
     _speed_axis(ax)
     before = max((float(np.max(line.get_ydata())) for line in ax.lines), default=0.0)
     from_zero(ax, before)
-    label_y(ax, "peak, N")
+    label_y(ax, f"peak, {drawn.unit}")
     if not total.any():
         note_zero(ax)
     add_legend(ax)
@@ -177,7 +219,7 @@ def _cuts(
 def _map(
     ax: Axes,
     result: MountResponse,
-    force: VectorQuantity,
+    drawn: Drawn,
     orders: tuple[Order, ...],
     label: str | None,
     style: dict[str, Any],
@@ -185,7 +227,7 @@ def _map(
     """Draw a row of cells for each order over speed; the modes' frequencies across them."""
     rpm = _speeds(result, "map", label)
     columns = np.argsort(rpm, kind="stable")
-    peaks = np.array([np.asarray(force[order].peak)[columns] for order in orders])
+    peaks = np.array([drawn.read(order)[columns] for order in orders])
     _speed_axis(ax)
     label_y(ax, "order")
     if not peaks.any():
@@ -202,7 +244,7 @@ def _map(
     mesh = ax.pcolormesh(rpm[columns], rows, np.maximum(cells, RANGE * largest), **options)
     natural, note = _natural(result)
     fine = np.linspace(max(float(rpm.min()), 1.0), float(rpm.max()), 400)
-    _bar_and_modes(ax, mesh, [(fine, 60.0 * each / fine) for each in natural], "black")
+    _bar_and_modes(ax, mesh, drawn.unit, [(fine, 60.0 * each / fine) for each in natural], "black")
     ax.set_xlim(float(rpm.min()), float(rpm.max()))
     ax.set_ylim(0.5 * step, rows[-1] + 0.5 * step)
     numeric(ax.yaxis, whole=True)
@@ -221,6 +263,8 @@ def _speeds(result: MountResponse, kind: str, label: str | None) -> NDArray[np.f
 
 def _natural(result: MountResponse) -> tuple[NDArray[np.float64], str]:
     """Return the natural frequencies above zero, Hz, and a note on the lines that are drawn."""
+    if isinstance(result.powertrain.support, Receptance):
+        return np.empty(0), ""
     varies = result.powertrain._varies
     frequency = result.powertrain.modes(AT if varies else None).frequency
     at = f", with the stiffness at {AT:g} Hz" if varies else ""
@@ -230,7 +274,7 @@ def _natural(result: MountResponse) -> tuple[NDArray[np.float64], str]:
 def _waterfall(
     ax: Axes,
     result: MountResponse,
-    force: VectorQuantity,
+    drawn: Drawn,
     orders: tuple[Order, ...],
     label: str | None,
     style: dict[str, Any],
@@ -242,7 +286,7 @@ def _waterfall(
         np.unique(np.linspace(0, len(first) - 1, min(MOST_SPECTRA, len(first))).round().astype(int))
     ]
     rpm = every[picked]
-    peaks = np.array([np.asarray(force[order].peak)[picked] for order in orders])
+    peaks = np.array([drawn.read(order)[picked] for order in orders])
     _speed_axis(ax)
     label_x(ax, "frequency, Hz")
     label_y(ax, "crank speed, rpm")
@@ -256,7 +300,7 @@ def _waterfall(
     tips = rpm + TALLEST * step * np.asarray(norm(peaks))
     natural, note = _natural(result)
     seen = frequency[frequency > 0.0]
-    left, right = 0.9 * min(float(seen.min()), *natural), 1.1 * float(seen.max())
+    left, right = 0.9 * min([float(seen.min()), *natural]), 1.1 * float(seen.max())
     base: dict[str, Any] = {"color": muted(ax, 0.2), "linewidth": 0.6, "zorder": 1}
     ax.hlines(rpm, left, right, **base)
     feet = np.broadcast_to(rpm, tips.shape)
@@ -271,7 +315,7 @@ def _waterfall(
     low, high = float(rpm[0]), float(tips.max())
     limits = low - 0.5 * step, high + 0.1 * (high - low)
     upright = [((each, each), limits) for each in natural if each < right]
-    _bar_and_modes(ax, stems, upright, muted(ax, 0.7))
+    _bar_and_modes(ax, stems, drawn.unit, upright, muted(ax, 0.7))
     _name_orders(ax, orders, peaks, np.stack([frequency[:, -1], tips[:, -1] + 0.2 * step]))
     ax.set_xscale("log")
     ax.set_xlim(left, right)
@@ -280,11 +324,11 @@ def _waterfall(
 
 
 def _bar_and_modes(
-    ax: Axes, peaks: ScalarMappable, modes: Sequence[tuple[Any, Any]], colour: ColorType
+    ax: Axes, peaks: ScalarMappable, unit: str, modes: Sequence[tuple[Any, Any]], colour: ColorType
 ) -> None:
     """Add the bar of the peaks' colours, and a dashed line, x and y, for each mode."""
     bar = ax.get_figure(root=False).colorbar(peaks, ax=ax, aspect=25, pad=0.02)  # type: ignore[union-attr]
-    label_bar(bar, "peak, N")
+    label_bar(bar, f"peak, {unit}")
     bar.outline.set_visible(False)
     look: dict[str, Any] = {"color": colour, "linewidth": 0.9, "linestyle": (0, (4, 2))}
     for along, height in modes:
@@ -307,13 +351,13 @@ def _name_orders(
 def _spectrum(
     ax: Axes,
     result: MountResponse,
-    force: VectorQuantity,
+    drawn: Drawn,
     orders: tuple[Order, ...],
     label: str | None,
     style: dict[str, Any],
 ) -> str:
     """Draw stems along x, y and z for each order."""
-    peaks: NDArray[np.float64] = np.array([force[order].peak_xyz for order in orders])
+    peaks: NDArray[np.float64] = np.array([drawn.read(order, "peak_xyz") for order in orders])
     peaks = peaks.reshape(-1, 3)
     places = np.array(orders, dtype=np.float64)
     width = 0.8 * float(np.min(np.diff(places), initial=1.0)) / 3.0
@@ -330,7 +374,7 @@ def _spectrum(
     numeric(ax.xaxis, whole=True)
     numeric(ax.yaxis)
     label_x(ax, "order")
-    label_y(ax, "peak, N")
+    label_y(ax, f"peak, {drawn.unit}")
     from_zero(ax, float(peaks.max(initial=0.0)))
     if not seen:
         note_zero(ax)

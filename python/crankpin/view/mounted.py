@@ -44,9 +44,7 @@ def figures(
         carries the mounts gives way.
     """
     at = speed(rpm)
-    if powertrain.support is not None:
-        hint = "a page has mounts on what does not move: give powertrain.on(None)"
-        raise inputs.faulty("support", "gives way", hint)
+    powertrain._core.require_ground()
     engine = powertrain.engine
     inputs.warn_of_units(mean_piston_speed(engine, at))
     modes = powertrain.modes(frequency)

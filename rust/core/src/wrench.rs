@@ -20,8 +20,8 @@ pub struct Torque {
     pub roll: Complex64,
     /// On the crank: peak phasor.
     pub crank: Complex64,
-    /// Σ|terms|.
-    pub size: f64,
+    /// Σ|terms| on the block and on the crank: a force at an arm turns the block alone.
+    pub sizes: [f64; 2],
 }
 
 /// Force, moment about a point, and torque of one order: peak phasors.
@@ -132,7 +132,7 @@ impl Torque {
         Self {
             roll: self.roll + other.roll,
             crank: self.crank + other.crank,
-            size: self.size + other.size,
+            sizes: [0, 1].map(|on| self.sizes[on] + other.sizes[on]),
         }
     }
 
@@ -141,7 +141,7 @@ impl Torque {
     pub fn scaled(&self, factor: f64) -> Self {
         // As of vectors.
         let [roll, crank] = [self.roll, self.crank].map(|t| t * factor + Complex64::default());
-        Self { roll, crank, size: self.size * factor }
+        Self { roll, crank, sizes: self.sizes.map(|size| size * factor) }
     }
 
     /// The larger of the two.
@@ -184,13 +184,13 @@ impl Wrench {
     pub fn snapped(&self, counts: [usize; 2], order: f64) -> Self {
         let [of_force, of_torque] = counts.map(|count| rounding(count, order));
         let vector = |vector: &Planar| vector.snapped(vector.size * of_force);
-        let torque = |phasor| snapped(phasor, self.torque.size * of_torque);
+        let [of_roll, of_crank] = self.torque.sizes.map(|size| size * of_torque);
         Self {
             force: vector(&self.force),
             moment: vector(&self.moment),
             torque: Torque {
-                roll: torque(self.torque.roll),
-                crank: torque(self.torque.crank),
+                roll: snapped(self.torque.roll, of_roll),
+                crank: snapped(self.torque.crank, of_crank),
                 ..self.torque
             },
         }
@@ -206,7 +206,7 @@ impl Wrench {
         moved.moment.add_scaled(&self.force.quarter_turned(), Complex64::new(-z, 0.0));
         let [force_x, force_y] = self.force.xy(0.0);
         moved.torque.roll -= force_y * x - force_x * y;
-        moved.torque.size += self.force.size * (x.abs() + y.abs());
+        moved.torque.sizes[0] += self.force.size * (x.abs() + y.abs());
         moved
     }
 }

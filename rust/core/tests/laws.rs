@@ -198,7 +198,7 @@ proptest! {
             let mut moment = [Complex64::default(); 2];
             let (mut roll, mut crank) = (Complex64::default(), Complex64::default());
             // Σ|terms| of force, moment (of its levers' two parts) and torque.
-            let mut terms = [0.0; 3];
+            let mut terms = [0.0; 4];
             for p in engine.stations() {
                 let (c, radius) = (p.cylinder, p.cylinder.crank_radius());
                 let proportions = c.proportions();
@@ -227,13 +227,17 @@ proptest! {
                 crank += torques.crank[0] * phase * weight;
                 terms[0] += size;
                 terms[1] += size * (p.z.abs() + reference.abs());
-                let larger = |of: &TorqueHarmonics| of.roll[0].norm().max(of.crank[0].norm());
-                terms[2] += larger(&torques) * weight * square;
+                let sizes = |of: &TorqueHarmonics| [&of.roll, &of.crank].map(|parts| parts[0].norm());
+                for (sum, size) in terms[2..].iter_mut().zip(sizes(&torques)) {
+                    *sum += size * weight * square;
+                }
                 let inertia = c.rod_inertia_excess();
                 let swing = harmonics::rod::torque(&proportions, &[n], &Cancel::new()).unwrap();
                 roll += swing.roll[0] * phase * inertia;
                 crank += swing.crank[0] * phase * inertia;
-                terms[2] += larger(&swing) * inertia.abs() * square;
+                for (sum, size) in terms[2..].iter_mut().zip(sizes(&swing)) {
+                    *sum += size * inertia.abs() * square;
+                }
             }
             let size = 2.0 * size(&engine);
             for (vector, expected) in [(Vector::Force, force), (Vector::Moment, moment)] {
@@ -248,9 +252,11 @@ proptest! {
             let rods = engine.stations().iter().filter(|p| p.cylinder.has_rod_inertia()).count();
             let loads = engine.stations().len() + engine.crank_unbalances().count();
             let factor = |loads: usize| (loads as f64 + 16.0 + 8.0 * f64::from(n)) * f64::EPSILON;
-            let factors = [factor(loads), factor(loads), factor(loads + rods)];
+            let of_torque = factor(loads + rods);
+            let factors = [factor(loads), factor(loads), of_torque, of_torque];
             let [force, moment] = VECTORS.map(|vector| balance.zero_bound(vector, k));
-            let bounds = [force, moment, balance.torque_zero_bound(Part::Whole, k)];
+            let [roll, crank] = balance.torque_zero_bounds(Part::Whole, k);
+            let bounds = [force, moment, roll, crank];
             for ((bound, terms), factor) in bounds.into_iter().zip(terms).zip(factors) {
                 prop_assert!((bound - terms * factor).abs() <= 1e-12 * terms * factor);
             }

@@ -91,11 +91,15 @@ impl OfBalance {
                     TORQUE => torque.roll,
                     _ => torque.crank,
                 };
+                let bound = |k| {
+                    let [of_roll, of_crank] = balance.torque_zero_bounds(Part::Whole, k);
+                    if quantity == TORQUE { of_roll } else { of_crank }
+                };
                 let phasors: Vec<_> =
                     balance.wrenches.iter().map(|wrench| of(&wrench.torque)).collect();
                 return Self {
                     turning: phasors.iter().map(|&p| [p, Complex64::default()]).collect(),
-                    bounds: all.map(|k| balance.torque_zero_bound(Part::Whole, k)).collect(),
+                    bounds: all.map(bound).collect(),
                     lengths: phasors.iter().map(|p| p.norm()).collect(),
                     phasors,
                 };

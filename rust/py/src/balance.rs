@@ -182,7 +182,9 @@ impl Balance {
     fn zero_bound<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let (balance, reading) = self.reading(name)?;
         let bounds = (0..balance.orders.len()).map(|k| match reading {
-            Reading::Torque { .. } => balance.torque_zero_bound(Part::Whole, k),
+            Reading::Torque { on_crank } => {
+                balance.torque_zero_bounds(Part::Whole, k)[usize::from(on_crank)]
+            }
             Reading::Vector(vector) => balance.zero_bound(vector, k),
         });
         frozen(py, bounds.collect::<Array1<_>>())

@@ -42,8 +42,8 @@ type Figures = (
 );
 /// Name, and at each frequency the displacement over the force at each coordinate.
 type Transfer = (String, Vec<Vec<[Complex64; 3]>>);
-/// Displacements by weight, torque and thrust, forces of the mounts by each, the margin of support, and the mounts at the
-/// corners of its polygon.
+/// Displacements by weight, torque and thrust, forces of all mounts by each, the margin of support, and the mounts at
+/// the corners of its polygon.
 type Static<'py> = ([[f64; 6]; 3], [Bound<'py, PyArray2<f64>>; 3], f64, Vec<usize>);
 /// Frequencies, shapes, energy and strain energy, then purity, loss factor and damped frequency, groups, and
 /// free motions in words.
@@ -51,20 +51,23 @@ type Modes<'py> = (
     Bound<'py, PyArray1<f64>>,
     [Bound<'py, PyArray2<f64>>; 3],
     [Bound<'py, PyArray1<f64>>; 3],
-    [usize; 6],
+    Vec<usize>,
     Vec<String>,
 );
-/// Directions of torque roll axis and elastic axis and the foot of that, distances of the mounts, and figures:
-/// angles of both to the crank, between them, distance, pitch, compliance.
-type RollAxes<'py> = ([[f64; 3]; 3], Bound<'py, PyArray1<f64>>, [f64; 6]);
+/// Direction and foot of an elastic axis; its angles to the crank and the torque roll axis, degrees, the distance from
+/// that, pitch, and compliance.
+type ElasticAxis = ([[f64; 3]; 2], [f64; 5]);
+/// Direction of the torque roll axis and its angle to the crank, distances of the mounts, and elastic axes with static
+/// and dynamic stiffness.
+type RollAxes<'py> = ([f64; 3], f64, Bound<'py, PyArray1<f64>>, [ElasticAxis; 2]);
 
 /// Frequencies, purity and least purity; least and largest frequencies by stiffness, mass and place of the
-/// CG; derivatives by that; corners of the least purity.
+/// CG; derivatives by that; factors of the stiffness of the mounts where purity is least.
 type Robustness<'py> = (
     Bound<'py, PyArray2<f64>>,
     [Bound<'py, PyArray2<f64>>; 3],
     Bound<'py, PyArray2<f64>>,
-    [Vec<[bool; 3]>; 6],
+    Vec<Vec<[f64; 3]>>,
 );
 /// Place and direction of actuators, their forces, and whether the engine's loads act.
 type PyDrive<'py> = (Vec<[[f64; 3]; 2]>, PyReadonlyArray2<'py, Complex64>, bool);
@@ -237,6 +240,12 @@ pub fn mount_stiffness(
     frozen(py, along.to_vec().into())
 }
 
+/// Rows of one length as an array.
+fn rows<'py>(py: Python<'py>, rows: &[Vec<f64>]) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let shape = (rows.len(), rows.first().map_or(0, Vec::len));
+    frozen(py, Array2::from_shape_fn(shape, |(row, column)| rows[row][column]))
+}
+
 /// A body on mounts.
 #[pyclass(frozen, module = "crankpin._core")]
 pub struct Powertrain(Arc<mounts::Powertrain>);
@@ -289,6 +298,29 @@ impl Powertrain {
         self.0.support().map(Support::of)
     }
 
+    /// Names of the mounts, and of a subframe's.
+    #[getter]
+    fn all_names(&self) -> Vec<String> {
+        self.0.all_names()
+    }
+
+    /// Rejects what gives way under the mounts.
+    fn require_ground(&self) -> PyResult<()> {
+        self.0.require_ground().or_raise()
+    }
+
+    /// Mass matrix and complex stiffness at a frequency, Hz, of the coordinates of one body or two.
+    fn matrices<'py>(
+        &self,
+        py: Python<'py>,
+        frequency: Option<f64>,
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<Complex64>>)> {
+        let (mass, stiffness) = mounts::matrices(&self.0, frequency).or_raise()?;
+        let mass = Array2::from_shape_fn(mass.shape(), |place| mass[place]);
+        let stiffness = Array2::from_shape_fn(stiffness.shape(), |place| stiffness[place]);
+        Ok((frozen(py, mass)?, frozen(py, stiffness)?))
+    }
+
     /// At rest, under gravity, a torque on the body about z, and a thrust at a place.
     #[pyo3(name = "static")]
     fn at_rest<'py>(
@@ -320,17 +352,13 @@ impl Powertrain {
 
     fn modes<'py>(&self, py: Python<'py>, frequency: Option<f64>) -> PyResult<Modes<'py>> {
         let found = mounts::modes(&self.0, frequency).or_raise()?;
-        let square = |matrix: &nalgebra::Matrix6<f64>| {
-            frozen(py, Array2::from_shape_fn((6, 6), |place| matrix[place]))
+        let square = |matrix: &nalgebra::DMatrix<f64>| {
+            frozen(py, Array2::from_shape_fn(matrix.shape(), |place| matrix[place]))
         };
-        let row = |values: [f64; 6]| frozen(py, Array1::from(values.to_vec()));
+        let row = |values: Vec<f64>| frozen(py, Array1::from(values));
         Ok((
             row(found.frequency)?,
-            [
-                square(&found.shapes)?,
-                square(&found.energy)?,
-                frozen(py, Array2::from(found.strain))?,
-            ],
+            [square(&found.shapes)?, square(&found.energy)?, rows(py, &found.strain)?],
             [row(found.purity)?, row(found.loss_factor)?, row(found.damped_frequency)?],
             found.group,
             found.free.iter().map(mounts::FreeMotion::in_words).collect(),
@@ -339,19 +367,13 @@ impl Powertrain {
 
     fn axes<'py>(&self, py: Python<'py>, frequency: Option<f64>) -> PyResult<RollAxes<'py>> {
         let found = mounts::axes(&self.0, frequency).or_raise()?;
-        let elastic = found.elastic;
-        Ok((
-            [found.torque_roll, elastic.direction, elastic.foot],
-            frozen(py, Array1::from(found.mount_distances))?,
-            [
-                found.torque_roll_deg,
-                elastic.angle_deg,
-                found.angle_deg,
-                found.distance,
-                elastic.pitch,
-                elastic.compliance,
-            ],
-        ))
+        let elastic = [found.elastic, found.dynamic].map(|one| {
+            let angles = [one.angle_deg, one.to_torque_roll_deg];
+            let figures = [angles[0], angles[1], one.distance, one.pitch, one.compliance];
+            ([one.direction, one.foot], figures)
+        });
+        let distances = frozen(py, Array1::from(found.mount_distances))?;
+        Ok((found.torque_roll, found.torque_roll_deg, distances, elastic))
     }
 
     fn robustness<'py>(
@@ -365,12 +387,11 @@ impl Powertrain {
         let found = interrupt::run(py, |cancel| {
             mounts::robustness(&self.0, &tolerances, frequency, cancel)
         })?;
-        let rows = |rows: &[[f64; 6]]| frozen(py, Array2::from(rows.to_vec()));
         Ok((
-            rows(&[found.frequency, found.purity, found.least_purity])?,
-            [rows(&found.by_stiffness)?, rows(&found.by_mass)?, rows(&found.by_cg)?],
-            rows(&found.cg_slope)?,
-            found.corner,
+            rows(py, &[found.frequency, found.purity, found.least_purity])?,
+            [rows(py, &found.by_stiffness)?, rows(py, &found.by_mass)?, rows(py, &found.by_cg)?],
+            rows(py, &found.cg_slope)?,
+            found.least_pure,
         ))
     }
 

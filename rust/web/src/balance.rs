@@ -48,9 +48,10 @@ fn in_json(found: &Balance, cancel: &Cancel) -> Result<Value> {
         }
         for (name, part) in torques(found) {
             let torque = found.torque(part, k);
+            let [of_roll, of_crank] = found.torque_zero_bounds(part, k);
             let value = json!({
                 "roll": pair(torque.roll), "crank": pair(torque.crank),
-                "zero_bound": found.torque_zero_bound(part, k),
+                "zero_bound": of_roll, "crank_zero_bound": of_crank,
             });
             entry.insert(name, value);
         }

@@ -1,6 +1,6 @@
 //! An engine's body on its mounts.
 
-use crankpin_core::mounts::{Mount, at_rest, modes};
+use crankpin_core::mounts::{at_rest, modes};
 use crankpin_core::{Error, Result};
 use serde_json::{Value, json};
 
@@ -16,14 +16,13 @@ pub fn mounts(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
     let gravity = arguments.or("gravity", [0.0, -9.806_65, 0.0])?;
     let torque = arguments.or("torque", 0.0)?;
     let thrust = arguments.or("thrust", [[0.0; 3]; 2])?;
-    let names: Vec<&str> = powertrain.mounts().iter().map(Mount::name).collect();
     let found = modes(&powertrain, frequency)?;
-    let columns = |matrix: &nalgebra::Matrix6<f64>| -> Vec<Vec<f64>> {
+    let columns = |matrix: &nalgebra::DMatrix<f64>| -> Vec<Vec<f64>> {
         matrix.column_iter().map(|column| column.iter().copied().collect()).collect()
     };
     let still = at_rest(&powertrain, gravity, torque, thrust)?;
     Ok(json!({
-        "mounts": names,
+        "mounts": powertrain.all_names(),
         "modes": {
             "frequency": found.frequency, "damped_frequency": found.damped_frequency,
             "loss_factor": found.loss_factor, "purity": found.purity, "shapes": columns(&found.shapes),

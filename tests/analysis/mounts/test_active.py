@@ -10,7 +10,7 @@ from typing import Any
 import crankpin as cp
 import numpy as np
 import pytest
-from crankpin.analysis.mounts.phasors import optimal
+from crankpin.analysis.mounts.phasors import least_largest, optimal
 from rederivation import active as again
 
 PRESETS = ("single", "i4", "v6-60", "v8-crossplane")
@@ -109,6 +109,83 @@ def test_phasors_are_optimal_within_their_bounds(seed: int) -> None:
     weight = effort * float(np.linalg.norm(effect, 2)) ** 2
     # The central path ends 1e-12 from the least; the dual is near the best to its square root.
     assert again.dual_gap(target.astype(complex), effect, bounds, weight, found) < 1e-10
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_the_largest_receiver_is_the_least_that_there_is(seed: int) -> None:
+    """Weights of the receivers give a bound from below, which the largest meets (Lawson)."""
+    draw = np.random.default_rng(seed)
+    widths = [int(draw.choice([1, 3])) for _ in range(draw.integers(2, 6))]
+    actuators, rows = int(draw.integers(1, 4)), sum(widths)
+    effect = draw.normal(size=(rows, actuators)) + 1j * draw.normal(size=(rows, actuators))
+    effect *= 10 ** draw.uniform(-6, 3)
+    target = (draw.normal(size=rows) + 1j * draw.normal(size=rows)).astype(complex)
+    target *= 10 ** draw.uniform(-3, 3)
+    free = np.linalg.lstsq(effect, -target, rcond=None)[0]
+    bounds = np.abs(free) * draw.uniform(0.3, 2.0, actuators)
+    if seed % 3:
+        bounds[:] = np.inf
+    start = optimal(target[None], effect[None], bounds[None], 0.0)
+    found = least_largest(target[None], effect[None], bounds[None], widths, start)[0]
+    assert (np.abs(found) <= bounds * (1 + 1e-9)).all()
+    groups = np.split(np.arange(rows), np.cumsum(widths)[:-1])
+
+    def sizes(phasors: np.ndarray) -> np.ndarray:
+        left = target + effect @ phasors
+        return np.array([np.linalg.norm(left[group]) for group in groups])
+
+    largest = sizes(found).max()
+    assert largest <= sizes(start[0]).max() * (1 + 1e-12)
+    # No convex combination of squares is larger at its own least.
+    weights = np.ones(len(groups)) / len(groups)
+    least = 0.0
+    for _ in range(400):
+        root = np.sqrt(np.repeat(weights, widths))
+        weighted = optimal((root * target)[None], (root[:, None] * effect)[None], bounds[None], 0.0)
+        each = sizes(weighted[0])
+        least = max(least, float(np.sqrt((weights * each**2).sum())))
+        weights = weights * each / (weights * each).sum()
+    assert least <= largest * (1 + 1e-6)
+    # Lawson's weights converge slowly.
+    assert largest <= least * (1 + 0.02) + 1e-12 * np.abs(target).max()
+
+
+def test_receivers_are_points_names_and_motions() -> None:
+    frequency = np.array([0.1, 1e4])
+    transfer = np.array([[[1e-7]], [[2e-7]], [[0.0]]]).reshape(3, 1)
+    rail = cp.Receptance(
+        [(P.names[0], "y")], (frequency, np.full((2, 1, 1), 1e-7 - 1e-9j)), {"rail": [transfer] * 2}
+    )
+    r = P.on(rail).response(3000.0, orders=[2])
+    c = r.cancel(HEAD, "rail")
+    # One force at one coordinate moves the rail: it is still.
+    assert c.residual[0] < 1e-9
+    assert c.receivers[0][0] == "rail"
+    assert c.forces == pytest.approx(r.cancel(HEAD, [r.at("rail")]).forces)
+    up = r.cancel(HEAD, {"up": ("rail", (0, 1, 0))})
+    assert up.forces == pytest.approx(c.forces)
+    raft = cp.Subframe(BODY.replace(mass=300.0), [m.replace(stiffness=1e6) for m in FOUR])
+    soft = P.on(raft).response(3000.0, orders=[2])
+    point = soft.at((0.1, -0.2, 0.1), on="support")
+    still = soft.cancel(HEAD, [(point, (0, 1, 0))])
+    assert still.residual[0] < 1e-9
+    moved = still.response.at((0.1, -0.2, 0.1), on="support").velocity[2]
+    assert abs(moved.y) < 1e-9 * abs(point.velocity[2].y)
+    mounts = P.response([800.0, 3000.0], orders=[2]).cancel([HEAD, SIDE], "mount_force")
+    least = mounts.before.cancel([HEAD, SIDE], "mount_force", norm="largest")
+    force = [max(v[2].peak[k] for v in c.response.mount_force.values())
+             for c in (mounts, least) for k in (0, 1)]  # fmt: skip
+    assert force[2] < force[0]
+    assert force[3] < force[1]
+    wrongs: list[tuple[dict[str, Any], str]] = [
+        ({"norm": "max"}, "norm = 'max'"),
+        ({"norm": "largest", "effort": 0.1}, r"effort = 0\.1"),
+    ]
+    for wrong, said in wrongs:
+        with pytest.raises(cp.InputError, match=said):
+            mounts.before.cancel(HEAD, "mount_force", **wrong)
+    with pytest.raises(cp.InputError, match="at = 'roof'"):
+        r.cancel(HEAD, ["roof"])
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -298,7 +375,7 @@ def test_largest_gain_of_an_inertial_actuator() -> None:
     assert "margin 6.021 dB" in f.table.note
     beyond = p.velocity_feedback(actuator, gain=5000.0)
     assert beyond.margin_db < 0.0
-    assert "UNSTABLE" in beyond.table.note
+    assert ", unstable: margin" in beyond.table.note
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -311,6 +388,98 @@ def test_largest_gain_is_that_of_routh(seed: int) -> None:
     )
     found = bouncing(*body).velocity_feedback(actuator).largest_gain
     assert found == pytest.approx(again.largest_gain(body, own), rel=1e-6)
+
+
+def growth(
+    p: cp.Powertrain, actuator: cp.Actuator, damping: np.ndarray, gain: float
+) -> tuple[float, float]:
+    """Return the largest real part of the roots of powertrain and actuator, over the frequency.
+
+    ``damping`` is the viscous one of each mount. Also the least distance to the axis of a root.
+    """
+    mass, stiffness = (np.array(each) for each in p._core.matrices(None))
+    count = len(mass)
+    rows = np.array(p._core.deflections())[:, :, :6]
+    viscous = np.zeros((count, count))
+    for row, along in zip(rows, damping, strict=True):
+        viscous[:6, :6] += row.T @ np.diag(along) @ row
+    assert count == 6
+    place = np.zeros(7)
+    place[:3] = actuator.direction
+    place[3:6] = np.cross(np.subtract(actuator.at, p.body.cg), actuator.direction)
+    both = place.copy()
+    both[6] = -1.0
+    moving, omega = float(actuator.mass or 0), 2 * np.pi * float(actuator.resonance or 0)
+    m, k, c = np.diag([0.0] * 6 + [moving]), np.zeros((7, 7)), np.zeros((7, 7))
+    m[:6, :6], k[:6, :6], c[:6, :6] = mass, stiffness.real, viscous
+    k += moving * omega**2 * np.outer(both, both)
+    c += 2.0 * actuator.damping_ratio * moving * omega * np.outer(both, both)
+    c += gain * np.outer(both, place)
+    inverse = np.linalg.inv(m)
+    whole = np.block([[np.zeros((7, 7)), np.eye(7)], [-inverse @ k, -inverse @ c]])
+    roots = np.linalg.eigvals(whole)
+    share = roots.real / np.abs(roots)
+    return float(share.max()), float(np.abs(share).min())
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_largest_gain_is_that_of_eigenvalues_or_nothing_damps_a_mode(seed: int) -> None:
+    """Systems of few values: of mounts and actuator all, some or none are damped."""
+    draw = np.random.default_rng(seed)
+    damping = draw.choice([0.0, 0.0, 60.0, 300.0], (4, 3)) * draw.choice([0.0, 1.0, 1.0])
+    mounts = [
+        mount.replace(damping=tuple(each), loss_factor=0.0, tilt_deg=draw.choice([0.0, 35.0]))
+        for mount, each in zip(FOUR, damping, strict=True)
+    ]
+    p = P.replace(mounts=mounts)
+    actuator = cp.Actuator(
+        "a",
+        tuple(draw.choice([0.0, 0.1, 0.2], 3)),
+        (*draw.choice([0.0, 1.0], 2), 1.0),
+        mass=draw.choice([1.0, 4.0]),
+        resonance=draw.choice([2.0, 5.0, 12.0]),
+        damping_ratio=draw.choice([0.0, 0.1, 0.4]),
+    )
+    try:
+        found = p.velocity_feedback(actuator)
+    except cp.InputError as error:
+        said = str(error)
+    else:
+        limit = found.largest_gain
+        assert growth(p, actuator, damping, 0.999 * limit)[0] < 0.0
+        assert growth(p, actuator, damping, 1.001 * limit)[0] > 0.0
+        return
+    assert said.startswith("nothing damps the mode at ")
+    # A root is on the axis without gain; where nothing is damped any gain makes one grow.
+    assert growth(p, actuator, damping, 0.0)[1] < 1e-9
+    if not damping.any() and actuator.damping_ratio == 0.0:
+        for gain in (1e-3, 1.0, 1e3):
+            assert growth(p, actuator, damping, gain)[0] > 0.0
+
+
+def test_feedback_asks_for_damping_of_what_it_drives() -> None:
+    bare = P.replace(mounts=[mount.replace(loss_factor=0.0) for mount in FOUR])
+    with pytest.raises(cp.InputError, match=r"^nothing damps the mode at .*damping_ratio"):
+        bare.velocity_feedback(SIDE.replace(resonance=4))
+    # The mounts' damping is enough, and so is damping along what it drives.
+    assert P.velocity_feedback(SIDE.replace(resonance=4)).largest_gain > 0.0
+    up = cp.Actuator("up", BODY.cg, (0, 1, 0), mass=2, resonance=4)
+    along = [mount.replace(loss_factor=(0, 0.1, 0)) for mount in FOUR]
+    assert P.replace(mounts=along).velocity_feedback(up).onset is not None
+
+
+def test_feedback_is_that_within_the_tables_of_stiffness() -> None:
+    frequency = np.array([1.0, 30.0, 200.0])
+    stiffness = np.multiply.outer(np.ones(3), np.array([1.5e5, 3e5, 1.2e5]) * (1 + 0.1j))
+    measured = [mount.replace(loss_factor=0.0, table=(frequency, stiffness)) for mount in FOUR]
+    actuator = SIDE.replace(resonance=4, damping_ratio=0.2)
+    plain = P.velocity_feedback(actuator)
+    found = P.replace(mounts=measured).velocity_feedback(actuator)
+    assert found.largest_gain == pytest.approx(plain.largest_gain, rel=1e-9)
+    assert "within the tables of stiffness, 1 to 200 Hz" in found.table.note
+    short = [mount.replace(table=(frequency[1:], stiffness[1:])) for mount in measured]
+    with pytest.raises(cp.InputError, match=r"^tables of stiffness have 30 to 200 Hz in common: "):
+        P.replace(mounts=short).velocity_feedback(actuator)
 
 
 # --- inputs ---------------------------------------------------------------------------------------

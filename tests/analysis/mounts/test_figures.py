@@ -72,6 +72,26 @@ def test_elastic_centre_of_inclined_mounts() -> None:
     assert 100.0 * (2.0 * math.pi * lateral) ** 2 == near(424432.58)
 
 
+def test_roll_stiffness_at_rest_and_in_motion_are_two_figures() -> None:
+    stiffer = [
+        mount.replace(dynamic_stiffness=1.4 * np.array(mount.stiffness)) for mount in four_mounts()
+    ]
+    p = PLAIN.replace(mounts=stiffer)
+    axes, turned = p.axes(), np.radians(p.static(-100.0).wind_up_deg[2])
+    assert axes.roll_stiffness == near(100.0 / turned, 1e-12)
+    assert axes.roll_stiffness == near(PLAIN.axes().roll_stiffness, 1e-12)
+    assert axes.dynamic_roll_stiffness == near(1.4 * axes.roll_stiffness, 1e-12)
+    # Of one mount alone: its height draws the elastic axis to it.
+    low = four_mounts()
+    low[0] = low[0].replace(dynamic_stiffness=[3 * k for k in low[0].stiffness])
+    axes = PLAIN.replace(mounts=low).axes()
+    assert axes.angle_deg == near(PLAIN.axes().angle_deg, 1e-9)
+    assert axes.dynamic_angle_deg > axes.angle_deg + 1.0
+    rows = axes.table["roll stiffness"].values
+    assert rows == (None, axes.roll_stiffness, axes.dynamic_roll_stiffness)
+    assert PLAIN.axes().dynamic_distance == PLAIN.axes().distance
+
+
 @pytest.mark.parametrize(
     ("products", "x"), [("tensor", 0.15094511), ("positive-integrals", -0.14645593)]
 )

@@ -99,7 +99,7 @@ def test_robustness() -> None:
     assert (r.least_purity <= r.purity).all()
     for mode in range(1, 7):
         mounts = [
-            mount.replace(stiffness=np.array(mount.stiffness) * r.corner(mode)[mount.name])
+            mount.replace(stiffness=np.array(mount.stiffness) * r.least_pure(mode)[mount.name])
             for mount in MOUNTS
         ]
         purity = P.replace(mounts=mounts).modes().purity[mode - 1]
@@ -120,3 +120,40 @@ def test_robustness() -> None:
     many = [MOUNTS[0].replace(name=f"{k}") for k in range(7)]
     with pytest.raises(cp.InputError, match=r"2 to the power of 21 corners.*corners=\"mounts\""):
         P.replace(mounts=[*many]).robustness()
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_purity_is_searched_within_the_tolerances(seed: int) -> None:
+    """Inside of the box it is less than at any corner, and no draw is less than what was found."""
+    draw = np.random.default_rng(seed)
+    r = P.robustness(stiffness=0.1)
+    least = np.full(6, np.inf)
+    for factor in draw.uniform(0.9, 1.1, (300, len(MOUNTS), 3)):
+        mounts = [m.replace(stiffness=f * m.stiffness) for m, f in zip(MOUNTS, factor, strict=True)]
+        least = np.minimum(least, P.replace(mounts=mounts).modes().purity)
+    # Of a search: half a point for bands narrower than its steps.
+    assert (r.least_purity <= least + 0.5).all()
+    for mode in range(1, 7):
+        factors = np.array([*r.least_pure(mode).values()])
+        assert (np.abs(factors - 1.0) <= 0.1 + 1e-12).all()
+
+
+def test_the_least_purity_is_inside_where_frequencies_approach_each_other() -> None:
+    """Lateral and bounce of one frequency, a little coupled: they mix, at corners they do not."""
+    body = cp.RigidBody(100.0, (0, 0, 0), (5, 6, 4))
+    mounts = [
+        cp.Mount(f"{x:+g} {z:+g}", (x, 0, z), (1e5, 1.001e5, 2e5), tilt_deg=1.0)
+        for x in (0.3, -0.3)
+        for z in (0.4, -0.4)
+    ]
+    p = cp.Powertrain(FIRED, body, mounts)
+    found = p.robustness(0.1, corners="axes")
+    corners = []
+    for signs in np.ndindex(2, 2):
+        factor = 1.0 + 0.1 * (2.0 * np.array([*signs, 0]) - 1.0)
+        each = [mount.replace(stiffness=factor * mount.stiffness) for mount in mounts]
+        corners.append(p.replace(mounts=each).modes().purity)
+    mixed = found.least_purity < np.min(corners, axis=0) - 20.0
+    assert mixed.any()
+    assert "least found %" in found.table.header
+    assert "search" in found.table.note

@@ -161,13 +161,40 @@ def test_ratios_a_roll_frequency_and_a_window_are_kept() -> None:
         assert new.tilt_deg == old.tilt_deg
 
 
+def test_bounds_are_those_of_each_mount_and_axis() -> None:
+    low = {mount.name: (1e5 + 1e4 * k, 2e5 + 1e4 * k) for k, mount in enumerate(P.mounts)}
+    first = P.mounts[0].name
+    bounds: dict[str, Any] = {
+        "stiffness": low | {first: [(3e5, 4e5), (5e4, 6e4), (7e4, 8e4)]},
+        "y": {first: 0.01},
+    }
+    d = cp.design_mounts(
+        P, vary={name: ["stiffness", "y"] if name == first else ["stiffness"] for name in P.names},
+        bounds=bounds, starts=1,
+    )  # fmt: skip
+    for mount in d.fitted.mounts:
+        ends = [low[mount.name]] * 3 if mount.name != first else bounds["stiffness"][first]
+        for stiffness, (least, most) in zip(mount.stiffness, ends, strict=True):
+            assert least * (1 - 1e-12) <= stiffness <= most * (1 + 1e-12)
+    assert abs(d.fitted.mounts[0].at[1] - P.mounts[0].at[1]) <= 0.01 + 1e-15
+
+
+def test_purity_is_an_objective() -> None:
+    d = cp.design_mounts(P, "purity", vary="y", bounds={"y": 0.12}, starts=2)
+    assert d.names[0] == "least purity %"
+    assert d.table["wanted"].values[0] == "most"
+    assert d.after[0] == d.fitted.modes().purity.min() > d.before[0] == P.modes().purity.min()
+
+
 def test_what_is_not_reached_is_said() -> None:
     d = cp.design_mounts(
         P, vary="stiffness", bounds={"stiffness": (2e5, 3e5)}, modes_between=(6, 7), starts=2
     )
     assert not d.reached
-    assert "NOT reached within these bounds:" in d.table.note
-    assert "NO" in d.table["reached"].values
+    assert "Not reached within these bounds:" in d.table.note
+    assert "no" in d.table["reached"].values
+    # What is required has limits, what is minimised a word, what is reported neither.
+    assert d.table["wanted"].values == ("least", "–", "–", "6 to 7", "6 to 7")
     d = cp.design_mounts(P, vary={"+0.22 +0.28": "stiffness"}, bounds={"stiffness": (2e5, 3e5)})
     assert d.after[0] > 1e-3
     assert d.fitted.mounts[1:] == P.mounts[1:]
@@ -220,7 +247,10 @@ TABLE = ([5.0, 50.0], np.full((2, 3), 1e5 + 1e4j))
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        ({"by": "purity"}, 'by = .purity.: give "decoupling"'),
+        ({"by": "mass"}, 'by = .mass.: give "decoupling", "purity"'),
+        ({"bounds": {"stiffness": {"+0.22 +0.28": (1e5, 2e5)}}}, "bounds.*: give that of"),
+        ({"bounds": {"stiffness": {"middle": (1e5, 2e5)}}}, "bounds.* = .middle.: give"),
+        ({"bounds": {"stiffness": [(1e5, 2e5), (1e5, 2e5)]}}, "three such pairs"),
         ({"by": []}, "by = "),
         ({"by": "mount_force[2]"}, "rpm = None: give the speeds"),
         ({"vary": "mass"}, "vary.*= .mass.: give"),

@@ -221,3 +221,69 @@ def test_fast_motion_is_that_of_a_free_body(seed: int) -> None:
     # Stiffness over inertia at 628 rad/s: six mounts of 1e3 N/m, half a metre off, 3 kg·m².
     assert moved.motion[0, 0] == pytest.approx(free, rel=0, abs=1e-2 * np.abs(free).max())
     assert np.abs(moved.motion[0, 0] - free).max() > 0.0
+
+
+# --- what is shown, and where the engine has no load ----------------------------------------------
+
+
+def test_a_shown_response_computes_what_it_shows(monkeypatch: pytest.MonkeyPatch) -> None:
+    r = random_case(1)[0].response(np.linspace(500, 6000, 20_000), rtol=1e-4)
+    counted = []
+    whole = cp._core.peaks_of_vectors
+
+    def counting(orders: list[float], rows: np.ndarray) -> np.ndarray:
+        counted.append(len(rows))
+        return whole(orders, rows)
+
+    monkeypatch.setattr("crankpin.analysis.mounts.vectors._core.peaks_of_vectors", counting)
+    vectors = 1 + len(r.mount_force)
+    for shown, rows in ((repr, 30), (lambda each: each._repr_html_(), 60)):
+        for result in (r, r[2], r.total):
+            counted.clear()
+            text = shown(result.frames if result is not r else result)
+            assert 0 < sum(counted) <= 3 * vectors * rows * len(r.orders)
+            assert f"{rows} of 20000 rows" in text
+    # What is shown is the beginning of the whole.
+    few = r.sel(rpm=500.0).powertrain.response(np.asarray(r.rpm)[:200], rtol=1e-4)
+    lines = repr(few).splitlines()
+    assert lines[2:20] == few.table.text().splitlines()[2:20]
+    assert len(few.table) == 200
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_there_is_a_ratio_only_where_the_engine_has_a_load(seed: int) -> None:
+    p, _ = random_case(seed)
+    p = p.replace(engine=cp.Engine.preset(("i4", "i6", "v8-crossplane", "single")[seed % 4]))
+    # Between two cranks of degrees rounding is never far.
+    for about in (None, (0.1, 0.05, p.engine.reference_z)):
+        r = p.response(3000.0, orders=[1, 2, 3, 4])
+        r = r if about is None else r.about(about)
+        load, ratio = np.abs(r.load), r.transmissibility
+        size = np.linalg.norm(load, axis=-1, keepdims=True)
+        assert (np.isnan(ratio) == (load == 0.0)).all()
+        # No load beside rounding of the others of its order.
+        assert (load[load > 0.0] > 1e-12 * np.broadcast_to(size, load.shape)[load > 0.0]).all()
+        known = ~np.isnan(ratio)
+        assert r.transmissibility_db[known] == pytest.approx(20.0 * np.log10(ratio[known]))
+        assert "T F_y dB" in r.frames["loads"].header or not known[:, 1].any()
+
+
+def test_free_motions_are_all_named() -> None:
+    p, _ = random_case(3)
+    loose = p.replace(mounts=[mount.replace(stiffness=(0, 1e5, 0)) for mount in p.mounts[:2]])
+    assert len(loose.modes().free) > 1
+    with pytest.warns(UserWarning, match="are free, as of a body") as warned:
+        loose.response(1000.0, orders=[1])
+    for words in loose.modes().free:
+        assert words in str(warned[0].message)
+
+
+def test_a_table_that_ends_says_which_argument_keeps_within_it() -> None:
+    p, _ = random_case(2)
+    table = ([1.0, 200.0], np.full((2, 3), 1e5 * (1 + 0.1j)))
+    measured = p.replace(
+        mounts=[m.replace(loss_factor=0, damping=0, table=table) for m in p.mounts]
+    )
+    with pytest.raises(cp.InputError, match=r"is outside: .*; extend the table, or give orders="):
+        measured.response(6000.0)
+    assert measured.response(6000.0, orders=[1, 2]).orders == (1, 2)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -13,8 +13,8 @@ from crankpin._support.frames import Frames, Tabled
 from crankpin._support.record import changed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.mounts.adaptive import AdaptiveLaw
-from crankpin.analysis.mounts.phasors import optimal
-from crankpin.analysis.mounts.response import MountResponse
+from crankpin.analysis.mounts.phasors import least_largest, optimal
+from crankpin.analysis.mounts.response import SUPPORT, MountResponse, PointMotion
 from crankpin.analysis.quantity import ALL
 from crankpin.model.actuators import Actuator
 from crankpin.model.mounts import _vector
@@ -63,7 +63,7 @@ class DrivenResponse(MountResponse):
         forces = np.reshape(np.asarray(self.forces, dtype=complex), (-1, len(places)))
         return ((places, np.ascontiguousarray(forces), self.engine_runs),)
 
-    def _of_speed(self, index: int) -> dict[str, Any]:
+    def _of_speed(self, index: int | slice) -> dict[str, Any]:
         return {"forces": self.forces[index]}
 
     def _of_order(self) -> dict[str, Any]:
@@ -93,6 +93,8 @@ class Cancellation(Tabled):
     """Orders that are cancelled."""
     effort: float = 0.0
     """Weight of the forces beside what is left."""
+    norm: Literal["rms", "largest"] = "rms"
+    """What of the receivers is minimised: the sum of squares, or the largest of them."""
     amplitude_error: float = 0.0
     """Share by which all forces are too large."""
     phase_error_deg: float = 0.0
@@ -108,12 +110,12 @@ class Cancellation(Tabled):
         effects = [_stacked(self._alone(one), self.receivers) for one in self.actuators]
         effect = np.stack(effects, axis=-1)
         bounds = np.stack([one.largest_force(self._frequency()) for one in self.actuators], -1)
-        found = optimal(
-            target.reshape(points, -1),
-            effect.reshape(points, -1, len(self.actuators)),
-            bounds.reshape(points, -1),
-            self.effort,
-        ).reshape(*shape, -1)
+        widths = [1 if direction else 3 for *_, direction in self.receivers]
+        rows = (target.reshape(points, -1), effect.reshape(points, -1, len(self.actuators)))
+        found = optimal(*rows, bounds.reshape(points, -1), self.effort)
+        if self.norm == "largest":
+            found = least_largest(*rows, bounds.reshape(points, -1), widths, found)
+        found = found.reshape(*shape, -1)
         error = (1.0 + self.amplitude_error) * np.exp(1j * np.radians(self.phase_error_deg))
         forces = np.zeros_like(found)
         forces[..., places, :] = found[..., places, :] * error
@@ -160,13 +162,21 @@ class Cancellation(Tabled):
     def residual(self) -> NDArray[np.float64]:
         """What is left at all receivers, over what there was: (…, n_orders).
 
-        Of each order that is cancelled; NaN where there was nothing.
+        Of each order that is cancelled; NaN where there was nothing. Of the norm ``"largest"`` the
+        largest of the receivers over the largest.
         """
         places = [self.before.orders.index(order) for order in self.orders]
         target, effect = self.__dict__["_target"], self.__dict__["_effect"]
         left = target + (effect @ self.forces[..., None])[..., 0]
-        ratio = _ratio(np.linalg.norm(left, axis=-1), np.linalg.norm(target, axis=-1))
-        return read_only(ratio[..., places])
+        return read_only(_ratio(self._size(left), self._size(target))[..., places])
+
+    def _size(self, values: NDArray[np.complex128]) -> NDArray[np.float64]:
+        """Return what is minimised of phasors of the receivers side by side: (…, n_orders)."""
+        if self.norm == "rms":
+            return np.asarray(np.linalg.norm(values, axis=-1))
+        ends = np.cumsum([1 if direction else 3 for *_, direction in self.receivers])
+        parts = np.split(values, ends[:-1], axis=-1)
+        return np.asarray(np.max([np.linalg.norm(part, axis=-1) for part in parts], axis=0))
 
     @property
     def used(self) -> NDArray[np.float64]:
@@ -434,6 +444,7 @@ def cancel(
     orders: Orders | None,
     watch: object,
     effort: float,
+    norm: str,
 ) -> Cancellation:
     """Return the cancellation; :meth:`MountResponse.cancel` documents the arguments."""
     listed = [actuators] if isinstance(actuators, Actuator) else actuators
@@ -449,6 +460,9 @@ def cancel(
     weight = inputs.finite("effort", effort)
     if weight < 0.0:
         raise inputs.rejected("effort", effort, "give zero or more")
+    inputs.one_of("norm", norm, ("rms", "largest"))
+    if norm == "largest" and weight > 0.0:
+        raise inputs.rejected("effort", effort, 'is that of the norm "rms"; leave it out')
     chosen = list(response.orders)
     if orders is not None and (wanted := inputs.half_orders(orders)) is not None:
         chosen = [order for order in response.orders if order in wanted]
@@ -457,26 +471,38 @@ def cancel(
             raise inputs.rejected("orders", absent[0], hint)
     receivers = _places("at", at, response)
     watched = () if watch is None else _places("watch", watch, response)
-    return Cancellation(response, tuple(given), receivers, watched, tuple(chosen), weight)
+    shared = (response, tuple(given), receivers, watched, tuple(chosen), weight)
+    return Cancellation(*shared, norm)  # type: ignore[arg-type] # checked
 
 
 def _places(name: str, given: object, response: MountResponse) -> tuple[Place, ...]:
     """Return points, with their directions, or forces by name."""
+    points = tuple(dict(getattr(response.powertrain.support, "receivers", None) or ()))
     if isinstance(given, str):
-        if inputs.one_of(name, given, FORCES) == "body_force":
-            return (("body", ("support",), None),)
-        names = response.powertrain.names
-        return tuple((f"mount {each}", ("mount", k), None) for k, each in enumerate(names))
-    hint = 'give points (x, y, z), or pairs of a point and a direction; or "body_force"'
+        names, chosen = response.powertrain.names, inputs.one_of(name, given, (*FORCES, *points))
+        forces: dict[str, tuple[Place, ...]] = {
+            "body_force": (("body", ("support",), None),),
+            "mount_force": tuple((f"mount {n}", ("mount", k), None) for k, n in enumerate(names)),
+        }
+        if chosen in forces:
+            return forces[chosen]
+        given = [given]
+    hint = (
+        "give points (x, y, z), names of receivers, motions of response.at(…), or pairs of one of "
+        'these and a direction; or "body_force"'
+    )
+    given = [given] if isinstance(given, PointMotion) else given
     if isinstance(given, Mapping):
         pairs = [(inputs.text(name, key), value) for key, value in given.items()]
     else:
         pairs = [("", value) for value in inputs.items(name, given, hint)]
-        if pairs and all(np.ndim(value) == 0 for _, value in pairs):
+        if pairs and all(np.isscalar(one) and not isinstance(one, str) for _, one in pairs):
             pairs = [("", [value for _, value in pairs])]
     places: list[Place] = []
     for key, value in pairs:
-        parts = inputs.items(name, value, hint)
+        parts: Any = (
+            [value] if isinstance(value, str | PointMotion) else inputs.items(name, value, hint)
+        )
         along = None
         if len(parts) == 2:
             direction = np.array(_vector(f"{name}: direction", parts[1]))
@@ -484,9 +510,19 @@ def _places(name: str, given: object, response: MountResponse) -> tuple[Place, .
             if length == 0.0:
                 raise inputs.rejected(f"{name}: direction", parts[1], "give one above zero")
             parts, along = parts[0], tuple((direction / length).tolist())
-        point = _vector(name, parts)
-        words = key or "({:g}, {:g}, {:g})".format(*point)
-        places.append((words, ("at", point, "powertrain", "velocity"), along))
+        point, on = _point(name, parts, points)
+        words = point if isinstance(point, str) else "({:g}, {:g}, {:g})".format(*point)
+        places.append((key or words, ("at", point, on, "velocity"), along))
     if not places:
         raise inputs.rejected(name, [], hint)
     return tuple(places)
+
+
+def _point(name: str, given: Any, points: tuple[str, ...]) -> tuple[Any, str]:  # noqa: ANN401 - checked here
+    """Return a place or the name of a receiver, and what it moves with."""
+    one = given[0] if isinstance(given, list) and len(given) == 1 else given
+    if isinstance(one, PointMotion):
+        return one.point, one.on
+    if isinstance(one, str):
+        return inputs.one_of(name, one, points), SUPPORT
+    return _vector(name, given), "powertrain"

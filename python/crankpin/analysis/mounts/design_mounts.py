@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 
 KINDS = ("stiffness", "tilt_deg", "x", "y", "z")
 """What may vary of a mount."""
+PAIRS = "give lowest and highest, or three such pairs, one for each axis"
 FORCE = re.compile(r"(mount_force|body_force)\[(\d+(?:\.[05])?)\]")
 """Objective of an order."""
 POWER = 8.0
@@ -69,7 +70,9 @@ class MountDesign(Tabled):
     after: tuple[float, ...]
     """Their values of the design."""
     limits: tuple[tuple[float, float] | None, ...]
-    """Lowest and highest value that a requirement allows; None of an objective."""
+    """Lowest and highest value that a requirement allows; None of others."""
+    wanted: tuple[str, ...]
+    """``"least"`` or ``"most"`` of an objective; empty of what is required or reported alone."""
     method: str
     """How it was computed, in words."""
     starts: int
@@ -97,16 +100,17 @@ class MountDesign(Tabled):
     def table(self) -> Table:
         """Objectives and requirements, before and after."""
         met = self._met()
-        wanted = [
-            "least" if each is None else f"{each[0]:g} to {each[1]:g}" for each in self.limits
-        ]
+        wanted = tuple(
+            f"{each[0]:g} to {each[1]:g}" if each else word or "–"
+            for each, word in zip(self.limits, self.wanted, strict=True)
+        )
         reached = tuple(
-            "–" if each is None else "yes" if good else "NO"
+            "–" if each is None else "yes" if good else "no"
             for each, good in zip(self.limits, met, strict=True)
         )
         columns = (
             Column("of", self.names),
-            Column("wanted", tuple(wanted)),
+            Column("wanted", wanted),
             Column("before", self.before),
             Column("after", self.after),
             Column("reached", reached),
@@ -116,8 +120,9 @@ class MountDesign(Tabled):
         if self.starts > 1:
             note += f" {self.equally_good} of {self.starts} starts came to a design as good."
         if missed:
-            note += f" NOT reached within these bounds: {', '.join(missed)}."
-        title = f"{labels.name_of(self.powertrain.engine)}: design of its mounts"
+            note += f" Not reached within these bounds: {', '.join(missed)}."
+        name, carried = labels.name_of(self.powertrain.engine), self.powertrain._carried
+        title = f"{name}: design of its mounts{carried}"
         units = tuple(name.rpartition(" ")[2] for name in self.names)
         return Table(title, columns, note, self.loads_counted, units)
 
@@ -191,22 +196,25 @@ def design_mounts(
         The powertrain to start from.
     by : str or sequence of str, default "decoupling"
         What is minimised: ``"decoupling"``, the part of the mounts' reaction to a roll about the
-        torque roll axis that is no torque of the crank, 0 to 1; and ``"mount_force[2]"`` or
-        ``"body_force[0.5]"``, the largest force of an order at the speeds ``rpm``. Of several the
-        sum counts, each force over that of the powertrain as it was.
+        torque roll axis that is no torque of the crank, 0 to 1, of mounts on what does not move;
+        ``"mount_force[2]"`` or ``"body_force[0.5]"``, the largest force of an order at the speeds
+        ``rpm``; and ``"purity"``, of the least pure mode what lacks to 100 %. Of several the sum
+        counts, each force over that of the powertrain as it was.
     vary : mapping of str to sequence of str, sequence of str or str
         Name of a mount → what varies of it, among ``"stiffness"``, ``"tilt_deg"``, ``"x"``,
         ``"y"`` and ``"z"``; without names of every mount.
     bounds : mapping of str
-        ``"stiffness"``: lowest and highest dynamic stiffness of each axis, N/m; of others how far
-        they may be from where they are: ``{"y": 0.03, "tilt_deg": 15}``, m and degrees.
+        ``"stiffness"``: lowest and highest dynamic stiffness of each axis, N/m, or three such
+        pairs; of others how far they may be from where they are: ``{"y": 0.03, "tilt_deg": 15}``, m
+        and degrees. A mapping of names gives each mount its own:
+        ``{"stiffness": {"left": (5e4, 3e5), "right": (5e4, 6e5)}}``.
     ratio : pair of float, optional
         Lowest and highest stiffness of the first axis (compression) over that of the other two
         (shear) that a rubber maker can build, such as ``(3, 10)``.
     roll_frequency : float, optional
         Frequency of roll about the torque roll axis, Hz; by default that which it has.
     modes_between : pair of float, optional
-        Lowest and highest frequency for all six modes, Hz: a requirement.
+        Lowest and highest frequency for all modes, Hz, a subframe's too: a requirement.
     rpm : array_like, optional
         Crank speeds of the forces; required with them.
     starts : int, default 8
@@ -277,6 +285,8 @@ class Question:
         if not self.objectives:
             raise inputs.rejected("by", by, 'give "decoupling" or a force such as "mount_force[2]"')
         self.rpm = None if rpm is None else inputs.vector("rpm", rpm)
+        if ("decoupling", None) in self.objectives:
+            powertrain._core.require_ground()
         if self.rpm is None and any(order is not None for _, order in self.objectives):
             raise inputs.rejected("rpm", None, "give the speeds at which forces count")
         self.varied = self._varied(vary)
@@ -338,15 +348,29 @@ class Question:
         for place, kind in self.varied:
             if kind not in bounds:
                 raise inputs.rejected("bounds", [*bounds], f"it varies, so give {kind!r} too")
-            mount, given = self.powertrain.mounts[place], bounds[kind]
+            mount, given, argument = (
+                self.powertrain.mounts[place],
+                bounds[kind],
+                f"bounds[{kind!r}]",
+            )
+            if isinstance(given, Mapping):
+                for name in given:
+                    inputs.one_of(argument, name, self.powertrain.names)
+                if mount.name not in given:
+                    raise inputs.rejected(argument, [*given], f"give that of {mount.name!r} too")
+                given, argument = given[mount.name], f"{argument}[{mount.name!r}]"
             if kind == "stiffness":
-                least, most = _range("bounds['stiffness']", given)
+                each = [given] * 3 if np.ndim(given) == 1 else inputs.items(argument, given, PAIRS)
+                if len(each) != 3:
+                    raise inputs.rejected(argument, given, PAIRS)
+                pairs = [_range(argument, pair) for pair in each]
                 start += list(_dynamic(mount))
-                low, high = low + [least] * 3, high + [most] * 3
+                low += [least for least, _ in pairs]
+                high += [most for _, most in pairs]
                 continue
-            reach = inputs.finite(f"bounds[{kind!r}]", given)
+            reach = inputs.finite(argument, given)
             if reach < 0.0:
-                raise inputs.rejected(f"bounds[{kind!r}]", given, "give zero or more: how far")
+                raise inputs.rejected(argument, given, "give zero or more: how far")
             own = mount.tilt_deg or 0.0 if kind == "tilt_deg" else mount.at["xyz".index(kind)]
             start.append(float(own))
             low.append(float(own) - reach)
@@ -432,11 +456,17 @@ class Question:
         """Return the objectives as the optimiser sees them."""
         found = []
         for name, order in self.objectives:
-            if order is None:
+            if name == "purity":
+                lacks = 1.0 - self._purities(powertrain) / 100.0
+                found.append(float((np.abs(lacks) ** POWER).mean() ** (1.0 / POWER)))
+            elif order is None:
                 found.append(float((self.coupling(powertrain) ** 2).sum()))
             else:
                 found.append(self._force(powertrain, name, order, smooth=True))
         return found
+
+    def _purities(self, powertrain: Powertrain) -> Real:
+        return powertrain.modes(self._at_frequency()).purity
 
     def _modes(self, powertrain: Powertrain) -> Real:
         return powertrain.modes(self._at_frequency()).frequency
@@ -583,8 +613,13 @@ class Question:
         names: list[str] = []
         limits: list[tuple[float, float] | None] = []
         pairs: list[tuple[float, ...]] = []
+        wanted = ["most" if name == "purity" else "least" for name, _ in self.objectives]
         for name, order in self.objectives:
-            if order is None:
+            if name == "purity":
+                names.append("least purity %")
+                both = (self.powertrain, fitted)
+                pairs.append(tuple(float(self._purities(each).min()) for each in both))
+            elif order is None:
                 names.append("decoupling")
                 pairs.append(tuple(self._share(each) for each in (self.powertrain, fitted)))
             else:
@@ -626,6 +661,7 @@ class Question:
             before,
             after,
             tuple(limits),
+            (*wanted, *[""] * (len(names) - len(wanted))),
             method,
             starts,
             good,
@@ -671,9 +707,12 @@ def _within(value: float, limits: tuple[float, float]) -> bool:
 
 def _objective(text: object) -> Objective:
     """Return the name and the order of an objective."""
-    hint = 'give "decoupling", or a force of an order such as "mount_force[2]" or "body_force[0.5]"'
-    if text == "decoupling":
-        return ("decoupling", None)
+    hint = (
+        'give "decoupling", "purity", or a force of an order such as "mount_force[2]" or '
+        '"body_force[0.5]"'
+    )
+    if isinstance(text, str) and text in ("decoupling", "purity"):
+        return (text, None)
     found = FORCE.fullmatch(text) if isinstance(text, str) else None
     if found is None:
         raise inputs.rejected("by", text, hint)

@@ -2,8 +2,9 @@
 
 A motor between the powertrain and a sprung mass pushes with −g·v on the one and +g·v on the other.
 With the receptance h at its place, κ the spring and damper of the mass m, the velocity of 1 N of
-the motor is T = iωh/(1 − κ/(mω²) + κh). Without gain all is stable; roots reach the imaginary axis
-first at the least g = −1/T where T is real and below zero (Nyquist).
+the motor is T = iωh/(1 − κ/(mω²) + κh). Where every mode that the motor drives is damped, all is
+stable without gain, and roots reach the imaginary axis first at the least g = −1/T where T is real
+and below zero (Nyquist). Where one is not, it starts on that axis and the limit is no such point.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs
 from crankpin._support.frames import Tabled
 from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
@@ -23,6 +24,7 @@ from crankpin.model.actuators import Actuator
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from crankpin._core import InputError
     from crankpin.analysis.mounts.powertrain import Powertrain
 
 REACH = 30.0
@@ -33,6 +35,12 @@ BESIDE = np.geomspace(1e-6, 0.3, 60)
 """Distances from each mode, over its frequency, at which more are taken."""
 HALVINGS = 60
 """Halvings of a bracket: to the last digit."""
+ROUNDING = 1e-12
+"""Share by which the ends of a table are left, for rounding of angular speeds."""
+UNDAMPED = 1e-12
+"""Loss factor below which rounding makes it, and nothing damps a mode."""
+UNMOVED = 1e-9
+"""Motion of the actuator's place in a mode, over that of the free body, below which it is none."""
 
 
 class VelocityFeedback(Tabled):
@@ -49,19 +57,84 @@ class VelocityFeedback(Tabled):
     """Gain, N·s/m; None for half of the largest."""
 
     def __post_init__(self) -> None:
-        modes = self.powertrain.modes(self.actuator.resonance if self.powertrain._varies else None)
-        own = [
-            *modes.frequency[modes.frequency > 0.0].tolist(),
-            float(self.actuator.resonance or 0),
-        ]
+        low, high = self._range()
+        resonance = float(self.actuator.resonance or 0.0)
+        at = float(np.clip(resonance, low, high))
+        modes = self.powertrain.modes(at if self.powertrain._varies else None)
+        self._require_damping(at)
+        own = [*modes.frequency[modes.frequency > 0.0].tolist(), resonance]
         grid = np.geomspace(min(own) / REACH, max(own) * REACH, POINTS)
         beside = np.multiply.outer(own, np.concatenate([1.0 - BESIDE, 1.0 + BESIDE]))
         grid = np.unique(np.concatenate([grid, beside.ravel()]))
+        is_cut = low > grid[0] or high < grid[-1]
+        grid = grid[(grid >= low) & (grid <= high)]
+        if not grid.size:
+            raise self._beyond(low, high)
         mobility = self._mobility(grid)
         largest, onset = self._margin(grid, mobility)
-        values = {"_modes": own[:-1], "_grid": grid, "_on_grid": mobility}
+        if is_cut and onset is None:
+            raise self._beyond(low, high)
+        known = [f for f in own[:-1] if low <= f <= high]
+        values = {
+            "_modes": known,
+            "_grid": grid,
+            "_on_grid": mobility,
+            "_cut": (low, high) if is_cut else None,
+        }
         self.__dict__.update(values, _largest=largest, _onset=onset)
         super().__post_init__()
+
+    def _range(self) -> tuple[float, float]:
+        """Return the frequencies that all tables of stiffness have, Hz."""
+        support: Any = self.powertrain.support
+        mounts = (*self.powertrain.mounts, *getattr(support, "mounts", ()))
+        tables = [mount.table[0] for mount in mounts if mount.table is not None]
+        ends = [(table[0], table[-1]) for table in tables] or [(0.0, np.inf)]
+        # Within, where rounding of an angular speed leaves them.
+        inside = max(low for low, _ in ends), min(high for _, high in ends)
+        return inside[0] * (1.0 + ROUNDING), inside[1] * (1.0 - ROUNDING)
+
+    def _beyond(self, low: float, high: float) -> InputError:
+        """Return the error of tables that do not reach to where roots turn."""
+        at = f"{self.actuator.resonance:g} Hz"
+        hint = (
+            "no gain is a limit there, and it is that of frequencies near or below the actuator's "
+            f"resonance, {at}: extend the tables, or give an actuator of another resonance"
+        )
+        return inputs.faulty("tables of stiffness", f"have {low:g} to {high:g} Hz in common", hint)
+
+    def _require_damping(self, frequency: float) -> None:
+        """Reject a mode of powertrain and actuator that the motor drives and nothing damps."""
+        one, powertrain = self.actuator, self.powertrain
+        mass, stiffness = powertrain._core.matrices(frequency)
+        count = len(mass)
+        place = np.zeros(count + 1)
+        arm = np.subtract(one.at, powertrain.body.cg)
+        place[:6] = *one.direction, *np.cross(arm, one.direction)
+        stretched = place.copy()
+        stretched[count] = -1.0
+        moving, omega = float(one.mass or 0.0), 2.0 * np.pi * float(one.resonance or 0.0)
+        elastic, damping = (moving * omega**2 * np.outer(stretched, stretched) for _ in "12")
+        elastic[:count, :count] += stiffness.real
+        damping *= 2.0 * one.damping_ratio * frequency * 2.0 * np.pi / omega
+        damping[:count, :count] += stiffness.imag
+        masses = np.diag(np.full(count + 1, moving))
+        masses[:count, :count] = mass
+        unit = np.linalg.inv(np.linalg.cholesky(masses)).T
+        squares, turns = np.linalg.eigh(unit.T @ elastic @ unit)
+        reach = float(np.linalg.norm(unit.T @ place))
+        for square in squares[squares > UNDAMPED * squares[-1]]:
+            # Of modes of one frequency any mixture is a mode.
+            shapes = unit @ turns[:, np.abs(squares - square) <= UNMOVED * square]
+            losses, mixtures = np.linalg.eigh(shapes.T @ damping @ shapes)
+            free = shapes @ mixtures[:, losses <= UNDAMPED * square]
+            if np.abs(place @ free).max(initial=0.0) > UNMOVED * reach:
+                hint = (
+                    "a limit of gain is that of a powertrain and actuator that are stable without: "
+                    "give mounts a loss_factor or damping, and the actuator a damping_ratio"
+                )
+                what = f"damps the mode at {np.sqrt(square) / (2.0 * np.pi):.5g} Hz"
+                raise inputs.faulty("nothing", what, hint)
 
     def _mobility(self, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
         """Return the velocity of 1 N of the motor, at frequencies."""
@@ -98,7 +171,10 @@ class VelocityFeedback(Tabled):
 
     @property
     def largest_gain(self) -> float:
-        """Gain from which on it is unstable, N·s/m; infinite if it is stable at any."""
+        """Gain from which on it is unstable, N·s/m; infinite if it is stable at any.
+
+        Of mounts with tables it is that within their frequencies.
+        """
         return self.__dict__["_largest"]  # type: ignore[no-any-return]
 
     @property
@@ -116,7 +192,7 @@ class VelocityFeedback(Tabled):
     @property
     def margin_db(self) -> float:
         """Largest gain over the gain, dB; below zero it is unstable."""
-        if self.used_gain == 0.0:
+        if self.used_gain == 0.0 or not np.isfinite(self.largest_gain):
             return np.inf
         return float(20.0 * np.log10(self.largest_gain / self.used_gain))
 
@@ -162,15 +238,14 @@ class VelocityFeedback(Tabled):
             Column("with/without", tuple(ratios)),
         )
         onset = "" if self.onset is None else f", where {self.onset:.5g} Hz grows"
-        state = "stable" if self.margin_db > 0.0 else "UNSTABLE"
+        state = "stable" if self.margin_db > 0.0 else "unstable"
+        if (cut := self.__dict__["_cut"]) is not None:
+            onset += f", within the tables of stiffness, {cut[0]:g} to {cut[1]:g} Hz"
         note = (
             f"Gain {self.used_gain:.6g} N·s/m, {state}: margin {self.margin_db:.4g} dB to "
             f"{self.largest_gain:.6g} N·s/m{onset}."
         )
-        title = (
-            f"{labels.name_of(self.powertrain.engine)} on its mounts: velocity fed back through "
-            f"{self.actuator.name!r}"
-        )
+        title = f"{self.powertrain._title}: velocity fed back through {self.actuator.name!r}"
         return Table(title, columns, note)
 
 

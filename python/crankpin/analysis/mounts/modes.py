@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._support import labels
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.record import read_only
@@ -23,10 +22,12 @@ COORDINATES = ("fore-aft", "lateral", "bounce", "roll", "pitch", "yaw")
 """Names of the motions along z, x and y, and about z, x and y."""
 PLACES = (2, 0, 1, 5, 3, 4)
 """Their places in (displacement along x, y, z, rotation about x, y, z)."""
+OF_SUBFRAME = "subframe"
+"""What carries the mounts, as a column."""
 
 
 class MountModes(Tabled):
-    """Six natural modes of a powertrain on its mounts.
+    """Natural modes of a powertrain on its mounts: six, or twelve with the subframe under them.
 
     Modes whose frequencies agree within rounding form a group, of which only the sum of energies
     is defined: each has the mean of its group. Motions that no mount resists have a frequency of
@@ -57,12 +58,17 @@ class MountModes(Tabled):
 
     @property
     def shapes(self) -> NDArray[np.float64]:
-        """Displacement of the CG and rotation, of unit mass, a column each: (n_axes, n_modes)."""
+        """Displacement of the CG and rotation, of unit mass, a column each: (n_axes, n_modes).
+
+        On a subframe those of its own CG follow: twelve rows.
+        """
         return self.__dict__["_shapes"]  # type: ignore[no-any-return]
 
     @property
     def energy(self) -> NDArray[np.float64]:
         """Kinetic energy of each mode along x, y, z and about x, y, z, %: (n_axes, n_modes).
+
+        Of a subframe, as in ``shapes``, six more.
 
         100 φₖ (Mφ)ₖ: columns sum to 100, and entries can be below zero where the tensor of inertia
         has products. Another definition, by diagonal entries of M alone, differs by several
@@ -72,8 +78,19 @@ class MountModes(Tabled):
 
     @property
     def strain(self) -> NDArray[np.float64]:
-        """Share of each mount in the elastic energy of each mode, %: (n_mounts, n_modes)."""
+        """Share of each mount in the elastic energy of each mode, %: (n_mounts, n_modes).
+
+        Mounts of a subframe follow those of the powertrain.
+        """
         return self.__dict__["_strain"]  # type: ignore[no-any-return]
+
+    @property
+    def subframe_share(self) -> NDArray[np.float64]:
+        """Share of a subframe in the kinetic energy of each mode, %: (n_modes,).
+
+        The rest is that of the powertrain; zero without a subframe.
+        """
+        return read_only(self.energy[6:].sum(axis=0))
 
     @property
     def purity(self) -> NDArray[np.float64]:
@@ -98,7 +115,8 @@ class MountModes(Tabled):
         """Numbers of the modes of equal frequency, from 1, as tuples of one or more."""
         group: tuple[int, ...] = self.__dict__["_group"]
         return tuple(
-            tuple(k + 1 for k in range(6) if group[k] == first) for first in sorted({*group})
+            tuple(k + 1 for k, own in enumerate(group) if own == first)
+            for first in sorted({*group})
         )
 
     @property
@@ -109,7 +127,9 @@ class MountModes(Tabled):
     @property
     def dominant(self) -> tuple[str, ...]:
         """Coordinate with the largest share in the kinetic energy of each mode."""
-        return tuple(COORDINATES[k] for k in self.energy[list(PLACES)].argmax(axis=0))
+        names = (*COORDINATES, *(f"{OF_SUBFRAME} {name}" for name in COORDINATES))
+        places = [first + place for first in range(0, len(self.energy), 6) for place in PLACES]
+        return tuple(names[k] for k in self.energy[places].argmax(axis=0))
 
     def _notes(self) -> str:
         notes = [f"No mount resists: {'; '.join(self.free)}."] if self.free else []
@@ -123,19 +143,21 @@ class MountModes(Tabled):
 
     def _title(self, of: str) -> str:
         at = "" if self.at_frequency is None else f" at {self.at_frequency:g} Hz"
-        return (
-            f"{labels.name_of(self.powertrain.engine)} on its mounts: {of}; dynamic stiffness{at}"
-        )
+        return f"{self.powertrain._title}: {of}; dynamic stiffness{at}"
 
     def _by_mode(self) -> list[Column]:
-        return [Column("mode", tuple(range(1, 7))), Column("f", self.frequency, "Hz")]
+        return [
+            Column("mode", tuple(range(1, len(self.frequency) + 1))),
+            Column("f", self.frequency, "Hz"),
+        ]
 
     @property
     def table(self) -> Table:
         """Frequencies, kinetic energy by coordinate, purity, loss factors."""
         columns = self._by_mode()
-        for name, place in zip(COORDINATES, PLACES, strict=True):
-            columns.append(Column(name, self.energy[place], "%", decimals=1))
+        columns += self._shares(0)
+        if len(self.energy) > 6:
+            columns.append(Column(OF_SUBFRAME, self.subframe_share, "%", decimals=1))
         columns.append(Column("purity", self.purity, "%", decimals=1))
         columns.append(Column("loss factor", self.loss_factor))
         title = self._title("kinetic energy φₖ(Mφ)ₖ of each mode")
@@ -143,8 +165,21 @@ class MountModes(Tabled):
 
     @property
     def frames(self) -> Frames:
-        """``table``; ``strain``: shares of the mounts in the elastic energy of each mode."""
-        return self._frames(strain=self._of_mounts)
+        """``table``; ``strain``: shares of the mounts in the elastic energy of each mode.
+
+        With a subframe ``subframe``: its kinetic energy by coordinate.
+        """
+        further = {OF_SUBFRAME: self._of_subframe} if len(self.energy) > 6 else {}
+        return self._frames(strain=self._of_mounts, **further)
+
+    def _shares(self, first: int) -> list[Column]:
+        """Return columns of the kinetic energy of the body whose coordinates begin there."""
+        places = zip(COORDINATES, PLACES, strict=True)
+        return [Column(name, self.energy[first + place], "%", decimals=1) for name, place in places]
+
+    def _of_subframe(self) -> Table:
+        title = self._title("kinetic energy of the subframe in each mode")
+        return Table(title, (*self._by_mode(), *self._shares(6)), self._notes())
 
     def plot(self, ax: Axes | None = None, **options: object) -> Axes:
         """Draw the kinetic energy of each mode by coordinate; return the axes.
@@ -159,7 +194,8 @@ class MountModes(Tabled):
         Returns
         -------
         matplotlib.axes.Axes
-            The axes: a row for each mode, its frequency beside it; entries below zero are hatched.
+            The axes: a row for each mode, its frequency beside it, and a column for a subframe;
+            entries below zero are hatched.
 
         Raises
         ------
@@ -172,15 +208,18 @@ class MountModes(Tabled):
 
     def _of_mounts(self) -> Table:
         columns = self._by_mode()
-        for name, shares in zip(self.powertrain.names, self.strain.tolist(), strict=True):
+        names = self.powertrain._core.all_names
+        for name, shares in zip(names, self.strain.tolist(), strict=True):
             columns.append(Column(name, tuple(shares), "%", decimals=1))
         return Table(self._title("elastic energy by mount"), tuple(columns), self._notes())
 
 
 class RollAxes(Tabled):
-    """Axes about which a powertrain rolls: free, and on its mounts at rest.
+    """Axes about which a powertrain rolls: free, and on its mounts under a slow or steady torque.
 
-    Made by :meth:`Powertrain.axes`.
+    Under a steady torque mounts have their static stiffness, as in :meth:`Powertrain.static`; under
+    one that oscillates, however slowly, the dynamic one: figures of both are apart wherever these
+    stiffnesses are. Made by :meth:`Powertrain.axes`.
     """
 
     powertrain: Powertrain
@@ -189,10 +228,13 @@ class RollAxes(Tabled):
     """Frequency at which dynamic stiffness is taken, Hz; None where it does not depend on it."""
 
     def __post_init__(self) -> None:
-        directions, distances, figures = self.powertrain._core.axes(self.at_frequency)
-        torque_roll, elastic, foot = (read_only(np.array(each)) for each in directions)
-        values = {"_torque_roll": torque_roll, "_elastic": elastic, "_foot": foot}
-        self.__dict__.update(values, _distances=distances, _figures=figures)
+        free, free_deg, distances, elastic = self.powertrain._core.axes(self.at_frequency)
+        values: dict[str, Any] = {"_free": read_only(np.array(free)), "_free_deg": free_deg}
+        for name, ((direction, foot), figures) in zip(("", "dynamic_"), elastic, strict=True):
+            values[f"_{name}elastic"] = read_only(np.array(direction))
+            values[f"_{name}foot"] = read_only(np.array(foot))
+            values[f"_{name}figures"] = figures
+        self.__dict__.update(values, _distances=distances)
         super().__post_init__()
 
     @property
@@ -201,12 +243,12 @@ class RollAxes(Tabled):
 
         About it the free powertrain turns under an oscillating torque of the crank.
         """
-        return self.__dict__["_torque_roll"]  # type: ignore[no-any-return]
+        return self.__dict__["_free"]  # type: ignore[no-any-return]
 
     @property
     def torque_roll_deg(self) -> float:
         """Angle of the torque roll axis to the crank's axis, degrees."""
-        return self.__dict__["_figures"][0]  # type: ignore[no-any-return]
+        return self.__dict__["_free_deg"]  # type: ignore[no-any-return]
 
     @property
     def mount_distances(self) -> NDArray[np.float64]:
@@ -215,62 +257,101 @@ class RollAxes(Tabled):
 
     @property
     def elastic(self) -> NDArray[np.float64]:
-        """Direction of the elastic roll axis, towards the flywheel: (n_axes,).
+        """Direction of the elastic roll axis at rest, towards the flywheel: (n_axes,).
 
-        The axis of the screw that the powertrain makes under a torque about z at rest.
+        The axis of the screw that the powertrain makes under a steady torque about z.
         """
         return self.__dict__["_elastic"]  # type: ignore[no-any-return]
 
     @property
     def elastic_deg(self) -> float:
-        """Angle of the elastic roll axis to the crank's axis, degrees."""
-        return self.__dict__["_figures"][1]  # type: ignore[no-any-return]
+        """Angle of the elastic roll axis at rest to the crank's axis, degrees."""
+        return self.__dict__["_figures"][0]  # type: ignore[no-any-return]
 
     @property
     def elastic_foot(self) -> NDArray[np.float64]:
-        """Point of the elastic roll axis next to the CG, m: (n_axes,)."""
+        """Point of the elastic roll axis at rest next to the CG, m: (n_axes,)."""
         return self.__dict__["_foot"]  # type: ignore[no-any-return]
 
     @property
-    def pitch(self) -> float:
-        """Shift along the elastic roll axis over the rotation about it, m/rad."""
-        return self.__dict__["_figures"][4]  # type: ignore[no-any-return]
-
-    @property
     def angle_deg(self) -> float:
-        """Angle between torque roll axis and elastic roll axis, degrees."""
-        return self.__dict__["_figures"][2]  # type: ignore[no-any-return]
+        """Angle between torque roll axis and elastic roll axis at rest, degrees."""
+        return self.__dict__["_figures"][1]  # type: ignore[no-any-return]
 
     @property
     def distance(self) -> float:
-        """Shortest distance between both axes, m."""
+        """Shortest distance between torque roll axis and elastic roll axis at rest, m."""
+        return self.__dict__["_figures"][2]  # type: ignore[no-any-return]
+
+    @property
+    def pitch(self) -> float:
+        """Shift along the elastic roll axis at rest over the rotation about it, m/rad."""
         return self.__dict__["_figures"][3]  # type: ignore[no-any-return]
 
     @property
     def roll_stiffness(self) -> float:
-        """Torque about z over the rotation about z that it makes at rest, N·m/rad."""
-        return 1.0 / self.__dict__["_figures"][5]  # type: ignore[no-any-return]
+        """Steady torque about z over the rotation about z that it makes, N·m/rad."""
+        return 1.0 / self.__dict__["_figures"][4]  # type: ignore[no-any-return]
+
+    @property
+    def dynamic_elastic(self) -> NDArray[np.float64]:
+        """As ``elastic``, under a torque that oscillates slowly: (n_axes,)."""
+        return self.__dict__["_dynamic_elastic"]  # type: ignore[no-any-return]
+
+    @property
+    def dynamic_elastic_deg(self) -> float:
+        """As ``elastic_deg``, with the dynamic stiffness, degrees."""
+        return self.__dict__["_dynamic_figures"][0]  # type: ignore[no-any-return]
+
+    @property
+    def dynamic_elastic_foot(self) -> NDArray[np.float64]:
+        """As ``elastic_foot``, with the dynamic stiffness, m: (n_axes,)."""
+        return self.__dict__["_dynamic_foot"]  # type: ignore[no-any-return]
+
+    @property
+    def dynamic_angle_deg(self) -> float:
+        """As ``angle_deg``, with the dynamic stiffness, degrees; 0 where roll is decoupled."""
+        return self.__dict__["_dynamic_figures"][1]  # type: ignore[no-any-return]
+
+    @property
+    def dynamic_distance(self) -> float:
+        """As ``distance``, with the dynamic stiffness, m."""
+        return self.__dict__["_dynamic_figures"][2]  # type: ignore[no-any-return]
+
+    @property
+    def dynamic_pitch(self) -> float:
+        """As ``pitch``, with the dynamic stiffness, m/rad."""
+        return self.__dict__["_dynamic_figures"][3]  # type: ignore[no-any-return]
+
+    @property
+    def dynamic_roll_stiffness(self) -> float:
+        """Slowly oscillating torque about z over the rotation about z that it makes, N·m/rad."""
+        return 1.0 / self.__dict__["_dynamic_figures"][4]  # type: ignore[no-any-return]
 
     @property
     def table(self) -> Table:
-        """Directions, angles to the crank, and places of both axes."""
+        """Directions, angles to the crank, and places of the axes."""
         cg = np.array(self.powertrain.body.cg)
-        rows = [
-            [*self.torque_roll, self.torque_roll_deg, *cg, 0.0],
-            [*self.elastic, self.elastic_deg, *self.elastic_foot, self.pitch],
-        ]
+        rows = [[*self.torque_roll, self.torque_roll_deg, *cg, 0.0, None, None, None]]
+        for name in ("", "dynamic_"):
+            figures = self.__dict__[f"_{name}figures"]
+            place = [*self.__dict__[f"_{name}elastic"], figures[0], *self.__dict__[f"_{name}foot"]]
+            stiffness = 1.0 / figures[4]
+            rows.append([*place, figures[3], stiffness, figures[1], 1e3 * figures[2]])
         heads: list[str | tuple[str, str]] = [f"direction {axis}" for axis in "xyz"]
         heads.append(("to the crank", "°"))
         heads += [*((f"through {axis}", "m") for axis in "xyz"), ("pitch", "m/rad")]
-        note = f"{self.angle_deg:.4g}° and {1e3 * self.distance:.4g} mm between both axes."
-        title = f"{labels.name_of(self.powertrain.engine)} on its mounts: axes of roll"
-        kinds = ["torque roll axis (free)", "elastic roll axis (screw)"]
-        return Table.from_rows(title, ["axis", *heads], kinds, np.array(rows), note=note)
+        heads += [("roll stiffness", "N·m/rad"), ("to the first", "°"), ("off the first", "mm")]
+        at = "" if self.at_frequency is None else f", {self.at_frequency:g} Hz"
+        kinds = ["torque roll axis (free)", "elastic roll axis (static stiffness)"]
+        kinds.append(f"elastic roll axis (dynamic stiffness{at})")
+        listed = [[kind, *row] for kind, row in zip(kinds, rows, strict=True)]
+        return Table.from_rows(f"{self.powertrain._title}: axes of roll", ["axis", *heads], listed)
 
     def plot(
         self, ax: Axes | None = None, *, figure: FigureBase | None = None, **style: object
     ) -> Any:  # noqa: ANN401 - axes, or an array of them
-        """Draw both axes with mounts, their polygon and the CG, from three sides.
+        """Draw the axes with mounts, their polygon and the CG, from three sides.
 
         Parameters
         ----------

@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
     Complex = NDArray[np.complex128]
@@ -28,6 +30,8 @@ NARROWER = 0.1
 """Factor of μ from one centre to the next."""
 CENTRED = 0.25
 """Newton decrement at which a centre is near."""
+GAP = 1e-9
+"""Distance from the least largest receiver, over it, at the end."""
 MOST_STEPS = 400
 """Steps of Newton's method: tests need up to some hundred."""
 
@@ -54,6 +58,86 @@ def optimal(target: Complex, effect: Complex, bounds: Real, effort: float) -> Co
         weight = effort * largest[met] ** 2
         phasors[met] = _bounded(target[met], effect[met], bounds[met], weight)
     return phasors
+
+
+def least_largest(
+    target: Complex, effect: Complex, bounds: Real, widths: Sequence[int], start: Complex
+) -> Complex:
+    """Return the phasors that leave the least largest receiver: (n_points, n_actuators).
+
+    ``widths`` are the numbers of rows of each receiver, whose length counts; ``start`` phasors
+    within the bounds, to which the scale of those without bounds is taken. In real numbers x and t,
+    min t, |d + Sx| < t for each receiver, follows the central path of its barriers.
+    """
+    found = start.copy()
+    ends = np.cumsum(widths)
+    for point in range(len(target)):
+        size = float(np.abs(target[point]).max(initial=0.0))
+        columns = np.linalg.norm(effect[point], axis=0)
+        if size == 0.0 or not columns.any():
+            continue
+        needed = size / np.where(columns > 0.0, columns, np.inf)
+        unit = np.where(np.isfinite(bounds[point]), bounds[point], needed)
+        rows = effect[point] * unit / size
+        matrix = np.block([[rows.real, -rows.imag], [rows.imag, rows.real]])
+        right = np.concatenate([target[point].real, target[point].imag]) / size
+        groups = [np.arange(end - width, end) for end, width in zip(ends, widths, strict=True)]
+        pairs = [np.concatenate([each, each + len(rows)]) for each in groups]
+        limited = np.flatnonzero(np.isfinite(bounds[point]))
+        first = start[point] / np.where(unit > 0.0, unit, 1.0)
+        x = 0.9 * np.concatenate([first.real, first.imag])
+        moved = _minimax(matrix, right, pairs, limited, x)
+        moved_by = (moved[: len(unit)] + 1j * moved[len(unit) :]) * unit
+
+        both = np.stack([moved_by, found[point]], axis=1)
+        left = np.abs(target[point][:, None] + effect[point] @ both) ** 2
+        sizes = np.array([left[each].sum(axis=0) for each in groups]).max(axis=0)
+        if sizes[0] < sizes[1]:
+            found[point] = moved_by
+    return found
+
+
+def _minimax(
+    matrix: Real, right: Real, pairs: list[NDArray[np.intp]], limited: NDArray[np.intp], x: Real
+) -> Real:
+    """Return x of the least t with |(Ax + b) of each pair| ≤ t and |x of each limited| ≤ 1."""
+    count = len(x) // 2
+    t = 2.0 * max(float(np.linalg.norm((matrix @ x + right)[each])) for each in pairs) + 1e-300
+    mu = t
+    for _ in range(MOST_STEPS):
+        left = matrix @ x + right
+        gradient, curvature = np.zeros(len(x) + 1), np.zeros((len(x) + 1, len(x) + 1))
+        gradient[-1] = 1.0 / mu
+        curvature[: len(x), : len(x)] += FLOOR * np.eye(len(x))
+        barriers = []
+        for each in pairs:  # −log(t² − |e|²)
+            jacobian = np.zeros((len(each) + 1, len(x) + 1))
+            jacobian[:-1, :-1], jacobian[-1, -1] = matrix[each], 1.0
+            barriers.append((jacobian, np.append(left[each], t), 0.0))
+        for k in limited:  # −log(1 − |x|²)
+            jacobian = np.zeros((2, len(x) + 1))
+            jacobian[0, k] = jacobian[1, count + k] = 1.0
+            barriers.append((jacobian, x[[k, count + k]], 1.0))
+        for jacobian, value, limit in barriers:
+            sign = np.ones(len(value))
+            sign[-1] = 1.0 if limit else -1.0
+            room = limit - float((sign * value**2).sum())
+            slope = 2.0 * sign * value / room
+            gradient += jacobian.T @ slope
+            own = np.diag(2.0 * sign / room) + np.outer(slope, slope)
+            curvature += jacobian.T @ own @ jacobian
+        scale = 1.0 / np.sqrt(np.diag(curvature))
+        inner = np.linalg.lstsq(scale[:, None] * curvature * scale, -scale * gradient, rcond=None)
+        step = scale * inner[0]
+        decrement = float(np.sqrt(max(-float(gradient @ step), 0.0)))
+        if decrement <= CENTRED:
+            # No further than two of each barrier above the least.
+            if 2.0 * len(barriers) * mu <= GAP * t:
+                break
+            mu *= NARROWER
+        step *= 1.0 / (1.0 + decrement) if decrement > CENTRED else 1.0
+        x, t = x + step[:-1], t + float(step[-1])
+    return x
 
 
 def _bounded(target: Complex, effect: Complex, bounds: Real, effort: Real) -> Complex:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 from crankpin import _core
-from crankpin._support import files, inputs
+from crankpin._support import files, inputs, labels
 from crankpin._support.record import Input
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.mounts import active, feedback, static_state
@@ -52,8 +52,9 @@ class Powertrain(Input):
     mounts : sequence of Mount
         One mount or more, of distinct names.
     support : Subframe or Receptance, optional
-        What carries the mounts where it gives way: it counts in :meth:`response`. State at rest,
-        modes, axes and tolerances are those on a support that does not move.
+        What carries the mounts where it gives way. A subframe counts in every reading, but for
+        :meth:`designs` and pages, which are rejected; of a receptance there is a response, and no
+        modes, axes, state at rest or tolerances.
 
     Raises
     ------
@@ -118,8 +119,21 @@ class Powertrain(Input):
 
     @property
     def _varies(self) -> bool:
-        """True if the stiffness of a mount depends on frequency."""
-        return any(mount.track is not None or mount.table is not None for mount in self.mounts)
+        """True if the stiffness of a mount, or of one of a subframe, depends on frequency."""
+        below = self.support.mounts if isinstance(self.support, Subframe) else ()
+        return any(
+            mount.track is not None or mount.table is not None for mount in (*self.mounts, *below)
+        )
+
+    @property
+    def _title(self) -> str:
+        """What it is, in titles."""
+        return f"{labels.name_of(self.engine)} on its mounts{self._carried}"
+
+    @property
+    def _carried(self) -> str:
+        """What carries the mounts where it gives way, in titles."""
+        return "" if self.support is None else f" and a {type(self.support).__name__.lower()}"
 
     # --- questions --------------------------------------------------------------------------------
 
@@ -164,7 +178,7 @@ class Powertrain(Input):
         Raises
         ------
         InputError
-            If a motion is free, or the engine has no cycle.
+            If a motion is free, the engine has no cycle, or a receptance carries the mounts.
 
         Examples
         --------
@@ -181,7 +195,9 @@ class Powertrain(Input):
         return static_state.static(self, torque, gear_ratio, gravity, rpm, thrust, thrust_at)
 
     def modes(self, frequency: float | None = None) -> MountModes:
-        """Return the natural modes, with the dynamic stiffness of the mounts.
+        """Return the natural modes, with the dynamic stiffness of the mounts: six, or twelve.
+
+        On a subframe there are twelve, of both bodies.
 
         Parameters
         ----------
@@ -198,7 +214,8 @@ class Powertrain(Input):
         Raises
         ------
         InputError
-            If stiffness depends on frequency and none is given, or is below zero there.
+            If stiffness depends on frequency and none is given, or is below zero there, or a
+            receptance carries the mounts.
 
         Examples
         --------
@@ -214,12 +231,12 @@ class Powertrain(Input):
         return natural.MountModes(self, given)
 
     def axes(self, frequency: float | None = None) -> RollAxes:
-        """Return torque roll axis and elastic roll axis.
+        """Return torque roll axis and elastic roll axis, with static and with dynamic stiffness.
 
         Parameters
         ----------
         frequency : float, optional
-            As in :meth:`modes`.
+            As in :meth:`modes`, for the dynamic stiffness.
 
         Returns
         -------
@@ -229,7 +246,8 @@ class Powertrain(Input):
         Raises
         ------
         InputError
-            If a motion is free, or stiffness depends on frequency and none is given.
+            If a motion is free, stiffness depends on frequency and none is given, or a receptance
+            carries the mounts.
         """
         given = None if frequency is None else inputs.number("frequency", frequency)
         return natural.RollAxes(self, given)
@@ -286,7 +304,10 @@ class Powertrain(Input):
 
         The motor pushes with −gain times the velocity of its place on the powertrain, and with the
         opposite force on its mass. Below the resonance of that mass it pushes the wrong way: it is
-        stable up to a gain only, and of use where the resonance is well below the modes.
+        stable up to a gain only, and of use where the resonance is well below the modes. Without
+        gain every mode that it drives has to be damped, by mounts or by the actuator's own spring:
+        where nothing is, any gain makes some of them grow. Of mounts with tables the limit is that
+        within their frequencies.
 
         Parameters
         ----------
@@ -303,7 +324,8 @@ class Powertrain(Input):
         Raises
         ------
         InputError
-            If it is no inertial actuator, or a table of stiffness does not reach far enough.
+            If it is no inertial actuator, nothing damps a mode that it drives, a table of stiffness
+            does not reach to the frequencies that decide, or a receptance carries the mounts.
         """
         return feedback.velocity_feedback(self, actuator, gain)
 
@@ -396,8 +418,9 @@ class Powertrain(Input):
         """Return how far natural frequencies and purity go within tolerances.
 
         Bounds of frequencies by stiffness, mass and inertia are exact: each frequency is monotone
-        in each of them. Purity is evaluated at every corner of the stiffnesses. The place of the
-        centre of gravity is taken by itself.
+        in each of them. Purity is not, and searched: at every corner of the stiffnesses, at random
+        points, and from the worst of them along lines. The place of the centre of gravity is taken
+        by itself. A subframe is as it is.
 
         Parameters
         ----------
@@ -410,20 +433,21 @@ class Powertrain(Input):
         cg : float, default 0.0
             Tolerance of the centre of gravity along x, y and z, m.
         corners : {"axes", "mounts"}, default "axes"
-            Whether in corners the axes of a mount are stiff or soft each by itself, or together;
-            there are 2 to the power of their number, at most 2¹⁸.
+            Whether the axes of a mount are stiff or soft each by itself, or together; there are
+            corners of 2 to the power of their number, at most 2¹⁸.
         frequency : float, optional
             As in :meth:`modes`.
 
         Returns
         -------
         MountRobustness
-            Bounds of the frequencies, least purity and its corner, derivatives by the CG.
+            Bounds of the frequencies, the least purity found and where, derivatives by the CG.
 
         Raises
         ------
         InputError
-            If a tolerance is not from 0 to 1, or there are too many corners.
+            If a tolerance is not from 0 to 1, there are too many corners, or a receptance carries
+            the mounts.
 
         Examples
         --------
@@ -626,8 +650,12 @@ class Powertrain(Input):
         """
         file = engine_files.checked(path)
         toml = engine_files.is_toml(file)
-        text = self._core.to_text(self.engine._core, toml)
+        text = self._text(toml=toml)
         files.write(file, engine_files.commented(text) if toml else text)
+
+    def _text(self, *, toml: bool) -> str:
+        """Return the text of an engine file."""
+        return self._core.to_text(self.engine._core, toml)
 
     @classmethod
     def load(cls, path: str | Path) -> Self:

@@ -21,10 +21,10 @@ from crankpin.analysis.quantity import ALL, Key, Keyed, order_key
 from crankpin.analysis.request import Request, check_request
 from crankpin.model import checks
 from crankpin.model.mounts import _vector
-from crankpin.model.supports import Subframe
+from crankpin.model.supports import Receptance, Subframe
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     import xarray as xr
     from matplotlib.axes import Axes
@@ -39,6 +39,10 @@ LOADS = ("F_x", "F_y", "F_z", "M_x", "M_y", "M_z")
 """Components of a load about the centre of gravity."""
 MOTIONS = {"displacement": "m", "velocity": "m/s", "acceleration": "m/s²"}
 """Motion of a point → its unit."""
+READ = {"displacement": ("µm", 1e6), "velocity": ("mm/s", 1e3), "acceleration": ("m/s²", 1.0)}
+"""Motion of a point → the unit in which it is read, and how many of it the unit of the array is."""
+HIGHEST = "> 180"
+"""What stands for an infinite grade."""
 SUPPORT = "support"
 """What carries the mounts, as a place's companion."""
 SCOPE = (
@@ -64,6 +68,8 @@ def response(
 def _warn_of_free_motion(found: MountResponse) -> None:
     """Warn of a motion that no mount resists."""
     powertrain = found.powertrain
+    if isinstance(powertrain.support, Receptance):
+        powertrain = powertrain.on(None)  # What no mount resists is free on anything.
     frequency = None
     if powertrain._varies:
         turns = np.multiply.outer(np.asarray(found.rpm), np.array(found.orders, dtype=float)) / 60.0
@@ -75,9 +81,10 @@ def _warn_of_free_motion(found: MountResponse) -> None:
     except InputError:  # where a hydraulic mount has no modes
         return
     if free:
+        are, them = ("is", "it") if len(free) == 1 else ("are", "them")
         warn(
-            f"mounts = {', '.join(powertrain.names)}: {free[0]} is free, and its motion is that of "
-            "a body without mounts; add a mount that resists it, or stiffness"
+            f"mounts = {', '.join(powertrain.names)}: {'; '.join(free)} {are} free, as of a body "
+            f"without mounts; add a mount that resists {them}, or stiffness"
         )
 
 
@@ -159,23 +166,53 @@ class PointMotion(Tabled):
         else:
             places, note = result._shown()
             columns = [Column("order", (*(result.orders[k] for k in places), ALL))]
-        for name, unit in MOTIONS.items():
+        for name, (unit, factor) in READ.items():
             moved: VectorQuantity = getattr(self, name)
             if whole:
                 values = np.atleast_1d(moved[order].rms)
             else:
                 values = np.append(np.asarray(moved.rms)[places], moved.total.rms)
-            columns.append(Column(f"{name} rms", values, unit))
+            columns.append(Column(f"{name} rms", factor * values, unit))
+        if result.dims and len(speeds := columns[0].data) > 1:
+            largest = int(np.argmax(columns[2].data))
+            most = f"{columns[2].data[largest]:.4g} mm/s at {speeds[largest]:.10g} rpm"
+            note = f"Largest velocity {most}."
         if self.order in (None, ALL):
-            grades = np.atleast_1d(self.grade).tolist()
+            grades = [HIGHEST if g == np.inf else g for g in np.atleast_1d(self.grade).tolist()]
             columns.append(
                 Column("grade", (*[None] * (len(columns[0].values) - len(grades)), *grades))
             )
+            note = f"{note} Grade: {SCOPE}".strip()
         which = "" if order in (None, ALL) else f", order {order}"
         title = result._title(f"motion of {self._words}{which}")
-        return Table(
-            title, tuple(columns), f"{note} Grade: {SCOPE}".strip(), loads=self.loads_counted
-        )
+        return Table(title, tuple(columns), note, loads=self.loads_counted)
+
+    def plot(self, ax: Axes | None = None, *, quantity: str = "velocity", **options: Any) -> Axes:  # noqa: ANN401 - as MountResponse.plot documents them
+        """Draw the motion over speed or order; return the axes.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on; by default new ones.
+        quantity : {"displacement", "velocity", "acceleration"}, default "velocity"
+            What is drawn: peaks in µm, mm/s or m/s².
+        **options : dict, optional
+            ``kind``, ``orders`` and others of :meth:`MountResponse.plot`: ``kind="map"`` is a map
+            of orders over speed.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes.
+
+        Raises
+        ------
+        InputError
+            If there is no such picture of the speeds, or no such quantity.
+        ImportError
+            If matplotlib is not installed.
+        """
+        return draw(self, ax, quantity=quantity, **options)  # type: ignore[no-any-return]
 
 
 def _require_subframe(powertrain: Powertrain, name: str) -> None:
@@ -284,6 +321,9 @@ class OrderResponse(MountQuantities, Tabled):
         )
         return changed(body, title=title, columns=(*body.columns[:-1], *mounts))
 
+    def _beginning(self, rows: int) -> Table | None:
+        return self.result._first_rows(rows, lambda head: changed(self, result=head).table)
+
     def _of(self, name: str) -> Any:  # noqa: ANN401 - a number at one speed
         if self.order == ALL:
             raise inputs.rejected("order", "all", f"give one order, such as r[2].{name}")
@@ -306,6 +346,11 @@ class OrderResponse(MountQuantities, Tabled):
     def transmissibility(self) -> NDArray[np.float64]:
         """Load on what carries the mounts over that of the engine: (…, n_loads)."""
         return self._of("transmissibility")  # type: ignore[no-any-return]
+
+    @property
+    def transmissibility_db(self) -> NDArray[np.float64]:
+        """The same in decibels: (…, n_loads)."""
+        return self._of("transmissibility_db")  # type: ignore[no-any-return]
 
     @property
     def power_in(self) -> NDArray[np.float64]:
@@ -336,10 +381,10 @@ class WorstForce(Item):
     """Multiple of crank speed."""
     frequency: float
     """Frequency of the order, Hz."""
-    mode: int
-    """Number of the mode of the nearest frequency, from 1."""
-    mode_frequency: float
-    """Its frequency, Hz."""
+    mode: int | None
+    """Number of the mode of the nearest frequency, from 1; None on a receptance, without modes."""
+    mode_frequency: float | None
+    """Its frequency, Hz; None on a receptance."""
 
     @property
     def table(self) -> Table:
@@ -541,12 +586,19 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         """Load on what carries the mounts over that of the engine, of each component.
 
         Magnitude of ``support_load`` over that of ``load``, NaN where the engine has no load in
-        that direction: there mounts make some of loads in others. Of shape (…, n_orders, n_loads).
+        that direction beside rounding: there mounts make some of loads in others. Of shape (…,
+        n_orders, n_loads).
         """
         load = np.abs(self.load)
         ratio = np.full(load.shape, np.nan)
         np.divide(np.abs(self.support_load), load, out=ratio, where=load > 0.0)
         return read_only(ratio)
+
+    @property
+    def transmissibility_db(self) -> NDArray[np.float64]:
+        """``transmissibility`` in decibels, 20 lg; below zero mounts isolate: (…, n_loads)."""
+        with np.errstate(divide="ignore"):  # nothing passes
+            return read_only(20.0 * np.log10(self.transmissibility))
 
     @property
     def power_in(self) -> NDArray[np.float64]:
@@ -592,8 +644,8 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         index = int(np.flatnonzero(speeds == speed)[0])
         return changed(self, rpm=speed, **(self._of_speed(index) if self.dims else {}))
 
-    def _of_speed(self, index: int) -> dict[str, Any]:
-        """Return what else changes where one of the speeds is taken."""
+    def _of_speed(self, index: int | slice) -> dict[str, Any]:
+        """Return what else changes where one of the speeds is taken, or some."""
         return {}
 
     def _of_order(self) -> dict[str, Any]:
@@ -612,6 +664,7 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         orders: Orders | None = None,
         watch: Any = None,  # noqa: ANN401 - as above
         effort: float = 0.0,
+        norm: Literal["rms", "largest"] = "rms",
     ) -> Cancellation:
         """Return the forces of actuators that leave the least at receivers, order by order.
 
@@ -620,9 +673,10 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         actuators : Actuator or sequence of Actuator
             What pushes, of distinct names.
         at : sequence, mapping or {"body_force", "mount_force"}
-            What is minimised: the motion of points (x, y, z), or of pairs (point, direction) along
-            a direction, in a list or by name in a mapping; or the mounts' sum, or the sum of
-            squares of their forces.
+            What is minimised: the velocity of points (x, y, z) of the powertrain, of receivers of a
+            receptance by name, such as ``"seat rail"``, or of motions of :meth:`at`, which may be
+            of a subframe; or of pairs of one of these and a direction, along that; in a list or by
+            name in a mapping. Or the mounts' sum, or their forces.
         orders : number or sequence of numbers, optional
             Orders to cancel, of those of the response; by default all.
         watch : sequence or mapping, optional
@@ -630,6 +684,8 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         effort : float, default 0.0
             Weight of the squares of forces, over the largest of what they do at the receivers:
             1e-4 gives up a little for smaller forces.
+        norm : {"rms", "largest"}, default "rms"
+            What is minimised of several receivers: the sum of squares, or the largest of them.
 
         Returns
         -------
@@ -651,14 +707,14 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         ... ]
         >>> p = cp.Powertrain(cp.Engine.preset("i4"), body, mounts)
         >>> shaker = cp.Actuator("shaker", at=(0.22, -0.12, 0.43), direction=(0, 1, 0), force=200)
-        >>> seat = {"seat": ((0.22, -0.12, 0.43), (0, 1, 0))}
-        >>> c = p.response(3000).cancel(shaker, seat, orders=2)
+        >>> foot = {"foot": ((0.22, -0.12, 0.43), (0, 1, 0))}
+        >>> c = p.response(3000).cancel(shaker, foot, orders=2)
         >>> c.response[2].body_force.peak < c.before[2].body_force.peak
         True
         """
         # By way of the powertrain: what it returns is made of responses.
         return self.powertrain._cancelled(
-            self, actuators, at, orders=orders, watch=watch, effort=effort
+            self, actuators, at, orders=orders, watch=watch, effort=effort, norm=norm
         )
 
     def worst(self, quantity: Literal["mount_force", "body_force"] = "mount_force") -> WorstForce:
@@ -687,11 +743,13 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         mount, speed, place = np.unravel_index(int(peaks.argmax()), peaks.shape)
         order = self.orders[place]
         frequency = float(order) * float(speeds[speed]) / 60.0
+        force = float(peaks[mount, speed, place])
+        found = (force, names[mount], float(speeds[speed]), order, frequency)
+        if isinstance(self.powertrain.support, Receptance):
+            return WorstForce(*found, None, None)
         varies = self.powertrain._varies
         modes = self.powertrain.modes(frequency if varies else None).frequency
         mode = int(np.abs(modes - frequency).argmin())
-        force = float(peaks[mount, speed, place])
-        found = (force, names[mount], float(speeds[speed]), order, frequency)
         return WorstForce(*found, mode + 1, float(modes[mode]))
 
     # --- tables -----------------------------------------------------------------------------------
@@ -714,7 +772,17 @@ class MountResponse(MountQuantities, Keyed, Tabled):
     def _title(self, of: str) -> str:
         at = "" if self.dims else f" {labels.at_speed(float(self.rpm))}"
         given = " of the orders given" if self.request.orders is not None else ""
-        return f"{labels.name_of(self.powertrain.engine)} on its mounts{at}: {of}{given}"
+        return f"{self.powertrain._title}{at}: {of}{given}"
+
+    def _first_rows(self, rows: int, read: Callable[[Self], Table]) -> Table | None:
+        """Return the table of the first speeds of many, which says how many there are."""
+        if not self.dims or len(speeds := np.asarray(self.rpm)) <= rows:
+            return None
+        head = changed(self, rpm=speeds[:rows], **self._of_speed(slice(rows)))
+        return changed(read(head), whole=len(speeds))
+
+    def _beginning(self, rows: int) -> Table | None:
+        return self._first_rows(rows, lambda head: head.table)
 
     @property
     def table(self) -> Table:
@@ -816,16 +884,19 @@ class MountResponse(MountQuantities, Keyed, Tabled):
     def _of_loads(self) -> Table:
         places, note = self._shown()
         columns = [Column("order", tuple(self.orders[k] for k in places))]
-        each = (self.load, self.support_load, self.transmissibility)
+        each = (self.load, self.support_load, self.transmissibility, self.transmissibility_db)
         pairs = zip(*(values[places].T for values in each), strict=True)
-        for name, (load, support, ratio) in zip(LOADS, pairs, strict=True):
+        for name, (load, support, ratio, decibels) in zip(LOADS, pairs, strict=True):
             unit = "N" if name.startswith("F") else "N·m"
             if not np.any(load) and not np.any(support):
                 continue
             columns.append(Column(f"|{name}| of the engine", np.abs(load), unit))
             columns.append(Column(f"|{name}| on the body", np.abs(support), unit))
-            listed = (None if np.isnan(each) else each for each in ratio.tolist())
-            columns.append(Column(f"T {name}", tuple(listed)))
+            for values, in_unit in ((ratio, ""), (decibels, "dB")):
+                if np.isnan(values).all():
+                    continue
+                listed = (None if np.isnan(each) else each for each in values.tolist())
+                columns.append(Column(f"T {name}", tuple(listed), in_unit))
         at = "the CG" if self._point is None else f"{self._point} m"
         title = self._title(f"loads about {at}")
         return Table(title, tuple(columns), note, loads=self.loads_counted)

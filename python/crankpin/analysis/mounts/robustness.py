@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from crankpin._support import inputs, labels, units
+from crankpin._support import inputs, units
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.record import read_only
@@ -25,8 +25,10 @@ class MountRobustness(Tabled):
 
     Every frequency grows with each stiffness, and falls with mass and inertia (Courant and
     Fischer), so that its bounds are exactly those at the two ends, without corners between; of one
-    tolerance x of all stiffnesses they are f·√(1 ± x). Purity has no such law: it is evaluated at
-    every corner. Made by :meth:`Powertrain.robustness`.
+    tolerance x of all stiffnesses they are f·√(1 ± x). Purity has no such law, and is least where
+    two frequencies approach each other and their modes mix, often inside: it is searched, and what
+    is reported is the least found, no bound. Tolerances are those of the body and its own mounts; a
+    subframe is as it is. Made by :meth:`Powertrain.robustness`.
     """
 
     powertrain: Powertrain
@@ -46,10 +48,10 @@ class MountRobustness(Tabled):
 
     def __post_init__(self) -> None:
         given = (list(self.stiffness), self.mass, self.inertia, self.cg, self.by_axis)
-        nominal, ends, slope, corner = self.powertrain._core.robustness(given, self.at_frequency)
+        nominal, ends, slope, factors = self.powertrain._core.robustness(given, self.at_frequency)
         frequency, purity, least = map(read_only, nominal)
         values: dict[str, Any] = {"_frequency": frequency, "_purity": purity, "_least": least}
-        values |= {"_ends": ends, "_slope": slope, "_corner": corner}
+        values |= {"_ends": ends, "_slope": slope, "_factors": factors}
         self.__dict__.update(values)
         super().__post_init__()
 
@@ -92,11 +94,14 @@ class MountRobustness(Tabled):
 
     @property
     def least_purity(self) -> NDArray[np.float64]:
-        """Least purity of each mode at corners of stiffness, %: (n_modes,)."""
+        """Least purity of each mode found within the tolerance of stiffness, %: (n_modes,).
+
+        By a search: at all corners, at 4096 random points, and from the worst of them along lines.
+        """
         return self.__dict__["_least"]  # type: ignore[no-any-return]
 
-    def corner(self, mode: int) -> Mapping[str, tuple[float, ...]]:
-        """Return the corner at which a mode is least pure.
+    def least_pure(self, mode: int) -> Mapping[str, tuple[float, ...]]:
+        """Return the stiffnesses at which a mode was found least pure.
 
         Parameters
         ----------
@@ -113,20 +118,16 @@ class MountRobustness(Tabled):
         InputError
             If there is no such mode.
         """
-        number = inputs.whole("mode", mode)
-        if not 1 <= number <= 6:
-            raise inputs.rejected("mode", mode, "give a number from 1 to 6")
-        upper = self.__dict__["_corner"][number - 1]
-        parts = zip(self.powertrain.names, upper, self.stiffness, strict=True)
-        return {
-            name: tuple(1.0 + share if is_upper else 1.0 - share for is_upper in ends)
-            for name, ends, share in parts
-        }
+        number, count = inputs.whole("mode", mode), len(self.frequency)
+        if not 1 <= number <= count:
+            raise inputs.rejected("mode", mode, f"give a number from 1 to {count}")
+        factors = self.__dict__["_factors"][number - 1]
+        return dict(zip(self.powertrain.names, map(tuple, factors), strict=False))
 
     @property
     def table(self) -> Table:
-        """Frequencies and their bounds, purity and its least value."""
-        columns = [Column("mode", tuple(range(1, 7)))]
+        """Frequencies and their bounds, purity and the least that was found."""
+        columns = self._modes()
         each = [("f", self.frequency)]
         if any(self.stiffness):
             each += zip(("f least", "f largest"), self.frequency_bounds, strict=True)
@@ -136,15 +137,19 @@ class MountRobustness(Tabled):
         if self.cg:
             each += zip(("f least by CG", "f largest by CG"), self.cg_range, strict=True)
         columns += [Column(head, values, "Hz") for head, values in each]
-        for head, values in (("purity", self.purity), ("least purity", self.least_purity)):
+        for head, values in (("purity", self.purity), ("least found", self.least_purity)):
             columns.append(Column(head, values, "%", decimals=1))
         shares = sorted({100.0 * share for share in self.stiffness})
         parts = [f"stiffness ± {' or '.join(f'{share:g}' for share in shares)} %"]
         parts += [f"mass ± {100 * self.mass:g} %"] if self.mass else []
         parts += [f"inertia ± {100 * self.inertia:g} %"] if self.inertia else []
         parts += [f"CG ± {units.figure(1e3 * self.cg, 'mm', 6)}"] if self.cg else []
-        title = f"{labels.name_of(self.powertrain.engine)} on its mounts: {', '.join(parts)}"
-        return Table(title, tuple(columns))
+        title = f"{self.powertrain._title}: {', '.join(parts)}"
+        note = "Purity: the least that a search within the tolerance of stiffness found."
+        return Table(title, tuple(columns), note if any(self.stiffness) else "")
+
+    def _modes(self) -> list[Column]:
+        return [Column("mode", tuple(range(1, len(self.frequency) + 1)))]
 
     def plot(self, ax: Axes | None = None, **style: object) -> Axes:
         """Draw the range of each natural frequency, by cause; return the axes.
@@ -159,7 +164,7 @@ class MountRobustness(Tabled):
         Returns
         -------
         matplotlib.axes.Axes
-            The axes: bars for each mode, its purity and least purity beside it.
+            The axes: bars for each mode, beside it its purity and the least that was found.
 
         Raises
         ------
@@ -176,9 +181,9 @@ class MountRobustness(Tabled):
         return self._frames(cg=self._of_cg)
 
     def _of_cg(self) -> Table:
-        columns = [Column("mode", tuple(range(1, 7)))]
-        columns.append(Column("f", self.frequency, "Hz"))
+        columns = self._modes()
+        columns.append(Column("f", tuple(self.frequency.tolist()), "Hz"))
         for axis, values in zip("xyz", self.cg_slope, strict=True):
-            columns.append(Column(f"df/d{axis}", 1e-3 * values, "Hz/mm"))
-        name = labels.name_of(self.powertrain.engine)
-        return Table(f"{name} on its mounts: frequencies by the place of the CG", tuple(columns))
+            columns.append(Column(f"df/d{axis}", tuple((1e-3 * values).tolist()), "Hz/mm"))
+        title = f"{self.powertrain._title}: frequencies by the place of the CG"
+        return Table(title, tuple(columns))

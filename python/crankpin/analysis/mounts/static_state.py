@@ -22,7 +22,10 @@ GRAVITY = (0.0, -9.80665, 0.0)
 
 
 class StaticState(Tabled):
-    """A powertrain at rest on the static stiffness of its mounts.
+    """A powertrain at rest on the static stiffness of its mounts, and of a subframe's.
+
+    What is above a subframe follows it as a rigid body: displacements are larger than on firm
+    ground, forces of the powertrain's mounts are the same.
 
     Made by :meth:`Powertrain.static`.
     """
@@ -48,6 +51,7 @@ class StaticState(Tabled):
             "_turn_deg": read_only(np.degrees(moved[:, 3:])),
             "_forces": read_only(np.array(forces)),
             "_margin": margin,
+            "_ground": read_only(sum(np.array(forces)[:, len(self.powertrain.mounts) :])),
             "_corners": tuple(self.powertrain.names[k] for k in corners),
         }
         self.__dict__.update(values)
@@ -86,22 +90,35 @@ class StaticState(Tabled):
     @property
     def weight_force(self) -> NDArray[np.float64]:
         """Force of each mount on what carries it due to the weight, N: (n_mounts, n_axes)."""
-        return self.__dict__["_forces"][0]  # type: ignore[no-any-return]
+        return self._of_cause(0)
 
     @property
     def torque_force(self) -> NDArray[np.float64]:
         """Force of each mount on what carries it due to the torque, N: (n_mounts, n_axes)."""
-        return self.__dict__["_forces"][1]  # type: ignore[no-any-return]
+        return self._of_cause(1)
 
     @property
     def thrust_force(self) -> NDArray[np.float64]:
         """Force of each mount on what carries it due to the thrust, N: (n_mounts, n_axes)."""
-        return self.__dict__["_forces"][2]  # type: ignore[no-any-return]
+        return self._of_cause(2)
+
+    def _of_cause(self, cause: int) -> NDArray[np.float64]:
+        """Return forces of the powertrain's own mounts."""
+        forces: NDArray[np.float64] = self.__dict__["_forces"][cause]
+        return forces[: len(self.powertrain.mounts)]
 
     @property
     def preload(self) -> NDArray[np.float64]:
         """Force of each mount on what carries it, of all causes, N: (n_mounts, n_axes)."""
         return read_only(self.weight_force + self.torque_force + self.thrust_force)
+
+    @property
+    def ground_preload(self) -> NDArray[np.float64]:
+        """Force of each mount of a subframe on what carries it, of all causes, N.
+
+        Of shape (n_mounts, n_axes); empty without a subframe.
+        """
+        return self.__dict__["_ground"]  # type: ignore[no-any-return]
 
     @property
     def support_margin(self) -> float:
@@ -118,11 +135,10 @@ class StaticState(Tabled):
 
     @property
     def table(self) -> Table:
-        """Forces of the mounts on what carries them, by cause."""
-        columns = [Column("mount", self.powertrain.names)]
-        causes = [("weight", self.weight_force), ("torque", self.torque_force)]
-        causes += [("thrust", self.thrust_force)] if any(self.thrust) else []
-        for cause, forces in causes:
+        """Forces of the mounts on what carries them, by cause; also of those of a subframe."""
+        columns = [Column("mount", tuple(self.powertrain._core.all_names))]
+        causes = ["weight", "torque", *(["thrust"] if any(self.thrust) else [])]
+        for cause, forces in zip(causes, self.__dict__["_forces"], strict=False):
             for axis, values in zip("xyz", forces.T.tolist(), strict=True):
                 columns.append(Column(f"{cause} F_{axis}", tuple(values), "N"))
         x, y, z = 1e3 * self.sag
@@ -132,9 +148,9 @@ class StaticState(Tabled):
             f"{'inside' if self.support_margin > 0.0 else 'outside'} the mounts' polygon by "
             f"{1e3 * abs(self.support_margin):.4g} mm. Static stiffness."
         )
-        title = (
-            f"{labels.name_of(self.powertrain.engine)} at rest: forces on what carries the mounts"
-        )
+        name, carried = labels.name_of(self.powertrain.engine), self.powertrain._carried
+        on = f" on its mounts{carried}" if carried else ""
+        title = f"{name}{on} at rest: forces on what carries the mounts"
         return Table(title, tuple(columns), note)
 
 

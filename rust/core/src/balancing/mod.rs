@@ -102,7 +102,7 @@ pub fn appearing(
             Ok([
                 (force.peak(), force.size),
                 (moment.peak(), moment.size),
-                (torque.roll.norm(), torque.size),
+                (torque.roll.norm(), torque.sizes[0]),
             ])
         });
         let kinds = [Appearing::Force, Appearing::Moment, Appearing::Roll];

@@ -2,6 +2,7 @@
 
 use nalgebra::{Vector3, Vector6};
 
+use super::bodies::{Bodies, load_above};
 use super::modes::{dynamic, natural};
 use super::{Powertrain, ROUNDINGS, real};
 use crate::numbers::error::{Error, Result};
@@ -16,12 +17,10 @@ pub struct RollAxes {
     pub torque_roll_deg: f64,
     /// Distance of each mount from it, m.
     pub mount_distances: Vec<f64>,
-    /// About which the body on its mounts turns under a torque about z at rest.
+    /// About which the body on its mounts turns under a torque about z at rest: with their static stiffness.
     pub elastic: ElasticAxis,
-    /// Angle between both, degrees.
-    pub angle_deg: f64,
-    /// Shortest distance between both lines, m.
-    pub distance: f64,
+    /// About which it turns under one that oscillates slowly: with their dynamic stiffness.
+    pub dynamic: ElasticAxis,
 }
 
 /// Axis of a screw: a rotation about it and a shift along it.
@@ -37,13 +36,24 @@ pub struct ElasticAxis {
     pub angle_deg: f64,
     /// Rotation about z over the torque, rad/(N·m).
     pub compliance: f64,
+    /// Its angle to the torque roll axis, degrees.
+    pub to_torque_roll_deg: f64,
+    /// Shortest distance between both lines, m.
+    pub distance: f64,
 }
 
-/// Axes with the mounts' dynamic stiffness at a frequency, Hz, which may be left out where the stiffness
-/// does not depend on it.
+/// Axes with the mounts' static stiffness, and with the dynamic one at a frequency, Hz, which may be left out where
+/// the stiffness does not depend on it.
 pub fn axes(powertrain: &Powertrain, frequency: Option<f64>) -> Result<RollAxes> {
+    match powertrain.subframe()? {
+        None => axes_of(&powertrain.alone()?, frequency),
+        Some(_) => axes_of(&powertrain.with_subframe()?, frequency),
+    }
+}
+
+fn axes_of<const N: usize>(bodies: &Bodies<N>, frequency: Option<f64>) -> Result<RollAxes> {
     let crank = Vector3::z();
-    let body = powertrain.body();
+    let (powertrain, body) = (bodies.powertrain, bodies.powertrain.body());
     let factors = body
         .inertia()
         .cholesky()
@@ -52,21 +62,38 @@ pub fn axes(powertrain: &Powertrain, frequency: Option<f64>) -> Result<RollAxes>
     let free = factors.solve(&crank).normalize();
     let free = Bounded::new(free, Vector3::repeat(ROUNDINGS * f64::EPSILON * most / least));
     let torque_roll = free.value.normalize();
-    let (_, stiffnesses) = dynamic(powertrain, frequency)?;
-    let modes = natural(powertrain, &real(&stiffnesses))?;
-    modes.require_support(powertrain)?;
-    let load = Vector6::new(0.0, 0.0, 0.0, 0.0, 0.0, 1.0);
-    let (motion, rounding) = (modes.flexed(&load), modes.flexed_rounding(powertrain, &load)?);
+    let from_axis = |mount: &super::Mount| (mount.at() - body.cg()).cross(&torque_roll).norm();
+    let (_, dynamic) = dynamic(powertrain, frequency)?;
+    Ok(RollAxes {
+        torque_roll: torque_roll.into(),
+        torque_roll_deg: angle(&torque_roll, &crank),
+        mount_distances: powertrain.mounts().iter().map(from_axis).collect(),
+        elastic: elastic(bodies, &bodies.static_stiffnesses(), &free)?,
+        dynamic: elastic(bodies, &real(&dynamic), &free)?,
+    })
+}
+
+/// Axis of the screw that the powertrain makes under a torque about z, with stiffnesses along the axes of all mounts.
+fn elastic<const N: usize>(
+    bodies: &Bodies<N>,
+    stiffnesses: &[[f64; 3]],
+    free: &Bounded,
+) -> Result<ElasticAxis> {
+    let modes = natural(bodies, stiffnesses);
+    bodies.require_support(&modes)?;
+    let torque = load_above(&Vector6::new(0.0, 0.0, 0.0, 0.0, 0.0, 1.0));
+    let (motion, rounding) = modes.flexed(bodies, &torque);
     let part = |from: usize| {
-        let rows = |of: &Vector6<f64>| Vector3::new(of[from], of[from + 1], of[from + 2]);
-        Bounded::new(rows(&motion), rows(&rounding))
+        let [value, bound] =
+            [&motion, &rounding].map(|of| Vector3::new(of[from], of[from + 1], of[from + 2]));
+        Bounded::new(value, bound)
     };
     let (shift, turn) = (part(0), part(3));
-    let square = turn.value.norm_squared();
+    let (square, cg) = (turn.value.norm_squared(), bodies.centre());
     let from_cg = turn.cross(&shift).over(square);
     let foot = Bounded::new(
-        body.cg() + from_cg.value,
-        from_cg.rounding + (body.cg().abs() + from_cg.value.abs()) * f64::EPSILON,
+        cg + from_cg.value,
+        from_cg.rounding + (cg.abs() + from_cg.value.abs()) * f64::EPSILON,
     );
     let unit = turn.over(turn.value.norm());
     let direction = unit.value.normalize();
@@ -77,19 +104,13 @@ pub fn axes(powertrain: &Powertrain, frequency: Option<f64>) -> Result<RollAxes>
     } else {
         from_cg.value.norm()
     };
-    let from_axis = |mount: &super::Mount| (mount.at() - body.cg()).cross(&torque_roll).norm();
-    Ok(RollAxes {
-        torque_roll: torque_roll.into(),
-        torque_roll_deg: angle(&torque_roll, &crank),
-        mount_distances: powertrain.mounts().iter().map(from_axis).collect(),
-        elastic: ElasticAxis {
-            direction: direction.into(),
-            foot: foot.value.into(),
-            pitch: turn.dot(&shift) / square,
-            angle_deg: angle(&direction, &crank),
-            compliance: turn.value.z,
-        },
-        angle_deg: angle(&torque_roll, &direction),
+    Ok(ElasticAxis {
+        direction: direction.into(),
+        foot: foot.value.into(),
+        pitch: turn.dot(&shift) / square,
+        angle_deg: angle(&direction, &Vector3::z()),
+        compliance: turn.value.z,
+        to_torque_roll_deg: angle(&free.value.normalize(), &direction),
         distance,
     })
 }

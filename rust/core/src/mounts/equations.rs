@@ -132,7 +132,7 @@ impl Equations {
         if is_constant && least > 0.0 {
             let stiffnesses = powertrain.stiffnesses(least, String::new)?;
             if let Some(natural) = natural {
-                let matrix = natural.diagonalised(powertrain, &stiffnesses);
+                let matrix = natural.diagonalised(powertrain.deflections(), &stiffnesses);
                 if is_near(matrix.norm(), least)
                     && let Some((values, vectors)) = complex_modes(&matrix)
                 {

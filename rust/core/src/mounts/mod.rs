@@ -4,6 +4,7 @@
 //! the engine's axes. What an engine makes of it is a reading of its loads.
 
 mod axes;
+mod bodies;
 mod body;
 pub(crate) mod equations;
 pub(crate) mod file;
@@ -16,9 +17,10 @@ mod static_state;
 mod stiffness;
 mod support;
 
-use nalgebra::{Cholesky, Matrix3x6, Vector3};
+use nalgebra::{Cholesky, Matrix3x6, SMatrix, Vector3};
 
 pub use self::axes::{ElasticAxis, RollAxes, axes};
+pub use self::bodies::matrices;
 pub use self::body::{Products, RigidBody};
 pub use self::footprint::support_polygon;
 pub use self::modes::{FreeMotion, Modes, modes};
@@ -68,8 +70,8 @@ pub struct Powertrain {
     deflections: Vec<Matrix3x6<f64>>,
     /// What carries the mounts, if it gives way.
     support: Option<Support>,
-    /// Motion of the foot of each mount along its axes, of a subframe's motion.
-    carried: Vec<Matrix3x6<f64>>,
+    /// Deflection of each mount and each mount of a subframe, of the motions of both bodies; empty without one.
+    of_both: Vec<SMatrix<f64, 3, 12>>,
     /// Places of a receptance's coordinates among the directions of all mounts.
     coordinates: Vec<usize>,
 }
@@ -89,8 +91,8 @@ impl Powertrain {
         }
         let deflection = |mount: &Mount| mount.axes() * motion_of_point(&(mount.at() - body.cg()));
         let deflections = mounts.iter().map(deflection).collect();
-        let (carried, coordinates) = (Vec::new(), Vec::new());
-        Ok(Self { body, mounts, deflections, support: None, carried, coordinates })
+        let (of_both, coordinates) = (Vec::new(), Vec::new());
+        Ok(Self { body, mounts, deflections, support: None, of_both, coordinates })
     }
 
     /// The body.
@@ -120,22 +122,29 @@ impl Powertrain {
         self.mounts.iter().map(|mount| mount.stiffness_at(omega, &point)).collect()
     }
 
+    /// The mounts, then those of a subframe.
+    pub fn all_mounts(&self) -> impl Iterator<Item = &Mount> {
+        let below = self.support.as_ref().and_then(|support| match support {
+            Support::Subframe(subframe) => Some(&subframe.mounts),
+            Support::Receptance(_) => None,
+        });
+        self.mounts.iter().chain(below.into_iter().flatten())
+    }
+
+    /// Their names; those of a subframe's say so.
+    #[must_use]
+    pub fn all_names(&self) -> Vec<String> {
+        let of = |(k, mount): (usize, &Mount)| {
+            let prefix = if k < self.mounts.len() { "" } else { "subframe: " };
+            format!("{prefix}{}", mount.name())
+        };
+        self.all_mounts().enumerate().map(of).collect()
+    }
+
     /// Sum of mounts of these stiffnesses along their axes: complex symmetric.
     #[must_use]
     pub fn assembled(&self, stiffnesses: &[[Complex64; 3]]) -> ComplexMatrix6 {
-        let mut sum = ComplexMatrix6::zeros();
-        for (deflection, along) in self.deflections.iter().zip(stiffnesses) {
-            for (axis, &stiffness) in along.iter().enumerate() {
-                let row = deflection.row(axis);
-                for (j, &right) in row.iter().enumerate() {
-                    let scaled = stiffness * right;
-                    for (i, &left) in row.iter().enumerate() {
-                        sum[(i, j)] += scaled * left;
-                    }
-                }
-            }
-        }
-        sum
+        assembled(&self.deflections, stiffnesses)
     }
 
     /// The matrix L⁻ᵀ whose columns have unit mass, with L·Lᵀ the mass matrix.
@@ -203,6 +212,26 @@ impl Powertrain {
         let arm = Vector3::from(point) - self.body.cg();
         (complex(&motion_of_point(&arm)) * motion).into()
     }
+}
+
+/// Sum of mounts of these stiffnesses along their axes, of their deflections.
+fn assembled<const N: usize>(
+    deflections: &[SMatrix<f64, 3, N>],
+    stiffnesses: &[[Complex64; 3]],
+) -> SMatrix<Complex64, N, N> {
+    let mut sum = SMatrix::zeros();
+    for (deflection, along) in deflections.iter().zip(stiffnesses) {
+        for (axis, &stiffness) in along.iter().enumerate() {
+            let row = deflection.row(axis);
+            for (j, &right) in row.iter().enumerate() {
+                let scaled = stiffness * right;
+                for (i, &left) in row.iter().enumerate() {
+                    sum[(i, j)] += scaled * left;
+                }
+            }
+        }
+    }
+    sum
 }
 
 fn complex(matrix: &Matrix3x6<f64>) -> Matrix3x6<Complex64> {

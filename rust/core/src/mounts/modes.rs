@@ -5,9 +5,10 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Matrix3x6, Matrix6, SMatrix, Schur, Vector3, Vector6};
+use nalgebra::{DMatrix, SMatrix, SVector, Schur, Vector3};
 
-use super::{ComplexMatrix6, Powertrain, real};
+use super::bodies::Bodies;
+use super::{Powertrain, real};
 use crate::Complex64;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::singular_values::{right_vectors, scale_of};
@@ -17,18 +18,18 @@ use crate::numbers::singular_values::{right_vectors, scale_of};
 const EQUAL_FREQUENCIES: f64 = 1e-9;
 /// Singular value over the largest, for each row and column, that rounding makes of zero.
 const RANK_ROUNDING: f64 = 4.0 * f64::EPSILON;
-/// Mounts whose rows are reduced at once.
-const AT_ONCE: usize = 4;
+/// Rows reduced at once: those of the triangle, and of some mounts.
+const ROWS: usize = 18;
 /// Steps of the complex eigenvalues' iteration; a dozen suffice.
 const MOST_STEPS: usize = 500;
 
-/// Modes of a body on mounts without damping.
+/// Modes of bodies on mounts without damping.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct NaturalModes {
+pub(crate) struct NaturalModes<const N: usize = 6> {
     /// rad/s, ascending; exactly 0 for motions that no mount resists.
-    pub omega: [f64; 6],
+    pub omega: [f64; N],
     /// Columns φ with φᵀMφ = 1.
-    pub shapes: Matrix6<f64>,
+    pub shapes: SMatrix<f64, N, N>,
     /// Number of motions that no mount resists.
     pub free: usize,
 }
@@ -40,54 +41,59 @@ pub struct FreeMotion {
     pub direction: [f64; 3],
     /// Point of the axis next to the CG, m; none of a translation.
     pub foot: Option<[f64; 3]>,
+    /// True if the powertrain rests, and the subframe that carries it moves.
+    pub of_subframe: bool,
 }
 
-/// Modes, and where their energy is.
+/// Modes, and where their energy is: six, or with a subframe twelve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modes {
     /// Hz, ascending; exactly 0 for motions that no mount resists.
-    pub frequency: [f64; 6],
-    /// Columns (displacement of the CG, rotation), φᵀMφ = 1.
-    pub shapes: Matrix6<f64>,
+    pub frequency: Vec<f64>,
+    /// Columns (displacement of the CG, rotation), of a subframe's below those, φᵀMφ = 1.
+    pub shapes: DMatrix<f64>,
     /// Share of each coordinate in the kinetic energy of each mode, %: 100·φₖ(Mφ)ₖ. Columns sum to 100,
     /// and entries can be below zero where the tensor has products. Of modes of one frequency the mean.
-    pub energy: Matrix6<f64>,
-    /// Share of each mount in the elastic energy of each mode, %, a row each.
-    pub strain: Vec<[f64; 6]>,
+    pub energy: DMatrix<f64>,
+    /// Share of each mount in the elastic energy of each mode, %, a row each; of a subframe's after the others.
+    pub strain: Vec<Vec<f64>>,
     /// Largest share of a coordinate, of modes of one frequency the mean of as many largest ones, %.
-    pub purity: [f64; 6],
+    pub purity: Vec<f64>,
     /// Imaginary over real part of the complex eigenvalue.
-    pub loss_factor: [f64; 6],
+    pub loss_factor: Vec<f64>,
     /// Root of the real part of the complex eigenvalue, Hz.
-    pub damped_frequency: [f64; 6],
+    pub damped_frequency: Vec<f64>,
     /// Index of the first mode of the same frequency.
-    pub group: [usize; 6],
+    pub group: Vec<usize>,
     /// Motions that no mount resists.
     pub free: Vec<FreeMotion>,
 }
 
 /// Natural modes with these stiffnesses along the mounts' axes, none below zero.
-pub(crate) fn natural(powertrain: &Powertrain, stiffnesses: &[[f64; 3]]) -> Result<NaturalModes> {
-    let unit = powertrain.unit_mass()?;
+pub(crate) fn natural<const N: usize>(
+    bodies: &Bodies<N>,
+    stiffnesses: &[[f64; 3]],
+) -> NaturalModes<N> {
+    let unit = &bodies.unit;
     let turned = |mount: usize| {
-        let mut rows = powertrain.deflections()[mount] * unit;
+        let mut rows = bodies.deflections[mount] * unit;
         for (mut row, stiffness) in rows.row_iter_mut().zip(stiffnesses[mount]) {
             row *= stiffness.sqrt();
         }
         rows
     };
-    let size = (3 * stiffnesses.len() * 6) as f64;
+    let size = (3 * stiffnesses.len() * N) as f64;
     let (values, vectors) = right_vectors(&triangle(stiffnesses.len(), turned));
     let rank = values.iter().take_while(|&&v| v > RANK_ROUNDING * size * values[0]).count();
-    let free = 6 - rank;
-    let mut omega = [0.0; 6];
-    let mut turns = Matrix6::zeros();
+    let free = N - rank;
+    let mut omega = [0.0; N];
+    let mut turns = SMatrix::<f64, N, N>::zeros();
     for k in 0..rank {
-        omega[5 - k] = values[k];
-        turns.set_column(5 - k, &vectors.column(k));
+        omega[N - 1 - k] = values[k];
+        turns.set_column(N - 1 - k, &vectors.column(k));
     }
     if free > 0 {
-        let known: Vec<Vector6<f64>> = (0..rank).map(|k| vectors.column(k).into()).collect();
+        let known: Vec<SVector<f64, N>> = (0..rank).map(|k| vectors.column(k).into()).collect();
         for (column, direction) in complement(&known).into_iter().enumerate() {
             turns.set_column(column, &direction);
         }
@@ -95,27 +101,50 @@ pub(crate) fn natural(powertrain: &Powertrain, stiffnesses: &[[f64; 3]]) -> Resu
     let mut shapes = unit * turns;
     for mut shape in shapes.column_iter_mut() {
         // The coordinate with the largest part in the energy is above zero.
-        let weights = powertrain.body().mass_matrix().diagonal().map(f64::sqrt);
+        let weights = bodies.mass.diagonal().map(f64::sqrt);
         if shape[shape.component_mul(&weights).iamax()] < 0.0 {
             shape.neg_mut();
         }
     }
-    Ok(NaturalModes { omega, shapes, free })
+    NaturalModes { omega, shapes, free }
 }
 
 /// Triangular factor of the rows of all mounts, by reflections.
-fn triangle(mounts: usize, rows: impl Fn(usize) -> Matrix3x6<f64>) -> Matrix6<f64> {
+fn triangle<const N: usize>(
+    mounts: usize,
+    rows: impl Fn(usize) -> SMatrix<f64, 3, N>,
+) -> SMatrix<f64, N, N> {
     let scale = scale_of((0..mounts).map(|mount| rows(mount).amax()).fold(0.0, f64::max));
-    let mut triangle = Matrix6::zeros();
-    for first in (0..mounts).step_by(AT_ONCE) {
-        let mut stacked = SMatrix::<f64, { 6 + 3 * AT_ONCE }, 6>::zeros();
-        stacked.fixed_view_mut::<6, 6>(0, 0).copy_from(&triangle);
-        for (k, mount) in (first..mounts.min(first + AT_ONCE)).enumerate() {
-            stacked.fixed_view_mut::<3, 6>(6 + 3 * k, 0).copy_from(&(rows(mount) / scale));
+    let mut stacked = SMatrix::<f64, ROWS, N>::zeros();
+    for first in (0..mounts).step_by((ROWS - N) / 3) {
+        for (k, mount) in (first..mounts).take((ROWS - N) / 3).enumerate() {
+            stacked.fixed_view_mut::<3, N>(N + 3 * k, 0).copy_from(&(rows(mount) / scale));
         }
-        triangle = stacked.qr().r();
+        reflect(&mut stacked.data.0);
     }
-    triangle * scale
+    SMatrix::from_fn(|row, column| if row <= column { stacked[(row, column)] * scale } else { 0.0 })
+}
+
+/// Makes columns those of a triangle, by a reflection for each: what is below the diagonal becomes zero.
+fn reflect<const N: usize>(columns: &mut [[f64; ROWS]; N]) {
+    for k in 0..N {
+        let (own, others) = columns[k..].split_first_mut().expect("one column at least");
+        let norm = own[k..].iter().map(|x| x * x).sum::<f64>().sqrt();
+        if norm == 0.0 {
+            continue;
+        }
+        let to = -norm.copysign(own[k]);
+        let factor = 1.0 / (norm * (norm + own[k].abs()));
+        own[k] -= to;
+        for other in others {
+            let product: f64 = own[k..].iter().zip(&other[k..]).map(|(a, b)| a * b).sum();
+            for (b, a) in other[k..].iter_mut().zip(&own[k..]) {
+                *b -= product * factor * a;
+            }
+        }
+        own[k..].fill(0.0);
+        own[k] = to;
+    }
 }
 
 /// Natural modes with the stiffness at a frequency, Hz; none where it depends on that and none is given.
@@ -127,15 +156,15 @@ pub(crate) fn natural_at(
         return Ok(None);
     }
     let (_, stiffnesses) = dynamic(powertrain, frequency)?;
-    natural(powertrain, &real(&stiffnesses)).map(Some)
+    Ok(Some(natural(&powertrain.alone()?, &real(&stiffnesses))))
 }
 
 /// Directions at right angles to some orthonormal ones, and to each other.
-fn complement(known: &[Vector6<f64>]) -> Vec<Vector6<f64>> {
+fn complement<const N: usize>(known: &[SVector<f64, N>]) -> Vec<SVector<f64, N>> {
     let mut all = known.to_vec();
-    while all.len() < 6 {
+    while all.len() < N {
         let rest = |k: usize| {
-            let mut axis = Vector6::zeros();
+            let mut axis = SVector::<f64, N>::zeros();
             axis[k] = 1.0;
             // Twice: the second time removes what rounding of the first left.
             for direction in all.iter().chain(&all) {
@@ -143,26 +172,27 @@ fn complement(known: &[Vector6<f64>]) -> Vec<Vector6<f64>> {
             }
             axis
         };
-        let longest = (0..6).map(rest).max_by(|a, b| a.norm().total_cmp(&b.norm()));
+        let longest = (0..N).map(rest).max_by(|a, b| a.norm().total_cmp(&b.norm()));
         all.extend(longest.map(|axis| axis.normalize()));
     }
     all.split_off(known.len())
 }
 
-impl NaturalModes {
+impl<const N: usize> NaturalModes<N> {
     /// Hz, ascending.
-    pub fn frequency(&self) -> [f64; 6] {
+    pub fn frequency(&self) -> [f64; N] {
         self.omega.map(|omega| omega / TAU)
     }
 
-    /// Complex stiffness in coordinates of these modes, which diagonalise its real part.
+    /// Complex stiffness in coordinates of these modes, which diagonalise its real part, of deflections of the
+    /// mounts.
     pub fn diagonalised(
         &self,
-        powertrain: &Powertrain,
+        deflections: &[SMatrix<f64, 3, N>],
         stiffnesses: &[[Complex64; 3]],
-    ) -> ComplexMatrix6 {
-        let mut damping = Matrix6::zeros();
-        for (deflection, along) in powertrain.deflections().iter().zip(stiffnesses) {
+    ) -> SMatrix<Complex64, N, N> {
+        let mut damping = SMatrix::<f64, N, N>::zeros();
+        for (deflection, along) in deflections.iter().zip(stiffnesses) {
             let turned = deflection * self.shapes;
             for (row, stiffness) in turned.row_iter().zip(along) {
                 damping.syger(stiffness.im, &row.transpose(), &row.transpose(), 1.0);
@@ -170,16 +200,16 @@ impl NaturalModes {
         }
         damping.fill_upper_triangle_with_lower_triangle();
         let mut matrix = damping.map(|im| Complex64::new(0.0, im));
-        for mode in 0..6 {
+        for mode in 0..N {
             matrix[(mode, mode)].re = self.omega[mode].powi(2);
         }
         matrix
     }
 
     /// Index of the first mode of the same frequency, within rounding.
-    pub fn groups(&self) -> [usize; 6] {
-        let mut group = [0; 6];
-        for mode in 1..6 {
+    pub fn groups(&self) -> [usize; N] {
+        let mut group = [0; N];
+        for mode in 1..N {
             let [below, here] = [self.omega[mode - 1], self.omega[mode]];
             let is_equal = here - below <= EQUAL_FREQUENCIES * here;
             group[mode] = if is_equal { group[mode - 1] } else { mode };
@@ -187,31 +217,28 @@ impl NaturalModes {
         group
     }
 
-    /// Motions that no mount resists, in words of geometry.
-    pub fn free_motions(&self, powertrain: &Powertrain) -> Vec<FreeMotion> {
-        let inertia = powertrain.body().inertia();
+    /// Motions that no mount resists, in words of geometry: of the powertrain, or where it rests of a subframe.
+    pub fn free_motions(&self, bodies: &Bodies<N>) -> Vec<FreeMotion> {
         let motion = |column: usize| {
             let shape = self.shapes.column(column);
-            let (shift, turn): (Vector3<f64>, Vector3<f64>) =
-                (shape.fixed_rows::<3>(0).into(), shape.fixed_rows::<3>(3).into());
-            // Of unit energy: a rotation has more than rounding.
-            if turn.dot(&(inertia * turn)) < 1e-12 {
-                return FreeMotion { direction: shift.normalize().into(), foot: None };
+            // Of unit energy: what moves has more than rounding.
+            let energy = |from: usize, count: usize| {
+                let part = shape.rows(from, count);
+                part.dot(&(bodies.mass.view((from, from), (count, count)) * part))
+            };
+            let of_subframe = energy(0, 6) < 1e-12;
+            let (from, cg) =
+                if of_subframe { (6, bodies.centre_below()) } else { (0, bodies.centre()) };
+            let part = |first: usize| Vector3::from_fn(|k, _| shape[from + first + k]);
+            let (shift, turn) = (part(0), part(3));
+            if energy(from + 3, 3) < 1e-12 {
+                return FreeMotion { direction: shift.normalize().into(), foot: None, of_subframe };
             }
-            let foot = powertrain.body().cg() + turn.cross(&shift) / turn.norm_squared();
-            FreeMotion { direction: turn.normalize().into(), foot: Some(foot.into()) }
+            let foot = cg + turn.cross(&shift) / turn.norm_squared();
+            let (direction, foot) = (turn.normalize().into(), Some(foot.into()));
+            FreeMotion { direction, foot, of_subframe }
         };
         (0..self.free).map(motion).collect()
-    }
-
-    /// An error where some motion is free.
-    pub fn require_support(&self, powertrain: &Powertrain) -> Result<()> {
-        let motions = self.free_motions(powertrain);
-        let Some(first) = motions.first() else { return Ok(()) };
-        let names: Vec<&str> = powertrain.mounts().iter().map(super::Mount::name).collect();
-        let hint =
-            format!("{} is free: add a mount that resists it, or stiffness", first.in_words());
-        Err(Error::value("mounts", names.join(", "), hint))
     }
 }
 
@@ -225,9 +252,12 @@ impl FreeMotion {
             format!("({})", rounded.join(", "))
         };
         let direction = listed(self.direction);
+        let of = if self.of_subframe { " of the subframe" } else { "" };
         self.foot.map_or_else(
-            || format!("translation along {direction}"),
-            |foot| format!("rotation about the line through {} m along {direction}", listed(foot)),
+            || format!("translation{of} along {direction}"),
+            |foot| {
+                format!("rotation{of} about the line through {} m along {direction}", listed(foot))
+            },
         )
     }
 }
@@ -235,23 +265,29 @@ impl FreeMotion {
 /// Modes with the real stiffness and the damping at a frequency, Hz. Without one the stiffness must not
 /// depend on it, and the damping of each mode is that at its own.
 pub fn modes(powertrain: &Powertrain, frequency: Option<f64>) -> Result<Modes> {
-    let (omega, stiffnesses) = dynamic(powertrain, frequency)?;
+    match powertrain.subframe()? {
+        None => modes_of(&powertrain.alone()?, frequency),
+        Some(_) => modes_of(&powertrain.with_subframe()?, frequency),
+    }
+}
+
+fn modes_of<const N: usize>(bodies: &Bodies<N>, frequency: Option<f64>) -> Result<Modes> {
+    let (omega, stiffnesses) = dynamic(bodies.powertrain, frequency)?;
     let along = real(&stiffnesses);
-    let natural = natural(powertrain, &along)?;
-    let mass = powertrain.body().mass_matrix();
+    let natural = natural(bodies, &along);
     let group = natural.groups();
-    let mut energy = natural.shapes.component_mul(&(mass * natural.shapes)) * 100.0;
+    let mut energy = natural.shapes.component_mul(&(bodies.mass * natural.shapes)) * 100.0;
     let purity = averaged(&mut energy, &group);
-    let mut strain: Vec<[f64; 6]> = powertrain
-        .deflections()
+    let mut strain: Vec<Vec<f64>> = bodies
+        .deflections
         .iter()
         .zip(&along)
         .map(|(deflection, along)| {
             let squares = (deflection * natural.shapes).map(|part| part * part);
-            [0, 1, 2, 3, 4, 5].map(|mode| (0..3).map(|k| along[k] * squares[(k, mode)]).sum())
+            (0..N).map(|mode| (0..3).map(|k| along[k] * squares[(k, mode)]).sum()).collect()
         })
         .collect();
-    for mode in 0..6 {
+    for mode in 0..N {
         let sum: f64 = strain.iter().map(|row| row[mode]).sum();
         // No mount is deflected in a free motion.
         let factor = if mode < natural.free || sum == 0.0 { 0.0 } else { 100.0 / sum };
@@ -259,8 +295,8 @@ pub fn modes(powertrain: &Powertrain, frequency: Option<f64>) -> Result<Modes> {
             row[mode] *= factor;
         }
     }
-    for first in (0..6).filter(|&mode| group[mode] == mode) {
-        let members: Vec<usize> = (0..6).filter(|&mode| group[mode] == first).collect();
+    for first in (0..N).filter(|&mode| group[mode] == mode) {
+        let members: Vec<usize> = (0..N).filter(|&mode| group[mode] == first).collect();
         let count = members.len() as f64;
         for row in &mut strain {
             let mean = members.iter().map(|&mode| row[mode]).sum::<f64>() / count;
@@ -269,29 +305,31 @@ pub fn modes(powertrain: &Powertrain, frequency: Option<f64>) -> Result<Modes> {
             }
         }
     }
-    let (loss_factor, damped_frequency) = damped(powertrain, &natural, omega, &stiffnesses)?;
+    let (loss_factor, damped_frequency) = damped(bodies, &natural, omega, &stiffnesses)?;
+    let square = |of: &SMatrix<f64, N, N>| DMatrix::from_fn(N, N, |row, column| of[(row, column)]);
     Ok(Modes {
-        frequency: natural.frequency(),
-        free: natural.free_motions(powertrain),
-        shapes: natural.shapes,
-        energy,
+        frequency: natural.frequency().to_vec(),
+        free: natural.free_motions(bodies),
+        shapes: square(&natural.shapes),
+        energy: square(&energy),
         strain,
-        purity,
+        purity: purity.to_vec(),
         loss_factor,
         damped_frequency,
-        group,
+        group: group.to_vec(),
     })
 }
 
 /// Replaces energies of modes of one frequency by their mean; the purity of each mode.
-fn averaged(energy: &mut Matrix6<f64>, group: &[usize; 6]) -> [f64; 6] {
-    let mut purity = [0.0; 6];
-    for first in (0..6).filter(|&mode| group[mode] == mode) {
-        let last = (first..6).take_while(|&mode| group[mode] == first).count() + first;
+fn averaged<const N: usize>(energy: &mut SMatrix<f64, N, N>, group: &[usize; N]) -> [f64; N] {
+    let mut purity = [0.0; N];
+    for first in (0..N).filter(|&mode| group[mode] == mode) {
+        let last = (first..N).take_while(|&mode| group[mode] == first).count() + first;
         let count = last - first;
-        let sum = (first..last).fold(Vector6::zeros(), |sum, mode| sum + energy.column(mode));
+        let sum =
+            (first..last).fold(SVector::<f64, N>::zeros(), |sum, mode| sum + energy.column(mode));
         let mean = sum / count as f64;
-        let mut shares: [f64; 6] = mean.into();
+        let mut shares: [f64; N] = mean.into();
         shares.sort_by(|a, b| b.total_cmp(a));
         for (mode, purity) in purity.iter_mut().enumerate().take(last).skip(first) {
             energy.set_column(mode, &mean);
@@ -302,8 +340,8 @@ fn averaged(energy: &mut Matrix6<f64>, group: &[usize; 6]) -> [f64; 6] {
 }
 
 /// Largest share of a coordinate in the kinetic energy of each mode, %.
-pub(crate) fn purities(powertrain: &Powertrain, natural: &NaturalModes) -> [f64; 6] {
-    let moved = powertrain.body().mass_matrix() * natural.shapes;
+pub(crate) fn purities<const N: usize>(bodies: &Bodies<N>, natural: &NaturalModes<N>) -> [f64; N] {
+    let moved = bodies.mass * natural.shapes;
     averaged(&mut (natural.shapes.component_mul(&moved) * 100.0), &natural.groups())
 }
 
@@ -312,7 +350,7 @@ pub(crate) fn dynamic(
     powertrain: &Powertrain,
     frequency: Option<f64>,
 ) -> Result<(Option<f64>, Vec<[Complex64; 3]>)> {
-    let varying = powertrain.mounts().iter().find(|mount| mount.dynamic().varies());
+    let varying = powertrain.all_mounts().find(|mount| mount.dynamic().varies());
     if let (None, Some(mount)) = (frequency, varying) {
         let hint = format!(
             "the stiffness of mount {:?} depends on frequency: give the one at which it is taken, Hz",
@@ -324,9 +362,8 @@ pub(crate) fn dynamic(
         crate::numbers::limits::distance("frequency", frequency)?;
     }
     let omega = frequency.map(|frequency| frequency * TAU);
-    let stiffnesses =
-        powertrain.stiffnesses(omega.unwrap_or(0.0), || "the frequency given".into())?;
-    for (mount, along) in powertrain.mounts().iter().zip(&stiffnesses) {
+    let stiffnesses = stiffnesses(powertrain, omega.unwrap_or(0.0), "the frequency given")?;
+    for (mount, along) in powertrain.all_mounts().zip(&stiffnesses) {
         if let Some(negative) = along.iter().find(|k| k.re < 0.0) {
             let argument = format!("stiffness of mount {:?}", mount.name());
             let hint = "is below zero at this frequency: modes are those of another one";
@@ -336,28 +373,33 @@ pub(crate) fn dynamic(
     Ok((omega, stiffnesses))
 }
 
+/// Complex stiffnesses of all mounts at an angular speed; of a subframe's after the others.
+fn stiffnesses(powertrain: &Powertrain, omega: f64, point: &str) -> Result<Vec<[Complex64; 3]>> {
+    powertrain.all_mounts().map(|mount| mount.stiffness_at(omega, || point.into())).collect()
+}
+
 /// Loss factor and frequency, Hz, of the complex eigenvalues of each mode.
-fn damped(
-    powertrain: &Powertrain,
-    natural: &NaturalModes,
+fn damped<const N: usize>(
+    bodies: &Bodies<N>,
+    natural: &NaturalModes<N>,
     omega: Option<f64>,
-    stiffnesses: &[[Complex64; 3]],
-) -> Result<([f64; 6], [f64; 6])> {
-    let at_own =
-        omega.is_none() && powertrain.mounts().iter().any(|m| m.dynamic().damping_varies());
-    let any = natural.omega[5];
+    given: &[[Complex64; 3]],
+) -> Result<(Vec<f64>, Vec<f64>)> {
+    let powertrain = bodies.powertrain;
+    let at_own = omega.is_none() && powertrain.all_mounts().any(|m| m.dynamic().damping_varies());
+    let any = natural.omega[N - 1];
     let mut pencil = Vec::new();
-    let (mut loss, mut frequency) = ([0.0; 6], [0.0; 6]);
-    for mode in natural.free..6 {
+    let (mut loss, mut frequency) = (vec![0.0; N], vec![0.0; N]);
+    for mode in natural.free..N {
         if at_own || pencil.is_empty() {
             // Damping at a frequency above zero, where hysteretic damping counts.
             let own = if at_own { natural.omega[mode] } else { omega.unwrap_or(any) };
             let own = if omega.is_some() {
-                stiffnesses.to_vec()
+                given.to_vec()
             } else {
-                powertrain.stiffnesses(own, || "a mode".into())?
+                stiffnesses(powertrain, own, "a mode")?
             };
-            pencil = eigenvalues(powertrain, natural, &own)?;
+            pencil = eigenvalues(bodies, natural, &own)?;
         }
         let value = pencil[mode];
         loss[mode] = if value.im == 0.0 { 0.0 } else { value.im / value.re };
@@ -367,21 +409,19 @@ fn damped(
 }
 
 /// Eigenvalues of `ΦᵀKΦ`, with Φ of unit mass, ascending by their real parts.
-fn eigenvalues(
-    powertrain: &Powertrain,
-    natural: &NaturalModes,
+fn eigenvalues<const N: usize>(
+    bodies: &Bodies<N>,
+    natural: &NaturalModes<N>,
     stiffnesses: &[[Complex64; 3]],
 ) -> Result<Vec<Complex64>> {
-    let matrix = natural.diagonalised(powertrain, stiffnesses);
-    let scale = natural.omega[5].powi(2);
-    let schur: Schur<Complex64, _> =
-        Schur::try_new(matrix / Complex64::from(scale), f64::EPSILON, MOST_STEPS).ok_or_else(
-            || {
-                let hint = "has no eigenvalues within the steps allowed; please report the figures";
-                Error::value("loss_factor", "given", hint)
-            },
-        )?;
-    let (_, triangle): (_, SMatrix<Complex64, 6, 6>) = schur.unpack();
+    let scale = natural.omega[N - 1].powi(2);
+    let matrix = natural.diagonalised(bodies.deflections, stiffnesses) / Complex64::from(scale);
+    let matrix = DMatrix::from_fn(N, N, |row, column| matrix[(row, column)]);
+    let schur = Schur::try_new(matrix, f64::EPSILON, MOST_STEPS).ok_or_else(|| {
+        let hint = "has no eigenvalues within the steps allowed; please report the figures";
+        Error::value("loss_factor", "given", hint)
+    })?;
+    let (_, triangle) = schur.unpack();
     let mut values: Vec<Complex64> =
         triangle.diagonal().iter().map(|value| value * scale).collect();
     values.sort_by(|a, b| a.re.total_cmp(&b.re));

@@ -5,9 +5,9 @@
 //! is solved with the first one, so that its own resonances are no poles; of a receptance, w = HF, the
 //! stiffness of the motion is K − Wᵀ H (1 + Z H)⁻¹ W, with W = ZB at the measured coordinates.
 
-use nalgebra::{DMatrix, DVector, Matrix3x6, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3x6, SMatrix, Vector3};
 
-use super::{ComplexVector6, LEAST_PIVOT, Powertrain, complex, motion_of_point};
+use super::{ComplexVector6, LEAST_PIVOT, Powertrain, assembled, complex, motion_of_point};
 use crate::Complex64;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -166,7 +166,7 @@ impl Receptance {
         limits::between(&self.frequency, frequency).ok_or_else(|| {
             let [low, high] = [self.frequency[0], self.frequency[self.frequency.len() - 1]];
             let hint = format!(
-                "{}, is outside: it has {low} to {high} Hz; extend the table, or leave out this point",
+                "{}, is outside: it has {low} to {high} Hz; extend the table, or give orders= and speeds within it",
                 point()
             );
             Error::value("table of the support", format!("{frequency:.6} Hz"), hint)
@@ -185,6 +185,7 @@ impl Powertrain {
     /// The same on something that gives way.
     pub fn on(mut self, support: Support) -> Result<Self> {
         self.coordinates.clear();
+        self.of_both.clear();
         match &support {
             Support::Subframe(subframe) if subframe.support.is_some() => {
                 let hint = "give a subframe whose mounts stand on what does not move";
@@ -192,9 +193,18 @@ impl Powertrain {
             }
             Support::Subframe(subframe) => {
                 let cg = subframe.body.cg();
-                let carried =
-                    |mount: &super::Mount| mount.axes() * motion_of_point(&(mount.at() - cg));
-                self.carried = self.mounts.iter().map(carried).collect();
+                let mut both = |above: &Matrix3x6<f64>, below: &Matrix3x6<f64>| {
+                    let mut row = SMatrix::<f64, 3, 12>::zeros();
+                    row.fixed_view_mut::<3, 6>(0, 0).copy_from(above);
+                    row.fixed_view_mut::<3, 6>(0, 6).copy_from(below);
+                    self.of_both.push(row);
+                };
+                for (mount, above) in self.mounts.iter().zip(&self.deflections) {
+                    both(above, &-(mount.axes() * motion_of_point(&(mount.at() - cg))));
+                }
+                for below in &subframe.deflections {
+                    both(&Matrix3x6::zeros(), below);
+                }
             }
             Support::Receptance(receptance) => {
                 for (k, (name, axis)) in receptance.coordinates.iter().enumerate() {
@@ -240,7 +250,8 @@ impl Powertrain {
             })),
             Some(Support::Subframe(subframe)) => {
                 let below = subframe.stiffnesses(omega, &point)?;
-                Ok(self.state_on_subframe(subframe, stiffnesses, &below, omega, load))
+                let all = [stiffnesses, &below].concat();
+                Ok(self.state_on_subframe(subframe, &all, omega, load))
             }
             Some(Support::Receptance(receptance)) => {
                 let receptance = receptance.at(omega, &point)?;
@@ -253,36 +264,19 @@ impl Powertrain {
         &self,
         subframe: &Powertrain,
         stiffnesses: &[[Complex64; 3]],
-        below: &[[Complex64; 3]],
         omega: f64,
         load: &ComplexVector6,
     ) -> Option<State> {
         let square = omega * omega;
-        let mut matrix = DMatrix::zeros(12, 12);
+        let whole = assembled(&self.of_both, stiffnesses);
+        let mut matrix = DMatrix::from_fn(12, 12, |i, j| whole[(i, j)]);
         let mut scale = DVector::zeros(12);
-        for (first, body, stiffness) in [
-            (0, &self.body, self.assembled(stiffnesses)),
-            (6, &subframe.body, subframe.assembled(below)),
-        ] {
+        for (first, body) in [(0, &self.body), (6, &subframe.body)] {
             let mass = body.mass_matrix();
-            let block = stiffness - mass.map(|m| Complex64::from(m * square));
-            matrix.view_mut((first, first), (6, 6)).copy_from(&block);
+            let mut block = matrix.view_mut((first, first), (6, 6));
+            block -= mass.map(|m| Complex64::from(m * square));
             let units = mass.diagonal().map(|m| Complex64::from(m.sqrt().recip()));
             scale.rows_mut(first, 6).copy_from(&units);
-        }
-        for ((above, carried), along) in self.deflections.iter().zip(&self.carried).zip(stiffnesses)
-        {
-            for (axis, stiffness) in along.iter().enumerate() {
-                for i in 0..6 {
-                    for j in 0..6 {
-                        let [upper, lower] = [above[(axis, i)], carried[(axis, i)]];
-                        let right = carried[(axis, j)] * stiffness;
-                        matrix[(i, 6 + j)] -= right * upper;
-                        matrix[(6 + j, i)] -= right * upper;
-                        matrix[(6 + i, 6 + j)] += right * lower;
-                    }
-                }
-            }
         }
         let mut right = DVector::zeros(12);
         right.rows_mut(0, 6).copy_from(load);

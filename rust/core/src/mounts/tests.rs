@@ -300,17 +300,88 @@ fn modes_are_orthonormal_and_their_energies_sum_to_a_hundred() {
         let mass = on_mounts.body().mass_matrix();
         let along = on_mounts.stiffnesses(0.0, String::new).unwrap();
         let matrix = on_mounts.assembled(&along).map(|entry| entry.re);
-        let unit = found.shapes.transpose() * mass * found.shapes;
+        let unit = found.shapes.transpose() * mass * &found.shapes;
         assert!((unit - Matrix6::identity()).amax() < 1e-12);
         let squares = Vector6::from_fn(|k, _| (std::f64::consts::TAU * found.frequency[k]).powi(2));
         let error =
-            found.shapes.transpose() * matrix * found.shapes - Matrix6::from_diagonal(&squares);
+            found.shapes.transpose() * matrix * &found.shapes - Matrix6::from_diagonal(&squares);
         assert!(error.amax() < 1e-12 * squares.max());
         for mode in 0..6 {
             assert!((found.energy.column(mode).sum() - 100.0).abs() < 1e-10);
         }
-        assert_eq!((found.loss_factor, found.damped_frequency[0] > 0.0), ([0.0; 6], true));
+        assert_eq!((found.loss_factor, found.damped_frequency[0] > 0.0), (vec![0.0; 6], true));
     }
+}
+
+#[test]
+fn bodies_on_a_subframe_have_twelve_modes_and_the_preloads_of_firm_ground() {
+    let mut number = draws(61);
+    for _ in 0..40 {
+        let (above, below) = (random(&mut number, false), random(&mut number, false));
+        let on = above.clone().on(Support::Subframe(Box::new(below.clone()))).unwrap();
+        let found = modes(&on, None).unwrap();
+        let (mass, stiffness) = matrices(&on, None).unwrap();
+        let unit = found.shapes.transpose() * &mass * &found.shapes;
+        let elastic = found.shapes.transpose() * stiffness.map(|k| k.re) * &found.shapes;
+        let largest = (std::f64::consts::TAU * found.frequency[11]).powi(2);
+        for (row, column) in (0..12).flat_map(|row| (0..12).map(move |column| (row, column))) {
+            let one = f64::from(u8::from(row == column));
+            let square = one * (std::f64::consts::TAU * found.frequency[row]).powi(2);
+            assert!((unit[(row, column)] - one).abs() < 1e-12);
+            assert!((elastic[(row, column)] - square).abs() < 1e-12 * largest);
+        }
+        for mode in 0..12 {
+            assert!((found.energy.column(mode).sum() - 100.0).abs() < 1e-10);
+            let strained: f64 = found.strain.iter().map(|row| row[mode]).sum();
+            assert!((strained - 100.0).abs() < 1e-9);
+        }
+        assert_eq!(found.strain.len(), on.all_names().len());
+        // What is above follows the subframe as a rigid body: its mounts feel the same forces at rest.
+        let rest = |of: &Powertrain| {
+            at_rest(of, [1.0, -9.8, 2.0], 30.0, [[5.0, 0.0, 50.0], [0.0, -0.1, 0.0]]).unwrap()
+        };
+        let (firm, soft) = (rest(&above), rest(&on));
+        for (firm, soft) in firm.force.iter().zip(&soft.force) {
+            let largest = firm.iter().flatten().fold(0.0, |m: f64, f| m.max(f.abs()));
+            for (a, b) in firm.iter().flatten().zip(soft.iter().flatten()) {
+                // Roundings of flexibilities that differ by as much as the stiffness.
+                assert!((a - b).abs() <= 1e-7 * largest, "{a} {b}");
+            }
+        }
+        // What the subframe's mounts bear is both weights, of stiffnesses up to 1e6 apart.
+        for (axis, gravity) in [1.0, -9.8, 2.0].into_iter().enumerate() {
+            let all = soft.force[0].iter().skip(above.mounts().len()).map(|force| force[axis]);
+            let weight = gravity * (above.body().mass() + below.body().mass());
+            assert!((all.sum::<f64>() / weight - 1.0).abs() < 1e-6);
+        }
+        let (plain, whole) = (axes(&above, None).unwrap(), axes(&on, None).unwrap());
+        assert_eq!(plain.torque_roll, whole.torque_roll);
+        assert!(whole.elastic.compliance >= plain.elastic.compliance);
+    }
+}
+
+#[test]
+fn free_motions_of_two_bodies_are_named() {
+    let body = diagonal(100.0, [9.0, 18.0, 9.0]);
+    let corners = [[0.3, 0.3], [-0.3, 0.3], [0.3, -0.3]];
+    let three = |stiffness| {
+        let at = |(k, &[x, z]): (usize, &[f64; 2])| mount(&k.to_string(), [x, 0.0, z], stiffness);
+        powertrain(body, corners.iter().enumerate().map(at))
+    };
+    let free = |above, below| {
+        let on = three(above).on(Support::Subframe(Box::new(three(below)))).unwrap();
+        let found = modes(&on, None).unwrap();
+        found.free.iter().map(FreeMotion::in_words).collect::<Vec<_>>()
+    };
+    assert!(free([1e5; 3], [1e5; 3]).is_empty());
+    let sideways = free([1e5; 3], [0.0, 1e5, 1e5]);
+    assert_eq!(sideways, ["translation along (1, 0, 0)"]);
+    let upper = free([0.0, 1e5, 1e5], [1e5; 3]);
+    assert_eq!(upper, ["translation along (1, 0, 0)"]);
+    let both = free([0.0, 1e5, 1e5], [0.0, 1e5, 1e5]);
+    assert_eq!(both.len(), 2);
+    let error = axes(&three([0.0; 3]), None).unwrap_err().to_string();
+    assert!(error.contains("; ") && error.contains("are free: add a mount"), "{error}");
 }
 
 #[test]
@@ -383,22 +454,24 @@ fn mounts_are_counted_and_named_apart() {
 }
 
 #[test]
-fn tolerances_of_stiffness_have_exact_bounds_and_corners_only_for_purity() {
+fn tolerances_of_stiffness_have_exact_bounds_and_purity_is_searched_within_them() {
     let cancel = Cancel::new();
     let mut number = draws(41);
-    for _ in 0..8 {
+    for _ in 0..3 {
         let on_mounts = random(&mut number, false);
-        let count = on_mounts.mounts().len();
+        let count = on_mounts.mounts().len().min(3);
+        let on_mounts =
+            Powertrain::new(*on_mounts.body(), on_mounts.mounts()[..count].to_vec()).unwrap();
         let tolerances = |share: f64| MountTolerances {
             stiffness: vec![share; count],
             mass: 0.02,
             inertia: 0.1,
             cg: 1e-3,
-            by_axis: false,
+            by_axis: true,
         };
         let found = robustness(&on_mounts, &tolerances(0.2), None, &cancel).unwrap();
         let plain = modes(&on_mounts, None).unwrap();
-        assert_eq!((found.frequency, found.purity), (plain.frequency, plain.purity));
+        assert_eq!((&found.frequency, &found.purity), (&plain.frequency, &plain.purity));
         for mode in 0..6 {
             let frequency = plain.frequency[mode];
             // All scale alike: the square root, to a few roundings.
@@ -408,7 +481,7 @@ fn tolerances_of_stiffness_have_exact_bounds_and_corners_only_for_purity() {
             near(found.by_stiffness[0][mode], 0.8);
             near(found.by_stiffness[1][mode], 1.2);
             assert!(found.least_purity[mode] <= found.purity[mode] + 1e-9);
-            for ends in [found.by_stiffness, found.by_mass, found.by_cg] {
+            for ends in [&found.by_stiffness, &found.by_mass, &found.by_cg] {
                 assert!(ends[0][mode] <= frequency && frequency <= ends[1][mode]);
             }
             // First differences of the place of the centre of gravity.
@@ -424,8 +497,9 @@ fn tolerances_of_stiffness_have_exact_bounds_and_corners_only_for_purity() {
                 assert!((found.cg_slope[axis][mode] - slope).abs() < 1e-5 * size);
             }
         }
-        // Within the box: random stiffness, mass and inertia keep the bounds; a corner has the purity.
-        for _ in 0..20 {
+        // Within the box: random stiffness keeps the bounds; where purity was found least it has that.
+        let mut least_of_draws = [f64::INFINITY; 6];
+        for _ in 0..1000 {
             let scaled = |factor: &mut dyn FnMut() -> f64| {
                 let mounts = on_mounts.mounts().iter().map(|mount| {
                     let mut figures = mount.figures().clone();
@@ -435,23 +509,27 @@ fn tolerances_of_stiffness_have_exact_bounds_and_corners_only_for_purity() {
                 Powertrain::new(*on_mounts.body(), mounts.collect()).unwrap()
             };
             let inside = modes(&scaled(&mut || 1.0 + 0.2 * number()), None).unwrap();
-            for mode in 0..6 {
+            for (mode, least) in least_of_draws.iter_mut().enumerate() {
                 let [low, high] = [0, 1].map(|end| found.by_stiffness[end][mode]);
                 let frequency = inside.frequency[mode];
                 assert!(low * (1.0 - 1e-12) <= frequency && frequency <= high * (1.0 + 1e-12));
+                *least = least.min(inside.purity[mode]);
             }
         }
-        for mode in 0..6 {
+        for (mode, least) in least_of_draws.into_iter().enumerate() {
+            // A search, not a bound: where modes mix in a narrow band, draws may meet it a little lower.
+            assert!(found.least_purity[mode] <= least + 0.5);
             let mounts =
-                on_mounts.mounts().iter().zip(&found.corner[mode]).map(|(mount, upper)| {
+                on_mounts.mounts().iter().zip(&found.least_pure[mode]).map(|(mount, factors)| {
                     let mut figures = mount.figures().clone();
-                    for (stiffness, &upper) in figures.stiffness.iter_mut().zip(upper) {
-                        *stiffness *= if upper { 1.2 } else { 0.8 };
+                    for (stiffness, &factor) in figures.stiffness.iter_mut().zip(factors) {
+                        assert!((0.8 - 1e-15..=1.2 + 1e-15).contains(&factor));
+                        *stiffness *= factor;
                     }
                     Mount::new(figures).unwrap()
                 });
-            let corner = Powertrain::new(*on_mounts.body(), mounts.collect()).unwrap();
-            let purity = modes(&corner, None).unwrap().purity[mode];
+            let at_least = Powertrain::new(*on_mounts.body(), mounts.collect()).unwrap();
+            let purity = modes(&at_least, None).unwrap().purity[mode];
             assert!((purity - found.least_purity[mode]).abs() < 1e-9);
         }
     }

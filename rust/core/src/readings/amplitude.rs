@@ -98,7 +98,9 @@ impl Amplitudes {
                 let torque = &mut wrench.torque;
                 torque.roll += term.roll.value * amplitude.roll;
                 torque.crank += term.roll.value * amplitude.crank;
-                torque.size += term.roll.size * amplitude.roll.norm().max(amplitude.crank.norm());
+                for (size, of) in torque.sizes.iter_mut().zip([amplitude.roll, amplitude.crank]) {
+                    *size += term.roll.size * of.norm();
+                }
             }
             for wrench in of_order {
                 *wrench = wrench.snapped(counts, order.number());

@@ -329,10 +329,12 @@ impl Balance {
         own.fold([0.0; 2], |[roll, crank], (_, mean)| [roll + mean[0], crank + mean[1]])
     }
 
-    /// Bound of the rounding error of the k-th order of a part of the torques.
+    /// Bounds of the rounding errors of the k-th order of a part of the torques, on the block and on the
+    /// crank.
     #[must_use]
-    pub fn torque_zero_bound(&self, part: Part, k: usize) -> f64 {
-        self.torque(part, k).size * rounding(self.counts[1], self.orders[k].number())
+    pub fn torque_zero_bounds(&self, part: Part, k: usize) -> [f64; 2] {
+        let rounding = rounding(self.counts[1], self.orders[k].number());
+        self.torque(part, k).sizes.map(|size| size * rounding)
     }
 
     /// Peak phasors along (about) x and y of the k-th order.

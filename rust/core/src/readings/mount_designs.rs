@@ -119,10 +119,7 @@ pub fn design_responses(
     request: &DesignRequest,
     cancel: &Cancel,
 ) -> Result<DesignResponses> {
-    if base.support().is_some() {
-        let hint = "designs are those of mounts on what does not move: leave out the support";
-        return Err(Error::value("support", "given", hint));
-    }
+    base.require_ground()?;
     let count = variations.first().map_or(0, |first| first.values.len());
     for variation in variations {
         let (found, mounts) = (variation.values.len(), base.mounts().len());

@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::load::source::Scaling;
-use crate::load::{Group, GroupIndex, LoadList};
+use crate::load::{Group, GroupIndex, LoadList, count};
 use crate::mounts::equations::{Equations, LANES, lanes, rows};
 use crate::mounts::{
     ComplexVector6, Levels, Powertrain, State, Support, grade, motion_of_point, natural_at,
@@ -25,7 +25,7 @@ use crate::numbers::order::Order;
 use crate::numbers::pool;
 use crate::readings::balance::{ErrorBounds, Orders, angular_speed};
 use crate::readings::choice;
-use crate::wrench::Wrench;
+use crate::wrench::{Planar, Wrench, rounding, snapped};
 
 /// Points solved between two checks for cancellation.
 const POINTS_PER_TASK: usize = 256;
@@ -57,6 +57,8 @@ pub(crate) struct EngineLoads {
     groups: List<GroupIndex, Group>,
     /// At each order of each group, over what it scales with.
     unit: Vec<Wrench>,
+    /// Bounds of rounding over the sizes of sums, of planar vectors and of torques, at each order.
+    roundings: Vec<[f64; 2]>,
 }
 
 /// One order at one speed.
@@ -80,10 +82,12 @@ pub enum Derivative {
     Acceleration,
 }
 
-/// Load of a wrench about the CG: three forces, three moments.
-fn load(wrench: &Wrench) -> ComplexVector6 {
-    let ([force_x, force_y], [pitch, yaw]) = (wrench.force.xy(0.0), wrench.moment.xy(0.0));
-    ComplexVector6::new(force_x, force_y, Complex64::ZERO, pitch, yaw, wrench.torque.roll)
+/// Load of a wrench about the CG: three forces, three moments, zero where they are within rounding.
+fn load(wrench: &Wrench, [of_plane, of_torque]: [f64; 2]) -> ComplexVector6 {
+    let along = |planar: &Planar| planar.xy(planar.size * of_plane);
+    let ([force_x, force_y], [pitch, yaw]) = (along(&wrench.force), along(&wrench.moment));
+    let roll = snapped(wrench.torque.roll, wrench.torque.sizes[0] * of_torque);
+    ComplexVector6::new(force_x, force_y, Complex64::ZERO, pitch, yaw, roll)
 }
 
 impl EngineLoads {
@@ -107,9 +111,11 @@ impl EngineLoads {
         let loads = LoadList::new(engine, cg.z);
         let torque = engine.spectrum().is_none();
         let chosen = choice::evaluated(engine, &loads, orders, torque, cancel)?;
-        let (mut kept, mut unit) = (Vec::new(), Vec::new());
+        let counts = [false, true].map(|torque| count(&loads.list, torque));
+        let (mut kept, mut unit, mut roundings) = (Vec::new(), Vec::new(), Vec::new());
         for (order, wrenches) in chosen.kept() {
             kept.push(order);
+            roundings.push(counts.map(|count| rounding(count, order.number())));
             unit.extend(wrenches.iter().map(|wrench| wrench.moved([cg.x, cg.y, 0.0])));
         }
         Ok(Self {
@@ -119,40 +125,42 @@ impl EngineLoads {
             omega,
             groups: loads.groups,
             unit,
+            roundings,
         })
     }
 
     /// Loads of each order at a speed, rad/s.
     fn at_speed(&self, omega: f64) -> impl Iterator<Item = ComplexVector6> {
-        let factors: Vec<f64> =
-            self.groups.iter().map(|group| group.scaling.factor(omega)).collect();
-        self.unit.chunks(self.groups.len()).map(move |of_order| {
+        let factors = self.groups.map_to(|group| group.scaling.factor(omega));
+        let of_orders = self.unit.chunks(self.groups.len()).zip(&self.roundings);
+        of_orders.map(move |(of_order, rounding)| {
             let scaled =
                 of_order.iter().zip(&factors).map(|(wrench, factor)| wrench.scaled(*factor));
-            load(&scaled.fold(Wrench::default(), |sum, one| sum.plus(&one)))
+            load(&scaled.fold(Wrench::default(), |sum, one| sum.plus(&one)), *rounding)
         })
     }
 
     /// Load of each order over (nω)², and what does not scale with speed; rejects other loads.
     pub fn amplitudes(&self) -> Result<Vec<[ComplexVector6; 2]>> {
-        let of_order = |(wrenches, order): (&[Wrench], &Order)| {
-            let mut sums = [ComplexVector6::zeros(); 2];
+        let of_order = |((wrenches, order), &rounding): ((&[Wrench], &Order), &[f64; 2])| {
+            let mut sums = [Wrench::default(); 2];
             for (group, wrench) in self.groups.iter().zip(wrenches) {
-                match group.scaling {
-                    Scaling::SpeedSquared => {
-                        sums[0] += load(wrench) / Complex64::from(order.number().powi(2));
-                    }
-                    Scaling::Independent => sums[1] += load(wrench),
+                let sum = match group.scaling {
+                    Scaling::SpeedSquared => &mut sums[0],
+                    Scaling::Independent => &mut sums[1],
                     Scaling::Row(_) => {
                         let hint = "designs of mounts count loads that scale with the square of speed \
                                     or not at all, no tables over speed";
                         return Err(Error::value("loads", format!("{:?}", group.name), hint));
                     }
-                }
+                };
+                *sum = sum.plus(wrench);
             }
-            Ok(sums)
+            let [by_square, fixed] = sums.map(|sum| load(&sum, rounding));
+            Ok([by_square / Complex64::from(order.number().powi(2)), fixed])
         };
-        self.unit.chunks(self.groups.len()).zip(&self.orders).map(of_order).collect()
+        let of_orders = self.unit.chunks(self.groups.len()).zip(&self.orders);
+        of_orders.zip(&self.roundings).map(of_order).collect()
     }
 }
 
@@ -368,11 +376,16 @@ impl Response {
     #[must_use]
     pub fn about(&self, point: [f64; 3], loads: &[ComplexVector6]) -> Vec<ComplexVector6> {
         let arm = self.powertrain.body().cg() - Vector3::from(point);
-        let moved = motion_of_point(&arm).transpose().map(Complex64::from);
+        let arms = motion_of_point(&arm).transpose();
         let about = |load: &ComplexVector6| {
-            let mut sum = moved * load.fixed_rows::<3>(0);
+            let force = load.fixed_rows::<3>(0);
+            let mut sum = arms.map(Complex64::from) * force;
+            let size = arms.abs() * force.map(Complex64::norm);
             for k in 3..6 {
                 sum[k] += load[k];
+                // What rounding leaves of moments that cancel is none.
+                let bound = 8.0 * f64::EPSILON * (size[k] + load[k].norm());
+                sum[k] = snapped(sum[k], bound);
             }
             sum
         };
