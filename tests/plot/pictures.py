@@ -250,6 +250,9 @@ PICTURES: dict[str, Callable[..., Any]] = {
     "mount-waterfall": lambda **place: (
         MOUNTED.without(cylinder=3).response(range(500, 6001, 20)).plot(kind="waterfall", **place)
     ),
+    "mount-point": lambda **place: (
+        MOUNTED.response(np.arange(600, 3001, 100)).at((0, 0.3, 0)).plot(kind="map", **place)
+    ),
     "mount-spectrum": lambda **place: MOUNTED.response(800).plot(mount="rear", **place),
     "mount-design": cp.design_mounts(
         MOUNTED,

@@ -586,8 +586,8 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         """Load on what carries the mounts over that of the engine, of each component.
 
         Magnitude of ``support_load`` over that of ``load``, NaN where the engine has no load in
-        that direction beside rounding: there mounts make some of loads in others. Of shape (…,
-        n_orders, n_loads).
+        that direction beside rounding: there mounts make some of loads in others.
+        Of shape (…, n_orders, n_loads).
         """
         load = np.abs(self.load)
         ratio = np.full(load.shape, np.nan)

@@ -305,7 +305,7 @@ impl<'a, const N: usize> Search<'a, N> {
         Ok(best)
     }
 
-    /// The least purity found on a line through a point: on a grid, about the least of it, and where the mode's
+    /// The least purity found on a line through a point: on a grid, about its minimum there, and where the mode's
     /// frequency is nearest to another's, and modes mix.
     fn along_line(&self, mode: usize, direction: &[f64], start: Point) -> Point {
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -342,7 +342,7 @@ impl<'a, const N: usize> Search<'a, N> {
     }
 }
 
-/// Keeps the least of some purities, ascending.
+/// Keeps the smallest purities, ascending.
 fn keep(worst: &mut [(f64, usize); STARTS], one: (f64, usize)) {
     if one.0 < worst[STARTS - 1].0 {
         worst[STARTS - 1] = one;

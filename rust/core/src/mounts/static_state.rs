@@ -8,7 +8,7 @@ use super::{Powertrain, ROUNDINGS, motion_of_point, support_polygon};
 use crate::numbers::error::Result;
 use crate::numbers::limits;
 
-/// Largest bound of rounding, over the largest value, that tells zeros from others.
+/// Largest bound of rounding, over the largest value, that distinguishes zeros from others.
 const MEANINGFUL: f64 = 1e-6;
 
 /// A body at rest on its mounts.
