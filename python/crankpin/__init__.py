@@ -49,6 +49,7 @@ if TYPE_CHECKING:
     from crankpin.model.cylinder import Cylinder, Rod, slider_crank_harmonics
     from crankpin.model.engine import Engine
     from crankpin.model.gas_torque import gas_torque_harmonics
+    from crankpin.model.loads import PeriodicLoad
     from crankpin.model.mounts import InertiaTrack, Mount, RigidBody
     from crankpin.model.presets import presets
     from crankpin.model.shafts import Shaft, Unbalance
@@ -64,6 +65,7 @@ __all__ = [
     "InertiaTrack",
     "InputError",
     "Mount",
+    "PeriodicLoad",
     "PortTiming",
     "Powertrain",
     "Receptance",
@@ -135,6 +137,7 @@ _HOMES = {
     "crankpin.model.cylinder": ("Cylinder", "Rod", "slider_crank_harmonics"),
     "crankpin.model.engine": ("Engine",),
     "crankpin.model.gas_torque": ("gas_torque_harmonics",),
+    "crankpin.model.loads": ("PeriodicLoad",),
     "crankpin.model.mounts": ("InertiaTrack", "Mount", "RigidBody"),
     "crankpin.model.presets": ("presets",),
     "crankpin.model.shafts": ("Shaft", "Unbalance"),

@@ -235,7 +235,7 @@ def test_results_are_read_by_threads_at_once() -> None:
             reads = [
                 partial(b.read, quantity, what)
                 for _, quantity, what, _ in export.variables(
-                    ["force", "moment", "torque", "torque.gas", "torque.inertia"], fired=True
+                    ["force", "moment", "torque", "torque.gas", "torque.inertia"], means=True
                 )
             ]
             with ThreadPoolExecutor(8) as pool:

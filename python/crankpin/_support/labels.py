@@ -139,6 +139,16 @@ SPECTRUM_GIVEN = "spectrum given"
 """Loads of a result whose forces are those of a spectrum."""
 
 
+AND_LOADS = "; loads: "
+"""What stands between the gas pressure and the further loads that a result counts."""
+
+
+def without_gas(loads: str) -> str:
+    """Return the further loads of the loads counted, in words; empty where there are none."""
+    _, _, others = loads.rpartition(AND_LOADS) if AND_LOADS in loads else ("", "", "")
+    return f"loads: {others}" if others else ""
+
+
 def gas_text(names: Sequence[str | None], count: int = 1) -> str:
     """Return which gas pressure counts: ``gas: petrol; cylinder 3 does not fire``.
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 
 class Kind(NamedTuple):
@@ -50,18 +53,32 @@ QUANTITIES = {
 """Name of a quantity → its entry."""
 
 PART_WORDS = {"gas": "of gas pressure", "inertia": "of inertia forces"}
-"""Part of a torque → its cause in words."""
+"""Part of a quantity → its cause in words; others are named after a load."""
 
-PARTS = {
-    f"{kind.name}.{part}": kind._replace(name=f"{kind.name}.{part}", words=f"{kind.words} {words}")
-    for kind in QUANTITIES.values()
-    if not kind.planar
-    for part, words in PART_WORDS.items()
-}
-"""Part of a torque, such as ``"torque.gas"`` → its entry; both parts add up to the torque."""
 
-KINDS = QUANTITIES | PARTS
-"""Every entry by its name."""
+def kind_of(name: str) -> Kind:
+    """Return the entry of a quantity, or of a part of one, such as ``"torque.gas"``."""
+    whole, _, part = name.partition(".")
+    kind = QUANTITIES[whole]
+    if not part:
+        return kind
+    return kind._replace(name=name, words=f"{kind.words} {PART_WORDS.get(part, f'of {part}')}")
+
+
+def parts_of(name: str, names: Sequence[str]) -> tuple[str, ...]:
+    """Return the parts of a quantity, of the names of all that makes the quantities of a result.
+
+    None where inertia alone makes it; gas pressure makes torques alone.
+    """
+    if "." in name or not set(names) - {"inertia"}:
+        return ()
+    if QUANTITIES[name].planar:
+        names = [each for each in names if each != "gas"]
+        if not set(names) - {"inertia"}:
+            return ()
+    known = [each for each in PART_WORDS if each in names]
+    return (*(f"{name}.{each}" for each in (*known, *(n for n in names if n not in PART_WORDS))),)
+
 
 PLANE_VECTORS = tuple(name for name, kind in QUANTITIES.items() if kind.planar)
 """Names of the vectors in the cross-section plane."""

@@ -9,7 +9,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support.drawing import draw
-from crankpin._support.quantities import KINDS, QUANTITIES
+from crankpin._support.quantities import QUANTITIES, kind_of
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.by_order import ByOrder
@@ -124,6 +124,11 @@ class Balance(ByOrder[float]):
         return self.request.bounds(self.__dict__["_core"].error_bound)
 
     @property
+    def causes(self) -> tuple[str, ...]:
+        """Names of what makes the quantities: ``inertia``, ``gas`` and those of further loads."""
+        return super().causes if self.within is None else self.within[0].causes
+
+    @property
     def reference_z(self) -> float:
         """Plane about which moments are taken, m."""
         plane = self.request.reference_z
@@ -147,13 +152,18 @@ class Balance(ByOrder[float]):
 
     def _proved_zero(self, quantity: str, order: Order) -> bool:
         """Return whether a quantity of one order is proved to vanish."""
-        whole, _, part = inputs.one_of("quantity", quantity, KINDS).partition(".")
+        self.request.check(quantity, self.causes)
+        whole, _, part = quantity.partition(".")
         order = one_order(order)
-        if order % 1 and (KINDS[whole].planar or not self.fired or part == "inertia"):
+        if part not in ("", "inertia", "gas"):
+            return False  # numbers that were given
+        engine = self.engine if not part else self.engine.with_loads([])
+        bare = kind_of(whole).planar or not self.fired or part == "inertia"
+        if order % 1 and bare and not engine.loads:
             return True  # inertia has whole orders
         if self.request.pairs is not None or (whole == "torque" and any(self.request.aside)):
             return False
-        core, plane = engine_core(self.engine), self.request.reference_z
+        core, plane = engine_core(engine), self.request.reference_z
         vanishes = _core.vanishing(core, [round(2 * order)], plane, None)[0][0]
         if whole == "crank_torque" and any(ratio < 0 for _, _, ratio in core.cranks[0]):
             return False  # cranks of opposite senses exert on the block what adds up on the crank
@@ -166,7 +176,7 @@ class Balance(ByOrder[float]):
         if what == "peak" and self.within is None and not any(self.request.aside):
             alone: _core.Balance | None = self.__dict__["_core"].alone(one_order(order))
             if alone is not None:  # quicker than the peaks of all orders
-                planar = KINDS[quantity].planar
+                planar = kind_of(quantity).planar
                 lengths = np.abs(alone.phasors(quantity, planar))[0]
                 return lengths[0] + lengths[1] if planar else lengths
         return super()._read_order(order, quantity, what)
@@ -195,7 +205,7 @@ class Balance(ByOrder[float]):
             return core.phasors(quantity, False)
         if what in labels.TURNING:
             return core.phasors(quantity, True)[:, int(what == "backward")]
-        if what == "peak" and KINDS[quantity].planar:
+        if what == "peak" and kind_of(quantity).planar:
             forward, backward = np.abs(core.phasors(quantity, True)).T
             return np.asarray(forward + backward)
         if what in ("peak", "peak_xy"):
@@ -304,7 +314,7 @@ class Balance(ByOrder[float]):
         """Table that is shown: peaks by order and of all together, negligible orders left out."""
         names = [name for name in self.request.quantities if name != "crank_torque"]
         shown, left_out = self._shown_orders(*names)
-        mean = ("mean",) if self.fired else ()
+        mean = ("mean",) if self._has_means else ()
         columns = [Column("order", (*mean, *(self.orders[k] for k in shown), ALL))]
         for name in names:
             kind = QUANTITIES[name]
@@ -317,7 +327,7 @@ class Balance(ByOrder[float]):
                 ]
             )
             means: tuple[float | None, ...] = ()
-            if self.fired:
+            if self._has_means:
                 means = (None if kind.planar else getattr(self, name).mean,)
             least = self._least_shown(rows)
             columns += [

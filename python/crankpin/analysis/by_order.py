@@ -9,7 +9,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
-from crankpin._support.quantities import KINDS, QUANTITIES
+from crankpin._support.quantities import QUANTITIES, kind_of
 from crankpin._support.record import AbsentError, read_only
 from crankpin.analysis import export
 from crankpin.analysis.export import Labelled
@@ -50,6 +50,16 @@ class ByOrder(Keyed, Quantities["NDArray[np.float64]", Value], Labelled, Generic
         includes them.
         """
         return tuple(self.__dict__["_core"].omitted)
+
+    @property
+    def causes(self) -> tuple[str, ...]:
+        """Names of what makes the quantities: ``inertia``, ``gas`` and those of further loads."""
+        return tuple(getattr(self.__dict__["_core"], "names", ("inertia",)))
+
+    @property
+    def _has_means(self) -> bool:
+        """True if more than inertia may make a torque: then it may have a mean."""
+        return set(self.causes) != {"inertia"}
 
     @property
     def loads_counted(self) -> str:
@@ -157,36 +167,26 @@ class ByOrder(Keyed, Quantities["NDArray[np.float64]", Value], Labelled, Generic
         InputError
             If there is no such quantity or array.
         """
-        self.request.check(quantity)
+        self.request.check(quantity, self.causes)
         inputs.one_of("what", what, export.arrays(quantity))
         array: NDArray[Any] | None = self._kept.get((quantity, what))
         if array is None:
-            array = read_only(np.asarray(self._of_part(quantity, what)))
+            array = read_only(np.asarray(self._about_point(quantity, what)))
             array = self._kept.setdefault((quantity, what), array)
         return array
-
-    def _of_part(self, quantity: str, what: str) -> NDArray[Any]:
-        """Compute an array; without gas pressure inertia is the whole."""
-        whole, _, part = quantity.partition(".")
-        if self.fired or not (part or what == "mean"):
-            return self._about_point(quantity, what)
-        if part == "inertia" and what != "mean":
-            return self.read(whole, what)
-        if what == "mean":
-            return np.zeros(self.read(whole, "peak").shape[:-1])
-        return np.zeros_like(self.read(whole, what))
 
     def _about_point(self, quantity: str, what: str) -> NDArray[Any]:
         """Compute an array; roll torque about a point beside the crank from that about its axis."""
         x, y = self.request.aside
-        of_inertia = quantity in ("torque", "torque.inertia") and what != "mean"
-        if not of_inertia or (x == 0.0 and y == 0.0):
+        whole, point, part = quantity.partition(".")
+        if whole != "torque" or what == "mean" or (x == 0.0 and y == 0.0) or part == "gas":
             return self._compute(quantity, what)
+        force_name = f"force{point}{part}"
         if what == "phasors":
-            force = self.read("force", "phasors")
+            force = self.read(force_name, "phasors")
             return self._compute(quantity, what) - (x * force[..., 1] - y * force[..., 0])
         if what == "zero_bound":
-            bound = (abs(x) + abs(y)) * self.read("force", "zero_bound")
+            bound = (abs(x) + abs(y)) * self.read(force_name, "zero_bound")
             return self._compute(quantity, what) + bound
         phasors = self.read(quantity, "phasors")
         if what == "peak":
@@ -268,7 +268,7 @@ class ByOrder(Keyed, Quantities["NDArray[np.float64]", Value], Labelled, Generic
     # --- in other forms -----------------------------------------------------------------------
 
     def _arrays(self, quantities: Sequence[str]) -> tuple[dict[str, Any], dict[str, Any]]:
-        variables = list(export.variables(quantities, fired=self.fired))
+        variables = list(export.variables(quantities, means=self._has_means))
         coords = {**self.coords, "order": self.orders}
         export.fitting(
             coords,
@@ -285,7 +285,7 @@ class ByOrder(Keyed, Quantities["NDArray[np.float64]", Value], Labelled, Generic
     def _figures(self, quantity: str) -> Mapping[str, Mapping[str, NDArray[np.float64]]]:
         phasors = self.read(quantity, "phasors")
         parts = {"z": phasors}
-        if KINDS[quantity].planar:
+        if kind_of(quantity).planar:
             parts = {"x": phasors[..., 0], "y": phasors[..., 1]}
             parts |= {part: self.read(quantity, part) for part in labels.TURNING}
         return {

@@ -10,7 +10,7 @@ import numpy as np
 
 from crankpin._support import inputs, labels, optional
 from crankpin._support.frames import Tabled
-from crankpin._support.quantities import KINDS, PLANE_VECTORS
+from crankpin._support.quantities import PLANE_VECTORS, kind_of
 from crankpin._support.tables import Column, Table
 
 if TYPE_CHECKING:
@@ -40,17 +40,17 @@ TRAILING: dict[str, tuple[str, ...]] = {
 NOT_OF_SCALARS = ("forward", "backward", "peak_xy", "total_peak_xy")
 COMPLEX = ("phasors", "forward", "backward")
 """Arrays of complex numbers."""
-OF_GAS = ("mean",)
-"""Arrays that only torques of fired engines have."""
+MEANS = ("mean",)
+"""Arrays that only torques have which more than inertia makes."""
 
 
 def variables(
-    quantities: Sequence[str], *, fired: bool
+    quantities: Sequence[str], *, means: bool
 ) -> Iterator[tuple[str, str, str, tuple[str, ...]]]:
     """Yield name, quantity, array and trailing dimensions of each variable of a dataset."""
     for quantity in quantities:
-        planar = KINDS[quantity].planar
-        absent = OF_GAS if planar else NOT_OF_SCALARS if fired else (*NOT_OF_SCALARS, *OF_GAS)
+        planar = kind_of(quantity).planar
+        absent = MEANS if planar else NOT_OF_SCALARS if means else (*NOT_OF_SCALARS, *MEANS)
         for what, dims in TRAILING.items():
             if what not in absent:
                 name = quantity.replace(".", "_")
@@ -61,7 +61,7 @@ def variables(
 @cache
 def arrays(quantity: str) -> tuple[str, ...]:
     """Return the names of the arrays of a quantity."""
-    return tuple(what for _, _, what, _ in variables([quantity], fired=True))
+    return tuple(what for _, _, what, _ in variables([quantity], means=True))
 
 
 class Labelled(Tabled):
@@ -85,6 +85,11 @@ class Labelled(Tabled):
     def fired(self) -> bool:
         """True if gas pressure is counted."""
         return False
+
+    @property
+    def causes(self) -> tuple[str, ...]:
+        """Names of what makes the quantities."""
+        return ("inertia",)
 
     @property
     def coords(self) -> Mapping[str, Any]:
@@ -139,7 +144,7 @@ class Labelled(Tabled):
         >>> list(i4.waveform(3000).tidy("force"))
         ['theta_deg', 'quantity', 'component', 'value', 'unit']
         """
-        named = self.request.named(quantities, fired=self.fired)
+        named = self.request.named(quantities, self.causes)
         parts = [
             (quantity, component, figures)
             for quantity in named
@@ -188,7 +193,7 @@ class Labelled(Tabled):
         """
         if frame is not None:
             return super().to_xarray(frame=frame)
-        named = self.request.named(quantities, fired=self.fired)
+        named = self.request.named(quantities, self.causes)
         coords, arrays = self._arrays(named)
         return dataset(self, named, coords, arrays, split_complex=split_complex)
 
@@ -224,7 +229,7 @@ def _split(dims: tuple[str, ...], values: NDArray[Any], attributes: dict[str, st
 
 def units(quantity: str) -> dict[str, str]:
     """Return the attributes of a quantity's variables."""
-    return {"units": KINDS[quantity].xarray_unit}
+    return {"units": kind_of(quantity).xarray_unit}
 
 
 def fitting(coords: Mapping[str, Any], *arrays: tuple[Iterable[str], int]) -> None:
@@ -270,6 +275,6 @@ def _long(
     columns.append(repeated("component", (component for _, component, _ in parts)))
     for head in parts[0][2]:
         columns.append(Column(head, np.concatenate([np.ravel(each[head]) for *_, each in parts])))
-    columns.append(repeated("unit", (KINDS[quantity].unit for quantity, _, _ in parts)))
+    columns.append(repeated("unit", (kind_of(quantity).unit for quantity, _, _ in parts)))
     units = tuple(columns[-1].data)
     return Table("Long form", tuple(columns), loads=loads, row_units=units)

@@ -11,7 +11,7 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 from crankpin import _core
 from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Tabled
-from crankpin._support.quantities import KINDS, PARTS, Kind
+from crankpin._support.quantities import Kind, kind_of, parts_of
 from crankpin._support.record import AbsentError, AbsentItemError, Record, changed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis import export
@@ -132,12 +132,12 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
     """The order; ``"all"`` for all orders together, None for every order."""
 
     def __post_init__(self) -> None:
-        self.result.request.check(self.name)
+        self.result.request.check(self.name, self.result.causes)
 
     @property
     def kind(self) -> Kind:
         """Entry of the registry: name, symbols, unit and components."""
-        return KINDS[self.name]
+        return kind_of(self.name)
 
     @property
     def unit(self) -> str:
@@ -229,13 +229,49 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
         return self._read("phasors")  # type: ignore[no-any-return]
 
     @property
+    def parts(self) -> tuple[str, ...]:
+        """Names of what makes the quantity: ``inertia``, ``gas`` and those of further loads."""
+        return tuple(name.partition(".")[-1] for name in parts_of(self.name, self.result.causes))
+
+    def part(self, name: str) -> Self:
+        """Return the part of the quantity that one name makes.
+
+        Parameters
+        ----------
+        name : str
+            One of ``parts``: ``"inertia"``, ``"gas"``, or the name of a load, see
+            :meth:`Engine.with_loads`.
+
+        Returns
+        -------
+        Quantity
+            The part; all parts add up to the whole.
+
+        Raises
+        ------
+        InputError
+            If nothing of this name makes any.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> fan = cp.PeriodicLoad("fan", on="shaft", force={4: 12}, z=-0.1)
+        >>> b = cp.Engine.preset("i4").with_loads([fan]).balance(rpm=1000)
+        >>> b.force.parts, float(b.force.part("fan")[4].peak)
+        (('inertia', 'fan'), 12.0)
+        """
+        if "." in self.name:
+            raise self._absent("part", "it is one; read it of the whole")
+        return changed(self, name=f"{self.name}.{inputs.text('name', name)}")
+
+    @property
     def gas(self) -> Self:
         """Part of a torque that is due to gas pressure."""
         return self._part("gas")
 
     @property
     def inertia(self) -> Self:
-        """Part of a torque that is due to inertia forces."""
+        """Part that is due to inertia forces; of a force or a moment where loads make another."""
         return self._part("inertia")
 
     @property
@@ -287,9 +323,9 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
         return values if values.ndim else float(values)
 
     def _part(self, part: str) -> Self:
-        if (name := f"{self.name}.{part}") not in PARTS:
+        if "." in self.name or (self.kind.planar and part not in self.parts):
             raise self._absent(part, "give torque or crank_torque, which have it")
-        return changed(self, name=name)
+        return changed(self, name=f"{self.name}.{part}")
 
     def _absent(self, what: str, hint: str) -> InputError:
         return inputs.faulty(what, f"is undefined for {self.name}", hint, AbsentError)
@@ -377,9 +413,10 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
 
     @property
     def loads_counted(self) -> str:
-        """Loads that count where more could, in words; empty for a force or a moment."""
-        gas = self.name in ("torque", "crank_torque")
-        return self.result.loads_counted if gas or self.result.request.pairs is not None else ""
+        """Loads that count where more could, in words; of a force or a moment without gas."""
+        if self.result.request.pairs is not None or not self.kind.planar:
+            return self.result.loads_counted
+        return labels.without_gas(self.result.loads_counted)
 
     def _columns(self) -> dict[str, str]:
         """Head of each column of the table → array that it shows."""
@@ -406,7 +443,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
                 Column(ALL if key == ALL else f"order {key}", self[key]._read("peak"))
                 for key in keys
             ]
-        elif self.result.fired and not self.kind.planar:
+        elif self._has_means:
             title, columns = self.kind.words, self._columns_of_parts(keys)
         else:
             columns = [Column("order", keys)]
@@ -417,6 +454,11 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
         whole = title == f"{self.kind.words}, {self.unit}"
         row_units = (self.unit,) * len(columns[0]) if whole and columns else ()
         return Table(title, tuple(columns), note, self.loads_counted, row_units)
+
+    @property
+    def _has_means(self) -> bool:
+        """True of a torque that more than inertia may make."""
+        return not self.kind.planar and set(self.result.causes) != {"inertia"}
 
     def _figure(self, what: str) -> float | None:
         """Return a figure of one order of a balance; None where all together have none."""
@@ -429,7 +471,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
     def _columns_of_parts(self, keys: Sequence[Order | Literal["all"]]) -> list[Column]:
         """Return mean, peaks and phases of a torque and of its parts."""
         columns = [Column("order", ("mean", *keys))]
-        parts = [self] if self.name in PARTS else [self, self.gas, self.inertia]
+        parts = [self, *map(self.part, self.parts)]
         least = self.result._least_shown(np.asarray(self.peak))
         for part in parts:
             peaks = [part[key]._figure("peak") for key in keys]
@@ -564,12 +606,11 @@ class OrderBalance(Quantities[Value, Value], Tabled, Generic[Value]):
         return self.result.loads_counted
 
     def _each(self) -> Iterator[Quantity]:
-        """Yield the quantities, and the parts of torques of a fired engine."""
+        """Yield the quantities, and their parts where more than inertia makes them."""
         for name in self.result.request.quantities:
             whole: Quantity = getattr(self, name)
             yield whole
-            if self.result.fired and not whole.kind.planar:
-                yield from (whole.gas, whole.inertia)
+            yield from map(whole.part, whole.parts)
 
     @property
     def _which(self) -> str:

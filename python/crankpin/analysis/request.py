@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from crankpin import _core
 from crankpin._support import inputs, labels
-from crankpin._support.quantities import KINDS, PARTS, PLANE_VECTORS, QUANTITIES
+from crankpin._support.quantities import PART_WORDS, PLANE_VECTORS, QUANTITIES, parts_of
 from crankpin._support.record import AbsentError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from crankpin._support.inputs import Order, Orders, Spectrum
 
@@ -73,11 +73,11 @@ class Request(NamedTuple):
         """Return the same request of the orders given."""
         return self._replace(orders=orders)
 
-    def loads_counted(self, gas: str) -> str:
+    def loads_counted(self, loads: str) -> str:
         """Return the loads that a result counts, where more could: in torque gas pressure does."""
         if self.pairs is not None:
             return labels.SPECTRUM_GIVEN
-        return gas if self.torque else ""
+        return loads if self.torque else labels.without_gas(loads)
 
     @property
     def spectrum(self) -> Spectrum | None:
@@ -100,15 +100,21 @@ class Request(NamedTuple):
         bounds = dict(zip(QUANTITIES, (force, moment, roll, torque), strict=True))
         return MappingProxyType({name: bounds[name] for name in self.quantities})
 
-    def named(self, quantities: tuple[str, ...], *, fired: bool) -> tuple[str, ...]:
-        """Return the quantities named, all that there are if none is, with parts if fired."""
+    def named(self, quantities: tuple[str, ...], names: tuple[str, ...]) -> tuple[str, ...]:
+        """Return the quantities named, all that there are and their parts if none is."""
         known = self.quantities
-        parts = [name for name in PARTS if fired and name.partition(".")[0] in known]
+        parts = [part for each in known for part in parts_of(each, names)]
         return check_quantities(quantities, (*known, *parts))
 
-    def check(self, quantity: str) -> None:
-        """Raise an AbsentError if a quantity is not available."""
-        kind = KINDS[inputs.one_of("quantity", quantity, KINDS)]
+    def check(self, quantity: str, names: Sequence[str] = ("inertia",)) -> None:
+        """Raise an error if a quantity is not available, of the names of what makes it."""
+        whole, point, _ = str(quantity).partition(".")
+        kind = QUANTITIES[inputs.one_of("quantity", whole, QUANTITIES)]
+        known = names if kind.planar else (*PART_WORDS, *names)
+        if point:
+            inputs.one_of(
+                "quantity", quantity, [f"{whole}.{each}" for each in dict.fromkeys(known)]
+            )
         if self._has_torque or kind.planar:
             return
         if self.pairs is not None:

@@ -10,7 +10,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support.drawing import draw
-from crankpin._support.quantities import KINDS, QUANTITIES
+from crankpin._support.quantities import QUANTITIES, kind_of
 from crankpin._support.record import read_only
 from crankpin._support.tables import Table
 from crankpin.analysis import export
@@ -105,8 +105,8 @@ class OverAngle(Labelled):
         Parameters
         ----------
         quantity : str
-            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; or the part of a torque
-            due to gas pressure or inertia forces: ``"torque.gas"``, ``"torque.inertia"``.
+            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; or the part that one of
+            ``causes`` makes: ``"torque.gas"``, ``"torque.inertia"``, ``"force.valve train"``.
 
         Returns
         -------
@@ -118,17 +118,14 @@ class OverAngle(Labelled):
         InputError
             If there is no such quantity.
         """
-        self.request.check(quantity)
-        whole, _, part = quantity.partition(".")
-        if self.fired or not part:
-            return self._values(quantity)
-        return self._values(whole) if part == "inertia" else np.zeros_like(self._values(whole))
+        self.request.check(quantity, self.causes)
+        return self._values(quantity)
 
     def _values(self, quantity: str) -> NDArray[np.float64]:
         raise NotImplementedError
 
     def _arrays(self, quantities: Sequence[str]) -> tuple[dict[str, Any], dict[str, Any]]:
-        axes = {name: ("axis",) if KINDS[name].planar else () for name in quantities}
+        axes = {name: ("axis",) if kind_of(name).planar else () for name in quantities}
         export.fitting(self.coords, *(((*self.dims, *axis), 8) for axis in axes.values()))
         return dict(self.coords), {
             name.replace(".", "_"): ((*self.dims, *axis), self.read(name), export.units(name))
@@ -136,7 +133,7 @@ class OverAngle(Labelled):
         }
 
     def _figures(self, quantity: str) -> Mapping[str, Mapping[str, NDArray[np.float64]]]:
-        values, kind = self.read(quantity), KINDS[quantity]
+        values, kind = self.read(quantity), kind_of(quantity)
         parts = np.moveaxis(values, -1, 0) if kind.planar else (values,)
         return {
             component: {"value": part}
@@ -174,7 +171,7 @@ class Waveform(OverAngle):
         check_request(self.request, "Engine.waveform")
         request = self.request
         theta = inputs.copied(self.theta_deg)
-        *arrays, gas, balance = _core.waveform(
+        (planar, torques), parts, balance = _core.waveform(
             engine_core(self.engine),
             self.rpm,
             theta,
@@ -185,11 +182,26 @@ class Waveform(OverAngle):
             request.pairs,
             request.torque,
         )
+        arrays = (*(planar or ()), *(torques or (None, None)))
         by_name: dict[str, Any] = dict(zip(QUANTITIES, arrays, strict=True))
-        for name, values in zip(("torque", "crank_torque"), gas or (), strict=False):
-            by_name |= {f"{name}.gas": values, f"{name}.inertia": read_only(by_name[name] - values)}
-        self.__dict__.update(theta_deg=theta, _by_name=by_name, _balance=balance)
+        zeros = {2: np.zeros((len(theta), 2)), 1: np.zeros(len(theta))}
+        # Inertia makes the rest.
+        rest = {name: values for name, values in by_name.items() if values is not None}
+        for part, (of_planar, of_torques) in parts:
+            own = (*(of_planar or (None, None)), *(of_torques or (None, None)))
+            for name, values in zip(QUANTITIES, own, strict=True):
+                if name in rest:
+                    by_name[f"{name}.{part}"] = zeros[rest[name].ndim] if values is None else values
+                    rest[name] = rest[name] if values is None else rest[name] - values
+        by_name |= {f"{name}.inertia": read_only(values) for name, values in rest.items()}
+        names = ("inertia", *(part for part, _ in parts))
+        self.__dict__.update(theta_deg=theta, _by_name=by_name, _balance=balance, _names=names)
         super().__post_init__()
+
+    @property
+    def causes(self) -> tuple[str, ...]:
+        """Names of what makes the quantities: ``inertia``, ``gas`` and those of further loads."""
+        return self.__dict__["_names"]  # type: ignore[no-any-return]
 
     @property
     def _summed(self) -> _core.Balance | None:
@@ -224,7 +236,10 @@ class Waveform(OverAngle):
         return self.request.loads_counted(self.engine.loads_counted)
 
     def _values(self, quantity: str) -> NDArray[np.float64]:
-        return self.__dict__["_by_name"][quantity]  # type: ignore[no-any-return]
+        by_name: dict[str, NDArray[np.float64]] = self.__dict__["_by_name"]
+        if (values := by_name.get(quantity)) is None:  # gas that there is none of
+            return read_only(np.zeros_like(by_name[quantity.partition(".")[0]]))  # type: ignore[no-any-return]
+        return values
 
     @property
     def coords(self) -> Mapping[str, Any]:

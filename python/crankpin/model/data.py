@@ -10,10 +10,11 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._core import ATMOSPHERE, InputError
-from crankpin._support import files, inputs, labels
+from crankpin._support import files, inputs
 from crankpin._support.record import AbsentError, read_only
 from crankpin._support.warnings import suppressed, warn
 from crankpin.model import checks, engine_files
+from crankpin.model import loads as periodic
 from crankpin.model import shafts as rotating
 from crankpin.model.cycle import Cycle
 from crankpin.model.cylinder import Cylinder
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Angle, Angles
+    from crankpin.model.loads import PeriodicLoad
     from crankpin.model.shafts import Shaft, Unbalance
 
 Hold: TypeAlias = Literal["pins", "firing"]
@@ -236,9 +238,10 @@ class EngineData:
 
     @property
     def loads_counted(self) -> str:
-        """Gas pressure that results of the engine count, in words.
+        """Loads besides those of moving parts that results of the engine count, in words.
 
-        ``"without gas pressure"``, or the name of the cycle and which cylinders do not fire.
+        ``"without gas pressure"``, or the name of the cycle and which cylinders do not fire; and
+        the names of the :attr:`loads`.
 
         Examples
         --------
@@ -251,9 +254,7 @@ class EngineData:
         >>> i4.with_cycle([petrol, petrol, None, petrol]).loads_counted
         'gas: example petrol, full load; cylinder 3 does not fire'
         """
-        cores = self._core.cycles or ()
-        names = {core: core.points[3] for core in {*cores} if core is not None}
-        return labels.gas_text([names.get(core) for core in cores], len(names))
+        return self._core.loads_counted
 
     @property
     def firing_deg(self) -> NDArray[np.float64]:
@@ -347,6 +348,11 @@ class EngineData:
     def _undefined(name: str, reason: str) -> InputError:
         return inputs.faulty(name, "is undefined for this engine", reason, AbsentError)
 
+    @property
+    def loads(self) -> tuple[PeriodicLoad, ...]:
+        """Periodic loads besides pistons, pressure and unbalances."""
+        return periodic.loads(self._core)
+
     # --- changed copies -------------------------------------------------------------------------
 
     def replace(
@@ -360,6 +366,7 @@ class EngineData:
         rotating_mass: ArrayLike | None = None,
         counterweights: Iterable[Unbalance] | None = None,
         shafts: Iterable[Shaft] | None = None,
+        loads: Iterable[PeriodicLoad] | None = None,
         mains: ArrayLike | Literal["kept"] | None = KEPT,
         reference_z: float | Literal["kept"] | None = KEPT,
         cycle: Cycle | Sequence[Cycle | None] | Literal["kept"] | None = KEPT,
@@ -387,6 +394,8 @@ class EngineData:
             As in :meth:`from_lists`; by default unchanged.
         shafts : sequence of Shaft, optional
             As in :meth:`from_lists`; by default unchanged.
+        loads : sequence of PeriodicLoad, optional
+            As in :meth:`with_loads`; by default unchanged.
         mains : array_like or None, optional
             As in :meth:`from_lists`; None for the default of :attr:`mains`.
         reference_z : float or None, optional
@@ -438,6 +447,7 @@ class EngineData:
         weights = self.counterweights if counterweights is None else counterweights
         core = rotating.with_counterweights(core, weights)
         core = rotating.with_shafts(core, self.shafts if shafts is None else shafts)
+        core = periodic.with_loads(core, self.loads if loads is None else loads)
         count = self.strokes if strokes is None else inputs.strokes(strokes)
         changed = type(self)(
             core,
@@ -541,6 +551,37 @@ class EngineData:
             If an amount or a place seems to be in another unit.
         """
         return type(self)(rotating.with_shafts(self._core, shafts))
+
+    def with_loads(self, loads: Iterable[PeriodicLoad]) -> Self:
+        """Return the same engine with these periodic loads in place of those it has.
+
+        Every result counts each under its name; see :class:`crankpin.PeriodicLoad`.
+
+        Parameters
+        ----------
+        loads : sequence of PeriodicLoad
+            Loads besides pistons, pressure and unbalances; empty for none.
+
+        Returns
+        -------
+        Engine
+            The engine with them.
+
+        Raises
+        ------
+        InputError
+            If one is no :class:`PeriodicLoad`, or is at a crank or a cylinder that the engine does
+            not have.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> belt = cp.PeriodicLoad("belt", on="shaft", force={2: 30}, direction_deg=45, z=-0.1)
+        >>> six = cp.Engine.preset("i6").with_loads([belt])
+        >>> float(six.balance(rpm=3000)[2].force.peak.round(9))
+        30.0
+        """
+        return type(self)(periodic.with_loads(self._core, loads))
 
     def with_cycle(
         self, cycle: Cycle | Sequence[Cycle | None] | None, *, crankcase: float | None = None

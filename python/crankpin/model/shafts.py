@@ -77,7 +77,7 @@ class Unbalance(Input):
             )
         checks.unbalance(self.amount)
         angle = inputs.angle("angle_deg", angle_deg)
-        object.__setattr__(self, "angle_deg", _readable(angle))
+        object.__setattr__(self, "angle_deg", readable(angle))
         if pin is not None:
             pin = inputs.whole("pin", pin)
             if pin < 1:
@@ -152,7 +152,7 @@ class Shaft(Input):
         object.__setattr__(self, "x", inputs.finite("x", x))
         object.__setattr__(self, "y", inputs.finite("y", y))
         object.__setattr__(self, "name", inputs.text("name", name))
-        object.__setattr__(self, "unbalances", _listed("unbalances", unbalances, Unbalance))
+        object.__setattr__(self, "unbalances", listed_items("unbalances", unbalances, Unbalance))
         for k, each in enumerate(self.unbalances):
             if each.pin is not None:
                 hint = "leave it out: only the crankshaft has crankpins"
@@ -164,7 +164,7 @@ class Shaft(Input):
 
 def with_counterweights(core: _core.Engine, weights: Iterable[Unbalance]) -> _core.Engine:
     """Return an engine with these unbalances on its cranks."""
-    listed = _listed("counterweights", weights, Unbalance)
+    listed = listed_items("counterweights", weights, Unbalance)
     made = core.with_counterweights([_weight(weight) for weight in listed])
     checks.hardware(core, listed, ())
     return made
@@ -185,7 +185,7 @@ def counterweights(core: _core.Engine) -> tuple[Unbalance, ...]:
 
 def with_shafts(core: _core.Engine, given: Iterable[Shaft]) -> _core.Engine:
     """Return an engine with these balance shafts."""
-    listed = _listed("shafts", given, Shaft)
+    listed = listed_items("shafts", given, Shaft)
     made = core.with_shafts([_shaft(each) for each in listed])
     checks.hardware(core, (), listed)
     return made
@@ -214,7 +214,8 @@ def lines(core: _core.Engine) -> list[str]:
     return found
 
 
-def _listed(name: str, given: object, kind: type[Item]) -> tuple[Item, ...]:
+def listed_items(name: str, given: object, kind: type[Item]) -> tuple[Item, ...]:
+    """Return the items of a list, each of which is of a class."""
     listed = inputs.items(name, given, f"give a list of crankpin.{kind.__name__}")
     for k, each in enumerate(listed):
         if not isinstance(each, kind):
@@ -236,10 +237,10 @@ def unbalance_of(weight: _Weight) -> Unbalance:
     """Return an unbalance of the core."""
     amount, angle, z, pin, crank = weight
     with suppressed():  # Warned of where it was given.
-        return Unbalance(amount, z, _readable(angle), None if pin is None else pin + 1, crank)
+        return Unbalance(amount, z, readable(angle), None if pin is None else pin + 1, crank)
 
 
-def _readable(angle: str) -> float | str:
+def readable(angle: str) -> float | str:
     """Return exact degrees as a number, or as text where no number is exact."""
     if "/" in angle or _core.exact_angle("angle_deg", float(angle)) != angle:
         return angle

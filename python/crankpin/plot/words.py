@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels, units
-from crankpin._support.quantities import PARTS, PLANE_VECTORS, QUANTITIES
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES, parts_of
 from crankpin._support.warnings import without_controls
 
 if TYPE_CHECKING:
@@ -113,8 +113,8 @@ def by_component(values: NDArray[Any], quantity: str) -> NDArray[Any]:
 
 
 def series_of(result: Balance | Waveform, quantity: str) -> list[str]:
-    """Return what is drawn of a quantity: of the torque of a fired engine its parts too."""
-    parts = [part for part in PARTS if part.startswith(f"{quantity}.") and result.fired]
+    """Return what is drawn of a quantity: of a torque its parts too, where there are several."""
+    parts = () if quantity in PLANE_VECTORS else parts_of(quantity, result.causes)
     return [quantity, *parts]
 
 

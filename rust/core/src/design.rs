@@ -155,6 +155,7 @@ impl Objectives {
                 engine.counterweights()[k].pin.map_or_else(fixed, of_cylinder)
             }
             Origin::Shaft(_) => fixed(),
+            Origin::Load(k) => engine.loads()[k].cylinder.map_or_else(fixed, of_cylinder),
         };
         let all_turns = loads.list.map_to(of_load);
         let arithmetic =

@@ -57,7 +57,7 @@ pub use readings::sweep::Sweep;
 pub use readings::waveform::Waveform;
 pub use readings::{
     balance, bearing_loads, drawing, exact, explain, figures, flywheel, mount_designs, mounted,
-    peaks, sweep, terms, tolerances, waveform,
+    peaks, quantity, sweep, terms, tolerances, waveform,
 };
 
 /// Complex numbers as ndarray and `NumPy` share them.

@@ -31,10 +31,8 @@ pub struct Wrench {
     pub force: Planar,
     /// Rocking moment about the reference point, N·m.
     pub moment: Planar,
-    /// Torques of inertia, N·m.
-    pub inertia: Torque,
-    /// Torques of gas pressure, N·m.
-    pub gas: Torque,
+    /// Torques, N·m.
+    pub torque: Torque,
 }
 
 /// Bound of the rounding error of a sum of `count` loads at order n, per unit of Σ|terms|.
@@ -63,6 +61,16 @@ impl Planar {
         self.forward += other.forward * amplitude;
         self.backward_conj += other.backward_conj * amplitude;
         self.size += other.size * amplitude.norm();
+    }
+
+    /// Sum of two.
+    #[must_use]
+    pub fn plus(&self, other: &Self) -> Self {
+        Self {
+            forward: self.forward + other.forward,
+            backward_conj: self.backward_conj + other.backward_conj,
+            size: self.size + other.size,
+        }
     }
 
     /// The vector times a real factor.
@@ -144,20 +152,47 @@ impl Torque {
 }
 
 impl Wrench {
-    /// The whole torques.
+    /// Whether it is none at all.
     #[must_use]
-    pub fn torque(&self) -> Torque {
-        self.inertia.plus(&self.gas)
+    pub fn is_zero(&self) -> bool {
+        [self.force.peak(), self.moment.peak(), self.torque.peak()] == [0.0; 3]
     }
 
-    /// The wrench at a speed, of one whose parts by inertia are over ω².
+    /// Sum of two.
     #[must_use]
-    pub fn at_speed(&self, square: f64) -> Self {
+    pub fn plus(&self, other: &Self) -> Self {
         Self {
-            force: self.force.scaled(square),
-            moment: self.moment.scaled(square),
-            inertia: self.inertia.scaled(square),
-            gas: self.gas,
+            force: self.force.plus(&other.force),
+            moment: self.moment.plus(&other.moment),
+            torque: self.torque.plus(&other.torque),
+        }
+    }
+
+    /// The wrench times a real factor.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self {
+            force: self.force.scaled(factor),
+            moment: self.moment.scaled(factor),
+            torque: self.torque.scaled(factor),
+        }
+    }
+
+    /// The wrench of a sum of loads at an order, zero where rounding is all there is; of which so many have
+    /// a force, and so many are in all.
+    #[must_use]
+    pub fn snapped(&self, counts: [usize; 2], order: f64) -> Self {
+        let [of_force, of_torque] = counts.map(|count| rounding(count, order));
+        let vector = |vector: &Planar| vector.snapped(vector.size * of_force);
+        let [of_roll, of_crank] = self.torque.sizes.map(|size| size * of_torque);
+        Self {
+            force: vector(&self.force),
+            moment: vector(&self.moment),
+            torque: Torque {
+                roll: snapped(self.torque.roll, of_roll),
+                crank: snapped(self.torque.crank, of_crank),
+                ..self.torque
+            },
         }
     }
 
@@ -170,8 +205,8 @@ impl Wrench {
         let mut moved = *self;
         moved.moment.add_scaled(&self.force.quarter_turned(), Complex64::new(-z, 0.0));
         let [force_x, force_y] = self.force.xy(0.0);
-        moved.inertia.roll -= force_y * x - force_x * y;
-        moved.inertia.sizes[0] += self.force.size * (x.abs() + y.abs());
+        moved.torque.roll -= force_y * x - force_x * y;
+        moved.torque.sizes[0] += self.force.size * (x.abs() + y.abs());
         moved
     }
 }
@@ -199,8 +234,8 @@ mod tests {
         let seen = at_force.moved([-0.1, 0.2, -0.5]);
         let [about_x, about_y] = seen.moment.xy(0.0);
         assert!((about_x + y * 0.5).norm() < 1e-15 && (about_y - x * 0.5).norm() < 1e-15);
-        assert!((seen.inertia.roll - (y * 0.1 + x * 0.2)).norm() < 1e-15);
+        assert!((seen.torque.roll - (y * 0.1 + x * 0.2)).norm() < 1e-15);
         let back = seen.moved([0.1, -0.2, 0.5]);
-        assert!(back.moment.peak() < 1e-15 && back.inertia.roll.norm() < 1e-15);
+        assert!(back.moment.peak() < 1e-15 && back.torque.roll.norm() < 1e-15);
     }
 }

@@ -125,7 +125,7 @@ fn check(cranks: &[Crank], pieces: &[Piece]) -> Engine {
     let balance = by_orders(&engine, &request, &ORDERS);
     for (k, &order) in ORDERS.iter().enumerate() {
         let [[fx, fy], [mx, my]] = [Vector::Force, Vector::Moment].map(|v| balance.xy(v, k));
-        let torque = balance.wrenches[k].torque();
+        let torque = balance.wrenches[k].torque;
         let found = [fx, fy, mx, my, torque.roll, torque.crank];
         let expected = derived(cranks, pieces, reference, order);
         for (which, (found, expected)) in found.into_iter().zip(expected).enumerate() {
@@ -179,7 +179,7 @@ fn contra_rotating_twins_have_no_force_of_order_one() {
     let [x, y] = balance.xy(Vector::Force, 1);
     assert!(x == Complex64::default() && (y - second * (2.0 * MASS * RADIUS)).norm() < 1e-16);
     let arm = second * (MASS * RADIUS * 0.12);
-    assert!((balance.wrenches[1].torque().roll - arm).norm() < 1e-16);
+    assert!((balance.wrenches[1].torque.roll - arm).norm() < 1e-16);
 }
 
 #[test]

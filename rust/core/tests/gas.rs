@@ -6,11 +6,12 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use common::{InArrays, angle};
-use crankpin_core::balance::{Balance, Orders, Request, TorquePart, balance};
+use crankpin_core::balance::{Balance, Orders, Request, balance};
 use crankpin_core::engine::layout::Strokes;
 use crankpin_core::engine::{CrankIndex, Details, Gas, file};
 use crankpin_core::pressure::Given;
-use crankpin_core::sweep::{MapAxes, Quantity, Statistic, SweepAxes};
+use crankpin_core::quantity::{Part, Quantity};
+use crankpin_core::sweep::{MapAxes, Statistic, SweepAxes};
 use crankpin_core::{
     Angle, Cancel, Complex64, Crank, CrankAngles, Cycle, Cylinder, Engine, Hold, Order, Shaft,
     Station, Sweep, Unbalance, waveform,
@@ -90,8 +91,12 @@ fn contra_rotating_cranks_drive_together_and_leave_the_block_no_mean() {
     let request = Request { rpm: 0.0, reference_z: None, torque: true };
     for (ratios, sense) in [([1, 1], 1.0), ([1, -1], -1.0)] {
         let engine = fired(ratios);
-        let [block, crank] =
-            waveform::exact(&engine, &request, &theta_deg, &Cancel::new()).unwrap().gas.unwrap();
+        let [block, crank] = waveform::exact(&engine, &request, &theta_deg, &Cancel::new())
+            .unwrap()
+            .parts
+            .remove(0)
+            .torque
+            .unwrap();
         for (k, θ) in theta_deg.iter().enumerate() {
             let [one, other] = [derived(θ - 30.0), derived(θ - 390.0)];
             // Cubics at steps of a degree, and a difference quotient: 1e-6 of some 500 N·m.
@@ -100,9 +105,9 @@ fn contra_rotating_cranks_drive_together_and_leave_the_block_no_mean() {
         }
         let balance = of_all(&engine);
         for (k, θ) in theta_deg.iter().enumerate() {
-            let gas = (0..balance.orders.len()).map(|n| balance.torque(TorquePart::Gas, n));
+            let gas = (0..balance.orders.len()).map(|n| balance.torque(Part::GAS, n));
             let at = |order: Order| Complex64::from_polar(1.0, order.number() * θ.to_radians());
-            let mut sums = balance.mean(TorquePart::Gas);
+            let mut sums = balance.mean(Part::GAS);
             for (gas, order) in gas.zip(&balance.orders) {
                 sums[0] += (gas.roll * at(*order)).re;
                 sums[1] += (gas.crank * at(*order)).re;
@@ -112,15 +117,15 @@ fn contra_rotating_cranks_drive_together_and_leave_the_block_no_mean() {
             assert!((sums[0] - block[k]).abs() < within, "{ratios:?} {θ}");
             assert!((sums[1] - crank[k]).abs() < within, "{ratios:?} {θ}");
         }
-        let [on_block, on_crank] = balance.mean(TorquePart::Whole);
+        let [on_block, on_crank] = balance.mean(Part::Whole);
         assert!(on_crank > 10.0);
         assert!((on_block + 0.5 * (1.0 + sense) * on_crank).abs() < 1e-12 * on_crank);
-        assert_eq!(balance.mean(TorquePart::Inertia), [0.0; 2]);
+        assert_eq!(balance.mean(Part::INERTIA), [0.0; 2]);
     }
     // Equal pressures half a period apart: on the crank whole orders, on the block the others.
     let balance = of_all(&fired([1, -1]));
     for (k, order) in balance.orders.iter().enumerate() {
-        let gas = balance.torque(TorquePart::Gas, k);
+        let gas = balance.torque(Part::GAS, k);
         let (there, zero) =
             if order.as_whole().is_some() { (gas.crank, gas.roll) } else { (gas.roll, gas.crank) };
         assert!(zero.norm() == 0.0 && there.norm() > 0.0, "{order}");
@@ -230,9 +235,10 @@ fn sweeps_of_a_map_weigh_the_torques_of_its_cycles() {
     let weights = [0.0, 0.25, 2.0];
     let of_load = [1.0, 0.25];
     let orders = Orders::Given(orders);
-    let parts = [TorquePart::Whole, TorquePart::Gas, TorquePart::Inertia];
+    let parts = [Part::Whole, Part::GAS, Part::INERTIA];
     for (on_crank, part) in [false, true].into_iter().flat_map(|c| parts.map(|part| (c, part))) {
-        let quantity = if on_crank { Quantity::CrankTorque(part) } else { Quantity::Torque(part) };
+        let quantity =
+            if on_crank { Quantity::CRANK_TORQUE.part(part) } else { Quantity::TORQUE.part(part) };
         let phasors = sweep.phasors(quantity, Statistic::Amplitude, &cancel).unwrap();
         let [peaks, sums, means] = [Statistic::Amplitude, Statistic::Sum, Statistic::Mean]
             .map(|figure| sweep.peaks(quantity, figure, &cancel).unwrap());
@@ -273,7 +279,7 @@ fn sweeps_of_a_map_weigh_the_torques_of_its_cycles() {
             assert!(sum > largest - 1e-9 && sum < largest * (1.0 + 1e-5) + 1e-9, "{sum} {largest}");
         }
     } // Rows of several tasks are those of one.
-    let quantity = Quantity::CrankTorque(TorquePart::Whole);
+    let quantity = Quantity::CRANK_TORQUE;
     let many: Vec<f64> = (0..40).map(|k| 0.2 + 0.003 * f64::from(k)).collect();
     let sums = |ratios: &[f64]| {
         let found = swept(&strokes[..1], ratios).peaks(quantity, Statistic::Sum, &cancel);
@@ -333,14 +339,14 @@ fn each_point_of_a_sweep_of_a_fired_vee_is_a_balance() {
         };
         let engines = vec![Arc::new(fired_vee(VEE)), Arc::new(unfired(&fired_vee(VEE)))];
         let sweep = Sweep::new(engines, axes, orders.clone(), None, &cancel).unwrap();
-        for (part, on_crank) in [
-            (TorquePart::Gas, false),
-            (TorquePart::Gas, true),
-            (TorquePart::Whole, false),
-            (TorquePart::Whole, true),
-        ] {
-            let quantity =
-                if on_crank { Quantity::CrankTorque(part) } else { Quantity::Torque(part) };
+        for (part, on_crank) in
+            [(Part::GAS, false), (Part::GAS, true), (Part::Whole, false), (Part::Whole, true)]
+        {
+            let quantity = if on_crank {
+                Quantity::CRANK_TORQUE.part(part)
+            } else {
+                Quantity::TORQUE.part(part)
+            };
             let phasors = sweep.phasors(quantity, Statistic::Amplitude, &cancel).unwrap();
             let means = sweep.peaks(quantity, Statistic::Mean, &cancel).unwrap();
             for (place, &mean) in means.indexed_iter() {
@@ -395,7 +401,7 @@ fn few_orders_of_fired_sweeps_leave_out_no_more_than_their_bound() {
             let orders = Orders::Given(left_out.clone());
             let balance = balance(&engine, &request, &orders, &Cancel::new()).unwrap();
             let lost = (0..left_out.len()).fold([0.0; 2], |[roll, crank], k| {
-                let torque = balance.torque(TorquePart::Whole, k);
+                let torque = balance.torque(Part::Whole, k);
                 [roll + torque.roll.norm(), crank + torque.crank.norm()]
             });
             assert!(lost[0].max(lost[1]) <= bound * (1.0 + 1e-9), "{lost:?} of {bound}");
@@ -417,9 +423,12 @@ fn waveforms_of_a_fired_sweep_have_its_means() {
     let orders = halves([1, 2, 3, 4, 9].into_iter());
     let sweep = Sweep::new(vec![Arc::new(fired_vee(VEE))], axes, orders, None, &cancel).unwrap();
     for on_crank in [false, true] {
-        let whole = TorquePart::Whole;
-        let quantity =
-            if on_crank { Quantity::CrankTorque(whole) } else { Quantity::Torque(whole) };
+        let whole = Part::Whole;
+        let quantity = if on_crank {
+            Quantity::CRANK_TORQUE.part(whole)
+        } else {
+            Quantity::TORQUE.part(whole)
+        };
         let means = sweep.peaks(quantity, Statistic::Mean, &cancel).unwrap();
         let [by_orders, exact] = [false, true].map(|exact| {
             let mut out = vec![f64::NAN; 2 * degrees.len()];

@@ -7,16 +7,17 @@ use std::f64::consts::TAU;
 use common::random::{angles, cylinders, engines, vees};
 use common::{InArrays, by_orders, changed, turning, whole, xy};
 use crankpin_core::angle::cis_degrees;
-use crankpin_core::balance::{TorquePart, Vector, balance};
+use crankpin_core::balance::{Vector, balance};
 use crankpin_core::harmonics::{self, torque::TorqueHarmonics};
-use crankpin_core::sweep::{Quantity, Statistic, SweepAxes};
+use crankpin_core::quantity::{Part, Quantity};
+use crankpin_core::sweep::{Statistic, SweepAxes};
 use crankpin_core::{
     Angle, Balance, Cancel, Complex64, Crank, Cylinder, Engine, Hold, Order, Orders, Request,
     Spectrum, Station, Sweep, waveform,
 };
 use proptest::prelude::*;
 
-const TORQUE: Quantity = Quantity::Torque(TorquePart::Whole);
+const TORQUE: Quantity<'static> = Quantity::TORQUE;
 
 const ORDERS: [u32; 6] = [1, 2, 3, 4, 6, 9];
 const REQUEST: Request = Request { rpm: 3000.0, reference_z: Some(0.0), torque: true };
@@ -33,7 +34,7 @@ fn auto(engine: &Engine, request: &Request, rtol: f64) -> crankpin_core::Result<
 /// Roll torque, order by order.
 fn rolls(balance: &Balance) -> impl Iterator<Item = Complex64> {
     assert!(balance.has_torque);
-    balance.wrenches.iter().map(|wrench| wrench.torque().roll)
+    balance.wrenches.iter().map(|wrench| wrench.torque.roll)
 }
 
 /// Size that rounding is relative to: Σ m r ω² (1 + |z|).
@@ -103,7 +104,7 @@ proptest! {
             let [a, b] = [&before, &after].map(|balance| &balance.wrenches[k]);
             same(a.force.forward * phase, b.force.forward, size(&engine));
             same(a.force.backward() * phase.conj(), b.force.backward(), size(&engine));
-            same(a.torque().roll * phase, b.torque().roll, size(&engine));
+            same(a.torque.roll * phase, b.torque.roll, size(&engine));
         }
     }
 
@@ -244,7 +245,7 @@ proptest! {
                     same(found, expected, size);
                 }
             }
-            let torque = balance.wrenches[k].torque();
+            let torque = balance.wrenches[k].torque;
             same(torque.roll, roll, size);
             same(torque.crank, crank, size);
             // The documented bound of rounding errors: a load for each piston, rotating mass and rod.
@@ -254,7 +255,7 @@ proptest! {
             let of_torque = factor(loads + rods);
             let factors = [factor(loads), factor(loads), of_torque, of_torque];
             let [force, moment] = VECTORS.map(|vector| balance.zero_bound(vector, k));
-            let [roll, crank] = balance.torque_zero_bounds(TorquePart::Whole, k);
+            let [roll, crank] = balance.torque_zero_bounds(Part::Whole, k);
             let bounds = [force, moment, roll, crank];
             for ((bound, terms), factor) in bounds.into_iter().zip(terms).zip(factors) {
                 prop_assert!((bound - terms * factor).abs() <= 1e-12 * terms * factor);
@@ -283,7 +284,7 @@ proptest! {
             prop_assert!(close(found.peak(vector, &Cancel::new()).unwrap(), largest(&|[x, y]| x.hypot(y))));
         }
         let torques = [&wave.torque, &wave.crank_torque];
-        for (peak, torque) in [false, true].map(|on_crank| found.torque_peak(TorquePart::Whole, on_crank, &Cancel::new()).unwrap()).into_iter().zip(torques) {
+        for (peak, torque) in [false, true].map(|on_crank| found.torque_peak(Part::Whole, on_crank, &Cancel::new()).unwrap()).into_iter().zip(torques) {
             let torque = torque.iter().flatten();
             prop_assert!(close(peak, torque.map(|t| t.abs()).fold(0.0, f64::max)));
         }
@@ -381,10 +382,10 @@ proptest! {
         let cancel = Cancel::new();
         let sweep = Sweep::new(vec![engine.clone().into()], axes, whole(&ORDERS), Some(0.1), &Cancel::new()).unwrap();
         let phasors = |quantity| sweep.phasors(quantity, Statistic::Amplitude, &cancel).unwrap();
-        let (force, moment) = (phasors(Quantity::Force), phasors(Quantity::Moment));
+        let (force, moment) = (phasors(Quantity::FORCE), phasors(Quantity::MOMENT));
         let torque = phasors(TORQUE);
-        let peaks = sweep.peaks(Quantity::Moment, Statistic::Amplitude, &cancel).unwrap();
-        let vectors = sweep.peaks(Quantity::Force, Statistic::Length, &cancel).unwrap();
+        let peaks = sweep.peaks(Quantity::MOMENT, Statistic::Amplitude, &cancel).unwrap();
+        let vectors = sweep.peaks(Quantity::FORCE, Statistic::Length, &cancel).unwrap();
         for (i, &angle) in angles.iter().enumerate() {
             let there = engine.with_bank_angle(Angle::from_degrees(angle).unwrap(), hold).unwrap();
             let there = changed(&there, |p| {
@@ -404,7 +405,7 @@ proptest! {
                     let peak = peaks[[0, i, 1, 2, 1, 0, k, axis]];
                     same(peak.into(), phasor.norm().into(), size);
                 }
-                same(torque[[0, i, 1, 2, 1, 0, k]], alone.wrenches[k].torque().roll, size);
+                same(torque[[0, i, 1, 2, 1, 0, k]], alone.wrenches[k].torque.roll, size);
                 let longest = alone.planar(Vector::Force, k).peak();
                 same(vectors[[0, i, 1, 2, 1, 0, k]].into(), longest.into(), size);
             }
@@ -421,7 +422,7 @@ proptest! {
         });
         let engines = vec![engine.clone().into()];
         let sweep = Sweep::new(engines, axes, whole(&ORDERS), Some(0.0), &Cancel::new()).unwrap();
-        let moment = sweep.phasors(Quantity::Moment, Statistic::Amplitude, &Cancel::new()).unwrap();
+        let moment = sweep.phasors(Quantity::MOMENT, Statistic::Amplitude, &Cancel::new()).unwrap();
         let alone = of(&engine);
         for k in 0..ORDERS.len() {
             for axis in 0..2 {
@@ -444,7 +445,7 @@ proptest! {
                 rpm: vec![3000.0], map: None };
             let engines = vec![engine.clone().into(), engine.clone().into()];
             let sweep = Sweep::new(engines, axes, whole(&[1, 2, 4]), None, &Cancel::new()).unwrap();
-            sweep.peaks(Quantity::Moment, Statistic::Sum, &Cancel::new()).unwrap()
+            sweep.peaks(Quantity::MOMENT, Statistic::Sum, &Cancel::new()).unwrap()
         };
         let whole = sweep(&angles);
         let (first, last) = (sweep(&angles[..split]), sweep(&angles[split..]));

@@ -6,12 +6,12 @@ use std::f64::consts::TAU;
 
 use common::random::{angles, engines, stations, vees, weighted};
 use common::{InArrays, angle, by_orders, changed, kinematics, scales, turning, whole, xy};
-use crankpin_core::balance::TorquePart;
 use crankpin_core::balance::{Vector, balance};
 use crankpin_core::engine::CrankIndex;
 use crankpin_core::exact::vanishing::{ProofQuantity as Sum, QUANTITIES, Verdict, vanishing};
 use crankpin_core::harmonics;
-use crankpin_core::sweep::{Quantity, Statistic, SweepAxes};
+use crankpin_core::quantity::Quantity;
+use crankpin_core::sweep::{Statistic, SweepAxes};
 use crankpin_core::wrench::{Torque, Wrench};
 use crankpin_core::{
     Angle, Balance, Cancel, Complex64, Crank, CrankAngles, Cylinder, Engine, Hold, Order, Orders,
@@ -19,8 +19,8 @@ use crankpin_core::{
 };
 use proptest::prelude::*;
 
-const TORQUE: Quantity = Quantity::Torque(TorquePart::Whole);
-const CRANK_TORQUE: Quantity = Quantity::CrankTorque(TorquePart::Whole);
+const TORQUE: Quantity<'static> = Quantity::TORQUE;
+const CRANK_TORQUE: Quantity<'static> = Quantity::CRANK_TORQUE;
 
 const ORDERS: [u32; 5] = [1, 2, 3, 4, 6];
 const REQUEST: Request = Request { rpm: 3000.0, reference_z: Some(0.0), torque: true };
@@ -64,7 +64,7 @@ fn sum_of_orders(balance: &Balance, θ: f64) -> [f64; 6] {
     for (k, order) in balance.orders.iter().enumerate() {
         let unit = Complex64::cis(order.number() * θ);
         let ([a, b], [c, d]) = (balance.xy(Vector::Force, k), balance.xy(Vector::Moment, k));
-        let Torque { roll, crank, .. } = balance.wrenches[k].torque();
+        let Torque { roll, crank, .. } = balance.wrenches[k].torque;
         for (sum, phasor) in sums.iter_mut().zip([a, b, c, d, roll, crank]) {
             *sum += (phasor * unit).re;
         }
@@ -131,7 +131,7 @@ proptest! {
         let engines = vec![engine.clone().into()];
         let sweep = Sweep::new(engines, axes, whole(&ORDERS), Some(reference), &Cancel::new()).unwrap();
         let cancel = Cancel::new();
-        let all = [Quantity::Force, Quantity::Moment, TORQUE, CRANK_TORQUE];
+        let all = [Quantity::FORCE, Quantity::MOMENT, TORQUE, CRANK_TORQUE];
         let phasors =
             all.map(|quantity| sweep.phasors(quantity, Statistic::Amplitude, &cancel).unwrap());
         let thetas = [10.0, 133.0];
@@ -163,7 +163,7 @@ proptest! {
                         same(phasors[[0, i, 0, 0, 0, 0, k, axis]], expected, size);
                     }
                 }
-                let torque = alone.wrenches[k].torque();
+                let torque = alone.wrenches[k].torque;
                 same(phasors[2][[0, i, 0, 0, 0, 0, k]], torque.roll, size);
                 same(phasors[3][[0, i, 0, 0, 0, 0, k]], torque.crank, size);
             }
@@ -208,8 +208,8 @@ proptest! {
                     same(a.forward, b.forward, size(&engine));
                     same(a.backward_conj, b.backward_conj, size(&engine));
                 }
-                same(a.torque().roll, b.torque().roll, size(&engine));
-                same(a.torque().crank, b.torque().crank, size(&engine));
+                same(a.torque.roll, b.torque.roll, size(&engine));
+                same(a.torque.crank, b.torque.crank, size(&engine));
             }
         }
     }
@@ -224,8 +224,8 @@ proptest! {
                 same(a.forward * phase, b.forward, size(&engine));
                 same(a.backward_conj * phase, b.backward_conj, size(&engine));
             }
-            same(a.torque().roll * phase, b.torque().roll, size(&engine));
-            same(a.torque().crank * phase, b.torque().crank, size(&engine));
+            same(a.torque.roll * phase, b.torque.roll, size(&engine));
+            same(a.torque.crank * phase, b.torque.crank, size(&engine));
         }
         for θ in [0.3, 2.0, 4.4] {
             let earlier = θ - by.degrees().to_radians();
@@ -263,8 +263,8 @@ proptest! {
                 same(a.forward.conj() * sign, b.forward, size(&engine));
                 same(a.backward_conj.conj() * sign, b.backward_conj, size(&engine));
             }
-            same(-a.torque().roll.conj(), b.torque().roll, size(&engine));
-            same(-a.torque().crank.conj(), b.torque().crank, size(&engine));
+            same(-a.torque.roll.conj(), b.torque.roll, size(&engine));
+            same(-a.torque.crank.conj(), b.torque.crank, size(&engine));
         }
     }
 
@@ -291,7 +291,7 @@ proptest! {
                 same(a.backward_conj * sign, b.forward, size(&engine));
             }
             // The torque of a piston depends on its crank angle alone.
-            let [a, b, pistons] = [a, b, pistons].map(|wrench| wrench.torque().roll);
+            let [a, b, pistons] = [a, b, pistons].map(|wrench| wrench.torque.roll);
             same(pistons - a, b - pistons, size(&engine));
         }
     }
@@ -336,7 +336,7 @@ proptest! {
         }
         // Higher orders and torques stay.
         for (a, b) in before.wrenches.iter().zip(&after.wrenches).skip(1) {
-            prop_assert_eq!((a.force, a.moment, a.torque()), (b.force, b.moment, b.torque()));
+            prop_assert_eq!((a.force, a.moment, a.torque), (b.force, b.moment, b.torque));
         }
         if centred {
             let found = vanishing(&balanced, &[Order::FIRST], None, None, &Cancel::new()).unwrap();
@@ -360,21 +360,21 @@ proptest! {
             let moved = a.moved(by);
             same(moved.moment.forward, b.moment.forward, size);
             same(moved.moment.backward_conj, b.moment.backward_conj, size);
-            prop_assert_eq!((moved.force, moved.torque().crank), (a.force, a.torque().crank));
+            prop_assert_eq!((moved.force, moved.torque.crank), (a.force, a.torque.crank));
             // M′ = M − a × F about z: in time, F(θ) at (x, y, z) has no roll torque about that point.
             let [force_x, force_y] = a.force.xy(0.0);
             for θ in [0.0, 0.7, 2.9] {
                 let at = |phasor: Complex64| phasor * Complex64::cis(θ);
                 let lost = x * at(force_y).re - y * at(force_x).re;
-                let found = at(moved.torque().roll).re - at(a.torque().roll).re;
+                let found = at(moved.torque.roll).re - at(a.torque.roll).re;
                 prop_assert!((found + lost).abs() <= 1e-13 * size, "{} {}", found, lost);
             }
             let back = moved.moved([-x, -y, -z]);
             same(back.moment.forward, a.moment.forward, size);
             same(back.moment.backward_conj, a.moment.backward_conj, size);
-            same(back.torque().roll, a.torque().roll, size);
+            same(back.torque.roll, a.torque.roll, size);
             let in_steps = a.moved([x, 0.0, 0.0]).moved([0.0, y, z]);
-            same(in_steps.torque().roll, moved.torque().roll, size);
+            same(in_steps.torque.roll, moved.torque.roll, size);
             same(in_steps.moment.forward, moved.moment.forward, size);
         }
     }
@@ -392,7 +392,7 @@ proptest! {
         let orders: Vec<u32> = (1..=120).collect();
         let all = by_orders(&engine, &REQUEST, &orders);
         let sizes = |n: u32| {
-            let Wrench { force, moment, inertia: torque, .. } = all.wrenches[n as usize - 1];
+            let Wrench { force, moment, torque } = all.wrenches[n as usize - 1];
             [force.peak(), moment.peak(), torque.roll.norm().max(torque.crank.norm())]
         };
         let share = |n: u32| {
@@ -484,7 +484,7 @@ fn second_order() -> (f64, f64, f64) {
     let a2 = harmonics::coefficients(&proportions, &[2], &Cancel::new()).unwrap()[0].re;
     let found = by_orders(&i4, &REQUEST, &[2]);
     let expected = Complex64::new(0.0, -4.0 * cylinder.second_moment() * b2 * square());
-    same(found.wrenches[0].torque().roll, expected, expected.norm());
+    same(found.wrenches[0].torque.roll, expected, expected.norm());
     let force = 4.0 * cylinder.first_order() * a2 * square();
     same(found.xy(Vector::Force, 0)[1], force.into(), force);
     (b2, a2, force / 2.0)
@@ -505,15 +505,15 @@ fn lanchester_shafts_remove_order_two_of_an_inline_four() {
         assert_eq!(xy(&found, Vector::Force), [[Complex64::default(); 2]]);
         assert_eq!(xy(&found, Vector::Moment), [[Complex64::default(); 2]]);
         let torque = half_force * apart;
-        assert!(found.wrenches[0].torque().roll.norm() < 1e-12 * torque);
+        assert!(found.wrenches[0].torque.roll.norm() < 1e-12 * torque);
         // Exchanged, the shafts double it.
         let (_, found) = lanchester([side, low], [-side, low + apart]);
-        same(found.wrenches[0].torque().roll, Complex64::new(0.0, -2.0 * torque), torque);
+        same(found.wrenches[0].torque.roll, Complex64::new(0.0, -2.0 * torque), torque);
     }
     // At one height they leave it; beside the crank they add −(x_A + x_B)(F₂/2) cos 2θ.
     let (_, found) = lanchester([0.05, 0.03], [0.02, 0.03]);
     let expected = Complex64::new(-0.07 * half_force, -apart * half_force);
-    same(found.wrenches[0].torque().roll, expected, expected.norm());
+    same(found.wrenches[0].torque.roll, expected, expected.norm());
 }
 
 #[test]
@@ -544,7 +544,7 @@ fn one_counter_rotating_shaft_leaves_a_rolling_couple() {
         vanishing(&engine, &[Order::FIRST], None, None, &Cancel::new()).unwrap().verdicts[0];
     assert_eq!(verdicts[..8], [Verdict::Vanishes; 8]);
     // Down at θ = 0, at x = 0.1: −0.1·U·ω² cos θ beside what the block has without.
-    let roll = |balance: &Balance| balance.wrenches[0].torque().roll;
+    let roll = |balance: &Balance| balance.wrenches[0].torque.roll;
     let left = roll(&found) - roll(&of(&single));
     same(left, Complex64::new(-0.1 * amount * square(), 0.0), size(&engine));
     // On the crank axis none.
@@ -568,7 +568,7 @@ fn half_orders_of_inertia_are_zero() {
     let sweep =
         |orders| Sweep::new(vec![engine.clone()], axes.clone(), orders, Some(0.0), &Cancel::new());
     let (all, second) = (sweep(orders).unwrap(), sweep(whole(&[2])).unwrap());
-    for quantity in [Quantity::Force, Quantity::Moment, TORQUE, CRANK_TORQUE] {
+    for quantity in [Quantity::FORCE, Quantity::MOMENT, TORQUE, CRANK_TORQUE] {
         let lengths =
             |sweep: &Sweep| sweep.peaks(quantity, Statistic::Length, &Cancel::new()).unwrap();
         let (all, second) = (lengths(&all), lengths(&second));

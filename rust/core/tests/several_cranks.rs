@@ -6,13 +6,14 @@ use std::sync::Arc;
 
 use common::random::{angles, cylinders, weighted};
 use common::{InArrays, angle};
-use crankpin_core::balance::{Balance, Request, TorquePart, Vector};
+use crankpin_core::balance::{Balance, Request, Vector};
 use crankpin_core::engine::{CrankIndex, Details, Gas, Origin};
 use crankpin_core::exact::vanishing::{QUANTITIES, Verdict, vanishing};
 use crankpin_core::flywheel::{CycleGrid, Drive, Evenness};
 use crankpin_core::index::ListIndex;
 use crankpin_core::pressure::Given;
-use crankpin_core::sweep::{Quantity, Statistic, SweepAxes};
+use crankpin_core::quantity::{Part, Quantity};
+use crankpin_core::sweep::{Statistic, SweepAxes};
 use crankpin_core::{
     Cancel, Complex64, Crank, Cycle, Cylinder, Engine, Order, Orders, Spectrum, Station, Sweep,
     Unbalance, balance, terms, waveform,
@@ -72,7 +73,7 @@ fn fired(engines: impl Strategy<Value = Engine>) -> impl Strategy<Value = Engine
 /// Phasors of an order: forward and backward of force and moment, roll and torque on the crank.
 fn phasors(balance: &Balance, k: usize) -> [Complex64; 6] {
     let [force, moment] = [Vector::Force, Vector::Moment].map(|v| *balance.planar(v, k));
-    let torque = balance.torque(TorquePart::Whole, k);
+    let torque = balance.torque(Part::Whole, k);
     let turning = [force.forward, force.backward(), moment.forward, moment.backward()];
     let [a, b, c, d] = turning;
     [a, b, c, d, torque.roll, torque.crank]
@@ -81,7 +82,7 @@ fn phasors(balance: &Balance, k: usize) -> [Complex64; 6] {
 /// Bounds of the rounding of the same.
 fn bounds(balance: &Balance, k: usize) -> [f64; 6] {
     let [force, moment] = [Vector::Force, Vector::Moment].map(|v| balance.zero_bound(v, k));
-    let [roll, crank] = balance.torque_zero_bounds(TorquePart::Whole, k);
+    let [roll, crank] = balance.torque_zero_bounds(Part::Whole, k);
     [force, force, moment, moment, roll, crank]
 }
 
@@ -193,9 +194,9 @@ proptest! {
         prop_assert_eq!(terms[count - 1].0, Origin::Cylinder(count - 1));
         prop_assert_eq!(terms.len(), count + engine.counterweights().len() + engine.shafts().len());
         for on in [0, 1] {
-            let means: Vec<f64> = terms.iter().map(|(_, t)| t.mean(TorquePart::Whole)[on]).collect();
+            let means: Vec<f64> = terms.iter().map(|(_, t)| t.mean(Part::Whole)[on]).collect();
             let size: f64 = means.iter().map(|mean| mean.abs()).sum();
-            let mean = whole.mean(TorquePart::Whole)[on];
+            let mean = whole.mean(Part::Whole)[on];
             // Roundings of a sum of seven terms.
             prop_assert!((means.iter().sum::<f64>() - mean).abs() <= 1e-14 * size);
         }
@@ -210,7 +211,7 @@ proptest! {
                 }
             }
             let mut expected = phasors(&whole, k);
-            expected[4] = whole.wrenches[k].moved([aside[0], aside[1], 0.0]).torque().roll;
+            expected[4] = whole.wrenches[k].moved([aside[0], aside[1], 0.0]).torque.roll;
             for ((sum, expected), bound) in sums.into_iter().zip(expected).zip(bound) {
                 prop_assert!((sum - expected).norm() <= bound, "{k} {sum} {expected} {bound}");
             }
@@ -339,7 +340,7 @@ proptest! {
         let balance = balance::balance(&engines[0], &REQUEST, &given, &cancel).unwrap();
         let sweep = Sweep::new(engines, axes, orders, reference, &cancel).unwrap();
         for (quantity, vector) in
-            [(Quantity::Force, Vector::Force), (Quantity::Moment, Vector::Moment)]
+            [(Quantity::FORCE, Vector::Force), (Quantity::MOMENT, Vector::Moment)]
         {
             let parts = sweep.phasors(quantity, Statistic::Turning, &cancel).unwrap();
             let parts = parts.into_raw_vec_and_offset().0;
@@ -351,16 +352,16 @@ proptest! {
                 }
             }
         }
-        for part in [TorquePart::Whole, TorquePart::Inertia, TorquePart::Gas] {
+        for part in [Part::Whole, Part::INERTIA, Part::GAS] {
             for (quantity, on_crank) in
-                [(Quantity::Torque(part), false), (Quantity::CrankTorque(part), true)]
+                [(Quantity::TORQUE.part(part), false), (Quantity::CRANK_TORQUE.part(part), true)]
             {
                 let phasors = sweep.phasors(quantity, Statistic::Amplitude, &cancel).unwrap();
                 for (k, phasor) in phasors.into_raw_vec_and_offset().0.into_iter().enumerate() {
                     let torque = balance.torque(part, k);
                     let expected = if on_crank { torque.crank } else { torque.roll };
                     // The two add in orders of their own: the bound of rounding is of the whole.
-                    let bounds = balance.torque_zero_bounds(TorquePart::Whole, k);
+                    let bounds = balance.torque_zero_bounds(Part::Whole, k);
                     let bound = bounds[usize::from(on_crank)];
                     let is_near = (phasor - expected).norm() <= bound;
                     prop_assert!(is_near, "{part:?} {k} {phasor} {expected}");

@@ -8,21 +8,22 @@ use common::{
     InArrays, alone, by_orders, changed, geared, in_line, mixed, places, plain, random, scales,
     there, turning, weighted, whole, xy,
 };
-use crankpin_core::balance::{TorquePart, Vector};
+use crankpin_core::balance::Vector;
 use crankpin_core::engine::CrankIndex;
 use crankpin_core::peaks::PeakFinder;
+use crankpin_core::quantity::{Part, Quantity};
 use crankpin_core::slider_crank::Proportions;
-use crankpin_core::sweep::{Quantity, Statistic, SweepAxes};
+use crankpin_core::sweep::{Statistic, SweepAxes};
 use crankpin_core::{
     Angle, Balance, Cancel, Complex64, CrankAngles, Cylinder, Engine, Error, Hold, Request, Shaft,
     Spectrum, Station, Sweep, Unbalance, harmonics,
 };
 use proptest::prelude::*;
 
-const TORQUE: Quantity = Quantity::Torque(TorquePart::Whole);
-const CRANK_TORQUE: Quantity = Quantity::CrankTorque(TorquePart::Whole);
+const TORQUE: Quantity<'static> = Quantity::TORQUE;
+const CRANK_TORQUE: Quantity<'static> = Quantity::CRANK_TORQUE;
 
-const QUANTITIES: [Quantity; 4] = [Quantity::Force, Quantity::Moment, TORQUE, CRANK_TORQUE];
+const QUANTITIES: [Quantity; 4] = [Quantity::FORCE, Quantity::MOMENT, TORQUE, CRANK_TORQUE];
 const REFERENCE: f64 = 0.07;
 const REQUEST: Request = Request { rpm: 3000.0, reference_z: Some(REFERENCE), torque: true };
 
@@ -82,8 +83,8 @@ impl OfBalance {
     fn new(balance: &Balance, quantity: Quantity) -> Self {
         let all = 0..balance.orders.len();
         let vector = match quantity {
-            Quantity::Force => Vector::Force,
-            Quantity::Moment => Vector::Moment,
+            Quantity::FORCE => Vector::Force,
+            Quantity::MOMENT => Vector::Moment,
             _ => {
                 assert!(balance.has_torque);
                 let of = |torque: &crankpin_core::wrench::Torque| match quantity {
@@ -91,11 +92,11 @@ impl OfBalance {
                     _ => torque.crank,
                 };
                 let bound = |k| {
-                    let [of_roll, of_crank] = balance.torque_zero_bounds(TorquePart::Whole, k);
+                    let [of_roll, of_crank] = balance.torque_zero_bounds(Part::Whole, k);
                     if quantity == TORQUE { of_roll } else { of_crank }
                 };
                 let phasors: Vec<_> =
-                    balance.wrenches.iter().map(|wrench| of(&wrench.torque())).collect();
+                    balance.wrenches.iter().map(|wrench| of(&wrench.torque)).collect();
                 return Self {
                     turning: phasors.iter().map(|&p| [p, Complex64::default()]).collect(),
                     bounds: all.map(bound).collect(),
@@ -308,7 +309,7 @@ const OFFSETS: [f64; 2] = [-0.004, 0.006];
 
 #[test]
 fn nothing_depends_on_how_long_an_axis_is() {
-    let moments = (Quantity::Moment, Statistic::Amplitude);
+    let moments = (Quantity::MOMENT, Statistic::Amplitude);
     let engines = [plain(), mixed()];
     let pins = |angles| Some((angles, Hold::Pins));
     for count in [7, 8, 9, 127, 128, 129, 256, 1023, 1024, 1025] {
@@ -333,9 +334,9 @@ fn nothing_depends_on_how_long_an_axis_is() {
             alone_as_in_company(&engines[1..], &axes, &[2], moments);
             let axes = SweepAxes { rpm: vec![1000.0, 4000.0], ..axes };
             alone_as_in_company(&engines, &axes, &[2, 4], (TORQUE, Statistic::Amplitude));
-            alone_as_in_company(&engines[..1], &axes, &[3], (Quantity::Force, Statistic::Length));
+            alone_as_in_company(&engines[..1], &axes, &[3], (Quantity::FORCE, Statistic::Length));
             if count < 129 || k == 0 {
-                alone_as_in_company(&engines, &axes, &[1, 2], (Quantity::Force, Statistic::Sum));
+                alone_as_in_company(&engines, &axes, &[1, 2], (Quantity::FORCE, Statistic::Sum));
             }
         }
     }
@@ -343,7 +344,7 @@ fn nothing_depends_on_how_long_an_axis_is() {
 
 #[test]
 fn nothing_depends_on_how_much_is_worked_out_together() {
-    let amplitude = (Quantity::Force, Statistic::Amplitude);
+    let amplitude = (Quantity::FORCE, Statistic::Amplitude);
     let orders: Vec<u32> = (1..=4096).collect();
     for (angles, ratios) in [(130, 2), (2, 130)] {
         // So many orders leave room for 128 of either axis in a slab.
@@ -409,11 +410,11 @@ fn what_rounding_can_leave_is_zero_and_no_more() {
         SweepAxes { rod_ratio: long, rpm: vec![3000.0, 500.0], ..none },
     ];
     let cases = [
-        (Quantity::Force, 1, 0.0, 0.0),
-        (Quantity::Force, 1, 0.4, 0.0),
-        (Quantity::Force, 4, 0.4, 0.0),
-        (Quantity::Moment, 1, 0.3, 0.0),
-        (Quantity::Moment, 2, 0.3, 0.0),
+        (Quantity::FORCE, 1, 0.0, 0.0),
+        (Quantity::FORCE, 1, 0.4, 0.0),
+        (Quantity::FORCE, 4, 0.4, 0.0),
+        (Quantity::MOMENT, 1, 0.3, 0.0),
+        (Quantity::MOMENT, 2, 0.3, 0.0),
         (TORQUE, 1, 0.0, 0.0),
         (TORQUE, 3, 0.0, 0.0),
         (TORQUE, 1, 0.0, 2e-4),
@@ -478,7 +479,7 @@ fn as_much_as_rounding_can_leave_is_zero() {
         let engines = vec![given(&engine, Some(&spectrum))];
         let sweep =
             Sweep::new(engines, axes, whole(&[1]), Some(reference), &Cancel::new()).unwrap();
-        peaks(&sweep, Quantity::Moment, Statistic::Amplitude)[1]
+        peaks(&sweep, Quantity::MOMENT, Statistic::Amplitude)[1]
     };
     assert_eq!(of(reference), 0.0);
     assert!(of(reference.next_down()) > 0.0);
@@ -624,19 +625,22 @@ fn a_sweep_tells_what_it_is() {
     assert_eq!(all.shape(), [2, 3, 2, 5, 4, 1]);
     assert_eq!((all.orders(), all.omitted()), (&whole(&[4, 2, 1])[..], &[][..]));
     assert_eq!(all.error_bound().values(), [0.0; 3]);
-    // Twice the stroke of the longest, 0.1 m, a turn; 100 turns a second.
-    assert!((all.mean_piston_speed() - 20.0).abs() < 1e-14);
+    // Twice the travel of the longest a turn; 100 turns a second.
+    let (r, l, e) = (0.05, 0.05 / 0.3, 0.001_f64);
+    let reach = |arm: f64| (arm * arm - e * e).sqrt();
+    let travel = reach(l + r) - reach(l - r);
+    assert!((all.mean_piston_speed() - 200.0 * travel).abs() < 1e-12);
     let tails: [(Quantity, Statistic, &[usize]); 11] = [
-        (Quantity::Force, Statistic::Amplitude, &[3, 2]),
-        (Quantity::Moment, Statistic::Length, &[3]),
-        (Quantity::Moment, Statistic::Sum, &[2]),
-        (Quantity::Force, Statistic::LengthOfSum, &[]),
+        (Quantity::FORCE, Statistic::Amplitude, &[3, 2]),
+        (Quantity::MOMENT, Statistic::Length, &[3]),
+        (Quantity::MOMENT, Statistic::Sum, &[2]),
+        (Quantity::FORCE, Statistic::LengthOfSum, &[]),
         (TORQUE, Statistic::Amplitude, &[3]),
         (TORQUE, Statistic::Length, &[3]),
         (TORQUE, Statistic::Sum, &[]),
         (TORQUE, Statistic::LengthOfSum, &[]),
         (CRANK_TORQUE, Statistic::Amplitude, &[3]),
-        (Quantity::Moment, Statistic::ZeroBound, &[3]),
+        (Quantity::MOMENT, Statistic::ZeroBound, &[3]),
         (CRANK_TORQUE, Statistic::Sum, &[]),
     ];
     for (quantity, figure, tail) in tails {
@@ -654,17 +658,17 @@ fn a_sweep_tells_what_it_is() {
     }
     for figure in [Statistic::Amplitude, Statistic::Turning] {
         let mut short = vec![Complex64::default(); 7];
-        assert!(all.write_phasors(Quantity::Force, figure, &mut short, &Cancel::new()).is_err());
+        assert!(all.write_phasors(Quantity::FORCE, figure, &mut short, &Cancel::new()).is_err());
         let mut out = vec![Complex64::new(f64::NAN, 0.0); 2 * 3 * 2 * 5 * 4 * 6];
-        all.write_phasors(Quantity::Force, figure, &mut out, &Cancel::new()).unwrap();
-        assert_eq!(out, phasors(&all, Quantity::Force, figure));
+        all.write_phasors(Quantity::FORCE, figure, &mut out, &Cancel::new()).unwrap();
+        assert_eq!(out, phasors(&all, Quantity::FORCE, figure));
     }
 
     // Torque, if it was wanted and is known.
     let spectrum = Spectrum::new([(1, Complex64::new(1.0, 0.0))]).unwrap();
     let speeds = SweepAxes { rpm: vec![3000.0], ..SweepAxes::default() };
     for sweep in [all.without_torque(), new(&speeds, &[1], Some(&spectrum)).unwrap()] {
-        for (quantity, known) in [(Quantity::Force, true), (TORQUE, false), (CRANK_TORQUE, false)] {
+        for (quantity, known) in [(Quantity::FORCE, true), (TORQUE, false), (CRANK_TORQUE, false)] {
             let found = sweep.phasors(quantity, Statistic::Amplitude, &Cancel::new());
             assert_eq!(found.is_ok(), known);
             assert_eq!(sweep.peaks(quantity, Statistic::Sum, &Cancel::new()).is_ok(), known);
@@ -686,14 +690,14 @@ fn results_are_as_large_as_there_is_room_for() {
     };
     let (fits, does_not) = (sized(1 << 13, 1 << 14), sized(1 << 13, (1 << 14) + 1));
     for (sweep, expected) in [(&fits, true), (&does_not, false)] {
-        assert_eq!(sweep.check_size(Quantity::Force, Statistic::Amplitude, 8).is_ok(), expected);
-        assert_eq!(sweep.waveform_shape(Quantity::Force, 1).is_ok(), expected);
+        assert_eq!(sweep.check_size(Quantity::FORCE, Statistic::Amplitude, 8).is_ok(), expected);
+        assert_eq!(sweep.waveform_shape(Quantity::FORCE, 1).is_ok(), expected);
     }
     let too_large = |result: Result<_, Error>| matches!(result, Err(Error::TooLarge { .. }));
-    assert!(too_large(does_not.check_size(Quantity::Force, Statistic::Sum, 8)));
+    assert!(too_large(does_not.check_size(Quantity::FORCE, Statistic::Sum, 8)));
     let cancel = Cancel::new();
-    assert!(too_large(does_not.peaks(Quantity::Force, Statistic::Amplitude, &cancel).map(drop)));
-    assert!(too_large(fits.phasors(Quantity::Force, Statistic::Amplitude, &cancel).map(drop)));
+    assert!(too_large(does_not.peaks(Quantity::FORCE, Statistic::Amplitude, &cancel).map(drop)));
+    assert!(too_large(fits.phasors(Quantity::FORCE, Statistic::Amplitude, &cancel).map(drop)));
     assert!(fits.check_size(TORQUE, Statistic::Amplitude, 16).is_ok());
 }
 
@@ -1078,7 +1082,7 @@ fn sweeps_with_no_order_needed_are_zero_everywhere() {
     assert!(twin.error_bound().force > 0.6 * 0.025 * square(3000.0));
     for sweep in [boxer, twin] {
         assert!(sweep.orders().is_empty());
-        for quantity in [Quantity::Force, Quantity::Moment] {
+        for quantity in [Quantity::FORCE, Quantity::MOMENT] {
             for figure in [Statistic::Amplitude, Statistic::Turning] {
                 let phasors = sweep.phasors(quantity, figure, &Cancel::new()).unwrap();
                 assert_eq!(phasors.shape(), [1, 1, 1, 1, 2, 1, 0, 2]);

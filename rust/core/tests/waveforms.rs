@@ -9,16 +9,16 @@ use common::{
     InArrays, alone, angle, by_orders, in_line, kinematics, mixed, places, plain, there, weighted,
     whole, xy,
 };
-use crankpin_core::balance::TorquePart;
 use crankpin_core::balance::{Vector, balance};
-use crankpin_core::sweep::{Quantity, Statistic, SweepAxes};
+use crankpin_core::quantity::Quantity;
+use crankpin_core::sweep::{Statistic, SweepAxes};
 use crankpin_core::{
     Angle, Balance, Cancel, Complex64, CrankAngles, Cylinder, Engine, Error, Hold, Orders, Request,
     Spectrum, Station, Sweep, Waveform, waveform,
 };
 
-const TORQUE: Quantity = Quantity::Torque(TorquePart::Whole);
-const CRANK_TORQUE: Quantity = Quantity::CrankTorque(TorquePart::Whole);
+const TORQUE: Quantity<'static> = Quantity::TORQUE;
+const CRANK_TORQUE: Quantity<'static> = Quantity::CRANK_TORQUE;
 
 const REFERENCE: f64 = 0.07;
 const RPM: f64 = 3000.0;
@@ -88,7 +88,7 @@ fn kinematics_that_cancel_are_zero() {
         let wave = waveform::exact(&engine, &REQUEST, &thetas(300), &Cancel::new()).unwrap();
         assert_eq!(wave.moment.iter().all(|moment| *moment == 0.0), vanishes, "{heavier}");
         let swept = sweep(&[engine], &SweepAxes { rpm: vec![RPM], ..SweepAxes::default() }, &[1]);
-        let moments = waveforms(&swept, Quantity::Moment, &thetas(300), true);
+        let moments = waveforms(&swept, Quantity::MOMENT, &thetas(300), true);
         assert_eq!(moments.iter().all(|moment| *moment == 0.0), vanishes, "{heavier}");
     }
 }
@@ -100,7 +100,7 @@ fn sum_of_orders(balance: &Balance, θ: f64) -> Vec<f64> {
         let unit = Complex64::cis(n.number() * θ.to_radians());
         let mut phasors = [balance.xy(Vector::Force, k), balance.xy(Vector::Moment, k)].concat();
         if balance.has_torque {
-            let torque = balance.wrenches[k].torque();
+            let torque = balance.wrenches[k].torque;
             phasors.extend([torque.roll, torque.crank]);
         }
         for (sum, phasor) in sums.iter_mut().zip(phasors) {
@@ -221,14 +221,14 @@ fn what_cannot_be_is_refused() {
 /// Which numbers of [`kinematics`] are a quantity's.
 fn components(quantity: Quantity) -> std::ops::Range<usize> {
     match quantity {
-        Quantity::Force => 0..2,
-        Quantity::Moment => 2..4,
+        Quantity::FORCE => 0..2,
+        Quantity::MOMENT => 2..4,
         TORQUE => 4..5,
         _ => 5..6,
     }
 }
 
-const QUANTITIES: [Quantity; 4] = [Quantity::Force, Quantity::Moment, TORQUE, CRANK_TORQUE];
+const QUANTITIES: [Quantity; 4] = [Quantity::FORCE, Quantity::MOMENT, TORQUE, CRANK_TORQUE];
 
 fn sweep(engines: &[Arc<Engine>], axes: &SweepAxes, orders: &[u32]) -> Sweep {
     Sweep::new(engines.to_vec(), axes.clone(), whole(orders), Some(REFERENCE), &Cancel::new())
@@ -434,17 +434,17 @@ fn waveforms_of_a_sweep_have_their_refusals() {
     };
     for exact in [true, false] {
         for room in [0, 35, 37] {
-            let told = told(&with(None), Quantity::Force, exact, room);
+            let told = told(&with(None), Quantity::FORCE, exact, room);
             assert!(told.starts_with(&format!("out = {room}")), "{told}");
         }
-        assert_eq!(told(&with(None), Quantity::Force, exact, 36), "");
+        assert_eq!(told(&with(None), Quantity::FORCE, exact, 36), "");
         assert_eq!(told(&with(None), TORQUE, exact, 18), "");
         let told = told(&with(None).without_torque(), TORQUE, exact, 18);
         assert!(told.starts_with("torque is not available: torque=False"), "{told}");
     }
     let spectrum = Spectrum::new([(1, Complex64::new(1.0, 0.0))]).unwrap();
-    assert_eq!(told(&with(Some(spectrum.clone())), Quantity::Force, false, 36), "");
-    let told = told(&with(Some(spectrum)), Quantity::Force, true, 36);
+    assert_eq!(told(&with(Some(spectrum.clone())), Quantity::FORCE, false, 36), "");
+    let told = told(&with(Some(spectrum)), Quantity::FORCE, true, 36);
     assert!(told.starts_with("spectrum = given"), "{told}");
 
     let raised = Cancel::new();
@@ -453,9 +453,9 @@ fn waveforms_of_a_sweep_have_their_refusals() {
         let angles = CrankAngles::new(&thetas(count)).unwrap();
         for exact in [true, false] {
             let mut out = vec![0.0; 4 * count];
-            let result = with(None).waveforms(Quantity::Force, &angles, exact, &mut out, &raised);
+            let result = with(None).waveforms(Quantity::FORCE, &angles, exact, &mut out, &raised);
             assert_eq!(result, Err(Error::Cancelled));
         }
     }
-    assert!(waveforms(&with(None), Quantity::Force, &[], true).is_empty());
+    assert!(waveforms(&with(None), Quantity::FORCE, &[], true).is_empty());
 }

@@ -1,16 +1,19 @@
 //! Phasors per order.
 
+use std::borrow::Cow;
+
 use crate::array::frozen;
 use crankpin_core as core;
-use crankpin_core::balance::{ErrorBounds, Orders, Request, TorquePart, Vector};
+use crankpin_core::balance::{ErrorBounds, Orders, Request, Vector};
 use crankpin_core::engine::Origin;
+use crankpin_core::quantity::{Kind, Part, Quantity};
 use crankpin_core::{Complex64, Error};
 use crankpin_macros::guarded;
 use ndarray::{Array1, Array2};
 use numpy::{PyArray1, PyArrayDyn};
 use pyo3::prelude::*;
 
-use crate::convert::{self, OrRaise, OrderNumber, numbers};
+use crate::convert::{self, OrRaise, OrderNumber, numbers, python_error};
 use crate::engine::{Engine, choice};
 use crate::interrupt;
 
@@ -77,6 +80,7 @@ pub fn terms(
             Origin::Cylinder(index) => ("cylinder", index),
             Origin::Counterweight(index) => ("counterweight", index),
             Origin::Shaft(index) => ("shaft", index),
+            Origin::Load(index) => ("load", index),
         };
         (kind, index, Balance(balance))
     };
@@ -90,22 +94,28 @@ pub fn angular_speed(rpm: f64) -> PyResult<f64> {
     core::balance::angular_speed(rpm).or_raise()
 }
 
-/// Which part of a torque a quantity is.
-fn part(quantity: &str) -> Option<TorquePart> {
-    match quantity.split_once('.').unwrap_or((quantity, "")) {
-        ("torque" | "crank_torque", "") => Some(TorquePart::Whole),
-        ("torque" | "crank_torque", "inertia") => Some(TorquePart::Inertia),
-        ("torque" | "crank_torque", "gas") => Some(TorquePart::Gas),
-        _ => None,
-    }
+/// Force or moment, or which torque, of a quantity.
+enum Reading {
+    Vector(Vector),
+    Torque { on_crank: bool },
 }
 
-/// Part of a torque, and whether it is that on the crank.
-pub fn torque(quantity: &str) -> PyResult<(TorquePart, bool)> {
-    let hint = "give \"force\", \"moment\", \"torque\" or \"crank_torque\", or a part of a torque such as \
-                \"torque.gas\"";
-    let part = part(quantity).ok_or_else(|| Error::value("quantity", quantity, hint));
-    Ok((part.or_raise()?, quantity.starts_with("crank")))
+impl Balance {
+    /// What a quantity is of a balance: of the part that it names.
+    fn reading<'a>(&'a self, name: &str) -> PyResult<(Cow<'a, core::Balance>, Reading)> {
+        let Quantity { kind, part } = Quantity::parse(name).or_raise()?;
+        let balance = match part {
+            Part::Whole => Cow::Borrowed(&self.0),
+            Part::Of(_) => Cow::Owned(self.0.of_part(part)),
+        };
+        let reading = match kind {
+            Kind::Force => Reading::Vector(Vector::Force),
+            Kind::Moment => Reading::Vector(Vector::Moment),
+            Kind::Torque => Reading::Torque { on_crank: false },
+            Kind::CrankTorque => Reading::Torque { on_crank: true },
+        };
+        Ok((balance, reading))
+    }
 }
 
 /// Force or moment by its name.
@@ -145,33 +155,39 @@ impl Balance {
         name: &str,
         turning: bool,
     ) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
-        let orders = 0..self.0.orders.len();
-        if part(name).is_some() {
-            let (part, on_crank) = torque(name)?;
-            let torques = orders.map(|k| {
-                let torque = self.0.torque(part, k);
-                if on_crank { torque.crank } else { torque.roll }
-            });
-            return frozen(py, torques.collect::<Array1<_>>().into_dyn());
+        let (balance, reading) = self.reading(name)?;
+        let orders = 0..balance.orders.len();
+        match reading {
+            Reading::Torque { on_crank } => {
+                let torques = orders.map(|k| {
+                    let torque = balance.wrenches[k].torque;
+                    if on_crank { torque.crank } else { torque.roll }
+                });
+                frozen(py, torques.collect::<Array1<_>>().into_dyn())
+            }
+            Reading::Vector(vector) => {
+                let pairs = orders.map(|k| {
+                    let planar = balance.planar(vector, k);
+                    if turning {
+                        [planar.forward, planar.backward()]
+                    } else {
+                        balance.xy(vector, k)
+                    }
+                });
+                frozen(py, Array2::from(pairs.collect::<Vec<_>>()).into_dyn())
+            }
         }
-        let vector = vector(name)?;
-        let pairs = orders.map(|k| {
-            let planar = self.0.planar(vector, k);
-            if turning { [planar.forward, planar.backward()] } else { self.0.xy(vector, k) }
-        });
-        frozen(py, Array2::from(pairs.collect::<Vec<_>>()).into_dyn())
     }
 
     fn zero_bound<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let orders = 0..self.0.orders.len();
-        let bounds: Array1<f64> = if part(name).is_some() {
-            let (part, on_crank) = torque(name)?;
-            orders.map(|k| self.0.torque_zero_bounds(part, k)[usize::from(on_crank)]).collect()
-        } else {
-            let vector = vector(name)?;
-            orders.map(|k| self.0.zero_bound(vector, k)).collect()
-        };
-        frozen(py, bounds)
+        let (balance, reading) = self.reading(name)?;
+        let bounds = (0..balance.orders.len()).map(|k| match reading {
+            Reading::Torque { on_crank } => {
+                balance.torque_zero_bounds(Part::Whole, k)[usize::from(on_crank)]
+            }
+            Reading::Vector(vector) => balance.zero_bound(vector, k),
+        });
+        frozen(py, bounds.collect::<Array1<_>>())
     }
 
     fn total_peak_xy<'py>(
@@ -179,24 +195,32 @@ impl Balance {
         py: Python<'py>,
         name: &str,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let vector = vector(name)?;
-        let peaks = interrupt::run(py, |cancel| self.0.peak_xy(vector, cancel))?;
+        let (balance, reading) = self.reading(name)?;
+        let Reading::Vector(vector) = reading else {
+            return Err(python_error(Error::value("quantity", name, "give a force or a moment")));
+        };
+        let peaks = interrupt::run(py, |cancel| balance.peak_xy(vector, cancel))?;
         frozen(py, peaks.to_vec().into())
     }
 
     /// The longest vector, or the largest torque, of all orders together.
     fn total_peak(&self, py: Python<'_>, name: &str) -> PyResult<f64> {
-        if part(name).is_some() {
-            let (part, on_crank) = torque(name)?;
-            return interrupt::run(py, |cancel| self.0.torque_peak(part, on_crank, cancel));
-        }
-        let vector = vector(name)?;
-        interrupt::run(py, |cancel| self.0.peak(vector, cancel))
+        let (balance, reading) = self.reading(name)?;
+        interrupt::run(py, |cancel| match reading {
+            Reading::Torque { on_crank } => balance.torque_peak(Part::Whole, on_crank, cancel),
+            Reading::Vector(vector) => balance.peak(vector, cancel),
+        })
+    }
+
+    /// Names of the parts of its quantities.
+    #[getter]
+    fn names(&self) -> Vec<String> {
+        self.0.names().iter().map(ToString::to_string).collect()
     }
 
     /// Mean torque.
     fn mean(&self, name: &str) -> PyResult<f64> {
-        let (part, on_crank) = torque(name)?;
-        Ok(self.0.mean(part)[usize::from(on_crank)])
+        let Quantity { kind, part } = Quantity::parse(name).or_raise()?;
+        Ok(self.0.mean(part)[usize::from(kind == Kind::CrankTorque)])
     }
 }

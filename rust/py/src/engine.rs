@@ -8,7 +8,8 @@ use crankpin_core as core;
 use crankpin_core::engine::crankpins::Crankpin;
 use crankpin_core::engine::radial::Radial;
 use crankpin_core::engine::{
-    Crank, CrankIndex, Details, Gas, Hold, RodFigures, Shaft, Station, Unbalance, file,
+    Crank, CrankIndex, Details, Gas, Hold, PeriodicLoad, RodFigures, Shaft, Station, Unbalance,
+    file, periodic,
 };
 use crankpin_core::index::ListIndex;
 use crankpin_core::layout::{
@@ -665,6 +666,25 @@ impl Engine {
         self.0.with_shafts(shafts.into_iter().map(shaft).collect()).or_raise().map(Self::from)
     }
 
+    /// Loads besides those of moving parts, in words.
+    #[getter]
+    fn loads_counted(&self) -> String {
+        self.0.loads_counted()
+    }
+
+    /// Periodic loads, as JSON.
+    #[getter]
+    fn loads(&self) -> PyResult<String> {
+        serde_json::to_string(self.0.loads()).map_err(|error| unreadable(&error))
+    }
+
+    /// The engine with periodic loads that are given as JSON.
+    fn with_loads(&self, loads: &str) -> PyResult<Self> {
+        let loads: Vec<PeriodicLoad> =
+            serde_json::from_str(loads).map_err(|error| unreadable(&error))?;
+        self.0.with_loads(loads).or_raise().map(Self::from)
+    }
+
     fn named(&self, name: String, source: String) -> PyResult<Self> {
         self.0.named(name, source).or_raise().map(Self::from)
     }
@@ -685,4 +705,23 @@ impl Engine {
         let state = boundary::text(slf.py(), &file::to_state(&slf.get().0).or_raise()?)?;
         Ok((slf.get_type().getattr("from_state")?, PyTuple::new(slf.py(), [state])?))
     }
+}
+
+fn unreadable(error: &serde_json::Error) -> PyErr {
+    python_error(Error::value("loads", error, "give a list of crankpin.PeriodicLoad"))
+}
+
+/// Reject a load, as JSON, that no engine can have.
+#[guarded]
+#[pyfunction]
+pub fn check_load(load: &str) -> PyResult<()> {
+    let load: PeriodicLoad = serde_json::from_str(load).map_err(|error| unreadable(&error))?;
+    load.checked("").map(drop).or_raise()
+}
+
+/// Orders in halves and amplitudes of samples, evenly spaced over one or two turns.
+#[guarded]
+#[pyfunction]
+pub fn harmonics_of_samples(samples: Vec<f64>, turns: u32) -> PyResult<Vec<(u32, Complex64)>> {
+    periodic::harmonics_of_samples(&samples, turns).or_raise()
 }

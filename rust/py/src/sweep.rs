@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use crankpin_core as core;
-use crankpin_core::sweep::{MapAxes, Quantity, Statistic, SweepAxes};
+use crankpin_core::quantity::Quantity;
+use crankpin_core::sweep::{MapAxes, Statistic, SweepAxes};
 use crankpin_core::{Cancel, Complex64, Error, memory};
 use crankpin_macros::guarded;
 use numpy::{Element, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1};
 use pyo3::prelude::*;
 
-use crate::balance;
 use crate::convert::{self, OrRaise, OrderNumber, numbers, python_error};
 use crate::engine::{Engine, choice, hold};
 use crate::interrupt;
@@ -32,15 +32,8 @@ type GasMap<'py> = (
     Vec<Vec<PyRef<'py, Cycle>>>,
 );
 
-fn quantity(name: &str) -> PyResult<Quantity> {
-    match name {
-        "force" => Ok(Quantity::Force),
-        "moment" => Ok(Quantity::Moment),
-        torque => {
-            let (part, on_crank) = balance::torque(torque)?;
-            Ok(if on_crank { Quantity::CrankTorque(part) } else { Quantity::Torque(part) })
-        }
-    }
+fn quantity(name: &str) -> PyResult<Quantity<'_>> {
+    Quantity::parse(name).or_raise()
 }
 
 fn figure(name: &str) -> PyResult<Statistic> {
@@ -173,6 +166,12 @@ impl Sweep {
     #[getter]
     fn error_bound(&self) -> [f64; 3] {
         self.sweep.error_bound().values()
+    }
+
+    /// Names of the parts of its quantities.
+    #[getter]
+    fn names(&self) -> Vec<String> {
+        self.sweep.names().iter().map(ToString::to_string).collect()
     }
 
     #[getter]

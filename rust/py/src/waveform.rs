@@ -2,8 +2,10 @@
 
 use crate::array::frozen;
 use crankpin_core as core;
+use crankpin_core::waveform::PartOverAngle;
 use crankpin_core::{Complex64, Request};
 use crankpin_macros::guarded;
+use ndarray::{Array1, Array2};
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 
@@ -25,16 +27,23 @@ impl CrankAngles {
     }
 }
 
-/// Force, moment, roll torque, crank torque, what gas pressure adds to the torques, and the balance
-/// whose orders were summed.
-type Parts<'py> = (
-    Bound<'py, PyArray2<f64>>,
-    Bound<'py, PyArray2<f64>>,
-    Option<Bound<'py, PyArray1<f64>>>,
-    Option<Bound<'py, PyArray1<f64>>>,
-    Option<[Bound<'py, PyArray1<f64>>; 2]>,
-    Option<Balance>,
-);
+/// Force and moment, then torques on the block and on the crank, where they are known.
+type Columns<'py> =
+    (Option<[Bound<'py, PyArray2<f64>>; 2]>, Option<[Bound<'py, PyArray1<f64>>; 2]>);
+
+/// What all loads make, what those of each name but `inertia` make, and the balance whose orders were summed.
+type Parts<'py> = (Columns<'py>, Vec<(String, Columns<'py>)>, Option<Balance>);
+
+fn columns(
+    py: Python<'_>,
+    planar: Option<[Array2<f64>; 2]>,
+    torque: Option<[Array1<f64>; 2]>,
+) -> PyResult<Columns<'_>> {
+    let planar =
+        planar.map(|[force, moment]| PyResult::Ok([frozen(py, force)?, frozen(py, moment)?]));
+    let torque = torque.map(|[roll, crank]| PyResult::Ok([frozen(py, roll)?, frozen(py, crank)?]));
+    Ok((planar.transpose()?, torque.transpose()?))
+}
 
 /// From exact kinematics, or (`summed`) as a sum of orders.
 #[guarded]
@@ -62,15 +71,10 @@ pub fn waveform<'py>(
         }
         core::waveform::from_orders(&engine, &request, thetas, &orders, cancel)
     })?;
-    Ok((
-        frozen(py, waveform.force)?,
-        frozen(py, waveform.moment)?,
-        waveform.torque.map(|values| frozen(py, values)).transpose()?,
-        waveform.crank_torque.map(|values| frozen(py, values)).transpose()?,
-        waveform
-            .gas
-            .map(|[roll, crank]| PyResult::Ok([frozen(py, roll)?, frozen(py, crank)?]))
-            .transpose()?,
-        waveform.balance.map(Balance),
-    ))
+    let part =
+        |part: PartOverAngle| Ok((part.name.to_string(), columns(py, part.planar, part.torque)?));
+    let parts = waveform.parts.into_iter().map(part).collect::<PyResult<_>>()?;
+    let torque = waveform.torque.zip(waveform.crank_torque).map(<[_; 2]>::from);
+    let whole = columns(py, Some([waveform.force, waveform.moment]), torque)?;
+    Ok((whole, parts, waveform.balance.map(Balance)))
 }

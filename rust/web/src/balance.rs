@@ -1,6 +1,7 @@
 //! How an engine shakes, order by order.
 
-use crankpin_core::balance::{Balance, Orders, Request, TorquePart, Vector, balance as of};
+use crankpin_core::balance::{Balance, Orders, Request, Vector, balance as of};
+use crankpin_core::quantity::Part;
 use crankpin_core::{Cancel, Result};
 use serde_json::{Map, Value, json};
 
@@ -30,12 +31,6 @@ pub fn balance(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
 }
 
 const VECTORS: [(&str, Vector); 2] = [("force", Vector::Force), ("moment", Vector::Moment)];
-const PARTS: [(&str, TorquePart); 3] = [
-    ("torque", TorquePart::Whole),
-    ("torque.inertia", TorquePart::Inertia),
-    ("torque.gas", TorquePart::Gas),
-];
-
 fn in_json(found: &Balance, cancel: &Cancel) -> Result<Value> {
     let mut by_order = Vec::new();
     for k in 0..found.orders.len() {
@@ -58,7 +53,7 @@ fn in_json(found: &Balance, cancel: &Cancel) -> Result<Value> {
                 "roll": pair(torque.roll), "crank": pair(torque.crank),
                 "zero_bound": of_roll, "crank_zero_bound": of_crank,
             });
-            entry.insert(name.into(), value);
+            entry.insert(name, value);
         }
         by_order.push(Value::Object(entry));
     }
@@ -73,7 +68,7 @@ fn in_json(found: &Balance, cancel: &Cancel) -> Result<Value> {
             "roll": { "mean": roll, "peak": found.torque_peak(part, false, cancel)? },
             "crank": { "mean": crank, "peak": found.torque_peak(part, true, cancel)? },
         });
-        total.insert(name.into(), value);
+        total.insert(name, value);
     }
     let [force, moment, torque] = found.error_bound.values();
     Ok(json!({
@@ -82,6 +77,9 @@ fn in_json(found: &Balance, cancel: &Cancel) -> Result<Value> {
     }))
 }
 
-fn torques(found: &Balance) -> impl Iterator<Item = (&'static str, TorquePart)> {
-    PARTS.into_iter().filter(|_| found.has_torque)
+/// Torques and their parts, by name.
+fn torques(found: &Balance) -> impl Iterator<Item = (String, Part<'_>)> {
+    let parts = found.names().iter().map(|name| (format!("torque.{name}"), Part::Of(name)));
+    let whole = std::iter::once(("torque".to_owned(), Part::Whole));
+    whole.chain(parts).filter(|_| found.has_torque)
 }

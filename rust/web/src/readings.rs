@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
-use crankpin_core::balance::{Request, TorquePart};
+use crankpin_core::balance::Request;
 use crankpin_core::layout::Strokes;
 use crankpin_core::pressure::example::{Example, Kind};
-use crankpin_core::sweep::{Quantity, Statistic, Sweep, SweepAxes};
+use crankpin_core::quantity::Quantity;
+use crankpin_core::sweep::{Statistic, Sweep, SweepAxes};
 use crankpin_core::{Cancel, Error, Firing, Result, harmonics, memory, waveform as waveforms};
 use serde_json::{Map, Value, json};
 
@@ -36,17 +37,15 @@ pub fn waveform(arguments: &mut Arguments, columns: &mut Columns) -> Result<Valu
         let [x, y] = [0, 1].map(|axis| columns.column(values.column(axis).iter().copied()));
         answer.insert(name.into(), json!({ "x": x, "y": y }));
     }
-    let [gas, crank_gas] =
-        found.gas.map_or([None, None], |[roll, crank]| [Some(roll), Some(crank)]);
-    let torques = [
-        ("torque", found.torque),
-        ("crank_torque", found.crank_torque),
-        ("torque.gas", gas),
-        ("crank_torque.gas", crank_gas),
-    ];
-    for (name, values) in torques {
+    for (name, values) in [("torque", found.torque), ("crank_torque", found.crank_torque)] {
         if let Some(values) = values {
             answer.insert(name.into(), columns.column(values));
+        }
+    }
+    for part in found.parts {
+        if let Some([roll, crank]) = part.torque {
+            answer.insert(format!("torque.{}", part.name), columns.column(roll));
+            answer.insert(format!("crank_torque.{}", part.name), columns.column(crank));
         }
     }
     Ok(Value::Object(answer))
@@ -65,14 +64,6 @@ pub fn piston_harmonics(arguments: &mut Arguments, columns: &mut Columns) -> Res
     Ok(json!({ "re": columns.column(re), "im": columns.column(im) }))
 }
 
-const QUANTITIES: [(&str, Quantity); 6] = [
-    ("force", Quantity::Force),
-    ("moment", Quantity::Moment),
-    ("torque", Quantity::Torque(TorquePart::Whole)),
-    ("torque.inertia", Quantity::Torque(TorquePart::Inertia)),
-    ("torque.gas", Quantity::Torque(TorquePart::Gas)),
-    ("crank_torque", Quantity::CrankTorque(TorquePart::Whole)),
-];
 const FIGURES: [(&str, Statistic); 6] = [
     ("length", Statistic::Length),
     ("amplitude", Statistic::Amplitude),
@@ -122,7 +113,8 @@ fn values(
 
 /// One quantity over bank angle, rod ratio, pin offset and speed.
 pub fn sweep(arguments: &mut Arguments, columns: &mut Columns) -> Result<Value> {
-    let quantity = arguments.word("quantity", &QUANTITIES)?;
+    let quantity: String = arguments.or("quantity", "force".to_owned())?;
+    let quantity = Quantity::parse(&quantity)?;
     let figure = arguments.word("figure", &FIGURES)?;
     let cancel = Cancel::new();
     let sweep = swept(arguments, &cancel)?;
@@ -140,7 +132,7 @@ pub fn bank_angles(arguments: &mut Arguments, columns: &mut Columns) -> Result<V
     let sweep = swept(arguments, &cancel)?;
     let count = sweep.orders().len();
     let mut answer = Map::new();
-    for (name, quantity) in [("force", Quantity::Force), ("moment", Quantity::Moment)] {
+    for (name, quantity) in [("force", Quantity::FORCE), ("moment", Quantity::MOMENT)] {
         let values = values(&sweep, quantity, Statistic::Length, &cancel)?;
         let of_order = |k: usize| columns.column(values.iter().skip(k).step_by(count).copied());
         answer.insert(name.into(), (0..count).map(of_order).collect());

@@ -10,7 +10,6 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
-from crankpin._support.quantities import PARTS
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import balance
 from crankpin.analysis.design import optima
@@ -234,7 +233,7 @@ class Search:
             orders = balance(one_cylinder(question), rpm, rtol=GUIDING).orders
         self._totals = orders
         for each in objectives:
-            if each.quantity in PARTS or (each.order or 1) % 1:
+            if "." in each.quantity or (each.order or 1) % 1:
                 hint = "give whole orders of whole quantities, or rank fired engines"
                 raise inputs.rejected("by", each.label, f"designs have no gas pressure; {hint}")
         self._smooth = [

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from crankpin._support import inputs
-from crankpin._support.quantities import KINDS, PLANE_VECTORS, QUANTITIES
+from crankpin._support.quantities import PART_WORDS, PLANE_VECTORS, QUANTITIES, kind_of
 from crankpin.analysis.balance import Balance, balance
 
 if TYPE_CHECKING:
@@ -161,7 +161,8 @@ COMMON = (
 _PATH = re.compile(
     r"(?:total|\[([1-9][0-9]{0,8}(?:\.[05])?|0\.5)\])"
     rf"\.(?:({'|'.join(PLANE_VECTORS)})\.(peak|peak_xy|forward|backward)"
-    rf"|({'|'.join(re.escape(name) for name in KINDS if name not in PLANE_VECTORS)})\.(peak))"
+    rf"|((?:{'|'.join(name for name in QUANTITIES if name not in PLANE_VECTORS)})"
+    rf"(?:\.(?:{'|'.join(PART_WORDS)}))?)\.(peak))"
 )
 
 _ORDER_LAST = re.compile(rf"({'|'.join(QUANTITIES)})(\[[^]]*\])(\..*)")
@@ -179,11 +180,11 @@ def named(label: str) -> Objective:
     assert match is not None  # noqa: S101 - else rejected above
     order = None if match[1] is None else inputs.order(float(match[1]))
     quantity, what = match[2] or match[4], match[3] or match[5]
-    name = KINDS[quantity].words
+    name = kind_of(quantity).words
     head = f"{'total' if order is None else f'order-{order}'} {name}"
     head += {"peak": "", "peak_xy": " along x or y"}.get(what, f", {what}")
     sort = {
-        "peak": "longest" if KINDS[quantity].planar else "largest",
+        "peak": "longest" if kind_of(quantity).planar else "largest",
         "peak_xy": "larger peak along (about) x and y of",
         "forward": "forward part of",
         "backward": "backward part of",
@@ -197,7 +198,7 @@ def named(label: str) -> Objective:
         values = np.abs(attrgetter(f"{quantity}.{what}")(source))
         return np.asarray(values.max(axis=-1) if what == "peak_xy" else values)
 
-    kind = KINDS[quantity]
+    kind = kind_of(quantity)
     return Objective(label, head, words, kind.unit, of_sweep, None, order, quantity, what)
 
 

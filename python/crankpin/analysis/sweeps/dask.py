@@ -35,7 +35,7 @@ def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Datas
     first = {name: float(np.ravel(values)[0]) for name, values in whole.axes.items()}
     common = changed(whole, axes=first, request=whole._of_parts)
     variables: dict[str, Any] = {}
-    for name, quantity, what, trailing in export.variables(quantities, fired=whole.fired):
+    for name, quantity, what, trailing in export.variables(quantities, means=whole._has_means):
         dims = (*lengths, *trailing)
         kind = np.complex128 if what in export.COMPLEX else np.float64
         slices = [part for dim in lengths for part in (axes[dim], (dim,))]

@@ -576,7 +576,7 @@ class Sweep(ByOrder[Any]):
         if self.progress is not False:
             hint = "use dask.diagnostics.ProgressBar"
             raise inputs.faulty("progress", "cannot be combined with to_dask", hint)
-        return dask.dataset(self, chunks, self.request.named(quantities, fired=self.fired))
+        return dask.dataset(self, chunks, self.request.named(quantities, self.causes))
 
     @overload
     def plot(

@@ -13,7 +13,7 @@ from crankpin import _core
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
 from crankpin._support.drawing import draw
-from crankpin._support.quantities import KINDS
+from crankpin._support.quantities import kind_of
 from crankpin._support.record import read_only
 from crankpin.analysis.waveform import OverAngle
 
@@ -74,6 +74,11 @@ class SweepWaveform(OverAngle):
     def fired(self) -> bool:
         """True if gas pressure is counted, of any engine."""
         return self.sweep.fired
+
+    @property
+    def causes(self) -> tuple[str, ...]:
+        """Names of what makes the quantities: ``inertia``, ``gas`` and those of further loads."""
+        return self.sweep.causes
 
     @property
     def orders(self) -> tuple[Order, ...] | None:
@@ -139,8 +144,8 @@ class SweepWaveform(OverAngle):
         >>> force is buffer
         True
         """
-        name = inputs.one_of("quantity", quantity, KINDS)
-        self.sweep.request.check(name)
+        self.sweep.request.check(quantity, self.causes)
+        name = quantity
         progress = progress_bar.checked(progress)
         core = self.sweep._core
         shape = tuple(core.waveform_shape(name, len(self.theta_deg)))
@@ -148,8 +153,10 @@ class SweepWaveform(OverAngle):
         with progress_bar.shown(progress, "waveforms") as report:
             core.waveform(name, self.__dict__["_angles"], self.exact, values.reshape(-1), report)
         x, y = self.request.aside
-        if name in ("torque", "torque.inertia") and (x != 0.0 or y != 0.0):
-            values -= x * self.force[..., 1] - y * self.force[..., 0]
+        whole, point, part = name.partition(".")
+        if whole == "torque" and part != "gas" and (x != 0.0 or y != 0.0):
+            force = self._values(f"force{point}{part}")
+            values -= x * force[..., 1] - y * force[..., 0]
         return values
 
     @cached_property
@@ -175,7 +182,7 @@ class SweepWaveform(OverAngle):
 
     def _largest(self, quantity: str) -> NDArray[np.float64]:
         values = self.read(quantity)
-        sizes = np.hypot(*np.moveaxis(values, -1, 0)) if KINDS[quantity].planar else abs(values)
+        sizes = np.hypot(*np.moveaxis(values, -1, 0)) if kind_of(quantity).planar else abs(values)
         return np.asarray(sizes.max(axis=-1, initial=0.0))
 
     # --- pictures -------------------------------------------------------------------------------

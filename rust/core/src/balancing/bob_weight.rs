@@ -131,7 +131,7 @@ impl FirstOrder {
         let lever = |weight: &Unbalance| (weight.z - reference).abs();
         let of_moment: f64 = weights.iter().map(|weight| weight.amount * lever(weight)).sum();
         let [start, end] = [&bare, &weighted]
-            .map(|engine| over_square(&engine.without_gas(), Order::FIRST, true, cancel));
+            .map(|engine| over_square(&engine.bare(), Order::FIRST, true, None, cancel));
         let (start, end) = (start?, end?);
         let arm = |weight: &Unbalance| {
             let [x, y] = engine.cranks()[engine.crank_carrying(weight)].axis;
@@ -139,8 +139,8 @@ impl FirstOrder {
         };
         let arms: f64 = weights.iter().map(arm).sum();
         let change =
-            if arms == 0.0 { Complex64::default() } else { end.inertia.roll - start.inertia.roll };
-        let roll = Part { start: start.inertia.roll, change, size: arms };
+            if arms == 0.0 { Complex64::default() } else { end.torque.roll - start.torque.roll };
+        let roll = Part { start: start.torque.roll, change, size: arms };
         let mut found = Self { force: [Part::default(); 2], moment: [Part::default(); 2], roll };
         for (sense, ratio) in [1, -1].into_iter().enumerate() {
             let changes = engine.cranks().iter().any(|crank| crank.ratio == ratio);

@@ -16,43 +16,21 @@ pub mod weights;
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::numbers::cancel::Cancel;
-use crate::numbers::error::{Error, Result};
+use crate::numbers::error::Result;
 use crate::numbers::limits::SMALLEST;
 use crate::numbers::order::Order;
-use crate::readings::balance::angular_speed;
 use crate::readings::turning::over_square;
 pub use crate::readings::turning::{TurningPart, turning};
-use crate::wrench::Wrench;
 
-/// Phasor of an order of the roll torque on the block, over ω²; with that of gas pressure, which does
-/// not scale with speed, at the speed of a fired engine.
+/// Phasor of an order of the roll torque on the block, over ω²; with what does not scale so, as that of gas
+/// pressure, at a speed.
 pub fn roll_torque(
     engine: &Engine,
     order: Order,
     rpm: Option<f64>,
     cancel: &Cancel,
 ) -> Result<Complex64> {
-    roll_of(engine, &over_square(engine, order, true, cancel)?, rpm)
-}
-
-/// The roll torque of an order's wrench over ω².
-fn roll_of(engine: &Engine, wrench: &Wrench, rpm: Option<f64>) -> Result<Complex64> {
-    match rpm {
-        Some(rpm) => {
-            let omega = angular_speed(rpm)?;
-            if omega == 0.0 {
-                let hint = "shafts make no force at rest; give a speed above 0";
-                return Err(Error::figure("rpm", rpm, hint));
-            }
-            Ok(wrench.inertia.roll + wrench.gas.roll / (omega * omega))
-        }
-        None if engine.gas().is_none() => Ok(wrench.inertia.roll),
-        None => {
-            let hint = "the torque of gas pressure does not scale with speed as that of shafts \
-                        does; give the crank speed, above 0, at which they cancel it";
-            Err(Error::value("rpm", "None", hint))
-        }
-    }
+    Ok(over_square(engine, order, true, rpm, cancel)?.torque.roll)
 }
 
 /// Forces at places along a shaft as taken by two planes, front and rear, by the lever rule.
@@ -119,8 +97,8 @@ pub fn appearing(
         let order = Order::whole(order)?;
         // Hardware changes what inertia does alone.
         let [was, is] = [before, after].map(|engine| {
-            let wrench = over_square(&engine.without_gas(), order, true, cancel)?;
-            let (force, moment, torque) = (wrench.force, wrench.moment, wrench.inertia);
+            let wrench = over_square(&engine.bare(), order, true, None, cancel)?;
+            let (force, moment, torque) = (wrench.force, wrench.moment, wrench.torque);
             Ok([
                 (force.peak(), force.size),
                 (moment.peak(), moment.size),

@@ -72,8 +72,8 @@ pub fn fit(
     let mut beyond: Option<f64> = None;
     let orders: BTreeSet<u32> = wanted.iter().map(|each| each.ratio.unsigned_abs()).collect();
     for order in orders {
-        let there = over_square(engine, Order::whole(order)?, true, cancel)?;
-        let torque = super::roll_of(engine, &there, rpm)?;
+        let there = over_square(engine, Order::whole(order)?, true, rpm, cancel)?;
+        let torque = there.torque.roll;
         let mut free = Vec::new();
         for ratio in [order as i32, -(order as i32)] {
             let same: Vec<usize> =

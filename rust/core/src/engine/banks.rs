@@ -81,6 +81,11 @@ impl Engine {
         let vee = self.check_bank_angle_can_change()?;
         let (middle, half) = (vee.bisector(), bank_angle.half());
         let mut turned = self.clone();
+        for (bank, old) in self.bank_directions().into_iter().enumerate() {
+            let bore = if bank == vee.right { middle - half } else { middle + half };
+            let turn = (bore - old + Angle::HALF_TURN).reduced() - Angle::HALF_TURN;
+            turned.turn_loads(bank, turn, hold == Hold::Pins);
+        }
         for i in 0..self.stations.len() {
             let bore = if self.bank_of[i] == vee.right { middle - half } else { middle + half };
             if hold == Hold::Pins {

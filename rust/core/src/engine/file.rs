@@ -2,10 +2,12 @@
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::layout::Strokes;
-use super::{Crank, CrankIndex, Details, Engine, Gas, RodFigures, Shaft, Station, Unbalance};
+use super::{
+    Crank, CrankIndex, Details, Engine, Gas, PeriodicLoad, RodFigures, Shaft, Station, Unbalance,
+};
 use crate::mechanism::slider_crank::Cylinder;
 use crate::mounts::Powertrain;
 use crate::mounts::file::PowertrainEntry;
@@ -46,6 +48,9 @@ struct EngineFile {
     counterweights: Vec<WeightEntry>,
     #[serde(default, skip_serializing_if = "is_default")]
     shafts: Vec<BalanceShaft>,
+    /// Periodic loads besides.
+    #[serde(default, skip_serializing_if = "is_default")]
+    loads: Vec<PeriodicLoad>,
     /// Cranks besides the main one.
     #[serde(default, skip_serializing_if = "is_default")]
     cranks: Vec<OtherCrank>,
@@ -230,6 +235,18 @@ impl Degrees {
     }
 }
 
+impl Serialize for Angle {
+    fn serialize<S: Serializer>(&self, text: S) -> std::result::Result<S::Ok, S::Error> {
+        Degrees::of(*self).serialize(text)
+    }
+}
+
+impl<'de> Deserialize<'de> for Angle {
+    fn deserialize<D: Deserializer<'de>>(text: D) -> std::result::Result<Self, D::Error> {
+        Degrees::deserialize(text)?.angle("angle").map_err(serde::de::Error::custom)
+    }
+}
+
 impl PartsEntry {
     fn of(cylinder: &Cylinder, details: &Details) -> Self {
         Self {
@@ -294,6 +311,7 @@ impl EngineFile {
             placements: engine.stations().iter().enumerate().map(place).collect(),
             counterweights: engine.counterweights().iter().map(WeightEntry::of).collect(),
             shafts: engine.shafts().iter().map(BalanceShaft::of).collect(),
+            loads: engine.loads().to_vec(),
             cranks: engine
                 .cranks()
                 .iter()
@@ -408,7 +426,8 @@ impl EngineFile {
             .with_mains(self.mains)?
             .with_reference(self.reference_z)?
             .with_counterweights(unbalances(&self.counterweights, "counterweights")?)?
-            .with_shafts(shafts.collect::<Result<_>>()?)
+            .with_shafts(shafts.collect::<Result<_>>()?)?
+            .with_loads(self.loads)
             .and_then(|engine| gas.map_or(Ok(engine.clone()), |gas| engine.with_gas(gas)))
     }
 }
@@ -546,17 +565,18 @@ fn readable<'t>(format: &'static str, text: &'t str) -> Result<&'t str> {
 
 /// Rejects arrays in place of objects, which serde would read by position.
 fn check_tables(value: &serde_json::Value, place: &str) -> Result<()> {
-    const LISTS: [&str; 8] = [
+    const LISTS: [&str; 9] = [
         "cranks",
         "placements",
         "counterweights",
         "shafts",
         "unbalances",
+        "loads",
         "cycles",
         "mounts",
         "receivers",
     ];
-    const LISTS_OF_NUMBERS: [&str; 15] = [
+    const LISTS_OF_NUMBERS: [&str; 19] = [
         "mains",
         "theta_deg",
         "pressure",
@@ -572,6 +592,10 @@ fn check_tables(value: &serde_json::Value, place: &str) -> Result<()> {
         "real",
         "imaginary",
         "coordinates",
+        "force",
+        "torque",
+        "table",
+        "axis",
     ];
     let Some(table) = value.as_object() else {
         let reason = format!("{place}: give an object, {{ }}");

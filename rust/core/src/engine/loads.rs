@@ -1,6 +1,11 @@
-//! Which gas pressure results of an engine count, in words.
+//! Which gas pressure and further loads results of an engine count, in words.
 
 use super::Engine;
+
+/// Name of what moving parts make.
+pub const INERTIA: &str = "inertia";
+/// Name of what the pressure in cylinders makes.
+pub const GAS: &str = "gas";
 
 /// Most characters of the names of cycles.
 const LONGEST_NAMES: usize = 60;
@@ -8,13 +13,30 @@ const LONGEST_NAMES: usize = 60;
 const LONGEST_NUMBERS: usize = 30;
 
 impl Engine {
-    /// Gas pressure that results count: the name of the cycle, and which cylinders do not fire.
+    /// Loads that results count besides those of moving parts: the name of the cycle, which cylinders do
+    /// not fire, and the names of further loads.
     #[must_use]
     pub fn loads_counted(&self) -> String {
-        let Some(gas) = self.gas() else { return gas_text(&[], 0) };
-        let name = |cycle: &Option<usize>| cycle.map(|k| in_one_line(&gas.cycles[k].given().name));
-        let names: Vec<Option<String>> = gas.cycle_of.iter().map(name).collect();
-        gas_text(&names, self.cycles_in_use())
+        let gas = match self.gas() {
+            Some(gas) => {
+                let name =
+                    |cycle: &Option<usize>| cycle.map(|k| in_one_line(&gas.cycles[k].given().name));
+                let names: Vec<Option<String>> = gas.cycle_of.iter().map(name).collect();
+                gas_text(&names, self.cycles_in_use())
+            }
+            None => gas_text(&[], 0),
+        };
+        let mut names: Vec<String> = Vec::new();
+        for load in self.loads() {
+            let name = in_one_line(&load.name);
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        if names.is_empty() {
+            return gas;
+        }
+        format!("{gas}; loads: {}", cut(&names.join(", "), LONGEST_NAMES))
     }
 
     /// Number of cycles of the cylinders that differ.
@@ -72,7 +94,7 @@ pub fn dead_text(fires: impl Iterator<Item = bool>) -> String {
 }
 
 /// A text in one line, without characters that cannot be seen.
-fn in_one_line(text: &str) -> String {
+pub(crate) fn in_one_line(text: &str) -> String {
     // A letter in front: an accent by itself is escaped, one behind a letter is seen.
     let is_seen = |c: char| {
         c.is_whitespace()

@@ -11,6 +11,7 @@ mod gas;
 pub mod layout;
 pub mod loads;
 mod name;
+pub mod periodic;
 pub mod radial;
 mod shaft;
 
@@ -20,6 +21,7 @@ use self::banks::right_bank;
 pub use self::banks::{Banks, Hold, bank_angle_in_range};
 pub use self::gas::Gas;
 use self::layout::Strokes;
+pub use self::periodic::{ActsOn, Amplitudes, OverSpeed, PeriodicLoad};
 pub use self::shaft::{Crank, Origin, Shaft, Unbalance};
 use crate::mechanism::rod::Rod;
 use crate::mechanism::slider_crank::Cylinder;
@@ -135,6 +137,8 @@ pub struct Engine {
     crank_of: Vec<CrankIndex>,
     counterweights: Vec<Unbalance>,
     shafts: Vec<Shaft>,
+    /// Periodic loads besides.
+    loads: Vec<PeriodicLoad>,
     /// Pressure in the cylinders, where it counts.
     gas: Option<Gas>,
     /// Of each cylinder.
@@ -199,6 +203,7 @@ impl Engine {
             crank_of: vec![CrankIndex::MAIN; count],
             counterweights: Vec::new(),
             shafts: Vec::new(),
+            loads: Vec::new(),
             gas: None,
             details: vec![Details::default(); count],
             mains: Vec::new(),
@@ -424,6 +429,7 @@ impl Engine {
         let turn = tdc - self.stations[0].tdc;
         let mut turned = self.clone();
         (0..self.stations.len()).for_each(|i| turned.delay(i, turn));
+        turned.delay_loads(turn);
         // What is fixed to a shaft starts from where it was so much earlier.
         for weight in turned.counterweights.iter_mut().filter(|weight| weight.pin.is_none()) {
             let ratio = self.cranks[weight.crank].ratio;

@@ -32,6 +32,8 @@ pub enum Origin {
     Counterweight(usize),
     /// A balance shaft with all that it carries.
     Shaft(usize),
+    /// A periodic load besides.
+    Load(usize),
 }
 
 /// A balance shaft: it turns at a fixed ratio to the crankshaft about an axis parallel to it.
@@ -58,7 +60,7 @@ pub struct Crank {
 }
 
 /// Highest speed of a shaft over crank speed.
-const FASTEST: i32 = 20;
+pub(super) const FASTEST: i32 = 20;
 
 impl Crank {
     /// The main crank, to which crank angles and ratios refer.

@@ -4,15 +4,14 @@ use std::sync::Arc;
 
 use super::kinematics::{AngleBlock, Columns, LoadSum, Quantities};
 use super::source::{
-    ExactFactor, Parts, Point, Repeats, Scale, Scaling, Source, SourceUpTo, Tail, TorqueAmplitudes,
-    is_equal,
+    ExactFactor, GAS, Parts, Point, Repeats, Scale, Scaling, Source, SourceUpTo, Tail,
+    TorqueAmplitudes, is_equal,
 };
 use crate::engine::layout::Strokes;
 use crate::mechanism::Mechanism;
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
-use crate::numbers::limits;
 use crate::numbers::order::Order;
 use crate::pressure::{Cycle, GasTorque};
 
@@ -42,12 +41,16 @@ impl PartialEq for GasPressure {
 }
 
 impl Source for GasPressure {
+    fn name(&self) -> &'static str {
+        GAS
+    }
+
     fn parts(&self) -> Parts {
         let repeats = match self.cycle.strokes() {
             Strokes::Two => Repeats::EveryTurn,
             Strokes::Four => Repeats::EveryTwoTurns,
         };
-        Parts { force: None, roll: true, scaling: Scaling::Given, repeats }
+        Parts { force: None, roll: true, scaling: Scaling::Independent, repeats }
     }
 
     fn equals(&self, other: &dyn Source) -> bool {
@@ -78,13 +81,19 @@ impl Source for GasPressure {
         Ok(TorqueAmplitudes { harmonics, mean: [-on_block * mean, mean] })
     }
 
-    fn orders(&self, highest: u32) -> Vec<u32> {
-        (1..=highest.min(limits::HIGHEST_ORDER)).collect()
+    fn orders(&self, highest: Order) -> Vec<Order> {
+        let step = if self.parts().repeats == Repeats::EveryTurn { 2 } else { 1 };
+        let halves = (step..=highest.halves()).step_by(step as usize);
+        halves.filter_map(|halves| Order::from_halves(halves).ok()).collect()
     }
 
     /// Of tables no bound is known before they are integrated: see [`Source::up_to`].
     fn beyond(&self, _: u32, torque: bool) -> Tail {
         Tail { force: 0.0, torque: if torque { f64::INFINITY } else { 0.0 } }
+    }
+
+    fn has_open_tail(&self) -> bool {
+        true
     }
 
     fn up_to(&self, highest: Order, cancel: &Cancel) -> Result<Option<SourceUpTo>> {
@@ -107,11 +116,11 @@ impl Source for GasPressure {
         Scale { force: 0.0, torque: Some(0.0) }
     }
 
-    fn at_point(&self, point: &Point) -> Result<Arc<dyn Source>> {
+    fn at_point(&self, point: &Point) -> Result<Option<Arc<dyn Source>>> {
         let mechanism = self.mechanism.replaced(point.rod_ratio, point.pin_offset)?;
         let cycle = point.cycles.map_or(&self.cycle, |cycles| &cycles[self.place]);
         let (cycle, known) = (Arc::clone(cycle), None);
-        Ok(Arc::new(Self { mechanism, cycle, known, ..*self }))
+        Ok(Some(Arc::new(Self { mechanism, cycle, known, ..*self })))
     }
 
     fn exact(&self) -> ExactFactor {
@@ -125,9 +134,9 @@ impl Source for GasPressure {
         wanted: Quantities,
         _: f64,
         columns: &mut Columns,
-    ) {
+    ) -> Result<()> {
         if !wanted.torque {
-            return;
+            return Ok(());
         }
         let [on_block, on_crank] = self.mechanism.senses();
         let units = &*block.units(1);
@@ -137,12 +146,10 @@ impl Source for GasPressure {
             let gauge = self.cycle.pressure_deg(θ - sum.phase_deg) - self.crankcase;
             // The piston's way down is minus its distance from the crank.
             let torque = -gauge * velocity * sum.roll;
-            for ((whole, gas), sense) in
-                columns.torque.iter_mut().zip(&mut columns.gas).zip([-on_block, on_crank])
-            {
-                whole[i] += sense * torque;
-                gas[i] += sense * torque;
+            for (column, sense) in columns.torque.iter_mut().zip([-on_block, on_crank]) {
+                column[i] += sense * torque;
             }
         }
+        Ok(())
     }
 }

@@ -4,14 +4,15 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::SourceIndex;
-use super::source::Source;
+use super::source::{Repeats, Scaling, Source};
+use super::{GroupIndex, SourceIndex};
 use super::{LoadList, count, find_or_push};
 use crate::Complex64;
 use crate::mechanism::Mechanism;
 use crate::mechanism::slider_crank::CrankPosition;
 use crate::numbers::angle::Angle;
 use crate::numbers::crank_angles::CrankAngles;
+use crate::numbers::index::List;
 use crate::numbers::order::Order;
 use crate::wrench::rounding;
 
@@ -30,8 +31,6 @@ pub(crate) struct Columns {
     pub moment: [AngleColumn; 2],
     /// On the block and on the main crank.
     pub torque: [AngleColumn; 2],
-    /// What pressure adds to these.
-    pub gas: [AngleColumn; 2],
 }
 
 /// Quantities to evaluate.
@@ -48,6 +47,8 @@ pub(crate) struct LoadSum {
     pub source: Arc<dyn Source>,
     /// Index of the source.
     index: SourceIndex,
+    /// Index into [`LoadList::groups`].
+    pub group: GroupIndex,
     phase: Angle,
     /// Speed of their crank or shaft.
     pub ratio: i32,
@@ -62,27 +63,43 @@ pub(crate) struct LoadSum {
     pub arm: Complex64,
     /// Weight of the torque.
     pub roll: f64,
+    /// Whether the phase is half the crank angle, which half orders turn by whole numbers.
+    halved: bool,
+}
+
+impl LoadSum {
+    /// `e^{−inφ}` of an order.
+    pub fn lag(&self, order: Order) -> Complex64 {
+        let halves = i64::from(order.halves());
+        self.phase.cis(if self.halved { -halves } else { -halves / 2 })
+    }
 }
 
 /// An engine's loads as functions of crank angle.
 pub(crate) struct Kinematics {
     pub sums: Vec<LoadSum>,
-    /// Bounds of the rounding errors of force and moment that cancel, over ω².
-    pub zero_bounds: [f64; 2],
+    /// Bounds of the rounding errors of force and moment that cancel, of each group over what it scales with.
+    zero_bounds: List<GroupIndex, [f64; 2]>,
+    scalings: List<GroupIndex, Scaling>,
 }
 
 impl Kinematics {
     pub fn new(loads: &LoadList) -> Self {
-        let (mut sums, mut zero_bounds) = (Vec::<LoadSum>::new(), [0.0; 2]);
+        let (mut sums, mut zero_bounds) =
+            (Vec::<LoadSum>::new(), loads.groups.map_to(|_| [0.0; 2]));
         let count = count(&loads.list, false);
         for load in &loads.list {
             let place = &load.place;
             let square = f64::from(place.speed_squared());
             let mut force = place.unit * (load.weight * square);
-            // At a top dead centre a piston exerts its mass·radius and more.
-            let size = rounding(count, f64::from(place.ratio.abs())) * force.norm();
-            zero_bounds[0] += size;
-            zero_bounds[1] += size * place.lever_size(loads.reference);
+            if load.weight != 0.0 {
+                // At a top dead centre a piston exerts its mass·radius and more.
+                let most = force.norm() * loads.source(load).scale().force;
+                let size = rounding(count, f64::from(place.ratio.abs())) * most;
+                let bounds = &mut zero_bounds[loads.group_of[load.source]];
+                bounds[0] += size;
+                bounds[1] += size * place.lever_size(loads.reference);
+            }
             let mut phase = place.phase;
             if load.is_turning() {
                 // All of one speed are one vector at θ = 0.
@@ -94,6 +111,7 @@ impl Kinematics {
             let sum = find_or_push(&mut sums, same, || LoadSum {
                 source: Arc::clone(&loads.sources[load.source]),
                 index: load.source,
+                group: loads.group_of[load.source],
                 phase,
                 ratio: place.ratio,
                 phase_deg: of_phase as f64 * phase.degrees(),
@@ -102,6 +120,7 @@ impl Kinematics {
                 moment: Complex64::default(),
                 arm: Complex64::default(),
                 roll: 0.0,
+                halved: load.parts.repeats == Repeats::EveryTwoTurns,
             });
             sum.force += force;
             // A moment is its levered force turned by a quarter.
@@ -109,7 +128,27 @@ impl Kinematics {
             sum.arm += place.axis.conj() * force;
             sum.roll += load.roll * square;
         }
-        Self { sums, zero_bounds }
+        let scalings = loads.groups.map_to(|group| group.scaling);
+        Self { sums, zero_bounds, scalings }
+    }
+
+    /// What each group is multiplied by at a speed, rad/s.
+    pub fn factors(&self, omega: f64) -> List<GroupIndex, f64> {
+        self.scalings.map_to(|scaling| scaling.factor(omega))
+    }
+
+    /// 1 for each group of a scaling, or for all, 0 for the others.
+    pub fn factors_of(&self, scaling: Option<Scaling>) -> List<GroupIndex, f64> {
+        let counts = |own: &Scaling| scaling.is_none_or(|scaling| scaling == *own);
+        self.scalings.map_to(|own| f64::from(u8::from(counts(own))))
+    }
+
+    /// Bounds of the rounding errors of force and moment that cancel: of groups times factors.
+    pub fn zero_bounds(&self, factors: &List<GroupIndex, f64>) -> [f64; 2] {
+        let bounds = self.zero_bounds.iter().zip(factors);
+        bounds.fold([0.0; 2], |sum, (own, factor)| {
+            [sum[0] + own[0] * factor, sum[1] + own[1] * factor]
+        })
     }
 
     /// Adds the moment of inertia of what moves as seen from the main crank at a block of angles, kg·m²,
@@ -140,12 +179,18 @@ pub(super) fn add_inertia(
 }
 
 impl Columns {
-    pub const ZERO: Self = Self {
-        force: [[0.0; BLOCK]; 2],
-        moment: [[0.0; BLOCK]; 2],
-        torque: [[0.0; BLOCK]; 2],
-        gas: [[0.0; BLOCK]; 2],
-    };
+    pub const ZERO: Self =
+        Self { force: [[0.0; BLOCK]; 2], moment: [[0.0; BLOCK]; 2], torque: [[0.0; BLOCK]; 2] };
+
+    /// Adds the wanted ones of other columns.
+    pub fn add(&mut self, other: &Self, wanted: Quantities) {
+        let planar = self.force.iter_mut().chain(&mut self.moment);
+        let planar = planar.zip(other.force.iter().chain(&other.moment)).filter(|_| wanted.planar);
+        let torque = self.torque.iter_mut().zip(&other.torque).filter(|_| wanted.torque);
+        for (into, from) in planar.chain(torque) {
+            into.iter_mut().zip(from).for_each(|(into, from)| *into += from);
+        }
+    }
 
     /// The wanted ones of other columns in place of these.
     pub fn copy(&mut self, from: &Self, wanted: Quantities) {
@@ -179,6 +224,11 @@ impl<'a> AngleBlock<'a> {
             return Cow::Borrowed(&self.main);
         }
         Cow::Owned(Units::at_speed(self.angles, self.range.clone(), ratio))
+    }
+
+    /// `e^{inθ}` of an order.
+    pub fn orders(&self, order: Order) -> Units {
+        Units::new(self.angles, self.range.clone(), order)
     }
 
     pub fn degrees(&self) -> &[f64] {

@@ -5,10 +5,13 @@ use std::sync::Arc;
 use super::gas::GasPressure;
 use super::piston::PistonInertia;
 use super::rod::RodInertia;
-use super::source::{ExactFactor, Point, Repeats, Scaling, Source};
+use super::source::{ExactFactor, INERTIA, Point, Repeats, Scaling, Source, at_point};
 use super::spectrum::GivenForce;
 use super::unbalance::TurningUnbalance;
-use super::{Load, LoadIndex, PhasorSum, Phasors, Place, SourceIndex, Term, Wanted, superpose};
+use super::{
+    GroupIndex, Load, LoadIndex, PhasorSum, Phasors, Place, SourceIndex, Term, Wanted, superpose,
+};
+use crate::Complex64;
 use crate::engine::{Crank, Engine, Origin, Unbalance};
 use crate::mechanism::Mechanism;
 use crate::numbers::error::Result;
@@ -29,12 +32,35 @@ pub(crate) struct LargestWeights {
 /// The sources of loads.
 pub(crate) type Sources = List<SourceIndex, Arc<dyn Source>>;
 
+/// Sources that are counted together: of one name and scaling.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Group {
+    pub name: Arc<str>,
+    pub scaling: Scaling,
+}
+
+impl Group {
+    /// Of a source.
+    pub fn of(source: &dyn Source) -> Self {
+        Self { name: source.name().into(), scaling: source.parts().scaling }
+    }
+
+    fn has(&self, source: &dyn Source) -> bool {
+        *self.name == *source.name() && self.scaling == source.parts().scaling
+    }
+}
+
 /// All loads of an engine about a reference plane.
+#[derive(Debug, Clone)]
 pub(crate) struct LoadList {
     /// Pistons, one for each cylinder; unbalances of cranks, then of shafts; pressures; rods.
     pub list: List<LoadIndex, Load>,
     /// One of each kind.
     pub sources: Sources,
+    /// Names and scalings of the sources that differ; inertia is the first.
+    pub groups: List<GroupIndex, Group>,
+    /// Group of each source.
+    pub group_of: List<SourceIndex, GroupIndex>,
     /// Reference plane z₀ of moments, m.
     pub reference: f64,
 }
@@ -43,7 +69,10 @@ impl LoadList {
     /// Loads of an engine. Pistons of equal crank radius, rod length and pin offset share a source, hence
     /// their harmonics; a spectrum is one source for all, with masses and radius in it.
     pub fn new(engine: &Engine, reference: f64) -> Self {
-        let mut loads = Self { list: List::default(), sources: List::default(), reference };
+        let mut groups = List::default();
+        groups.push(Group { name: INERTIA.into(), scaling: Scaling::SpeedSquared });
+        let (list, sources, group_of) = (List::default(), List::default(), List::default());
+        let mut loads = Self { list, sources, groups, group_of, reference };
         let ratio = |i: usize| engine.cranks()[engine.crank_of(i)].ratio;
         let mechanism = |i: usize| Mechanism::new(&engine.stations()[i].cylinder, ratio(i));
         let along_bore = |i: usize| Place::along_bore(engine, i);
@@ -75,6 +104,7 @@ impl LoadList {
                 loads.push_unbalance(place, unbalance.amount);
             }
         }
+        super::given::push(&mut loads, engine);
         if engine.spectrum().is_some() {
             // A spectrum does not determine a motion, against which pressure and rods would act.
             return loads;
@@ -104,8 +134,18 @@ impl LoadList {
     pub(super) fn push(&mut self, place: Place, source: impl Source, weight: f64, roll: f64) {
         let parts = source.parts();
         let known = self.sources.indices().find(|&known| self.sources[known].equals(&source));
-        let index = known.unwrap_or_else(|| self.sources.push(Arc::new(source)));
+        let index = known.unwrap_or_else(|| {
+            let group = self.name_group(&source);
+            self.group_of.push(group);
+            self.sources.push(Arc::new(source))
+        });
         self.list.push(Load { place, source: index, parts, weight, roll });
+    }
+
+    /// The group of a source, which is there from now on.
+    pub(super) fn name_group(&mut self, source: &dyn Source) -> GroupIndex {
+        let known = self.groups.indices().find(|&group| self.groups[group].has(source));
+        known.unwrap_or_else(|| self.groups.push(Group::of(source)))
     }
 
     fn push_unbalance(&mut self, place: Place, amount: f64) {
@@ -122,20 +162,46 @@ impl LoadList {
         &*self.sources[load.source]
     }
 
-    /// The sources at a point of a sweep.
-    pub fn at_point(&self, point: &Point) -> Result<Sources> {
-        self.sources.iter().map(|source| source.at_point(point)).collect()
+    /// Group of a source.
+    pub fn group(&self, source: SourceIndex) -> &Group {
+        &self.groups[self.group_of[source]]
     }
 
-    /// Σ weights of the torques of each source that scales as given, m³, and Σ of the magnitudes, of which
-    /// bounds are made.
-    pub fn volumes(&self) -> List<SourceIndex, PhasorSum<f64>> {
-        let mut volumes = self.sources.map_to(|_| PhasorSum::default());
-        for load in self.list.iter().filter(|load| load.parts.scaling == Scaling::Given) {
-            volumes[load.source].value += load.roll;
-            volumes[load.source].size += load.roll.abs();
+    /// Whether a group has forces, and torques.
+    pub fn has(&self, group: GroupIndex) -> [bool; 2] {
+        let mut has = [false; 2];
+        for load in self.list.iter().filter(|load| self.group_of[load.source] == group) {
+            let force = load.parts.force.is_some();
+            has[0] |= force;
+            has[1] |= load.parts.roll || force && load.place.axis != Complex64::default();
         }
-        volumes
+        has
+    }
+
+    /// Names of the groups, each once: parts of results.
+    pub fn names(&self) -> Vec<Arc<str>> {
+        let mut names: Vec<Arc<str>> = Vec::new();
+        for group in &self.groups {
+            if !names.contains(&group.name) {
+                names.push(Arc::clone(&group.name));
+            }
+        }
+        names
+    }
+
+    /// The sources at a point of a sweep.
+    pub fn at_point(&self, point: &Point) -> Result<Sources> {
+        self.sources.iter().map(|source| at_point(source, point)).collect()
+    }
+
+    /// Σ weights of the torques of each source, and Σ of the magnitudes, of which bounds are made.
+    pub fn torque_weights(&self) -> List<SourceIndex, PhasorSum<f64>> {
+        let mut weights = self.sources.map_to(|_| PhasorSum::default());
+        for load in &self.list {
+            weights[load.source].value += load.roll;
+            weights[load.source].size += load.roll.abs();
+        }
+        weights
     }
 
     /// The loads, and sources, that exact sums know.

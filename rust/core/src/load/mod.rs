@@ -10,6 +10,7 @@
 //!   part conj(ρ²·U·e^{−i(β + nφ)}) if ρ < 0;
 //! - pressure has only a torque, an amplitude times e^{−inφ}, φ the crank angle of the firing, also at
 //!   half orders;
+//! - a given load is a piston's of its own amplitudes in the first, and a torque of its own in the second;
 //! - the moment is i·(z − z₀) times the force; a force at a = x + iy makes a roll torque of Im(ā·F).
 //!
 //! [`superpose`] sums these, and nothing else does. A reading of the list is an [`Arithmetic`]: it
@@ -24,6 +25,7 @@
 //! When a bank turns by δ, whatever belongs to it is multiplied as [`BankPhase`] says.
 
 mod gas;
+pub(crate) mod given;
 pub(crate) mod kinematics;
 mod list;
 mod piston;
@@ -33,7 +35,7 @@ pub(crate) mod source;
 mod spectrum;
 mod unbalance;
 
-pub(crate) use self::list::{LargestWeights, LoadList, Sources};
+pub(crate) use self::list::{Group, LargestWeights, LoadList, Sources};
 pub(crate) use self::place::Place;
 use self::source::{Column, ForcePart, Parts, Repeats, Scaling};
 use crate::Complex64;
@@ -50,6 +52,11 @@ list_index! {
 list_index! {
     /// Index of a source in a [`LoadList`].
     pub(crate) SourceIndex
+}
+
+list_index! {
+    /// Index of a group in a [`LoadList`].
+    pub(crate) GroupIndex
 }
 
 /// A periodic load on the engine: a place, and a source with its weights.

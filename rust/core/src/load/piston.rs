@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::kinematics::{AngleBlock, BLOCK, Columns, LoadSum, Quantities, add_inertia};
 use super::source::{
-    Column, ExactFactor, ForcePart, Parts, Point, Scale, Source, Tail, TorqueAmplitudes, is_equal,
+    Column, ExactFactor, ForcePart, INERTIA, Parts, Point, Scale, Source, Tail, TorqueAmplitudes,
+    is_equal,
 };
 use crate::Complex64;
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
@@ -21,6 +22,10 @@ use crate::numbers::simd::vectorised;
 pub(super) struct PistonInertia(pub Mechanism);
 
 impl Source for PistonInertia {
+    fn name(&self) -> &'static str {
+        INERTIA
+    }
+
     fn parts(&self) -> Parts {
         Parts::inertia(Some(ForcePart::Along), true)
     }
@@ -45,12 +50,12 @@ impl Source for PistonInertia {
         })
     }
 
-    fn orders(&self, highest: u32) -> Vec<u32> {
+    fn orders(&self, highest: Order) -> Vec<Order> {
         multiples(&self.0, highest)
     }
 
-    fn beyond(&self, highest: u32, torque: bool) -> Tail {
-        let (own, proportions) = (self.0.own_highest(highest), &self.0.proportions);
+    fn beyond(&self, halves: u32, torque: bool) -> Tail {
+        let (own, proportions) = (self.0.own_highest(halves), &self.0.proportions);
         Tail {
             force: harmonics::tail_bound(proportions, own).unwrap_or(f64::INFINITY),
             torque: torque_beyond(&self.0, torque, harmonics::torque::tail_bound, own),
@@ -70,8 +75,8 @@ impl Source for PistonInertia {
         }
     }
 
-    fn at_point(&self, point: &Point) -> Result<Arc<dyn Source>> {
-        Ok(Arc::new(Self(self.0.replaced(point.rod_ratio, point.pin_offset)?)))
+    fn at_point(&self, point: &Point) -> Result<Option<Arc<dyn Source>>> {
+        Ok(Some(Arc::new(Self(self.0.replaced(point.rod_ratio, point.pin_offset)?))))
     }
 
     fn exact(&self) -> ExactFactor {
@@ -85,16 +90,33 @@ impl Source for PistonInertia {
         wanted: Quantities,
         square: f64,
         columns: &mut Columns,
-    ) {
-        let add = |columns: &mut Columns| match (wanted.planar, wanted.torque) {
-            (true, true) => add::<true, true>(&self.0, sum, block, square, columns),
-            (true, false) => add::<true, false>(&self.0, sum, block, square, columns),
-            _ => add::<false, true>(&self.0, sum, block, square, columns),
-        };
+    ) -> Result<()> {
+        let yoke = self.0.proportions.has_infinite_rod();
+        let (mechanism, columns) = (&self.0, columns);
         vectorised(
             #[inline(always)]
-            || add(columns),
+            || match (wanted.planar, wanted.torque, yoke) {
+                (true, true, false) => {
+                    add::<true, true, false>(mechanism, sum, block, square, columns);
+                }
+                (true, true, true) => {
+                    add::<true, true, true>(mechanism, sum, block, square, columns);
+                }
+                (true, false, false) => {
+                    add::<true, false, false>(mechanism, sum, block, square, columns);
+                }
+                (true, false, true) => {
+                    add::<true, false, true>(mechanism, sum, block, square, columns);
+                }
+                (false, _, false) => {
+                    add::<false, true, false>(mechanism, sum, block, square, columns);
+                }
+                (false, _, true) => {
+                    add::<false, true, true>(mechanism, sum, block, square, columns);
+                }
+            },
         );
+        Ok(())
     }
 
     fn add_inertia(&self, sum: &LoadSum, angles: &CrankAngles, into: [&mut [f64]; 2]) {
@@ -106,7 +128,7 @@ impl Source for PistonInertia {
 }
 
 #[inline(always)]
-fn add<const PLANAR: bool, const TORQUE: bool>(
+fn add<const PLANAR: bool, const TORQUE: bool, const YOKE: bool>(
     mechanism: &Mechanism,
     sum: &LoadSum,
     block: &AngleBlock,
@@ -120,7 +142,7 @@ fn add<const PLANAR: bool, const TORQUE: bool>(
     let [force, moment, arm] = [sum.force, sum.moment, sum.arm].map(|sum| sum * -square);
     let [on_block, on_crank] = mechanism.senses().map(|sense| sense * square * sum.roll);
     for i in 0..BLOCK {
-        let motion = proportions.motion_at(&units.crank(sum.turned, i));
+        let motion = proportions.motion_of::<YOKE>(&units.crank(sum.turned, i));
         if PLANAR {
             force_x[i] += force.re * motion.acceleration;
             force_y[i] += force.im * motion.acceleration;
@@ -136,9 +158,10 @@ fn add<const PLANAR: bool, const TORQUE: bool>(
 }
 
 /// Multiples of the speed of a mechanism's crank up to an order of the main one.
-pub(super) fn multiples(mechanism: &Mechanism, highest: u32) -> Vec<u32> {
+pub(super) fn multiples(mechanism: &Mechanism, highest: Order) -> Vec<Order> {
     let ratio = mechanism.ratio.unsigned_abs();
-    (1..=mechanism.own_highest(highest)).map(|own| own * ratio).collect()
+    let own = 1..=mechanism.own_highest(highest.halves());
+    own.filter_map(|own| Order::whole(own * ratio).ok()).collect()
 }
 
 /// Bound of what own orders above one add to either torque on the main crank and the block, if wanted.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::kinematics::{AngleBlock, BLOCK, Columns, LoadSum, Quantities, add_inertia};
 use super::piston::{multiples, torque_beyond, torque_by};
 use super::source::{
-    Column, ExactFactor, Parts, Point, Scale, Source, Tail, TorqueAmplitudes, is_equal,
+    Column, ExactFactor, INERTIA, Parts, Point, Scale, Source, Tail, TorqueAmplitudes, is_equal,
 };
 use crate::mechanism::rod::Swing;
 use crate::mechanism::{Mechanism, harmonics};
@@ -20,6 +20,10 @@ use crate::numbers::simd::vectorised;
 pub(super) struct RodInertia(pub Mechanism);
 
 impl Source for RodInertia {
+    fn name(&self) -> &'static str {
+        INERTIA
+    }
+
     fn parts(&self) -> Parts {
         Parts::inertia(None, true)
     }
@@ -36,12 +40,12 @@ impl Source for RodInertia {
         torque_by(&self.0, orders, |own| harmonics::rod::torque(&self.0.proportions, own, cancel))
     }
 
-    fn orders(&self, highest: u32) -> Vec<u32> {
+    fn orders(&self, highest: Order) -> Vec<Order> {
         multiples(&self.0, highest)
     }
 
-    fn beyond(&self, highest: u32, torque: bool) -> Tail {
-        let own = self.0.own_highest(highest);
+    fn beyond(&self, halves: u32, torque: bool) -> Tail {
+        let own = self.0.own_highest(halves);
         let torque = torque_beyond(&self.0, torque, harmonics::rod::tail_bound, own);
         Tail { force: 0.0, torque }
     }
@@ -56,8 +60,8 @@ impl Source for RodInertia {
         0.9
     }
 
-    fn at_point(&self, point: &Point) -> Result<Arc<dyn Source>> {
-        Ok(Arc::new(Self(self.0.replaced(point.rod_ratio, point.pin_offset)?)))
+    fn at_point(&self, point: &Point) -> Result<Option<Arc<dyn Source>>> {
+        Ok(Some(Arc::new(Self(self.0.replaced(point.rod_ratio, point.pin_offset)?))))
     }
 
     fn exact(&self) -> ExactFactor {
@@ -71,9 +75,9 @@ impl Source for RodInertia {
         wanted: Quantities,
         square: f64,
         columns: &mut Columns,
-    ) {
+    ) -> Result<()> {
         if !wanted.torque {
-            return;
+            return Ok(());
         }
         let units = &*block.units(sum.ratio);
         let [on_block, on_crank] = self.0.senses().map(|sense| sense * square * sum.roll);
@@ -88,6 +92,7 @@ impl Source for RodInertia {
                 }
             },
         );
+        Ok(())
     }
 
     fn add_inertia(&self, sum: &LoadSum, angles: &CrankAngles, into: [&mut [f64]; 2]) {

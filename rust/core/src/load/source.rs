@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::kinematics::{AngleBlock, Columns, LoadSum, Quantities};
 use crate::Complex64;
+pub use crate::engine::loads::{GAS, INERTIA};
 use crate::mechanism::Mechanism;
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::cancel::Cancel;
@@ -15,19 +16,21 @@ use crate::numbers::order::Order;
 use crate::pressure::Cycle;
 
 /// How a source acts at its place.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Parts {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Parts {
     /// Force; none where all that remains of forces is a torque.
     pub force: Option<ForcePart>,
     /// Whether it makes a torque besides that of its force about another axis.
     pub roll: bool,
+    /// What it scales with.
     pub scaling: Scaling,
+    /// When it repeats.
     pub repeats: Repeats,
 }
 
 /// How a force moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum ForcePart {
+pub enum ForcePart {
     /// Along its direction, at multiples of the speed of its crank.
     Along,
     /// Turning with its shaft, at the order of its speed alone.
@@ -35,18 +38,44 @@ pub(crate) enum ForcePart {
 }
 
 /// What amplitudes scale with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Scaling {
-    /// Inertia: with the square of the speed.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Scaling {
+    /// With the square of the speed: inertia.
     #[default]
     SpeedSquared,
-    /// Pressure: as given, at any speed.
-    Given,
+    /// With nothing: the same at any speed.
+    Independent,
+    /// With the height of a line that rises from 0 at the first of three crank speeds to 1 at the second,
+    /// and falls to 0 at the third, rpm: a row of a table over speed.
+    Row([f64; 3]),
+}
+
+impl Scaling {
+    /// What amplitudes are multiplied by at an angular speed of the crank, rad/s.
+    #[must_use]
+    pub fn factor(self, omega: f64) -> f64 {
+        match self {
+            Self::SpeedSquared => omega * omega,
+            Self::Independent => 1.0,
+            Self::Row([below, at, above]) => {
+                let rpm = omega * 30.0 / std::f64::consts::PI;
+                // Speeds of a table that was given in rpm come back with a rounding.
+                let share = |end: f64| ((rpm - end) / (at - end)).clamp(0.0, 1.0);
+                if rpm < at {
+                    share(below)
+                } else if rpm > at {
+                    share(above)
+                } else {
+                    1.0
+                }
+            }
+        }
+    }
 }
 
 /// After which turns a source repeats.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Repeats {
+pub enum Repeats {
     /// Of its crank.
     EveryTurn,
     /// Those of a cycle of four strokes: it has half orders.
@@ -62,7 +91,7 @@ impl Parts {
 
 /// Which amplitude of a source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
-pub(crate) enum Column {
+pub enum Column {
     /// Of the force, and of its torque about another axis.
     #[default]
     Force,
@@ -71,7 +100,9 @@ pub(crate) enum Column {
 }
 
 /// Amplitudes of the torque of a source at some orders, and its mean.
-pub(crate) struct TorqueAmplitudes {
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TorqueAmplitudes {
+    /// By order.
     pub harmonics: TorqueHarmonics,
     /// On the block and on the main crank.
     pub mean: [f64; 2],
@@ -79,7 +110,8 @@ pub(crate) struct TorqueAmplitudes {
 
 /// Bounds of what orders above one add.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Tail {
+pub struct Tail {
+    /// To the force.
     pub force: f64,
     /// To either torque.
     pub torque: f64,
@@ -87,7 +119,8 @@ pub(crate) struct Tail {
 
 /// What a tolerance is relative to, over the weights of a load.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Scale {
+pub struct Scale {
+    /// Of the force.
     pub force: f64,
     /// None where it is that of the force at a crank radius, or at the distance of its axis.
     pub torque: Option<f64>,
@@ -95,7 +128,7 @@ pub(crate) struct Scale {
 
 /// Factor of a source in exact sums.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum ExactFactor {
+pub enum ExactFactor {
     /// 1.
     One,
     /// Symbols, one for a motion: of a piston's inertia.
@@ -108,7 +141,8 @@ pub(crate) enum ExactFactor {
 
 /// A point of a sweep: what it replaces of a mechanism, and of pressure.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Point<'a> {
+pub struct Point<'a> {
+    /// Crank radius over rod length.
     pub rod_ratio: Option<f64>,
     /// m.
     pub pin_offset: Option<f64>,
@@ -117,17 +151,29 @@ pub(crate) struct Point<'a> {
 }
 
 /// A source that keeps its amplitudes at orders ½, 1, 1½ … up to one, and bounds of what those above each
-/// add.
-pub(crate) type SourceUpTo = (Arc<dyn Source>, Vec<f64>);
+/// add to its torques.
+pub type SourceUpTo = (Arc<dyn Source>, Vec<f64>);
 
 /// What acts at a place, over the weights of a load.
-pub(crate) trait Source: Debug + Send + Sync + Any {
+///
+/// A source says what every reading asks of it; none asks which source it is. Another crate's needs its name,
+/// how it acts, its orders, their amplitudes and a bound of the rest; what else there is follows from these,
+/// and `check_source` runs it through every reading.
+pub trait Source: Debug + Send + Sync + Any {
+    /// Under which its loads are counted: `inertia`, `gas`, or a name of its own.
+    fn name(&self) -> &str;
+
+    /// How it acts.
     fn parts(&self) -> Parts;
 
-    /// Whether another source is the same.
-    fn equals(&self, other: &dyn Source) -> bool;
+    /// Whether another source is the same; loads of equal sources share their amplitudes.
+    fn equals(&self, other: &dyn Source) -> bool {
+        let _ = other;
+        false
+    }
 
     /// The motion that it depends on.
+    #[doc(hidden)]
     fn mechanism(&self) -> Option<&Mechanism> {
         None
     }
@@ -135,7 +181,7 @@ pub(crate) trait Source: Debug + Send + Sync + Any {
     /// Amplitudes of the force; zero at orders that it does not have.
     fn force(&self, orders: &[Order], cancel: &Cancel) -> Result<Vec<Complex64>> {
         cancel.check()?;
-        Ok(vec![Complex64::default(); orders.len()])
+        Ok(vec![Complex64::default(); orders.len()]) // bounded: by the orders of a request
     }
 
     /// Whether its torque at these orders is to be integrated: that takes as long as waking another
@@ -148,57 +194,124 @@ pub(crate) trait Source: Debug + Send + Sync + Any {
     /// Amplitudes of its torque on the block and on the main crank, and their means.
     fn torque(&self, orders: &[Order], cancel: &Cancel) -> Result<TorqueAmplitudes> {
         cancel.check()?;
-        let zero = vec![Complex64::default(); orders.len()];
+        let zero = vec![Complex64::default(); orders.len()]; // bounded: by the orders of a request
         let harmonics = TorqueHarmonics { roll: zero.clone(), crank: zero };
         Ok(TorqueAmplitudes { harmonics, mean: [0.0; 2] })
     }
 
     /// Orders that it has up to one, multiples of the speed of the main crank.
-    fn orders(&self, highest: u32) -> Vec<u32>;
+    fn orders(&self, highest: Order) -> Vec<Order>;
 
-    /// Bounds of what orders above a multiple of the speed of the main crank add; infinite where none is
-    /// known.
-    fn beyond(&self, highest: u32, torque: bool) -> Tail;
+    /// Bounds of what orders above so many halves add; infinite where none is known.
+    fn beyond(&self, halves: u32, torque: bool) -> Tail;
 
-    /// The same source with its amplitudes up to an order; none where [`Source::beyond`] has a closed form.
+    /// Whether bounds of what orders above one add are known only as its torque is integrated: then
+    /// [`Source::up_to`] has them, and [`Source::beyond`] none.
+    fn has_open_tail(&self) -> bool {
+        false
+    }
+
+    /// The same source with its amplitudes up to an order, of one with an open tail.
     fn up_to(&self, highest: Order, cancel: &Cancel) -> Result<Option<SourceUpTo>> {
         let _ = (highest, cancel);
         Ok(None)
     }
 
-    /// Largest torque among those at whole degrees, where [`Source::scale`] has none.
+    /// Largest torque among those at whole degrees, of one with an open tail.
     fn largest_torque(&self) -> f64 {
         0.0
     }
 
-    fn scale(&self) -> Scale;
+    /// What a tolerance is relative to.
+    fn scale(&self) -> Scale {
+        let Tail { force, torque } = self.beyond(0, true);
+        Scale { force, torque: (torque > 0.0).then_some(torque) }
+    }
 
     /// Rod ratio up to which every order of a mechanism without offset grows with it.
+    #[doc(hidden)]
     fn grows_up_to(&self, column: Column) -> f64 {
         let _ = column;
         0.0
     }
 
-    /// The source at a point of a sweep.
-    fn at_point(&self, point: &Point) -> Result<Arc<dyn Source>>;
+    /// The source at a point of a sweep, where it is another there.
+    fn at_point(&self, point: &Point) -> Result<Option<Arc<dyn Source>>> {
+        let _ = point;
+        Ok(None)
+    }
 
-    fn exact(&self) -> ExactFactor;
+    /// Its factor in exact sums.
+    #[doc(hidden)]
+    fn exact(&self) -> ExactFactor {
+        ExactFactor::Unknown
+    }
 
-    /// Adds what loads of it add at a block of crank angles, of inertia times the square of a speed.
+    /// Adds what loads of it add at a block of crank angles, times a factor: of a source without kinematics
+    /// of its own the sum of its orders.
+    #[doc(hidden)]
     fn over_angle(
         &self,
         sum: &LoadSum,
         block: &AngleBlock,
         wanted: Quantities,
-        square: f64,
+        factor: f64,
         columns: &mut Columns,
-    );
+    ) -> Result<()> {
+        let cancel = Cancel::new();
+        let orders = self.orders(Order::HIGHEST);
+        let Columns { force: [force_x, force_y], moment: [moment_x, moment_y], torque } = columns;
+        let [force, moment, arm] = [sum.force, sum.moment, sum.arm].map(|sum| sum * factor);
+        let [on_block, on_crank] = torque;
+        let has_force = self.parts().force.is_some();
+        let forces = if has_force { self.force(&orders, &cancel)? } else { Vec::new() };
+        for (&order, amplitude) in orders.iter().zip(forces) {
+            let (units, amplitude) = (block.orders(order), amplitude * sum.lag(order));
+            for (i, (cos, sin)) in units.cos.iter().zip(&units.sin).enumerate() {
+                let value = amplitude.re * cos - amplitude.im * sin;
+                if wanted.planar {
+                    force_x[i] += force.re * value;
+                    force_y[i] += force.im * value;
+                    moment_x[i] += moment.re * value;
+                    moment_y[i] += moment.im * value;
+                }
+                if wanted.torque {
+                    on_block[i] += arm.im * value;
+                }
+            }
+        }
+        if !wanted.torque || !self.parts().roll {
+            return Ok(());
+        }
+        let weight = factor * sum.roll;
+        let TorqueAmplitudes { harmonics, mean } = self.torque(&orders, &cancel)?;
+        let both =
+            [on_block, on_crank].into_iter().zip([harmonics.roll, harmonics.crank]).zip(mean);
+        for ((column, series), mean) in both {
+            for value in column.iter_mut() {
+                *value += weight * mean;
+            }
+            for (&order, amplitude) in orders.iter().zip(series) {
+                let (units, amplitude) = (block.orders(order), amplitude * sum.lag(order) * weight);
+                for (value, (cos, sin)) in column.iter_mut().zip(units.cos.iter().zip(&units.sin)) {
+                    *value += amplitude.re * cos - amplitude.im * sin;
+                }
+            }
+        }
+        Ok(())
+    }
 
     /// Adds the moment of inertia of loads of it as seen from the main crank, kg·m², and its slope per
     /// radian.
+    #[doc(hidden)]
     fn add_inertia(&self, sum: &LoadSum, angles: &CrankAngles, into: [&mut [f64]; 2]) {
         let _ = (sum, angles, into);
     }
+}
+
+/// A source at a point of a sweep.
+pub(crate) fn at_point(source: &Arc<dyn Source>, point: &Point) -> Result<Arc<dyn Source>> {
+    Ok(source.at_point(point)?.unwrap_or_else(|| Arc::clone(source)))
 }
 
 impl PartialEq for dyn Source {

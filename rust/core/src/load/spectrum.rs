@@ -1,9 +1,6 @@
 //! A force of inertia that was given, order by order: it does not determine a torque, nor a motion.
 
-use std::sync::Arc;
-
-use super::kinematics::{AngleBlock, Columns, LoadSum, Quantities};
-use super::source::{ExactFactor, ForcePart, Parts, Point, Scale, Source, Tail, is_equal};
+use super::source::{ExactFactor, ForcePart, INERTIA, Parts, Scale, Source, Tail, is_equal};
 use crate::Complex64;
 use crate::mechanism::at_own_orders;
 use crate::mechanism::spectrum::Spectrum;
@@ -20,6 +17,10 @@ pub(super) struct GivenForce {
 }
 
 impl Source for GivenForce {
+    fn name(&self) -> &'static str {
+        INERTIA
+    }
+
     fn parts(&self) -> Parts {
         Parts::inertia(Some(ForcePart::Along), false)
     }
@@ -34,8 +35,9 @@ impl Source for GivenForce {
         })
     }
 
-    fn orders(&self, _: u32) -> Vec<u32> {
-        self.spectrum.orders().into_iter().map(|own| own * self.ratio.unsigned_abs()).collect()
+    fn orders(&self, _: Order) -> Vec<Order> {
+        let own = self.spectrum.orders().into_iter();
+        own.filter_map(|own| Order::whole(own * self.ratio.unsigned_abs()).ok()).collect()
     }
 
     /// All of its orders are evaluated.
@@ -47,14 +49,7 @@ impl Source for GivenForce {
         Scale { force: self.spectrum.largest(), torque: Some(0.0) }
     }
 
-    fn at_point(&self, _: &Point) -> Result<Arc<dyn Source>> {
-        Ok(Arc::new(self.clone()))
-    }
-
     fn exact(&self) -> ExactFactor {
         ExactFactor::Unknown
     }
-
-    /// Callers of exact kinematics reject engines of a given force.
-    fn over_angle(&self, _: &LoadSum, _: &AngleBlock, _: Quantities, _: f64, _: &mut Columns) {}
 }

@@ -3,6 +3,7 @@ use std::sync::Arc;
 
 use super::gas::GasPressure;
 use super::kinematics::{AngleBlock, Columns, Kinematics, Quantities};
+use super::source::GAS as GAS_NAME;
 use super::*;
 use crate::Spectrum;
 use crate::engine::{CrankIndex, Details, Engine, Gas, Shaft, Station, Unbalance};
@@ -10,6 +11,7 @@ use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::CrankAngles;
+use crate::numbers::index::ListIndex;
 use crate::pressure::{Cycle, Given};
 use crate::readings::amplitude::wrenches;
 use crate::wrench::Wrench;
@@ -156,16 +158,14 @@ pub(crate) fn fired(cycle_of: [Option<usize>; 3]) -> (Engine, [f64; 3]) {
 }
 
 #[test]
-fn volumes_are_of_the_pistons_under_pressure_by_gear() {
+fn torque_weights_are_of_the_pistons_under_pressure_by_gear() {
     let (all, swept) = fired([Some(0); 3]);
     // Cylinders 1 and 3 share a gear.
     let expected = [swept[0] + swept[2], swept[1]];
-    for (found, expected) in loads(&all).volumes().iter().skip(GAS.start).zip(expected) {
+    for (found, expected) in loads(&all).torque_weights().iter().skip(GAS.start).zip(expected) {
         // Some roundings of half a unit in the last place.
         assert!((found.value - expected).abs() < 1e-15 * expected, "{found:?} {expected}");
     }
-    let volumes = loads(&fired([None, Some(0), None]).0).volumes();
-    assert!(volumes.iter().take(5).all(|&volume| volume == PhasorSum::default()));
 }
 
 /// As of the under side of a piston.
@@ -178,7 +178,7 @@ fn what_acts_the_other_way_has_the_same_sizes() {
         load.weight *= -1.0;
         load.roll *= -1.0;
     });
-    for (a, b) in ahead.volumes().iter().zip(&opposite.volumes()) {
+    for (a, b) in ahead.torque_weights().iter().zip(&opposite.torque_weights()) {
         assert_eq!((a.value, a.size), (-b.value, b.size));
     }
     for order in 1..4 {
@@ -201,8 +201,9 @@ fn pressure_under_a_piston_is_a_load_of_the_other_sign() {
     let pressure = theta_deg.iter().map(|&theta| under(theta)).collect();
     let given = Given { name: String::new(), strokes: 4, theta_deg, pressure, degree: None };
     let cycle = Arc::new(Cycle::new(given).unwrap());
-    let above = loads.list.clone();
-    for load in above.iter().filter(|load| load.parts.scaling == Scaling::Given) {
+    let is_gas = |load: &&Load| loads.source(load).name() == GAS_NAME;
+    let above: Vec<Load> = loads.list.iter().filter(is_gas).copied().collect();
+    for load in &above {
         let mechanism = *loads.source(load).mechanism().unwrap();
         let gas = GasPressure {
             mechanism,
@@ -218,7 +219,8 @@ fn pressure_under_a_piston_is_a_load_of_the_other_sign() {
     let block = AngleBlock::new(&angles, 0..degrees.len());
     let (mut columns, wanted) = (Columns::ZERO, Quantities { planar: false, torque: true });
     for sum in &Kinematics::new(&loads).sums {
-        sum.source.over_angle(sum, &block, wanted, 0.0, &mut columns);
+        let factor = f64::from(u8::from(sum.group != GroupIndex::default()));
+        sum.source.over_angle(sum, &block, wanted, factor, &mut columns).unwrap();
     }
     let orders: Vec<Order> = (1..400).map(|halves| Order::from_halves(halves).unwrap()).collect();
     let by_orders = wrenches(&loads, &loads.sources, true, &orders, &Cancel::new()).unwrap();
@@ -238,12 +240,14 @@ fn pressure_under_a_piston_is_a_load_of_the_other_sign() {
         let found = columns.torque[1][k];
         // Cubics through points 10° apart miss a sine by 1e-6 of it.
         assert!((found - expected).abs() < 1e-5 * 50.0, "{theta}: {found} {expected}");
-        assert_eq!((columns.gas[1][k], columns.torque[0][k]), (found, -found));
-        let (wrenches, mean) = &by_orders;
-        let wave = |(wrench, order): (&Wrench, &Order)| {
-            (wrench.gas.crank * cis(order.number() * theta)).re
+        assert_eq!(columns.torque[0][k], -found);
+        let (wrenches, means) = &by_orders;
+        // Of inertia, then of gas.
+        let wave = |(wrenches, order): (&[Wrench], &Order)| {
+            (wrenches[1].torque.crank * cis(order.number() * theta)).re
         };
-        let sum = mean[1] + wrenches.iter().zip(&orders).map(wave).sum::<f64>();
+        let sum =
+            means[GroupIndex::new(1)][1] + wrenches.chunks(2).zip(&orders).map(wave).sum::<f64>();
         // Bends of the tables at their points, 1/n⁴ above order 200.
         assert!((found - sum).abs() < 1e-6 * 50.0, "{theta}: {found} {sum}");
     }
@@ -276,7 +280,8 @@ fn pressure_at_another_point_is_evaluated_anew() {
         source::Point { cycles: Some(&cycles), ..source::Point::default() },
     ];
     for point in points {
-        let [once, fresh] = [&known, source].map(|source| source.at_point(&point).unwrap());
+        let [once, fresh] =
+            [&known, source].map(|source| super::source::at_point(source, &point).unwrap());
         assert_eq!(torque(&*once), torque(&*fresh));
         assert_ne!(torque(&*once), torque(&*known));
     }

@@ -1,9 +1,7 @@
 //! A mass off the axis of a shaft that turns evenly.
 
-use std::sync::Arc;
-
 use super::kinematics::{AngleBlock, BLOCK, Columns, LoadSum, Quantities};
-use super::source::{ExactFactor, ForcePart, Parts, Point, Scale, Source, Tail, is_equal};
+use super::source::{ExactFactor, ForcePart, INERTIA, Parts, Scale, Source, Tail, is_equal};
 use crate::Complex64;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -18,6 +16,10 @@ pub(super) struct TurningUnbalance {
 }
 
 impl Source for TurningUnbalance {
+    fn name(&self) -> &'static str {
+        INERTIA
+    }
+
     fn parts(&self) -> Parts {
         Parts::inertia(Some(ForcePart::Turning), false)
     }
@@ -34,8 +36,8 @@ impl Source for TurningUnbalance {
         Ok(orders.iter().map(one).collect())
     }
 
-    fn orders(&self, _: u32) -> Vec<u32> {
-        vec![self.ratio.unsigned_abs()]
+    fn orders(&self, _: Order) -> Vec<Order> {
+        Order::whole(self.ratio.unsigned_abs()).into_iter().collect()
     }
 
     /// Its only order is always evaluated.
@@ -45,10 +47,6 @@ impl Source for TurningUnbalance {
 
     fn scale(&self) -> Scale {
         Scale { force: 1.0, torque: None }
-    }
-
-    fn at_point(&self, _: &Point) -> Result<Arc<dyn Source>> {
-        Ok(Arc::new(self.clone()))
     }
 
     fn exact(&self) -> ExactFactor {
@@ -62,7 +60,7 @@ impl Source for TurningUnbalance {
         wanted: Quantities,
         square: f64,
         columns: &mut Columns,
-    ) {
+    ) -> Result<()> {
         let units = &*block.units(sum.ratio);
         let Columns { force: [force_x, force_y], moment: [moment_x, moment_y], torque, .. } =
             columns;
@@ -81,5 +79,6 @@ impl Source for TurningUnbalance {
                 }
             },
         );
+        Ok(())
     }
 }

@@ -323,8 +323,18 @@ impl Proportions {
     /// [`Self::motion`], where the crank stands so.
     #[inline(always)]
     pub(crate) fn motion_at(&self, crank: &CrankPosition) -> Motion {
-        let CrankPosition { sin, cos, squared, to_above, to_below } = *crank;
         if self.has_infinite_rod() {
+            self.motion_of::<true>(crank)
+        } else {
+            self.motion_of::<false>(crank)
+        }
+    }
+
+    /// [`Self::motion_at`] of a Scotch yoke, or of a finite rod: chosen once, before a loop.
+    #[inline(always)]
+    pub(crate) fn motion_of<const YOKE: bool>(&self, crank: &CrankPosition) -> Motion {
+        let CrankPosition { sin, cos, squared, to_above, to_below } = *crank;
+        if YOKE {
             let [position, velocity, acceleration] = [cos, -sin, -cos];
             return Motion { position, velocity, acceleration, slope: 0.0, secant: 1.0 };
         }

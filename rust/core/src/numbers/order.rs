@@ -20,6 +20,8 @@ pub struct Order(u32);
 impl Order {
     /// Order 1, crank speed.
     pub const FIRST: Self = Self(2);
+    /// The highest there is.
+    pub const HIGHEST: Self = Self(2 * HIGHEST_ORDER);
 
     /// A whole order, 1 to [`HIGHEST_ORDER`].
     pub fn whole(order: u32) -> Result<Self> {

@@ -266,7 +266,7 @@ const MOST_LETTERS: usize = 24;
 
 /// Letters to replace, insert, leave out or swap with the next, from one word to another.
 fn slips(from: &[char], to: &[char]) -> usize {
-    let mut rows = vec![vec![0; to.len() + 1]; from.len() + 1];
+    let mut rows = vec![vec![0; to.len() + 1]; from.len() + 1]; // bounded: by names of units
     for i in 0..=from.len() {
         for j in 0..=to.len() {
             rows[i][j] = if i == 0 || j == 0 {

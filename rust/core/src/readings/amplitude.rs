@@ -3,32 +3,35 @@
 use std::sync::Arc;
 
 use crate::Complex64;
-use crate::load::source::{Column, Scaling, Source, TorqueAmplitudes};
+use crate::load::source::{Column, Source, TorqueAmplitudes};
 use crate::load::{
-    Harmonic, Load, LoadList, Phasors, SourceIndex, Sources, Wanted, count, superpose,
+    GroupIndex, Harmonic, Load, LoadList, Phasors, SourceIndex, Sources, Wanted, count, superpose,
 };
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
-use crate::numbers::index::List;
+use crate::numbers::index::{List, ListIndex};
 use crate::numbers::memory;
 use crate::numbers::order::Order;
-use crate::wrench::{Planar, Wrench, rounding, snapped};
+use crate::wrench::Wrench;
 
-/// Wrenches of the given orders, in their order, those of inertia over ω²; what vanishes to within
-/// rounding is zero.
+/// Mean torques of each group on the block and on the main crank.
+pub(crate) type Means = List<GroupIndex, [f64; 2]>;
+
+/// Wrenches of the given orders, in their order and of each group of the loads, over what the group scales
+/// with, and the mean torques of each group; what vanishes to within rounding is zero.
 ///
-/// Torque is zero where it is not wanted; a spectrum of forces does not determine it. The means are
-/// those of the torques of pressure on the block and on the crank. `sources` are those of the loads.
+/// Torque is zero where it is not wanted; a spectrum of forces does not determine it. `sources` are those
+/// of the loads.
 pub(crate) fn wrenches(
     loads: &LoadList,
     sources: &Sources,
     torque: bool,
     orders: &[Order],
     cancel: &Cancel,
-) -> Result<(Vec<Wrench>, [f64; 2])> {
+) -> Result<(Vec<Wrench>, Means)> {
     let amplitudes = Amplitudes::new(sources, torque, orders, cancel)?;
-    let wrenches = amplitudes.wrenches(&loads.list, loads.reference, torque, orders, cancel)?;
-    Ok((wrenches, amplitudes.mean(&loads.list)))
+    let wrenches = amplitudes.wrenches(loads, &loads.list, torque, orders, cancel)?;
+    Ok((wrenches, amplitudes.means(loads, &loads.list)))
 }
 
 /// Amplitudes of some sources at some orders.
@@ -64,63 +67,59 @@ impl Amplitudes {
         })
     }
 
-    /// Wrenches of some of the loads at the orders of these amplitudes, about a plane; as [`wrenches`].
+    /// Wrenches of some of an engine's loads at the orders of these amplitudes; as [`wrenches`].
     pub fn wrenches(
         &self,
-        loads: &[Load],
-        reference: f64,
+        loads: &LoadList,
+        some: &[Load],
         torque: bool,
         orders: &[Order],
         cancel: &Cancel,
     ) -> Result<Vec<Wrench>> {
-        let counts = [false, true].map(|torque| count(loads, torque));
-        let wrench = |(k, &order): (usize, &Order)| {
+        let (counts, groups) =
+            ([false, true].map(|torque| count(some, torque)), loads.groups.len());
+        let phasors = Phasors { reference: loads.reference };
+        let mut wrenches: Vec<Wrench> = memory::with_capacity(orders.len() * groups)?;
+        for (k, &order) in orders.iter().enumerate() {
             cancel.check()?;
-            let mut wrench = Wrench::default();
             // Odd orders above 1 of pistons without offset are exactly zero.
             let planar =
                 self.force.iter().any(|force| force.get(k).is_some_and(|&a| a != Complex64::ZERO));
             let wanted = Wanted { planar, roll: torque, by_bank: false };
-            for term in superpose(&Phasors { reference }, loads, order, wanted) {
+            let first = wrenches.len();
+            wrenches.resize(first + groups, Wrench::default());
+            let of_order = &mut wrenches[first..];
+            for term in superpose(&phasors, some, order, wanted) {
                 let amplitude = self.of(term.harmonic, k);
                 let [force, moment] = term.planar();
+                let wrench = &mut of_order[loads.group_of[term.harmonic.source].position()];
                 wrench.force.add_scaled(&force, amplitude.force);
                 wrench.moment.add_scaled(&moment, amplitude.force);
-                let torque = match term.scaling {
-                    Scaling::Given => &mut wrench.gas,
-                    Scaling::SpeedSquared => &mut wrench.inertia,
-                };
+                let torque = &mut wrench.torque;
                 torque.roll += term.roll.value * amplitude.roll;
                 torque.crank += term.roll.value * amplitude.crank;
                 for (size, of) in torque.sizes.iter_mut().zip([amplitude.roll, amplitude.crank]) {
                     *size += term.roll.size * of.norm();
                 }
             }
-            let [of_force, of_torque] = counts.map(|count| rounding(count, order.number()));
-            let snap = |vector: &Planar| vector.snapped(vector.size * of_force);
-            (wrench.force, wrench.moment) = (snap(&wrench.force), snap(&wrench.moment));
-            for torque in [&mut wrench.inertia, &mut wrench.gas] {
-                for (phasor, size) in
-                    [&mut torque.roll, &mut torque.crank].into_iter().zip(torque.sizes)
-                {
-                    *phasor = snapped(*phasor, size * of_torque);
-                }
+            for wrench in of_order {
+                *wrench = wrench.snapped(counts, order.number());
             }
-            Ok(wrench)
-        };
-        let mut wrenches = memory::with_capacity(orders.len())?;
-        for each in orders.iter().enumerate() {
-            wrenches.push(wrench(each)?);
         }
         Ok(wrenches)
     }
 
-    /// Mean torques on the block and on the crank, of some of the loads.
-    pub fn mean(&self, loads: &[Load]) -> [f64; 2] {
-        loads.iter().fold([0.0; 2], |[roll, crank], load| match &self.torque[load.source] {
-            Some(torque) => [roll + load.roll * torque.mean[0], crank + load.roll * torque.mean[1]],
-            None => [roll, crank],
-        })
+    /// Mean torques on the block and on the crank, of some of an engine's loads, by group.
+    pub fn means(&self, loads: &LoadList, some: &[Load]) -> Means {
+        let mut means = loads.groups.map_to(|_| [0.0; 2]);
+        for load in some {
+            let Some(torque) = &self.torque[load.source] else { continue };
+            let of_group = &mut means[loads.group_of[load.source]];
+            for (mean, own) in of_group.iter_mut().zip(torque.mean) {
+                *mean += load.roll * own;
+            }
+        }
+        means
     }
 
     /// Factors of the sums of a harmonic at the order of an index.

@@ -1,15 +1,19 @@
 //! How an engine shakes, order by order: force, moment and torque as peak phasors.
 
+use std::sync::Arc;
+
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::{Load, LoadList, count};
+use crate::load::{GroupIndex, Load, LoadList, count};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::index::List;
 use crate::numbers::limits;
-use crate::numbers::order::{self, Order};
-use crate::readings::amplitude::wrenches;
-use crate::readings::choice::{self, Chosen, OrderSums};
+use crate::numbers::memory;
+use crate::numbers::order::Order;
+use crate::readings::choice;
 use crate::readings::peaks::PeakFinder;
+use crate::readings::quantity::Part;
 use crate::wrench::{Planar, Torque, Wrench, rounding};
 
 /// Crank speed at which ω is 1 rad/s.
@@ -57,18 +61,27 @@ pub struct Balance {
     pub omitted: Vec<Order>,
     /// Wrench of each order; what vanishes to within rounding is zero.
     pub wrenches: Vec<Wrench>,
+    /// Names of the parts: `inertia`, `gas` where pressure counts, and those of further loads.
+    names: Vec<Arc<str>>,
+    /// Wrenches of each order and part; none of a single one, which is the whole.
+    parts: Vec<Wrench>,
     /// Orders evaluated that are not among them, and their wrenches.
-    left: Vec<(Order, Wrench)>,
-    /// Mean torques on the block and on the crank, of pressure alone.
-    pub mean: [f64; 2],
+    left: Vec<(Order, OfOrder)>,
+    /// Mean torques of each part on the block and on the crank.
+    means: Vec<[f64; 2]>,
     /// Bounds of what the orders left out add at any crank angle; 0 for orders that were given.
     pub error_bound: ErrorBounds,
     /// Whether torque is known: it was wanted, and the engine has no given spectrum of forces.
     pub has_torque: bool,
-    /// What the orders left out add, those of inertia over ω².
-    left_out: OrderSums,
     /// Numbers of loads that have a force, and of all, on which rounding depends.
     counts: [usize; 2],
+}
+
+/// Wrench of an order at a speed, and its parts; none of a single one.
+#[derive(Debug, Clone, PartialEq)]
+struct OfOrder {
+    whole: Wrench,
+    parts: Vec<Wrench>,
 }
 
 /// Bounds of what is left out.
@@ -89,6 +102,16 @@ impl ErrorBounds {
         [self.force, self.moment, self.torque]
     }
 
+    /// The larger of both.
+    #[must_use]
+    pub fn max(self, other: Self) -> Self {
+        Self {
+            force: self.force.max(other.force),
+            moment: self.moment.max(other.moment),
+            torque: self.torque.max(other.torque),
+        }
+    }
+
     /// The same about a point this far away along x, y and z, m: at most force times distance is added.
     ///
     /// Forces act across the crank: a point aside changes the torque, and one along the crank the moment.
@@ -97,17 +120,6 @@ impl ErrorBounds {
         let Self { force, moment, torque } = self;
         Self { force, moment: moment + z.abs() * force, torque: torque + x.hypot(y) * force }
     }
-}
-
-/// Part of a torque.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TorquePart {
-    /// All of it.
-    Whole,
-    /// Of inertia forces.
-    Inertia,
-    /// Of gas pressure.
-    Gas,
 }
 
 /// Force or moment.
@@ -119,45 +131,183 @@ pub enum Vector {
     Moment,
 }
 
-impl Balance {
-    /// Of wrenches of orders that were given, and mean torques; of these loads.
-    pub(super) fn of_orders(
-        orders: Vec<Order>,
-        wrenches: Vec<Wrench>,
-        mean: [f64; 2],
-        has_torque: bool,
-        loads: &[Load],
-    ) -> Self {
-        let (omitted, left, error_bound) = (Vec::new(), Vec::new(), ErrorBounds::default());
-        let (left_out, counts) =
-            (OrderSums::default(), [false, true].map(|torque| count(loads, torque)));
-        Self { orders, omitted, wrenches, left, mean, error_bound, has_torque, left_out, counts }
+impl Vector {
+    /// Which of a wrench.
+    #[must_use]
+    pub fn of(self, wrench: &Wrench) -> &Planar {
+        match self {
+            Self::Force => &wrench.force,
+            Self::Moment => &wrench.moment,
+        }
     }
+}
 
+impl Balance {
     /// The balance of one order alone, if it was evaluated here.
     #[must_use]
     pub fn alone(&self, order: Order) -> Option<Self> {
         let place = self.orders.iter().position(|&own| own == order);
-        let left = || self.left.iter().find(|(own, _)| *own == order).map(|(_, wrench)| wrench);
-        let wrench = *place.map(|k| &self.wrenches[k]).or_else(left)?;
+        let left = || self.left.iter().find(|(own, _)| *own == order);
+        let OfOrder { whole, parts } = match place {
+            Some(k) => self.of_order(k),
+            None => left()?.1.clone(),
+        };
         Some(Self {
             orders: vec![order],
             omitted: Vec::new(),
-            wrenches: vec![wrench],
+            wrenches: vec![whole],
+            names: self.names.clone(),
+            parts,
             left: Vec::new(),
+            means: self.means.clone(),
             error_bound: ErrorBounds::default(),
-            left_out: OrderSums::default(),
             ..*self
         })
+    }
+
+    /// The same balance about a point this far away along x, y and z, m.
+    #[must_use]
+    pub fn moved(&self, arm: [f64; 3]) -> Self {
+        let moved = |wrenches: &[Wrench]| wrenches.iter().map(|one| one.moved(arm)).collect();
+        let left = |(order, of): &(Order, OfOrder)| {
+            (*order, OfOrder { whole: of.whole.moved(arm), parts: moved(&of.parts) })
+        };
+        Self {
+            wrenches: moved(&self.wrenches),
+            parts: moved(&self.parts),
+            left: self.left.iter().map(left).collect(),
+            error_bound: self.error_bound.moved(arm),
+            ..self.clone()
+        }
+    }
+
+    fn of_order(&self, k: usize) -> OfOrder {
+        let count = if self.parts.is_empty() { 0 } else { self.names.len() };
+        OfOrder { whole: self.wrenches[k], parts: self.parts[k * count..][..count].to_vec() }
+    }
+
+    /// The balance of a part alone; its bound is that of the whole.
+    #[must_use]
+    pub fn of_part(&self, part: Part) -> Self {
+        let Part::Of(name) = part else { return self.clone() };
+        let of_left = |(order, of): &(Order, OfOrder)| {
+            let place = self.names.iter().position(|own| **own == *name);
+            let whole = match place {
+                Some(place) => of.parts.get(place).copied().unwrap_or(of.whole),
+                None => Wrench::default(),
+            };
+            (*order, OfOrder { whole, parts: Vec::new() })
+        };
+        Self {
+            orders: self.orders.clone(),
+            omitted: self.omitted.clone(),
+            wrenches: (0..self.orders.len()).map(|k| self.wrench(part, k)).collect(),
+            names: vec![name.into()],
+            parts: Vec::new(),
+            left: self.left.iter().map(of_left).collect(),
+            means: vec![self.mean(part)],
+            ..*self
+        }
+    }
+
+    /// Names of the parts of its quantities.
+    #[must_use]
+    pub fn names(&self) -> &[Arc<str>] {
+        &self.names
+    }
+
+    /// Wrench of a part of the k-th order.
+    #[must_use]
+    pub fn wrench(&self, part: Part, k: usize) -> Wrench {
+        let Part::Of(name) = part else { return self.wrenches[k] };
+        match self.names.iter().position(|own| **own == *name) {
+            Some(_) if self.parts.is_empty() => self.wrenches[k],
+            Some(place) => self.parts[k * self.names.len() + place],
+            None => Wrench::default(),
+        }
+    }
+
+    /// Of wrenches of some of an engine's loads, by order and group, at a speed, rad/s.
+    pub(super) fn of(
+        loads: &LoadList,
+        some: &[Load],
+        orders: Vec<Order>,
+        wrenches: &[Wrench],
+        means: &List<GroupIndex, [f64; 2]>,
+        omega: f64,
+    ) -> Result<Self> {
+        let counts = [false, true].map(|torque| count(some, torque));
+        let names = loads.names();
+        let (mut wholes, mut parts) = (memory::with_capacity(orders.len())?, Vec::new());
+        let mut of_names = vec![[0.0; 2]; names.len()];
+        let of_groups: Vec<(usize, f64)> = loads
+            .groups
+            .iter()
+            .map(|group| {
+                let name = names.iter().position(|name| *name == group.name).unwrap_or(0);
+                (name, group.scaling.factor(omega))
+            })
+            .collect();
+        for (&(name, factor), mean) in of_groups.iter().zip(means) {
+            for (sum, own) in of_names[name].iter_mut().zip(mean) {
+                *sum += factor * own;
+            }
+        }
+        if let [(_, factor)] = of_groups[..] {
+            wholes.extend(wrenches.iter().map(|wrench| wrench.scaled(factor)));
+        } else {
+            parts = memory::with_capacity(orders.len() * names.len())?;
+            for (order, of_order) in orders.iter().zip(wrenches.chunks(of_groups.len())) {
+                let first = parts.len();
+                parts.resize(first + names.len(), Wrench::default());
+                for (&(name, factor), wrench) in of_groups.iter().zip(of_order) {
+                    let part: &mut Wrench = &mut parts[first + name];
+                    *part = part.plus(&wrench.scaled(factor));
+                }
+                let sum = |sum: Wrench, part: &Wrench| sum.plus(part);
+                let whole = parts[first..].iter().fold(Wrench::default(), sum);
+                wholes.push(whole.snapped(counts, order.number()));
+            }
+        }
+        Ok(Self {
+            orders,
+            omitted: Vec::new(),
+            wrenches: wholes,
+            names,
+            parts,
+            left: Vec::new(),
+            means: of_names,
+            error_bound: ErrorBounds::default(),
+            has_torque: true,
+            counts,
+        })
+    }
+
+    /// Leaves out the orders that are not kept; `error_bound` bounds them and those that were not evaluated.
+    pub(super) fn keep(mut self, kept: &[bool], error_bound: ErrorBounds) -> Self {
+        let names = if self.parts.is_empty() { 0 } else { self.names.len() };
+        let (mut orders, mut wrenches, mut parts) = (Vec::new(), Vec::new(), Vec::new());
+        for (k, (&order, &kept)) in self.orders.iter().zip(kept).enumerate() {
+            let of_order = self.of_order(k);
+            if kept {
+                orders.push(order);
+                wrenches.push(of_order.whole);
+                parts.extend(of_order.parts);
+            } else {
+                let parts = &self.parts[k * names..][..names];
+                if !parts.iter().chain([&of_order.whole]).all(Wrench::is_zero) {
+                    self.omitted.push(order);
+                }
+                self.left.push((order, of_order));
+            }
+        }
+        Self { orders, wrenches, parts, error_bound, ..self }
     }
 
     /// Force or moment of the k-th order.
     #[must_use]
     pub fn planar(&self, vector: Vector, k: usize) -> &Planar {
-        match vector {
-            Vector::Force => &self.wrenches[k].force,
-            Vector::Moment => &self.wrenches[k].moment,
-        }
+        vector.of(&self.wrenches[k])
     }
 
     /// Bound of the rounding error of the k-th order of force or moment.
@@ -166,37 +316,23 @@ impl Balance {
         self.planar(vector, k).size * rounding(self.counts[0], self.orders[k].number())
     }
 
-    /// Bounds of what the orders left out add at another speed, rad/s.
-    pub(crate) fn error_bound_at(&self, omega: f64) -> ErrorBounds {
-        self.left_out.bounds(omega * omega)
-    }
-
-    /// Bounds of rounding over the sizes of sums, of planar vectors and of torques of an order.
-    pub(crate) fn roundings(&self, order: Order) -> [f64; 2] {
-        self.counts.map(|count| rounding(count, order.number()))
-    }
-
     /// A part of the torques of the k-th order.
     #[must_use]
-    pub fn torque(&self, part: TorquePart, k: usize) -> Torque {
-        let wrench = &self.wrenches[k];
-        match part {
-            TorquePart::Whole => wrench.torque(),
-            TorquePart::Inertia => wrench.inertia,
-            TorquePart::Gas => wrench.gas,
-        }
+    pub fn torque(&self, part: Part, k: usize) -> Torque {
+        self.wrench(part, k).torque
     }
 
-    /// Mean torques of a part on the block and on the crank: those of inertia are zero.
+    /// Mean torques of a part on the block and on the crank.
     #[must_use]
-    pub fn mean(&self, part: TorquePart) -> [f64; 2] {
-        if part == TorquePart::Inertia { [0.0; 2] } else { self.mean }
+    pub fn mean(&self, part: Part) -> [f64; 2] {
+        let own = self.names.iter().zip(&self.means).filter(|(name, _)| part.has(name));
+        own.fold([0.0; 2], |[roll, crank], (_, mean)| [roll + mean[0], crank + mean[1]])
     }
 
     /// Bounds of the rounding errors of the k-th order of a part of the torques, on the block and on the
     /// crank.
     #[must_use]
-    pub fn torque_zero_bounds(&self, part: TorquePart, k: usize) -> [f64; 2] {
+    pub fn torque_zero_bounds(&self, part: Part, k: usize) -> [f64; 2] {
         let rounding = rounding(self.counts[1], self.orders[k].number());
         self.torque(part, k).sizes.map(|size| size * rounding)
     }
@@ -222,7 +358,7 @@ impl Balance {
 
     /// Largest magnitude of a part of the torque on the block or on the crank: of the mean and all
     /// orders together.
-    pub fn torque_peak(&self, part: TorquePart, on_crank: bool, cancel: &Cancel) -> Result<f64> {
+    pub fn torque_peak(&self, part: Part, on_crank: bool, cancel: &Cancel) -> Result<f64> {
         let mean = self.mean(part)[usize::from(on_crank)];
         let torque = |k: usize| {
             let Torque { roll, crank, .. } = self.torque(part, k);
@@ -276,31 +412,11 @@ pub fn balance(
     cancel: &Cancel,
 ) -> Result<Balance> {
     let omega = angular_speed(request.rpm)?;
-    let reference = engine.reference(request.reference_z)?;
+    engine.check_speeds(&[request.rpm])?;
+    let loads = LoadList::new(engine, engine.reference(request.reference_z)?);
     let torque = request.torque && engine.spectrum().is_none();
-    let loads = LoadList::new(engine, reference);
-    let square = omega * omega;
-    let chosen = match orders {
-        Orders::Given(orders) => {
-            order::check_list(orders)?;
-            let (wrenches, mean) = wrenches(&loads, &loads.sources, torque, orders, cancel)?;
-            let (orders, left) = (orders.clone(), Vec::new());
-            Chosen { orders, wrenches, mean, left, left_out: OrderSums::default() }
-        }
-        Orders::Auto { rtol } => choice::within(*rtol, engine, &loads, torque, cancel)?,
-    };
-    let is_omitted = |(_, wrench): &&(Order, Wrench)| OrderSums::of(wrench) != OrderSums::default();
-    let omitted = chosen.left.iter().filter(is_omitted).map(|&(order, _)| order).collect();
-    let at_speed = |(order, wrench): (Order, Wrench)| (order, wrench.at_speed(square));
-    Ok(Balance {
-        orders: chosen.orders,
-        omitted,
-        wrenches: chosen.wrenches.into_iter().map(|wrench| wrench.at_speed(square)).collect(),
-        left: chosen.left.into_iter().map(at_speed).collect(),
-        mean: chosen.mean,
-        error_bound: chosen.left_out.bounds(square),
-        has_torque: torque,
-        left_out: chosen.left_out,
-        counts: [false, true].map(|torque| count(&loads.list, torque)),
-    })
+    let chosen = choice::evaluated(engine, &loads, orders, torque, cancel)?;
+    let mut balance = chosen.at_speed(&loads, omega)?;
+    balance.has_torque = torque;
+    Ok(balance)
 }

@@ -7,98 +7,114 @@
 
 use std::sync::Arc;
 
-use crate::engine::{Engine, Origin};
-use crate::load::source::{Repeats, Scale, Scaling, Source, Tail};
-use crate::load::{LargestWeights, Load, LoadList, Sources, count};
+use crate::engine::Engine;
+use crate::load::source::{Repeats, Scale, Source, Tail};
+use crate::load::{
+    Group, GroupIndex, LargestWeights, Load, LoadList, Sources, count, find_or_push,
+};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::index::{List, ListIndex, distinct};
 use crate::numbers::limits;
-use crate::numbers::memory;
-use crate::numbers::order::Order;
+use crate::numbers::order::{self, Order};
 use crate::readings::amplitude::wrenches;
-use crate::readings::balance::ErrorBounds;
+use crate::readings::balance::{Balance, ErrorBounds, Orders};
 use crate::wrench::Wrench;
 
 /// Orders above the last one evaluated add less than this part of the tolerance.
 const NEGLIGIBLE_REST: f64 = 0.01;
 
-/// Part of the largest torque of pressure on a cylinder that orders may leave out, at least: those of
-/// pressure decline slowly.
-const LEAST_OF_GAS: f64 = 1e-3;
-/// Highest order of the torque of pressure that is evaluated; that of a cycle in which it jumps declines
+/// Part of the largest torque of an integrated load that orders may leave out, at least: those of pressure
+/// decline slowly.
+const LEAST_OF_INTEGRATED: f64 = 1e-3;
+/// Highest order of an integrated torque that is evaluated; that of a cycle in which pressure jumps declines
 /// like 1/n.
-const HIGHEST_OF_GAS: u32 = 192;
+const HIGHEST_INTEGRATED: u32 = 192;
 
-/// Order up to which the torque of pressure is integrated first; then to four times it, as far as
-/// [`HIGHEST_OF_GAS`].
-const FIRST_OF_GAS: u32 = 48;
+/// Order up to which a torque is integrated first; then to four times it, as far as
+/// [`HIGHEST_INTEGRATED`].
+const FIRST_INTEGRATED: u32 = 48;
 
-/// Orders chosen for an engine, those of inertia over ω² so that they serve any speed.
+/// Orders chosen for an engine, over what its groups scale with so that they serve any speed.
 pub(crate) struct Chosen {
-    /// Orders kept, ascending.
-    pub orders: Vec<Order>,
-    /// Their wrenches, those of inertia over ω².
-    pub wrenches: Vec<Wrench>,
-    /// Mean torques of pressure on the block and on the crank.
-    pub mean: [f64; 2],
-    /// Orders evaluated and left out, and their wrenches.
-    pub left: Vec<(Order, Wrench)>,
-    /// Bounds of what all orders left out add.
-    pub left_out: OrderSums,
+    /// Orders evaluated, ascending.
+    orders: Vec<Order>,
+    /// Which of them are kept.
+    kept: Vec<bool>,
+    /// Wrenches of each order and group.
+    wrenches: Vec<Wrench>,
+    /// Mean torques of each group on the block and on the crank.
+    means: List<GroupIndex, [f64; 2]>,
+    /// Bounds of what all orders left out add, of each group.
+    left_out: List<GroupIndex, OrderSums>,
 }
 
-/// What orders add, or may leave out: those of inertia over ω².
+impl Chosen {
+    /// What the orders that are left out add at most at some speeds, rad/s.
+    pub fn error_bound(&self, loads: &LoadList, omegas: &[f64]) -> ErrorBounds {
+        let at = |&omega: &f64| bounds(&self.left_out, &loads.groups, omega);
+        omegas.iter().map(at).fold(ErrorBounds::default(), ErrorBounds::max)
+    }
+
+    /// Orders that are kept, and the wrenches of each group.
+    pub fn kept(&self) -> impl Iterator<Item = (Order, &[Wrench])> {
+        let groups = self.left_out.len();
+        let all = self.orders.iter().zip(&self.kept).zip(self.wrenches.chunks(groups));
+        all.filter(|((_, kept), _)| **kept).map(|((order, _), wrenches)| (*order, wrenches))
+    }
+
+    /// Orders that were evaluated and left out, of those that are not zero.
+    pub fn omitted(&self) -> Vec<Order> {
+        let groups = self.left_out.len();
+        let all = self.orders.iter().zip(&self.kept).zip(self.wrenches.chunks(groups));
+        let left = all.filter(|((_, kept), of)| !**kept && !of.iter().all(Wrench::is_zero));
+        left.map(|((order, _), _)| *order).collect()
+    }
+
+    /// The balance at a speed, rad/s.
+    pub fn at_speed(self, loads: &LoadList, omega: f64) -> Result<Balance> {
+        let Self { orders, kept, wrenches, means, left_out } = self;
+        let all = Balance::of(loads, &loads.list, orders, &wrenches, &means, omega)?;
+        Ok(all.keep(&kept, bounds(&left_out, &loads.groups, omega)))
+    }
+}
+
+/// What orders of a group add, or may leave out, over what it scales with.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct OrderSums {
     pub force: f64,
     pub moment: f64,
-    /// Torque of inertia, on the block or on the crank.
-    pub inertia: f64,
-    /// Torque of pressure.
-    pub gas: f64,
+    /// Torque, on the block or on the crank.
+    pub torque: f64,
 }
 
 impl OrderSums {
     /// What an order adds at most.
     pub fn of(wrench: &Wrench) -> Self {
-        let Wrench { force, moment, inertia, gas } = wrench;
-        Self {
-            force: force.peak(),
-            moment: moment.peak(),
-            inertia: inertia.peak(),
-            gas: gas.peak(),
-        }
+        let Wrench { force, moment, torque } = wrench;
+        Self { force: force.peak(), moment: moment.peak(), torque: torque.peak() }
     }
 
     /// Side by side.
-    fn values(self) -> [f64; 4] {
-        [self.force, self.moment, self.inertia, self.gas]
+    fn values(self) -> [f64; 3] {
+        [self.force, self.moment, self.torque]
     }
 
-    fn from_values([force, moment, inertia, gas]: [f64; 4]) -> Self {
-        Self { force, moment, inertia, gas }
+    fn from_values([force, moment, torque]: [f64; 3]) -> Self {
+        Self { force, moment, torque }
     }
+}
 
-    /// The larger of both, sum by sum.
-    pub fn max(self, other: Self) -> Self {
-        let mut largest = self.values();
-        largest.iter_mut().zip(other.values()).for_each(|(a, b)| *a = a.max(b));
-        Self::from_values(largest)
+/// Bounds at a speed, rad/s, of what groups leave out.
+pub(crate) fn bounds(left_out: &[OrderSums], groups: &[Group], omega: f64) -> ErrorBounds {
+    let mut sum = ErrorBounds::default();
+    for (lost, group) in left_out.iter().zip(groups) {
+        let factor = group.scaling.factor(omega);
+        sum.force += lost.force * factor;
+        sum.moment += lost.moment * factor;
+        sum.torque += lost.torque * factor;
     }
-
-    /// All times a tolerance.
-    fn scaled(self, rtol: f64) -> Self {
-        Self::from_values(self.values().map(|value| rtol * value))
-    }
-
-    /// Bounds at a square of speed.
-    pub fn bounds(self, square: f64) -> ErrorBounds {
-        ErrorBounds {
-            force: self.force * square,
-            moment: self.moment * square,
-            torque: self.inertia * square + self.gas,
-        }
-    }
+    sum
 }
 
 /// An engine whose orders are chosen: its loads, and their sources where harmonics decrease most slowly.
@@ -114,65 +130,93 @@ pub(crate) struct Candidate<'a> {
 pub(crate) struct Choice {
     /// Orders to evaluate, ascending.
     pub orders: Vec<Order>,
-    /// Orders of the torque of pressure, of each engine.
-    pub gas: Vec<GasOrders>,
-    /// Bounds of what orders above those add, of each engine.
-    pub rest: Vec<OrderSums>,
-    /// What may be left out, of each engine.
-    allowed: Vec<OrderSums>,
+    /// Orders of the torques of each engine that are integrated.
+    pub integrated: Vec<IntegratedOrders>,
+    /// Bounds of what orders above those add, of each engine and group.
+    pub rest: Vec<List<GroupIndex, OrderSums>>,
+    /// What may be left out, of each engine and group.
+    allowed: Vec<f64>,
 }
 
 impl Choice {
     /// Among the orders that leave out at most `rtol`.
     pub fn new(rtol: f64, candidates: &[Candidate], torque: bool, cancel: &Cancel) -> Result<Self> {
         let rtol = limits::tolerance(rtol)?;
-        let (mut orders, mut allowed) = (Vec::new(), Vec::new());
+        let (mut orders, mut all_scales) = (Vec::new(), Vec::new());
         for Candidate { engine, loads, sources, repeats } in candidates {
             cancel.check()?;
             let scales = scales(engine, loads);
             if !repeats {
                 orders.extend(self::candidates(rtol, &scales, loads, sources, torque)?);
             }
-            allowed.push(scales.scaled(rtol));
+            all_scales.push(scales);
         }
         orders.sort_unstable();
         orders.dedup();
-        // As far as the others at once, which have a part of gas too.
+        // As far as the others at once, which have a part of it too.
         let last = orders.last().map_or(0, |order| order.halves().div_ceil(2));
-        let highest = last.clamp(FIRST_OF_GAS, HIGHEST_OF_GAS);
-        let (mut of_gas, mut rest, mut all) = (Vec::new(), Vec::new(), orders.clone());
-        for (Candidate { loads, sources, repeats, .. }, allowed) in
-            candidates.iter().zip(&mut allowed)
+        let highest = last.clamp(FIRST_INTEGRATED, HIGHEST_INTEGRATED);
+        let (mut integrated, mut all) = (Vec::new(), orders.clone());
+        let (mut rest, mut allowed) = (Vec::<List<GroupIndex, OrderSums>>::new(), Vec::new());
+        for (Candidate { loads, sources, repeats, .. }, scales) in candidates.iter().zip(all_scales)
         {
-            let inertia = match rest.last() {
-                Some(&before) if *repeats => before,
+            let mut above = match rest.last() {
+                Some(before) if *repeats => before.clone(),
                 _ => tail(loads, &orders, torque, sources),
             };
-            let gas = if torque {
-                GasOrders::new(rtol, loads, sources, highest, cancel)?
+            let of_engine = if torque {
+                IntegratedOrders::new(rtol, loads, sources, highest, cancel)?
             } else {
-                GasOrders { sources: sources.clone(), ..GasOrders::default() }
+                IntegratedOrders { sources: sources.clone(), ..IntegratedOrders::default() }
             };
-            rest.push(OrderSums { gas: gas.tail, ..inertia });
-            allowed.gas = gas.allowed;
-            all.extend(&gas.orders);
-            of_gas.push(gas);
+            allowed.extend(scales.iter().flat_map(|scales| scales.values()).map(|one| rtol * one));
+            let first = allowed.len() - 3 * scales.len();
+            for &IntegratedGroup { group, tail, allowed: own } in &of_engine.groups {
+                above[group].torque = tail;
+                allowed[first + 3 * group.position() + 2] = own;
+            }
+            rest.push(above);
+            all.extend(&of_engine.orders);
+            integrated.push(of_engine);
         }
         all.sort_unstable();
         all.dedup();
-        Ok(Self { orders: all, gas: of_gas, rest, allowed })
+        Ok(Self { orders: all, integrated, rest, allowed })
     }
 
-    /// Which orders are kept, of sizes of each order and engine, and bounds of what each engine leaves
-    /// out.
-    pub fn few(&self, sizes: &[Vec<OrderSums>]) -> (Vec<bool>, Vec<OrderSums>) {
-        let side_by_side = |sums: &[OrderSums]| -> Vec<f64> {
+    /// Which orders are kept, of sizes of each order, engine and group, and bounds of what each engine
+    /// leaves out, by group.
+    pub fn few(&self, sizes: &[OrderSums]) -> (Vec<bool>, Vec<List<GroupIndex, OrderSums>>) {
+        let flat = |sums: &[OrderSums]| -> Vec<f64> {
             sums.iter().flat_map(|sums| sums.values()).collect()
         };
-        let sizes: Vec<Vec<f64>> = sizes.iter().map(|sums| side_by_side(sums)).collect();
-        let mut lost = side_by_side(&self.rest);
-        let kept = few(&sizes, &side_by_side(&self.allowed), &mut lost);
-        (kept, lost.as_chunks().0.iter().map(|&lost| OrderSums::from_values(lost)).collect())
+        let sizes = flat(sizes);
+        let mut lost: Vec<f64> =
+            self.rest.iter().flatten().flat_map(|sums| sums.values()).collect();
+        let of_orders: Vec<&[f64]> = sizes.chunks(self.allowed.len()).collect();
+        let kept = few(&of_orders, &self.allowed, &mut lost);
+        let mut lost = lost.as_chunks().0.iter().map(|&lost| OrderSums::from_values(lost));
+        (kept, self.rest.iter().map(|of| lost.by_ref().take(of.len()).collect()).collect())
+    }
+}
+
+/// Orders of an engine that are given, or chosen.
+pub(crate) fn evaluated(
+    engine: &Engine,
+    loads: &LoadList,
+    orders: &Orders,
+    torque: bool,
+    cancel: &Cancel,
+) -> Result<Chosen> {
+    match orders {
+        Orders::Given(orders) => {
+            order::check_list(orders)?;
+            let (wrenches, means) = wrenches(loads, &loads.sources, torque, orders, cancel)?;
+            let left_out = loads.groups.map_to(|_| OrderSums::default());
+            let kept = vec![true; orders.len()];
+            Ok(Chosen { orders: orders.clone(), kept, wrenches, means, left_out })
+        }
+        Orders::Auto { rtol } => within(*rtol, engine, loads, torque, cancel),
     }
 }
 
@@ -186,53 +230,47 @@ pub(crate) fn within(
 ) -> Result<Chosen> {
     let alone = Candidate { engine, loads, sources: loads.sources.clone(), repeats: false };
     let choice = Choice::new(rtol, &[alone], torque, cancel)?;
-    let (all, mean) = wrenches(loads, &choice.gas[0].sources, torque, &choice.orders, cancel)?;
-    let sizes: Vec<_> = all.iter().map(|wrench| vec![OrderSums::of(wrench)]).collect();
-    let (kept, left_out) = choice.few(&sizes);
-    let mut chosen =
-        Chosen { orders: vec![], wrenches: vec![], mean, left: vec![], left_out: left_out[0] };
-    for ((order, wrench), kept) in choice.orders.into_iter().zip(all).zip(kept) {
-        if kept {
-            chosen.orders.push(order);
-            memory::push(&mut chosen.wrenches, wrench)?;
-        } else {
-            memory::push(&mut chosen.left, (order, wrench))?;
-        }
-    }
-    Ok(chosen)
+    let sources = &choice.integrated[0].sources;
+    let (wrenches, means) = wrenches(loads, sources, torque, &choice.orders, cancel)?;
+    let sizes: Vec<OrderSums> = wrenches.iter().map(OrderSums::of).collect();
+    let (kept, mut left_out) = choice.few(&sizes);
+    let left_out = left_out.swap_remove(0);
+    Ok(Chosen { orders: choice.orders, kept, wrenches, means, left_out })
 }
 
-/// Orders of which each cylinder alone leaves out at most `rtol`, as if nothing cancelled, with those of
-/// shafts and counterweights; and bounds of what all cylinders leave out, over ω². Without pressure.
+/// Orders of which each cylinder and each further load alone leaves out at most `rtol`, as if nothing
+/// cancelled, with those of shafts and counterweights; and bounds at a speed, rad/s, of what all of them
+/// leave out. Without what is integrated.
 pub(crate) fn within_each(
     rtol: f64,
     engine: &Engine,
     loads: &LoadList,
-    torque: bool,
+    (torque, omega): (bool, f64),
     cancel: &Cancel,
-) -> Result<(Vec<Order>, OrderSums)> {
-    let (turning, others): (Vec<Load>, Vec<Load>) = loads
-        .list
-        .iter()
-        .filter(|load| load.parts.scaling == Scaling::SpeedSquared)
-        .partition(|load| load.is_turning());
+) -> Result<(Vec<Order>, ErrorBounds)> {
+    let closed = loads.list.iter().filter(|load| !loads.source(load).has_open_tail());
+    let (turning, others): (Vec<Load>, Vec<Load>) = closed.partition(|load| load.is_turning());
     let mut orders = turning
         .iter()
         .map(|load| Order::whole(load.place.ratio.unsigned_abs()))
         .collect::<Result<Vec<_>>>()?;
-    let mut left_out = OrderSums::default().values();
-    for cylinder in 0..engine.stations().len() {
-        let own = others.iter().filter(|load| load.place.origin == Origin::Cylinder(cylinder));
-        let list = own.copied().collect();
-        let alone = LoadList { list, sources: loads.sources.clone(), ..*loads };
+    let mut left_out = loads.groups.map_to(|_| OrderSums::default());
+    let (origins, by_origin) = distinct::<usize, _>(others.iter().map(|load| load.place.origin));
+    for origin in origins.indices() {
+        let own = others.iter().zip(&by_origin).filter(|(_, of)| **of == origin);
+        let alone = LoadList { list: own.map(|(load, _)| *load).collect(), ..loads.clone() };
         let chosen = within(rtol, engine, &alone, torque, cancel)?;
-        orders.extend(chosen.orders);
-        let lost = chosen.left_out.values();
-        left_out.iter_mut().zip(lost).for_each(|(sum, lost)| *sum += lost);
+        let kept = chosen.orders.iter().zip(&chosen.kept).filter(|(_, kept)| **kept);
+        orders.extend(kept.map(|(order, _)| *order));
+        for (sum, lost) in left_out.iter_mut().zip(&chosen.left_out) {
+            let sums = sum.values().into_iter().zip(lost.values()).map(|(sum, lost)| sum + lost);
+            let mut all = sums;
+            *sum = OrderSums::from_values(std::array::from_fn(|_| all.next().unwrap_or(0.0)));
+        }
     }
     orders.sort_unstable();
     orders.dedup();
-    Ok((orders, OrderSums::from_values(left_out)))
+    Ok((orders, bounds(&left_out, &loads.groups, omega)))
 }
 
 /// Drops orders from the smallest up while every sum stays within what it may lose.
@@ -265,7 +303,7 @@ fn few<S: AsRef<[f64]>>(sizes: &[S], allowed: &[f64], lost: &mut [f64]) -> Vec<b
 /// harmonics decrease most slowly.
 fn candidates(
     rtol: f64,
-    scales: &OrderSums,
+    scales: &List<GroupIndex, OrderSums>,
     loads: &LoadList,
     sources: &Sources,
     torque: bool,
@@ -273,17 +311,16 @@ fn candidates(
     let count = count(&loads.list, torque) as f64;
     let (needed, enough) = (0.25 * rtol / count, NEGLIGIBLE_REST * rtol / count);
     let mut orders = Vec::new();
-    for (k, source) in sources.indices().zip(sources) {
-        if source.parts().scaling == Scaling::Given {
-            continue;
-        }
+    let closed = sources.indices().zip(sources).filter(|(_, source)| !source.has_open_tail());
+    for (k, source) in closed {
         // What a weight is over that which the tolerance is relative to.
         let LargestWeights { force, arm, roll } = loads.largest_weights(k);
+        let scales = &scales[loads.group_of[k]];
         let share = |weight: f64, scale: f64| if weight == 0.0 { 0.0 } else { weight / scale };
-        let (force, arm) = (share(force, scales.force), share(arm, scales.inertia));
-        let roll = share(roll, scales.inertia);
+        let (force, arm) = (share(force, scales.force), share(arm, scales.torque));
+        let roll = share(roll, scales.torque);
         let within = |highest: u32, tolerance: f64| {
-            let beyond = source.beyond(highest, torque && roll > 0.0);
+            let beyond = source.beyond(2 * highest, torque && roll > 0.0);
             let of_torque = times(roll, beyond.torque) + times(arm, beyond.force);
             times(force, beyond.force) <= tolerance && (!torque || of_torque <= tolerance)
         };
@@ -300,9 +337,7 @@ fn candidates(
                 return Err(Error::figure("rtol", rtol, hint));
             }
         };
-        let mut own = source.orders(highest);
-        own.retain(|&order| order <= limits::HIGHEST_ORDER);
-        orders.extend(Order::all_whole(&own)?);
+        orders.extend(source.orders(Order::whole(highest)?));
     }
     orders.sort_unstable();
     orders.dedup();
@@ -332,77 +367,96 @@ fn lowest(is_enough: impl Fn(u32) -> bool) -> Option<u32> {
 
 /// Bounds over ω² of what orders beyond those evaluated add to force, moment and torque, as if nothing
 /// cancelled, with these sources in place of those of the loads.
-fn tail(loads: &LoadList, evaluated: &[Order], torque: bool, sources: &Sources) -> OrderSums {
-    let last = evaluated.last().map_or(0, |order| order.halves() / 2);
+fn tail(
+    loads: &LoadList,
+    evaluated: &[Order],
+    torque: bool,
+    sources: &Sources,
+) -> List<GroupIndex, OrderSums> {
+    let last = evaluated.last();
     // Another source may have the last order: those from the first one missing on are left out.
-    let is_missing =
-        |own: &u32| evaluated.binary_search_by_key(&(2 * own), |order| order.halves()).is_err();
-    let inertia = |source: &Arc<dyn Source>| match source.parts().scaling {
-        Scaling::SpeedSquared => {
-            let missing = source.orders(last).into_iter().filter(is_missing).min();
-            source.beyond(missing.map_or(last, |order| order - 1), torque)
+    let is_missing = |own: &Order| evaluated.binary_search(own).is_err();
+    let beyond = |source: &Arc<dyn Source>| {
+        if source.has_open_tail() {
+            return Tail::default();
         }
-        Scaling::Given => Tail::default(),
+        let own = last.map_or_else(Vec::new, |&last| source.orders(last));
+        let missing = own.into_iter().filter(is_missing).min();
+        let evaluated = last.map_or(0, |order| order.halves());
+        source.beyond(missing.map_or(evaluated, |order| order.halves() - 1), torque)
     };
-    let beyond = sources.map_to(inertia);
-    let mut sum = OrderSums::default();
+    let beyond = sources.map_to(beyond);
+    let mut sums = loads.groups.map_to(|_| OrderSums::default());
     for load in &loads.list {
         let (place, beyond) = (&load.place, beyond[load.source]);
         let square = f64::from(place.speed_squared());
         let force = times(load.weight.abs(), beyond.force) * square;
+        let sum = &mut sums[loads.group_of[load.source]];
         sum.force += force;
         sum.moment += times(place.lever(loads.reference).abs(), force);
         if torque {
-            sum.inertia +=
+            sum.torque +=
                 times(load.roll.abs(), beyond.torque) * square + times(place.axis.norm(), force);
         }
     }
-    sum
+    sums
 }
 
 /// Zero times infinity is zero.
 pub(crate) fn times(weight: f64, bound: f64) -> f64 {
-    if weight == 0.0 { 0.0 } else { weight * bound }
+    if weight == 0.0 || bound == 0.0 { 0.0 } else { weight * bound }
 }
 
-/// What a tolerance is relative to, over ω²: for force the largest m·r of a cylinder, amplitude of
-/// its spectrum or unbalance; for moment that times the longest lever of a load that has weight; for
-/// torque the largest m·r² or unbalance times crank radius or its shaft's distance from the crank.
-/// Where rod inertia makes more of order 1, what it makes: about J·r/l.
-fn scales(engine: &Engine, loads: &LoadList) -> OrderSums {
-    let [mut force, mut lever, mut torque] = [0.0_f64; 3];
+/// What a tolerance is relative to, of each group over what it scales with: for force the largest m·r of a
+/// cylinder, amplitude of a spectrum or load, or unbalance; for moment that times the longest lever of a
+/// load that has weight; for torque the largest m·r², amplitude of a torque, or force times crank radius or
+/// the distance of its axis from the crank. Where rod inertia makes more of order 1, what it makes: about
+/// J·r/l.
+fn scales(engine: &Engine, loads: &LoadList) -> List<GroupIndex, OrderSums> {
+    let mut scales = loads.groups.map_to(|_| OrderSums::default());
+    let mut levers = loads.groups.map_to(|_| 0.0_f64);
     for load in &loads.list {
-        let place = &load.place;
+        let (place, group) = (&load.place, loads.group_of[load.source]);
         let Scale { force: of_force, torque: of_torque } = loads.source(load).scale();
         let own = load.weight.abs() * of_force;
         let arm = || engine.largest_crank_radius().max(place.axis.norm());
         let of_torque = of_torque.map_or_else(|| own * arm(), |scale| load.roll.abs() * scale);
         let square = f64::from(place.speed_squared());
-        force = force.max(square * own);
-        torque = torque.max(square * of_torque);
+        let sums = &mut scales[group];
+        sums.force = sums.force.max(square * own);
+        sums.torque = sums.torque.max(square * of_torque);
         if own > 0.0 {
-            lever = lever.max(place.lever(loads.reference).abs());
+            levers[group] = levers[group].max(place.lever(loads.reference).abs());
         }
     }
-    OrderSums { force, moment: force * lever, inertia: torque, gas: 0.0 }
+    scales.iter_mut().zip(&levers).for_each(|(sums, lever)| sums.moment = sums.force * lever);
+    scales
 }
 
-/// Orders of the torque of pressure to evaluate.
+/// Orders of an engine's torques that are integrated.
 #[derive(Default)]
-pub(crate) struct GasOrders {
+pub(crate) struct IntegratedOrders {
     /// Up to where the rest is a quarter of what may be left out, or to the highest.
     pub orders: Vec<Order>,
-    /// Bound of the sum of those above.
-    pub tail: f64,
-    /// What may be left out, N·m.
-    pub allowed: f64,
+    /// The groups that have such torques.
+    pub groups: Vec<IntegratedGroup>,
     /// The sources, which keep their harmonics that were evaluated.
     pub sources: Sources,
 }
 
-impl GasOrders {
-    /// Of an engine; what may be left out is this part of the largest torque of a cylinder, or
-    /// [`LEAST_OF_GAS`]. Orders up to `highest` are looked at before any above.
+/// Integrated torques of a group.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct IntegratedGroup {
+    pub group: GroupIndex,
+    /// Bound of the sum of the orders above those.
+    pub tail: f64,
+    /// What may be left out, over what the group scales with.
+    pub allowed: f64,
+}
+
+impl IntegratedOrders {
+    /// Of an engine; what may be left out is this part of the largest torque of a load of the group, or
+    /// [`LEAST_OF_INTEGRATED`]. Orders up to `highest` are looked at before any above.
     /// `sources` are those of the loads, at the point of a sweep where their harmonics decrease most
     /// slowly.
     pub fn new(
@@ -412,41 +466,54 @@ impl GasOrders {
         mut highest: u32,
         cancel: &Cancel,
     ) -> Result<Self> {
-        let (volumes, mut largest, mut step) = (loads.volumes(), 0.0_f64, 2);
+        let mut groups: Vec<IntegratedGroup> = Vec::new();
+        let mut step = 2;
         let largest_of = sources.map_to(|source| source.largest_torque());
-        for load in loads.list.iter().filter(|load| load.parts.scaling == Scaling::Given) {
-            largest = largest.max(load.roll.abs() * largest_of[load.source]);
+        for load in loads.list.iter().filter(|load| sources[load.source].has_open_tail()) {
+            let (group, own) =
+                (loads.group_of[load.source], load.roll.abs() * largest_of[load.source]);
+            let of_group = find_or_push(
+                &mut groups,
+                |of| of.group == group,
+                || IntegratedGroup { group, tail: 0.0, allowed: 0.0 },
+            );
+            of_group.allowed = of_group.allowed.max(rtol.max(LEAST_OF_INTEGRATED) * own);
             if load.parts.repeats == Repeats::EveryTwoTurns {
                 step = 1;
             }
         }
-        let allowed = rtol.max(LEAST_OF_GAS) * largest;
-        if allowed == 0.0 {
+        groups.retain(|group| group.allowed > 0.0);
+        if groups.is_empty() {
             return Ok(Self { sources: sources.clone(), ..Self::default() });
         }
+        let weights = loads.torque_weights();
         loop {
-            let mut tails = vec![0.0; 2 * highest as usize];
+            let mut tails = vec![vec![0.0; 2 * highest as usize]; groups.len()]; // bounded: orders
             let mut known = Sources::default();
-            for (source, weight) in sources.iter().zip(&volumes) {
+            for (k, (source, weight)) in sources.indices().zip(sources.iter().zip(&weights)) {
+                let own = groups.iter().position(|of| of.group == loads.group_of[k]);
                 let up_to = source.up_to(Order::whole(highest)?, cancel)?;
-                known.push(up_to.map_or_else(
-                    || Arc::clone(source),
-                    |(known, of_source)| {
-                        let own = of_source.into_iter().map(|tail| times(weight.size, tail));
-                        tails.iter_mut().zip(own).for_each(|(sum, tail)| *sum += tail);
-                        known
-                    },
-                ));
+                let Some((own, (with_harmonics, of_source))) = own.zip(up_to) else {
+                    known.push(Arc::clone(source));
+                    continue;
+                };
+                let of_source = of_source.into_iter().map(|tail| times(weight.size, tail));
+                tails[own].iter_mut().zip(of_source).for_each(|(sum, tail)| *sum += tail);
+                known.push(with_harmonics);
             }
-            let enough = tails.iter().position(|&tail| tail <= 0.25 * allowed);
-            let Some(last) = enough.or((highest == HIGHEST_OF_GAS).then_some(tails.len() - 1))
-            else {
-                highest = HIGHEST_OF_GAS.min(4 * highest);
+            let is_enough = |last: &usize| {
+                groups.iter().zip(&tails).all(|(of, tails)| tails[*last] <= 0.25 * of.allowed)
+            };
+            let count = 2 * highest as usize;
+            let enough = (0..count).find(is_enough);
+            let Some(last) = enough.or((highest == HIGHEST_INTEGRATED).then_some(count - 1)) else {
+                highest = HIGHEST_INTEGRATED.min(4 * highest);
                 continue;
             };
             let halves = (1..=last as u32 + 1).filter(|halves| halves % step == 0);
             let orders = halves.map(Order::from_halves).collect::<Result<_>>()?;
-            return Ok(Self { orders, tail: tails[last], allowed, sources: known });
+            groups.iter_mut().zip(&tails).for_each(|(of, tails)| of.tail = tails[last]);
+            return Ok(Self { orders, groups, sources: known });
         }
     }
 }
@@ -485,12 +552,12 @@ mod tests {
             let engine = Engine::new("", "", vec![place]).unwrap();
             let loads = LoadList::new(&engine, 0.0);
             // Against a scale of its own a heavier rod takes more orders.
-            let scales = OrderSums { force: 1e9, moment: 1e9, inertia: 4.0, gas: 0.0 };
+            let scales = List::new(vec![OrderSums { force: 1e9, moment: 1e9, torque: 4.0 }]);
             let orders = candidates(1e-6, &scales, &loads, &loads.sources, true).unwrap();
             let highest = *orders.last().unwrap();
             for (order, enough) in [(highest.halves() / 2, true), (highest.halves() / 2 - 1, false)]
             {
-                let beyond = loads.sources[SourceIndex::new(1)].beyond(order, true).torque
+                let beyond = loads.sources[SourceIndex::new(1)].beyond(2 * order, true).torque
                     * inertia.abs()
                     / 4.0;
                 assert_eq!(beyond <= NEGLIGIBLE_REST * 1e-6 / 2.0, enough, "{inertia} {order}");
@@ -511,18 +578,13 @@ mod tests {
         });
         let evaluated = Order::all_whole(&[1, 2, 3, 4]).unwrap();
         let bounds = |loads: &LoadList| {
-            let gas = GasOrders::new(0.1, loads, &loads.sources, FIRST_OF_GAS, &Cancel::new());
-            let gas = gas.unwrap();
-            let inertia = tail(loads, &evaluated, true, &loads.sources);
-            (inertia, scales(&engine, loads), gas.tail, gas.allowed)
+            let of = IntegratedOrders::new(0.1, loads, &loads.sources, 48, &Cancel::new()).unwrap();
+            (tail(loads, &evaluated, true, &loads.sources), scales(&engine, loads), of.groups)
         };
         let found = bounds(&opposite);
         assert_eq!(bounds(&ahead), found);
-        assert!(
-            [found.0.force, found.0.moment, found.0.inertia].iter().all(|&bound| bound > 0.0)
-                && found.2 > 0.0
-                && found.3 > 0.0
-        );
+        assert!(found.0[GroupIndex::default()].values().iter().all(|&bound| bound > 0.0));
+        assert!(found.2[0].tail > 0.0 && found.2[0].allowed > 0.0);
     }
 
     /// What is left out of a cylinder on a crank of any speed is what it would leave out on the main one by the
@@ -536,6 +598,7 @@ mod tests {
             let engine = engine.with_cranks(vec![Crank::MAIN, crank], vec![1]).unwrap();
             let loads = LoadList::new(&engine, 0.1);
             tail(&loads, &Order::all_whole(orders).unwrap(), true, &loads.sources)
+                [GroupIndex::default()]
         };
         let parts = [(0.5, 0.0, 0.0), (0.5, 0.01, 0.0), (0.0, 0.0, 1e-3), (0.5, 0.01, -1e-3)];
         for (ratio, (mass, offset, inertia)) in
@@ -544,15 +607,15 @@ mod tests {
             let cylinder = Cylinder::new(0.05, 0.15, mass, offset).unwrap();
             let cylinder = cylinder.with_rod_inertia_excess(inertia).unwrap();
             let on_main = rest(cylinder, Crank { axis: [0.0; 2], ..Crank::MAIN }, &[1, 2, 3]);
-            assert!(on_main.inertia > 0.0);
+            assert!(on_main.torque > 0.0);
             let speed = ratio.unsigned_abs();
             // Another load has an order above those of the cylinder, one of which is missing.
             let own = [1, 2, 3, 5].map(|own| own * speed);
             let found = rest(cylinder, Crank { axis: [-0.3, 0.4], ratio }, &own);
             let square = f64::from(speed * speed);
             let force = square * on_main.force;
-            let inertia = square * f64::from(speed) * on_main.inertia + 0.5 * force;
-            let expected = OrderSums { force, moment: 0.2 * force, inertia, gas: 0.0 };
+            let inertia = square * f64::from(speed) * on_main.torque + 0.5 * force;
+            let expected = OrderSums { force, moment: 0.2 * force, torque: inertia };
             for (found, expected) in found.values().into_iter().zip(expected.values()) {
                 assert!((found - expected).abs() <= 1e-14 * expected, "{found} {expected}");
             }
@@ -566,11 +629,13 @@ mod tests {
         let mut twice = LoadList::new(&engine, 0.0);
         twice.list = once.list.iter().chain(&once.list).copied().collect();
         let evaluated = Order::all_whole(&[1, 2, 3, 4]).unwrap();
-        let rest = |loads: &LoadList| tail(loads, &evaluated, true, &loads.sources).values();
+        let rest = |loads: &LoadList| {
+            tail(loads, &evaluated, true, &loads.sources)[GroupIndex::default()].values()
+        };
         for (one, both) in rest(&once).into_iter().zip(rest(&twice)) {
             assert!((both - 2.0 * one).abs() <= 1e-14 * one, "{both} {one}");
         }
-        for (one, both) in once.volumes().iter().zip(&twice.volumes()) {
+        for (one, both) in once.torque_weights().iter().zip(&twice.torque_weights()) {
             assert!((both.size - 2.0 * one.size).abs() <= 1e-14 * one.size);
             assert!((both.value - 2.0 * one.value).abs() <= 1e-14 * one.size);
         }

@@ -3,8 +3,9 @@
 
 use std::collections::BTreeSet;
 
-use super::balance::{Balance, Request, TorquePart, Vector};
+use super::balance::{Balance, Request, Vector};
 use super::flywheel::mean_inertias;
+use super::quantity::Part;
 use super::terms::terms;
 use crate::Complex64;
 use crate::engine::{Engine, Origin};
@@ -50,7 +51,7 @@ pub struct GroupTerms {
 impl GroupTerms {
     fn of(part: &Balance, k: usize) -> Self {
         let [force, moment] = [Vector::Force, Vector::Moment].map(|vector| part.planar(vector, k));
-        let torque = part.torque(TorquePart::Inertia, k);
+        let torque = part.torque(Part::INERTIA, k);
         Self {
             planar: [force.forward, force.backward(), moment.forward, moment.backward()],
             roll: torque.roll,
@@ -85,17 +86,14 @@ pub fn listed_orders(engine: &Engine) -> Result<Vec<Order>> {
 
 /// Orders of the cylinders that are more than a rest, of their cranks, and of shafts.
 pub fn orders(engine: &Engine, cancel: &Cancel) -> Result<Vec<Order>> {
-    let bare = engine.without_gas();
+    let bare = engine.bare();
     let mut count = HIGHEST_LISTED;
     let last = loop {
         let tried = all((1..=2 * count).collect())?;
         let parts = terms(&bare, &request(true), [0.0; 2], &tried, cancel)?;
         let last = parts.iter().filter_map(|(origin, part)| {
             let sizes = |k: usize| {
-                [
-                    part.planar(Vector::Force, k).peak(),
-                    part.torque(TorquePart::Inertia, k).roll.norm(),
-                ]
+                [part.planar(Vector::Force, k).peak(), part.torque(Part::INERTIA, k).roll.norm()]
             };
             let sizes: Vec<_> = (0..tried.len()).map(sizes).collect();
             let largest =
@@ -135,9 +133,9 @@ pub fn group_terms(
         Origin::Counterweight(index) => {
             (Parts::Standing, engine.counterweights()[index].pin.map_or(still, bank))
         }
-        Origin::Shaft(_) => (Parts::Standing, still),
+        Origin::Shaft(_) | Origin::Load(_) => (Parts::Standing, still),
     };
-    let all = terms(&engine.without_gas(), &request(torque), [0.0; 2], orders, cancel)?;
+    let all = terms(&engine.bare(), &request(torque), [0.0; 2], orders, cancel)?;
     let own = |(origin, part): &(Origin, Balance)| {
         let (kind, group) = group(*origin);
         (kind == parts).then(|| (group, part.clone()))
@@ -201,13 +199,8 @@ pub struct Sizes {
 /// What the cylinders make one by one.
 pub fn sizes(engine: &Engine, cancel: &Cancel) -> Result<Sizes> {
     let speeds: Vec<u32> = speeds(engine).into_iter().collect();
-    let parts = terms(
-        &engine.without_gas(),
-        &request(false),
-        [0.0; 2],
-        &Order::all_whole(&speeds)?,
-        cancel,
-    )?;
+    let parts =
+        terms(&engine.bare(), &request(false), [0.0; 2], &Order::all_whole(&speeds)?, cancel)?;
     let reference = engine.reference(None)?.abs();
     let mut found = Sizes::default();
     for (origin, part) in &parts {

@@ -510,7 +510,7 @@ pub fn mean_inertias(engine: &Engine, cancel: &Cancel) -> Result<Vec<f64>> {
     let of_cylinder = |i: usize| {
         let own = |load: &&Load| load.place.origin == Origin::Cylinder(i);
         let list = loads.list.iter().filter(own).copied().collect();
-        let own = LoadList { list, sources: loads.sources.clone(), reference: loads.reference };
+        let own = LoadList { list, ..loads.clone() };
         let [inertia, _] = moving_of(&own, &grid.nodes_deg, cancel)?;
         Ok(grid.mean(&inertia))
     };

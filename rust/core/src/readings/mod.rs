@@ -13,6 +13,7 @@ pub mod flywheel;
 pub mod mount_designs;
 pub mod mounted;
 pub mod peaks;
+pub mod quantity;
 pub mod sweep;
 pub mod terms;
 pub mod tolerances;

@@ -206,7 +206,7 @@ impl<'a> Shared<'a> {
     ) -> Result<Self> {
         let loads =
             EngineLoads::new(engine, base.body().cg(), request.rpm, request.orders, cancel)?;
-        let (amplitudes, speeds) = (loads.amplitudes(), &loads.omega);
+        let (amplitudes, speeds) = (loads.amplitudes()?, &loads.omega);
         let (lanes, orders) = (speeds.len().div_ceil(LANES), amplitudes.len());
         let is_varying = |&k: &usize| base.mounts()[k].dynamic().constant().is_none();
         let varying: Vec<usize> = (0..base.mounts().len()).filter(is_varying).collect();

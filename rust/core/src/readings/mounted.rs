@@ -10,18 +10,22 @@ use nalgebra::Vector3;
 
 use crate::Complex64;
 use crate::engine::Engine;
+use crate::load::source::Scaling;
+use crate::load::{Group, GroupIndex, LoadList, count};
 use crate::mounts::equations::{Equations, LANES, lanes, rows};
 use crate::mounts::{
     ComplexVector6, Levels, Powertrain, State, Support, grade, motion_of_point, natural_at,
 };
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::index::List;
 use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::numbers::pool;
-use crate::readings::balance::{ErrorBounds, Orders, Request, UNIT_RPM, angular_speed, balance};
-use crate::wrench::{Planar, Wrench, snapped};
+use crate::readings::balance::{ErrorBounds, Orders, angular_speed};
+use crate::readings::choice;
+use crate::wrench::{Planar, Wrench, rounding, snapped};
 
 /// Points solved between two checks for cancellation.
 const POINTS_PER_TASK: usize = 256;
@@ -50,7 +54,8 @@ pub(crate) struct EngineLoads {
     pub error_bound: ErrorBounds,
     /// Angular speed of the crank at each speed.
     pub omega: Vec<f64>,
-    /// At each order, with parts by inertia over ω².
+    groups: List<GroupIndex, Group>,
+    /// At each order of each group, over what it scales with.
     unit: Vec<Wrench>,
     /// Bounds of rounding over the sizes of sums, of planar vectors and of torques, at each order.
     roundings: Vec<[f64; 2]>,
@@ -81,8 +86,7 @@ pub enum Derivative {
 fn load(wrench: &Wrench, [of_plane, of_torque]: [f64; 2]) -> ComplexVector6 {
     let along = |planar: &Planar| planar.xy(planar.size * of_plane);
     let ([force_x, force_y], [pitch, yaw]) = (along(&wrench.force), along(&wrench.moment));
-    let torque = wrench.torque();
-    let roll = snapped(torque.roll, torque.sizes[0] * of_torque);
+    let roll = snapped(wrench.torque.roll, wrench.torque.sizes[0] * of_torque);
     ComplexVector6::new(force_x, force_y, Complex64::ZERO, pitch, yaw, roll)
 }
 
@@ -103,32 +107,60 @@ impl EngineLoads {
         for &rpm in rpm {
             omega.push(angular_speed(rpm)?);
         }
-        // At 1 rad/s, where parts by inertia are over ω².
-        let request = Request { rpm: UNIT_RPM, reference_z: Some(cg.z), torque: true };
-        let unit = balance(engine, &request, orders, cancel)?;
-        let error_bound = unit.error_bound_at(omega.iter().copied().fold(0.0, f64::max));
-        let roundings = unit.orders.iter().map(|&order| unit.roundings(order)).collect();
-        let about_cg: Vec<Wrench> =
-            unit.wrenches.iter().map(|wrench| wrench.moved([cg.x, cg.y, 0.0])).collect();
+        engine.check_speeds(rpm)?;
+        let loads = LoadList::new(engine, cg.z);
+        let torque = engine.spectrum().is_none();
+        let chosen = choice::evaluated(engine, &loads, orders, torque, cancel)?;
+        let counts = [false, true].map(|torque| count(&loads.list, torque));
+        let (mut kept, mut unit, mut roundings) = (Vec::new(), Vec::new(), Vec::new());
+        for (order, wrenches) in chosen.kept() {
+            kept.push(order);
+            roundings.push(counts.map(|count| rounding(count, order.number())));
+            unit.extend(wrenches.iter().map(|wrench| wrench.moved([cg.x, cg.y, 0.0])));
+        }
         Ok(Self {
-            orders: unit.orders,
-            omitted: unit.omitted,
-            error_bound: error_bound.moved([cg.x, cg.y, 0.0]),
+            orders: kept,
+            omitted: chosen.omitted(),
+            error_bound: chosen.error_bound(&loads, &omega).moved([cg.x, cg.y, 0.0]),
             omega,
-            unit: about_cg,
+            groups: loads.groups,
+            unit,
             roundings,
         })
     }
 
-    /// Load of each order over (nω)², and that of gas pressure.
-    pub fn amplitudes(&self) -> Vec<[ComplexVector6; 2]> {
-        let parts = |((wrench, order), &rounding): ((&Wrench, &Order), _)| {
-            let gas = Wrench { gas: wrench.gas, ..Wrench::default() };
-            let inertia = Wrench { gas: crate::wrench::Torque::default(), ..*wrench };
-            let by_square = load(&inertia, rounding) / Complex64::from(order.number().powi(2));
-            [by_square, load(&gas, rounding)]
+    /// Loads of each order at a speed, rad/s.
+    fn at_speed(&self, omega: f64) -> impl Iterator<Item = ComplexVector6> {
+        let factors = self.groups.map_to(|group| group.scaling.factor(omega));
+        let of_orders = self.unit.chunks(self.groups.len()).zip(&self.roundings);
+        of_orders.map(move |(of_order, rounding)| {
+            let scaled =
+                of_order.iter().zip(&factors).map(|(wrench, factor)| wrench.scaled(*factor));
+            load(&scaled.fold(Wrench::default(), |sum, one| sum.plus(&one)), *rounding)
+        })
+    }
+
+    /// Load of each order over (nω)², and what does not scale with speed; rejects other loads.
+    pub fn amplitudes(&self) -> Result<Vec<[ComplexVector6; 2]>> {
+        let of_order = |((wrenches, order), &rounding): ((&[Wrench], &Order), &[f64; 2])| {
+            let mut sums = [Wrench::default(); 2];
+            for (group, wrench) in self.groups.iter().zip(wrenches) {
+                let sum = match group.scaling {
+                    Scaling::SpeedSquared => &mut sums[0],
+                    Scaling::Independent => &mut sums[1],
+                    Scaling::Row(_) => {
+                        let hint = "designs of mounts count loads that scale with the square of speed \
+                                    or not at all, no tables over speed";
+                        return Err(Error::value("loads", format!("{:?}", group.name), hint));
+                    }
+                };
+                *sum = sum.plus(wrench);
+            }
+            let [by_square, fixed] = sums.map(|sum| load(&sum, rounding));
+            Ok([by_square / Complex64::from(order.number().powi(2)), fixed])
         };
-        self.unit.iter().zip(&self.orders).zip(&self.roundings).map(parts).collect()
+        let of_orders = self.unit.chunks(self.groups.len()).zip(&self.orders);
+        of_orders.zip(&self.roundings).map(of_order).collect()
     }
 }
 
@@ -160,10 +192,7 @@ impl Response {
         limits::result_size("response", &[rpm.len(), count, 6], size_of::<Complex64>(), hint)?;
         let mut loads = memory::with_capacity(rpm.len() * count)?;
         for omega in &of_engine.omega {
-            let wrenches = of_engine.unit.iter().zip(&of_engine.roundings);
-            loads.extend(
-                wrenches.map(|(wrench, &rounding)| load(&wrench.at_speed(omega * omega), rounding)),
-            );
+            loads.extend(of_engine.at_speed(*omega));
         }
         let EngineLoads { orders, omitted, error_bound, omega, .. } = of_engine;
         Ok(Self {

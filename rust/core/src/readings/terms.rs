@@ -11,10 +11,9 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::limits;
 use crate::numbers::order::{self, Order};
-use crate::wrench::Wrench;
 
 /// The terms of an engine at some orders, of each part with what it adds: cylinders, counterweights,
-/// shafts.
+/// shafts, further loads.
 ///
 /// Moments are about the plane of the request, and the roll torque about the point `aside`, x and y from
 /// the axis of the main crank, m.
@@ -56,11 +55,13 @@ pub fn terms(
     let count = |origin: fn(usize) -> Origin, count: usize| (0..count).map(origin);
     let parts = count(Origin::Cylinder, cylinders)
         .chain(count(Origin::Counterweight, weights))
-        .chain(count(Origin::Shaft, engine.shafts().len()));
+        .chain(count(Origin::Shaft, engine.shafts().len()))
+        .chain(count(Origin::Load, engine.loads().len()));
     let own = |origin| match origin {
         Origin::Cylinder(i) => i,
         Origin::Counterweight(k) => cylinders + k,
         Origin::Shaft(k) => cylinders + weights + k,
+        Origin::Load(k) => cylinders + weights + engine.shafts().len() + k,
     };
     let parts: Vec<Origin> = parts.collect();
     let sums = sums_by(engine, request, aside, orders, (parts.len(), &own), cancel)?;
@@ -77,6 +78,7 @@ pub(super) fn sums_by(
     cancel: &Cancel,
 ) -> Result<Vec<Balance>> {
     let omega = angular_speed(request.rpm)?;
+    engine.check_speeds(&[request.rpm])?;
     let torque = request.torque && engine.spectrum().is_none();
     let loads = LoadList::new(engine, engine.reference(request.reference_z)?);
     let amplitudes = Amplitudes::new(&loads.sources, torque, orders, cancel)?;
@@ -85,11 +87,12 @@ pub(super) fn sums_by(
         own[group_of(load.place.origin)].push(*load);
     }
     let of_group = |own: Vec<Load>| {
-        let wrenches = amplitudes.wrenches(&own, loads.reference, torque, orders, cancel)?;
-        let there = |wrench: &Wrench| wrench.at_speed(omega * omega).moved([x, y, 0.0]);
-        let wrenches = wrenches.iter().map(there).collect();
-        let mean = amplitudes.mean(&own);
-        Ok(Balance::of_orders(orders.to_vec(), wrenches, mean, torque, &own))
+        let wrenches = amplitudes.wrenches(&loads, &own, torque, orders, cancel)?;
+        let means = amplitudes.means(&loads, &own);
+        let part = Balance::of(&loads, &own, orders.to_vec(), &wrenches, &means, omega)?;
+        let mut part = part.moved([x, y, 0.0]);
+        part.has_torque = torque;
+        Ok(part)
     };
     own.into_iter().map(of_group).collect()
 }

@@ -2,11 +2,14 @@
 
 use crate::Complex64;
 use crate::engine::{CrankIndex, Engine, Origin};
+use crate::load::LoadList;
+use crate::load::source::Scaling;
 use crate::numbers::cancel::Cancel;
-use crate::numbers::error::Result;
+use crate::numbers::error::{Error, Result};
 use crate::numbers::index::ListIndex;
 use crate::numbers::order::Order;
-use crate::readings::balance::{Orders, Request, UNIT_RPM, balance};
+use crate::readings::amplitude::wrenches;
+use crate::readings::balance::{Request, UNIT_RPM, angular_speed};
 use crate::readings::terms::sums_by;
 use crate::wrench::Wrench;
 
@@ -31,19 +34,45 @@ impl TurningPart {
 /// Part of an engine's force and moment that turns with a shaft of this ratio, over ω².
 pub fn turning(engine: &Engine, ratio: i32, cancel: &Cancel) -> Result<TurningPart> {
     let order = Order::whole(ratio.unsigned_abs())?;
-    Ok(TurningPart::of(&over_square(engine, order, false, cancel)?, ratio))
+    Ok(TurningPart::of(&over_square(engine, order, false, None, cancel)?, ratio))
 }
 
-/// The wrench of an order over ω².
+/// The wrench of an order over ω², at a speed where some of it does not scale so.
 pub(crate) fn over_square(
     engine: &Engine,
     order: Order,
     torque: bool,
+    rpm: Option<f64>,
     cancel: &Cancel,
 ) -> Result<Wrench> {
-    let request = Request { rpm: UNIT_RPM, reference_z: None, torque };
-    let found = balance(engine, &request, &Orders::Given(vec![order]), cancel)?;
-    Ok(found.wrenches[0])
+    let omega = rpm.map(angular_speed).transpose()?;
+    if let Some(rpm) = rpm.filter(|_| omega == Some(0.0)) {
+        let hint = "shafts make no force at rest; give a speed above 0";
+        return Err(Error::figure("rpm", rpm, hint));
+    }
+    engine.check_speeds(rpm.as_slice())?;
+    let loads = LoadList::new(engine, engine.reference(None)?);
+    let torque = torque && engine.spectrum().is_none();
+    let (by_group, _) = wrenches(&loads, &loads.sources, torque, &[order], cancel)?;
+    let mut sum = Wrench::default();
+    for (group, wrench) in loads.groups.iter().zip(&by_group) {
+        let factor = match (group.scaling, omega) {
+            (Scaling::SpeedSquared, _) => 1.0,
+            (scaling, Some(omega)) => scaling.factor(omega) / (omega * omega),
+            _ if wrench.is_zero() => continue,
+            (_, None) => {
+                let what = if wrench.torque.peak() > 0.0 { "torque" } else { "force" };
+                let hint = format!(
+                    "the {what} of {} does not scale with speed as that of shafts does; give the crank \
+                     speed, above 0, at which they cancel it",
+                    group.name
+                );
+                return Err(Error::value("rpm", "None", hint));
+            }
+        };
+        sum = sum.plus(&wrench.scaled(factor));
+    }
+    Ok(sum)
 }
 
 /// Ratios of the cranks that carry throws and turn as fast as the main one, by sense, with their indices.
@@ -69,13 +98,16 @@ pub(crate) fn on_cranks(
     if cranks.len() == 1 {
         return Ok(vec![turning(engine, ratio, cancel)?]);
     }
+    // Loads that do not scale with speed as weights do are refused, as on one crank.
+    turning(engine, ratio, cancel)?;
+    let engine = &engine.bare();
     let request = Request { rpm: UNIT_RPM, reference_z: None, torque: false };
     let others = cranks.len();
     let group_of = |origin: Origin| {
         let crank = match origin {
             Origin::Cylinder(i) => Some(engine.crank_of(i)),
             Origin::Counterweight(k) => Some(engine.crank_carrying(&engine.counterweights()[k])),
-            Origin::Shaft(_) => None,
+            Origin::Shaft(_) | Origin::Load(_) => None,
         };
         cranks.iter().position(|&own| Some(own) == crank).unwrap_or(others)
     };
@@ -105,6 +137,7 @@ pub(crate) struct RollOfAxes {
 pub(crate) fn roll_of_axes(engine: &Engine, cancel: &Cancel) -> Result<RollOfAxes> {
     /// Part of the terms of a sum that its rounding is below.
     const ROUNDING: f64 = 1e-12;
+    let engine = &engine.bare();
     let axis = |crank: CrankIndex| {
         let [x, y] = engine.cranks()[crank].axis;
         Complex64::new(x, y)
@@ -114,7 +147,7 @@ pub(crate) fn roll_of_axes(engine: &Engine, cancel: &Cancel) -> Result<RollOfAxe
     let crank_of = |origin: Origin| match origin {
         Origin::Cylinder(i) => engine.crank_of(i).position(),
         Origin::Counterweight(k) => engine.crank_carrying(&engine.counterweights()[k]).position(),
-        Origin::Shaft(_) => cranks,
+        Origin::Shaft(_) | Origin::Load(_) => cranks,
     };
     let first = [Order::FIRST];
     let sums = sums_by(engine, &request, [0.0; 2], &first, (cranks + 1, &crank_of), cancel)?;
@@ -125,7 +158,7 @@ pub(crate) fn roll_of_axes(engine: &Engine, cancel: &Cancel) -> Result<RollOfAxe
         beside += y * at.re - x * at.im;
         size += (x.norm() + y.norm()) * at.norm();
     }
-    let whole = over_square(&engine.without_gas(), Order::FIRST, true, cancel)?.inertia.roll;
+    let whole = over_square(engine, Order::FIRST, true, None, cancel)?.torque.roll;
     let mut kept = whole;
     for (ratio, own) in cranks_by_sense(engine) {
         if own.is_empty() {

@@ -1,11 +1,14 @@
 //! Force, moment and torque at given crank angles: from exact kinematics, or as a sum of orders.
 
+use std::sync::Arc;
+
 use ndarray::{Array1, Array2};
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::LoadList;
 use crate::load::kinematics::{AngleBlock, BLOCK, Columns, Kinematics, Quantities, Units};
+use crate::load::source::INERTIA;
+use crate::load::{LoadList, find_or_push};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, check};
 use crate::numbers::error::{Error, Result};
@@ -14,6 +17,7 @@ use crate::numbers::memory;
 use crate::numbers::pool;
 use crate::numbers::simd::vectorised;
 use crate::readings::balance::{self, Balance, Orders, Request, Vector, angular_speed};
+use crate::readings::quantity::Part;
 
 /// An engine's shaking over crank angle.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,10 +30,21 @@ pub struct Waveform {
     pub torque: Option<Array1<f64>>,
     /// Torque on the crank about +z, N·m: (`n_theta`,).
     pub crank_torque: Option<Array1<f64>>,
-    /// What gas pressure adds to both, of an engine with cycles.
-    pub gas: Option<[Array1<f64>; 2]>,
+    /// What each name but `inertia` makes of these: gas pressure, and further loads.
+    pub parts: Vec<PartOverAngle>,
     /// The orders summed; none for exact kinematics.
     pub balance: Option<Balance>,
+}
+
+/// What the sources of a name make, where they make any.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PartOverAngle {
+    /// Name of the sources.
+    pub name: Arc<str>,
+    /// Of the shaking force along x and y, and of the rocking moment about them: (`n_theta`, 2).
+    pub planar: Option<[Array2<f64>; 2]>,
+    /// Of the torques on the block and on the crank.
+    pub torque: Option<[Array1<f64>; 2]>,
 }
 
 /// From exact kinematics at crank angles in degrees.
@@ -63,19 +78,25 @@ pub fn exact(
         return Err(Error::value("spectrum", "given", hint));
     }
     let omega = angular_speed(request.rpm)?;
+    engine.check_speeds(&[request.rpm])?;
     let reference = engine.reference(request.reference_z)?;
     let loads = LoadList::new(engine, reference);
     let kinematics = Kinematics::new(&loads);
-    let square = omega * omega;
-    let shape = Shape {
-        torques: torques(engine, request.torque),
-        zero_bounds: kinematics.zero_bounds.map(|bound| bound * square),
-    };
+    let factors = kinematics.factors(omega);
+    let mut shape = Shape::new(&loads, request.torque);
+    shape.zero_bounds = kinematics.zero_bounds(&factors);
     let wanted = Quantities { planar: true, torque: request.torque };
+    let part_of = loads.groups.map_to(|group| shape.part(&group.name).map_or(0, |part| part + 1));
     in_blocks(theta_deg, &shape, cancel, |angles, columns| {
         let block = AngleBlock::new(angles, 0..angles.len());
         for sum in &kinematics.sums {
-            sum.source.over_angle(sum, &block, wanted, square, columns);
+            let (factor, columns) = (factors[sum.group], &mut columns[part_of[sum.group]]);
+            sum.source.over_angle(sum, &block, wanted, factor, columns)?;
+        }
+        if let [whole, parts @ ..] = columns {
+            for part in parts.iter() {
+                whole.add(part, wanted);
+            }
         }
         Ok(())
     })
@@ -90,12 +111,19 @@ pub fn from_orders(
     cancel: &Cancel,
 ) -> Result<Waveform> {
     let balance = balance::balance(engine, request, orders, cancel)?;
+    let loads = LoadList::new(engine, engine.reference(request.reference_z)?);
     // Phasors that cancel are zero already.
-    let shape = Shape { torques: torques(engine, balance.has_torque), zero_bounds: [0.0; 2] };
+    let shape = Shape::new(&loads, balance.has_torque);
+    let parts = shape.parts.iter().map(|(name, _)| balance.of_part(Part::Of(name)));
+    let balances: Vec<Balance> = std::iter::once(balance.clone()).chain(parts).collect();
     let waveform = in_blocks(theta_deg, &shape, cancel, |angles, columns| {
         vectorised(
             #[inline(always)]
-            || columns.add_orders(&balance, angles),
+            || {
+                for (columns, balance) in columns.iter_mut().zip(&balances) {
+                    columns.add_orders(balance, angles);
+                }
+            },
         );
         Ok(())
     })?;
@@ -104,39 +132,50 @@ pub fn from_orders(
 
 /// What a waveform has.
 struct Shape {
-    /// Number of torques.
-    torques: usize,
+    torque: bool,
+    /// Names of its parts but inertia, and whether each has forces, and torques.
+    parts: Vec<(Arc<str>, [bool; 2])>,
     /// Forces and moments that are rounding.
     zero_bounds: [f64; 2],
 }
 
-/// Number of torques: on the block and on the crank, and what pressure adds to them.
-fn torques(engine: &Engine, wanted: bool) -> usize {
-    match (wanted, engine.gas()) {
-        (false, _) => 0,
-        (true, None) => 2,
-        (true, Some(_)) => 4,
+impl Shape {
+    /// Of loads, with torques if they are wanted.
+    fn new(loads: &LoadList, torque: bool) -> Self {
+        let mut parts: Vec<(Arc<str>, [bool; 2])> = Vec::new();
+        for (k, group) in
+            loads.groups.indices().zip(&loads.groups).filter(|(_, group)| *group.name != *INERTIA)
+        {
+            let new = || (Arc::clone(&group.name), [false; 2]);
+            let (_, has) = find_or_push(&mut parts, |(name, _)| *name == group.name, new);
+            let [force, own_torque] = loads.has(k);
+            (has[0], has[1]) = (has[0] || force, has[1] || own_torque && torque);
+        }
+        parts.retain(|(_, has)| *has != [false; 2]);
+        Self { torque, parts, zero_bounds: [0.0; 2] }
+    }
+
+    /// Index of a part.
+    fn part(&self, name: &str) -> Option<usize> {
+        self.parts.iter().position(|(own, _)| **own == *name)
     }
 }
 
 impl Columns {
     #[inline(always)]
     fn add_orders(&mut self, balance: &Balance, angles: &CrankAngles) {
-        for (k, mean) in balance.mean.into_iter().enumerate() {
-            for column in [&mut self.torque[k], &mut self.gas[k]] {
-                for torque in column.iter_mut() {
-                    *torque += mean;
-                }
+        for (column, mean) in self.torque.iter_mut().zip(balance.mean(Part::Whole)) {
+            for torque in column.iter_mut() {
+                *torque += mean;
             }
         }
         for (k, &order) in balance.orders.iter().enumerate() {
             let Units { cos, sin } = Units::new(angles, 0..angles.len(), order);
-            let (torque, gas) = (balance.wrenches[k].torque(), balance.wrenches[k].gas);
+            let torque = balance.wrenches[k].torque;
             let pairs = [
                 (&mut self.force, balance.xy(Vector::Force, k)),
                 (&mut self.moment, balance.xy(Vector::Moment, k)),
                 (&mut self.torque, [torque.roll, torque.crank]),
-                (&mut self.gas, [gas.roll, gas.crank]),
             ];
             let each =
                 pairs.into_iter().flat_map(|(columns, phasors)| columns.iter_mut().zip(phasors));
@@ -160,7 +199,7 @@ fn in_blocks(
     theta_deg: &[f64],
     shape: &Shape,
     cancel: &Cancel,
-    add: impl Fn(&CrankAngles, &mut Columns) -> Result<()> + Send + Sync,
+    add: impl Fn(&CrankAngles, &mut [Columns]) -> Result<()> + Send + Sync,
 ) -> Result<Waveform> {
     let hint = "split theta_deg into parts";
     limits::result_size("theta_deg", &[theta_deg.len(), 16], size_of::<f64>(), hint)?;
@@ -177,52 +216,73 @@ fn fill_blocks(
     theta_deg: &[f64],
     shape: &Shape,
     cancel: &Cancel,
-    add: impl Fn(&CrankAngles, &mut Columns) -> Result<()> + Sync,
+    add: impl Fn(&CrankAngles, &mut [Columns]) -> Result<()> + Sync,
 ) -> Result<Waveform> {
     let angles = theta_deg.len();
-    let mut planar: [Vec<f64>; 2] = [memory::zeros(2 * angles)?, memory::zeros(2 * angles)?];
-    let mut torques: Vec<Vec<f64>> =
-        (0..shape.torques).map(|_| memory::zeros(angles)).collect::<Result<_>>()?;
-    let mut pairs = planar.each_mut().map(|values| values.chunks_mut(2 * BLOCK));
-    let mut columns: Vec<_> = torques.iter_mut().map(|values| values.chunks_mut(BLOCK)).collect();
-    let tasks = theta_deg.chunks(BLOCK).map(|thetas| {
-        let pairs = pairs.each_mut().map(|chunks| chunks.next().unwrap_or_default());
-        let mut of_block: [&mut [f64]; 4] = Default::default();
-        for (out, chunks) in of_block.iter_mut().zip(&mut columns) {
-            *out = chunks.next().unwrap_or_default();
-        }
-        (thetas, pairs, of_block)
-    });
-    let tasks = memory::collected(tasks)?;
-    let block = |(thetas, pairs, torques): (&[f64], [&mut [f64]; 2], [&mut [f64]; 4])| {
+    let whole = [true, shape.torque];
+    let has: Vec<[bool; 2]> =
+        std::iter::once(whole).chain(shape.parts.iter().map(|(_, has)| *has)).collect();
+    // Of the whole and each part: force and moment, then torques.
+    let mut planar: Vec<[Vec<f64>; 2]> = Vec::new();
+    let mut torques: Vec<[Vec<f64>; 2]> = Vec::new();
+    for [has_planar, has_torque] in &has {
+        let zeros = |has: bool, size: usize| memory::zeros(if has { size * angles } else { 0 });
+        planar.push([zeros(*has_planar, 2)?, zeros(*has_planar, 2)?]);
+        torques.push([zeros(*has_torque, 1)?, zeros(*has_torque, 1)?]);
+    }
+    let mut pairs: Vec<_> =
+        planar.iter_mut().flatten().map(|values| values.chunks_mut(2 * BLOCK)).collect();
+    let mut columns: Vec<_> =
+        torques.iter_mut().flatten().map(|values| values.chunks_mut(BLOCK)).collect();
+    let mut tasks = memory::with_capacity(angles.div_ceil(BLOCK))?;
+    for thetas in theta_deg.chunks(BLOCK) {
+        let mut of_block: Vec<&mut [f64]> = memory::with_capacity(2 * pairs.len())?;
+        of_block.extend(pairs.iter_mut().map(|chunks| chunks.next().unwrap_or_default()));
+        of_block.extend(columns.iter_mut().map(|chunks| chunks.next().unwrap_or_default()));
+        tasks.push((thetas, of_block));
+    }
+    let block = |(thetas, mut out): (&[f64], Vec<&mut [f64]>)| {
         cancel.check()?;
-        let mut columns = Columns::ZERO;
+        let mut columns: Vec<Columns> = memory::with_capacity(has.len())?;
+        columns.resize_with(has.len(), || Columns::ZERO);
         add(&CrankAngles::of_checked(thetas), &mut columns)?;
-        let Columns { force, moment, torque, gas } = &columns;
-        let planar = pairs.into_iter().zip([force, moment]).zip(shape.zero_bounds);
-        for ((out, [x, y]), bound) in planar {
-            let snapped = |value: f64| if value.abs() <= bound { 0.0 } else { value };
-            for (pair, (x, y)) in out.as_chunks_mut().0.iter_mut().zip(x.iter().zip(&y[..])) {
-                *pair = [snapped(*x), snapped(*y)];
+        let (planar, torques) = out.split_at_mut(2 * has.len());
+        for (columns, planar) in columns.iter().zip(planar.chunks_mut(2)) {
+            let vectors = [&columns.force, &columns.moment].into_iter().zip(shape.zero_bounds);
+            for (out, ([x, y], bound)) in planar.iter_mut().zip(vectors) {
+                let snapped = |value: f64| if value.abs() <= bound { 0.0 } else { value };
+                for (pair, (x, y)) in out.as_chunks_mut().0.iter_mut().zip(x.iter().zip(&y[..])) {
+                    *pair = [snapped(*x), snapped(*y)];
+                }
             }
         }
-        for (out, column) in torques.into_iter().zip(torque.iter().chain(gas)) {
-            out.copy_from_slice(&column[..out.len()]);
+        let torque = columns.iter().flat_map(|columns| &columns.torque);
+        for (out, column) in torques.iter_mut().zip(torque) {
+            let count = out.len();
+            out.copy_from_slice(&column[..count]);
         }
         Ok(())
     };
     pool::each(cancel, tasks, NUMBERS_PER_ANGLE * angles, block)?;
-    let [force, moment] =
-        planar.map(|values| memory::array("theta_deg", (values.len() / 2, 2), values));
-    let mut torques = torques.into_iter().map(Array1::from);
-    Ok(Waveform {
-        force: force?,
-        moment: moment?,
-        torque: torques.next(),
-        crank_torque: torques.next(),
-        gas: torques.next().zip(torques.next()).map(|(roll, crank)| [roll, crank]),
-        balance: None,
-    })
+    let pair = |values: Vec<f64>| memory::array("theta_deg", (values.len() / 2, 2), values);
+    let mut of_all = Vec::new();
+    for (([force, moment], torque), [has_planar, has_torque]) in
+        planar.into_iter().zip(torques).zip(has)
+    {
+        let planar = if has_planar { Some([pair(force)?, pair(moment)?]) } else { None };
+        of_all.push((planar, has_torque.then(|| torque.map(Array1::from))));
+    }
+    let mut of_all = of_all.into_iter();
+    let (planar, torque) = of_all.next().unwrap_or_default();
+    let [force, moment] = planar.unwrap_or_default();
+    let (torque, crank_torque) = torque.map(<(_, _)>::from).unzip();
+    let part = |((name, _), (planar, torque)): (&(Arc<str>, _), _)| PartOverAngle {
+        name: Arc::clone(name),
+        planar,
+        torque,
+    };
+    let parts = shape.parts.iter().zip(of_all).map(part).collect();
+    Ok(Waveform { force, moment, torque, crank_torque, parts, balance: None })
 }
 
 #[cfg(test)]
@@ -265,13 +325,13 @@ mod tests {
         let thetas = [0.0; 4 * BLOCK];
         let run = |last: usize| {
             let (cancel, blocks) = (Cancel::new(), AtomicUsize::new(0));
-            let add = |_: &CrankAngles, _: &mut Columns| {
+            let add = |_: &CrankAngles, _: &mut [Columns]| {
                 if blocks.fetch_add(1, Ordering::Relaxed) + 1 == last {
                     cancel.raise();
                 }
                 Ok(())
             };
-            let shape = Shape { torques: 2, zero_bounds: [0.0; 2] };
+            let shape = Shape { torque: true, parts: Vec::new(), zero_bounds: [0.0; 2] };
             let result = in_blocks(&thetas, &shape, &cancel, add).map(drop);
             (result, blocks.into_inner())
         };

@@ -9,7 +9,8 @@ use std::sync::Arc;
 use crankpin_core::balance::{Balance, Vector, balance};
 use crankpin_core::engine::CrankIndex;
 use crankpin_core::index::ListIndex;
-use crankpin_core::sweep::{Quantity, Statistic, SweepAxes};
+use crankpin_core::quantity::Quantity;
+use crankpin_core::sweep::{Statistic, SweepAxes};
 use crankpin_core::{
     Angle, Cancel, Complex64, Crank, Cylinder, Engine, Order, Orders, Request, Result, Shaft,
     Station, Sweep, Unbalance,

@@ -15,7 +15,7 @@ use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 
 /// Harmonics of the torques of one cylinder, as peak phasors; the function that makes them gives the unit.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct TorqueHarmonics {
     /// Roll torque on the block about +z; of masses `x''·(x' + e)` in crank radii.
     pub roll: Vec<Complex64>,

@@ -9,6 +9,7 @@ use ndarray::Array2;
 
 use super::rod::DrivenRod;
 use super::{BearingLoadsModel, Carried, scalars};
+use crate::Complex64;
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::chebyshev::{coefficient, jet, jets, largest_of_last, node, points};
@@ -250,7 +251,10 @@ impl BearingLoadsModel {
         let of_rods: Vec<_> = of_rods.collect();
         let edges = edges(of_rods.iter().flat_map(|(_, rod)| rod.edges_deg()), cycle, cancel)?;
         let of = |theta: f64, beside: f64| {
-            let mut sum = carried.turning * cis_degrees(f64::from(carried.ratio) * theta);
+            let wave = |(halves, wave): &(i32, Complex64)| {
+                wave * cis_degrees(0.5 * f64::from(*halves) * theta)
+            };
+            let mut sum: Complex64 = carried.waves.iter().map(wave).sum();
             for (share, rod) in &of_rods {
                 sum += rod.on_crankpin(&rod.forces_beside(theta, beside)) * *share;
             }
@@ -261,7 +265,8 @@ impl BearingLoadsModel {
         let sampled = curves.sampled()?;
         let force = sampled[0][1].sqrt();
         let terms = carried.rods.iter().map(|&(share, i)| share.abs() * terms[i]);
-        let rounding = LOAD_ROUNDING * (terms.sum::<f64>() + carried.turning.norm());
+        let rounding = LOAD_ROUNDING
+            * (terms.sum::<f64>() + carried.waves.iter().map(|(_, wave)| wave.norm()).sum::<f64>());
         let tolerance = (LOAD_RESOLVED * force * force).max(2.0 * force * rounding);
         let [squares] = curves.extremes(sampled, &[tolerance])?;
         Ok(squares.map(|square| square.max(0.0).sqrt()))

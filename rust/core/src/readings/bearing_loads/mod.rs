@@ -18,14 +18,14 @@ pub use self::rod::TurningAxes;
 use self::rod::{DrivenRod, RodColumns};
 pub use self::sections::{Part, Sections};
 use crate::Complex64;
-use crate::engine::CrankIndex;
-use crate::engine::{Engine, Origin};
-use crate::load::kinematics::{BLOCK, Units};
-use crate::load::{Load, LoadList};
+use crate::engine::{ActsOn, CrankIndex, Engine, Origin};
+use crate::load::kinematics::{AngleColumn, BLOCK, Units};
+use crate::load::{Load, LoadList, find_or_push, given};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, check, parts};
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::{List, ListIndex};
+use crate::numbers::order::Order;
 use crate::numbers::simd::vectorised;
 use crate::numbers::{limits, memory, pool};
 use crate::readings::balance::angular_speed;
@@ -57,8 +57,9 @@ const MOST_SHARE: f64 = 1e6;
 pub struct BearingLoadsModel {
     rods: Vec<DrivenRod>,
     /// On each crank besides the forces of rods on its pins.
-    on_cranks: List<CrankIndex, Vec<Turning>>,
-    on_shafts: Vec<Turning>,
+    on_cranks: List<CrankIndex, Vec<Periodic>>,
+    /// On the crankcase besides: by balance shafts, and further loads.
+    on_crankcase: Vec<Periodic>,
     /// Rods on each crankpin, by index.
     pins: Vec<Vec<usize>>,
     /// Main bearings by crank, those of one by place.
@@ -106,21 +107,33 @@ pub enum Bearing {
     Main,
 }
 
-/// A force that turns at a multiple of crank speed.
-struct Turning {
+/// A force at a place: coefficients of `e^{ikθ/2}` of x + iy, N, by k.
+struct Periodic {
     z: f64,
-    ratio: i32,
-    /// At θ = 0, x + iy, N.
-    at_start: Complex64,
+    waves: Vec<(i32, Complex64)>,
 }
 
-impl Turning {
+impl Periodic {
     /// An unbalance at a square of angular speed.
-    fn new(load: &Load, square: f64) -> Self {
+    fn turning(load: &Load, square: f64) -> Self {
         let place = &load.place;
         let force = load.weight * square * f64::from(place.speed_squared());
         let at_start = place.unit * place.phase.cis(-i64::from(place.ratio)) * force;
-        Self { z: place.z, ratio: place.ratio, at_start }
+        Self { z: place.z, waves: vec![(2 * place.ratio, at_start)] }
+    }
+
+    /// Adds real and imaginary part at a block of angles.
+    fn add(
+        waves: &[(i32, Complex64)],
+        angles: &CrankAngles,
+        [x, y]: [&mut AngleColumn; 2],
+    ) -> Result<()> {
+        for &(halves, at_start) in waves {
+            let order = Order::from_halves(halves.unsigned_abs())?;
+            let units = Units::new(angles, 0..angles.len(), order);
+            units.add_turning(at_start, halves, [&mut *x, &mut *y]);
+        }
+        Ok(())
     }
 }
 
@@ -128,8 +141,8 @@ impl Turning {
 struct Carried {
     /// Shares of the loads of crankpins, and numbers of their rods.
     rods: Vec<(f64, usize)>,
-    /// What turns with its crank, at θ = 0.
-    turning: Complex64,
+    /// The other forces: coefficients of `e^{ikθ/2}`, by k.
+    waves: Vec<(i32, Complex64)>,
     /// Speed of its crank.
     ratio: i32,
     /// Forces up to this are rounding.
@@ -150,7 +163,7 @@ impl BearingLoadsModel {
         let mut found = Self {
             rods: Vec::new(),
             on_cranks: engine.cranks().map_to(|_| Vec::new()),
-            on_shafts: Vec::new(),
+            on_crankcase: Vec::new(),
             pins: engine.crankpins().into_iter().map(|pin| pin.cylinders).collect(),
             mains: engine.cranks().indices().flat_map(of_crank).collect(),
             ratios: engine.cranks().map_to(|crank| crank.ratio),
@@ -161,17 +174,32 @@ impl BearingLoadsModel {
                 Origin::Counterweight(k) => {
                     Some(engine.crank_carrying(&engine.counterweights()[k]))
                 }
-                Origin::Shaft(_) => None,
+                Origin::Shaft(_) | Origin::Load(_) => None,
             };
-            let on = crank.map_or(&mut found.on_shafts, |crank| &mut found.on_cranks[crank]);
-            on.push(Turning::new(load, square));
+            let on = crank.map_or(&mut found.on_crankcase, |crank| &mut found.on_cranks[crank]);
+            on.push(Periodic::turning(load, square));
         }
         for i in 0..engine.stations().len() {
             let rod = DrivenRod::new(engine, i, square)?;
             // What the crankpin gets from the rod is part of the rotating mass.
             let at_start = rod.at_start(-rod.rotating);
-            found.on_cranks[rod.crank].push(Turning { z: rod.z, ratio: rod.ratio, at_start });
+            let waves = vec![(2 * rod.ratio, at_start)];
+            found.on_cranks[rod.crank].push(Periodic { z: rod.z, waves });
             found.rods.push(rod);
+        }
+        engine.check_speeds(&[rpm])?;
+        for load in engine.loads() {
+            let (waves, z) = (given::waves(engine, load, omega), load.z);
+            if waves.is_empty() {
+                continue;
+            }
+            let against = || waves.iter().map(|(halves, wave)| (*halves, -wave)).collect();
+            if load.on == ActsOn::Both {
+                found.on_crankcase.push(Periodic { z, waves: against() });
+            }
+            let crank = load.on_crank().filter(|_| load.on != ActsOn::Block).map(CrankIndex::new);
+            let on = crank.map_or(&mut found.on_crankcase, |crank| &mut found.on_cranks[crank]);
+            on.push(Periodic { z, waves });
         }
         found.check_levers()?;
         Ok(found)
@@ -216,7 +244,7 @@ impl BearingLoadsModel {
     /// Places of loads and main bearings along z, ascending, m.
     #[must_use]
     pub fn places(&self) -> Vec<f64> {
-        let turning = self.on_cranks.iter().flatten().chain(&self.on_shafts).map(|load| load.z);
+        let turning = self.on_cranks.iter().flatten().chain(&self.on_crankcase).map(|load| load.z);
         let loads = self.rods.iter().map(|rod| rod.z).chain(turning);
         let mut places: Vec<f64> = loads.chain(self.mains.iter().map(|main| main.z)).collect();
         places.sort_unstable_by(f64::total_cmp);
@@ -282,7 +310,7 @@ impl BearingLoadsModel {
         })?;
         let rows = found.main.outer_iter_mut().map(slice).enumerate().collect();
         pool::each(cancel, rows, mains * count, |(main, row)| {
-            let Carried { rods, turning, ratio, bound } = self.carried(main);
+            let Carried { rods, waves, ratio, bound } = self.carried(main);
             let row_of = |i: usize| found.crankpin.index_axis(Axis(0), i).to_slice();
             let carried = rods.iter().filter_map(|&(share, i)| Some((share, row_of(i)?)));
             let carried: Vec<_> = carried.collect();
@@ -295,11 +323,19 @@ impl BearingLoadsModel {
                         *sum += share * force;
                     }
                 }
-                let units = units.cos.iter().zip(&units.sin[..]);
-                for (pair, (cos, sin)) in row.chunks_exact_mut(2).zip(units) {
-                    let sin = f64::from(ratio.signum()) * sin;
-                    pair[0] += turning.re * cos - turning.im * sin;
-                    pair[1] += turning.re * sin + turning.im * cos;
+                let [mut x, mut y] = [[0.0; BLOCK]; 2];
+                let (own, others) = waves.split_at(usize::from(!waves.is_empty()));
+                for &(halves, at_start) in own {
+                    // What turns with the crank.
+                    units.add_turning(at_start, halves, [&mut x, &mut y]);
+                }
+                if !others.is_empty() {
+                    let angles = CrankAngles::of_checked(&theta_deg[range.clone()]);
+                    Periodic::add(others, &angles, [&mut x, &mut y])?;
+                }
+                for (pair, (x, y)) in row.chunks_exact_mut(2).zip(x.iter().zip(&y)) {
+                    pair[0] += x;
+                    pair[1] += y;
                     for part in pair {
                         *part = if part.abs() <= bound { 0.0 } else { *part };
                     }
@@ -354,10 +390,12 @@ impl BearingLoadsModel {
         };
         let rods = self.rods.iter().enumerate().filter(|(_, rod)| rod.crank == crank);
         let rods: Vec<_> = rods.filter_map(|(i, rod)| Some((share(rod.z)?, i))).collect();
-        let turning = &self.on_cranks[crank];
-        let turning = turning.iter().filter_map(|load| Some(load.at_start * share(load.z)?));
-        let turning: Vec<Complex64> = turning.collect();
-        self.cancelling(rods, &turning, crank)
+        let shared = self.on_cranks[crank].iter().filter_map(|load| {
+            let share = share(load.z)?;
+            Some(load.waves.iter().map(move |(halves, wave)| (*halves, wave * share)))
+        });
+        let waves: Vec<(i32, Complex64)> = shared.flatten().collect();
+        self.cancelling(rods, &waves, crank)
     }
 
     /// What a crankpin carries: all of its rods.
@@ -369,13 +407,21 @@ impl BearingLoadsModel {
     fn cancelling(
         &self,
         rods: Vec<(f64, usize)>,
-        turning: &[Complex64],
+        all: &[(i32, Complex64)],
         crank: CrankIndex,
     ) -> Carried {
         let sizes = rods.iter().map(|&(share, i)| share.abs() * self.rods[i].size());
-        let sizes = sizes.chain(turning.iter().map(|u| u.norm()));
-        let bound = rounding(self.rods.len() + turning.len(), 1.0) * sizes.sum::<f64>();
-        Carried { rods, turning: turning.iter().sum(), ratio: self.ratios[crank], bound }
+        let sizes = sizes.chain(all.iter().map(|(_, wave)| wave.norm()));
+        let bound = rounding(self.rods.len() + all.len(), 1.0) * sizes.sum::<f64>();
+        let ratio = self.ratios[crank];
+        // First what turns with the crank, of which there always is some.
+        let mut waves = vec![(2 * ratio, Complex64::ZERO)];
+        for &(halves, wave) in all {
+            let sum =
+                find_or_push(&mut waves, |(own, _)| *own == halves, || (halves, Complex64::ZERO));
+            sum.1 += wave;
+        }
+        Carried { rods, waves, ratio, bound }
     }
 
     /// Main bearings of a crank that carry a load at some place, and their shares of it.

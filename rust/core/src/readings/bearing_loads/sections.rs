@@ -2,9 +2,9 @@
 
 use ndarray::{Array3, Axis};
 
-use super::{BearingLoadsModel, check_angles, vectors};
+use super::{BearingLoadsModel, Periodic, check_angles, vectors};
 use crate::engine::CrankIndex;
-use crate::load::kinematics::{BLOCK, Units};
+use crate::load::kinematics::BLOCK;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, parts};
 use crate::numbers::error::Result;
@@ -38,7 +38,7 @@ impl BearingLoadsModel {
         let at = |place: f64| z.partition_point(|&other| other < place);
         let (sign, turning) = match part {
             Part::Crank(crank) => (-1.0, &self.on_cranks[crank]),
-            Part::Crankcase => (1.0, &self.on_shafts),
+            Part::Crankcase => (1.0, &self.on_crankcase),
         };
         let is_cut = |crank: CrankIndex| matches!(part, Part::Crank(cut) if cut == crank);
         for (main, row) in self.mains.iter().zip(loads.main.outer_iter()) {
@@ -67,9 +67,8 @@ impl BearingLoadsModel {
             for range in parts(0..count, BLOCK) {
                 cancel.check()?;
                 let angles = CrankAngles::of_checked(&theta_deg[range.clone()]);
-                let units = Units::at_speed(&angles, 0..angles.len(), load.ratio);
                 let [mut x, mut y] = [[0.0; BLOCK]; 2];
-                units.add_turning(load.at_start, load.ratio, [&mut x, &mut y]);
+                Periodic::add(&load.waves, &angles, [&mut x, &mut y])?;
                 for (at, (x, y)) in range.zip(x.iter().zip(&y[..])) {
                     sum[[at, 0]] += x;
                     sum[[at, 1]] += y;

@@ -8,7 +8,7 @@
 use num_traits::{CheckedDiv, CheckedMul};
 
 use super::roots::{FormalSum, Share};
-use super::{ExactLoads, Levers, too_long, whole};
+use super::{ExactLoads, Levers, NumberedLoads, too_long, whole};
 use crate::engine::Engine;
 use crate::load::{Load, LoadIndex, LoadList, Wanted, superpose};
 use crate::numbers::angle::Angle;
@@ -156,6 +156,11 @@ pub fn closed_form(
     if motions.iter().any(|motion| motion.ratio.abs() != 1) {
         let hint = "cylinders on cranks as fast as the main one";
         return Err(refused("cranks", "of different speeds", hint));
+    }
+    let numbered = NumberedLoads::new(engine, reference_z, &[order], cancel)?;
+    if numbered.0[0][if moment { 4..8 } else { 0..4 }].iter().any(|acts| *acts) {
+        let hint = "no load given by numbers at this order: engine.with_loads([]) has none";
+        return Err(refused("loads", "that act", hint));
     }
     let [motion] = &*motions else {
         return Err(refused("cylinders", "of different proportions", "rods and offsets alike"));

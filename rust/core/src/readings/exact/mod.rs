@@ -10,14 +10,19 @@ pub mod vanishing;
 
 use num_traits::{CheckedAdd, CheckedDiv, CheckedMul, Signed};
 
+use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::{LoadIndex, LoadList, SourceIndex};
+use crate::load::source::ExactFactor;
+use crate::load::{Load, LoadIndex, LoadList, SourceIndex};
 use crate::mechanism::Mechanism;
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::{List, list_index};
+use crate::numbers::order::Order;
 use crate::numbers::rational::{Multiples, Ratio, common_measure, decimal};
+use crate::readings::amplitude::Amplitudes;
+use crate::wrench::Wrench;
 
 fn too_long() -> Error {
     Error::value("weights", "too many digits", "exact sums need simple ratios of masses and places")
@@ -148,5 +153,46 @@ impl Levers {
         };
         let of = places.iter().map(lever).collect::<Result<_>>()?;
         Ok(Self { units, of })
+    }
+}
+
+/// In which directions of force and moment, along x and y, forward and backward, and whether in the torque, a
+/// load with numbers of its own acts: one that is no multiple of masses.
+pub(crate) struct NumberedLoads(Vec<[bool; 9]>);
+
+impl NumberedLoads {
+    /// Of an engine at some orders.
+    fn new(
+        engine: &Engine,
+        reference: Option<f64>,
+        orders: &[Order],
+        cancel: &Cancel,
+    ) -> Result<Self> {
+        let mut acts = vec![[false; 9]; orders.len()];
+        if engine.loads().is_empty() {
+            return Ok(Self(acts));
+        }
+        let loads = LoadList::new(engine, engine.reference(reference)?);
+        let is_numbered = |load: &&Load| {
+            let source = loads.source(load);
+            source.exact() == ExactFactor::Unknown && !source.has_open_tail()
+        };
+        let amplitudes = Amplitudes::new(&loads.sources, true, orders, cancel)?;
+        for load in loads.list.iter().filter(is_numbered) {
+            let wrenches = amplitudes.wrenches(&loads, &[*load], true, orders, cancel)?;
+            for (acts, of_order) in acts.iter_mut().zip(wrenches.chunks(loads.groups.len())) {
+                for Wrench { force, moment, torque } in of_order {
+                    let planar = [force, moment].map(|vector| {
+                        let [x, y] = vector.xy(0.0);
+                        [x, y, vector.forward, vector.backward_conj]
+                    });
+                    let all = planar.as_flattened().iter().chain([&torque.roll]);
+                    acts.iter_mut()
+                        .zip(all)
+                        .for_each(|(acts, one)| *acts |= *one != Complex64::ZERO);
+                }
+            }
+        }
+        Ok(Self(acts))
     }
 }

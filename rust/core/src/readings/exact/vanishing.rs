@@ -38,7 +38,7 @@ use std::collections::BTreeMap;
 use self::terms::{Channel, Proof, Symbol, SymbolSums, SymbolTerm, View};
 use super::roots::{PartOfTurn, SymbolEntry};
 use super::star::Stars;
-use super::{MotionIndex, whole};
+use super::{MotionIndex, NumberedLoads, whole};
 use crate::Complex64;
 use crate::engine::{Engine, Origin};
 use crate::firing::Firing;
@@ -54,6 +54,7 @@ use crate::numbers::index::List;
 use crate::numbers::order::{Order, check_list};
 use crate::numbers::ring::RootSum;
 use crate::readings::balance::{self, Orders, Request, Vector};
+use crate::readings::quantity::Part;
 
 /// Sums of weights in doubles of angles within this part of Σ|weights| may be of one exact angle.
 const ROUNDED_ANGLES: f64 = 16.0 * f64::EPSILON;
@@ -404,7 +405,9 @@ pub(crate) fn vanishing_of(
 ) -> Result<Vanishing> {
     check_list(orders)?;
     let half = orders.iter().find(|order| order.as_whole().is_none());
-    if let (Some(half), None, None) = (half, firing, engine.gas()) {
+    if let (Some(half), None, None) = (half, firing, engine.gas())
+        && engine.loads().is_empty()
+    {
         return Err(Error::value("orders", half, "half orders need a firing order"));
     }
     let strokes = firing.map_or(engine.strokes(), Firing::strokes);
@@ -417,9 +420,12 @@ pub(crate) fn vanishing_of(
     let torque = torques.iter().any(|torque| quantities.contains(torque));
     let (mut within_rounding, gas_remains) =
         evaluated(engine, orders, reference_z, torque, cancel)?;
+    let numbered = NumberedLoads::new(engine, reference_z, orders, cancel)?;
+    let has_numbered = numbered.0.iter().flatten().any(|acts| *acts);
     let mut verdicts = Vec::with_capacity(orders.len());
     let mut errors: Vec<String> = Vec::new();
-    for ((&order, within), gas_remains) in orders.iter().zip(&mut within_rounding).zip(gas_remains)
+    let evaluated = within_rounding.iter_mut().zip(gas_remains);
+    for ((&order, numbered), (within, gas_remains)) in orders.iter().zip(&numbered.0).zip(evaluated)
     {
         let sums = proof.sums(order);
         let mut of_order = [Verdict::Undecided; 10];
@@ -452,6 +458,11 @@ pub(crate) fn vanishing_of(
                         (verdict, None)
                     },
                 ),
+                // What was given is no rational, and cancels with nothing for certain.
+                _ if numbered[k.min(8)] => {
+                    within[k] = false;
+                    (Verdict::Undecided, None)
+                }
                 // Inertia repeats in every turn.
                 (_, None) => (Verdict::Vanishes, None),
                 (_, Some(_)) => proof.verdict(&sums, quantity, order, cancel),
@@ -473,6 +484,10 @@ pub(crate) fn vanishing_of(
     } else if gas_is_open && gas.are_unlike() {
         obstacles.push("cylinders of different dimensions, whose gas torques have no ratio".into());
     }
+    if has_numbered {
+        obstacles
+            .push("loads that were given by numbers: they cancel with nothing for certain".into());
+    }
     obstacles.extend(errors);
     Ok(Vanishing { orders: orders.to_vec(), verdicts, within_rounding, obstacles })
 }
@@ -488,12 +503,13 @@ fn evaluated(
 ) -> Result<(Vec<[bool; 10]>, Vec<bool>)> {
     let request = Request { rpm: 60.0, reference_z, torque };
     let orders = Orders::Given(orders.to_vec());
-    let found = balance::balance(engine, &request, &orders, cancel)?;
+    let all = balance::balance(engine, &request, &orders, cancel)?;
+    let found = all.of_part(Part::INERTIA);
     let loads = LoadList::new(engine, engine.reference(reference_z)?);
-    let volumes = loads.volumes();
-    let of_sources = volumes.iter().zip(&loads.sources);
+    let weights = loads.torque_weights();
+    let of_sources = weights.iter().zip(&loads.sources);
     let largest: f64 =
-        of_sources.map(|(volume, source)| volume.size * source.largest_torque()).sum();
+        of_sources.map(|(weight, source)| weight.size * source.largest_torque()).sum();
     let zero = |k: usize| {
         let of = |vector: Vector| {
             let [x, y] = found.xy(vector, k);
@@ -501,10 +517,11 @@ fn evaluated(
             [x, y, planar.forward, planar.backward_conj].map(|part| part == Complex64::default())
         };
         let ([a, b, c, d], [e, f, g, h]) = (of(Vector::Force), of(Vector::Moment));
-        let torque = found.wrenches[k].inertia.roll == Complex64::default();
+        let torque = found.torque(Part::INERTIA, k).roll == Complex64::default();
         [a, b, c, d, e, f, g, h, torque, true]
     };
-    let gas = found.wrenches.iter().map(|wrench| wrench.gas.roll.norm() > EVALUATED * largest);
+    let orders = 0..found.orders.len();
+    let gas = orders.map(|k| all.torque(Part::GAS, k).roll.norm() > EVALUATED * largest);
     Ok(((0..found.orders.len()).map(zero).collect(), gas.collect()))
 }
 

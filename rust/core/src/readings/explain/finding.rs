@@ -112,6 +112,13 @@ pub enum Finding {
         /// How many fire at a time at equal intervals; none for uneven firing.
         even: Option<usize>,
     },
+    /// What a further load adds.
+    GivenLoad {
+        /// Its name.
+        name: String,
+        /// Its largest orders of force and of torque on block or crank; none without a speed, at which they are.
+        largest: Option<[Option<(Order, f64)>; 2]>,
+    },
     /// Rows of a radial, whose articulated rods are not modelled.
     Articulated {
         /// Cylinders on one crankpin.
@@ -256,6 +263,11 @@ impl Finding {
                 proved: true,
                 ..row("gas orders")
             },
+            Self::GivenLoad { largest, .. } => {
+                let both: Vec<_> = largest.iter().flatten().flatten().collect();
+                let orders = both.iter().map(|(order, _)| *order).collect();
+                Row { orders, values: both.iter().map(|(_, peak)| *peak).collect(), ..row("load") }
+            }
             Self::Articulated { rows } => {
                 Row { groups: rows.iter().map(|row| numbers(row)).collect(), ..row("articulated") }
             }

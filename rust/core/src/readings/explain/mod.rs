@@ -21,11 +21,13 @@ use crate::numbers::error::Result;
 use crate::numbers::figure::rounded;
 use crate::numbers::order::Order;
 use crate::readings::balance::{
-    Balance, Orders, Request, TorquePart, UNIT_RPM, Vector, angular_speed, balance,
+    Balance, Orders, Request, UNIT_RPM, Vector, angular_speed, balance,
 };
 use crate::readings::exact::vanishing::{ProofQuantity, QUANTITIES, Verdict, vanishing_of};
+use crate::readings::quantity;
 use crate::readings::terms::terms;
 use crate::readings::turning::{RollOfAxes, roll_of_axes};
+use crate::wrench::Wrench;
 
 /// Highest order whose cancelling is explained.
 const HIGHEST: u32 = 12;
@@ -113,6 +115,13 @@ pub fn explain(
 ) -> Result<Explanation> {
     let speed = rpm.unwrap_or(UNIT_RPM);
     let omega = angular_speed(speed)?;
+    // Further loads are findings of their own, beside those of what moves.
+    let whole = Arc::clone(engine);
+    let engine = &if engine.loads().is_empty() {
+        Arc::clone(engine)
+    } else {
+        Arc::new(engine.with_loads(vec![])?)
+    };
     let (over_square, part) = strongest(engine, cancel)?;
     let (unit, lever) = (omega * omega * over_square, longest_lever(engine)?);
     let mut findings = of_vectors(engine, speed, [unit, unit * lever], cancel)?;
@@ -120,8 +129,9 @@ pub fn explain(
         findings.extend(torques(engine, speed, cancel)?);
         findings.extend(firing(engine, cancel)?);
         findings.extend(shared_pins(engine));
+        findings.extend(given_loads(&whole, rpm, cancel)?);
     }
-    Ok(Explanation { engine: Arc::clone(engine), rpm, unit, part, lever, findings })
+    Ok(Explanation { engine: whole, rpm, unit, part, lever, findings })
 }
 
 // --- what figures are relative to ---
@@ -236,15 +246,15 @@ fn torques(engine: &Engine, rpm: f64, cancel: &Cancel) -> Result<Vec<Finding>> {
         peaks.sort_by(|a, b| b.1.total_cmp(&a.1));
         peaks
     };
-    let inertia = by_size(&|found, k| found.torque(TorquePart::Inertia, k).roll.norm());
+    let inertia = by_size(&|found, k| found.torque(quantity::Part::INERTIA, k).roll.norm());
     let mut findings = Vec::new();
     if let Some(&(order, peak)) = inertia.first() {
         findings.push(Finding::InertiaTorque { order, peak });
     }
-    let mut largest = by_size(&|found, k| found.torque(TorquePart::Gas, k).crank.norm());
+    let mut largest = by_size(&|found, k| found.torque(quantity::Part::GAS, k).crank.norm());
     if !largest.is_empty() {
         largest.truncate(GAS_ORDERS);
-        let [_, mean] = found.mean(TorquePart::Gas);
+        let [_, mean] = found.mean(quantity::Part::GAS);
         findings.push(Finding::GasTorque { mean, largest });
     }
     Ok(findings)
@@ -276,6 +286,33 @@ fn firing(engine: &Arc<Engine>, cancel: &Cancel) -> Result<Vec<Finding>> {
         found.push(Finding::GasOrders { orders, firing: order, even });
     }
     Ok(found)
+}
+
+/// What further loads add, by name.
+fn given_loads(engine: &Engine, rpm: Option<f64>, cancel: &Cancel) -> Result<Vec<Finding>> {
+    let mut names: Vec<&str> = Vec::new();
+    for load in engine.loads() {
+        if !names.contains(&&*load.name) {
+            names.push(&load.name);
+        }
+    }
+    let Some(rpm) = rpm.filter(|_| !names.is_empty()) else {
+        let unknown = |name: &str| Finding::GivenLoad { name: name.to_owned(), largest: None };
+        return Ok(names.into_iter().map(unknown).collect());
+    };
+    let request = Request { rpm, reference_z: None, torque: true };
+    let all = balance(engine, &request, &Orders::Auto { rtol: RTOL }, cancel)?;
+    let of_name = |name: &str| {
+        let own = all.of_part(quantity::Part::Of(name));
+        let largest = |size: &dyn Fn(&Wrench) -> f64| {
+            let sizes = own.orders.iter().copied().zip(own.wrenches.iter().map(size));
+            sizes.filter(|(_, size)| *size > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))
+        };
+        let both =
+            [largest(&|wrench| wrench.force.peak()), largest(&|wrench| wrench.torque.peak())];
+        Finding::GivenLoad { name: name.to_owned(), largest: Some(both) }
+    };
+    Ok(names.into_iter().map(of_name).collect())
 }
 
 /// The rows of a radial, whose articulated rods are not modelled.

@@ -5,6 +5,7 @@ use super::finding::{Acting, Finding, Reason, Weights};
 use super::words::{ACROSS, listed, number, orders, sense};
 use crate::engine::Engine;
 use crate::engine::loads::dead_text;
+use crate::engine::loads::in_one_line;
 use crate::numbers::figure::{rounded, significant};
 use crate::numbers::order::Order;
 use crate::readings::balance::Vector;
@@ -186,6 +187,7 @@ impl Explanation {
                 self.fires(order, intervals_deg, *even)
             }
             Finding::GasOrders { orders, firing, even } => self.gas_orders(orders, firing, *even),
+            Finding::GivenLoad { name, largest } => given_load(name, largest.as_ref(), wording),
             Finding::Articulated { rows } => format!(
                 "{} rods share a crankpin: each rod is computed on the crankpin itself; a master rod \
                  with articulated rods, which moves its pistons differently, is not modelled",
@@ -469,6 +471,27 @@ fn gas_torque(mean: f64, largest: &[(Order, f64)], wording: &Wording) -> String 
     format!(
         "gas pressure ({loads}) {verb} the crank with {average} on average, and peaks of {peaks}"
     )
+}
+
+/// What a further load adds: its largest orders of force and of torque, where a speed was given.
+fn given_load(
+    name: &str,
+    largest: Option<&[Option<(Order, f64)>; 2]>,
+    wording: &Wording,
+) -> String {
+    let name = in_one_line(name);
+    let Some(both) = largest else {
+        return format!("the load \"{name}\" acts too; give a speed for what it adds");
+    };
+    let one = |(largest, (what, unit)): (&Option<(Order, f64)>, (&str, &str))| {
+        let (order, peak) = (*largest)?;
+        let figure = wording.figure(peak, unit, false);
+        Some(format!("a {what} of {figure} at {}", orders(&[order])))
+    };
+    let adds = both.iter().zip([("force", "N"), ("torque", "N·m")]).filter_map(one);
+    let adds = adds.collect::<Vec<_>>().join(" and ");
+    let adds = if adds.is_empty() { "nothing that shakes" } else { &adds };
+    format!("the load \"{name}\" adds {adds}")
 }
 
 #[cfg(test)]

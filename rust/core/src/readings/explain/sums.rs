@@ -94,6 +94,8 @@ impl<'a> Sums<'a> {
                 }
                 Origin::Counterweight(_) => 0,
                 Origin::Shaft(_) => 1,
+                // Neither the engine's nor its hardware: findings of their own.
+                Origin::Load(_) => continue,
             };
             let sums = hardware[group].get_or_insert_with(|| vec![Parts::default(); count]); // bounded: by a balance's orders
             sums.iter_mut().zip(of(part)).for_each(|(sum, added)| *sum = plus(*sum, added));

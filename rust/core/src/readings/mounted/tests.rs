@@ -8,6 +8,7 @@ use crate::mechanism::slider_crank::Cylinder;
 use crate::mounts::tests::{four_mounts, random};
 use crate::numbers::angle::Angle;
 use crate::numbers::draws;
+use crate::readings::balance::{Request, balance};
 use crate::readings::peaks::largest_vectors;
 
 fn degrees(degrees: f64) -> Angle {
@@ -125,7 +126,7 @@ fn loads_are_those_about_the_centre_of_gravity() {
                 Complex64::ZERO,
                 pitch + force_y * z,
                 yaw - force_x * z,
-                wrench.torque().roll - (force_y * x - force_x * y),
+                wrench.torque.roll - (force_y * x - force_x * y),
             );
             // Some ten roundings of what is added up.
             let size = load.norm() * (1.0 + x.abs() + y.abs() + z.abs());

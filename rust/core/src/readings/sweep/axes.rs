@@ -40,15 +40,15 @@ pub struct MapAxes {
 }
 
 impl SweepAxes {
-    /// ω² of each speed.
-    pub(super) fn squares(&self, cancel: &Cancel) -> Result<Vec<f64>> {
+    /// Angular speeds, rad/s.
+    pub(super) fn omegas(&self, cancel: &Cancel) -> Result<Vec<f64>> {
         length("rpm", self.rpm.len())?;
         if let Some(map) = &self.map {
             length("load", map.load.len())?;
         }
-        let mut squares = memory::with_capacity(self.rpm.len())?;
-        each(&self.rpm, cancel, |rpm| angular_speed(rpm).map(|omega| squares.push(omega * omega)))?;
-        Ok(squares)
+        let mut omegas = memory::with_capacity(self.rpm.len())?;
+        each(&self.rpm, cancel, |rpm| angular_speed(rpm).map(|omega| omegas.push(omega)))?;
+        Ok(omegas)
     }
 
     /// Rejects values out of range, and axes that engines or their spectra do not allow.

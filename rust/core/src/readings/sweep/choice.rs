@@ -25,21 +25,20 @@
 
 use std::sync::Arc;
 
-use super::Quantity::{CrankTorque, Torque};
 use super::harmonics::of;
 use super::layout::{Layout, LayoutSum, Swung};
-use super::{Quantity, Sweep, SweepAxes};
+use super::{Selection, Sweep, SweepAxes};
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::source::{Column, Point, Scaling, Source};
-use crate::load::{Harmonic, LoadList, Sources};
+use crate::load::source::{Column, Point, Source, at_point};
+use crate::load::{GroupIndex, Harmonic, Sources};
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 use crate::readings::amplitude::wrenches;
-use crate::readings::balance::TorquePart;
-use crate::readings::choice::{Candidate, Choice, GasOrders, OrderSums, times};
+use crate::readings::choice::{Candidate, Choice, IntegratedOrders, OrderSums, bounds, times};
+use crate::readings::quantity::{Kind, Part, Quantity};
 
 impl Sweep {
     /// With few orders that leave out at most `rtol` at any point, as [`crate::Orders::Auto`] does
@@ -54,16 +53,7 @@ impl Sweep {
     ) -> Result<Self> {
         let mut sweep = Self::new(engines, axes, vec![Order::FIRST], reference_z, cancel)?;
         sweep.torque &= torque;
-        sweep.fired &= sweep.torque;
-        let mut quantities = vec![Quantity::Force, Quantity::Moment];
-        if sweep.torque {
-            quantities.extend([Torque(TorquePart::Inertia), CrankTorque(TorquePart::Inertia)]);
-        }
-        let of_gas = quantities.len();
-        if sweep.fired {
-            quantities.extend([Torque(TorquePart::Gas), CrankTorque(TorquePart::Gas)]);
-        }
-        let loads: Vec<LoadList> = (0..sweep.engines.len()).map(|k| sweep.loads(k)).collect();
+        let loads = std::mem::take(&mut sweep.loads);
         let [rod_ratio, pin_offset] = sweep.extremes;
         // Between the cycles of a map no sum is larger than the largest of theirs.
         let (mut candidates, nodes) = (Vec::new(), sweep.nodes.count());
@@ -75,41 +65,65 @@ impl Sweep {
             }
         }
         let mut choice = Choice::new(rtol, &candidates, sweep.torque, cancel)?;
-        for ((rest, candidate), gas) in choice.rest.iter_mut().zip(&candidates).zip(&choice.gas) {
-            rest.gas = sweep.gas_tail(candidate, gas, cancel)?;
+        for ((rest, candidate), integrated) in
+            choice.rest.iter_mut().zip(&candidates).zip(&choice.integrated)
+        {
+            for (group, tail) in sweep.integrated_tails(candidate, integrated, cancel)? {
+                rest[group].torque = tail;
+            }
         }
         sweep.orders.clone_from(&choice.orders);
-        // By order and engine.
-        let mut sizes = vec![Vec::new(); sweep.orders.len()];
+        // By order, engine and group.
+        let mut sizes: Vec<Vec<OrderSums>> = vec![Vec::new(); sweep.orders.len()];
         let mut known = Known::new();
         let is_one_point = sweep.axes.bank_angle.is_none() && sweep.points() == 1;
         let mut layouts = Vec::new();
-        for (candidate, gas) in candidates.iter().zip(&choice.gas) {
+        for (candidate, integrated) in candidates.iter().zip(&choice.integrated) {
             cancel.check()?;
             let Candidate { engine, loads, sources: slowest, repeats } = candidate;
-            let mut of_engine = vec![OrderSums::default(); sizes.len()];
             if is_one_point {
-                let (all, _) = wrenches(loads, &gas.sources, sweep.torque, &sweep.orders, cancel)?;
-                of_engine = all.iter().map(OrderSums::of).collect();
-            } else {
-                if !repeats {
-                    layouts = sweep.layouts(engine, loads, &quantities)?;
+                let sources = &integrated.sources;
+                let (all, _) = wrenches(loads, sources, sweep.torque, &sweep.orders, cancel)?;
+                for (sizes, of_order) in sizes.iter_mut().zip(all.chunks(loads.groups.len())) {
+                    sizes.extend(of_order.iter().map(OrderSums::of));
                 }
-                let first = if *repeats { of_gas } else { 0 };
-                for (&quantity, layout) in quantities.iter().zip(&layouts).skip(first) {
-                    let largest = sweep.largest(layout, slowest, quantity, &mut known, cancel)?;
-                    for (sums, size) in of_engine.iter_mut().zip(largest) {
-                        let sum = quantity.of(sums);
-                        *sum = sum.max(size);
-                    }
+                continue;
+            }
+            // Of each group the quantities that it makes.
+            let mut selected = Vec::new();
+            for (k, group) in loads.groups.indices().zip(&loads.groups) {
+                let [force, torque] = loads.has(k);
+                let planar = [Quantity::FORCE, Quantity::MOMENT];
+                let torques = [Quantity::TORQUE, Quantity::CRANK_TORQUE];
+                let planar = planar.into_iter().filter(|_| force);
+                for quantity in planar.chain(torques.into_iter().filter(|_| torque && sweep.torque))
+                {
+                    let quantity = quantity.part(Part::Of(&group.name));
+                    selected.push((k, Selection { quantity, scaling: Some(group.scaling) }));
                 }
             }
-            sizes.iter_mut().zip(of_engine).for_each(|(sizes, sums)| sizes.push(sums));
+            if !repeats {
+                let selections: Vec<Selection> = selected.iter().map(|(_, one)| *one).collect();
+                layouts = sweep.layouts(engine, loads, &selections)?;
+            }
+            let mut of_engine = vec![loads.groups.map_to(|_| OrderSums::default()); sizes.len()]; // bounded: orders
+            for ((group, selection), layout) in selected.into_iter().zip(&layouts) {
+                let largest = sweep.largest(layout, slowest, selection, &mut known, cancel)?;
+                for (sums, size) in of_engine.iter_mut().zip(largest) {
+                    let sum = selection.of(&mut sums[group]);
+                    *sum = sum.max(size);
+                }
+            }
+            sizes.iter_mut().zip(&of_engine).for_each(|(sizes, sums)| sizes.extend(&**sums));
         }
-        let (kept, left_out) = choice.few(&sizes);
-        let fastest = sweep.squares.iter().copied().fold(0.0, f64::max);
-        let worst = left_out.into_iter().fold(OrderSums::default(), OrderSums::max);
-        sweep.error_bound = worst.bounds(fastest);
+        let flat: Vec<OrderSums> = sizes.iter().flatten().copied().collect();
+        let (kept, left_out) = choice.few(&flat);
+        for (lost, candidate) in left_out.iter().zip(&candidates) {
+            for &omega in &sweep.omegas {
+                let own = bounds(lost, &candidate.loads.groups, omega);
+                sweep.error_bound = sweep.error_bound.max(own);
+            }
+        }
         sweep.orders.clear();
         for ((order, kept), sizes) in choice.orders.into_iter().zip(kept).zip(sizes) {
             if kept {
@@ -118,25 +132,44 @@ impl Sweep {
                 sweep.omitted.push(order);
             }
         }
+        drop(candidates);
+        sweep.loads = loads;
         Ok(sweep)
     }
 
-    /// Bound, at any point, of the torque of pressure above the last of its orders.
-    fn gas_tail(&self, candidate: &Candidate, gas: &GasOrders, cancel: &Cancel) -> Result<f64> {
-        let Some(&last) = gas.orders.last().filter(|_| self.points() > 1) else {
-            return Ok(gas.tail);
+    /// Bounds, at any point, of the torques of each group above the last of their integrated orders.
+    fn integrated_tails(
+        &self,
+        candidate: &Candidate,
+        integrated: &IntegratedOrders,
+        cancel: &Cancel,
+    ) -> Result<Vec<(GroupIndex, f64)>> {
+        let mut worst: Vec<(GroupIndex, f64)> =
+            integrated.groups.iter().map(|of| (of.group, of.tail)).collect();
+        let Some(&last) = integrated.orders.last().filter(|_| self.points() > 1) else {
+            return Ok(worst);
         };
-        let (volumes, mut worst) = (candidate.loads.volumes(), 0.0_f64);
+        for (_, tail) in &mut worst {
+            *tail = 0.0;
+        }
+        let loads = candidate.loads;
+        let weights = loads.torque_weights();
         for point in 0..self.points() {
             cancel.check()?;
-            let (mut tail, point) = (0.0, self.proportions_at(point));
-            for (source, volume) in candidate.sources.iter().zip(&volumes) {
-                let there = source.at_point(&point)?;
-                let tails = there.up_to(last, cancel)?.map(|(_, tails)| tails);
-                let above = tails.and_then(|tails| tails.last().copied()).unwrap_or(0.0);
-                tail += volume.size * above;
+            let at = self.proportions_at(point);
+            let mut tails = loads.groups.map_to(|_| 0.0);
+            let sources = candidate.sources.indices().zip(candidate.sources.iter().zip(&weights));
+            for (k, (source, weight)) in sources {
+                if !source.has_open_tail() {
+                    continue;
+                }
+                let up_to = at_point(source, &at)?.up_to(last, cancel)?;
+                let above = up_to.and_then(|(_, tails)| tails.last().copied()).unwrap_or(0.0);
+                tails[loads.group_of[k]] += weight.size * above;
             }
-            worst = worst.max(tail);
+            for (group, tail) in &mut worst {
+                *tail = tail.max(tails[*group]);
+            }
         }
         Ok(worst)
     }
@@ -147,7 +180,7 @@ impl Sweep {
         &self,
         layout: &Layout,
         slowest: &Sources,
-        quantity: Quantity,
+        selection: Selection,
         known: &mut Known,
         cancel: &Cancel,
     ) -> Result<Vec<f64>> {
@@ -160,7 +193,7 @@ impl Sweep {
         let known: &Known = known;
         let factor = |harmonic: Harmonic, order: usize| {
             let found = factors.iter().find(|(known, _)| *known == harmonic);
-            let on_crank = usize::from(matches!(quantity, CrankTorque(_)));
+            let on_crank = usize::from(selection.quantity.kind == Kind::CrankTorque);
             found.map_or(SizeFactor::AtMost(0.0), |&(_, place)| known[place].2[on_crank][order])
         };
         let size = |(k, sums): (usize, &Vec<LayoutSum>)| {
@@ -199,29 +232,29 @@ impl Sweep {
         if let Some(place) = known.iter().position(same) {
             return Ok(place);
         }
-        let found = self.evaluated(&**source, column, cancel)?;
+        let found = self.evaluated(source, column, cancel)?;
         known.push((Arc::clone(source), column, found));
         Ok(known.len() - 1)
     }
 
     fn evaluated(
         &self,
-        source: &dyn Source,
+        source: &Arc<dyn Source>,
         column: Column,
         cancel: &Cancel,
     ) -> Result<[Vec<SizeFactor>; 2]> {
         let orders = &self.orders;
         let values = |factor: fn(Complex64) -> SizeFactor| {
-            let TorqueHarmonics { roll, crank } = of(source, column, orders, cancel)?;
+            let TorqueHarmonics { roll, crank } = of(&**source, column, orders, cancel)?;
             Ok([roll, crank].map(|values| values.into_iter().map(factor).collect()))
         };
         let Some(mechanism) = source.mechanism().filter(|_| self.points() > 1) else {
             return values(SizeFactor::Fixed);
         };
-        if source.parts().scaling == Scaling::Given {
+        if source.has_open_tail() {
             let mut sizes = [vec![0.0_f64; orders.len()], vec![0.0; orders.len()]];
             for point in 0..self.points() {
-                let there = source.at_point(&self.proportions_at(point))?;
+                let there = at_point(source, &self.proportions_at(point))?;
                 let TorqueHarmonics { roll, crank } = of(&*there, column, orders, cancel)?;
                 for (sizes, values) in sizes.iter_mut().zip([roll, crank]) {
                     sizes.iter_mut().zip(values).for_each(|(s, v)| *s = s.max(v.norm()));
@@ -234,9 +267,11 @@ impl Sweep {
             return values(|value| SizeFactor::AtMost(value.norm()));
         }
         let bound = |&order: &Order| {
-            let Some(whole) = order.as_whole() else { return SizeFactor::AtMost(0.0) };
-            let own = mechanism.own_highest(whole);
-            let beyond = source.beyond(whole - 1, true);
+            if order.as_whole().is_none() {
+                return SizeFactor::AtMost(0.0);
+            }
+            let own = mechanism.own_highest(order.halves());
+            let beyond = source.beyond(order.halves() - 1, true);
             SizeFactor::AtMost(match column {
                 Column::Force => beyond.force + f64::from(u8::from(own == 1)),
                 Column::Roll if own < 3 => f64::INFINITY,
@@ -270,14 +305,13 @@ fn span(parts: &[Swung; 2], rounding: f64) -> f64 {
     if size <= rounding { 0.0 } else { size }
 }
 
-impl Quantity {
+impl Selection<'_> {
     /// The sum that it counts for.
-    fn of(self, sums: &mut OrderSums) -> &mut f64 {
-        match self {
-            Self::Force => &mut sums.force,
-            Self::Moment => &mut sums.moment,
-            Torque(TorquePart::Gas) | CrankTorque(TorquePart::Gas) => &mut sums.gas,
-            Torque(_) | CrankTorque(_) => &mut sums.inertia,
+    fn of<'s>(&self, sums: &'s mut OrderSums) -> &'s mut f64 {
+        match self.quantity.kind {
+            Kind::Force => &mut sums.force,
+            Kind::Moment => &mut sums.moment,
+            Kind::Torque | Kind::CrankTorque => &mut sums.torque,
         }
     }
 }
@@ -308,10 +342,10 @@ mod tests {
         let engines = vec![Arc::new(engine.unwrap())];
         let sweep = Sweep::new(engines, axes, orders.clone(), None, &cancel).unwrap();
         let (source, column) = [(0, Column::Force), (0, Column::Roll), (1, Column::Roll)][kind];
-        let source = &sweep.loads(0).sources[SourceIndex::new(source)];
+        let source = &sweep.loads[0].sources[SourceIndex::new(source)];
         let [rod_ratio, pin_offset] = sweep.extremes;
-        let slowest = source.at_point(&Point { rod_ratio, pin_offset, cycles: None }).unwrap();
-        let bounds = sweep.evaluated(&*slowest, column, &cancel).unwrap();
+        let slowest = at_point(source, &Point { rod_ratio, pin_offset, cycles: None }).unwrap();
+        let bounds = sweep.evaluated(&slowest, column, &cancel).unwrap();
         let mut found = bounds.map(|bounds| {
             let bound = |factor| match factor {
                 SizeFactor::AtMost(bound) => [bound, 0.0],
@@ -320,7 +354,7 @@ mod tests {
             bounds.into_iter().map(bound).collect::<Vec<_>>()
         });
         for point in 0..sweep.points() {
-            let there = source.at_point(&sweep.proportions_at(point)).unwrap();
+            let there = at_point(source, &sweep.proportions_at(point)).unwrap();
             let TorqueHarmonics { roll, crank } = of(&*there, column, &orders, &cancel).unwrap();
             for (found, values) in found.iter_mut().zip([roll, crank]) {
                 found.iter_mut().zip(values).for_each(|([_, l], value)| *l = l.max(value.norm()));

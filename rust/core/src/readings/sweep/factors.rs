@@ -7,13 +7,14 @@ use std::ops::Range;
 use super::block::ROWS_SIDE_BY_SIDE;
 use super::harmonics::PointHarmonics;
 use super::layout::Layout;
-use super::{Quantity, Sweep};
+use super::{Selection, Sweep};
 use crate::Complex64;
 use crate::load::LoadList;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
 use crate::numbers::simd::{sin_cos_degrees, vectorised};
+use crate::readings::quantity::Quantity;
 
 /// Columns of numbers, one after the other, each followed by room that a block may read.
 pub(super) struct Padded<const N: usize> {
@@ -94,14 +95,14 @@ pub(super) struct Coefficients {
 impl Coefficients {
     pub fn new(
         sweep: &Sweep,
-        quantity: Quantity,
+        selection: Selection,
         (loads, layout): (&LoadList, &Layout),
         points: Range<usize>,
         cancel: &Cancel,
     ) -> Result<Self> {
         let count = points.len();
         let sources = &loads.sources;
-        let harmonics = PointHarmonics::new(sweep, (sources, layout), quantity, &points, cancel)?;
+        let harmonics = PointHarmonics::new(sweep, (sources, layout), selection, &points, cancel)?;
         let mut by_order = memory::with_capacity(layout.len())?;
         for (k, sums) in layout.iter().enumerate() {
             cancel.check()?;

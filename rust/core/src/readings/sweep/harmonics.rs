@@ -4,9 +4,9 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::layout::Layout;
-use super::{Quantity, Sweep};
+use super::{Selection, Sweep};
 use crate::Complex64;
-use crate::load::source::{Column, Point, Scaling, Source};
+use crate::load::source::{Column, Point, Source, at_point};
 use crate::load::{Harmonic, Sources};
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::mechanism::harmonics::table;
@@ -16,6 +16,7 @@ use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::numbers::pool;
 use crate::pressure::Cycle;
+use crate::readings::quantity::Kind;
 
 /// Real and imaginary parts at some points, order by order.
 type PointColumns = Vec<[Vec<f64>; 2]>;
@@ -28,14 +29,15 @@ impl PointHarmonics {
     pub fn new(
         sweep: &Sweep,
         (sources, layout): (&Sources, &Layout),
-        quantity: Quantity,
+        selection: Selection,
         points: &Range<usize>,
         cancel: &Cancel,
     ) -> Result<Self> {
         let mut found: Vec<(Harmonic, PointColumns)> = Vec::new();
         for harmonic in layout.iter().flatten().map(|sum| sum.harmonic) {
             if found.iter().all(|(known, _)| *known != harmonic) {
-                let columns = sweep.columns(sources, harmonic, quantity, points.clone(), cancel)?;
+                let columns =
+                    sweep.columns(sources, harmonic, selection, points.clone(), cancel)?;
                 found.push((harmonic, columns));
             }
         }
@@ -51,8 +53,8 @@ impl PointHarmonics {
 
 impl Sweep {
     /// What a point of a quantity replaces: the cycle changes first.
-    pub(super) fn at(&self, quantity: Quantity, point: usize) -> Point<'_> {
-        let cycles = self.cycles_of(quantity);
+    pub(super) fn at(&self, selection: Selection, point: usize) -> Point<'_> {
+        let cycles = self.cycles_of(selection);
         Point { cycles: self.cycles_at(point % cycles), ..self.proportions_at(point / cycles) }
     }
 
@@ -76,7 +78,7 @@ impl Sweep {
         &self,
         sources: &Sources,
         harmonic: Harmonic,
-        quantity: Quantity,
+        selection: Selection,
         points: Range<usize>,
         cancel: &Cancel,
     ) -> Result<PointColumns> {
@@ -84,9 +86,9 @@ impl Sweep {
         for _ in &self.orders {
             columns.push([memory::zeros(points.len())?, memory::zeros(points.len())?]);
         }
-        let (source, column) = (&*sources[harmonic.source], harmonic.column);
+        let (source, column) = (&sources[harmonic.source], harmonic.column);
         let Some(mechanism) = source.mechanism() else {
-            let values = quantity.among(of(source, column, &self.orders, cancel)?);
+            let values = selection.among(of(&**source, column, &self.orders, cancel)?);
             for ([re, im], value) in columns.iter_mut().zip(values) {
                 re.fill(value.re);
                 im.fill(value.im);
@@ -112,12 +114,12 @@ impl Sweep {
                 (re[row], im[row]) = (value.re, value.im);
             }
         };
-        let at = |point| source.at_point(&self.at(quantity, point));
+        let at = |point| at_point(source, &self.at(selection, point));
         let values = |source: Arc<dyn Source>| {
             cancel.check()?;
-            Ok(quantity.among(of(&*source, column, &self.orders, cancel)?))
+            Ok(selection.among(of(&*source, column, &self.orders, cancel)?))
         };
-        if source.parts().scaling == Scaling::Given {
+        if source.has_open_tail() {
             let sources = points.map(at).collect::<Result<Vec<_>>>()?;
             let integrated = sources.iter().filter(|source| source.is_integrated(&self.orders));
             let several = integrated.count() > 3;
@@ -132,10 +134,10 @@ impl Sweep {
     }
 }
 
-impl Quantity {
+impl Selection<'_> {
     /// Its own of two harmonics; those of forces are alike.
     fn among(self, harmonics: TorqueHarmonics) -> Vec<Complex64> {
-        if matches!(self, Self::CrankTorque(_)) { harmonics.crank } else { harmonics.roll }
+        if self.quantity.kind == Kind::CrankTorque { harmonics.crank } else { harmonics.roll }
     }
 }
 

@@ -13,7 +13,7 @@ use bytemuck::Zeroable;
 use super::block::{Block, ROWS_SIDE_BY_SIDE};
 use super::factors::{Coefficients, Waves};
 use super::layout::Layout;
-use super::{Quantity, Sweep};
+use super::{Selection, Sweep};
 use crate::Complex64;
 use crate::load::LoadList;
 use crate::numbers::cancel::Cancel;
@@ -43,7 +43,7 @@ impl Number for Complex64 {}
 /// Rows to evaluate.
 pub(super) struct Job<'a> {
     pub sweep: &'a Sweep,
-    pub quantity: Quantity,
+    pub selection: Selection<'a>,
     /// Numbers of a row.
     pub width: usize,
     /// Whether a row takes some hundred times as long as its sums: a search for an extremum.
@@ -51,17 +51,14 @@ pub(super) struct Job<'a> {
     pub cancel: &'a Cancel,
 }
 
-type LoadsAndLayout = (LoadList, Layout);
-
 impl Job<'_> {
-    /// Loads and layout sums of each engine.
-    fn layouts(&self) -> Result<Vec<LoadsAndLayout>> {
-        let mut layouts: Vec<LoadsAndLayout> = memory::with_capacity(self.sweep.engines.len())?;
-        for (k, engine) in self.sweep.engines.iter().enumerate() {
+    /// Layout sums of each engine.
+    fn layouts(&self) -> Result<Vec<Layout>> {
+        let mut layouts: Vec<Layout> = memory::with_capacity(self.sweep.engines.len())?;
+        for (engine, loads) in self.sweep.engines.iter().zip(&self.sweep.loads) {
             self.cancel.check()?;
-            let loads = self.sweep.loads(k);
-            let sums = self.sweep.layouts(engine, &loads, &[self.quantity])?;
-            layouts.push((loads, sums.into_iter().next().unwrap_or_default()));
+            let sums = self.sweep.layouts(engine, loads, &[self.selection])?;
+            layouts.push(sums.into_iter().next().unwrap_or_default());
         }
         Ok(layouts)
     }
@@ -75,7 +72,7 @@ impl Job<'_> {
     ) -> Result<()> {
         let (sweep, width) = (self.sweep, self.width);
         let angles = sweep.bank_angles().len();
-        let points = sweep.points_of(self.quantity);
+        let points = sweep.points_of(self.selection);
         let piece = if self.slow { 8 } else { ROWS_PER_TASK };
         let slab = (SLAB / sweep.orders.len().max(1)).clamp(ROWS_PER_CHECK, 1 << 14);
         let slabs = |length: usize| (0..length).step_by(slab).map(move |k| k..length.min(k + slab));
@@ -84,14 +81,15 @@ impl Job<'_> {
         let layouts = self.layouts()?;
         self.cancel.expect(layouts.len() * angles * points);
         for angle_slab in slabs(angles) {
-            let waves = Waves::new(sweep, self.quantity, angle_slab.clone(), self.cancel)?;
+            let waves =
+                Waves::new(sweep, self.selection.quantity, angle_slab.clone(), self.cancel)?;
             for point_slab in slabs(points) {
                 let parts: Vec<Range<usize>> = parts(point_slab.clone(), PART).collect();
-                let each_part = layouts.iter().flat_map(|of_engine| {
+                let each_part = sweep.loads.iter().zip(&layouts).flat_map(|of_engine| {
                     parts.iter().map(move |points| (of_engine, points.clone()))
                 });
-                let coefficients = |((loads, layout), points): (&LoadsAndLayout, Range<usize>)| {
-                    Coefficients::new(sweep, self.quantity, (loads, layout), points, self.cancel)
+                let coefficients = |(of_engine, points): ((&LoadList, &Layout), Range<usize>)| {
+                    Coefficients::new(sweep, self.selection, of_engine, points, self.cancel)
                 };
                 let coefficients =
                     pool::map_if(many, self.cancel, each_part.collect(), coefficients)?;

@@ -1,14 +1,14 @@
 //! What an engine's layout contributes to a sweep: sums that rod, speed and bank angle multiply.
 
-use super::{Quantity, Sweep};
+use super::{Selection, Sweep};
 use crate::Complex64;
 use crate::engine::{Engine, Hold};
-use crate::load::source::{Column, Scaling};
+use crate::load::source::Column;
 use crate::load::{BankPhase, Harmonic, LoadList, PhasorSum, Term, Wanted, count, find_or_push};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
-use crate::readings::balance::TorquePart;
+use crate::readings::quantity::{Kind, Quantity};
 use crate::wrench::rounding;
 
 /// Sums of one harmonic of an order, over its amplitude.
@@ -40,7 +40,7 @@ impl Sweep {
         &self,
         engine: &Engine,
         loads: &LoadList,
-        quantities: &[Quantity],
+        selections: &[Selection],
     ) -> Result<Vec<Layout>> {
         let vee = match &self.axes.bank_angle {
             Some((_, hold)) => {
@@ -54,20 +54,23 @@ impl Sweep {
             }
             None => None,
         };
-        let planar = |quantity: &Quantity| quantity.is_planar();
+        let planar = |selection: &Selection| selection.quantity.is_planar();
         let wanted = Wanted {
-            planar: quantities.iter().any(planar),
-            roll: !quantities.iter().all(planar),
+            planar: selections.iter().any(planar),
+            roll: !selections.iter().all(planar),
             by_bank: vee.is_some(),
         };
-        let mut layouts = vec![Layout::new(); quantities.len()];
+        let mut layouts = vec![Layout::new(); selections.len()];
         for &order in &self.orders {
             let terms = loads.sums(order, wanted);
-            for (quantity, layout) in quantities.iter().zip(&mut layouts) {
+            for (selection, layout) in selections.iter().zip(&mut layouts) {
+                let quantity = selection.quantity;
                 let count = count(&loads.list, !quantity.is_planar());
                 let rounding = rounding(count, order.number());
                 let mut sums = Vec::new();
-                for (term, parts) in terms.iter().filter_map(|t| Some((t, quantity.parts(t)?))) {
+                for (term, parts) in
+                    terms.iter().filter_map(|t| Some((t, selection.parts(loads, t)?)))
+                {
                     let harmonic = term.harmonic;
                     let sum = find_or_push(
                         &mut sums,
@@ -95,40 +98,28 @@ impl Sweep {
         }
         Ok(layouts)
     }
+}
 
-    /// Loads of an engine.
-    pub(super) fn loads(&self, engine: usize) -> LoadList {
-        let reference = self.references[engine];
-        LoadList::new(&self.engines[engine], reference)
+impl Selection<'_> {
+    /// The sums of a term that make it: forward part and conjugate of the backward part, or torque.
+    fn parts(&self, loads: &LoadList, term: &Term<PhasorSum>) -> Option<[PhasorSum; 2]> {
+        let Quantity { kind, part } = self.quantity;
+        let own = term.harmonic.column == Column::Roll;
+        let counts = self.scaling.is_none_or(|scaling| scaling == term.scaling)
+            && part.has(&loads.group(term.harmonic.source).name);
+        match kind {
+            _ if !counts => None,
+            Kind::Force | Kind::Moment if own => None,
+            Kind::Force => Some(term.force),
+            Kind::Moment => Some(term.moment),
+            // A shaft that turns evenly takes no torque of the crank, nor does a force on an arm.
+            Kind::CrankTorque if !own => None,
+            Kind::Torque | Kind::CrankTorque => Some([term.roll, PhasorSum::default()]),
+        }
     }
 }
 
-impl Quantity {
-    /// Whether it is a vector in the cross-section.
-    pub(super) fn is_planar(self) -> bool {
-        matches!(self, Self::Force | Self::Moment)
-    }
-
-    /// The sums of a term that make it: forward part and conjugate of the backward part, or torque.
-    fn parts(self, term: &Term<PhasorSum>) -> Option<[PhasorSum; 2]> {
-        let is_gas = term.scaling == Scaling::Given;
-        let own = term.harmonic.column == Column::Roll;
-        let left_out = match self.part() {
-            Some(TorquePart::Whole) => false,
-            Some(TorquePart::Inertia) => is_gas,
-            Some(TorquePart::Gas) => !is_gas,
-            None => own,
-        };
-        match self {
-            _ if left_out => None,
-            Self::Force => Some(term.force),
-            Self::Moment => Some(term.moment),
-            // A shaft that turns evenly takes no torque of the crank, nor does a force on an arm.
-            Self::CrankTorque(_) if !own => None,
-            Self::Torque(_) | Self::CrankTorque(_) => Some([term.roll, PhasorSum::default()]),
-        }
-    }
-
+impl Quantity<'_> {
     /// Multiples of a quarter of the bank angle for the forward part (or torque) and for the conjugate of
     /// the backward part.
     pub(super) fn turn(self, order: Order, hold: Hold) -> [i64; 2] {

@@ -24,25 +24,23 @@ use self::kernel::Job;
 use self::operating::Nodes;
 use crate::Complex64;
 use crate::engine::Engine;
+use crate::load::source::Scaling;
+use crate::load::{Group, LoadList, find_or_push};
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
+use crate::numbers::memory;
 use crate::numbers::order::{self, Order};
-use crate::readings::balance::{ErrorBounds, TorquePart};
+use crate::readings::balance::ErrorBounds;
 use crate::readings::peaks::PeakFinder;
+use crate::readings::quantity::Quantity;
 
-/// What is evaluated at each point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
-    /// Shaking force along x and y.
-    Force,
-    /// Rocking moment about x and y.
-    Moment,
-    /// Roll torque on the block, or a part of it.
-    Torque(TorquePart),
-    /// Torque on the crank, or a part of it.
-    CrankTorque(TorquePart),
+/// Rows of a quantity: of all that makes it, or of what scales with speed in one way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Selection<'a> {
+    pub quantity: Quantity<'a>,
+    pub scaling: Option<Scaling>,
 }
 
 /// Which value of force, moment or torque over the turn.
@@ -77,16 +75,17 @@ pub enum Statistic {
 /// # )?;
 /// use std::sync::Arc;
 ///
-/// use crankpin_core::sweep::{SweepAxes, Statistic, Quantity, Sweep};
+/// use crankpin_core::quantity::Quantity;
+/// use crankpin_core::sweep::{SweepAxes, Statistic, Sweep};
 /// use crankpin_core::{Cancel, Order};
 ///
 /// let rpm = vec![1000.0, 2000.0];
 /// let axes = SweepAxes { bank_angle: None, rod_ratio: None, pin_offset: None, rpm, map: None };
 /// let orders = Order::all_whole(&[1, 2])?;
 /// let sweep = Sweep::new(vec![Arc::new(four)], axes, orders, None, &Cancel::new())?;
-/// assert_eq!(sweep.result_shape(Quantity::Force, Statistic::Length), [1, 1, 1, 1, 2, 1, 2]);
+/// assert_eq!(sweep.result_shape(Quantity::FORCE, Statistic::Length), [1, 1, 1, 1, 2, 1, 2]);
 /// let mut peaks = vec![0.0; 4]; // by speed and order, N
-/// sweep.write_peaks(Quantity::Force, Statistic::Length, &mut peaks, &Cancel::new())?;
+/// sweep.write_peaks(Quantity::FORCE, Statistic::Length, &mut peaks, &Cancel::new())?;
 /// assert_eq!((peaks[0], peaks[2]), (0.0, 0.0));
 /// assert!((peaks[3] / peaks[1] - 4.0).abs() < 1e-12);
 /// # Ok::<(), crankpin_core::Error>(())
@@ -95,18 +94,19 @@ pub enum Statistic {
 pub struct Sweep {
     engines: Vec<Arc<Engine>>,
     axes: SweepAxes,
+    /// Loads of each engine.
+    loads: Vec<LoadList>,
+    /// Groups of the loads of all engines, and whether each has forces, and torques.
+    groups: Vec<(Group, [bool; 2])>,
     /// Places of speeds and loads in a map of cycles.
     nodes: Nodes,
     orders: Vec<Order>,
-    references: Vec<f64>,
     /// The largest rod ratio, and the offset of largest magnitude, where they are swept.
     extremes: [Option<f64>; 2],
-    /// ω² of each speed.
-    squares: Vec<f64>,
+    /// Angular speeds, rad/s.
+    omegas: Vec<f64>,
     /// Whether torque is wanted.
     torque: bool,
-    /// Whether gas pressure counts in any engine.
-    fired: bool,
     omitted: Vec<Order>,
     error_bound: ErrorBounds,
 }
@@ -123,24 +123,48 @@ impl Sweep {
     ) -> Result<Self> {
         order::check_list(&orders)?;
         axes::not_empty("engines", engines.len())?;
-        let squares = axes.squares(cancel)?;
+        let omegas = axes.omegas(cancel)?;
         let nodes = Nodes::new(&axes, cancel)?;
         axes.check(&engines, cancel)?;
         let extremes = axes.check_geometry(&engines, cancel)?;
-        let references = engines.iter().map(|engine| engine.reference(reference_z));
+        let mut loads = memory::with_capacity(engines.len())?;
+        let mut groups: Vec<(Group, [bool; 2])> = Vec::new();
+        for engine in &engines {
+            cancel.check()?;
+            engine.check_speeds(&axes.rpm)?;
+            let list = LoadList::new(engine, engine.reference(reference_z)?);
+            for (k, group) in list.groups.indices().zip(&list.groups) {
+                let new = || (group.clone(), [false; 2]);
+                let (_, has) = find_or_push(&mut groups, |(own, _)| own == group, new);
+                has.iter_mut().zip(list.has(k)).for_each(|(has, own)| *has |= own);
+            }
+            loads.push(list);
+        }
         Ok(Self {
-            references: references.collect::<Result<_>>()?,
             torque: engines.iter().all(|engine| engine.spectrum().is_none()),
-            fired: engines.iter().any(|engine| engine.gas().is_some()),
             engines,
             axes,
+            loads,
+            groups,
             nodes,
             orders,
             extremes,
-            squares,
+            omegas,
             omitted: Vec::new(),
             error_bound: ErrorBounds::default(),
         })
+    }
+
+    /// Names of the parts of its quantities: of the loads of all engines.
+    #[must_use]
+    pub fn names(&self) -> Vec<Arc<str>> {
+        let mut names: Vec<Arc<str>> = Vec::new();
+        for (group, _) in &self.groups {
+            if !names.contains(&group.name) {
+                names.push(Arc::clone(&group.name));
+            }
+        }
+        names
     }
 
     /// Lengths of the axes engine, bank angle, rod ratio, pin offset, speed, load.
@@ -152,7 +176,7 @@ impl Sweep {
             self.axes.bank_angle.as_ref().map_or(1, |(angles, _)| angles.len()),
             length(&self.axes.rod_ratio),
             length(&self.axes.pin_offset),
-            self.squares.len(),
+            self.omegas.len(),
             self.nodes.loads(),
         ]
     }
@@ -233,8 +257,8 @@ impl Sweep {
         cancel: &Cancel,
     ) -> Result<()> {
         let width = self.checked_width(quantity, figure, out.len())?;
-        self.at_each_speed(quantity, width, out, cancel, |quantity, out, factor| {
-            self.phasor_rows(quantity, figure, out, factor, cancel)
+        self.at_each_speed(quantity, width, out, cancel, |selection, out, factor| {
+            self.phasor_rows(selection, figure, out, factor, cancel)
         })
     }
 
@@ -248,44 +272,74 @@ impl Sweep {
     ) -> Result<()> {
         let figure = if figure == Statistic::Turning { Statistic::Amplitude } else { figure };
         let width = self.checked_width(quantity, figure, out.len())?;
-        let has_gas = self.has_gas(quantity);
+        let has_others = self.scalings(quantity) != [Scaling::SpeedSquared];
         let finder = figure.is_of_sum().then(|| {
             let orders = &self.orders;
-            if has_gas { PeakFinder::about_mean(orders) } else { PeakFinder::new(orders) }
+            if has_others && !quantity.is_planar() {
+                PeakFinder::about_mean(orders)
+            } else {
+                PeakFinder::new(orders)
+            }
         });
         let finder = finder.transpose()?;
-        let means = |quantity, out: &mut [f64], _| self.mean_rows(quantity, out, cancel);
+        let means = |selection: Selection, out: &mut [f64], factor: f64| {
+            self.mean_rows(selection, out, factor, cancel)
+        };
         if figure == Statistic::Mean {
             return self.at_each_speed(quantity, width, out, cancel, means);
         }
-        if has_gas && figure != Statistic::ZeroBound {
+        if has_others && figure.is_after_sums() {
             let orders = self.orders.len();
-            let phasors = self.operating(quantity, orders, |quantity, out, factor| {
-                self.phasor_rows(quantity, Statistic::Amplitude, out, factor, cancel)
+            let components = quantity.components();
+            let is_length = figure == Statistic::Length;
+            let parts = if is_length { Statistic::Turning } else { Statistic::Amplitude };
+            let count = orders * if is_length { 2 } else { components };
+            let phasors = self.operating(quantity, count, |selection, out, factor| {
+                self.phasor_rows(selection, parts, out, factor, cancel)
             })?;
-            let Some(finder) = finder else { return phasors.magnitudes(out, cancel) };
+            let Some(finder) = finder else {
+                return if is_length {
+                    phasors.lengths(orders, out, cancel)
+                } else {
+                    phasors.magnitudes(out, cancel)
+                };
+            };
             let means = self.operating(quantity, 1, means)?;
-            return phasors.beside(&means, out, cancel, |phasors, mean| {
-                finder.beside_mean(mean, phasors, cancel)
+            return phasors.extremes(&means, width, out, cancel, |row, mean, out| {
+                if !quantity.is_planar() {
+                    out[0] = finder.beside_mean(mean, row, cancel)?;
+                    return Ok(());
+                }
+                let component =
+                    |k: usize| row.iter().skip(k).step_by(2).copied().collect::<Vec<_>>();
+                let (x, y) = (component(0), component(1));
+                if figure == Statistic::LengthOfSum {
+                    out[0] = finder.of_vector(&x, &y, cancel)?;
+                } else {
+                    out[0] = finder.along_axis(&x, cancel)?;
+                    out[1] = finder.along_axis(&y, cancel)?;
+                }
+                Ok(())
             });
         }
-        self.at_each_speed(quantity, width, out, cancel, |quantity, out, factor| {
-            self.peak_rows((quantity, figure), finder.as_ref(), out, factor, cancel)
+        self.at_each_speed(quantity, width, out, cancel, |selection, out, factor| {
+            self.peak_rows((selection, figure), finder.as_ref(), out, factor, cancel)
         })
     }
 
     /// Phasors of every row, times a factor.
     fn phasor_rows(
         &self,
-        quantity: Quantity,
+        selection: Selection,
         figure: Statistic,
         out: &mut [Complex64],
         factor: f64,
         cancel: &Cancel,
     ) -> Result<()> {
-        let components = if figure == Statistic::Turning { 2 } else { quantity.components() };
+        let turning = figure == Statistic::Turning;
+        let components = if turning { 2 } else { selection.quantity.components() };
         let width = self.orders.len() * components;
-        let job = Job { sweep: self, quantity, width, slow: false, cancel };
+        let job = Job { sweep: self, selection, width, slow: false, cancel };
         job.rows(
             out,
             factor,
@@ -312,15 +366,16 @@ impl Sweep {
     /// A figure of every row, times a factor.
     fn peak_rows(
         &self,
-        (quantity, figure): (Quantity, Statistic),
+        (selection, figure): (Selection, Statistic),
         finder: Option<&PeakFinder>,
         out: &mut [f64],
         factor: f64,
         cancel: &Cancel,
     ) -> Result<()> {
+        let quantity = selection.quantity;
         let (orders, components) = (self.orders.len(), quantity.components());
         let (width, slow) = (self.width(quantity, figure), figure.is_of_sum());
-        let job = Job { sweep: self, quantity, width, slow, cancel };
+        let job = Job { sweep: self, selection, width, slow, cancel };
         job.rows(
             out,
             factor,
@@ -386,19 +441,27 @@ impl Sweep {
         self.result_shape(quantity, figure)[self.shape().len()..].iter().product()
     }
 
-    /// Whether pressure counts in a quantity.
-    fn has_gas(&self, quantity: Quantity) -> bool {
-        self.fired && matches!(quantity.part(), Some(TorquePart::Whole | TorquePart::Gas))
+    /// Ways in which what makes a quantity scales with speed.
+    fn scalings(&self, quantity: Quantity) -> Vec<Scaling> {
+        let mut scalings = Vec::new();
+        for (group, [force, torque]) in &self.groups {
+            let makes = if quantity.is_planar() { *force } else { *torque };
+            if makes && quantity.part.has(&group.name) && !scalings.contains(&group.scaling) {
+                scalings.push(group.scaling);
+            }
+        }
+        scalings
     }
 
-    /// Number of points of a quantity: of rod ratio and pin offset and, of torque of pressure, of cycle.
-    fn points_of(&self, quantity: Quantity) -> usize {
-        self.points() * self.cycles_of(quantity)
+    /// Number of points of a selection: of rod ratio and pin offset and, of what does not scale with speed,
+    /// of cycle.
+    fn points_of(&self, selection: Selection) -> usize {
+        self.points() * self.cycles_of(selection)
     }
 
-    /// Number of cycles of a map at which a quantity is evaluated.
-    fn cycles_of(&self, quantity: Quantity) -> usize {
-        if quantity.part() == Some(TorquePart::Gas) { self.nodes.count() } else { 1 }
+    /// Number of cycles of a map at which a selection is evaluated.
+    fn cycles_of(&self, selection: Selection) -> usize {
+        if selection.scaling == Some(Scaling::Independent) { self.nodes.count() } else { 1 }
     }
 
     /// Number of points of rod ratio and pin offset.
@@ -417,35 +480,9 @@ impl Statistic {
     fn is_of_sum(self) -> bool {
         matches!(self, Self::Sum | Self::LengthOfSum)
     }
-}
 
-impl Quantity {
-    /// Axes of one value: x and y, or none for what is about z alone.
-    fn shape(self) -> &'static [usize] {
-        match self {
-            Self::Force | Self::Moment => &[2],
-            Self::Torque(_) | Self::CrankTorque(_) => &[],
-        }
-    }
-
-    /// The same torque, of this part.
-    fn with_part(self, part: TorquePart) -> Self {
-        match self {
-            Self::CrankTorque(_) => Self::CrankTorque(part),
-            _ => Self::Torque(part),
-        }
-    }
-
-    /// Which part of a torque it is.
-    fn part(self) -> Option<TorquePart> {
-        match self {
-            Self::Force | Self::Moment => None,
-            Self::Torque(part) | Self::CrankTorque(part) => Some(part),
-        }
-    }
-
-    /// How many components one value has.
-    fn components(self) -> usize {
-        self.shape().iter().product()
+    /// Whether it is of what all scalings make together.
+    fn is_after_sums(self) -> bool {
+        self.is_of_sum() || matches!(self, Self::Amplitude | Self::Length)
     }
 }

@@ -1,21 +1,22 @@
 //! Rows of a sweep at its speeds and loads.
 //!
-//! A row without either is evaluated once; at a speed it is multiplied by ω². Torque of pressure does not
-//! scale so: rows of it, one for each cycle of a map, are interpolated as the cycles are, linearly over
-//! speed and then over load, and added.
+//! A row without either is evaluated once for each way in which loads scale with speed; at a speed these are
+//! multiplied by what that scaling is, such as ω², and added. Rows of what does not scale, one for each cycle
+//! of a map, are interpolated as the cycles are, linearly over speed and then over load.
 
 use super::axes::SweepAxes;
 use super::kernel::{Number, ROWS_PER_TASK};
-use super::{Quantity, Sweep};
+use super::{Selection, Sweep};
 use crate::Complex64;
-use crate::load::source::Scaling;
+use crate::load::SourceIndex;
+use crate::load::source::{Scaling, at_point};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
 use crate::numbers::pool;
 use crate::numbers::simd::{MultiplyAdd, vectorised};
 use crate::pressure::map::{Between, between};
-use crate::readings::balance::TorquePart;
+use crate::readings::quantity::{Kind, Quantity};
 
 /// Numbers written between two checks for cancellation, of rows that are long.
 const NUMBERS_PER_TASK: usize = 1 << 16;
@@ -64,14 +65,20 @@ impl Nodes {
     }
 }
 
-/// Rows of inertia and of pressure, and what they become at each speed and load.
+/// Rows of each scaling, and what they become at each speed and load.
 pub(super) struct Operating<'a, T> {
     sweep: &'a Sweep,
-    /// Rows over ω², by engine, bank angle and point; none where only pressure counts.
-    inertia: Vec<T>,
-    /// The same of pressure, one for each cycle; none where inertia alone counts.
-    gas: Vec<T>,
+    scaled: Vec<ScaledRows<T>>,
     width: usize,
+}
+
+/// Rows by engine, bank angle and point, over what they scale with.
+struct ScaledRows<T> {
+    rows: Vec<T>,
+    /// By speed.
+    factors: Vec<f64>,
+    /// Whether there is one for each cycle of a map.
+    by_cycle: bool,
 }
 
 /// Room for a row, and for what those at one speed share.
@@ -80,7 +87,7 @@ struct Room<T> {
     at_speed: AtSpeed<T>,
 }
 
-/// Rows of pressure interpolated over speed, one for each load of a map.
+/// Rows interpolated over speed, one for each load of a map.
 #[derive(Default)]
 struct AtSpeed<T> {
     rows: Vec<T>,
@@ -104,16 +111,16 @@ impl Sweep {
         width: usize,
         out: &mut [T],
         cancel: &Cancel,
-        evaluate: impl Fn(Quantity, &mut [T], f64) -> Result<()>,
+        evaluate: impl Fn(Selection, &mut [T], f64) -> Result<()>,
     ) -> Result<()> {
         if out.is_empty() {
             return Ok(());
         }
-        if let [square] = self.squares[..]
+        if let [omega] = self.omegas[..]
             && self.nodes.loads() == 1
-            && !self.has_gas(quantity)
+            && self.scalings(quantity) == [Scaling::SpeedSquared]
         {
-            return evaluate(quantity, out, square);
+            return evaluate(Selection { quantity, scaling: None }, out, omega * omega);
         }
         self.operating(quantity, width, evaluate)?.write(out, cancel)
     }
@@ -123,57 +130,56 @@ impl Sweep {
         &self,
         quantity: Quantity,
         width: usize,
-        evaluate: impl Fn(Quantity, &mut [T], f64) -> Result<()>,
+        evaluate: impl Fn(Selection, &mut [T], f64) -> Result<()>,
     ) -> Result<Operating<'_, T>> {
-        let rows = |quantity: Quantity| {
-            let mut rows = memory::zeros(self.rows_of(quantity) * width)?;
-            evaluate(quantity, &mut rows, 1.0)?;
-            Ok(rows)
+        let scaled = |scaling: Scaling| {
+            let selection = Selection { quantity, scaling: Some(scaling) };
+            let mut rows = memory::zeros(self.rows_of(selection) * width)?;
+            evaluate(selection, &mut rows, 1.0)?;
+            let mut factors = memory::with_capacity(self.omegas.len())?;
+            factors.extend(self.omegas.iter().map(|&omega| scaling.factor(omega)));
+            Ok(ScaledRows { rows, factors, by_cycle: self.cycles_of(selection) > 1 })
         };
-        let (inertia, gas) = if self.has_gas(quantity) {
-            let whole = quantity.part() == Some(TorquePart::Whole);
-            let inertia = whole.then(|| rows(quantity.with_part(TorquePart::Inertia)));
-            (inertia.transpose()?, Some(rows(quantity.with_part(TorquePart::Gas))?))
-        } else {
-            (Some(rows(quantity)?), None)
-        };
-        let [inertia, gas] = [inertia, gas].map(Option::unwrap_or_default);
-        Ok(Operating { sweep: self, inertia, gas, width })
+        let scaled = self.scalings(quantity).into_iter().map(scaled).collect::<Result<_>>()?;
+        Ok(Operating { sweep: self, scaled, width })
     }
 
-    /// Number of rows of a quantity without speed and load.
-    pub(super) fn rows_of(&self, quantity: Quantity) -> usize {
-        self.engines.len() * self.bank_angles().len() * self.points_of(quantity)
+    /// Number of rows of a selection without speed and load.
+    pub(super) fn rows_of(&self, selection: Selection) -> usize {
+        self.engines.len() * self.bank_angles().len() * self.points_of(selection)
     }
 
-    /// Means of pressure's torque of every row.
+    /// Mean torques of every row, times a factor.
     pub(super) fn mean_rows(
         &self,
-        quantity: Quantity,
+        selection: Selection,
         out: &mut [f64],
+        factor: f64,
         cancel: &Cancel,
     ) -> Result<()> {
         out.fill(0.0);
-        if quantity.part() != Some(TorquePart::Gas) {
+        let Selection { quantity, scaling } = selection;
+        if quantity.is_planar() {
             return Ok(());
         }
-        let on_crank = matches!(quantity, Quantity::CrankTorque(_));
-        let (angles, points) = (self.bank_angles().len(), self.points_of(quantity));
-        for (engine, out) in out.chunks_mut(angles * points).enumerate() {
-            let loads = self.loads(engine);
-            let volumes = loads.volumes();
+        let on_crank = usize::from(quantity.kind == Kind::CrankTorque);
+        let (angles, points) = (self.bank_angles().len(), self.points_of(selection));
+        for (loads, out) in self.loads.iter().zip(out.chunks_mut(angles * points)) {
+            let weights = loads.torque_weights();
+            let counts = |k: SourceIndex| {
+                let group = loads.group(k);
+                weights[k].size > 0.0
+                    && scaling.is_none_or(|own| own == group.scaling)
+                    && quantity.part.has(&group.name)
+            };
             let mut means = memory::with_capacity(points)?;
             for point in 0..points {
-                let mut mean = 0.0;
-                for (source, volume) in
-                    loads.at_point(&self.at(quantity, point))?.iter().zip(&volumes)
-                {
-                    if source.parts().scaling == Scaling::Given {
-                        let means = source.torque(&[], cancel)?.mean;
-                        mean += volume.value * means[usize::from(on_crank)];
-                    }
+                let (mut mean, at) = (0.0, self.at(selection, point));
+                for k in weights.indices().filter(|&k| counts(k)) {
+                    let own = at_point(&loads.sources[k], &at)?.torque(&[], cancel)?.mean;
+                    mean += weights[k].value * own[on_crank];
                 }
-                means.push(mean);
+                means.push(factor * mean);
             }
             for out in out.chunks_mut(points) {
                 cancel.check()?;
@@ -201,35 +207,47 @@ impl<T: Number> Operating<'_, T> {
     #[inline(always)]
     fn row(&self, place: GridPoint, at_speed: &mut AtSpeed<T>, out: &mut [T]) -> Result<()> {
         let (nodes, width) = (&self.sweep.nodes, self.width);
-        if self.inertia.is_empty() {
-            out.fill(T::default());
-        } else {
-            let square = self.sweep.squares[place.speed];
-            let row = &self.inertia[place.row * width..][..width];
-            // Adding zero makes −0 0.
-            out.iter_mut().zip(row).for_each(|(out, &value)| *out = value * square + T::default());
-        }
-        if self.gas.is_empty() {
-            return Ok(());
-        }
-        if nodes.count() == 1 {
-            add_scaled(out, &self.gas[place.row * width..][..width], 1.0);
-            return Ok(());
-        }
-        if at_speed.place != Some((place.row, place.speed)) {
-            self.interpolate(place, at_speed)?;
-        }
-        for (load, weight) in nodes.loads[place.load].weights() {
-            if weight != 0.0 {
-                add_scaled(out, &at_speed.rows[load * width..][..width], weight);
+        let mut is_first = true;
+        for scaled in &self.scaled {
+            if scaled.by_cycle {
+                if is_first {
+                    out.fill(T::default());
+                }
+                if at_speed.place != Some((place.row, place.speed)) {
+                    self.interpolate(scaled, place, at_speed)?;
+                }
+                for (load, weight) in nodes.loads[place.load].weights() {
+                    if weight != 0.0 {
+                        add_scaled(out, &at_speed.rows[load * width..][..width], weight);
+                    }
+                }
+            } else {
+                let (factor, row) =
+                    (scaled.factors[place.speed], &scaled.rows[place.row * width..]);
+                if is_first {
+                    // Adding zero makes −0 0.
+                    let values = out.iter_mut().zip(row);
+                    values.for_each(|(out, &value)| *out = value * factor + T::default());
+                } else {
+                    add_scaled(out, &row[..width], factor);
+                }
             }
+            is_first = false;
+        }
+        if is_first {
+            out.fill(T::default());
         }
         Ok(())
     }
 
-    /// Interpolates a row of pressure over speed.
+    /// Interpolates a row over speed.
     #[inline(always)]
-    fn interpolate(&self, place: GridPoint, at_speed: &mut AtSpeed<T>) -> Result<()> {
+    fn interpolate(
+        &self,
+        scaled: &ScaledRows<T>,
+        place: GridPoint,
+        at_speed: &mut AtSpeed<T>,
+    ) -> Result<()> {
         let (nodes, width) = (&self.sweep.nodes, self.width);
         if at_speed.rows.is_empty() {
             at_speed.rows = memory::zeros(nodes.loads_of_map * width)?;
@@ -241,7 +259,7 @@ impl<T: Number> Operating<'_, T> {
             }
             for (load, out) in at_speed.rows.chunks_exact_mut(width.max(1)).enumerate() {
                 let row = place.row * nodes.count() + speed * nodes.loads_of_map + load;
-                add_scaled(out, &self.gas[row * width..][..width], weight);
+                add_scaled(out, &scaled.rows[row * width..][..width], weight);
             }
         }
         at_speed.place = Some((place.row, place.speed));
@@ -258,7 +276,7 @@ impl<T: Number> Operating<'_, T> {
         cancel: &Cancel,
         work: impl Fn(GridPoint, &mut Room<T>, &mut [O]) -> Result<()> + Sync,
     ) -> Result<()> {
-        let (speeds, loads) = (self.sweep.squares.len(), self.sweep.nodes.loads());
+        let (speeds, loads) = (self.sweep.omegas.len(), self.sweep.nodes.loads());
         let rows =
             (NUMBERS_PER_TASK / (self.width.max(width) * cost).max(1)).clamp(1, ROWS_PER_TASK);
         let numbers = out.len() * cost;
@@ -320,22 +338,40 @@ impl Operating<'_, Complex64> {
         )
     }
 
-    /// Writes a number found from every row of phasors and its mean.
-    pub fn beside(
+    /// Writes the longest vectors of every row of forward and backward parts.
+    pub fn lengths(&self, orders: usize, out: &mut [f64], cancel: &Cancel) -> Result<()> {
+        self.each(
+            out,
+            orders,
+            2,
+            cancel,
+            #[inline(always)]
+            |place, room, out| {
+                self.row(place, &mut room.at_speed, &mut room.row)?;
+                for (out, parts) in out.iter_mut().zip(room.row.as_chunks::<2>().0) {
+                    *out = parts[0].norm() + parts[1].norm();
+                }
+                Ok(())
+            },
+        )
+    }
+
+    /// Writes `width` numbers of every row of phasors and its mean.
+    pub fn extremes(
         &self,
         means: &Operating<'_, f64>,
+        width: usize,
         out: &mut [f64],
         cancel: &Cancel,
-        find: impl Fn(&[Complex64], f64) -> Result<f64> + Sync,
+        find: impl Fn(&[Complex64], f64, &mut [f64]) -> Result<()> + Sync,
     ) -> Result<()> {
         // A search for an extremum takes some hundred times as long.
-        self.each(out, 1, 256, cancel, |place, room, out| {
+        self.each(out, width, 256, cancel, |place, room, out| {
             cancel.check()?;
             self.row(place, &mut room.at_speed, &mut room.row)?;
             let mut mean = [0.0];
             means.row(place, &mut AtSpeed::default(), &mut mean)?;
-            out[0] = find(&room.row, mean[0])?;
-            Ok(())
+            find(&room.row, mean[0], out)
         })
     }
 }

@@ -3,17 +3,20 @@
 
 use std::sync::Arc;
 
-use super::{Quantity, Sweep};
-use crate::load::LoadList;
+use super::{Selection, Sweep};
 use crate::load::kinematics::{AngleBlock, Columns, Kinematics, LoadSum, Quantities};
-use crate::load::source::{Scaling, Source};
+use crate::load::source::{Source, at_point};
+use crate::load::{GroupIndex, LoadList};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
-use crate::readings::balance::TorquePart;
+use crate::numbers::index::List;
+use crate::readings::quantity::Kind;
 
 /// An engine at one bank angle.
 pub(super) struct Placed {
     pub kinematics: Kinematics,
+    /// Names of the groups of its sums.
+    names: List<GroupIndex, Arc<str>>,
     /// Sources of the sums at points.
     pub points: Vec<Vec<Arc<dyn Source>>>,
 }
@@ -21,27 +24,27 @@ pub(super) struct Placed {
 impl Sweep {
     /// An engine with one of the swept bank angles.
     pub(super) fn placed(&self, engine: usize, angle: usize) -> Result<Placed> {
-        let reference = self.references[engine];
-        let engine = &self.engines[engine];
         let loads = match &self.axes.bank_angle {
             Some((angles, hold)) => {
-                let turned = engine.with_bank_angle(Angle::from_degrees(angles[angle])?, *hold)?;
-                LoadList::new(&turned, reference)
+                let angle = Angle::from_degrees(angles[angle])?;
+                let turned = self.engines[engine].with_bank_angle(angle, *hold)?;
+                &LoadList::new(&turned, self.loads[engine].reference)
             }
-            None => LoadList::new(engine, reference),
+            None => &self.loads[engine],
         };
-        Ok(Placed { kinematics: Kinematics::new(&loads), points: Vec::new() })
+        let names = loads.groups.map_to(|group| Arc::clone(&group.name));
+        Ok(Placed { kinematics: Kinematics::new(loads), names, points: Vec::new() })
     }
 
     /// Sources of the sums at a point of a quantity.
     pub(super) fn placed_point(
         &self,
         kinematics: &Kinematics,
-        quantity: Quantity,
+        selection: Selection,
         point: usize,
     ) -> Result<Vec<Arc<dyn Source>>> {
-        let point = self.at(quantity, point);
-        kinematics.sums.iter().map(|sum| sum.source.at_point(&point)).collect()
+        let point = self.at(selection, point);
+        kinematics.sums.iter().map(|sum| at_point(&sum.source, &point)).collect()
     }
 }
 
@@ -51,38 +54,38 @@ impl Placed {
     #[inline(always)]
     pub fn write<'o>(
         &self,
-        quantity: Quantity,
+        Selection { quantity, scaling }: Selection,
         factor: f64,
         block: &AngleBlock,
         outs: &mut impl Iterator<Item = &'o mut [f64]>,
-    ) {
-        let scaling = match quantity.part() {
-            Some(TorquePart::Gas) => Scaling::Given,
-            _ => Scaling::SpeedSquared,
-        };
+    ) -> Result<()> {
         let torque = !quantity.is_planar();
         let wanted = Quantities { planar: !torque, torque };
-        let counts = |sum: &LoadSum| sum.source.parts().scaling == scaling;
+        let counts = |sum: &LoadSum| {
+            scaling.is_none_or(|scaling| sum.source.parts().scaling == scaling)
+                && quantity.part.has(&self.names[sum.group])
+        };
         let is_fixed = |sum: &LoadSum| sum.source.mechanism().is_none();
+        let factors = self.kinematics.factors_of(scaling);
+        let [of_force, of_moment] = self.kinematics.zero_bounds(&factors);
         let mut fixed = Columns::ZERO;
         for sum in self.kinematics.sums.iter().filter(|sum| counts(sum) && is_fixed(sum)) {
-            sum.source.over_angle(sum, block, wanted, 1.0, &mut fixed);
+            sum.source.over_angle(sum, block, wanted, 1.0, &mut fixed)?;
         }
         let mut columns = Columns::ZERO;
         for (point, out) in self.points.iter().zip(outs) {
             columns.copy(&fixed, wanted);
             for (sum, source) in self.kinematics.sums.iter().zip(point) {
                 if counts(sum) && !is_fixed(sum) {
-                    source.over_angle(sum, block, wanted, 1.0, &mut columns);
+                    source.over_angle(sum, block, wanted, 1.0, &mut columns)?;
                 }
             }
             let Columns { force, moment, torque: [roll, crank], .. } = &columns;
-            let [of_force, of_moment] = self.kinematics.zero_bounds;
-            let ([x, y], bound) = match quantity {
-                Quantity::Force => (force.each_ref(), of_force),
-                Quantity::Moment => (moment.each_ref(), of_moment),
-                Quantity::Torque(_) => ([roll; 2], 0.0),
-                Quantity::CrankTorque(_) => ([crank; 2], 0.0),
+            let ([x, y], bound) = match quantity.kind {
+                Kind::Force => (force.each_ref(), of_force),
+                Kind::Moment => (moment.each_ref(), of_moment),
+                Kind::Torque => ([roll; 2], 0.0),
+                Kind::CrankTorque => ([crank; 2], 0.0),
             };
             // Last, as where rows are multiplied for several speeds: a row has the same bits in any sweep.
             if torque {
@@ -94,5 +97,6 @@ impl Placed {
                 *pair = [factor * snapped(*x), factor * snapped(*y)];
             }
         }
+        Ok(())
     }
 }

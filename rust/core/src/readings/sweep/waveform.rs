@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::placed::Placed;
 use super::tiles::{OrderWave, TILE, Tiles};
-use super::{Quantity, Statistic, Sweep};
+use super::{Selection, Statistic, Sweep};
 use crate::Complex64;
 use crate::load::kinematics::{AngleBlock, BLOCK};
 use crate::numbers::cancel::Cancel;
@@ -14,6 +14,7 @@ use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::pool;
 use crate::numbers::simd::vectorised;
+use crate::readings::quantity::Quantity;
 
 /// Points that share a tile of cosines and sines.
 const ROWS: usize = 128;
@@ -54,11 +55,11 @@ impl Sweep {
             angles.len() * rows.components,
             out,
             cancel,
-            |part, out, factor| {
+            |selection, out, factor| {
                 if exact {
-                    self.by_kinematics(part, &rows, factor, out)
+                    self.by_kinematics(selection, &rows, factor, out)
                 } else {
-                    self.by_orders(part, &rows, factor, out)
+                    self.by_orders(selection, &rows, factor, out)
                 }
             },
         )
@@ -67,21 +68,21 @@ impl Sweep {
     /// Rows times a factor, of which what scales otherwise has none.
     fn by_orders(
         &self,
-        quantity: Quantity,
+        selection: Selection,
         rows: &RowsOverAngle,
         factor: f64,
         out: &mut [f64],
     ) -> Result<()> {
         let (orders, components) = (self.orders.len(), rows.components);
         let width = orders * components;
-        let mut means: Vec<f64> = memory::zeros(self.rows_of(quantity))?;
-        self.mean_rows(quantity, &mut means, rows.cancel)?;
+        let mut means: Vec<f64> = memory::zeros(self.rows_of(selection))?;
+        self.mean_rows(selection, &mut means, factor, rows.cancel)?;
         if width == 0 {
             out.fill(0.0); // a buffer that was given, or never written to
             return rows.add(&means, out);
         }
-        let mut phasors: Vec<Complex64> = memory::zeros(self.rows_of(quantity) * width)?;
-        self.phasor_rows(quantity, Statistic::Amplitude, &mut phasors, factor, rows.cancel)?;
+        let mut phasors: Vec<Complex64> = memory::zeros(self.rows_of(selection) * width)?;
+        self.phasor_rows(selection, Statistic::Amplitude, &mut phasors, factor, rows.cancel)?;
         let phasors = &phasors[..];
         let tiles = |range: &Range<usize>, terms: &[OrderWave]| {
             Tiles::new(rows.angles, range, &self.orders, terms)
@@ -101,7 +102,7 @@ impl Sweep {
                     Some(tiles) => (Some(tiles), range.start / TILE),
                     None => (own.as_ref(), 0),
                 };
-                let Some(tiles) = tiles else { return };
+                let Some(tiles) = tiles else { return Ok(()) };
                 vectorised(
                     #[inline(always)]
                     || {
@@ -114,6 +115,7 @@ impl Sweep {
                         }
                     },
                 );
+                Ok(())
             },
         )?;
         rows.add(&means, out)
@@ -121,7 +123,7 @@ impl Sweep {
 
     fn by_kinematics(
         &self,
-        quantity: Quantity,
+        selection: Selection,
         rows: &RowsOverAngle,
         factor: f64,
         out: &mut [f64],
@@ -130,7 +132,7 @@ impl Sweep {
             let hint = "exact kinematics needs the slider-crank; sum orders";
             return Err(Error::value("spectrum", "given", hint));
         }
-        let (angles, points) = (self.bank_angles().len(), self.points_of(quantity));
+        let (angles, points) = (self.bank_angles().len(), self.points_of(selection));
         rows.fill(
             out,
             |rows_of| {
@@ -143,7 +145,7 @@ impl Sweep {
                         last = Some(place);
                     }
                     let Some(here) = placed.last_mut() else { continue };
-                    let sources = self.placed_point(&here.kinematics, quantity, point)?;
+                    let sources = self.placed_point(&here.kinematics, selection, point)?;
                     here.points.push(sources);
                 }
                 Ok(placed)
@@ -158,11 +160,12 @@ impl Sweep {
                                 outs.iter_mut().filter_map(|out| out.chunks_mut(size).nth(k));
                             let block = AngleBlock::new(rows.angles, part);
                             for here in placed {
-                                here.write(quantity, factor, &block, &mut outs);
+                                here.write(selection, factor, &block, &mut outs)?;
                             }
                         }
+                        Ok(())
                     },
-                );
+                )
             },
         )
     }
@@ -196,7 +199,7 @@ impl RowsOverAngle<'_> {
         &self,
         out: &mut [f64],
         prepare: impl Fn(Range<usize>) -> Result<P> + Sync,
-        work: impl Fn(&P, Range<usize>, Vec<&mut [f64]>) + Sync,
+        work: impl Fn(&P, Range<usize>, Vec<&mut [f64]>) -> Result<()> + Sync,
     ) -> Result<()> {
         let row = self.angles.len() * self.components;
         if out.is_empty() {
@@ -216,7 +219,7 @@ impl RowsOverAngle<'_> {
             }
             let tasks = parts.iter().zip(by_part).collect();
             pool::each(self.cancel, tasks, numbers, |(part, outs)| {
-                work(&prepared, part.clone(), outs);
+                work(&prepared, part.clone(), outs)?;
                 self.cancel.step()
             })
         };
@@ -242,6 +245,7 @@ mod tests {
                 if steps.fetch_add(1, Ordering::Relaxed) + 1 == last {
                     cancel.raise();
                 }
+                Ok(())
             };
             let result = rows.fill(&mut out, |_| Ok(()), work);
             (result, steps.into_inner(), cancel.progress().1)

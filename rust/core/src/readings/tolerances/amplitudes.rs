@@ -23,7 +23,7 @@ pub(super) fn amplitudes(
     cancel: &Cancel,
 ) -> Result<SampleAmplitudes> {
     let mechanism = Mechanism::new(cylinder, *ratio);
-    let own: Vec<u32> = orders.iter().map(|&n| mechanism.own_highest(n).max(1)).collect();
+    let own: Vec<u32> = orders.iter().map(|&n| mechanism.own_highest(2 * n).max(1)).collect();
     let numbers = &own[..];
     let [on_block, on_crank] = mechanism.senses();
     let offset = cylinder.pin_offset();

@@ -134,11 +134,13 @@ pub fn orders(
 ) -> Result<(Vec<Order>, ErrorBounds)> {
     let omega = angular_speed(request.rpm)?;
     let loads = LoadList::new(engine, engine.reference(request.reference_z)?);
-    let (mut orders, left_out) = choice::within_each(rtol, engine, &loads, request.torque, cancel)?;
-    if orders.first() != Some(&Order::FIRST) {
-        orders.insert(0, Order::FIRST);
+    let wanted = (request.torque, omega);
+    let (mut orders, left_out) = choice::within_each(rtol, engine, &loads, wanted, cancel)?;
+    if orders.first() != Some(&Order::FIRST) && !orders.contains(&Order::FIRST) {
+        orders.push(Order::FIRST);
+        orders.sort_unstable();
     }
-    Ok((orders, left_out.bounds(omega * omega)))
+    Ok((orders, left_out))
 }
 
 impl Tolerances {
@@ -251,7 +253,7 @@ impl Tolerances {
                     *out = [x, y, planar.forward, planar.backward()];
                 }
                 if self.nominal.has_torque {
-                    let nominal = self.nominal.wrenches[k].torque();
+                    let nominal = self.nominal.wrenches[k].torque;
                     let nominal = [nominal.roll, nominal.crank];
                     let sum =
                         |which: usize| nominal[which] + at(&sums.torque[which], i) * self.square;

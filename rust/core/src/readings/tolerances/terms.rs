@@ -112,7 +112,7 @@ impl Terms {
                 Origin::Counterweight(k) => {
                     (engine.counterweights()[k].pin?, DeviatingKind::Counterweight)
                 }
-                Origin::Shaft(_) => return None,
+                Origin::Shaft(_) | Origin::Load(_) => return None,
             };
             Some(Deviating { pin: pin_of[pin], kind })
         };

@@ -2,8 +2,8 @@ use ndarray::Array2;
 
 use super::*;
 use crate::Order;
-use crate::balance::TorquePart;
 use crate::engine::{CrankIndex, Shaft, Station, Unbalance};
+use crate::quantity::Part;
 use crate::{Angle, Cylinder};
 
 const ORDERS: [u32; 4] = [1, 2, 3, 4];
@@ -113,16 +113,12 @@ fn without_spreads_a_sample_is_the_balance_bit_for_bit() {
                 let ([x, y], planar) = (known.xy(vector, k), known.planar(vector, k));
                 assert_eq!(*found, [x, y, planar.forward, planar.backward()]);
             }
-            assert_eq!(
-                *torque,
-                [known.wrenches[k].torque().roll, known.wrenches[k].torque().crank]
-            );
+            assert_eq!(*torque, [known.wrenches[k].torque.roll, known.wrenches[k].torque.crank]);
         }
         let [force, moment] =
             [Vector::Force, Vector::Moment].map(|v| known.peak(v, &Cancel::new()).unwrap());
-        let [roll, crank] = [false, true].map(|on_crank| {
-            known.torque_peak(TorquePart::Whole, on_crank, &Cancel::new()).unwrap()
-        });
+        let [roll, crank] = [false, true]
+            .map(|on_crank| known.torque_peak(Part::Whole, on_crank, &Cancel::new()).unwrap());
         let peaks = [force, moment, roll, crank];
         assert_eq!(found.peaks, [peaks; 2]);
     }
@@ -189,7 +185,7 @@ fn a_sample_is_the_balance_of_the_engine_that_was_drawn() {
                         assert!((found - known).norm() <= size, "{s} {k}: {found} {known}");
                     }
                 }
-                let torque = known.wrenches[k].torque();
+                let torque = known.wrenches[k].torque;
                 for (found, known) in found.torque[row].iter().zip([torque.roll, torque.crank]) {
                     let apart = (found - known).norm();
                     assert!(
@@ -200,9 +196,8 @@ fn a_sample_is_the_balance_of_the_engine_that_was_drawn() {
             }
             let [force, moment] =
                 [Vector::Force, Vector::Moment].map(|v| known.peak(v, &Cancel::new()).unwrap());
-            let [roll, crank] = [false, true].map(|on_crank| {
-                known.torque_peak(TorquePart::Whole, on_crank, &Cancel::new()).unwrap()
-            });
+            let [roll, crank] = [false, true]
+                .map(|on_crank| known.torque_peak(Part::Whole, on_crank, &Cancel::new()).unwrap());
             let peaks = [force, moment, roll, crank];
             for (found, known) in found.peaks[s].iter().zip(peaks) {
                 assert!((found - known).abs() <= 1e-12 * known, "{s}: {found} {known}");

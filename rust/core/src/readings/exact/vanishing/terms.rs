@@ -157,7 +157,7 @@ impl Proof {
         });
         let gear_of = loads.list.map_to(|load| match load.place.origin {
             Origin::Cylinder(i) => Some([of_cylinder[i], first_of_size[of_cylinder[i]]]),
-            Origin::Counterweight(_) | Origin::Shaft(_) => None,
+            Origin::Counterweight(_) | Origin::Shaft(_) | Origin::Load(_) => None,
         });
         Ok(Self {
             roots: FormalSum::new(&loads, cancel)?,

@@ -5,6 +5,7 @@ use super::*;
 use crate::engine::{Engine, Hold, Station};
 use crate::numbers::error::Error;
 use crate::numbers::order::Order;
+use crate::readings::quantity::Quantity;
 use crate::readings::sweep::{Statistic, SweepAxes};
 use crate::{Angle, Cylinder};
 
@@ -42,7 +43,7 @@ fn cancellation_stops_at_the_next_stretch() {
             // Raises the flag once a number of rows are done.
             let run = |after: usize| {
                 let (cancel, done) = (Cancel::new(), AtomicUsize::new(0));
-                let shape = sweep.result_shape(Quantity::Force, Statistic::Length);
+                let shape = sweep.result_shape(Quantity::FORCE, Statistic::Length);
                 let mut out = vec![0.0; shape.iter().product()];
                 let finish = |_: &Block, _: f64, out: &mut [f64]| {
                     if done.fetch_add(out.len(), Ordering::Relaxed) + out.len() >= after {
@@ -50,8 +51,9 @@ fn cancellation_stops_at_the_next_stretch() {
                     }
                     Ok(())
                 };
-                let quantity = Quantity::Force;
-                let job = Job { sweep: &sweep, quantity, width: 1, slow: false, cancel: &cancel };
+                let quantity = Quantity::FORCE;
+                let selection = Selection { quantity, scaling: None };
+                let job = Job { sweep: &sweep, selection, width: 1, slow: false, cancel: &cancel };
                 let result =
                     sweep.at_each_speed(quantity, 1, &mut out, &cancel, |_, out, factor| {
                         job.rows(out, factor, finish)

@@ -1,0 +1,448 @@
+//! Periodic loads that are given: what a valve train, a pump, a belt, a propeller or a machine makes.
+
+use std::f64::consts::TAU;
+
+use serde::{Deserialize, Serialize};
+
+use super::loads::{GAS, INERTIA};
+use super::{Crank, CrankIndex, Engine};
+use crate::Complex64;
+use crate::numbers::angle::Angle;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::index::ListIndex;
+use crate::numbers::limits;
+
+/// Most loads of an engine.
+const MOST_LOADS: usize = 256;
+
+/// What a load acts on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ActsOn {
+    /// Its shaft, from outside: a propeller, a belt that pulls.
+    Shaft,
+    /// The block, from outside.
+    Block,
+    /// Both, one against the other: a pump or a valve train, whose forces on the engine as a whole cancel.
+    Both,
+}
+
+/// What amplitudes do as the speed changes.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum OverSpeed {
+    /// They stay.
+    #[default]
+    Independent,
+    /// They grow with its square; the crank speed at which they are those given, rpm.
+    SpeedSquared(f64),
+    /// They are given at these crank speeds, rpm, and linear between them.
+    Table(Vec<f64>),
+}
+
+/// Amplitudes of orders, halves of crank speed: of each one for every speed of a table; order 0 is the mean.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(try_from = "Vec<Vec<f64>>", into = "Vec<Vec<f64>>")]
+pub struct Amplitudes(pub Vec<(u32, Vec<Complex64>)>);
+
+impl From<Amplitudes> for Vec<Vec<f64>> {
+    /// Rows of an order, then real and imaginary parts.
+    fn from(amplitudes: Amplitudes) -> Self {
+        let row = |(halves, values): (u32, Vec<Complex64>)| {
+            let parts = values.into_iter().flat_map(|value| [value.re, value.im]);
+            std::iter::once(0.5 * f64::from(halves)).chain(parts).collect()
+        };
+        amplitudes.0.into_iter().map(row).collect()
+    }
+}
+
+impl TryFrom<Vec<Vec<f64>>> for Amplitudes {
+    type Error = Error;
+
+    fn try_from(rows: Vec<Vec<f64>>) -> Result<Self> {
+        let row = |row: Vec<f64>| match &row[..] {
+            [order, parts @ ..] if !parts.is_empty() && parts.len() % 2 == 0 => {
+                let values = parts.as_chunks::<2>().0;
+                Ok((
+                    halves(*order)?,
+                    values.iter().map(|[re, im]| Complex64::new(*re, *im)).collect(),
+                ))
+            }
+            _ => {
+                let hint = "give an order, then real and imaginary part: [1.5, 8, 3]";
+                Err(Error::value("loads", format!("{row:?}"), hint))
+            }
+        };
+        rows.into_iter().map(row).collect::<Result<_>>().map(Self)
+    }
+}
+
+/// Twice an order, 0 or more.
+fn halves(order: f64) -> Result<u32> {
+    let halves = 2.0 * order;
+    if halves.fract() == 0.0 && (0.0..=2.0 * f64::from(limits::HIGHEST_ORDER)).contains(&halves) {
+        return Ok(halves as u32);
+    }
+    let hint = format!(
+        "give multiples of half the crank speed, 0 (the mean) to {}",
+        limits::HIGHEST_ORDER
+    );
+    Err(Error::figure("orders", order, hint))
+}
+
+/// A periodic load.
+///
+/// Amplitudes are peak phasors: at a crank angle θ of the main crank an order n of amplitude A is
+/// Re(A·e^{in(θ − phase)}).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PeriodicLoad {
+    /// Under which it is counted.
+    pub name: String,
+    /// What it acts on.
+    pub on: ActsOn,
+    /// Of the force, N.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub force: Amplitudes,
+    /// Of the torque on its shaft about +z, or on the block where it acts on that alone, N·m.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub torque: Amplitudes,
+    /// What they do as the speed changes.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub over_speed: OverSpeed,
+    /// Crank angle at which its own angle is 0, of the two turns of a cycle.
+    #[serde(default = "zero_angle", skip_serializing_if = "is_zero_angle")]
+    pub phase_deg: Angle,
+    /// Direction of the force, from +x; of one that turns when the crank stands at the phase.
+    #[serde(default = "zero_angle", skip_serializing_if = "is_zero_angle")]
+    pub direction_deg: Angle,
+    /// Whether the direction turns with its shaft.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub turning: bool,
+    /// Place along the crank, m.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub z: f64,
+    /// Index of the crank that is its shaft, if one is.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub crank: Option<usize>,
+    /// Speed of a shaft of its own over that of the main crank, negative where it turns the other way: a
+    /// multiple of a half.
+    #[serde(default = "main_speed", skip_serializing_if = "is_main_speed")]
+    pub ratio: f64,
+    /// Axis of a shaft of its own, x and y from that of the main crank, m.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub axis: [f64; 2],
+    /// Index of the cylinder with whose bank it turns as the bank angle changes; in files its number, from 1.
+    #[serde(default, skip_serializing_if = "is_default", with = "number_from_one")]
+    pub cylinder: Option<usize>,
+}
+
+/// Indices as people number cylinders.
+mod number_from_one {
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    #[expect(clippy::ref_option, reason = "as serde calls it")]
+    pub fn serialize<S: Serializer>(index: &Option<usize>, to: S) -> Result<S::Ok, S::Error> {
+        index.map(|index| index + 1).serialize(to)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<usize>, D::Error> {
+        let number = Option::<usize>::deserialize(from)?;
+        let index = number.map(|number| {
+            number
+                .checked_sub(1)
+                .ok_or_else(|| D::Error::custom("give a cylinder's number, from 1"))
+        });
+        index.transpose()
+    }
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
+fn zero_angle() -> Angle {
+    Angle::ZERO
+}
+
+fn is_zero_angle(angle: &Angle) -> bool {
+    *angle == Angle::ZERO
+}
+
+fn main_speed() -> f64 {
+    1.0
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_main_speed(ratio: &f64) -> bool {
+    *ratio == 1.0
+}
+
+impl PeriodicLoad {
+    /// A load of a name that acts on something, without amplitudes yet.
+    pub fn new(name: impl Into<String>, on: ActsOn) -> Self {
+        Self {
+            name: name.into(),
+            on,
+            force: Amplitudes::default(),
+            torque: Amplitudes::default(),
+            over_speed: OverSpeed::default(),
+            phase_deg: Angle::ZERO,
+            direction_deg: Angle::ZERO,
+            turning: false,
+            z: 0.0,
+            crank: None,
+            ratio: 1.0,
+            axis: [0.0; 2],
+            cylinder: None,
+        }
+    }
+
+    /// Rejects what no engine can have; `place` is its name in errors, and a point.
+    pub fn checked(mut self, place: &str) -> Result<Self> {
+        let named = |field: &str| format!("{place}{field}");
+        limits::name(&named("name"), &self.name)?;
+        if self.name.trim().is_empty() || [INERTIA, GAS].contains(&&*self.name) {
+            let hint = "give a name of its own, under which results count it";
+            return Err(Error::value(named("name"), format!("{:?}", self.name), hint));
+        }
+        let rows = self.check_speeds(&named("over_speed"))?;
+        let mean =
+            if self.turning { "" } else { "a force that stays does not shake: leave its mean out" };
+        for (field, amplitudes, no_mean) in
+            [("force", &mut self.force, mean), ("torque", &mut self.torque, "")]
+        {
+            amplitudes.check(&named(field), rows, no_mean)?;
+        }
+        if self.force == Amplitudes::default() && self.torque == Amplitudes::default() {
+            let hint = "give amplitudes of a force, of a torque, or of both";
+            return Err(Error::value(named("force"), "none", hint));
+        }
+        limits::finite(&named("z"), self.z)?;
+        for (k, axis) in ["x", "y"].into_iter().zip(self.axis) {
+            limits::finite(&named(k), axis)?;
+        }
+        let halves = 2.0 * self.ratio;
+        let fastest = 2.0 * f64::from(super::shaft::FASTEST);
+        if halves == 0.0 || halves.fract() != 0.0 || halves.abs() > fastest {
+            let hint = format!(
+                "give a multiple of 1/2 but 0, to {}, negative where it turns against the crank",
+                super::shaft::FASTEST
+            );
+            return Err(Error::figure(named("ratio"), self.ratio, hint));
+        }
+        if self.crank.is_some() && (self.ratio != 1.0 || self.axis != [0.0; 2]) {
+            let hint = "is that of the crank that it sits on; leave it out, or the crank";
+            return Err(Error::figure(named("ratio"), self.ratio, hint));
+        }
+        self.phase_deg = in_two_turns(self.phase_deg);
+        self.direction_deg = self.direction_deg.reduced();
+        Ok(self)
+    }
+
+    /// Rejects a crank or a cylinder that an engine does not have.
+    fn check_on(&self, place: &str, engine: &Engine) -> Result<()> {
+        if let Some(crank) = self.crank.filter(|&crank| crank >= engine.cranks().len()) {
+            let hint = format!("give the index of a crank, below {}", engine.cranks().len());
+            return Err(Error::value(format!("{place}crank"), crank, hint));
+        }
+        if let Some(cylinder) = self.cylinder.filter(|&i| i >= engine.stations().len()) {
+            let hint = format!("give the number of a cylinder, 1 to {}", engine.stations().len());
+            return Err(Error::value(format!("{place}cylinder"), cylinder.saturating_add(1), hint));
+        }
+        Ok(())
+    }
+
+    /// Number of speeds at which there are amplitudes.
+    fn check_speeds(&self, place: &str) -> Result<usize> {
+        match &self.over_speed {
+            OverSpeed::Independent => Ok(1),
+            OverSpeed::SpeedSquared(rpm) => limits::length(place, *rpm).map(|_| 1),
+            OverSpeed::Table(rpm) => {
+                for &rpm in rpm {
+                    limits::not_negative(place, rpm)?;
+                }
+                if rpm.len() < 2 || !rpm.is_sorted_by(|before, after| before < after) {
+                    let hint = "give two or more crank speeds, ascending, rpm";
+                    return Err(Error::value(place, format!("{rpm:?}"), hint));
+                }
+                limits::axis_length("rpm", rpm.len())?;
+                Ok(rpm.len())
+            }
+        }
+    }
+
+    /// Whether its force acts on the engine as a whole: not where shaft and block bear it against each other.
+    #[must_use]
+    pub fn net_force(&self) -> bool {
+        self.on != ActsOn::Both
+    }
+
+    /// Its shaft.
+    #[must_use]
+    pub fn shaft(&self, engine: &Engine) -> ([f64; 2], f64) {
+        match self.crank {
+            Some(crank) => {
+                let Crank { axis, ratio } = engine.cranks()[CrankIndex::new(crank)];
+                (axis, f64::from(ratio))
+            }
+            None => (self.axis, self.ratio),
+        }
+    }
+
+    /// Index of the crank that it sits on: one that was named, or the main one where it has no shaft of its own.
+    #[must_use]
+    pub fn on_crank(&self) -> Option<usize> {
+        self.crank.or((self.ratio == 1.0 && self.axis == [0.0; 2]).then_some(0))
+    }
+
+    /// Torques on the block and on the main crank over that on its shaft.
+    ///
+    /// Shafts turn evenly, so that their gears transmit what acts on them: ρ times it arrives at the main
+    /// crank, and the block bears what the moments of all inner forces leave.
+    #[must_use]
+    pub fn torque_shares(&self, engine: &Engine) -> [f64; 2] {
+        let (_, ratio) = self.shaft(engine);
+        match self.on {
+            ActsOn::Shaft => [1.0 - ratio, ratio],
+            ActsOn::Block => [1.0, 0.0],
+            ActsOn::Both => [-ratio, ratio],
+        }
+    }
+}
+
+/// An angle in the two turns of a cycle.
+fn in_two_turns(angle: Angle) -> Angle {
+    angle.half().reduced().times(2)
+}
+
+impl Amplitudes {
+    fn check(&mut self, place: &str, rows: usize, no_mean: &str) -> Result<()> {
+        self.0.sort_by_key(|(halves, _)| *halves);
+        if let Some(pair) = self.0.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+            let order = 0.5 * f64::from(pair[0].0);
+            return Err(Error::figure(place, order, "is given twice; give each order once"));
+        }
+        for (halves, values) in &self.0 {
+            let order = 0.5 * f64::from(*halves);
+            limits::same_length(
+                &format!("{place}[{order}]"),
+                values.len(),
+                "the load",
+                rows,
+                "speed",
+            )?;
+            for value in values {
+                limits::finite(place, value.re)?;
+                limits::finite(place, value.im)?;
+                if *halves == 0 && value.im != 0.0 {
+                    return Err(Error::value(place, value, "a mean is a real number"));
+                }
+            }
+            if *halves == 0 && !no_mean.is_empty() {
+                return Err(Error::figure(place, order, no_mean));
+            }
+            if *halves > 2 * limits::HIGHEST_ORDER {
+                self::halves(order)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Amplitudes of samples over one or two turns of the crank, evenly spaced from its phase on, in which the
+/// last is followed by the first: orders up to half their number in a turn, as the samples have them.
+pub fn harmonics_of_samples(samples: &[f64], turns: u32) -> Result<Vec<(u32, Complex64)>> {
+    let count = samples.len();
+    if !(1..=2).contains(&turns) {
+        return Err(Error::value("turns", turns, "give 1, or 2 for what repeats in a cycle"));
+    }
+    let most = 4 * limits::HIGHEST_ORDER as usize;
+    if !(3..=most).contains(&count) {
+        let hint = format!("give 3 to {most} samples over its period");
+        return Err(Error::value("samples", count, hint));
+    }
+    for &sample in samples {
+        limits::finite("samples", sample)?;
+    }
+    let step = if turns == 1 { 2 } else { 1 };
+    let unit = |k: usize| Complex64::cis(-TAU * k as f64 / count as f64);
+    let units: Vec<Complex64> = (0..count).map(unit).collect();
+    // Of an even number the highest order is half known: its sine is zero at every sample.
+    let highest = count / 2;
+    let amplitude = |k: usize| {
+        let terms = samples.iter().enumerate().map(|(i, sample)| units[k * i % count] * sample);
+        let sum: Complex64 = terms.sum();
+        let share = if k == 0 || 2 * k == count { 1.0 } else { 2.0 };
+        let value = sum * (share / count as f64);
+        let is_real = k == 0 || 2 * k == count;
+        (k as u32 * step, if is_real { Complex64::from(value.re) } else { value })
+    };
+    Ok((0..=highest)
+        .map(amplitude)
+        .filter(|(halves, _)| *halves <= 2 * limits::HIGHEST_ORDER)
+        .collect())
+}
+
+impl Engine {
+    /// Periodic loads besides those of pistons, pressure and unbalances.
+    #[must_use]
+    pub fn loads(&self) -> &[PeriodicLoad] {
+        &self.loads
+    }
+
+    /// The same engine with these periodic loads instead of those it has.
+    pub fn with_loads(&self, loads: Vec<PeriodicLoad>) -> Result<Self> {
+        if loads.len() > MOST_LOADS {
+            let hint = format!("give at most {MOST_LOADS}");
+            return Err(Error::value("loads", loads.len(), hint));
+        }
+        let checked = loads.into_iter().enumerate();
+        let checked = checked.map(|(i, load)| {
+            let place = format!("loads[{i}].");
+            load.check_on(&place, self)?;
+            load.checked(&place)
+        });
+        Ok(Self { loads: checked.collect::<Result<_>>()?, ..self.clone() })
+    }
+
+    /// The same engine with nothing but its moving parts: without pressure and further loads.
+    #[must_use]
+    pub fn bare(&self) -> Self {
+        Self { loads: Vec::new(), ..self.without_gas() }
+    }
+
+    /// Rejects crank speeds that a load's table does not have, rpm.
+    pub(crate) fn check_speeds(&self, rpm: &[f64]) -> Result<()> {
+        for load in &self.loads {
+            let OverSpeed::Table(table) = &load.over_speed else { continue };
+            let (first, last) = (table[0], table[table.len() - 1]);
+            if let Some(&outside) = rpm.iter().find(|&&rpm| rpm < first || rpm > last) {
+                let hint = format!("{:?} is given from {first} to {last} rpm", load.name);
+                return Err(Error::figure("rpm", outside, hint));
+            }
+        }
+        Ok(())
+    }
+
+    /// Turns all loads on by an angle of the main crank.
+    pub(super) fn delay_loads(&mut self, by: Angle) {
+        for load in &mut self.loads {
+            load.phase_deg = in_two_turns(load.phase_deg + by);
+        }
+    }
+
+    /// Turns the loads of a cylinder's bank with it, by an angle; with the pins held their phase goes along.
+    pub(super) fn turn_loads(&mut self, bank: usize, by: Angle, with_phase: bool) {
+        let bank_of = &self.bank_of;
+        for load in
+            self.loads.iter_mut().filter(|load| load.cylinder.is_some_and(|i| bank_of[i] == bank))
+        {
+            load.direction_deg = (load.direction_deg + by).reduced();
+            if with_phase {
+                load.phase_deg = in_two_turns(load.phase_deg + by);
+            }
+        }
+    }
+}

@@ -1,0 +1,313 @@
+"""Periodic loads that are given, in every reading: against plain free bodies, and laws of sums."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+from typing import Any
+
+import crankpin as cp
+import numpy as np
+import pytest
+from rederivation import periodic
+from several_cranks import Draft
+
+QUANTITIES = ("force", "moment", "torque", "crank_torque")
+THETA = np.arange(0.0, 720.0, 7.5)
+SEEDS = range(24)
+
+
+def drawn(random: np.random.Generator) -> dict[str, Any]:
+    """Draw a load from few values, so that orders, phases and places coincide."""
+
+    def pick(*values: Any) -> Any:  # noqa: ANN401 - one of them
+        return values[int(random.integers(0, len(values)))]
+
+    orders = (0.5, 1, 1.5, 2, 4)
+    load: dict[str, Any] = {
+        "on": pick("shaft", "block", "both"),
+        "direction_deg": pick(0, 30, 90),
+        "phase_deg": pick(0, 0, 45, 400),
+        "z": pick(0.0, 0.1, -0.2),
+        "turning": pick(False, False, True),
+        "ratio": pick(1, 1, 0.5, -1, 2, -1.5),
+        "axis": pick((0.0, 0.0), (0.1, -0.2)),
+        "at_rpm": pick(None, None, 2000.0),
+    }
+    kinds = pick(("force",), ("torque",), ("force", "torque"))
+    for kind in kinds:
+        count = int(random.integers(1, 3))
+        chosen = random.choice(orders, size=count, replace=False)
+        load[kind] = {n: complex(pick(3, -8), pick(0, 2)) for n in chosen.tolist()}
+    if "torque" in kinds:
+        load["torque"][0] = complex(pick(5, -2))
+    if load["turning"] and "force" in kinds:
+        load["force"][0] = complex(7)
+    return load
+
+
+def built(load: dict[str, Any], name: str = "load", **changes: Any) -> cp.PeriodicLoad:  # noqa: ANN401
+    """Return a drawn load as the library takes it."""
+    x, y = load["axis"]
+    scaled = {} if load["at_rpm"] is None else {"scaling": "speed squared", "rpm": load["at_rpm"]}
+    fields = {k: v for k, v in load.items() if k not in ("axis", "at_rpm")}
+    return cp.PeriodicLoad(name, **{**fields, **scaled, "x": x, "y": y, **changes})
+
+
+def engine(seed: int) -> cp.Engine:
+    """Return a random engine: of several cranks, or fired."""
+    if seed % 2:
+        return Draft(seed).engine()
+    cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+    four = cp.Engine.preset("i4", cylinder=cylinder)
+    cycle = cp.Cycle.example()
+    return four.with_cycle([cycle, None, cycle, cycle]) if seed % 4 else four
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_load_is_its_free_body_in_waveforms_balances_and_sweeps(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    bare, loads = engine(seed), [drawn(random) for _ in range(2)]
+    plane, rpm = bare.reference_z, 3000.0
+    with_loads = bare.with_loads([built(load, f"load {k}") for k, load in enumerate(loads)])
+    exact, before = with_loads.waveform(rpm, THETA), bare.waveform(rpm, THETA)
+    orders = [0.5 * n for n in range(1, 14)]
+    balance = with_loads.balance(rpm, orders=orders)
+    sweep = cp.sweep(with_loads, rpm=[1000.0, rpm], orders=orders)
+    for quantity in QUANTITIES:
+        parts = [periodic.net(load, THETA, rpm, plane)[quantity] for load in loads]
+        whole = getattr(exact, quantity) - getattr(before, quantity)
+        size = np.abs(getattr(before, quantity)).max() + np.abs(parts).max() + 1.0
+        # Roundings of some twenty terms.
+        assert np.abs(whole - sum(parts)).max() < 1e-12 * size, quantity
+        for k, part in enumerate(parts):
+            name = f"load {k}"
+            if name not in exact.causes:
+                assert not part.any()
+                continue
+            assert np.abs(exact.read(f"{quantity}.{name}") - part).max() < 1e-12 * size
+            # By orders: the discrete transform of the free body's samples.
+            read = balance._quantity(quantity).part(name)
+            at = THETA[THETA < 720.0]
+            for order in orders:
+                kernel = np.exp(-1j * np.deg2rad(order * at))
+                expected = 2.0 * (kernel[:, None] * part.reshape(len(at), -1)).mean(axis=0)
+                phasor = np.ravel(read[order].xy if read.kind.planar else read[order].phasor)
+                assert np.abs(phasor - expected).max() < 1e-11 * size, (quantity, order)
+            swept = sweep._quantity(quantity).part(name)
+            assert np.abs(np.asarray(swept)[1] - np.asarray(read)).max() < 1e-12 * size
+            if quantity in ("torque", "crank_torque"):
+                assert abs(read.mean - part.mean()) < 1e-12 * size
+                assert abs(swept.mean[1] - read.mean) < 1e-12 * size
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_an_engine_with_a_load_is_the_sum_of_both(seed: int) -> None:
+    """In numbers and bounds, of orders given and chosen, and about any point."""
+    random = np.random.default_rng(100 + seed)
+    bare, load = engine(seed), drawn(random)
+    both = bare.with_loads([built(load)])
+    rpm = 2500.0
+    chosen, exact = both.balance(rpm), both.waveform(rpm, THETA)
+    for quantity in QUANTITIES:
+        summed = chosen.engine.waveform(rpm, THETA, orders=chosen.orders)
+        lost = np.abs(getattr(exact, quantity) - getattr(summed, quantity))
+        lost = np.linalg.norm(lost, axis=-1) if lost.ndim == 2 else lost
+        size = np.abs(getattr(exact, quantity)).max() + 1.0
+        assert lost.max() <= chosen.error_bound[quantity] + 1e-12 * size, quantity
+    point = (0.1, -0.2, 0.3)
+    orders = [0.5, 1, 2, 3, 4]
+    moved = both.balance(rpm, orders=orders).about(point)
+    alone = bare.balance(rpm, orders=orders).about(point)
+    for quantity in QUANTITIES:
+        whole, own = moved._quantity(quantity), alone._quantity(quantity)
+        if "load" not in whole.parts:
+            continue
+        added = np.asarray(whole.part("load"))
+        size = np.abs(np.asarray(whole)).max() + np.abs(added).max() + 1.0
+        assert np.abs(np.asarray(whole) - np.asarray(own) - added).max() < 1e-12 * size
+        parts = sum(np.asarray(whole.part(name)) for name in whole.parts)
+        assert np.abs(np.asarray(whole) - parts).max() < 1e-12 * size
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_load_of_no_size_changes_names_alone(seed: int) -> None:
+    random = np.random.default_rng(200 + seed)
+    bare, load = engine(seed), drawn(random)
+    for kind in ("force", "torque"):
+        if kind in load:
+            load[kind] = dict.fromkeys(load[kind], 0j)
+    nothing = bare.with_loads([built(load)])
+    one, other = bare.balance(2000), nothing.balance(2000)
+    assert one.orders == other.orders
+    for quantity in QUANTITIES:
+        assert one.error_bound[quantity] == other.error_bound[quantity]
+        mine, theirs = np.asarray(one._quantity(quantity)), np.asarray(other._quantity(quantity))
+        assert np.array_equal(mine, theirs), quantity
+    proofs = [each.vanishing_orders([1, 2, 3, 4]) for each in (bare, nothing)]
+    for kind in ("force", "moment", "torque"):
+        mine, theirs = (getattr(each, kind).vanishing for each in proofs)
+        assert mine == theirs, kind
+
+
+def test_pistons_handed_over_as_loads_give_the_engine_again() -> None:
+    """Each cylinder's force by its harmonics, along its bore, from its top dead centre on."""
+    v6 = cp.Engine.preset("v6-90-odd-fire")
+    cylinder = v6.cylinders[0]
+    harmonics = cp.slider_crank_harmonics(cylinder.rod_ratio, range(1, 9))
+    omega = 3000.0 * np.pi / 30.0
+    amount = cylinder.reciprocating_mass * cylinder.crank_radius * omega**2
+    given = [
+        cp.PeriodicLoad(
+            f"piston {k}", on="block", force=dict(enumerate(amount * harmonics, 1)), z=z,
+            scaling="speed squared", rpm=3000.0, direction_deg=bank, phase_deg=tdc, cylinder=k,
+        )
+        for k, (bank, tdc, z) in enumerate(zip(v6.bank_deg, v6.tdc_deg, v6.z, strict=True), 1)
+    ]  # fmt: skip
+    light = v6.replace(cylinder=cylinder.replace(reciprocating_mass=0.0)).with_loads(given)
+    for rpm in (1000.0, 4000.0):
+        pins, firing = (
+            [each.with_bank_angle(75, hold=hold) for each in (v6, light)]  # type: ignore[arg-type]
+            for hold in ("pins", "firing")
+        )
+        for one, other in [(v6, light), pins, firing]:
+            a, b = (each.balance(rpm, orders=range(1, 9)) for each in (one, other))
+            for quantity in ("force", "moment"):
+                mine, theirs = a._quantity(quantity), b._quantity(quantity)
+                size = np.abs(np.asarray(mine)).max()
+                assert np.abs(np.asarray(mine) - np.asarray(theirs)).max() < 1e-13 * size * 8
+    sweeps = [
+        cp.sweep(
+            each, rpm=[1000.0, 4000.0], bank_angle_deg=[60, 75, 90], hold=hold, orders=[1, 2, 3]
+        )
+        for hold in ("pins", "firing")
+        for each in (v6, light)
+    ]
+    for mine, theirs in zip(sweeps[::2], sweeps[1::2], strict=True):
+        size = mine.moment.peak.max()
+        assert np.abs(mine.moment.peak - theirs.moment.peak).max() < 1e-12 * size
+
+
+def test_a_table_over_speed_is_linear_between_its_rows_and_refused_outside() -> None:
+    table = cp.PeriodicLoad(
+        "generator", on="both", torque={0: [10, 30], 2: [4, 8j]}, rpm=[1000, 3000]
+    )
+    four = cp.Engine.preset("i4").with_loads([table])
+    for rpm, share in [(1000, 0.0), (1500, 0.25), (3000, 1.0)]:
+        torque = four.balance(rpm, orders=[2]).crank_torque.part("generator")
+        assert abs(torque.mean - (10 + 20 * share)) < 1e-12
+        assert abs(torque[2].phasor - (4 * (1 - share) + 8j * share)) < 1e-12
+    swept = cp.sweep(four, rpm=[1000, 1500, 3000], orders=[2]).crank_torque.part("generator")
+    assert np.allclose(np.asarray(swept)[:, 0], [4, 3 + 2j, 8j], atol=1e-12)
+    for outside in (999, 3001):
+        with pytest.raises(cp.InputError, match=r'"generator" is given from 1000 to 3000 rpm'):
+            four.balance(outside)
+        with pytest.raises(cp.InputError, match="generator"):
+            cp.sweep(four, rpm=[2000, outside], orders=[2])
+        with pytest.raises(cp.InputError, match="generator"):
+            four.waveform(outside)
+
+
+def test_samples_are_the_orders_that_pass_through_them() -> None:
+    random = np.random.default_rng(7)
+    for turns, count in [(1, 12), (2, 24), (2, 25), (1, 9)]:
+        samples = random.normal(size=count)
+        load = cp.PeriodicLoad.from_samples("machine", on="shaft", torque=samples, turns=turns)
+        theta = 360.0 * turns * np.arange(count) / count
+        torque = cp.Engine.preset("single").with_loads([load]).waveform(1000, theta)
+        assert np.abs(torque.read("crank_torque.machine") - samples).max() < 1e-13 * count
+    with pytest.warns(UserWarning, match="torque jumps from 9 to 0"):
+        cp.PeriodicLoad.from_samples("ramp", on="shaft", torque=np.arange(10.0))
+
+
+def test_proofs_hold_where_no_load_acts_and_are_undecided_where_one_does() -> None:
+    six = cp.Engine.preset("i6")
+    along_x = cp.PeriodicLoad("belt", on="shaft", force={1: 5, 0.5: 2}, z=six.reference_z)
+    verdicts = six.with_loads([along_x]).vanishing_orders([0.5, 1, 2, 3])
+    before = six.vanishing_orders([1, 2, 3])
+    assert verdicts.force.vanishing == (2, 3)
+    assert before.force.vanishing == (1, 2, 3)
+    assert verdicts.moment.vanishing == (0.5, 1, 2, 3)
+    balance = six.with_loads([along_x]).balance(3000)
+    assert balance.force[1].status == "summed"
+    assert balance.force[2].status == "zero, proved"
+    with pytest.raises(cp.InputError, match="loads"):
+        six.with_loads([along_x]).closed_form(1, "force")
+
+
+def test_bearings_carry_what_is_on_the_crank_and_the_crankcase_the_rest() -> None:
+    four = cp.Engine.preset("i4")
+    theta = np.arange(0.0, 720.0, 15.0)
+    before = cp.bearing_loads(four, 3000, theta_deg=theta)
+    for on, share in [("shaft", 1.0), ("both", 1.0), ("block", 0.0)]:
+        force = {0.5: 40, 2: 30 - 10j}
+        load = cp.PeriodicLoad("belt", on=on, force=force, direction_deg=30, z=four.mains[1])
+        after = cp.bearing_loads(four.with_loads([load]), 3000, theta_deg=theta)
+        x, y = periodic.force_on_shaft(
+            {"force": {n: complex(a) for n, a in force.items()}, "direction_deg": 30}, theta, 3000.0
+        )
+        added = np.asarray(after.main) - np.asarray(before.main)
+        expected = np.zeros_like(added)
+        expected[1] = share * np.stack([x, y], axis=-1)
+        assert np.abs(added - expected).max() < 1e-11 * np.abs(np.asarray(before.main)).max()
+
+
+def test_loads_survive_files_copies_and_changes(tmp_path: Any) -> None:  # noqa: ANN401 - a path
+    random = np.random.default_rng(3)
+    loads = [built(drawn(random), f"load {k}") for k in range(6)]
+    table = cp.PeriodicLoad(
+        "table", on="block", force={1: [1, 2], 2: [0, 1j]}, rpm=[0, 6000], crank=0
+    )
+    four = cp.Engine.preset("i4").with_loads([*loads, table])
+    assert four.loads == (*loads, table)
+    assert pickle.loads(pickle.dumps(four)) == four == copy.deepcopy(four)  # noqa: S301
+    for suffix in ("toml", "json"):
+        path = tmp_path / f"four.{suffix}"
+        four.save(path)
+        assert cp.Engine.load(path).loads == four.loads
+    assert four.replace(name="other").loads == four.loads
+    assert four.with_loads([]).loads == ()
+    assert hash(loads[0]) == hash(copy.copy(loads[0]))
+    assert loads[0].replace(z=0.5).z == 0.5
+    assert "load 0" in four.loads_counted
+    assert "load 0" in repr(four.balance(1000, torque=False))
+
+
+@pytest.mark.parametrize(
+    ("changes", "match"),
+    [
+        ({"on": "crank"}, "on"),
+        ({"torque": None}, "force"),
+        ({"torque": {}}, "force"),
+        ({"torque": {1: "a"}}, r"torque\[1\]"),
+        ({"torque": {1.25: 3}}, "order"),
+        ({"torque": {1: float("nan")}}, r"torque\[1\]"),
+        ({"torque": {0: 1j}}, "mean"),
+        ({"force": {0: 1}}, "mean"),
+        ({"ratio": 0.3}, "ratio"),
+        ({"ratio": "a"}, "ratio"),
+        ({"ratio": 0}, "ratio"),
+        ({"rpm": 1000}, "rpm"),
+        ({"scaling": "speed squared"}, "rpm"),
+        ({"rpm": [1000, 2000]}, r"torque\[1\]"),
+        ({"torque": {1: [1, 2]}, "rpm": [2000, 1000]}, "ascending"),
+        ({"crank": 0, "ratio": 2}, "ratio"),
+        ({"name": "inertia"}, "name"),
+        ({"name": " "}, "name"),
+        ({"cylinder": 0}, "cylinder"),
+    ],
+)
+def test_what_no_load_can_be_is_refused(changes: dict[str, Any], match: str) -> None:
+    fields: dict[str, Any] = {"name": "load", "on": "both", "torque": {1: 5}, **changes}
+    with pytest.raises(cp.InputError, match=match):
+        cp.PeriodicLoad(**fields)
+
+
+def test_a_crank_or_cylinder_that_is_not_there_is_refused() -> None:
+    four = cp.Engine.preset("i4")
+    with pytest.raises(cp.InputError, match=r"loads\[0\].crank"):
+        four.with_loads([cp.PeriodicLoad("a", on="shaft", torque={1: 1}, crank=1)])
+    with pytest.raises(cp.InputError, match=r"loads\[0\].cylinder = 5"):
+        four.with_loads([cp.PeriodicLoad("a", on="shaft", torque={1: 1}, cylinder=5)])
+    with pytest.raises(cp.InputError, match="PeriodicLoad"):
+        four.with_loads(["a"])  # type: ignore[list-item]
