@@ -82,14 +82,13 @@ export class Numbers {
   /** Absolute pressure in a cylinder, Pa: the polynomial of its cycle that counts there. */
   pressureAt({ panels: { edges_deg: edges, coefficients }, pressure_deg: fires, delay }, thetaDeg) {
     const at = edges[0] + reduced(thetaDeg - fires - delay - edges[0], this.cycle);
-    let [panel, last] = [0, coefficients.length - 1];
-    while (panel < last) {
-      const middle = Math.ceil((panel + last) / 2);
-      if (edges[middle] <= at) panel = middle;
-      else last = middle - 1;
+    let [k, end] = [0, coefficients.length];
+    while (end - k > 1) {
+      const middle = (k + end) >> 1;
+      if (edges[middle] <= at) k = middle;
+      else end = middle;
     }
-    const [from, to] = [edges[panel], edges[panel + 1]];
-    return chebyshev(coefficients[panel], (2 * at - from - to) / (to - from));
+    return chebyshev(coefficients[k], (2 * at - edges[k] - edges[k + 1]) / (edges[k + 1] - edges[k]));
   }
 }
 
