@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crankpin_core::engine::{CrankIndex, file};
 use crankpin_core::exact::vanishing::{ProofQuantity, QUANTITIES, Verdict, vanishing as of};
+use crankpin_core::index::ListIndex;
 use crankpin_core::mounts::Powertrain;
 use crankpin_core::{Angle, Cancel, Engine, Firing, Order, Result, Unbalance};
 use serde_json::{Map, Value, json};
