@@ -125,6 +125,11 @@ def far_peak(
     return _core.far_peak(theta_deg, values, period_deg)
 
 
+def peak(theta_deg: NDArray[np.float64], values: NDArray[np.float64], period_deg: float) -> None:
+    """Warn of pressure whose peak is far from the firing top dead centre."""
+    _warn_each(_core.peak_warnings(theta_deg, values, period_deg))
+
+
 def cycle(core: _core.Cycle) -> None:
     """Warn of the pressures of a cycle, and of a peak far from the firing top dead centre."""
     _warn_each(_core.cycle_warnings(core))

@@ -80,8 +80,9 @@ mod _core {
         vanishing::{star, vanishing},
         warnings::{
             absolute_warnings, cycle_warnings, cylinder_warnings, engine_warnings, far_peak,
-            figure_warnings, hardware_warnings, imep_warnings, near_miss, pin_split_warnings,
-            piston_speed_warnings, pressure_warnings, radians, unbalance_warnings, unit_warnings,
+            figure_warnings, hardware_warnings, imep_warnings, near_miss, peak_warnings,
+            pin_split_warnings, piston_speed_warnings, pressure_warnings, radians,
+            unbalance_warnings, unit_warnings,
         },
         waveform::{CrankAngles, waveform},
     };

@@ -78,6 +78,18 @@ pub fn far_peak(
     pressure::far_peak(&theta, &values, period_deg)
 }
 
+/// Of pressure whose peak is far from the firing top dead centre.
+#[guarded]
+#[pyfunction]
+pub fn peak_warnings(
+    theta_deg: PyReadonlyArray1<'_, f64>,
+    values: PyReadonlyArray1<'_, f64>,
+    period_deg: f64,
+) -> Vec<String> {
+    let [theta, values] = [theta_deg, values].map(|given| given.as_array().to_vec());
+    texts(pressure::peak(&theta, &values, period_deg))
+}
+
 /// Of a mean effective pressure, Pa.
 #[guarded]
 #[pyfunction]
