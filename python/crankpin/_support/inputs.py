@@ -36,9 +36,6 @@ Spectrum: TypeAlias = Mapping[int, complex]
 
 Number = TypeVar("Number", int, Order)
 
-FASTEST_PISTON = 60.0
-"""Mean piston speed, m/s, above which no engine runs: Formula 1 stays below 30."""
-
 MOST_NUMBERS = _core.LONGEST_AXIS
 LARGEST_RESULT = _core.LARGEST_RESULT
 """Maximum length of an array: a gibibyte."""
@@ -562,12 +559,8 @@ def spectrum(values: object) -> list[tuple[int, complex]] | None:
 
 def warn_of_units(mean_piston_speed: float) -> None:
     """Warn of a piston that would be faster, in m/s, than in any engine."""
-    if mean_piston_speed > FASTEST_PISTON and math.isfinite(mean_piston_speed):
-        warn(
-            f"mean piston speed is {mean_piston_speed:.0f} m/s, more than any engine's "
-            f"({FASTEST_PISTON:.0f}): were lengths given in millimetres? They are metres here, and "
-            "masses kilograms."
-        )
+    for text in _core.piston_speed_warnings(mean_piston_speed):
+        warn(text)
 
 
 _SHORT = reprlib.Repr()

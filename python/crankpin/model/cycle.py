@@ -126,8 +126,7 @@ class Cycle(Tabled, Input, ComputedCycles):
         object.__setattr__(self, "degree", degree)
         object.__setattr__(self, "origin", inputs.text("origin", origin))
         if len(self._core):
-            checks.pressure(self.pressure)
-            checks.peak(self.theta_deg, self.pressure, self.period_deg)
+            checks.cycle(self._core)
 
     @classmethod
     def _of(cls, core: _core.Cycle, origin: str = "") -> Self:

@@ -221,11 +221,9 @@ class Cylinder:
             if given is not None or field.default is not None:
                 object.__setattr__(self, field.name, inputs.number(field.name, given))
         _core.check_cylinder(self._parts)
-        checks.cylinder(self.crank_radius, self.rod_length)
-        if self.bore is not None:
-            if not 0.0 < self.bore <= LARGEST_LENGTH:
-                raise inputs.rejected("bore", self.bore, "give metres above zero")
-            checks.bore(self.bore, self.stroke)
+        if self.bore is not None and not 0.0 < self.bore <= LARGEST_LENGTH:
+            raise inputs.rejected("bore", self.bore, "give metres above zero")
+        checks.cylinder(self.crank_radius, self.rod_length, self.bore)
         if self.rod is not None:
             self._check_rod(self.rod)
 
