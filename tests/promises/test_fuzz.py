@@ -154,25 +154,21 @@ def test_objects_of_other_classes_that_calls_return() -> None:
             kind = type(value)
             if kind.__module__.startswith("crankpin.") and kind not in CLASSES.values():
                 others[kind.__name__] = value
-    found = [
-        text
-        for target in members({name: type(value) for name, value in others.items()})
-        for parameter in target.parameters
-        for value in DRAWN
-        if (
-            text := problem(
-                Call(target, others[target.owners[0].__name__], {parameter.name: value})
-            )
-        )
-    ]
+    found = []
+    for target in members({name: type(each) for name, each in others.items()}):
+        subject = others[target.owners[0].__name__]
+        for parameter, hostile_value in itertools.product(target.parameters, DRAWN):
+            if text := problem(Call(target, subject, {parameter.name: hostile_value})):
+                found.append(text)
     assert "Presets" in others
     assert not found, "\n".join(found[:20])
 
 
 @pytest.mark.parametrize("name", sorted({*cp.types.__all__} - HOLD_ANYTHING))
 def test_results_cannot_be_made_of_anything(name: str) -> None:
-    for value in (None, "text", 0, [], V6):
-        count = len(inspect.signature(CLASSES[name]).parameters)
+    count = len(inspect.signature(CLASSES[name]).parameters)
+    values: tuple[Any, ...] = (None, "text", 0, [], V6)
+    for value in values:
         with pytest.raises((TypeError, ValueError)):
             CLASSES[name](*[value] * count)
 

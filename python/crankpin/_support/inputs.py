@@ -218,12 +218,18 @@ def _real(value: Any) -> float:  # noqa: ANN401 - anything that float() takes
 
 
 def finite(name: str, value: object) -> float:
-    """Return a finite float within the limits of figures, so that its squares are finite."""
+    """Return a finite float."""
     real = number(name, value)
     if not math.isfinite(real):
         raise rejected(name, real, "give a finite number")
+    return real
+
+
+def limited(name: str, value: object) -> float:
+    """Return a float within the limits of figures, so that its square is finite."""
+    real = finite(name, value)
     if abs(real) > _core.LARGEST:
-        raise rejected(name, real, f"give a number of {_core.LARGEST:g} at most")
+        raise rejected(name, real, f"give a number of magnitude {_core.LARGEST:g} at most")
     return real
 
 
@@ -308,6 +314,11 @@ def text(name: str, value: object, hint: str = "give text") -> str:
     except UnicodeEncodeError as error:
         raise rejected(name, value, f"{hint} ({reason(error)})") from None
     return value
+
+
+def optional_text(name: str, value: object) -> str | None:
+    """Return a string that can be written as UTF-8, or None for None."""
+    return None if value is None else text(name, value)
 
 
 def file_path(path: object, endings: tuple[str, ...], hint: str, name: str = "path") -> Path:

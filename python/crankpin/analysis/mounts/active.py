@@ -207,7 +207,7 @@ class Cancellation(Tabled):
         InputError
             If a figure is not finite.
         """
-        share = inputs.finite("amplitude", amplitude)
+        share = inputs.limited("amplitude", amplitude)
         ahead = inputs.finite("phase_deg", phase_deg)
         return changed(self, amplitude_error=share, phase_error_deg=ahead)
 
