@@ -61,7 +61,10 @@ def main() -> None:
     """Make the calls with the limits."""
     warnings.simplefilter("ignore")
     instances()
-    CALLS.extend(call for each in CALLED if (call := sound(each)))
+    for target in CALLED:
+        with contextlib.suppress(ImportError):  # of a package that is not there
+            if call := sound(target):
+                CALLS.append(call)
     for mib in MIB:
         for pieces in HOARDS:
             process = os.fork()

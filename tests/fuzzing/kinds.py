@@ -8,6 +8,10 @@ listed, a truth value, an instance of a class.
 
 from __future__ import annotations
 
+import atexit
+import importlib
+import importlib.util
+import shutil
 import tempfile
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -38,8 +42,9 @@ ARRANGEMENTS = cp.search_arrangements(6)
 PANEL = ([5.0, 200.0], [[[1e-6 - 1e-7j]], [[1e-8 - 1e-9j]]])
 MAP = cp.CycleMap([1000, 3000], [0, 1], [[CYCLE, CYCLE]] * 2)
 CURVE = ([0.0, 180.0, 360.0], [1.0, 3.0, 1.0])
-FOLDER = Path(tempfile.gettempdir()) / "crankpin-fuzzing"
+FOLDER = Path(tempfile.mkdtemp(prefix="crankpin-"))
 """Files that are read."""
+atexit.register(shutil.rmtree, FOLDER, ignore_errors=True)
 
 
 class Beside(NamedTuple):
@@ -51,7 +56,6 @@ class Beside(NamedTuple):
 
 def files() -> list[str]:
     """Write the files that are read; return their paths."""
-    FOLDER.mkdir(exist_ok=True)
     paths = [str(FOLDER / name) for name in ("mounts.toml", "cycle.csv")]
     POWERTRAIN.save(paths[0])
     CYCLE.save(paths[1])
@@ -59,6 +63,12 @@ def files() -> list[str]:
         f"{t / 12.0},{p}\n" for t, p in zip(THETA, CYCLE.pressure_at(THETA), strict=True)
     )
     (FOLDER / "time.csv").write_text(f"time [ms],pressure [Pa]\n{times}")
+    if importlib.util.find_spec("openpyxl"):
+        book = importlib.import_module("openpyxl").Workbook()
+        book.active.title = "cycles"
+        for row in zip(THETA.tolist(), CYCLE.pressure_at(THETA).tolist(), strict=True):
+            book.active.append(row)
+        book.save(FOLDER / "cycle.xlsx")
     return paths
 
 
@@ -114,7 +124,7 @@ KINDS: dict[str, list[Any]] = {
         *(0.1, Beside(0.1, {"rows": 2})),
         Beside(0.1, {"engines": ARRANGEMENTS[0], "cylinder": CYLINDER}),
     ],
-    "tdc_deg": [[0, 120, 240, 360, 480, 600], 1.0],
+    "tdc_deg": [[0.0], [0, 120, 240, 360, 480, 600], 1.0],
     "theta_deg": [THETA, 30.0],
     "throws_deg": [[0, 120, 240], [0, 240, 120]],
     "tilt_deg": [30.0],
@@ -167,7 +177,7 @@ KINDS: dict[str, list[Any]] = {
     "crankcase": [9e4, Beside(9e4, {"cycle": MAP, "load": 1.0})],
     "cutoff_ratio": [1.5],
     "cycle": [CYCLE, Beside(MAP, {"load": 1.0})],
-    "cycles": [[[CYCLE, CYCLE], [CYCLE, CYCLE]]],
+    "cycles": [0, [[CYCLE, CYCLE], [CYCLE, CYCLE]]],
     "duration_deg": [40.0],
     "excess_air": [Beside(1.0, {"heat": ...})],
     "exhaust_closes_deg": [12],
@@ -200,7 +210,8 @@ KINDS: dict[str, list[Any]] = {
     # Files of cycles.
     "angle_unit": ["deg", Beside("deg", {"path": "cycle.csv"})],
     "atmosphere": [1e5],
-    "columns": [None],
+    "columns": [[0, 1]],
+    "sheet": [Beside("cycles", {"path": str(FOLDER / "cycle.xlsx"), "columns": [0, 1]})],
     "gauge": [False],
     "pressure_unit": ["Pa"],
     "recorded_rpm": [Beside(2000.0, {"path": str(FOLDER / "time.csv")})],

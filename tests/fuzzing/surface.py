@@ -175,8 +175,10 @@ def instances() -> Mapping[type, list[Any]]:
             missing = {name for name, kind in CLASSES.items() if kind not in _KNOWN}
             makes = bool(_words(target.function) & missing)
             makes = makes or (target.of_class and target.owners[0] not in _KNOWN)
-            if makes and target.subjects() and (call := sound(target)):
-                _absorb(call.make())
+            if makes and target.subjects():
+                with contextlib.suppress(ImportError):  # of a package that is not there
+                    if call := sound(target):
+                        _absorb(call.make())
         if len(_KNOWN) == before:
             break
     return _KNOWN
@@ -370,7 +372,7 @@ def plain_call(subject: Any, name: str) -> Call:
 def candidates(target: Target, parameter: inspect.Parameter) -> list[Any]:
     """Return values that a parameter may take."""
     name, annotation = parameter.name, str(parameter.annotation)
-    for key in (f"{target.name}.{name}", f"{name}: {annotation}", name):
+    for key in (f"{target.name.partition('_')[0]}.{name}", f"{name}: {annotation}", name):
         if key in KINDS:
             return [*KINDS[key], *_choices(target, parameter)]
     for names in KEYWORDS.values():
