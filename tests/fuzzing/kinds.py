@@ -66,6 +66,7 @@ def files() -> list[str]:
     if importlib.util.find_spec("openpyxl"):
         book = importlib.import_module("openpyxl").Workbook()
         book.active.title = "cycles"
+        book.active.append(("angle [deg]", "absolute pressure [Pa]"))
         for row in zip(THETA.tolist(), CYCLE.pressure_at(THETA).tolist(), strict=True):
             book.active.append(row)
         book.save(FOLDER / "cycle.xlsx")

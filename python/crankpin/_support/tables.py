@@ -364,7 +364,7 @@ class Table(Tabled):
 
     def _cut(self, rows: int | None) -> Table:
         """Return the first rows."""
-        if rows is None or rows >= len(self):
+        if rows is None or inputs.whole("rows", rows, 0) >= len(self):
             return self
         columns = tuple(changed(each, data=each.data[:rows]) for each in self.columns)
         whole = self.whole or len(self)
