@@ -12,10 +12,12 @@ __all__ = [
     "FEWEST_POINTS",
     "HIGHEST_LISTED",
     "HIGHEST_ORDER",
+    "LARGEST",
     "LARGEST_RESULT",
     "LONGEST_AXIS",
     "LONGEST_FILE",
     "MOST_CYLINDERS",
+    "SMALLEST",
     "Balance",
     "BankAngles",
     "BearingLoadsModel",
@@ -124,7 +126,9 @@ HIGHEST_LISTED: int
 HIGHEST_ORDER: int
 MOST_CYLINDERS: int
 LARGEST_RESULT: int
+LARGEST: float
 LONGEST_AXIS: int
+SMALLEST: float
 LONGEST_FILE: int
 
 _Parts: TypeAlias = tuple[float, float, float, float, float]

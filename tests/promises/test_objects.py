@@ -112,6 +112,7 @@ OBJECTS: dict[str, Any] = {
     "CycleMap": cp.CycleMap([1000], [0, 1], [[cp.Cycle.example(), cp.Cycle.example("diesel")]]),
     "Traces": cp.Traces(THETA, cp.Cycle.example().pressure_at(THETA) * [[0.99], [1.0], [1.02]]),
     "Engine": V6,
+    "PeriodicLoad": cp.PeriodicLoad("pump", on="both", torque={0: 3, 1.5: 2 - 1j}, force={2: 5}),
     "Engine of odd angles": ODD,
     "Balance": balance(),
     "Balance, auto": balance(orders="auto"),

@@ -441,7 +441,7 @@ class Cycle(Tabled, Input, ComputedCycles):
         array([8.e-05])
         """
         listed = inputs.explicit_half_orders(orders)
-        checks.absolute("crankcase", inputs.number("crankcase", crankcase))
+        checks.absolute("crankcase", inputs.finite("crankcase", crankcase))
         scale = 2.0 * area(cylinder) / math.radians(self.period_deg)
         if self.degree is not None:
             return np.zeros(len(listed))

@@ -101,7 +101,9 @@ mod _core {
         module.add("FEWEST_POINTS", crank_angles::FEWEST_POINTS)?;
         module.add("MOST_CYLINDERS", limits::MOST_CYLINDERS)?;
         module.add("LARGEST_RESULT", limits::LARGEST_RESULT)?;
+        module.add("LARGEST", limits::LARGEST)?;
         module.add("LONGEST_AXIS", limits::LONGEST_AXIS)?;
+        module.add("SMALLEST", limits::SMALLEST)?;
         module.add("LONGEST_FILE", file::LONGEST_TEXT)?;
         let error = module.py().get_type::<crate::convert::InputError>();
         for field in ["argument", "value", "hint"] {
