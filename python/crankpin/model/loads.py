@@ -58,7 +58,7 @@ class PeriodicLoad(Input):
         Whether amplitudes stay as the speed changes, or grow with its square from ``rpm`` on.
     rpm : float or sequence of float, optional
         Crank speed at which amplitudes that grow are those given; or ascending speeds at which a
-        table has amplitudes, linear between them and refused outside.
+        table has amplitudes, linear between them and rejected outside.
     direction_deg : number or str, default 0.0
         Direction of the force, degrees from +x; of one that turns, where it points at
         ``phase_deg``.
@@ -199,7 +199,7 @@ class PeriodicLoad(Input):
             Turns of the main crank in which the load repeats.
         rpm : float or sequence of float, optional
             As of the class.
-        **options
+        **options : dict, optional
             ``scaling``, ``direction_deg``, ``turning``, ``phase_deg``, ``z``, ``crank``, ``ratio``,
             ``x``, ``y`` and ``cylinder``, as of the class.
 
