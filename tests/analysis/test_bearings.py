@@ -18,6 +18,7 @@ THETA = np.arange(0.0, 720.0, 7.3)
 RODS = (
     cp.Rod(mass=0.62, inertia=0.0031, length=0.15, to_crankpin=0.045),
     cp.Rod(mass=0.55, inertia=0.0021, length=0.14, to_crankpin=0.05),
+    cp.Rod(mass=0.8, inertia=0.0052, length=0.15, to_crankpin=-0.02),  # with a counterweight
 )
 EACH = [
     cp.Cylinder.from_rod(RODS[k % 2], crank_radius, piston_mass=mass, pin_offset=offset)

@@ -13,6 +13,7 @@ import io
 import itertools
 import math
 import pickle
+import re
 import warnings
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal
@@ -383,20 +384,64 @@ def test_pins_of_an_even_v6_are_split_by_bank_angle_less_120(bank_angle: int, sp
     assert engine.firing("1-2-3-4-5-6").even
 
 
+def random_sequence(seed: int) -> tuple[str, list[int], int]:
+    """A firing order, intervals of few values, some of them 0, and strokes."""
+    chance = np.random.default_rng(seed)
+    count, strokes = int(chance.integers(2, 9)), int(chance.choice([2, 4, 4, 4]))
+    numbers = chance.permutation(np.arange(1, count + 1)).tolist()
+    intervals = [int(chance.choice([0, 10, 30, 90, 180, 360])) for _ in numbers[1:]]
+    while sum(intervals) >= 180 * strokes:
+        intervals[int(np.argmax(intervals))] = int(chance.choice([0, 10]))
+    joins = ["+" if interval == 0 else "-" for interval in intervals]
+    order = str(numbers[0]) + "".join(f"{j}{n}" for j, n in zip(joins, numbers[1:], strict=True))
+    return order, [*intervals, 180 * strokes - sum(intervals)], strokes
+
+
+def typed_angles(order: str, intervals: list[int]) -> dict[int, int]:
+    """Crank angle of each cylinder's firing after that of the first in the order."""
+    numbers = [int(number) for number in re.findall(r"\d+", order)]
+    return dict(zip(numbers, np.cumsum([0, *intervals[:-1]]).tolist(), strict=True))
+
+
+@pytest.mark.parametrize("seed", range(300))
+def test_engines_fire_at_the_intervals_that_were_typed(seed: int) -> None:
+    order, intervals, strokes = random_sequence(seed)
+    engine = cp.Engine.from_firing_order(
+        CYLINDER, order, intervals_deg=intervals, spacing=0.1, strokes=strokes
+    )
+    typed = typed_angles(order, intervals)
+    kept = [
+        engine, cp.Engine.from_toml(engine.to_toml()), cp.Engine.from_json(engine.to_json()),
+        engine.replace(name="renamed"), engine.with_first_tdc(200),
+        pickle.loads(pickle.dumps(engine)),  # noqa: S301
+    ]  # fmt: skip
+    assert kept[1] == kept[2] == engine
+    for each in kept:
+        angles = each.firing().angles_deg
+        after = {number: (angles[number - 1] - angles[0]) % (180 * strokes) for number in typed}
+        expected = {n: (angle - typed[1]) % (180 * strokes) for n, angle in typed.items()}
+        assert after == pytest.approx(expected, abs=1e-9)
+    if engine.firing() == engine.firing(order):  # the most even
+        assert "second_turn" not in engine.to_toml()
+
+
 @pytest.mark.parametrize(
-    ("order", "intervals", "taken"),
-    [
-        ("1-2", [630, 90], "270-450"),
-        ("2-1", [170, 550], "190-530"),  # from 1 to 2
-        ("1-2", [540, 180], "180-540"),  # as even
-    ],
+    ("order", "intervals"),
+    [("1-2", [30, 690]), ("1-2", [540, 180]), ("1-2-3-4", [10, 10, 10, 690])],
 )
-def test_intervals_that_a_more_even_way_replaces_are_warned_of(
-    order: str, intervals: list[int], taken: str
-) -> None:
-    with pytest.warns(UserWarning, match=r"^intervals_deg = .* too, which is as even or more"):
-        engine = cp.Engine.from_firing_order(CYLINDER, order, intervals_deg=intervals, spacing=0.1)
-    assert engine.firing().intervals_text == taken
+def test_half_orders_are_those_of_the_typed_firings(order: str, intervals: list[int]) -> None:
+    """Phasors of single cylinders, each turned by its own firing angle."""
+    cylinder, cycle = CYLINDER.replace(bore=0.086), cp.Cycle.example()
+    example = cp.Engine.preset("single", cylinder=cylinder)
+    single = example.with_cycle(cycle).balance(3000, orders=[0.5, 1, 1.5]).crank_torque
+    engine = cp.Engine.from_firing_order(cylinder, order, intervals_deg=intervals, spacing=0.1)
+    fired = engine.with_cycle(cycle).balance(3000, orders=[0.5, 1, 1.5]).crank_torque
+    for n in (0.5, 1.5):
+        angles = np.deg2rad([*typed_angles(order, intervals).values()])
+        expected = single[n].phasor * np.exp(-1j * n * angles).sum()
+        # Either turn may be called the first: half orders change their sign with it.
+        off = min(abs(fired[n].phasor - sign * expected) for sign in (1, -1))
+        assert off <= 1e-9 * abs(single[n].phasor)
 
 
 def test_odd_fire_needs_no_split() -> None:
@@ -555,7 +600,8 @@ def test_an_inline_crank_made_for_an_order_fires_in_it(
     wanted = data.draw(interval_lists(5, 180 * strokes))
     engine = made_for(order, wanted, strokes=strokes)
     throws, _ = cp.throws(order, intervals_deg=wanted, strokes=strokes)
-    assert engine == cp.Engine.inline(
+    # Which turns it was made for, a crank by its throws does not know.
+    assert engine.replace(firing_order=engine.firing_order) == cp.Engine.inline(
         CYLINDER, throws_deg=throws, spacing=0.1, firing_order=engine.firing_order, strokes=strokes
     )
 
@@ -877,3 +923,45 @@ def test_command_refuses(capsys: CAPTURE, argv: list[str], words: str) -> None:
     out, err = capsys.readouterr()
     assert out == ""
     assert words in err
+
+
+@pytest.mark.parametrize(
+    ("order", "numbers", "options"),
+    [
+        ("A1-B1-A2-B2", "1-2-3-4", {"bank_angle_deg": 90}),
+        ("1L-1R-2L-2R", "1-2-3-4", {"bank_angle_deg": 90, "odd_bank": "left"}),
+        ("1342", "1-3-4-2", {}),
+        ("A1-A2-B1-B2", "1-2-3-4", {"bank_angle_deg": 90, "numbering": "by-bank"}),
+    ],
+)
+def test_throws_reads_the_orders_that_builders_read(
+    order: str, numbers: str, options: dict[str, Any]
+) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        for named, plain in zip(
+            cp.throws(order, **options), cp.throws(numbers, **options), strict=True
+        ):
+            assert named.tolist() == plain.tolist()
+        built = [
+            cp.Engine.from_firing_order(CYLINDER, each, spacing=0.1, **options)
+            for each in (order, numbers)
+        ]
+    assert built[0] == built[1]
+
+
+def test_intervals_of_cylinders_that_fire_together_are_named() -> None:
+    hint = r"^number of intervals_deg = 2: give 3, .*0 between those joined by '\+'"
+    for call in (
+        lambda: cp.throws("1+2-3", intervals_deg=[180, 540]),
+        lambda: cp.Engine.from_firing_order(
+            CYLINDER, "1+2-3", intervals_deg=[180, 540], spacing=0.1
+        ),
+    ):
+        with pytest.raises(cp.InputError, match=hint):
+            call()
+
+
+def test_a_vee_of_an_odd_number_of_cylinders_is_shown_how() -> None:
+    with pytest.raises(cp.InputError, match=r"Engine\.vee\(throws_deg=.*, absent=\[4\]"):
+        cp.Engine.from_firing_order(CYLINDER, "1-3-2", bank_angle_deg=60, spacing=0.1)

@@ -25,7 +25,7 @@ RODS = [
     cp.Rod(mass=0.6, inertia=0.0022, length=0.15, to_crankpin=0.045),
     cp.Rod(mass=0.5, inertia=0.0042, length=0.1, to_crankpin=0.02),
     cp.Rod(mass=0.9, inertia=0.001, length=0.12, to_crankpin=0.12),
-    cp.Rod(mass=0.4, inertia=0.0031, length=0.2, to_crankpin=0.0),
+    cp.Rod(mass=0.4, inertia=0.0061, length=0.2, to_crankpin=-0.03),  # with a counterweight
 ]
 RADII, OFFSETS = (0.045, 0.05, 0.06, 0.03), (0.0, 0.012, -0.02, -0.001)
 PISTONS = (0.5, 0.3, 0.0, 0.7)
@@ -373,7 +373,7 @@ def test_rods_share_their_mass_and_keep_its_centre() -> None:
     ("name", "value"),
     [
         *[("mass", -1.0), ("mass", np.nan), ("inertia", -1e-3), ("inertia", np.inf)],
-        *[("length", 0.0), ("to_crankpin", -0.01), ("to_crankpin", 0.16), ("mass", "heavy")],
+        *[("length", 0.0), ("to_crankpin", -0.16), ("to_crankpin", 0.16), ("mass", "heavy")],
     ],
 )
 def test_a_rod_that_is_none_is_refused(name: str, value: float | str) -> None:

@@ -52,7 +52,15 @@ EQUIPPED = V6.replace(rotating_mass=0.3).with_counterweights(WEIGHTS).with_shaft
 def test_unbalance_and_shaft_keep_what_is_given() -> None:
     weight = Unbalance(amount=np.float64(0.01), z=0, angle_deg="51.4", pin=np.int64(3))  # type: ignore[arg-type]
     assert (weight.amount, weight.z, weight.angle_deg, weight.pin) == (0.01, 0.0, 51.4, 3)
-    assert Unbalance(0.01, 0.0, "1/3").angle_deg == "1/3"
+    third = Unbalance(0.01, 0.0, "1/3")
+    assert (third.angle_deg, third.exact_angle) == (1.0 / 3.0, "1/3")
+    for exact in ("1/1001", "1350/7", "10/3"):  # floats of the first read back as themselves
+        one = Unbalance(0.01, 0.0, exact)
+        copies = [one.replace(z=0.0), pickle.loads(pickle.dumps(one))]  # noqa: S301
+        engine = cp.Engine.preset("single").with_counterweights([one])
+        copies += [*engine.counterweights, *cp.Engine.from_toml(engine.to_toml()).counterweights]
+        assert all(each == one and each.exact_angle == one.exact_angle for each in copies)
+        assert all(type(each.angle_deg) is float for each in copies)
     assert Unbalance(0.01, 0.0).angle_deg == 0.0
     weight = Unbalance(0.01, 0.0, "51.4")
     shaft = Shaft(-2, [weight], x=1, y=2, name="lower")

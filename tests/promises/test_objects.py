@@ -398,7 +398,7 @@ def test_completion_offers_what_is_public() -> None:
 INPUTS = (
     cp.Engine, cp.Cylinder, cp.Rod, cp.Shaft, cp.Unbalance, cp.Cycle, cp.CycleMap, cp.Traces,
     cp.ValveTiming,
-    cp.PortTiming, cp.types.Arrangement, cp.Actuator, cp.InertiaTrack, cp.Mount,
+    cp.PortTiming, cp.Actuator, cp.InertiaTrack, cp.Mount,
     cp.RigidBody, cp.Powertrain, cp.Subframe, cp.Receptance,
 )  # fmt: skip
 

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
 import re
-from collections.abc import Iterator
+import threading
+from collections.abc import Generator, Iterator
 from decimal import Decimal
+from typing import Any
 
 import crankpin as cp
 import matplotlib as mpl
@@ -224,3 +227,98 @@ def test_texts_are_converted_with_their_digits() -> None:
         "Sag (0.05, -0.1, 0.0197) in under 0.99999996 lbf·ft; 2000 lbf along 45°, "
         "3 in pitch at 2 rpm"
     )
+
+
+# --- whose setting it is --------------------------------------------------------------------------
+
+
+def lengths() -> str:
+    return units.convert("m").unit
+
+
+def test_a_setting_is_that_of_its_thread() -> None:
+    seen = []
+    begun, ended = threading.Event(), threading.Event()
+
+    def other() -> None:
+        seen.append(lengths())
+        with cp.units("in"):
+            begun.set()
+            ended.wait(60)
+            seen.append(lengths())
+        seen.append(lengths())
+
+    thread = threading.Thread(target=other)
+    with cp.units("mm"):
+        thread.start()
+        begun.wait(60)
+        assert lengths() == "mm"
+    ended.set()
+    thread.join()
+    assert (seen, lengths()) == (["m", "in", "m"], "m")
+
+
+def test_a_setting_is_that_of_its_task() -> None:
+    async def task(unit: str, turns: int) -> list[str]:
+        with cp.units(unit):
+            seen = []
+            for _ in range(turns):
+                await asyncio.sleep(0)
+                seen.append(lengths())
+            return seen
+
+    async def both() -> list[list[str]]:
+        return [*await asyncio.gather(task("mm", 5), task("in", 3))]
+
+    assert asyncio.run(both()) == [["mm"] * 5, ["in"] * 3]
+    assert lengths() == "m"
+
+
+def test_blocks_that_do_not_nest_end_alone() -> None:
+    def shown() -> Generator[str, None, None]:
+        with cp.units("in"):
+            yield lengths()
+
+    generator = shown()
+    assert next(generator) == "in"
+    with cp.units("mm"):
+        generator.close()
+        assert lengths() == "mm"
+    assert lengths() == "m"
+
+
+def test_settings_without_a_block_last_until_that_which_is_around_them_ends() -> None:
+    with cp.units("mm"):
+        cp.units("in")
+        cp.units("ft")
+        assert lengths() == "ft"
+        with cp.units("cm"):
+            assert lengths() == "cm"
+            cp.units("in")
+        assert lengths() == "ft"
+    assert lengths() == "m"
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_blocks_in_any_order_leave_no_setting(seed: int) -> None:
+    """The innermost of those that go on is that which is shown."""
+    chance = np.random.default_rng(seed)
+    going_on: list[tuple[str, Any]] = []
+    for _ in range(60):
+        if going_on and chance.random() < 0.5:
+            _, block = going_on.pop(int(chance.integers(len(going_on))))
+            block.__exit__(None, None, None)
+        else:
+            unit = str(chance.choice(["mm", "in", "ft", "cm"]))
+            block = cp.units(unit)
+            block.__enter__()
+            going_on.append((unit, block))
+        assert lengths() == (going_on[-1][0] if going_on else "m")
+    for _, block in going_on:
+        block.__exit__(None, None, None)
+    assert lengths() == "m"
+
+
+def test_a_setting_takes_no_further_attributes() -> None:
+    with cp.units("mm") as setting, pytest.raises(AttributeError):
+        setting.other = 1  # type: ignore[attr-defined]

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import inspect
 import re
 import sys
 from importlib import import_module
 from typing import TYPE_CHECKING
+
+from crankpin._support import calls
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -42,6 +45,13 @@ def attributes(module: str, homes: Mapping[str, Iterable[str]]) -> Callable[[str
             raise AttributeError(f"module {module!r} has no attribute {name!r}")
         home = imported(home_of[name])
         value = home if home.__name__ == f"{module}.{name}" else getattr(home, name)
+        if inspect.isfunction(value):
+            value = calls.guided(value)
+            setattr(home, name, value)  # where pickles look
+        elif isinstance(value, type):
+            for kind in value.__mro__:
+                if kind.__module__.startswith("crankpin."):
+                    calls.guide(kind, value, with_constructor=module == "crankpin")
         setattr(sys.modules[module], name, value)
         return value
 

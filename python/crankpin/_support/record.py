@@ -15,7 +15,7 @@ from typing import Any, ClassVar, Generic, Self, TypeVar, dataclass_transform, o
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import inputs
+from crankpin._support import calls, inputs
 
 Item = TypeVar("Item")
 
@@ -115,6 +115,7 @@ class Record:
         dataclasses.dataclass(frozen=True, eq=False, repr=False)(cls)
         cls._fields = dataclasses.fields(cls)  # type: ignore[arg-type] # made one above
         cls._mutable = tuple(f.name for f in cls._fields if f.init and _MUTABLE.search(str(f.type)))
+        calls.guide(cls)
         if not hasattr(cls, "replace"):
             for name in {*vars(cls)} & _OF_DATACLASSES:
                 delattr(cls, name)
@@ -288,8 +289,12 @@ def _hashable(value: object) -> object:
 
 
 def _values(record: Record) -> dict[str, Any]:
-    """Return the values of the fields that the constructor takes, by name."""
-    return {each.name: getattr(record, each.name) for each in record._fields if each.init}
+    """Return the values of the fields that the constructor takes, exact where one says so."""
+    return {
+        each.name: getattr(record, each.metadata.get("exact", each.name))
+        for each in record._fields
+        if each.init
+    }
 
 
 def _rebuilt(kind: type[Record], fields: dict[str, Any]) -> Record:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import re
+from contextvars import ContextVar
 from decimal import Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
@@ -65,12 +66,20 @@ class Converted(NamedTuple):
 class Shown:
     """Setting of units, made by :func:`crankpin.units`: its block ends it."""
 
+    __slots__ = ("_setting",)
+
     def __init__(self, setting: Setting) -> None:
-        global _setting
-        self._before, _setting = _setting, setting
+        self._setting = setting
+        settings = _settings.get()
+        if len(settings) > 1 and not (settings[-1][1] or settings[-2][1]):
+            settings = (*settings[:-2], settings[-1])  # what the last one replaced has ended
+        _settings.set((*settings, (self, False)))
 
     def __enter__(self) -> None:
-        pass
+        settings = _settings.get()
+        if settings and settings[-1] == (self, False):
+            settings = settings[:-1]
+        _settings.set((*settings, (self, True)))
 
     def __exit__(
         self,
@@ -78,15 +87,23 @@ class Shown:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        global _setting  # noqa: PLW0603 - as above
-        _setting = self._before
+        settings = _settings.get()
+        block = (self, True)
+        if block not in settings:
+            return  # begun by another thread or task
+        at = len(settings) - 1 - settings[::-1].index(block)
+        behind = at + 1
+        while behind < len(settings) and not settings[behind][1]:
+            behind += 1  # settings without a block of their own end with this one
+        # Blocks of a generator may end before those that began within them.
+        _settings.set(settings[:at] + settings[behind:])
 
 
 def units(text: str = "") -> Shown:
     """Set the units in which tables, texts and pictures are shown.
 
     Numbers that results hold remain in SI units. The setting lasts until another one; as a context
-    manager, until its block ends.
+    manager, until its block ends. It is that of its own thread, or asyncio task.
 
     Parameters
     ----------
@@ -122,7 +139,8 @@ def units(text: str = "") -> Shown:
 
 Setting = dict[Dimension, str]
 """Dimension → its unit."""
-_setting: Setting = {}
+_settings: ContextVar[tuple[tuple[Shown, bool], ...]] = ContextVar("settings", default=())
+"""Settings with whether they are blocks, the innermost last."""
 
 
 def read(text: object, name: str = "units") -> Setting:
@@ -143,7 +161,8 @@ def read(text: object, name: str = "units") -> Setting:
 
 def current() -> Setting:
     """Return the units of the setting."""
-    return _setting
+    settings = _settings.get()
+    return settings[-1][0]._setting if settings else {}
 
 
 def symbol(word: str) -> str | None:
@@ -162,7 +181,7 @@ def exact(unit: str, dimension: Dimension | None = None) -> Decimal | None:
 
 def convert(unit: str, setting: Mapping[Dimension, str] | None = None) -> Converted:
     """Return the unit that a setting shows in place of another, and the factor of numbers."""
-    chosen = _setting if setting is None else setting
+    chosen = current() if setting is None else setting
     same = Converted(unit, 1.0)
     if not chosen or not unit:
         return same
@@ -201,7 +220,7 @@ def figure(value: float, unit: str, digits: int, most: float | None = None) -> s
 
 def in_text(text: str, setting: Mapping[Dimension, str] | None = None) -> str:
     """Return a text of the library with its numbers and their SI units as a setting shows them."""
-    chosen = _setting if setting is None else setting
+    chosen = current() if setting is None else setting
     if not chosen:
         return text
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import re
 import sys
 import warnings
 from contextvars import ContextVar
@@ -45,7 +46,28 @@ def warn(message: str) -> None:
     # By module, since constructors that dataclasses make have no file.
     while frame.f_back is not None and _ours(frame.f_globals.get("__name__", "")):
         level, frame = level + 1, frame.f_back
-    warnings.warn(without_controls(message), UserWarning, stacklevel=level)
+    warnings.warn(Said(without_controls(message)), UserWarning, stacklevel=level)
+
+
+class Said(str):
+    """Text of a warning, which Python shows once for a line of the caller, whatever its figures.
+
+    In the loop of an optimiser every design has its own.
+    """
+
+    __slots__ = ()
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, Said):
+            return _without_figures(self) == _without_figures(other)
+        return str.__eq__(self, other) if isinstance(other, str) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(_without_figures(self))
+
+
+def _without_figures(text: str) -> str:
+    return re.sub(r"(?<![\w.])-?\d[\d.]*(e[-+]?\d+)?", "#", str(text))
 
 
 def _ours(module: str) -> bool:

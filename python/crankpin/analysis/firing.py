@@ -16,7 +16,7 @@ from crankpin._support.frames import Tabled
 from crankpin._support.record import read_only
 from crankpin.analysis.gas_exchange import PortTiming, Timing, ValveTiming, angles
 from crankpin.model import checks
-from crankpin.model.builders import vee_layout_of
+from crankpin.model.builders import banks_of_order, vee_layout_of
 from crankpin.model.data import EngineData
 
 if TYPE_CHECKING:
@@ -437,7 +437,8 @@ def throws(
     >>> cp.throws("1-3-4-2")[0]
     array([  0., 180., 180.,   0.])
     """
-    text = inputs.firing_order("firing_order", firing_order)
+    banks = banks_of_order(firing_order, bank_angle_deg, numbering, odd_bank)
+    text = inputs.firing_order("firing_order", firing_order, banks)
     listed = None if intervals_deg is None else inputs.angles("intervals_deg", intervals_deg)
     number = inputs.strokes(strokes)
     across = vee_layout_of(bank_angle_deg, 0.0, numbering, odd_bank)

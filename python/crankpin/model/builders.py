@@ -660,9 +660,8 @@ class Builders(EngineData):
             parts of a turn (0°, 120°, 240° in a V6) from the same crank angle in both banks.
         intervals_deg : sequence of number or str, optional
             With ``rule="even"``: crank angles from each cylinder of the order to the next, and from
-            the last to the first, in place of equal ones; 0 between those joined by ``+``. Where
-            one is above 360 the crank can fire in this order in other ways too; the engine takes
-            the most even, with a warning.
+            the last to the first, in place of equal ones; 0 between those joined by ``+``. The
+            engine keeps the turns in which its cylinders fire, as in twins that fire 30° apart.
         strokes : {4, 2}, default 4
             4 or 2: intervals add up to 720 or 360.
         numbering : {"alternating", "by-bank"}, default "alternating"
@@ -692,9 +691,8 @@ class Builders(EngineData):
         Warns
         -----
         UserWarning
-            If pins are split without ``shared_pins=False``, cylinder 1 in the other bank would
-            need smaller splits, or the crank fires in this order more evenly than at
-            ``intervals_deg``.
+            If pins are split without ``shared_pins=False``, or cylinder 1 in the other bank would
+            need smaller splits.
 
         Examples
         --------
@@ -713,7 +711,7 @@ class Builders(EngineData):
 
         See :func:`crankpin.throws` for the crank alone.
         """
-        banks = _banks(firing_order, bank_angle_deg, numbering, odd_bank)
+        banks = banks_of_order(firing_order, bank_angle_deg, numbering, odd_bank)
         order = inputs.firing_order("firing_order", firing_order, banks)
         fired = (
             inputs.text("rule", rule, 'give "even" or "ijesc"'),
@@ -756,15 +754,15 @@ class Builders(EngineData):
         checks.angles(
             bank_angle_deg=bank_angle_deg, intervals_deg=intervals_deg, first_tdc_deg=first_tdc_deg
         )
-        if fired[1] is not None:
-            taken = _core.Firing.named(core, order, strokes)
-            checks.intervals(order, [inputs.degrees(each) for each in fired[1]], taken)
         engine = cls(core, name, source, "", strokes)
         known = allowed(core, order, strokes)
-        return furnished(engine, cylinder, rotating_mass, known)
+        engine = furnished(engine, cylinder, rotating_mass, known)
+        if fired[1] is None:
+            return engine
+        return cls(_core.Firing.at_intervals(engine._core, order, strokes, fired[1]).kept())
 
 
-def _banks(
+def banks_of_order(
     firing_order: object, bank_angle_deg: Angle | None, numbering: object, odd_bank: object
 ) -> list[int]:
     """Return the bank of each cylinder of a vee that is named by its firing order."""

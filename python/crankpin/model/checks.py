@@ -7,7 +7,6 @@ once per call, however many cylinders are alike.
 from __future__ import annotations
 
 import math
-import re
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -298,29 +297,3 @@ def split_pins(
         f"firing_order = {labels.cut(str(given))}: even firing needs crankpins split by "
         f"{largest:.6g}°; shared ones, which shared_pins=True gives, {fires}"
     )
-
-
-def intervals(order: str, given_deg: Sequence[float], firing: _core.Firing) -> None:
-    """Warn of firing intervals that an engine does not take, since its order allows more even ones.
-
-    Parameters
-    ----------
-    order
-        Firing order as given.
-    given_deg
-        Crank angles from each cylinder of the order to the next, degrees.
-    firing
-        The firing that the engine takes.
-    """
-    # Cylinders that fire together are by number in `firing`.
-    numbers, *_ = re.findall(r"\d+(?:\s*\+\s*\d+)*", order)
-    first = firing.order.index(min(map(int, numbers.split("+"))))
-    taken = np.roll(firing.intervals_deg, -first)
-    if np.abs(taken - given_deg).max() > ROUNDING:
-        asked, even = (
-            "-".join(f"{each:.6g}" for each in degrees) for degrees in (given_deg, taken)
-        )
-        warn(
-            f"intervals_deg = {asked}: the crank fires {order} at {even} too, which is as even or "
-            "more: firing and gas torque of the engine are of that. Engine.firings has all ways"
-        )

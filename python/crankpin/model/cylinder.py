@@ -499,13 +499,14 @@ class Rod(Input):
     length : float
         Length l between the centres of its eyes, m.
     to_crankpin : float
-        Distance a from the crankpin's eye to the centre of mass, m; 0 to l.
+        Distance a from the crankpin's eye to the centre of mass, m; 0 to l, or below 0, to −l, for
+        a rod with a counterweight, whose centre lies beyond the crankpin.
 
     Raises
     ------
     InputError
-        If a figure is not finite or has the wrong sign, or the centre of mass is not between the
-        eyes.
+        If a figure is not finite or has the wrong sign, or the centre of mass is further than l
+        from the crankpin's eye.
 
     Examples
     --------

@@ -456,11 +456,13 @@ class EngineData:
             allowed(core, self.firing_order, count) if firing_order is None else firing_order,
             count,
         )
+        as_before = tdc_deg is None and pin_deg is None and count == self.strokes
+        if as_before and firing_order is None and changed.firing_order == self.firing_order:
+            changed = type(self)(changed._core.with_turns(self._core.chosen_turns))
         cycles: Any = self.cycles if _is_kept(cycle) else cycle
         if cycles is None:
             inputs.only_with("cycle", crankcase=crankcase)
             return changed
-        as_before = tdc_deg is None and pin_deg is None and count == self.strokes
         if _is_kept(cycle) and (dummies := _dummies(core)) != _dummies(self._core):
             cycles = [None if k in dummies else one for k, one in enumerate(cycles, start=1)]
             as_before = False
@@ -469,7 +471,8 @@ class EngineData:
             below = self._below_pistons(crankcase)
             fired = changed._core.fired_as(self._core, list(range(len(self))), below)
             checks.absolute("crankcase", below)
-            return type(self)(fired.firing_as(changed.firing_order, count))
+            fired = fired.firing_as(changed.firing_order, count)
+            return type(self)(fired.with_turns(changed._core.chosen_turns))
         return changed._fired_by(cycles, crankcase, self)
 
     def _rotating(self, cylinder: Cylinder | Sequence[Cylinder] | None) -> list[float]:
@@ -792,7 +795,7 @@ class EngineData:
         """Return the engine of a file, its parts and firing order checked."""
         if core.firing_order:
             order = _core.Firing.named(core, core.firing_order, core.strokes)
-            core = core.firing_as(order.text, core.strokes)
+            core = core.firing_as(order.text, core.strokes).with_turns(core.chosen_turns)
         read = cls(core)
         with suppressed():
             read.cylinders  # noqa: B018 - rods that contradict their cylinders raise

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
@@ -13,7 +14,7 @@ from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support.record import Input, read_only
 from crankpin._support.warnings import warn
-from crankpin.model.shafts import listed_items, readable
+from crankpin.model.shafts import listed_items
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -100,15 +101,19 @@ class PeriodicLoad(Input):
     torque: Mapping[Order, Any]
     scaling: Scaling
     rpm: float | tuple[float, ...] | None
-    direction_deg: float | str
+    direction_deg: float = dataclasses.field(compare=False, metadata={"exact": "exact_direction"})
     turning: bool
-    phase_deg: float | str
+    phase_deg: float = dataclasses.field(compare=False, metadata={"exact": "exact_phase"})
     z: float
     crank: int | None
     ratio: float
     x: float
     y: float
     cylinder: int | None
+    exact_direction: str = dataclasses.field(init=False, repr=False)
+    """``direction_deg`` as text that is exact."""
+    exact_phase: str = dataclasses.field(init=False, repr=False)
+    """``phase_deg`` as text that is exact."""
 
     def __init__(
         self,
@@ -142,8 +147,10 @@ class PeriodicLoad(Input):
         if not (self.force or self.torque):
             hint = "give amplitudes of a force, of a torque, or of both: torque={2: 4 - 1j}"
             raise inputs.rejected("force", None, hint)
-        keep(direction_deg=readable(inputs.angle("direction_deg", direction_deg)))
-        keep(phase_deg=readable(inputs.angle("phase_deg", phase_deg)))
+        keep(exact_direction=inputs.angle("direction_deg", direction_deg))
+        keep(exact_phase=inputs.angle("phase_deg", phase_deg))
+        keep(direction_deg=inputs.degrees(self.exact_direction))
+        keep(phase_deg=inputs.degrees(self.exact_phase))
         for field, value in (("z", z), ("x", x), ("y", y)):
             keep(**{field: inputs.finite(field, value)})
         keep(crank=None if crank is None else inputs.whole("crank", crank, 0))
@@ -260,8 +267,8 @@ class PeriodicLoad(Input):
             "force": _rows(self.force),
             "torque": _rows(self.torque),
             "over_speed": over,
-            "direction_deg": self.direction_deg,
-            "phase_deg": self.phase_deg,
+            "direction_deg": self.exact_direction,
+            "phase_deg": self.exact_phase,
             "turning": self.turning,
             "z": self.z,
             "ratio": self.ratio,

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import dataclasses
 from typing import TYPE_CHECKING, TypeAlias
 
-from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support.record import Input
 from crankpin._support.warnings import suppressed
@@ -13,6 +13,7 @@ from crankpin.model import checks
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from crankpin import _core
     from crankpin._support.inputs import Angle
     from crankpin._support.record import Item
 
@@ -57,9 +58,11 @@ class Unbalance(Input):
 
     amount: float
     z: float
-    angle_deg: float | str
+    angle_deg: float = dataclasses.field(compare=False, metadata={"exact": "exact_angle"})
     pin: int | None
     crank: int
+    exact_angle: str = dataclasses.field(init=False, repr=False)
+    """The angle as text that is exact, such as ``"1350/7"``, degrees."""
 
     def __init__(
         self,
@@ -77,7 +80,8 @@ class Unbalance(Input):
             )
         checks.unbalance(self.amount)
         angle = inputs.angle("angle_deg", angle_deg)
-        object.__setattr__(self, "angle_deg", readable(angle))
+        object.__setattr__(self, "angle_deg", inputs.degrees(angle))
+        object.__setattr__(self, "exact_angle", angle)
         if pin is not None:
             pin = inputs.whole("pin", pin)
             if pin < 1:
@@ -225,8 +229,7 @@ def listed_items(name: str, given: object, kind: type[Item]) -> tuple[Item, ...]
 
 def _weight(unbalance: Unbalance) -> _Weight:
     pin = None if unbalance.pin is None else unbalance.pin - 1
-    angle = inputs.angle("angle_deg", unbalance.angle_deg)
-    return (unbalance.amount, angle, unbalance.z, pin, unbalance.crank)
+    return (unbalance.amount, unbalance.exact_angle, unbalance.z, pin, unbalance.crank)
 
 
 def _shaft(shaft: Shaft) -> tuple[str, int, float, float, list[_Weight]]:
@@ -237,14 +240,7 @@ def unbalance_of(weight: _Weight) -> Unbalance:
     """Return an unbalance of the core."""
     amount, angle, z, pin, crank = weight
     with suppressed():  # Warned of where it was given.
-        return Unbalance(amount, z, readable(angle), None if pin is None else pin + 1, crank)
-
-
-def readable(angle: str) -> float | str:
-    """Return exact degrees as a number, or as text where no number is exact."""
-    if "/" in angle or _core.exact_angle("angle_deg", float(angle)) != angle:
-        return angle
-    return float(angle)
+        return Unbalance(amount, z, angle, None if pin is None else pin + 1, crank)
 
 
 def _text(weight: _Weight) -> str:

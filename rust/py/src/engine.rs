@@ -594,6 +594,17 @@ impl Engine {
         engine.or_raise().map(Self::from)
     }
 
+    /// Whether each cylinder fires in the second turn, where another schedule than the most even was chosen.
+    #[getter]
+    fn chosen_turns(&self) -> Option<Vec<bool>> {
+        self.0.chosen_turns().map(<[bool]>::to_vec)
+    }
+
+    /// The engine with these turns, in its firing order.
+    fn with_turns(&self, turns: Option<Vec<bool>>) -> PyResult<Self> {
+        self.0.with_turns(turns).or_raise().map(Self::from)
+    }
+
     /// The engine without pressure in its cylinders.
     fn without_cycles(&self) -> Self {
         self.0.without_gas().into()

@@ -12,7 +12,7 @@ use ndarray::{Array1, Array2};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
-use crate::convert::{self, Angle, OrRaise};
+use crate::convert::{self, Angle, OrRaise, angles};
 use crate::engine::{Engine, VeeLayout, firing_rule, numbers};
 use crate::interrupt;
 
@@ -63,6 +63,28 @@ impl Firing {
     fn own(engine: &Bound<'_, Engine>) -> PyResult<Self> {
         let core = &engine.get().0;
         interrupt::run(engine.py(), |cancel| core::Firing::own(core, cancel)).map(Self)
+    }
+
+    /// The schedule at intervals from each cylinder of an order to the next.
+    #[staticmethod]
+    fn at_intervals(
+        engine: &Bound<'_, Engine>,
+        firing_order: &str,
+        strokes: u32,
+        intervals: Vec<Angle>,
+    ) -> PyResult<Self> {
+        let strokes = Strokes::from_number(strokes).or_raise()?;
+        let order: FiringOrder = firing_order.parse().or_raise()?;
+        let (core, intervals) = (&engine.get().0, angles(intervals));
+        let found = interrupt::run(engine.py(), |cancel| {
+            core::Firing::at_intervals(core, &order, strokes, &intervals, cancel)
+        });
+        found.map(Self)
+    }
+
+    /// The engine that fires so, and keeps the turns in which its cylinders do.
+    fn kept(&self, py: Python<'_>) -> PyResult<Engine> {
+        interrupt::run(py, |cancel| self.0.kept(cancel)).map(Engine::from)
     }
 
     #[staticmethod]

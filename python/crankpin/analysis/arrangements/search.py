@@ -13,7 +13,7 @@ from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
-from crankpin._support.record import Input, changed, item_key
+from crankpin._support.record import Record, changed, item_key
 from crankpin._support.tables import Item, Table
 from crankpin.model.data import parts
 from crankpin.model.engine import Engine
@@ -35,7 +35,7 @@ _LISTED = "second_order"
 _WHOLE = (0.0, 180.0)
 
 
-class Arrangement(Item, Input):
+class Arrangement(Item, Record):
     """A bank angle at which first-order moment is all forward, and the phases of both banks."""
 
     bank_angle_deg: float

@@ -163,7 +163,7 @@ def fitted(
     for place, angle, each in found:
         weight = unbalance_of(each)
         if angles is not None:
-            weight = dataclasses.replace(weight, angle_deg=angles[names[place]][angle])
+            weight = weight.replace(angle_deg=angles[names[place]][angle])
         unbalances.append((names[place], weight))
     return Fitted(tuple(unbalances), exact, missing)
 

@@ -135,7 +135,7 @@ struct StationEntry {
     cycle: Option<usize>,
     /// Whether it fires at the top dead centre of the second turn.
     #[serde(default, skip_serializing_if = "is_default")]
-    second_turn: bool,
+    second_turn: Option<bool>,
     #[serde(default, skip_serializing_if = "is_default")]
     cylinder: Option<PartsEntry>,
 }
@@ -296,7 +296,11 @@ impl EngineFile {
             bank: numbered.then(|| number(engine.bank_of(i))),
             crank: engine.crank_of(i).position(),
             cycle: engine.gas().and_then(|gas| gas.cycle_of[i]).map(|cycle| cycle + 1),
-            second_turn: engine.gas().is_some_and(|gas| gas.later[i]),
+            // Of an engine with pressure false is left out; without, that all are given says which.
+            second_turn: engine
+                .turns()
+                .map(|turns| turns[i])
+                .filter(|second| *second || engine.gas().is_none()),
             cylinder: (!shared).then_some(parts[i]),
         };
         Ok(Self {
@@ -362,7 +366,7 @@ impl EngineFile {
             cycles: self.cycles.iter().cloned().map(Arc::new).collect(),
             cycle_of: self.placements.iter().enumerate().map(cycle).collect::<Result<_>>()?,
             crankcase: self.crankcase.unwrap_or(ATMOSPHERE),
-            later: self.placements.iter().map(|place| place.second_turn).collect(),
+            later: self.placements.iter().map(|place| place.second_turn.unwrap_or(false)).collect(),
         }))
     }
 
@@ -419,8 +423,12 @@ impl EngineFile {
         let crank_of = self.placements.iter().map(|place| place.crank).collect();
         let shafts = self.shafts.iter().enumerate();
         let shafts = shafts.map(|(i, shaft)| shaft.shaft(&format!("shafts[{i}]")));
+        let turns = self.placements.iter().map(|place| place.second_turn);
+        let turns =
+            turns.clone().any(|turn| turn.is_some()).then(|| turns.map(Option::unwrap_or_default));
         engine
             .firing_as(self.firing_order, strokes)?
+            .with_turns(turns.filter(|_| gas.is_none()).map(Iterator::collect))?
             .with_details(details)?
             .with_cranks(cranks, crank_of)?
             .with_mains(self.mains)?

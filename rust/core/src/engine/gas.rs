@@ -96,6 +96,28 @@ impl Engine {
         Some((Arc::clone(&gas.cycles[gas.cycle_of[cylinder]?]), gas.crankcase))
     }
 
+    /// Whether each cylinder fires at its top dead centre in the second turn of the cycle, where that is
+    /// known: of an engine with pressure, and where another schedule than the most even was chosen.
+    #[must_use]
+    pub fn turns(&self) -> Option<&[bool]> {
+        self.gas.as_ref().map(|gas| &gas.later).or(self.turns.as_ref()).map(Vec::as_slice)
+    }
+
+    /// The same engine with the turns in which its cylinders fire, in its firing order; none for those of
+    /// the most even schedule.
+    pub fn with_turns(&self, turns: Option<Vec<bool>>) -> Result<Self> {
+        if let Some(turns) = &turns {
+            check_each_cylinder("later", turns.len(), self.stations.len())?;
+        }
+        Ok(Self { turns, ..self.clone() })
+    }
+
+    /// Turns that were chosen.
+    #[must_use]
+    pub fn chosen_turns(&self) -> Option<&[bool]> {
+        self.turns.as_deref()
+    }
+
     /// Crank angle at which a cylinder is at its firing top dead centre, within a cycle.
     #[must_use]
     pub fn firing_phase(&self, cylinder: usize) -> Angle {
@@ -109,11 +131,11 @@ impl Engine {
         let moved = *tdc + by;
         *tdc = moved.reduced();
         let crossed = ((moved.degrees() - tdc.degrees()) / 360.0).round();
-        if let Some(gas) = &mut self.gas
-            && self.strokes == Strokes::Four
-            && crossed % 2.0 != 0.0
-        {
-            gas.later[cylinder] = !gas.later[cylinder];
+        if self.strokes == Strokes::Four && crossed % 2.0 != 0.0 {
+            let of_gas = self.gas.as_mut().map(|gas| &mut gas.later);
+            for later in of_gas.into_iter().chain(&mut self.turns) {
+                later[cylinder] = !later[cylinder];
+            }
         }
     }
 

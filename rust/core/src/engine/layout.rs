@@ -257,6 +257,14 @@ impl FiringOrder {
             // One bank has the same crank by either rule.
             FiringRule::Ijesc => return self.times(&FiringRule::Even(Strokes::Four)),
         };
+        let joined = together.iter().filter(|joined| **joined).count();
+        if joined > 0 && intervals.len() + joined == count {
+            let hint = format!(
+                "give {count}, one for each cylinder: 0 between those joined by '+', such as \
+                 0,180,540 for 1+2-3"
+            );
+            return Err(Error::value("number of intervals_deg", intervals.len(), hint));
+        }
         limits::same_length("intervals_deg", intervals.len(), "firing_order", count, "cylinder")?;
         let mut times = vec![Angle::ZERO];
         for (k, &interval) in intervals.iter().enumerate() {
@@ -322,7 +330,10 @@ impl FiringOrder {
         if count % 2 == 1 {
             let hint = format!(
                 "has {count} cylinders and a vee an even number; leave out bank_angle_deg for an \
-                 inline engine"
+                 inline engine, or build one of {} by its throws and leave a cylinder out: \
+                 Engine.vee(throws_deg=…, absent=[{}], firing_order=…)",
+                count + 1,
+                count + 1
             );
             return Err(Error::value("firing_order", self.to_string(), hint));
         }

@@ -83,7 +83,7 @@ pub struct RodFigures {
     pub mass: f64,
     /// Moment of inertia about the centre of mass, kg·m².
     pub inertia: f64,
-    /// Distance of the centre of mass from the crankpin, m.
+    /// Distance of the centre of mass from the crankpin towards the piston pin, m.
     pub to_crankpin: f64,
 }
 
@@ -142,6 +142,8 @@ pub struct Engine {
     loads: Vec<PeriodicLoad>,
     /// Pressure in the cylinders, where it counts.
     gas: Option<Gas>,
+    /// Whether each cylinder fires in the second turn of the cycle, where that was chosen.
+    turns: Option<Vec<bool>>,
     /// Of each cylinder.
     details: Vec<Details>,
     /// Places of the main bearings along the crank, ascending, m; empty where they are not known.
@@ -206,6 +208,7 @@ impl Engine {
             shafts: Vec::new(),
             loads: Vec::new(),
             gas: None,
+            turns: None,
             details: vec![Details::default(); count],
             mains: Vec::new(),
             reference_z: None,
@@ -517,7 +520,7 @@ impl Engine {
             if let Some(RodFigures { mass, inertia, to_crankpin }) = *rod {
                 limits::not_negative("rod.mass", mass)?;
                 limits::inertia("rod.inertia", inertia)?;
-                limits::not_negative("rod.to_crankpin", to_crankpin)?;
+                limits::finite("rod.to_crankpin", to_crankpin)?;
             }
         }
         Self { details, ..self.clone() }.with_known_torque()
@@ -543,11 +546,12 @@ impl Engine {
         Ok(Self { reference_z, ..self.clone() })
     }
 
-    /// The same engine with a firing order, such as `1-3-4-2`; empty where it is not known.
+    /// The same engine with a firing order, such as `1-3-4-2`; empty where it is not known. Which turns
+    /// its cylinders fire in is open then.
     pub fn firing_as(&self, firing_order: impl Into<String>, strokes: Strokes) -> Result<Self> {
         let firing_order = firing_order.into();
         limits::name("firing_order", &firing_order)?;
-        Self { firing_order, strokes, ..self.clone() }.with_known_torque()
+        Self { firing_order, strokes, turns: None, ..self.clone() }.with_known_torque()
     }
 
     /// The same engine under another name.

@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use super::highest_points::highest_points;
 use super::schedule::{Firing, firing};
-use crate::engine::{Engine, Gas};
+use crate::engine::Engine;
 use crate::layout::{FiringOrder, Strokes};
+use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result, shorten};
 use crate::numbers::memory;
@@ -88,23 +89,58 @@ impl Firing {
         Err(Error::value("firing_order", order, hint))
     }
 
-    /// The schedule by which an engine fires: that of its gas, the most even one in its own firing order,
-    /// or the only one.
+    /// The schedule at these intervals, from each cylinder of an order to the next and from the last to the
+    /// first; the most even one where the crank fires at none of them.
+    pub fn at_intervals(
+        engine: &Arc<Engine>,
+        order: &FiringOrder,
+        strokes: Strokes,
+        intervals: &[Angle],
+        cancel: &Cancel,
+    ) -> Result<Self> {
+        let (cylinders, together) = (order.cylinders(), order.together());
+        let group = 1 + together.iter().skip(1).take_while(|joined| **joined).count();
+        // Of those that fire together schedules have the lowest number first.
+        let first = cylinders[..group.min(cylinders.len())].iter().min();
+        let distance = |one: &Self| {
+            let own = one.intervals();
+            let at = one.order().iter().position(|cylinder| Some(&(cylinder + 1)) == first);
+            let difference = |k: usize, interval: Angle| {
+                (own[(at.unwrap_or(0) + k) % own.len()] - interval).degrees().abs()
+            };
+            intervals.iter().enumerate().map(|(k, &interval)| difference(k, interval)).sum::<f64>()
+        };
+        let all = Self::all_named(engine, order, strokes)?.into_iter();
+        let nearest = all.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        nearest.map_or_else(|| Self::named(engine, order, strokes, cancel), Ok)
+    }
+
+    /// The engine of a schedule, which keeps the turns in which its cylinders fire where these are not
+    /// those of the most even one.
+    pub fn kept(&self, cancel: &Cancel) -> Result<Engine> {
+        let order = self.to_string();
+        let engine = self.engine().firing_as(order.as_str(), self.strokes())?;
+        let most_even = Self::named(self.engine(), &order.parse()?, self.strokes(), cancel)?;
+        let is_chosen = most_even.later() != self.later();
+        engine.with_turns(is_chosen.then(|| self.in_second_turn()))
+    }
+
+    /// The schedule by which an engine fires: that of its gas or of the turns that were chosen, the most
+    /// even one in its own firing order, or the only one.
     pub fn own(engine: &Arc<Engine>, cancel: &Cancel) -> Result<Self> {
         let strokes = engine.strokes();
         if !engine.firing_order().is_empty() {
             let order = engine.firing_order().parse()?;
-            let of_gas = |gas: &Gas| {
+            let of_turns = |later: &[bool]| {
                 // Whichever turn is called the first.
                 let same = |firing_of_order: &Self| {
                     let second = firing_of_order.in_second_turn();
-                    let turned: Vec<bool> =
-                        firing(engine).map(|i| second[i] != gas.later[i]).collect();
+                    let turned: Vec<bool> = firing(engine).map(|i| second[i] != later[i]).collect();
                     turned.iter().all(|each| *each == turned[0])
                 };
                 Ok(Self::all_named(engine, &order, strokes)?.into_iter().find(same))
             };
-            return match engine.gas().map_or(Ok(None), of_gas)? {
+            return match engine.turns().map_or(Ok(None), of_turns)? {
                 Some(firing) => Ok(firing),
                 None => Self::named(engine, &order, strokes, cancel),
             };

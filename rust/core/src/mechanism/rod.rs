@@ -20,7 +20,8 @@ pub struct Rod {
 
 impl Rod {
     /// Mass in kg, moment of inertia about the centre of mass in kg·m², length between the centres of
-    /// the eyes and the centre of mass's distance from the crankpin's in m.
+    /// the eyes and the centre of mass's distance from the crankpin's in m, towards the piston pin: below 0
+    /// it lies beyond the crankpin.
     pub fn new(mass: f64, inertia: f64, length: f64, to_crankpin: f64) -> Result<Self> {
         limits::not_negative("mass", mass)?;
         limits::inertia("inertia", inertia)?;
@@ -28,8 +29,11 @@ impl Rod {
         if inertia < 0.0 {
             return Err(Error::figure("inertia", inertia, "give a number that is zero or more"));
         }
-        if !(0.0..=length).contains(&to_crankpin) {
-            let hint = format!("give metres, 0 to length = {length:?}");
+        // Beyond the crankpin: a rod with a counterweight of its own.
+        if !(-length..=length).contains(&to_crankpin) {
+            let hint = format!(
+                "give metres, 0 to length = {length:?}; below 0, to minus that, beyond the crankpin"
+            );
             return Err(Error::figure("to_crankpin", to_crankpin, hint));
         }
         Ok(Self { mass, inertia, to_crankpin, to_piston_pin: length - to_crankpin })
@@ -44,6 +48,10 @@ impl Rod {
     pub fn estimated(mass: f64, length: f64, to_crankpin: f64) -> Result<Self> {
         const TWO_MASSES_OVER_MEASURED: f64 = 1.0965;
         let rod = Self::new(mass, 0.0, length, to_crankpin)?;
+        if to_crankpin < 0.0 {
+            let hint = "beyond the crankpin no moment of inertia can be estimated: give it";
+            return Err(Error::figure("to_crankpin", to_crankpin, hint));
+        }
         let two_masses = mass * rod.to_crankpin * rod.to_piston_pin;
         Self::new(mass, two_masses / TWO_MASSES_OVER_MEASURED, length, to_crankpin)
     }
@@ -187,7 +195,12 @@ mod tests {
         assert!(Rod::new(-0.1, 0.001, 0.15, 0.05).is_err());
         assert!(Rod::new(0.3, -0.001, 0.15, 0.05).is_err());
         assert!(Rod::new(0.3, 0.001, 0.0, 0.05).is_err());
-        assert!(Rod::new(0.3, 0.001, 0.15, -0.01).is_err());
+        assert!(Rod::new(0.3, 0.001, 0.15, -0.16).is_err());
+        assert!(Rod::estimated(0.3, 0.15, -0.01).is_err());
+        // With a counterweight of its own the two masses are 0.32 and −0.02 kg.
+        let rod = Rod::new(0.3, 0.001, 0.15, -0.01).unwrap();
+        assert_relative_eq!(rod.rotating_mass(), 0.32, max_relative = 1e-15);
+        assert_relative_eq!(rod.reciprocating_mass(), -0.02, max_relative = 1e-14);
         assert!(Rod::new(0.3, 0.001, 0.15, 0.16).is_err());
         assert!(Rod::new(0.0, 0.0, 0.15, 0.15).is_ok());
     }

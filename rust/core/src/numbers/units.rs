@@ -321,7 +321,7 @@ mod tests {
             ("kgg", "kg", Some("kg")),
             ("inchs", "m", Some("in")),
             ("g·mn", "kg·m", Some("g·mm")),
-            ("degress", "°", Some("degrees")),
+            ("deegrees", "°", Some("degrees")),
             ("baar", "Pa", Some("bar")),
             ("kg", "m", None),
             ("x", "m", None),
