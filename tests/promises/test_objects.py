@@ -291,6 +291,7 @@ def test_attributes_cannot_be_set_or_deleted(name: str) -> None:
 def test_arrays_are_read_only(name: str) -> None:
     found = list(arrays(OBJECTS[name]))
     without = (
+        "PeriodicLoad",
         "Actuator",
         "MountDesign",
         "VelocityFeedback",
@@ -399,7 +400,7 @@ INPUTS = (
     cp.Engine, cp.Cylinder, cp.Rod, cp.Shaft, cp.Unbalance, cp.Cycle, cp.CycleMap, cp.Traces,
     cp.ValveTiming,
     cp.PortTiming, cp.Actuator, cp.InertiaTrack, cp.Mount,
-    cp.RigidBody, cp.Powertrain, cp.Subframe, cp.Receptance,
+    cp.RigidBody, cp.Powertrain, cp.Subframe, cp.Receptance, cp.PeriodicLoad,
 )  # fmt: skip
 
 

@@ -458,7 +458,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
     @property
     def _has_means(self) -> bool:
         """True of a torque that more than inertia may make."""
-        return not self.kind.planar and set(self.result.causes) != {"inertia"}
+        return not self.kind.planar and self.result._has_means
 
     def _figure(self, what: str) -> float | None:
         """Return a figure of one order of a balance; None where all together have none."""

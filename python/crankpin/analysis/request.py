@@ -111,6 +111,8 @@ class Request(NamedTuple):
         whole, point, _ = str(quantity).partition(".")
         kind = QUANTITIES[inputs.one_of("quantity", whole, QUANTITIES)]
         known = names if kind.planar else (*PART_WORDS, *names)
+        if point and not names:
+            raise inputs.rejected("quantity", quantity, f"has no parts here; give {whole!r}")
         if point:
             inputs.one_of(
                 "quantity", quantity, [f"{whole}.{each}" for each in dict.fromkeys(known)]

@@ -332,7 +332,7 @@ def lines(core: _core.Engine) -> list[str]:
 
 def _amplitudes(name: str, given: object, rows: int | None) -> Mapping[Order, Any]:
     if given is None:
-        return read_only({})  # type: ignore[no-any-return]
+        return read_only({})
     if not isinstance(given, Mapping):
         raise inputs.rejected(name, given, "give a mapping: order → complex amplitude, {2: 4 - 1j}")
     listed: dict[Order, Any] = {}
@@ -347,7 +347,7 @@ def _amplitudes(name: str, given: object, rows: int | None) -> Mapping[Order, An
             if len(values) != rows:
                 raise inputs.rejected(f"{name}[{key}]", value, f"give {rows}, one for each speed")
             listed[key] = tuple(_amplitude(f"{name}[{key}]", each) for each in values)
-    return read_only(dict(sorted(listed.items())))  # type: ignore[no-any-return]
+    return read_only(dict(sorted(listed.items())))
 
 
 def _amplitude(name: str, value: object) -> complex:
@@ -355,7 +355,7 @@ def _amplitude(name: str, value: object) -> complex:
     if isinstance(value, (str, bytes, bool)):
         raise inputs.rejected(name, value, hint)
     try:
-        amplitude = complex(value)  # type: ignore[call-overload] # anything that complex() takes
+        amplitude: complex = complex(value)  # type: ignore[call-overload] # anything that complex() takes
     except (TypeError, ValueError, OverflowError):
         raise inputs.rejected(name, value, hint) from None
     if not np.isfinite(amplitude):
