@@ -288,7 +288,8 @@ class BearingLoads(Tabled):
             hint = f"give metres above zero, one or one for each of {len(peaks)} bearings"
             if len(sizes) != len(peaks):
                 raise inputs.rejected(argument, given, hint)
-            inputs.positive_array(argument, sizes, hint)
+            if not (np.isfinite(sizes).all() and (sizes > 0.0).all()):
+                raise inputs.rejected(argument, given, hint)
             if sizes.max() > LARGEST_BEARING * self.engine.cylinders[0].crank_radius:
                 warn(f"{argument} = {sizes.max():g} m: was it given in millimetres?")
             area *= sizes

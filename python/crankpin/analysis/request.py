@@ -108,7 +108,9 @@ class Request(NamedTuple):
 
     def check(self, quantity: str, names: Sequence[str] = ("inertia",)) -> None:
         """Raise an error if a quantity is not available, of the names of what makes it."""
-        whole, point, _ = str(quantity).partition(".")
+        whole, point, _ = (
+            quantity.partition(".") if isinstance(quantity, str) else (quantity, "", "")
+        )
         kind = QUANTITIES[inputs.one_of("quantity", whole, QUANTITIES)]
         known = names if kind.planar else (*PART_WORDS, *names)
         if point and not names:
