@@ -29,6 +29,7 @@ MOUNTS = (
     cp.Mount("right", (0.3, -0.1, 0.4), (2e5, 1e5, 1e5), tilt_deg=130, loss_factor=0.1),
     cp.Mount("left", (-0.3, -0.1, 0.4), (2e5, 1e5, 1e5), tilt_deg=50, damping=200.0),
 )
+LOAD = cp.PeriodicLoad("pump", on="both", force={2: 8.0}, torque={0: 3.0})
 POWERTRAIN = cp.Powertrain(ENGINE, cp.RigidBody(150, (0, 0.06, 0.1), (7, 8, 4.5)), MOUNTS)
 THETA = np.arange(0.0, 720.0, 10.0)
 SHAKER = cp.Actuator(
@@ -280,7 +281,20 @@ KINDS: dict[str, list[Any]] = {
     "low": [10],
     "name": ["a name", "v6-60", "reciprocating_mass"],
     "note": ["note"],
-    "loads": ["loads"],
+    "loads": ["loads", [LOAD]],
+    "PeriodicLoad.on": ["both"],
+    "PeriodicLoad.force": [{2: 8.0}],
+    "PeriodicLoad.torque": [{0: 3.0}],
+    "PeriodicLoad.scaling": ["independent"],
+    "PeriodicLoad.rpm": [None],
+    "PeriodicLoad.direction_deg": [30.0],
+    "PeriodicLoad.phase_deg": [30.0],
+    "PeriodicLoad.cylinder": [None],
+    "from.on": ["both"],
+    "from.force": [[1.0, 0.0, -1.0, 0.0]],
+    "from.torque": [[1.0, 0.0, -1.0, 0.0]],
+    "from.rpm": [None],
+    "part.name": ["gas", "inertia", "pump"],
     "origin": ["origin"],
     "part": ["crankcase"],
     "path": ["written.toml", "engine.toml", "written.csv", "written.html", "written.tex"],
@@ -317,6 +331,7 @@ KEYWORDS: dict[str, dict[str, Any]] = {
     "answers": {"bob_weight": 1.0, "force": 100.0},
 }
 SEEDS: list[Any] = [
+    *(LOAD, ENGINE.with_loads([LOAD]).balance(1000.0).force),
     *(ENGINE, ENGINE.with_cycle(None), CYLINDER, CYCLE, MAP, POWERTRAIN, *MOUNTS, SHAKER),
     cp.sweep(ENGINE, rpm=[1000.0, 2000.0], orders=[1, 2]),
     *(ENGINE.firing(), two_stroke(), ENGINE.closed_form(1)),

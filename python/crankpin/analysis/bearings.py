@@ -290,6 +290,7 @@ class BearingLoads(Tabled):
                 raise inputs.rejected(argument, given, hint)
             if not (np.isfinite(sizes).all() and (sizes > 0.0).all()):
                 raise inputs.rejected(argument, given, hint)
+            inputs.positive_array(argument, sizes, hint)
             if sizes.max() > LARGEST_BEARING * self.engine.cylinders[0].crank_radius:
                 warn(f"{argument} = {sizes.max():g} m: was it given in millimetres?")
             area *= sizes

@@ -262,7 +262,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
         """
         if "." in self.name:
             raise self._absent("part", "it is one; read it of the whole")
-        return changed(self, name=f"{self.name}.{inputs.text('name', name)}")
+        known = self.result.request.parts(self.name, self.result.causes)
+        return changed(self, name=f"{self.name}.{inputs.one_of('name', name, known)}")
 
     @property
     def gas(self) -> Self:
