@@ -153,8 +153,8 @@ class PeriodicLoad(Input):
         keep(phase_deg=inputs.degrees(self.exact_phase))
         for field, value in (("z", z), ("x", x), ("y", y)):
             keep(**{field: inputs.finite(field, value)})
-        keep(crank=None if crank is None else inputs.whole("crank", crank, 0))
-        keep(cylinder=None if cylinder is None else inputs.whole("cylinder", cylinder, 1))
+        keep(crank=None if crank is None else inputs.whole("crank", crank, 0, 2**31))
+        keep(cylinder=None if cylinder is None else inputs.whole("cylinder", cylinder, 1, 2**31))
         keep(ratio=_ratio(ratio))
         _core.check_load(self._text())
 
@@ -232,7 +232,7 @@ class PeriodicLoad(Input):
         >>> complex(pump.torque[1]), complex(pump.torque[0])
         (-1j, (2+0j))
         """
-        count = inputs.whole("turns", turns)
+        count = inputs.whole("turns", turns, 1, 2)
         listed = inputs.is_listed(rpm)
         amplitudes: dict[str, Any] = {}
         for quantity, samples in (("force", force), ("torque", torque)):
@@ -369,7 +369,7 @@ def _ratio(value: object) -> float:
     if isinstance(value, str):
         try:
             return float(Fraction(value))
-        except (ValueError, ZeroDivisionError):
+        except (ValueError, ZeroDivisionError, OverflowError):
             hint = 'give a multiple of 1/2, such as "1/2", -1 or 2'
             raise inputs.rejected("ratio", value, hint) from None
     return inputs.finite("ratio", value)
