@@ -242,7 +242,7 @@ class PeriodicLoad(Input):
             if rows.ndim != 2 or (np.ndim(samples) == 2) != listed:
                 shape = "(n_rpm, n_samples)" if listed else "(n_samples,)"
                 raise inputs.rejected(quantity, samples, f"give samples of shape {shape}")
-            if rows.shape[1] < 3:  # two do not tell a cosine from its mean
+            if rows.shape[1] < 3:  # two do not determine cosine and sine
                 raise inputs.rejected(quantity, samples, "give 3 samples or more over its period")
             _warn_of_jump(quantity, rows)
             each = [_core.harmonics_of_samples(row.tolist(), count) for row in rows]
