@@ -13,6 +13,9 @@ const MOST_LISTED = 10000;
 /** Parts of a cylinder in a file, by the fields that have them. */
 const PART_OF = { bore: "bore", rod_length: "rod_length", reciprocating_mass: "reciprocating_mass", pin_offset: "pin_offset" };
 
+/** What an engine's file has that another kind of engine keeps. */
+const BESIDE_CYLINDERS = ["counterweights", "shafts", "powertrain", "reference_z"];
+
 /** What names of presets speak of besides the bank angle, which they have from the engine. */
 const NAMED = ["throws_deg", "pin_split_deg", "cylinders", "rows"];
 
@@ -23,13 +26,13 @@ const PLACE_DIGITS = 12;
 const WRITTEN_IN = { m: ["mm", 3], kg: ["g", 3] };
 
 export class Design {
-  /** `file` is an engine's file as an object, of the kind `lists`; `extra` what is fitted to the engine. */
+  /** `file` is an engine's file as an object, of other kinds than `lists` what it has besides cylinders; `extra` what panes fitted to the engine. */
   constructor({ kind, fields = {}, file = null, preset = null, extra = null, rpm = SPEED }) {
     Object.assign(this, { kind, file, preset, extra, rpm });
     /** Texts of the preset that are no fields. */
     const { title = "", source = "" } = PRESETS[preset] ?? {};
     this.texts = { title, source };
-    this.fields = { ...DEFAULTS, ...KINDS[kind].begins, ...(kind === "lists" && file ? fieldsOf(file) : {}), ...fields };
+    this.fields = { ...DEFAULTS, ...KINDS[kind].begins, ...(kind === "lists" && file?.placements ? fieldsOf(file) : {}), ...fields };
     this.before = { ...this.fields };
   }
 
@@ -45,11 +48,12 @@ export class Design {
     return new Design({ kind: "lists", file: JSON.parse(json) });
   }
 
-  /** An engine of another kind, cylinder by cylinder; places without what adding up left behind their digits. */
-  static unrolled(json, name) {
+  /** The same engine cylinder by cylinder, of its file; places without what adding up left behind their digits. */
+  unrolled(json, name) {
     const file = { ...JSON.parse(json), name };
     for (const each of file.placements) each.z = Number(each.z.toPrecision(PLACE_DIGITS));
-    return new Design({ kind: "lists", file });
+    const { extra, rpm, fields: { inertia } } = this;
+    return new Design({ kind: "lists", file, fields: { inertia }, extra, rpm });
   }
 
   /** The same design, to be changed by itself. */
@@ -63,7 +67,16 @@ export class Design {
     const shared = KINDS[kind].fields;
     const kept = Object.fromEntries(Object.entries(fields).filter(([key]) => this.names.includes(key)
       && (shared.includes(key) ? key !== "firing_order" : groupsOf(kind)[1][1].includes(key))));
-    return new Design({ kind, fields: { ...kept, name: "" }, rpm: this.rpm });
+    const { file, extra, rpm } = this;
+    const rest = file && Object.fromEntries(BESIDE_CYLINDERS.filter((name) => name in file).map((name) => [name, file[name]]));
+    return new Design({ kind, fields: { ...kept, name: "" }, file: rest, extra, rpm });
+  }
+
+  /** Have a pane's fit, or none of it. */
+  fit(pane, list) {
+    const { [pane]: _, ...others } = this.extra ?? {};
+    const fits = list ? { ...others, [pane]: list } : others;
+    this.extra = Object.keys(fits).length ? fits : null;
   }
 
   /** Names of the fields that it has. */
@@ -93,7 +106,8 @@ export class Design {
     const { gas, inertia } = read;
     delete read.gas;
     delete read.inertia;
-    const more = { gas, inertia: inertia ?? null };
+    const angles = Object.entries(read).filter(([name]) => FIELDS[name].unit === "°");
+    const more = { gas, inertia: inertia ?? null, angles: Object.fromEntries(angles.map(([name, typed]) => [name, [typed].flat()])) };
     const { title, source } = this.texts;
     read.name ??= NAMED.some((name) => this.changed.includes(name)) ? "" : title;
     return this.kind === "lists" ? { ...more, file: this.listed(read) } : { ...more, call: { kind: this.kind, source, ...read } };
@@ -114,7 +128,7 @@ export class Design {
       if (values.length !== count) throw fault(name, this.fields[name], `give one number, or ${count}, one for each bore`);
       return values[k];
     };
-    const { cylinder, ...rest } = file ?? { schema: 1, placements: [] };
+    const { cylinder, ...rest } = { schema: 1, placements: [], ...file };
     const placements = Array.from({ length: count }, (_, k) => {
       const before = rest.placements[k] ?? rest.placements.at(-1) ?? {};
       const { rod, piston_mass: piston, ...parts } = before.cylinder ?? cylinder ?? {};

@@ -9,7 +9,7 @@ import { GROUPS, PRESETS, UNITS } from "./tables.mjs";
 import { WORDS } from "./words.mjs";
 
 /** What core errors call figures that have another name here. */
-const FIELD_OF = { crank_radius: "stroke", pin_deg: "throws_deg", cylinder: "reciprocating_mass", tdc: "tdc_deg" };
+const FIELD_OF = { crank_radius: "stroke", pin_deg: "throws_deg", cylinder: "reciprocating_mass", tdc: "tdc_deg", z: "spacing", rpm: "stroke" };
 
 /** Errors are shown once nobody has typed for so long, milliseconds: half a number is no error yet. */
 const PATIENCE = 500;
@@ -110,13 +110,14 @@ export class Form {
     return html("div", { class: `entry${range ? " ranged" : ""}` }, html("label", { for: id }, label), control, slide ?? "", hint, fault);
   }
 
-  /** Write errors and notes beside their fields; at once where the reader is done typing, else a little later. */
-  faults(list) {
+  /** Write errors and notes beside their fields; `now`, or where the reader is done typing, else a little later. */
+  faults(list, now = false) {
     clearTimeout(this.waiting);
-    if (!list.length) return this.mark(list);
+    this.waiting = null;
+    this.list = list;
     const typing = this.element.contains(document.activeElement) && document.activeElement.matches("input[type=text]");
-    if (!typing || this.marked) return this.mark(list);
-    this.waiting = setTimeout(() => this.mark(list), PATIENCE);
+    if (now || !list.length || !typing || this.marked) return this.mark(list);
+    this.waiting = setTimeout(() => this.faults(list, true), PATIENCE);
   }
 
   mark(list) {
@@ -124,12 +125,12 @@ export class Form {
     const rest = [];
     const of = new Map();
     const wrong = new Set();
-    for (const { argument, message, hint, value, isNote } of list) {
+    for (const { argument, message, hint, value, isNote } of list.map(spoken)) {
       const [bare] = `${argument ?? ""}`.split(/[[. ]/);
       const own = this.entries.has(bare) ? bare : FIELD_OF[bare];
       // An error of several figures stands beside the one that was typed.
       const name = this.entries.has(this.last) && `${value} ${hint}`.includes(this.last) ? this.last : own;
-      if (this.entries.has(name)) of.set(name, inWords(hint ?? message, FIELDS[name].unit, this.units));
+      if (this.entries.has(name)) of.set(name, [of.get(name), inWords(hint ?? message, FIELDS[name].unit, this.units)].filter(Boolean).join("; "));
       else rest.push(inWords(message));
       if (this.entries.has(name) && !isNote) wrong.add(name);
     }
@@ -140,8 +141,15 @@ export class Form {
       if (wrong.has(name)) control.setAttribute("aria-invalid", "true");
       else control.removeAttribute("aria-invalid");
     }
+    this.said.classList.toggle("note", list.every(({ isNote }) => isNote));
     const whole = rest.join("; ") || (wrong.size ? WORDS.faulty([...wrong].map((name) => FIELDS[name].label)) : "");
     if (this.said.textContent !== whole) this.said.textContent = whole;
+  }
+
+  /** What is wrong with the engine as a whole, in a sentence, at once. */
+  get whole() {
+    if (this.waiting) this.faults(this.list, true);
+    return this.said.textContent;
   }
 
   /** The name that the engine has while none is typed. */
@@ -149,6 +157,10 @@ export class Form {
     this.entries.get("name").control.placeholder = name;
   }
 }
+
+/** An error as it is said: one without the library's hint is the page's own mistake. */
+const spoken = (error) => (error instanceof Error && error.hint === undefined && !error.isLimit
+  ? { message: WORDS.mistake(error.message) } : error);
 
 /** What a field means. */
 const saidOf = ({ said, optional, unit } = {}) => (said ? `${said}${optional && unit ? `; ${WORDS.mayBeEmpty}` : ""}` : "");

@@ -2,6 +2,7 @@
 
 import { Design } from "./design.mjs";
 import { KINDS } from "./fields.mjs";
+import { checkedFits } from "./fits.mjs";
 import { TypingError } from "./quantity.mjs";
 import { UNITS } from "./tables.mjs";
 
@@ -14,7 +15,7 @@ export async function fragmentOf([design, ...others], units) {
   if (design.preset) found.set("preset", design.preset);
   else found.set("kind", design.kind);
   if (design.file && !design.preset) found.set("file", await packed(JSON.stringify(design.file)));
-  const names = design.preset || design.file ? design.changed : design.names;
+  const names = design.preset || design.file?.placements ? design.changed : design.names;
   for (const name of names) found.set(name, design.fields[name] ?? "");
   if (design.extra) found.set("extra", await packed(JSON.stringify(design.extra)));
   found.set("rpm", `${design.rpm}`);
@@ -36,7 +37,7 @@ export async function designsOf(fragment, most = 2) {
   for (const name of design.names) {
     if (given.has(name)) design.fields[name] = given.get(name);
   }
-  if (given.has("extra")) design.extra = JSON.parse(await unpacked(given.get("extra")));
+  if (given.has("extra")) design.extra = checkedFits(JSON.parse(await unpacked(given.get("extra"))));
   const rpm = Number(given.get("rpm"));
   if (given.has("rpm") && rpm >= 0 && rpm <= 1e6) design.rpm = rpm;
   const others = most > 1 && given.has("with") ? await designsOf(given.get("with"), most - 1) : null;

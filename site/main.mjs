@@ -10,5 +10,6 @@ globalThis.begin = async (bytes) => {
   const script = document.getElementById("worker").textContent;
   const workbench = await Workbench.opened(core, module, script);
   document.body.append(workbench.element);
+  workbench.begin();
   globalThis.workbench = workbench;
 };

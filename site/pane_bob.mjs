@@ -3,6 +3,7 @@
 import { html } from "./dom.mjs";
 import { short } from "./format.mjs";
 import { paneFields } from "./pane_controls.mjs";
+import { fitOf } from "./fits.mjs";
 import { fitButtons } from "./pane_fits.mjs";
 import { tableOf } from "./table.mjs";
 import { WORDS } from "./words.mjs";
@@ -31,11 +32,13 @@ export const bobPane = {
     const { engine, design: { rpm }, settings } = slot;
     const factors = settings.bob.factors.slice(0, MOST_FACTORS);
     const found = [];
-    for (const factor of factors) found.push(await ask("bob_weights", { engine: slot.bare().json, factor }));
+    const before = slot.fitted({ bob: null });
+    for (const factor of factors) found.push(await ask("bob_weights", { engine: before.json, factor }));
     if (!found.length) return [];
+    const fits = found.map((each) => fitOf("bob", before, each));
     const named = { units, name: engine.summary.name };
-    const left = found.map(({ json }, k) => {
-      const [{ force, moment }] = core.call("balance", { engine: json, rpm, orders: [1], torque: false }).orders;
+    const left = fits.map((bob, k) => {
+      const [{ force, moment }] = core.call("balance", { engine: slot.fitted({ bob }).json, rpm, orders: [1], torque: false }).orders;
       return [percent(factors[k]), force.peak, ...force.peak_xy, moment.peak, ...moment.peak_xy];
     });
     const [{ pins, order_1: first }] = found;
@@ -56,7 +59,7 @@ export const bobPane = {
       }),
       html("ul", { class: "explained" }, ...[...lines(WORDS.vectors.force, first.force), ...lines(WORDS.vectors.moment, first.moment)]
         .map((text) => html("li", {}, text))),
-      fitButtons(slot, found[0]),
+      html("p", { class: "hint" }, WORDS.bobSaid), fitButtons(slot, "bob", fits[0]),
     ];
   },
 };

@@ -1,5 +1,6 @@
 // What makes the engine smooth: counterweights and balance shafts that fit, and what they leave.
 
+import { fitOf } from "./fits.mjs";
 import { html } from "./dom.mjs";
 import { paneFields } from "./pane_controls.mjs";
 import { tableOf } from "./table.mjs";
@@ -9,50 +10,50 @@ import { WORDS } from "./words.mjs";
 const RESIDUAL_ORDERS = [1, 2];
 
 const RESIDUAL_COLUMNS = [
-  { label: "order" }, { label: "force before", unit: "N" }, { label: "force after", unit: "N", key: "force-after" },
-  { label: "moment before", unit: "N·m" }, { label: "moment after", unit: "N·m", key: "moment-after" },
+  { label: "order" }, { label: "force before", unit: "N", key: "force-before" }, { label: "force after", unit: "N", key: "force-after" },
+  { label: "moment before", unit: "N·m", key: "moment-before" }, { label: "moment after", unit: "N·m", key: "moment-after" },
 ];
 
-/** What an engine fitted with something leaves, beside what it was. */
-export function residual({ core, units }, { engine, design }, fitted) {
-  const [before, after] = [engine.json, fitted.json].map((each) =>
-    core.call("balance", { engine: each, rpm: design.rpm, orders: RESIDUAL_ORDERS, torque: false }).orders);
+/** What an engine fitted with something leaves, beside what it is without that. */
+function residual({ core, units }, { engine, design }, ends) {
+  const [before, after] = ends.map(({ json }) =>
+    core.call("balance", { engine: json, rpm: design.rpm, orders: RESIDUAL_ORDERS, torque: false }).orders);
   const rows = before.map(({ order, force, moment }, k) =>
     [order, force.peak, after[k].force.peak, moment.peak, after[k].moment.peak]);
   return tableOf({ title: WORDS.residual, columns: RESIDUAL_COLUMNS, rows, units, name: engine.summary.name });
 }
 
-/** Buttons that fit hardware to the engine of the form, or take it off. */
-export function fitButtons(slot, fitted) {
-  const { counterweights = [], shafts = [] } = JSON.parse(fitted.json);
-  const nothing = !counterweights.length && shafts.every(({ unbalances }) => !unbalances.length);
-  const fit = html("button", { type: "button", disabled: nothing }, WORDS.fit);
-  fit.addEventListener("click", () => slot.fit({ counterweights, shafts }));
-  const off = html("button", { type: "button", disabled: !slot.design.extra }, WORDS.unfit);
-  off.addEventListener("click", () => slot.fit(null));
-  return html("p", { class: "buttons" }, fit, off);
+/** Buttons that fit what a pane has to the engine of the form, or take that off. */
+export function fitButtons(slot, pane, list) {
+  const has = slot.design.extra?.[pane];
+  const fit = html("button", { type: "button", disabled: !list.length }, WORDS.fit);
+  fit.addEventListener("click", () => slot.fit(pane, list));
+  const off = html("button", { type: "button", disabled: !has }, WORDS.unfit);
+  off.addEventListener("click", () => slot.fit(pane, null));
+  const another = has && JSON.stringify(has) !== JSON.stringify(list);
+  return html("div", {}, another ? html("p", { class: "hint" }, WORDS.fitOfAnother) : "", html("p", { class: "buttons" }, fit, off));
 }
 
-/** What fits as a table, or that nothing does. */
-const tableOfFit = (given) => (given.rows.length ? tableOf(given) : html("p", { class: "hint" }, WORDS.nothingToFit));
-
 const MASS_COLUMNS = [
-  { label: "no." }, { label: "place z", unit: "m" }, { label: "unbalance", unit: "kg·m", key: "unbalance" }, { label: "angle °" },
+  { label: "no." }, { label: "place z", unit: "m" }, { label: "unbalance", unit: "kg·m", key: "unbalance" }, { label: "angle °", key: "angle" },
 ];
-
-const weightRows = (list) => list.map(({ z, amount, angle_deg: angle, crank }, k) =>
-  [crank ? `${k + 1}, crank ${crank}` : `${k + 1}`, z, amount, Number(angle)]);
 
 export const counterweightsPane = {
   key: "counterweights",
   title: "Counterweights",
   make: async (slot, tools) => {
-    const fitted = await tools.ask("counterweights", { engine: slot.bare().json });
-    const { counterweights = [] } = JSON.parse(fitted.json);
+    const before = slot.fitted({ counterweights: null });
+    const after = await tools.ask("counterweights", { engine: before.json });
+    const list = fitOf("counterweights", before, after);
+    const { bob, fit, own } = WORDS.origins;
+    const first = slot.design.extra?.bob ? bob : own;
+    const rows = after.summary.weights.map(({ z, amount, direction_deg: angle, crank }, k, all) =>
+      [crank ? `${k + 1}, crank ${crank}` : `${k + 1}`, z, amount, angle, k < all.length - list.length ? first : fit]);
     return [
       html("p", { class: "hint" }, WORDS.counterweightsSaid),
-      tableOfFit({ title: WORDS.counterweights, columns: MASS_COLUMNS, rows: weightRows(counterweights), units: tools.units, name: slot.engine.summary.name }),
-      residual(tools, slot, fitted), fitButtons(slot, fitted),
+      list.length ? "" : html("p", { class: "hint" }, WORDS.nothingToFit),
+      rows.length ? tableOf({ title: WORDS.counterweights, columns: [...MASS_COLUMNS, { label: "of", key: "of" }], rows, units: tools.units, name: slot.engine.summary.name }) : "",
+      residual(tools, slot, [before, after]), fitButtons(slot, "counterweights", list),
     ];
   },
 };
@@ -74,15 +75,19 @@ export const shaftsPane = {
   make: async (slot, tools) => {
     const { ratios, x, y } = slot.settings.shafts;
     const speeds = ratios.split(",").map(Number);
-    const fitted = await tools.ask("balance_shafts", {
-      engine: slot.engine.json, rpm: slot.design.rpm, ratios: speeds, x: speeds.map((_, k) => (k ? -x : x)), y: speeds.map(() => y),
+    const before = slot.fitted({ shafts: null });
+    const after = await tools.ask("balance_shafts", {
+      engine: before.json, rpm: slot.design.rpm, ratios: speeds, x: speeds.map((_, k) => (k && x !== null ? -x : x)), y: speeds.map(() => y),
     });
-    const rows = (JSON.parse(fitted.json).shafts ?? []).flatMap(({ ratio, x: at, y: height, unbalances }, k) =>
-      unbalances.map(({ z, amount, angle_deg: angle }) => [`${k + 1}`, ratio, at, height, z, amount, Number(angle)]));
-    const columns = [{ label: "shaft" }, { label: "ratio" }, { label: "x", unit: "m" }, { label: "y", unit: "m" }, ...MASS_COLUMNS.slice(1)];
+    const list = fitOf("shafts", before, after);
+    const { fit, own } = WORDS.origins;
+    const rows = after.summary.shaft_weights.map(({ shaft, ratio, x: at, y: height, z, amount, direction_deg: angle }) =>
+      [`${shaft + 1}`, ratio, at, height, z, amount, angle, shaft < before.summary.shafts ? own : fit]);
+    const columns = [{ label: "shaft" }, { label: "ratio" }, { label: "x", unit: "m" }, { label: "y", unit: "m" }, ...MASS_COLUMNS.slice(1), { label: "of", key: "of" }];
     return [
-      tableOfFit({ title: WORDS.shafts, columns, rows, units: tools.units, name: slot.engine.summary.name }),
-      residual(tools, slot, fitted), fitButtons(slot, fitted),
+      list.length ? "" : html("p", { class: "hint" }, WORDS.nothingToFit),
+      rows.length ? tableOf({ title: WORDS.shafts, columns, rows, units: tools.units, name: slot.engine.summary.name }) : "",
+      residual(tools, slot, [before, after]), fitButtons(slot, "shafts", list),
     ];
   },
 };

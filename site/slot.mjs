@@ -4,6 +4,7 @@ import { Bench } from "./bench.mjs";
 import { Form } from "./form.mjs";
 import { html } from "./dom.mjs";
 import { Design } from "./design.mjs";
+import { withFits } from "./fits.mjs";
 import { UNITS } from "./tables.mjs";
 import { WORDS } from "./words.mjs";
 
@@ -20,15 +21,18 @@ export class Slot {
   constructor(core, design, { units, changed, speed, turned }) {
     Object.assign(this, { core, design, units, changed, speed, turned });
     this.id = ++slots;
+    /** The engine that is shown, the one that is typed without what was fitted to it, and whether they are one. */
     this.engine = null;
+    this.base = null;
+    this.faults = [];
     /** What the reader set in panes: controls by pane, and their values. */
     this.controls = {};
     this.settings = {};
     this.form = new Form(core, {
       changed: () => this.later(),
       chosen: (name) => this.take(Object.assign(Design.preset(name), { rpm: this.design.rpm })),
-      kindChosen: (kind) => this.take(kind === "lists" && this.engine
-        ? Object.assign(Design.unrolled(this.engine.json, this.engine.summary.name), { rpm: this.design.rpm }) : this.design.as(kind)),
+      kindChosen: (kind) => this.take(kind === "lists" && this.base
+        ? this.design.unrolled(this.base.json, this.base.summary.name) : this.design.as(kind)),
     });
     this.stage = html("div", { class: "stage" });
     this.name = WORDS.engine;
@@ -52,35 +56,46 @@ export class Slot {
 
   /** Follow what is typed, once a frame. */
   later() {
-    this.frame ??= requestAnimationFrame(() => {
-      this.frame = null;
-      this.follow();
-    });
+    this.frame ??= requestAnimationFrame(() => this.follow());
+  }
+
+  /** The engine of what is typed at this moment; null where that is none. */
+  get typed() {
+    if (this.frame) this.follow();
+    return this.faults.length ? null : this.engine;
   }
 
   /** Build the engine of what is typed and show it; errors stand beside their fields. */
   follow() {
+    cancelAnimationFrame(this.frame);
+    this.frame = null;
+    const { engine, base } = this;
     try {
-      const built = this.built();
-      if (built.summary.cylinders > MOST_DRAWN) throw new Error(WORDS.tooMany(built.summary.cylinders, MOST_DRAWN));
-      this.engine = built;
+      this.base = this.built();
+      this.engine = this.fitted();
+      const { cylinders } = this.engine.summary;
+      if (cylinders > MOST_DRAWN) throw Object.assign(new Error(WORDS.tooMany(cylinders, MOST_DRAWN)), { isLimit: true });
       this.show();
-      this.form.faults(this.notes);
+      this.faults = [];
+      this.warn();
       this.form.named(this.engine.summary.name);
     } catch (error) {
-      this.form.faults(error.faults ?? [error]);
+      Object.assign(this, { engine, base, faults: error.faults ?? [error] });
+      this.form.faults(this.faults);
     }
+    this.stage.classList.toggle("stale", this.faults.length > 0);
     this.changed(this);
   }
 
-  /** The engine: its files, and what the core says that it is. */
+  /** The engine that is typed, without what was fitted to it: its files, and what the core says that it is. */
   built() {
     const { core, design } = this;
-    const { call, file, gas, inertia } = design.request(core, this.units);
+    const { call, file, gas, inertia, angles } = design.request(core, this.units);
     this.inertia = inertia;
+    this.angles = angles;
     this.notes = [];
-    const made = (more) => (call ? core.call("build", { ...call, ...more })
-      : core.call("read", { engine: JSON.stringify({ ...JSON.parse(file), ...more }) }));
+    const read = (json, more) => core.call("read", { engine: JSON.stringify({ ...JSON.parse(json), ...more }) });
+    const made = (more) => (file ? read(file, more) : core.call("build", { ...call, ...more }));
     let found;
     try {
       found = made({});
@@ -90,23 +105,31 @@ export class Slot {
       found = made({ firing_order: "" });
       this.notes = [Object.assign(error, { hint: WORDS.leftOut(error.hint), isNote: true })];
     }
-    if (design.extra) found = core.call("read", { engine: JSON.stringify({ ...JSON.parse(found.json), ...design.extra }) });
+    if (call && design.file) found = read(found.json, design.file);
     if (!gas) return found;
     const [kind, load] = gas.split(" ");
     return core.call("with_cycle", { engine: found.json, kind, load: Number(load) });
   }
 
-  /** The engine of the form, without what was fitted to it. */
-  bare() {
-    const { core, design } = this;
-    if (!design.extra) return this.engine;
-    const { counterweights, shafts, ...rest } = JSON.parse(this.engine.json);
-    return core.call("read", { engine: JSON.stringify(rest) });
+  /** The engine with what was fitted to it; `changed` are fits in place of those that it has, by pane. */
+  fitted(changed = {}) {
+    const { core, base, design } = this;
+    const fits = { ...design.extra, ...changed };
+    if (Object.values(fits).every((list) => !list)) return base;
+    return core.call("read", { engine: JSON.stringify(withFits(JSON.parse(base.json), fits)) });
   }
 
-  /** Fit counterweights and shafts to the engine, or take them off. */
-  fit(hardware) {
-    this.design.extra = hardware;
+  /** Say beside the fields what the library would warn of, and what was left out. */
+  warn() {
+    const { core, engine, inertia, angles, design: { rpm } } = this;
+    const { pin_split_deg: [split] = [] } = angles;
+    const warnings = core.call("warnings", { engine: engine.json, rpm, inertia, angles, pin_split_deg: split });
+    this.form.faults([...this.notes, ...warnings.map((each) => ({ ...each, isNote: true }))]);
+  }
+
+  /** Fit what a pane has to the engine; null takes that off. */
+  fit(pane, list) {
+    this.design.fit(pane, list);
     this.follow();
   }
 
@@ -122,7 +145,8 @@ export class Slot {
     this.bench.listeners.add((changed) => {
       this.turned(this, changed);
       if (!changed.includes("rpm")) return;
-      design.rpm = this.bench.state.rpm;
+      this.design.rpm = this.bench.state.rpm;
+      if (!this.faults.length) this.warn();
       this.speed(this);
     });
   }

@@ -7,6 +7,7 @@ import { inWords, unitsChoice } from "./form.mjs";
 import { designsOf, fragmentOf } from "./fragment.mjs";
 import { Jobs, Outdated } from "./jobs.mjs";
 import { PANES } from "./panes.mjs";
+import { TypingError } from "./quantity.mjs";
 import { Slot } from "./slot.mjs";
 import { UNITS, VERSION } from "./tables.mjs";
 import { WORDS } from "./words.mjs";
@@ -28,7 +29,7 @@ export class Workbench {
     try {
       given = await designsOf(location.hash);
     } catch (error) {
-      trouble = error.message;
+      trouble = linkFault(error);
     }
     return new Workbench(core, module, script, given ?? { designs: [Design.preset(FIRST_ENGINE)], units: UNITS.settings[0] }, trouble);
   }
@@ -49,7 +50,7 @@ export class Workbench {
     this.makeTabs();
     this.element = html("div", { class: "crankpin bench" }, this.bar, this.said,
       html("main", {}, html("div", { class: "side" }, this.skip, this.chooser, this.forms),
-        html("div", { class: "shown" }, this.stages, this.tabs, this.panes)),
+        html("div", { class: "shown" }, this.stages, this.back, this.tabs, this.panes)),
       html("footer", {}, `${WORDS.footer} crankpin ${VERSION}`));
     this.element.addEventListener("dragover", (event) => event.preventDefault());
     this.element.addEventListener("drop", (event) => {
@@ -61,6 +62,12 @@ export class Workbench {
     addEventListener("beforeprint", () => this.panes.querySelectorAll("details").forEach((each) => { each.open = true; }));
     for (const design of designs) this.add(design);
     if (designs.length > 1) this.arrange(0);
+  }
+
+  /** Turn the engine, unless the reader wants things still. */
+  begin() {
+    const isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.slots[0].bench?.set({ playing: !isCalm });
   }
 
   makeBar() {
@@ -98,6 +105,11 @@ export class Workbench {
       this.tabs.scrollIntoView();
     });
     this.skip.classList.add("skip");
+    this.back = button(WORDS.toForm, WORDS.engine, () => {
+      this.current.form.element.querySelector("select").focus({ preventScroll: true });
+      this.forms.scrollIntoView();
+    });
+    this.back.classList.add("back");
     this.panes.setAttribute("id", "pane");
     this.panes.setAttribute("role", "tabpanel");
     this.tabs.append(...this.buttons);
@@ -189,6 +201,7 @@ export class Workbench {
       if (turn !== this.turn) return;
       boxes.forEach(({ title, results }, k) => {
         title.textContent = slots.length > 1 ? `${slots[k].name}: ${slots[k].engine.summary.name}` : "";
+        results.classList.toggle("stale", slots[k].faults.length > 0);
         const held = focusable(results).indexOf(document.activeElement);
         results.replaceChildren(...made[k]);
         // Who pressed a button there goes on from it, or from the one before it.
@@ -224,7 +237,7 @@ export class Workbench {
       return await pane.make(slot, tools);
     } catch (error) {
       if (error instanceof Outdated) throw error;
-      return [html("p", { class: "fault", role: "alert" }, inWords(error.message))];
+      return [html("p", { class: "fault", role: "alert" }, error.hint ? inWords(error.message) : WORDS.mistake(error.message))];
     }
   }
 
@@ -246,24 +259,33 @@ export class Workbench {
 
   async openFile(file) {
     try {
-      if (file.size > LONGEST_FILE) throw new Error(`it has ${file.size} bytes, the most are ${LONGEST_FILE}`);
-      const { json } = this.core.call("read", { engine: await file.text() });
+      const text = file.size > LONGEST_FILE ? null : await file.text();
+      if (text === null) throw new TypingError("file", `${file.size} bytes`, `an engine’s file has at most ${LONGEST_FILE}`);
+      const { json } = this.core.call("read", { engine: text });
       this.current.take(Object.assign(Design.file(json), { rpm: this.current.design.rpm }));
       this.say(WORDS.fromFile(file.name));
     } catch (error) {
-      this.say(`${WORDS.noFile(file.name)}${error.message}`);
+      this.say(`${WORDS.noFile(file.name)}${error.hint ? error.message : WORDS.unreadable}`);
     }
   }
 
+  /** The engine that is typed and shown; where that is none, the page says so. */
+  get typed() {
+    const { typed, form } = this.current;
+    this.say(typed ? "" : WORDS.nothingToSave(form.whole));
+    return typed;
+  }
+
   save() {
-    const { engine } = this.current;
+    const engine = this.typed;
     if (engine) saveFile(fileName(engine.summary.name, "toml"), engine.toml, "application/toml");
   }
 
   savePage() {
-    const { bench, engine } = this.current;
-    const { rpm } = bench.state;
-    if (engine) saveFile(fileName(engine.summary.name, "html"), turningPage({ ...bench.figures, rpm }), "text/html");
+    const engine = this.typed;
+    if (!engine) return;
+    const { bench: { figures, state: { rpm } } } = this.current;
+    saveFile(fileName(engine.summary.name, "html"), turningPage({ ...figures, rpm }), "text/html");
   }
 
   async writeAddress() {
@@ -298,10 +320,13 @@ export class Workbench {
       if (second) this.add(second);
       this.say("");
     } catch (error) {
-      this.say(error.message);
+      this.say(linkFault(error));
     }
   }
 }
+
+/** What is wrong with a link: typed figures have the library's hints, what is packed is whole or not. */
+const linkFault = (error) => (error.hint ? error.message : WORDS.badLink);
 
 /** A button with a name for people and a longer one for those who do not see the page. */
 function button(text, title, act) {

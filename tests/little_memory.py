@@ -15,14 +15,14 @@ import tempfile
 import warnings
 from pathlib import Path
 
-from fuzzing.calls import invoke, sound_call
-from fuzzing.surface import TARGETS
+from fuzzing.surface import CALLED, Call, instances, sound
 
 MIB = range(0, 84, 4)
 """The core starts threads from 72 on, with two of them."""
 HOARDS = (None, 0, 100)
 """Small pieces that are given back; None for no hoard."""
-CALLS = [sound_call(target) for target in TARGETS]
+CALLS: list[Call] = []
+"""A sound call of each target, pictures left out; the search for them imports what they need."""
 DONE = mmap.mmap(-1, 8)
 """Calls of the fork that came back, shared with it."""
 
@@ -53,16 +53,18 @@ def make_calls(mib: int, pieces: int | None) -> None:
         DONE[:] = k.to_bytes(8, "little")
         # MemoryError, or errors of arguments that do not fit.
         with contextlib.suppress(Exception):
-            kept.append(invoke(call))
+            kept.append(call.make())
     del taken
 
 
 def main() -> None:
-    """Make the calls without a limit, which imports what they need, then with the limits."""
+    """Make the calls with the limits."""
     warnings.simplefilter("ignore")
-    for call in CALLS:
-        with contextlib.suppress(ValueError, OSError, TypeError):
-            invoke(call)
+    instances()
+    for target in CALLED:
+        with contextlib.suppress(ImportError):  # of a package that is not there
+            if call := sound(target):
+                CALLS.append(call)
     for mib in MIB:
         for pieces in HOARDS:
             process = os.fork()

@@ -12,10 +12,12 @@ __all__ = [
     "FEWEST_POINTS",
     "HIGHEST_LISTED",
     "HIGHEST_ORDER",
+    "LARGEST",
     "LARGEST_RESULT",
     "LONGEST_AXIS",
     "LONGEST_FILE",
     "MOST_CYLINDERS",
+    "SMALLEST",
     "Balance",
     "BankAngles",
     "BearingLoadsModel",
@@ -34,6 +36,7 @@ __all__ = [
     "Sweep",
     "Tolerances",
     "__version__",
+    "absolute_warnings",
     "angular_speed",
     "appearing",
     "arrangement",
@@ -42,26 +45,35 @@ __all__ = [
     "bounds_about",
     "centred_table",
     "check_cylinder",
+    "check_load",
     "check_mount",
     "check_support",
     "check_timing",
     "closed_form",
     "corrections",
     "crank_radius_of_stroke",
+    "cycle_warnings",
     "cylinder_harmonics",
     "cylinder_torque_harmonics",
+    "cylinder_warnings",
     "dead_text",
     "drawn",
     "drawn_loads",
     "drawn_rod",
+    "engine_warnings",
     "estimated_rod_inertia",
     "exact_angle",
     "explain",
+    "far_peak",
+    "figure_warnings",
     "fired_kinds",
     "fit_shafts",
     "fit_weights",
     "gas_text",
     "group_terms",
+    "hardware_warnings",
+    "harmonics_of_samples",
+    "imep_warnings",
     "inline_throws",
     "listed_orders",
     "masses_on_pins",
@@ -74,10 +86,15 @@ __all__ = [
     "orders_of_samples",
     "orders_that_count",
     "pair_heights",
+    "peak_warnings",
     "peaks_of_sums",
     "peaks_of_vectors",
+    "pin_split_warnings",
+    "piston_speed_warnings",
     "piston_travel",
     "places_on_axis",
+    "pressure_warnings",
+    "radians",
     "read_numbers",
     "repeats_first",
     "rigid_body",
@@ -90,10 +107,12 @@ __all__ = [
     "terms",
     "turning",
     "turning_points",
+    "unbalance_warnings",
     "unit_factor",
     "unit_symbol",
     "unit_symbols",
     "unit_terms",
+    "unit_warnings",
     "vanishing",
     "vee_throws",
     "volume_ratios",
@@ -109,7 +128,9 @@ HIGHEST_LISTED: int
 HIGHEST_ORDER: int
 MOST_CYLINDERS: int
 LARGEST_RESULT: int
+LARGEST: float
 LONGEST_AXIS: int
+SMALLEST: float
 LONGEST_FILE: int
 
 _Parts: TypeAlias = tuple[float, float, float, float, float]
@@ -599,6 +620,27 @@ class BearingLoadsModel:
 
 def exact_angle(argument: str, degrees: float | str) -> str: ...
 def near_miss(degrees: str) -> str | None: ...
+def radians(angles: Sequence[float]) -> str | None: ...
+def cylinder_warnings(radius: float, rod_length: float, bore: float | None) -> list[str]: ...
+def unbalance_warnings(amount: float) -> list[str]: ...
+def engine_warnings(engine: Engine) -> list[str]: ...
+def unit_warnings(engine: Engine) -> list[str]: ...
+def hardware_warnings(engine: Engine, of_shafts: bool) -> list[str]: ...
+def figure_warnings(
+    engine: Engine, unit: str, argument: str, value: float, middle: float | None = None
+) -> list[str]: ...
+def pin_split_warnings(engine: Engine, split: str) -> list[str]: ...
+def piston_speed_warnings(speed: float) -> list[str]: ...
+def pressure_warnings(values: NDArray[np.float64]) -> list[str]: ...
+def far_peak(
+    theta_deg: NDArray[np.float64], values: NDArray[np.float64], period_deg: float
+) -> float | None: ...
+def peak_warnings(
+    theta_deg: NDArray[np.float64], values: NDArray[np.float64], period_deg: float
+) -> list[str]: ...
+def cycle_warnings(cycle: Cycle) -> list[str]: ...
+def imep_warnings(mean_effective: float) -> list[str]: ...
+def absolute_warnings(argument: str, value: float) -> list[str]: ...
 def angular_speed(rpm: float) -> float: ...
 def check_cylinder(parts: _Parts) -> None: ...
 def crank_radius_of_stroke(given: _Parts) -> float: ...

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import inspect
 import sys
 import warnings
@@ -13,8 +12,8 @@ import numpy as np
 import pytest
 from crankpin.cli import main
 from crankpin.types import OrderBalance, Quantity, Table
-from fuzzing.calls import finite, invoke, sound_call
-from fuzzing.surface import target
+from fuzzing.calls import finite
+from fuzzing.surface import plain_call
 from matplotlib import pyplot as plt
 
 if TYPE_CHECKING:
@@ -186,7 +185,7 @@ def members(label: str, result: Any, depth: int = 0) -> Iterator[tuple[str, Call
         if isinstance(of_class, classmethod | staticmethod):
             continue
         if callable(of_class):
-            yield f"{label}.{name}", functools.partial(invoke, sound_call(target(name, member)))
+            yield f"{label}.{name}", plain_call(result, name).make
         elif depth < 2 and isinstance(member, Quantity | OrderBalance | Table):
             yield from members(f"{label}.{name}", member, depth + 1)
 

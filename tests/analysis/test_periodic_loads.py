@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import pickle
-from typing import Any
+from typing import Any, Literal
 
 import crankpin as cp
 import numpy as np
@@ -167,7 +167,7 @@ def test_pistons_handed_over_as_loads_give_the_engine_again() -> None:
     light = v6.replace(cylinder=cylinder.replace(reciprocating_mass=0.0)).with_loads(given)
     for rpm in (1000.0, 4000.0):
         pins, firing = (
-            [each.with_bank_angle(75, hold=hold) for each in (v6, light)]  # type: ignore[arg-type]
+            [each.with_bank_angle(75, hold=hold) for each in (v6, light)]
             for hold in ("pins", "firing")
         )
         for one, other in [(v6, light), pins, firing]:
@@ -183,9 +183,9 @@ def test_pistons_handed_over_as_loads_give_the_engine_again() -> None:
         for hold in ("pins", "firing")
         for each in (v6, light)
     ]
-    for mine, theirs in zip(sweeps[::2], sweeps[1::2], strict=True):
-        size = mine.moment.peak.max()
-        assert np.abs(mine.moment.peak - theirs.moment.peak).max() < 1e-12 * size
+    for swept, again in zip(sweeps[::2], sweeps[1::2], strict=True):
+        size = swept.moment.peak.max()
+        assert np.abs(swept.moment.peak - again.moment.peak).max() < 1e-12 * size
 
 
 def test_a_table_over_speed_is_linear_between_its_rows_and_refused_outside() -> None:
@@ -239,7 +239,9 @@ def test_bearings_carry_what_is_on_the_crank_and_the_crankcase_the_rest() -> Non
     four = cp.Engine.preset("i4")
     theta = np.arange(0.0, 720.0, 15.0)
     before = cp.bearing_loads(four, 3000, theta_deg=theta)
-    for on, share in [("shaft", 1.0), ("both", 1.0), ("block", 0.0)]:
+    share: dict[Literal["shaft", "both", "block"], float]
+    share = {"shaft": 1.0, "both": 1.0, "block": 0.0}
+    for on in share:
         force = {0.5: 40, 2: 30 - 10j}
         load = cp.PeriodicLoad("belt", on=on, force=force, direction_deg=30, z=four.mains[1])
         after = cp.bearing_loads(four.with_loads([load]), 3000, theta_deg=theta)
@@ -248,7 +250,7 @@ def test_bearings_carry_what_is_on_the_crank_and_the_crankcase_the_rest() -> Non
         )
         added = np.asarray(after.main) - np.asarray(before.main)
         expected = np.zeros_like(added)
-        expected[1] = share * np.stack([x, y], axis=-1)
+        expected[1] = share[on] * np.stack([x, y], axis=-1)
         assert np.abs(added - expected).max() < 1e-11 * np.abs(np.asarray(before.main)).max()
 
 

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 # Engines of any size on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore:.*Lengths are metres here:UserWarning")
+pytestmark = pytest.mark.filterwarnings("ignore:.*(Lengths are|They are) metres here:UserWarning")
 
 Array = NDArray[np.float64]
 

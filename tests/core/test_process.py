@@ -15,7 +15,7 @@ import long_calls
 import numpy as np
 import pytest
 from fuzzing.sound import FIRED
-from fuzzing.surface import TARGETS
+from fuzzing.surface import CALLED
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -235,7 +235,7 @@ def test_no_public_call_ends_the_process_or_panics_where_there_is_little_memory(
     printed = python(
         program, {"OPENBLAS_NUM_THREADS": "1", "PYTHONPATH": os.pathsep.join(sys.path)}
     ).splitlines()
-    assert printed == [f"{len(TARGETS)} calls"]
+    assert printed == [f"{len(CALLED)} calls"]
 
 
 def test_a_panic_is_an_error_that_asks_to_report_it() -> None:

@@ -1,171 +1,411 @@
-"""Everything public that can be called, with what may be given to it."""
+"""The public surface, enumerated: every function, constructor and method, and how to call it.
 
-# ruff: noqa: ANN401 - operands of any type are the point
+Subjects are ``crankpin.__all__`` and ``crankpin.types.__all__``; instances of the classes are what
+sound calls return. A method that classes share is one target.
+"""
+
+# ruff: noqa: ANN401 - arguments of any type are the point
 
 from __future__ import annotations
 
+import contextlib
 import copy
+import functools
 import inspect
 import itertools
 import operator
 import pickle
-from fractions import Fraction
+import re
+import reprlib
+import sys
+import warnings
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import crankpin as cp
 import numpy as np
 
-from fuzzing.sound import CYCLE, CYLINDER, FIRED, I4, JSON, TOML, V6, ranked, swept, two_stroke, vee
+from fuzzing.kinds import FEW, KEYWORDS, KINDS, SEEDS, Beside
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-SLOW = {"plot", "view", "save_html"}  # pictures: fewer calls
-
-SOUND: dict[str, list[Any]] = {
-    "layout": ["vee", "inline"],
-    "most_shafts": [2],
-    "pistons": [[0.5, 0.51, 0.49, 0.5, 0.505, 0.495, 0.5]],
-    "pin_split_deg": [0, (-60, 60)],
-    "places": [{-1: (0.1, 0.0)}],
-    "ratios": [-1, (-2, 2)],
-    "first_tdc_deg": [30],
-    "sample": [1],
-    "samples": [200],
-    "sets": [1],
-    "shaft_orders": [1],
-    "amount": [0.01],
-    "counterweights": [[cp.Unbalance(0.01, 0.1, 180, pin=1)]],
-    "pin": [1, None],
-    "ratio": [-1, 2],
-    "shafts": [[cp.Shaft(-1, [cp.Unbalance(0.01, 0.1)], x=0.1)]],
-    "unbalances": [[cp.Unbalance(0.01, 0.1)]],
-    "after": [V6, I4],
-    "amount_g_mm": [[120, 80]],
-    "angle_deg": [[30, 200]],
-    "bound": [0.01],
-    "correction_z": [[0.05, 0.35]],
-    "factors": [[0.5, 0.6]],
-    "factor": [0.5, {"force": 0.5}],
-    "measured_z": [[0.0, 0.4]],
-    "mode_shape": [[1, 0.9, 0.7, 0.5, 0.3, 0.1]],
-    "minimise": ["squares", "largest"],
-    "oil": [0.004],
-    "planes": ["ends", "webs", [0.0, 0.2]],
-    "target": ["external", "internal"],
-    "ax": [None],
-    "backward_force": [1j],
-    "before": [V6, I4],
-    "cycle": [CYCLE, [CYCLE, None, CYCLE, CYCLE]],
-    "crankcase": [9e4, None],
-    "cycles": [[[CYCLE, CYCLE]]],
-    "drive": [FIRED, ([0, 180, 360], [1.0, 3.0, 1.0])],
-    "load": [[0.0, 1.0]],
-    "pressure": [[1e5, 5e6]],
-    "bore": [0.086],
-    "chunks": [{"rpm": 1}, 2],
-    "core": [I4._core],
-    "counterweight": [1.5],
-    "cylinders": [6],
-    "first_deg": [[0, 120, 240]],
-    "high": [90],
-    "inertia": [0.0025],
-    "length": [0.15],
-    "low": [10],
-    "mass": [0.6],
-    "piston_mass": [0.4],
-    "rod": [cp.Rod(mass=0.6, inertia=0.0025, length=0.15, to_crankpin=0.05)],
-    "second_deg": [[0, 240, 120]],
-    "second_order": [(1.0, 2.0)],
-    "stroke": [0.086],
-    "to_crankpin": [0.05],
-    "bank_angle_deg": [60, 90.0, "360/7", [60, 90]],
-    "bank_deg": [[60, 120], [90, 90, 90]],
-    "by": ["total.moment.peak", ["[1].force.backward"], "spread", lambda b: b.rpm],
-    "count": [1, 0],
-    "cylinder": [CYLINDER],
-    "crank_radius": [0.05],
-    "engine": [V6],
-    "engines": [V6, I4, [V6, I4], {"a": V6}],
-    "firing_order": ["1-3-4-2", [1, 2, 3, 4], "1-2-5-6-3-4", "1+4-2+3"],
-    "groups": [[[1, 4], [2, 3]], [[2]]],
-    "hold": ["pins", "firing"],
-    "intervals_deg": [[180] * 4, [90, 270, "90", 270]],
-    "name": ["v6-60", "i4", "a name"],
-    "order": [1, 2],
-    "orders": [1, [1, 2], [1, 2, 4, 6]],
-    "path": ["engine.toml"],
-    "pin_deg": [[0, 180]],
-    "quantity": ["force", "moment", "torque"],
-    "reciprocating_mass": [0.5],
-    "rod_length": [0.15],
-    "rod_ratio": [0.3, [0.2, 0.3]],
-    "rpm": [1000, [1000.0, 2000.0]],
-    "spacing": [0.1],
-    "spectrum": [{1: 1.0, 2: 0.3}],
-    "strokes": [4, 2],
-    "values": [[3.0, 1.0, 2.0]],
-    "what": ["peak", "phasors"],
-    "tdc_deg": [[0, 90], ["360/7", Fraction(1, 3)]],
-    "text": [TOML, JSON],
-    "theta_deg": [[0.0, 90.0], 30.0],
-    "throws_deg": [[0, 120, 240], [0]],
-    "timing": [cp.ValveTiming(exhaust_opens_deg="360/7"), cp.PortTiming()],
-    "x": ["rpm"],
-    "z": [[0.0, 0.1]],
+CLASSES: dict[str, type] = {
+    name: kind
+    for module in (cp, cp.types)
+    for name in sorted(module.__all__)
+    if isinstance(kind := getattr(module, name), type) and not issubclass(kind, Exception)
 }
+"""Every public class but the error."""
+PICTURES = {"plot", "view", "save_html"}
+"""Names of methods that draw."""
+CHOICES = re.compile(r"\{([^{}]+)\}")
+MOST_TRIED = 1000
+"""Combinations of good values that are tried at most until one is taken."""
 
-SUBJECTS: dict[str, Any] = {
-    "Cylinder": cp.Cylinder,
-    "Engine": cp.Engine,
-    "Balance": cp.types.Balance,
-    "Waveform": cp.types.Waveform,
-    "Sweep": cp.types.Sweep,
-    "cylinder": CYLINDER,
-    "v6": V6,
-    "i4": I4,
-    "balance": V6.balance(1000),
-    "balance of a spectrum": V6.balance(1000, orders=[1], spectrum={1: 1.0}),
-    "balance, auto": V6.balance(1000, orders="auto"),
-    "vanishing orders": V6.vanishing_orders(),
-    "comparison": cp.compare(V6, I4, 1000),
-    "closed form": V6.closed_form(1),
-    "explanation": FIRED.explain(1000),
-    "waveform": V6.waveform(1000, theta_deg=[0.0, 1.0]),
-    "waveform, auto": V6.waveform(1000, theta_deg=[0.0, 1.0], orders="auto"),
-    "waveform of a spectrum": V6.waveform(1000, theta_deg=[0.0], orders=[1], spectrum={1: 1.0}),
-    "bearing loads": cp.bearing_loads(V6, 1000, [0.0, 1.0]),
-    "cycle": CYCLE,
-    "cycle map": cp.CycleMap([1000, 3000], [0, 1], [[CYCLE, CYCLE]] * 2),
-    "fired": FIRED,
-    "balance, fired": FIRED.balance(1000),
-    "waveform, fired": FIRED.waveform(1000, theta_deg=[0.0, 1.0]),
-    "sweep, fired": cp.sweep(FIRED, rpm=[1e3, 2e3], orders=[0.5, 2]),
-    "firing": V6.firing("1-2-5-6-3-4"),
-    "firing, two-stroke": two_stroke(),
-    "star diagram": cp.star_diagram(V6, firing_order="1-2-5-6-3-4"),
-    "sweep": cp.sweep([V6, V6], rpm=[1e3, 2e3], bank_angle_deg=[60, 90], hold="pins"),
-    "ranking": ranked(by=["total.force.peak_xy", lambda b: b.rpm], refine=True),
-    "ranking, as they are": cp.rank(
-        [V6, vee()], rpm=1e3, by="total.moment.peak", spectrum={1: 1.0, 2: 0.2}
-    ),
-    "sweep of a spectrum": cp.sweep(I4, rpm=1e3, spectrum={1: 1.0}),
-    "counterweights": cp.counterweights(V6, planes="webs", angles_deg=[0, 120, 240]),
-    "bob weight": cp.bob_weight(V6),
-    "flywheel": cp.flywheel(([0, 120, 360], [300, 500, 300]), rpm=600, inertia=2.0),
-    "balance shafts": cp.balance_shafts(I4, (-2, 2)),
-    "balancer options": cp.balancer_options(V6, rpm=1000, most_shafts=1),
-    "designs": cp.design(
-        3, layout="inline", cylinder=CYLINDER, spacing=0.1, rpm=1000, by="total.moment.peak"
-    ),
-    "match": cp.match_parts(I4, [0.5, 0.51, 0.49, 0.5, 0.505]),
-    "tolerances": cp.tolerances(I4, rpm=1000, reciprocating_mass=0.01, samples=200),
-    "two-plane correction": cp.two_plane_correction(
-        [120, 80], [30, 200], measured_z=[0.0, 0.4], correction_z=[0.05, 0.35]
-    ),
-    "waveforms of a sweep": swept().waveform([0.0, 1.0]),
-    "waveforms of a sweep, exact": swept().waveform([0.0, 1.0], exact=True),
+
+class Target(NamedTuple):
+    """Something public that can be called: a function, a constructor or a method of classes."""
+
+    label: str
+    name: str
+    owners: tuple[type, ...]
+    of_class: bool
+    function: Callable[..., Any]
+    """As it stands in the module or in the class; :func:`bound` makes a method callable."""
+
+    def __repr__(self) -> str:
+        return self.label
+
+    @property
+    def parameters(self) -> tuple[inspect.Parameter, ...]:
+        """Parameters without ``self``, the keywords in place of ``**options``."""
+        return _parameters(self)
+
+    @property
+    def draws(self) -> bool:
+        """True if it makes a picture."""
+        return self.name in PICTURES
+
+    def subjects(self, owner: type | None = None) -> list[Any]:
+        """Return the instances whose method it is; None for a function or a constructor."""
+        if self.of_class or not self.owners:
+            return [None]
+        owners = self.owners if owner is None else (owner,)
+        return next((_KNOWN[each] for each in owners if each in _KNOWN), [])
+
+
+@functools.cache
+def _parameters(target: Target) -> tuple[inspect.Parameter, ...]:
+    listed = list(inspect.signature(target.function).parameters.values())
+    listed = listed[1:] if target.owners and not target.of_class else listed
+    return tuple(each for parameter in listed for each in _spread(target, parameter))
+
+
+def _spread(target: Target, parameter: inspect.Parameter) -> Iterator[inspect.Parameter]:
+    """Yield a parameter, or in place of ``**options`` the keywords that it takes."""
+    if parameter.kind is not parameter.VAR_KEYWORD:
+        yield parameter
+        return
+    unpacked = re.fullmatch(r"Unpack\[(\w+)\]", str(parameter.annotation))
+    if unpacked:
+        fields = _class_named(unpacked[1]).__annotations__
+    elif parameter.name == "changes":
+        fields = {
+            p.name: p.annotation for p in inspect.signature(target.owners[0]).parameters.values()
+        }
+    else:
+        fields = dict.fromkeys(KEYWORDS.get(parameter.name, {}), "")
+    for name, annotation in fields.items():
+        yield inspect.Parameter(
+            name, parameter.KEYWORD_ONLY, default=..., annotation=str(annotation)
+        )
+
+
+def _class_named(name: str) -> type:
+    modules = [module for key, module in sys.modules.items() if key.startswith("crankpin.")]
+    return next(kind for each in modules if isinstance(kind := vars(each).get(name), type))
+
+
+def functions() -> Iterator[Target]:
+    """Yield functions and constructors; classes of results have none."""
+    for name in sorted(cp.__all__):
+        value = getattr(cp, name)
+        if name in CLASSES:
+            yield Target(name, name, (value,), True, value)
+        elif inspect.isfunction(value):
+            yield Target(name, name, (), False, value)
+
+
+def members(kinds: Mapping[str, type]) -> Iterator[Target]:
+    """Yield the public methods of classes, those that several share once."""
+    shared: dict[Any, list[type]] = {}
+    pairs = [(kind, name) for kind in kinds.values() for name in dir(kind)]
+    for kind, name in pairs:
+        static = inspect.getattr_static(kind, name)
+        if name.startswith("_"):
+            continue
+        if isinstance(static, (classmethod, staticmethod)):
+            yield Target(f"{kind.__name__}.{name}", name, (kind,), True, getattr(kind, name))
+        elif inspect.isfunction(static):
+            shared.setdefault(static, []).append(kind)
+    for function, owners in shared.items():
+        label = f"{owners[0].__name__}.{function.__name__}"
+        if len(owners) > 1:
+            label = function.__qualname__
+        yield Target(label, function.__name__, tuple(owners), False, function)
+
+
+TARGETS = [*functions(), *members(CLASSES)]
+EXCEPT = {
+    "Engine": "made of what the core has: from_lists and other builders make engines",
+    "Tolerances.about": "samples are about the engine's own plane",
+    "Table.from_rows": "makes tables within the package, of what that computed",
 }
+"""Targets that are not called, each with its reason."""
+CALLED = [each for each in TARGETS if not each.draws and each.label not in EXCEPT]
+"""Targets that are called and make no picture."""
+
+
+def properties(kind: type) -> list[str]:
+    """Return the names of what is read of an instance: its fields and properties."""
+    return [
+        name
+        for name in dir(kind)
+        if not name.startswith("_") and not callable(getattr(kind, name, None))
+    ]
+
+
+# --- instances ----------------------------------------------------------------------------------
+
+
+_KNOWN: dict[type, list[Any]] = {}
+
+
+@functools.cache
+def instances() -> Mapping[type, list[Any]]:
+    """Return instances of every public class: what sound calls return, and parts of it."""
+    for each in SEEDS:
+        _KNOWN.setdefault(type(each), []).append(each)
+    for each in SEEDS:
+        _absorb_parts(each)
+    for _ in range(len(CLASSES)):
+        before = len(_KNOWN)
+        for target in TARGETS:
+            missing = {name for name, kind in CLASSES.items() if kind not in _KNOWN}
+            makes = bool(_words(target.function) & missing)
+            makes = makes or (target.of_class and target.owners[0] not in _KNOWN)
+            if makes and target.subjects():
+                with contextlib.suppress(ImportError):  # of a package that is not there
+                    if call := sound(target):
+                        _absorb(call.make())
+        if len(_KNOWN) == before:
+            break
+    return _KNOWN
+
+
+def _words(function: Any) -> set[str]:
+    """Return the words of what a function returns, by its annotation."""
+    annotation = getattr(function, "__annotations__", {}).get("return", "")
+    return set(re.findall(r"\w+", str(annotation)))
+
+
+def _absorb(value: Any) -> None:
+    """Take an object, its items and its parts as instances of classes without one."""
+    if isinstance(value, Mapping):
+        value = tuple(value.values())
+    if isinstance(value, (tuple, list)):
+        for each in value[:3]:
+            _absorb(each)
+    elif type(value) in CLASSES.values() and type(value) not in _KNOWN:
+        _KNOWN[type(value)] = [value]
+        _absorb_parts(value)
+
+
+def _absorb_parts(value: Any) -> None:
+    kind = type(value)
+    if hasattr(kind, "__getitem__"):
+        with contextlib.suppress(cp.InputError):
+            _absorb(list(itertools.islice(iter(value), 3)))
+    for name in properties(kind):
+        static = inspect.getattr_static(kind, name, None)
+        getter = getattr(static, "fget", getattr(static, "func", None))
+        missing = {each for each, of in CLASSES.items() if of not in _KNOWN}
+        if getter is not None and _words(getter) & missing:
+            _absorb(getattr(value, name, None))
+
+
+# --- sound calls --------------------------------------------------------------------------------
+
+Arguments = dict[str, Any]
+
+
+class Call(NamedTuple):
+    """A target, the instance whose method it is, and arguments by name."""
+
+    target: Target
+    subject: Any
+    arguments: Arguments
+
+    def __repr__(self) -> str:
+        listed = ", ".join(f"{name}={shown(value)}" for name, value in self.arguments.items())
+        return f"{self.target.label}({listed})"
+
+    def make(self) -> Any:
+        """Call, the var-positional argument unpacked and what precedes it by position."""
+        function = (
+            getattr(self.subject, self.target.name)
+            if self.subject is not None
+            else self.target.function
+        )
+        positional: list[Any] = []
+        named = dict(self.arguments)
+        parameters = self.target.parameters
+        unpacked = any(p.kind is p.VAR_POSITIONAL and p.name in named for p in parameters)
+        for parameter in parameters:
+            if parameter.name not in named:
+                continue
+            if parameter.kind is parameter.VAR_POSITIONAL:
+                values = named.pop(parameter.name)
+                positional += values if isinstance(values, (list, tuple)) else [values]
+            elif parameter.kind is parameter.POSITIONAL_ONLY or (
+                unpacked and parameter.kind is parameter.POSITIONAL_OR_KEYWORD
+            ):
+                positional.append(named.pop(parameter.name))
+        return function(*positional, **named)
+
+    def changed(self, **arguments: Any) -> Call:
+        """Return the call with other arguments."""
+        return self._replace(arguments=self.arguments | arguments)
+
+    def returns(self) -> bool:
+        """Return whether it returns."""
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", UserWarning)
+            try:
+                self.make()
+            except (ValueError, TypeError, OSError):
+                return False
+        return True
+
+
+def shown(value: Any) -> str:
+    """Text of a value, however deep or long."""
+    try:
+        return reprlib.repr(value)[:200]
+    except ValueError:  # an integer too long for Python to write
+        return f"<{type(value).__name__}>"
+
+
+def is_needed(parameter: inspect.Parameter) -> bool:
+    """Return whether a call must have an argument for it."""
+    return parameter.default is parameter.empty and parameter.kind not in (
+        parameter.VAR_POSITIONAL,
+        parameter.VAR_KEYWORD,
+    )
+
+
+_SOUND: dict[tuple[Target, str, type | None], Call] = {}
+
+
+def sound(target: Target, about: str = "", owner: type | None = None) -> Call | None:
+    """Return a call that returns; ``about`` is one of its arguments. None if there is none."""
+    key = (target, about, owner)
+    if key not in _SOUND:
+        tried = itertools.islice(_attempts(target, about, owner), MOST_TRIED)
+        if call := next((each for each in tried if each.returns()), None):
+            _SOUND[key] = call
+    return _SOUND.get(key)
+
+
+def _attempts(target: Target, about: str, owner: type | None) -> Iterator[Call]:
+    """Yield calls to try: with what is needed, then with one optional argument beside it."""
+    names = [each.name for each in target.parameters]
+    needed = [each.name for each in target.parameters if is_needed(each)]
+    for subject in target.subjects(owner):
+        bases = list(_filled(target, needed))
+        if about:
+            base = sound(target, "", owner)
+            if base is None:
+                return
+            if about in base.arguments:
+                yield base
+                continue
+            plain = {name: base.arguments[name] for name in base.arguments if name in needed}
+            bases = [
+                arguments
+                for begun in (base.arguments, plain)
+                for arguments in _beside(target, begun, about)
+            ]
+        yield from (Call(target, subject, each) for each in bases)
+        for name in names:
+            for arguments in bases:
+                if name not in arguments:
+                    yield from (
+                        Call(target, subject, each) for each in _beside(target, arguments, name)
+                    )
+
+
+def _filled(target: Target, names: list[str]) -> Iterator[Arguments]:
+    """Yield all combinations of values of some parameters, without others that these exclude."""
+    fixed = {name: value for name, value in FEW.items() if _parameter(target, name)}
+    choices = [
+        candidates(target, parameter) for name in names if (parameter := _parameter(target, name))
+    ]
+    for values in itertools.product(*choices):
+        arguments: Arguments = dict(fixed)
+        for name, value in zip(names, values, strict=True):
+            arguments = _with(arguments, name, value)
+        yield _without_gaps(arguments)
+
+
+def _beside(target: Target, base: Arguments, name: str) -> Iterator[Arguments]:
+    parameter = _parameter(target, name)
+    for value in candidates(target, parameter) if parameter else ():
+        arguments = _without_gaps(_with(base, name, value))
+        if all(_parameter(target, each) for each in arguments):
+            yield arguments
+
+
+def _with(arguments: Arguments, name: str, value: Any) -> Arguments:
+    if isinstance(value, Beside):
+        return arguments | {name: value.value} | value.others
+    return arguments | {name: value}
+
+
+def _without_gaps(arguments: Arguments) -> Arguments:
+    return {name: value for name, value in arguments.items() if value is not ...}
+
+
+def _parameter(target: Target, name: str) -> inspect.Parameter | None:
+    return next((each for each in target.parameters if each.name == name), None)
+
+
+def plain_call(subject: Any, name: str) -> Call:
+    """Return the call of a method with the first values of what it needs, sound or not."""
+    function = getattr(type(subject), name)
+    target = Target(name, name, (type(subject),), False, function)
+    needed = [each.name for each in target.parameters if is_needed(each)]
+    return Call(target, subject, next(_filled(target, needed)))
+
+
+def candidates(target: Target, parameter: inspect.Parameter) -> list[Any]:
+    """Return values that a parameter may take."""
+    name, annotation = parameter.name, str(parameter.annotation)
+    for key in (f"{target.name.partition('_')[0]}.{name}", f"{name}: {annotation}", name):
+        if key in KINDS:
+            return [*KINDS[key], *_choices(target, parameter)]
+    for names in KEYWORDS.values():
+        if name in names:
+            return [names[name]]
+    if choices := _choices(target, parameter):
+        return choices
+    words = re.findall(r"\w+", annotation)
+    for word in words:
+        if word in CLASSES:
+            known = _KNOWN.get(CLASSES[word], [])
+            several = re.search(r"Sequence|Iterable|tuple", annotation)
+            return [*([each] for each in known), *known] if several else known
+    if "bool" in words:
+        return [True, False]
+    return []
+
+
+def _choices(target: Target, parameter: inspect.Parameter) -> list[Any]:
+    """Return the words that an annotation or a docstring offers."""
+    listed = re.search(r"Literal\[([^\[\]]+)\]", str(parameter.annotation))
+    if not listed:
+        text = inspect.getdoc(target.function) or ""
+        line = re.search(rf"^(?:\w+, )*{parameter.name}(?:, \w+)* : (.*)$", text, re.MULTILINE)
+        listed = CHOICES.search(line[1]) if line else None
+    words: list[Any] = re.findall(r"[\"']([^\"']+)[\"']", listed[1]) if listed else []
+    if listed and not words:
+        words = [int(each) for each in re.findall(r"\d+", listed[1])]
+    return words
+
+
+# --- operators ----------------------------------------------------------------------------------
+
 OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
     "==": operator.eq,
     "!=": operator.ne,
@@ -217,84 +457,3 @@ ALONE: dict[str, Callable[[Any], Any]] = {
     "array": np.asarray,
 }
 """What ``OPERATOR subject`` calls."""
-PLAIN = {"Choice", "InputError", "OrderBalance"}  # take anything, and hold it
-RESULTS_MADE_ELSEWHERE = {
-    "Balance",
-    "BalanceShafts",
-    "BalancerOptions",
-    "BearingLoads",
-    "Comparison",
-    "Counterweights",
-    "Designs",
-    "Exercise",
-    "Explanation",
-    "Firing",
-    "Flywheel",
-    "Ranking",
-    "Waveform",
-    "Sweep",
-    "SweepWaveform",
-    "Tolerances",
-}  # by methods of Engine and of Sweep, by sweep and by rank
-
-
-class Target(NamedTuple):
-    """Something public that can be called."""
-
-    label: str
-    function: Callable[..., Any]
-    parameters: tuple[inspect.Parameter, ...]
-
-
-def target(label: str, function: Callable[..., Any]) -> Target:
-    return Target(label, function, tuple(inspect.signature(function).parameters.values()))
-
-
-def targets() -> Iterator[Target]:
-    """Every public function, constructor and method."""
-    for name in cp.__all__:
-        value = getattr(cp, name)
-        if callable(value) and name not in PLAIN:
-            yield target(name, value)
-    for label, subject in SUBJECTS.items():
-        for name in dir(type(subject) if not isinstance(subject, type) else subject):
-            of_class = isinstance(subject, type)
-            static = inspect.getattr_static(subject if of_class else type(subject), name)
-            if name.startswith("_") or of_class != isinstance(static, classmethod | staticmethod):
-                continue
-            if callable(static) or of_class:
-                yield target(f"{label}.{name}", getattr(subject, name))
-
-
-OPERANDS = {
-    label: subject
-    for label, subject in (
-        SUBJECTS
-        | {
-            "quantity": SUBJECTS["balance"].moment,
-            "order": SUBJECTS["balance"][2],
-            "table": SUBJECTS["balance"].table,
-            "cylinder": CYLINDER,
-            "cycle": CYCLE,
-        }
-    ).items()
-    if not isinstance(subject, type)
-}
-"""What has operators: objects of every kind, and parts of some."""
-
-
-def operators() -> Iterator[Target]:
-    """Every operator of every operand, whether it has that or not."""
-    for label, subject in OPERANDS.items():
-        for name, of in OPERATORS.items():
-
-            def operated(value: Any, subject: Any = subject, of: Any = of) -> Any:
-                return of(subject, value)
-
-            value = inspect.Parameter("value", inspect.Parameter.POSITIONAL_OR_KEYWORD)
-            yield Target(f"{label} {name}", operated, (value,))
-
-
-TARGETS = [each for each in targets() if each.label.rpartition(".")[2] not in SLOW]
-TARGETS += operators()
-PICTURES = [each for each in targets() if each.label.rpartition(".")[2] in SLOW]

@@ -33,6 +33,7 @@ every_result = pytest.mark.parametrize("name", [*RESULTS, *SWEPT])
 UNTABLED = {
     "Cylinder", "Engine", "PortTiming", "Rod", "Shaft", "Unbalance", "ValveTiming", "InertiaTrack",
     "Mount", "Powertrain", "RigidBody", "Actuator", "Subframe", "Receptance",
+    "PeriodicLoad",
 }  # fmt: skip
 """Inputs."""
 CHARACTERS = "a0 \t\n\\{}$&#%_~^|<>\"'=+-°·²ω→–₂"

@@ -28,7 +28,7 @@ def loaded(program: str) -> set[str]:
 
 
 def test_import_loads_neither_numpy_nor_any_analysis() -> None:
-    names = ("", "._support", "._support.interrupted", "._support.lazy")
+    names = ("", "._support", "._support.calls", "._support.interrupted", "._support.lazy")
     assert loaded("import crankpin") == {f"crankpin{name}" for name in names}
     assert loaded("import crankpin.types") == {f"crankpin{name}" for name in (*names, ".types")}
 

@@ -112,6 +112,7 @@ OBJECTS: dict[str, Any] = {
     "CycleMap": cp.CycleMap([1000], [0, 1], [[cp.Cycle.example(), cp.Cycle.example("diesel")]]),
     "Traces": cp.Traces(THETA, cp.Cycle.example().pressure_at(THETA) * [[0.99], [1.0], [1.02]]),
     "Engine": V6,
+    "PeriodicLoad": cp.PeriodicLoad("pump", on="both", torque={0: 3, 1.5: 2 - 1j}, force={2: 5}),
     "Engine of odd angles": ODD,
     "Balance": balance(),
     "Balance, auto": balance(orders="auto"),
@@ -290,6 +291,7 @@ def test_attributes_cannot_be_set_or_deleted(name: str) -> None:
 def test_arrays_are_read_only(name: str) -> None:
     found = list(arrays(OBJECTS[name]))
     without = (
+        "PeriodicLoad",
         "Actuator",
         "MountDesign",
         "VelocityFeedback",
@@ -398,7 +400,7 @@ INPUTS = (
     cp.Engine, cp.Cylinder, cp.Rod, cp.Shaft, cp.Unbalance, cp.Cycle, cp.CycleMap, cp.Traces,
     cp.ValveTiming,
     cp.PortTiming, cp.Actuator, cp.InertiaTrack, cp.Mount,
-    cp.RigidBody, cp.Powertrain, cp.Subframe, cp.Receptance,
+    cp.RigidBody, cp.Powertrain, cp.Subframe, cp.Receptance, cp.PeriodicLoad,
 )  # fmt: skip
 
 

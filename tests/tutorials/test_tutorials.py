@@ -30,6 +30,14 @@ def test_a_tutorial_opens_with_what_will_be_seen(file: Path) -> None:
     assert any("image/png" in output.get("data", {}) for output in picture.outputs)
 
 
+@pytest.mark.parametrize("file", TUTORIALS, ids=lambda file: file.stem)
+def test_a_tutorial_needs_the_package_alone_or_says_what_besides(file: Path) -> None:
+    cells = nbformat.read(file, as_version=4).cells
+    reaches_out = any("../" in cell.source for cell in cells if cell.cell_type == "code")
+    said = any("runs in a\nclone of the repository" in cell.source for cell in cells)
+    assert reaches_out == said == (file.stem == TIMED)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("file", TUTORIALS, ids=lambda file: file.stem)
 def test_tutorial(file: Path) -> None:

@@ -254,12 +254,6 @@ def fired() -> cp.Engine:
     return v8.replace(cylinder=[c.replace(bore=0.09) for c in v8.cylinders]).with_cycle(cycles)
 
 
-# Between samples half a degree apart the page interpolates linearly: the second derivative of a
-# burning cylinder's pressure is below a hundredth of its peak per square degree, an eighth of which
-# times the square of the step is 3e-4.
-OF_SAMPLES = 1e-3
-
-
 def assert_gas_agrees(page: Page, engine: cp.Engine, angle: float) -> None:
     assert engine.cycles is not None
     found = page.evaluate("({...crankpin.last, force: null, moment: null})")
@@ -267,7 +261,7 @@ def assert_gas_agrees(page: Page, engine: cp.Engine, angle: float) -> None:
     largest = abs(engine.waveform(3000).read("torque.gas")).max()
     for part in ("gas", "inertia"):
         expected = wave.read(f"torque.{part}")[0]
-        assert found[part] == pytest.approx(expected, abs=OF_SAMPLES * largest), part
+        assert found[part] == pytest.approx(expected, abs=WITHIN * largest), part
     assert found["torque"] == found["gas"] + found["inertia"]
     for cycle, fires, shown in zip(
         engine.cycles, engine.firing_deg, found["pressures"], strict=True
@@ -276,7 +270,7 @@ def assert_gas_agrees(page: Page, engine: cp.Engine, angle: float) -> None:
             assert shown is None
         else:
             pressure, peak = cycle.pressure_at(angle - fires), cycle.pressure.max()
-            assert shown == pytest.approx(float(pressure), abs=OF_SAMPLES * peak)
+            assert shown == pytest.approx(float(pressure), abs=WITHIN * peak)
 
 
 def two_stroke() -> cp.Engine:
@@ -310,7 +304,7 @@ def test_gas_at_any_bank_angle(open_engine: Open) -> None:
         wave = engine.with_bank_angle(75, hold=hold).waveform(3000, theta_deg=[-77.7])
         torque = float(wave.read("torque.gas")[0])
         largest = abs(engine.waveform(3000).read("torque.gas")).max()
-        assert page.evaluate("crankpin.last.gas") == pytest.approx(torque, abs=OF_SAMPLES * largest)
+        assert page.evaluate("crankpin.last.gas") == pytest.approx(torque, abs=WITHIN * largest)
     assert page.get_by_text("Pressure in the cylinders").count() == 1
     curves = page.locator(".timeline .curve")
     assert curves.locator("xpath=self::*[contains(@class, 'pressure')]").count() == 7

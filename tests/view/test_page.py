@@ -1029,3 +1029,15 @@ def test_a_shop_s_card_needs_no_wider_window(open_file: Open, tmp_path: Path, wi
     bob.card([0.48, 0.5, 0.52], planes="ends", radius=0.07).save_html(tmp_path / "card.html")
     page = open_file(tmp_path / "card.html", viewport={"width": width, "height": 740})
     assert page.evaluate("document.documentElement.scrollWidth") <= width
+
+
+def test_on_paper_nothing_is_pressed_or_cut(open_engine: Open) -> None:
+    engine = cp.Engine.preset("v8-crossplane").with_cycle(cp.Cycle.example())
+    page = open_engine(engine, viewport={"width": 720, "height": 1000})
+    page.emulate_media(media="print")
+    assert page.locator("button:visible, input:visible").count() == 0
+    breaks = "all => all.map((each) => getComputedStyle(each).breakInside)"
+    assert set(page.eval_on_selector_all(".panel, section", breaks)) == {"avoid"}
+    boxes = [panel.bounding_box() for panel in page.locator(".views > *").all()]
+    assert len({box["y"] for box in boxes if box}) == 1
+    assert page.evaluate("document.documentElement.scrollWidth") <= 720

@@ -17,10 +17,12 @@ import pytest
 from crankpin.view.figures import Settings, figures
 from crankpin.view.gallery import speed_of
 from crankpin.view.terms import RodRatios
+from numpy.polynomial import chebyshev
 from several_cranks import fired_engine, random_engine, size
 from view_engines import everything, radial
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
     from playwright.sync_api import Browser, Page
 
 WITHIN = 1e-10
@@ -171,6 +173,32 @@ def test_fired_engines(page: Page, seed: int) -> None:
             assert shown == pytest.approx(wheel.moving_inertia[k], rel=1e-10)
 
 
+def measured(engine: cp.Engine, step: float) -> cp.Engine:
+    """Return a fired engine with a table, of angles that are no whole degrees, in all cylinders."""
+    theta = np.linspace(0.0, 180.0 * engine.strokes, round(180.0 * engine.strokes / step) + 1)
+    pressure = cp.Cycle.example(strokes=engine.strokes).pressure_at(theta)
+    return engine.with_cycle(cp.Cycle(theta, pressure, strokes=engine.strokes))
+
+
+@pytest.mark.slow  # a browser
+@pytest.mark.parametrize("seed", range(40))
+def test_torque_of_random_fired_engines(page: Page, seed: int) -> None:
+    """At any angle, and at those of a cycle's points, where pressure bends."""
+    engine = fired_engine(seed)
+    if seed % 3 == 2:
+        engine = measured(engine, 0.5 + seed / 16)
+    chance = np.random.default_rng(seed)
+    angles = [0.0, 75.0, 333.0, *chance.uniform(-720.0, 720.0, 60), *range(0, 720, 37)]
+    known = json.loads(json.dumps(figures(engine, 3000.0, spectrum=None)))
+    own = vars(Settings.of(engine, 3000.0))
+    (found,) = page.evaluate(NUMBERS, [known, [own], angles])
+    wave, whole = engine.waveform(3000.0, theta_deg=angles), engine.waveform(3000.0)
+    for name, quantity in (("torque", "torque"), ("gas", "torque.gas")):
+        largest = abs(whole.read(quantity)).max()
+        shown = [at[name] for at in found["at"]]
+        np.testing.assert_allclose(shown, wave.read(quantity), rtol=0, atol=1e-9 * largest)
+
+
 @pytest.mark.slow  # a browser
 def test_spectra(page: Page) -> None:
     spectrum = {1: 0.067, 2: 0.02 + 0.001j, 30: 0.004j}
@@ -186,6 +214,19 @@ def test_spectra(page: Page) -> None:
                 shown, expected = [*at["force"], *at["moment"]], [*wave.force[k], *wave.moment[k]]
                 atol = WITHIN * size(engine, each.rpm)
                 np.testing.assert_allclose(shown, expected, rtol=0, atol=atol)
+
+
+def pressure_of(cycle: dict[str, Any], theta: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return pressure at crank angles, of the polynomials that a page has of a cycle."""
+    edges = np.array(cycle["edges_deg"])
+    at = edges[0] + (theta - edges[0]) % (edges[-1] - edges[0])
+    panels = np.searchsorted(edges, at, side="right") - 1
+    places = (2.0 * at - edges[panels] - edges[panels + 1]) / np.diff(edges)[panels]
+    values = [
+        chebyshev.chebval(place, cycle["coefficients"][panel] or [0.0])
+        for place, panel in zip(places, panels, strict=True)
+    ]
+    return np.array(values)
 
 
 @pytest.mark.parametrize("engine", [*map(fired_engine, range(40)), *cp.presets().values()])
@@ -217,13 +258,14 @@ def test_an_engine_is_drawn_from_its_own_places(engine: cp.Engine) -> None:
         return
     crankcase, cycles = drawn["gas"]["crankcase"], drawn["gas"]["cycles"]
     assert crankcase == engine.crankcase
-    theta = np.arange(0.0, 180.0 * engine.strokes + 0.5, 0.5)
+    theta = np.linspace(0.0, 180.0 * engine.strokes, 1777)[:-1]
     starts = engine.firing_deg
     for k, (each, cycle) in enumerate(zip(cylinders, engine.cycles, strict=True)):
         assert (each["cycle"] is None) == (cycle is None) == ("swept" not in each)
         if cycle is not None:
             assert each["pressure_deg"] == starts[k]
-            assert cycles[each["cycle"]] == cycle.pressure_at(theta).round().tolist()
+            shown, expected = pressure_of(cycles[each["cycle"]], theta), cycle.pressure_at(theta)
+            np.testing.assert_allclose(shown, expected, rtol=0, atol=1e-12 * expected.max())
             # Those that differ in what sweeps a volume have different ones.
             first = next(c for c in cylinders if c.get("swept") == each["swept"])
             one, other = engine.cylinders[k], engine.cylinders[first["number"] - 1]

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import math
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -336,6 +337,75 @@ def test_modes_are_the_librarys(ask: Ask, tmp_path: Path) -> None:
 
 
 # --- what is wrong ------------------------------------------------------------------------------
+
+
+def doubtful_engine(seed: int) -> cp.Engine:
+    """Return an engine of figures of which some are in other units."""
+    chance = np.random.default_rng(seed)
+
+    def either(right: Any, *wrong: Any) -> Any:  # noqa: ANN401 - as given
+        return right if chance.random() < 0.7 else wrong[chance.integers(len(wrong))]
+
+    radius = either(0.043, 43.0)
+    parts = [
+        cp.Cylinder(radius, radius * either(3.4, 3400.0), mass, bore=either(2.0 * radius, None, 86))
+        for mass in [either(0.45, 450.0) for _ in range(2)]
+    ]
+    z = [0.0, either(0.1, 100.0)]
+    engine = cp.Engine.from_lists(
+        parts, bank_deg=[90, 90], tdc_deg=either([0, 180], [0, 3.1416]), z=z,
+        rotating_mass=either(0.3, 300.0),
+    )  # fmt: skip
+    amounts = either((0.001, 0.002), (0.001, 200.0), (8e3, 0.001))
+    weights = [cp.Unbalance(amount, either(0.05, 500.0), 20) for amount in amounts]
+    shaft = cp.Shaft(-1, [cp.Unbalance(0.001, 0.05)], either(0.1, 80.0), either(0.0, -90.0))
+    engine = engine.with_counterweights(weights).with_shafts([shaft])
+    if any(part.bore is None for part in parts) or chance.random() < 0.5:
+        return engine
+    cycle = cp.Cycle.example()
+    theta = np.arange(0.0, 720.0, 2.0)
+    pressure = cycle.pressure_at(theta - either(0.0, 200.0)) * either(1.0, 1e-5, 1e-3)
+    engine = engine.replace(firing_order="1-2")
+    return engine.with_cycle(cp.Cycle(theta, pressure), crankcase=either(101325.0, 1.01))
+
+
+def test_what_is_warned_of_is_the_librarys(ask: Ask) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        texts = [doubtful_engine(seed).to_json() for seed in range(400)]
+    found = results(ask, [("warnings", {"engine": text}) for text in texts])
+    seen = set[str]()
+    for text, ours in zip(texts, found, strict=True):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            cp.Engine.from_json(text)
+        said = [f"{each.message}" for each in caught]
+        # Of work and of angles that are no texts the library speaks besides.
+        theirs = " ".join(each for each in said if "radians" not in each and "imep" not in each)
+        for each in ours:
+            assert each["message"] in theirs, (each, theirs)
+            theirs = theirs.replace(each["message"], "", 1)
+            seen.add(each["argument"])
+        assert "given" not in theirs, theirs
+    assert seen == {
+        "amount", "bore", "crank_radius", "crankcase", "pressure", "reciprocating_mass",
+        "rod_length", "rotating_mass", "theta_deg", "x", "y", "z", "z (or spacing, bank_stagger)",
+    }  # fmt: skip
+
+
+def test_what_is_warned_of_at_a_speed_and_of_typed_angles(ask: Ask) -> None:
+    layout: dict[str, Any] = {"bank_angle_deg": 90, "throws_deg": [0, 240, 120], "spacing": 0.1}
+    with pytest.warns(UserWarning, match="pin_split_deg = 30") as caught:
+        v6 = cp.Engine.vee(CYLINDER, pin_split_deg=30, **layout)
+    given = {"engine": v6.to_json(), "rpm": 3e5, "inertia": 2e3, "pin_split_deg": "30"}
+    angles = {"throws_deg": ["0", "2.0944", "4.18879"], "bank_deg": ["51.428571", "360/7", "90"]}
+    (found,) = results(ask, [("warnings", given | {"angles": angles})])
+    said = {each["argument"]: each["message"] for each in found}
+    assert said["pin_split_deg"] == str(caught[0].message)
+    assert "mean piston speed" in said["rpm"]
+    assert "kg·cm²" in said["inertia"]
+    assert said["throws_deg"].endswith("degrees here: 120°, 240°")
+    assert said["bank_deg"] == "51.428571 is 4.3e-7° from 360/7"
 
 
 def mutated(text: str, seed: int) -> str:

@@ -36,9 +36,6 @@ Spectrum: TypeAlias = Mapping[int, complex]
 
 Number = TypeVar("Number", int, Order)
 
-FASTEST_PISTON = 60.0
-"""Mean piston speed, m/s, above which no engine runs: Formula 1 stays below 30."""
-
 MOST_NUMBERS = _core.LONGEST_AXIS
 LARGEST_RESULT = _core.LARGEST_RESULT
 """Maximum length of an array: a gibibyte."""
@@ -225,6 +222,39 @@ def finite(name: str, value: object) -> float:
     return real
 
 
+def limited(name: str, value: object) -> float:
+    """Return a float within the limits of figures, so that its square is finite."""
+    real = finite(name, value)
+    if abs(real) > _core.LARGEST:
+        raise rejected(name, real, f"give a number of magnitude {_core.LARGEST:g} at most")
+    return real
+
+
+def finite_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """Return an array of finite floats of any shape."""
+    numbers = array(name, values)
+    if not np.isfinite(numbers).all():
+        raise rejected(name, values, "give finite numbers")
+    return numbers
+
+
+def positive(name: str, value: object, hint: str = "give a number that is more than zero") -> float:
+    """Return a float above zero, within the limits of figures, so that its squares are finite."""
+    return float(positive_array(name, number(name, value), hint))
+
+
+def positive_array(
+    name: str, values: ArrayLike, hint: str = "give numbers that are more than zero"
+) -> NDArray[np.float64]:
+    """Return an array of floats above zero, within the limits of figures."""
+    numbers = array(name, values)
+    if not (numbers > 0.0).all():
+        raise rejected(name, values, hint)
+    if not ((numbers >= _core.SMALLEST) & (numbers <= _core.LARGEST)).all():
+        raise rejected(name, values, f"{hint}, from {_core.SMALLEST:g} to {_core.LARGEST:g}")
+    return numbers
+
+
 def optional_number(name: str, value: object) -> float | None:
     """Return a float, or None for None."""
     return None if value is None else number(name, value)
@@ -283,6 +313,11 @@ def text(name: str, value: object, hint: str = "give text") -> str:
     return value
 
 
+def optional_text(name: str, value: object) -> str | None:
+    """Return a string that can be written as UTF-8, or None for None."""
+    return None if value is None else text(name, value)
+
+
 def file_path(path: object, endings: tuple[str, ...], hint: str, name: str = "path") -> Path:
     """Return the path of a file whose name has one of these endings, ``.toml`` or the like."""
     try:
@@ -294,14 +329,16 @@ def file_path(path: object, endings: tuple[str, ...], hint: str, name: str = "pa
     return file
 
 
-def whole(name: str, value: object, least: int | None = None) -> int:
-    """Return a whole number that is at least another."""
+def whole(name: str, value: object, least: int | None = None, most: int | None = None) -> int:
+    """Return a whole number between two others."""
     try:
         integer = _index(value)
     except TypeError:
         raise rejected(name, value, "give a whole number") from None
     if least is not None and integer < least:
         raise rejected(name, integer, f"give a whole number, {least} or more")
+    if most is not None and integer > most:
+        raise rejected(name, integer, f"give {most} at most")
     if abs(integer) > LARGEST_WHOLE:
         raise rejected(name, integer, "give a whole number of fewer digits")
     return integer
@@ -562,12 +599,8 @@ def spectrum(values: object) -> list[tuple[int, complex]] | None:
 
 def warn_of_units(mean_piston_speed: float) -> None:
     """Warn of a piston that would be faster, in m/s, than in any engine."""
-    if mean_piston_speed > FASTEST_PISTON and math.isfinite(mean_piston_speed):
-        warn(
-            f"mean piston speed is {mean_piston_speed:.0f} m/s, more than any engine's "
-            f"({FASTEST_PISTON:.0f}): were lengths given in millimetres? They are metres here, and "
-            "masses kilograms."
-        )
+    for text in _core.piston_speed_warnings(mean_piston_speed):
+        warn(text)
 
 
 _SHORT = reprlib.Repr()

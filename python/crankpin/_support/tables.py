@@ -306,6 +306,8 @@ class Table(Tabled):
 
     def _check_text(self, rows: int | None = None) -> None:
         """Raise an InputError if the first rows, or all, take too much memory as text."""
+        if rows is not None:
+            inputs.whole("rows", rows, 0)
         count = len(self) if rows is None else min(rows, len(self))
         inputs.fitting("table", BYTES * count * len(self.columns), IN_PARTS)
 
@@ -362,7 +364,7 @@ class Table(Tabled):
 
     def _cut(self, rows: int | None) -> Table:
         """Return the first rows."""
-        if rows is None or rows >= len(self):
+        if rows is None or inputs.whole("rows", rows, 0) >= len(self):
             return self
         columns = tuple(changed(each, data=each.data[:rows]) for each in self.columns)
         whole = self.whole or len(self)

@@ -285,9 +285,12 @@ class BearingLoads(Tabled):
         area = np.ones(len(peaks))
         for argument, given in (("width", width), ("diameter", diameter)):
             sizes = np.array(inputs.per_item(argument, given, len(peaks)))
-            if len(sizes) != len(peaks) or not (np.isfinite(sizes) & (sizes > 0.0)).all():
-                hint = f"give metres above zero, one or one for each of {len(peaks)} bearings"
+            hint = f"give metres above zero, one or one for each of {len(peaks)} bearings"
+            if len(sizes) != len(peaks):
                 raise inputs.rejected(argument, given, hint)
+            if not (np.isfinite(sizes).all() and (sizes > 0.0).all()):
+                raise inputs.rejected(argument, given, hint)
+            inputs.positive_array(argument, sizes, hint)
             if sizes.max() > LARGEST_BEARING * self.engine.cylinders[0].crank_radius:
                 warn(f"{argument} = {sizes.max():g} m: was it given in millimetres?")
             area *= sizes

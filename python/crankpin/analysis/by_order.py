@@ -54,7 +54,7 @@ class ByOrder(Keyed, Quantities["NDArray[np.float64]", Value], Labelled, Generic
     @property
     def causes(self) -> tuple[str, ...]:
         """Names of what makes the quantities: ``inertia``, ``gas`` and those of further loads."""
-        return tuple(getattr(self.__dict__["_core"], "names", ("inertia",)))
+        return tuple(getattr(self.__dict__.get("_core"), "names", ("inertia",)))
 
     @property
     def _has_means(self) -> bool:

@@ -180,7 +180,7 @@ class Exercise(Tabled):
             raise inputs.faulty("answers", "are left out", hint)
         return {
             inputs.one_of("answers", name, right): math.isclose(
-                inputs.number(name, value), right[name], rel_tol=NEAR, abs_tol=NEAR * NEAR
+                inputs.finite(name, value), right[name], rel_tol=NEAR, abs_tol=NEAR * NEAR
             )
             for name, value in answers.items()
         }

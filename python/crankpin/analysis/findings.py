@@ -13,7 +13,8 @@ class Finding(NamedTuple):
 
     kind: str
     """``"hardware"``, ``"shakes"``, ``"remedy"``, ``"bob weights"``, ``"cancels"``, ``"rest"``,
-    ``"inertia torque"``, ``"gas torque"``, ``"gas orders"``, ``"firing"``, ``"load"`` or ``"articulated"``."""
+    ``"inertia torque"``, ``"gas torque"``, ``"gas orders"``, ``"firing"``, ``"load"`` or
+    ``"articulated"``."""
     quantity: str = ""
     """``"force"``, ``"moment"``, or empty."""
     orders: tuple[Order, ...] = ()

@@ -100,6 +100,8 @@ def operating_map(
         gas = GasMap.checked(cycle, [engine], crankcase)
         gas.places(None if load is None else inputs.vector("load", load))
         points = inputs.vector("load", load).copy()  # type: ignore[arg-type] # checked before
+        if not len(points):
+            raise inputs.rejected("load", load, "give a part of full load, or several")
     shape = (len(speeds), len(points))
     peaks: dict[str, NDArray[np.float64]] = {}
     wheel = np.zeros((2, *shape))

@@ -434,7 +434,7 @@ def _filtered(traces: Traces, cutoff: float) -> Traces:
     if np.ptp(steps) > 1e-3 * float(steps.max()):
         raise inputs.faulty("traces", "have steps that differ", "filters need equal steps")
     highest = rows.shape[1] * 180.0 / traces.period_deg
-    if not 0.0 < cutoff < highest:
+    if not _core.SMALLEST <= cutoff < highest:
         hint = f"give an order above 0 and below {highest:g}, half the points of a turn"
         raise inputs.rejected("lowpass_order", cutoff, hint)
     smooth = _convolved(

@@ -262,7 +262,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
         """
         if "." in self.name:
             raise self._absent("part", "it is one; read it of the whole")
-        return changed(self, name=f"{self.name}.{inputs.text('name', name)}")
+        known = self.result.request.parts(self.name, self.result.causes)
+        return changed(self, name=f"{self.name}.{inputs.one_of('name', name, known)}")
 
     @property
     def gas(self) -> Self:
@@ -458,7 +459,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
     @property
     def _has_means(self) -> bool:
         """True of a torque that more than inertia may make."""
-        return not self.kind.planar and set(self.result.causes) != {"inertia"}
+        return not self.kind.planar and self.result._has_means
 
     def _figure(self, what: str) -> float | None:
         """Return a figure of one order of a balance; None where all together have none."""

@@ -106,15 +106,24 @@ class Request(NamedTuple):
         parts = [part for each in known for part in parts_of(each, names)]
         return check_quantities(quantities, (*known, *parts))
 
+    @staticmethod
+    def parts(quantity: str, names: Sequence[str]) -> tuple[str, ...]:
+        """Return the parts that may be asked for, of the names of what makes a quantity."""
+        if QUANTITIES[quantity].planar or not names:
+            return tuple(names)
+        return tuple(dict.fromkeys((*PART_WORDS, *names)))
+
     def check(self, quantity: str, names: Sequence[str] = ("inertia",)) -> None:
         """Raise an error if a quantity is not available, of the names of what makes it."""
-        whole, point, _ = str(quantity).partition(".")
+        whole, point, _ = (
+            quantity.partition(".") if isinstance(quantity, str) else (quantity, "", "")
+        )
         kind = QUANTITIES[inputs.one_of("quantity", whole, QUANTITIES)]
-        known = names if kind.planar else (*PART_WORDS, *names)
+        if point and not names:
+            raise inputs.rejected("quantity", quantity, f"has no parts here; give {whole!r}")
         if point:
-            inputs.one_of(
-                "quantity", quantity, [f"{whole}.{each}" for each in dict.fromkeys(known)]
-            )
+            known = [f"{whole}.{each}" for each in self.parts(whole, names)]
+            inputs.one_of("quantity", quantity, known)
         if self._has_torque or kind.planar:
             return
         if self.pairs is not None:

@@ -238,7 +238,7 @@ class Waveform(OverAngle):
     def _values(self, quantity: str) -> NDArray[np.float64]:
         by_name: dict[str, NDArray[np.float64]] = self.__dict__["_by_name"]
         if (values := by_name.get(quantity)) is None:  # gas that there is none of
-            return read_only(np.zeros_like(by_name[quantity.partition(".")[0]]))  # type: ignore[no-any-return]
+            return read_only(np.zeros_like(by_name[quantity.partition(".")[0]]))
         return values
 
     @property

@@ -82,17 +82,17 @@ class Actuator(Input):
         fields["direction"] = tuple(part / length + 0.0 for part in along)
         for name in ("force", "mass", "stroke", "resonance"):
             value = getattr(self, name)
-            fields[name] = None if value is None else _above_zero(name, value)
+            fields[name] = None if value is None else inputs.positive(name, value)
             if name in ("stroke", "resonance") and value is not None and self.mass is None:
                 raise inputs.rejected(name, value, "give mass too, that of what it moves")
         damping = inputs.finite("damping_ratio", self.damping_ratio)
         if damping < 0.0 or (damping > 0.0 and self.resonance is None):
             hint = "give zero or more, and resonance where it is above zero"
             raise inputs.rejected("damping_ratio", damping, hint)
-        if self.stroke is not None and float(self.stroke) > LONGEST_STROKE:
-            warn(f"stroke = {self.stroke:g} m: was it given in millimetres?")
         checks.point("at", at)
         self.__dict__.update(fields, damping_ratio=damping)
+        if self.stroke is not None and self.stroke > LONGEST_STROKE:
+            warn(f"stroke = {self.stroke:g} m: was it given in millimetres?")
 
     def stroke_of(self, force: ArrayLike, frequency: ArrayLike) -> NDArray[np.float64]:
         """Return the displacement of the mass that a force on the powertrain takes, m.
@@ -115,7 +115,10 @@ class Actuator(Input):
         InputError
             If a figure is no number, or a frequency not above zero.
         """
-        size, omega = np.abs(inputs.array("force", force)), 2.0 * np.pi * _frequency(frequency)
+        size, omega = (
+            np.abs(inputs.finite_array("force", force)),
+            2.0 * np.pi * _frequency(frequency),
+        )
         if self.mass is None:
             return np.zeros(np.broadcast_shapes(size.shape, omega.shape))
         return np.asarray(size / (self.mass * omega**2))
@@ -141,7 +144,7 @@ class Actuator(Input):
             If a figure is no number, or a frequency not above zero.
         """
         share = np.abs(self._motor_share(_frequency(frequency)))
-        return np.asarray(np.abs(inputs.array("force", force)) * share)
+        return np.asarray(np.abs(inputs.finite_array("force", force)) * share)
 
     def _motor_share(self, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
         """Return the motor's force over that on the powertrain, where this does not move."""
@@ -177,14 +180,5 @@ class Actuator(Input):
 
 
 def _frequency(frequency: ArrayLike) -> NDArray[np.float64]:
-    given = inputs.array("frequency", frequency)
-    if not (given > 0.0).all():
-        raise inputs.rejected("frequency", frequency, "give numbers that are more than zero, Hz")
-    return given
-
-
-def _above_zero(name: str, value: object) -> float:
-    number = inputs.finite(name, value)
-    if number <= 0.0:
-        raise inputs.rejected(name, number, "give a number that is more than zero")
-    return number
+    hint = "give numbers that are more than zero, Hz"
+    return inputs.positive_array("frequency", frequency, hint)

@@ -18,6 +18,10 @@ EXAMPLES: Final = ("petrol", "diesel")
 """Names of the cycles of :meth:`Cycle.example`."""
 
 
+OPTIONAL = ("heat", "excess_air", "wall_temperature", "rpm")
+"""Figures without which a cycle is computed otherwise."""
+
+
 class IdealOptions(TypedDict, total=False):
     """Options of ideal cycles: see :meth:`Cycle.dual`."""
 
@@ -407,7 +411,10 @@ class ComputedCycles:
         area(cylinder)
         ratio = inputs.number("compression_ratio", compression_ratio)
         title = inputs.text("name", name) or f"{kind} cycle, compression ratio {ratio:.6g}"
-        checked = {key: inputs.optional_number(key, value) for key, value in figures.items()}
+        checked = {
+            key: None if value is None and key in OPTIONAL else inputs.number(key, value)
+            for key, value in figures.items()
+        }
         core = of(cylinder._parts, cylinder.bore, ratio, inputs.strokes(strokes), title, checked)
         said = {"bore": cylinder.bore, "stroke": cylinder.stroke, "compression_ratio": ratio}
         known = {name: each for name, each in (said | checked).items() if each is not None}

@@ -126,8 +126,7 @@ class Cycle(Tabled, Input, ComputedCycles):
         object.__setattr__(self, "degree", degree)
         object.__setattr__(self, "origin", inputs.text("origin", origin))
         if len(self._core):
-            checks.pressure(self.pressure)
-            checks.peak(self.theta_deg, self.pressure, self.period_deg)
+            checks.cycle(self._core)
 
     @classmethod
     def _of(cls, core: _core.Cycle, origin: str = "") -> Self:
@@ -442,7 +441,7 @@ class Cycle(Tabled, Input, ComputedCycles):
         array([8.e-05])
         """
         listed = inputs.explicit_half_orders(orders)
-        checks.absolute("crankcase", inputs.number("crankcase", crankcase))
+        checks.absolute("crankcase", inputs.finite("crankcase", crankcase))
         scale = 2.0 * area(cylinder) / math.radians(self.period_deg)
         if self.degree is not None:
             return np.zeros(len(listed))

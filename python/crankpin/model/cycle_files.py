@@ -208,15 +208,14 @@ def _recorded(
     text = _ascending(text, half, ours=known is not None)
     where = text.numbers[:, 0] * ANGLE_UNITS[unit]
     pressures = np.ascontiguousarray(text.numbers[:, 1:].T)
+    added = inputs.finite("atmosphere", atmosphere)
     for k, head in enumerate(text.heads()[1:]):
         stated = of_pressure if pressure_unit is not None or not text.headed else None
         pressures[k] *= PRESSURE_UNITS[stated or _unit_of(head) or of_pressure]
         if above if gauge is not None else _says_gauge(head, above):
-            pressures[k] += inputs.finite("atmosphere", atmosphere)
+            pressures[k] += added
     said = [f"{of_pressure} ({by_pressure})"]
-    said.append(
-        f"gauge ({by_gauge}), {atmosphere:g} Pa added" if above else f"absolute ({by_gauge})"
-    )
+    said.append(f"gauge ({by_gauge}), {added:g} Pa added" if above else f"absolute ({by_gauge})")
     if unit in TIME_UNITS:
         rpm = _speed(where, pressures[0], recorded_rpm, period)
         where = 6.0 * rpm * where
@@ -383,6 +382,9 @@ def _cycles(
         count = int((theta[-1] - theta[0] + step) / period + DIFFERENT)
         if count < 2 or step <= 0.0:
             return theta, pressures, columns
+        if round(period / step) < 1:
+            fault = f"has {step:.3g}° from one point to the next"
+            raise inputs.faulty("path", fault, "are units and recorded_rpm right?")
         grid, found = _resampled(theta, pressures, period, count)
         left = bool(theta[-1] - theta[0] > count * period + step / 2.0)
         how = f"in a row{columns and ' and columns'}"
@@ -484,9 +486,7 @@ def _speed(
 ) -> float:
     """Return the speed of a record over time, rpm: that of its compressions, if it has three."""
     if stated is not None:
-        stated = inputs.finite("recorded_rpm", stated)
-        if not stated > 0.0:
-            raise inputs.rejected("recorded_rpm", stated, "give the crank speed of the record")
+        stated = inputs.positive("recorded_rpm", stated, "give the crank speed of the record")
     times = _rises(seconds, pressure)
     if len(times) < 3:
         if stated is None:

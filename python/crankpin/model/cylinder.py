@@ -200,9 +200,7 @@ class Cylinder:
         """
         if not isinstance(rod, Rod):
             raise inputs.rejected("rod", rod, "give a Rod")
-        mass = inputs.number("piston_mass", piston_mass)
-        if not mass >= 0.0:
-            raise inputs.rejected("piston_mass", mass, "give a number that is zero or more")
+        mass = _checked_piston_mass(piston_mass)
         return cls(
             crank_radius=crank_radius,
             rod_length=rod.length,
@@ -221,11 +219,11 @@ class Cylinder:
             if given is not None or field.default is not None:
                 object.__setattr__(self, field.name, inputs.number(field.name, given))
         _core.check_cylinder(self._parts)
-        checks.cylinder(self.crank_radius, self.rod_length)
-        if self.bore is not None:
-            if not 0.0 < self.bore <= LARGEST_LENGTH:
-                raise inputs.rejected("bore", self.bore, "give metres above zero")
-            checks.bore(self.bore, self.stroke)
+        if self.bore is not None and not 0.0 < self.bore <= LARGEST_LENGTH:
+            raise inputs.rejected("bore", self.bore, "give metres above zero")
+        checks.cylinder(self.crank_radius, self.rod_length, self.bore)
+        if self.piston_mass is not None:
+            _checked_piston_mass(self.piston_mass)
         if self.rod is not None:
             self._check_rod(self.rod)
 
@@ -589,6 +587,13 @@ class Rod(Input):
 def rod_length(crank_radius: float, rod_ratio: float) -> float:
     """Return the rod length at a rod ratio, m, which is infinite at 0."""
     return crank_radius / rod_ratio if rod_ratio else math.inf
+
+
+def _checked_piston_mass(given: object) -> float:
+    mass = inputs.finite("piston_mass", given)
+    if mass < 0.0:
+        raise inputs.rejected("piston_mass", mass, "give a number that is zero or more")
+    return mass
 
 
 @overload

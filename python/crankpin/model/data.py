@@ -797,11 +797,9 @@ class EngineData:
             order = _core.Firing.named(core, core.firing_order, core.strokes)
             core = core.firing_as(order.text, core.strokes).with_turns(core.chosen_turns)
         read = cls(core)
-        for each in set(read.cylinders):  # rods that contradict their cylinders raise
-            checks.cylinder(each.crank_radius, each.rod_length)
-            if each.bore is not None:
-                checks.bore(each.bore, each.stroke)
-        checks.units(core)
+        with suppressed():
+            read.cylinders  # noqa: B018 - rods that contradict their cylinders raise
+        checks.engine(core)
         if core.cycles is not None and core.crankcase is not None:
             checks.absolute("crankcase", core.crankcase)
             distinct = {each for each in core.cycles if each is not None}

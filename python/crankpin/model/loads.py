@@ -59,7 +59,7 @@ class PeriodicLoad(Input):
         Whether amplitudes stay as the speed changes, or grow with its square from ``rpm`` on.
     rpm : float or sequence of float, optional
         Crank speed at which amplitudes that grow are those given; or ascending speeds at which a
-        table has amplitudes, linear between them and refused outside.
+        table has amplitudes, linear between them and rejected outside.
     direction_deg : number or str, default 0.0
         Direction of the force, degrees from +x; of one that turns, where it points at
         ``phase_deg``.
@@ -153,8 +153,8 @@ class PeriodicLoad(Input):
         keep(phase_deg=inputs.degrees(self.exact_phase))
         for field, value in (("z", z), ("x", x), ("y", y)):
             keep(**{field: inputs.finite(field, value)})
-        keep(crank=None if crank is None else inputs.whole("crank", crank, 0))
-        keep(cylinder=None if cylinder is None else inputs.whole("cylinder", cylinder, 1))
+        keep(crank=None if crank is None else inputs.whole("crank", crank, 0, 2**31))
+        keep(cylinder=None if cylinder is None else inputs.whole("cylinder", cylinder, 1, 2**31))
         keep(ratio=_ratio(ratio))
         _core.check_load(self._text())
 
@@ -206,7 +206,7 @@ class PeriodicLoad(Input):
             Turns of the main crank in which the load repeats.
         rpm : float or sequence of float, optional
             As of the class.
-        **options
+        **options : dict, optional
             ``scaling``, ``direction_deg``, ``turning``, ``phase_deg``, ``z``, ``crank``, ``ratio``,
             ``x``, ``y`` and ``cylinder``, as of the class.
 
@@ -232,7 +232,7 @@ class PeriodicLoad(Input):
         >>> complex(pump.torque[1]), complex(pump.torque[0])
         (-1j, (2+0j))
         """
-        count = inputs.whole("turns", turns)
+        count = inputs.whole("turns", turns, 1, 2)
         listed = inputs.is_listed(rpm)
         amplitudes: dict[str, Any] = {}
         for quantity, samples in (("force", force), ("torque", torque)):
@@ -242,6 +242,8 @@ class PeriodicLoad(Input):
             if rows.ndim != 2 or (np.ndim(samples) == 2) != listed:
                 shape = "(n_rpm, n_samples)" if listed else "(n_samples,)"
                 raise inputs.rejected(quantity, samples, f"give samples of shape {shape}")
+            if rows.shape[1] < 3:  # two do not determine cosine and sine
+                raise inputs.rejected(quantity, samples, "give 3 samples or more over its period")
             _warn_of_jump(quantity, rows)
             each = [_core.harmonics_of_samples(row.tolist(), count) for row in rows]
             by_order = {
@@ -332,7 +334,7 @@ def lines(core: _core.Engine) -> list[str]:
 
 def _amplitudes(name: str, given: object, rows: int | None) -> Mapping[Order, Any]:
     if given is None:
-        return read_only({})  # type: ignore[no-any-return]
+        return read_only({})
     if not isinstance(given, Mapping):
         raise inputs.rejected(name, given, "give a mapping: order → complex amplitude, {2: 4 - 1j}")
     listed: dict[Order, Any] = {}
@@ -347,7 +349,7 @@ def _amplitudes(name: str, given: object, rows: int | None) -> Mapping[Order, An
             if len(values) != rows:
                 raise inputs.rejected(f"{name}[{key}]", value, f"give {rows}, one for each speed")
             listed[key] = tuple(_amplitude(f"{name}[{key}]", each) for each in values)
-    return read_only(dict(sorted(listed.items())))  # type: ignore[no-any-return]
+    return read_only(dict(sorted(listed.items())))
 
 
 def _amplitude(name: str, value: object) -> complex:
@@ -355,7 +357,7 @@ def _amplitude(name: str, value: object) -> complex:
     if isinstance(value, (str, bytes, bool)):
         raise inputs.rejected(name, value, hint)
     try:
-        amplitude = complex(value)  # type: ignore[call-overload] # anything that complex() takes
+        amplitude: complex = complex(value)  # type: ignore[call-overload] # anything that complex() takes
     except (TypeError, ValueError, OverflowError):
         raise inputs.rejected(name, value, hint) from None
     if not np.isfinite(amplitude):
@@ -367,7 +369,7 @@ def _ratio(value: object) -> float:
     if isinstance(value, str):
         try:
             return float(Fraction(value))
-        except (ValueError, ZeroDivisionError):
+        except (ValueError, ZeroDivisionError, OverflowError):
             hint = 'give a multiple of 1/2, such as "1/2", -1 or 2'
             raise inputs.rejected("ratio", value, hint) from None
     return inputs.finite("ratio", value)

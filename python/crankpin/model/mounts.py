@@ -138,9 +138,7 @@ class InertiaTrack(Input):
 
     def __post_init__(self) -> None:
         for name in ("stiffness", "frequency", "damping_ratio"):
-            self.__dict__[name] = value = inputs.finite(name, getattr(self, name))
-            if value <= 0.0:
-                raise inputs.rejected(name, value, "give a number that is more than zero")
+            self.__dict__[name] = inputs.positive(name, getattr(self, name))
 
 
 class Mount(Input):
@@ -224,7 +222,8 @@ class Mount(Input):
             "damping": damping,
         }
         for field, value in of_axes.items():
-            fields[field] = None if value is None else _along_axes(field, value)
+            is_left_out = value is None and field == "dynamic_stiffness"
+            fields[field] = None if is_left_out else _along_axes(field, value)
         fields["tilt_deg"] = inputs.optional_number("tilt_deg", tilt_deg)
         fields["axes"] = None
         if axes is not None:
@@ -317,7 +316,7 @@ def _vector(name: str, values: object) -> Vector:
 
 def _along_axes(name: str, values: Any) -> Vector:  # noqa: ANN401 - a number or three
     """Return three numbers, of one the same along all axes."""
-    if np.ndim(values) == 0:
+    if not inputs.is_listed(values):
         number = inputs.number(name, values)
         return (number, number, number)
     return _vector(name, values)

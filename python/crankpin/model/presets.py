@@ -76,9 +76,11 @@ class Presets(Mapping[str, Engine]):
 
     def table(self, column: str = "source", longest: int = 1000) -> tables.Table:
         """Return a table of all presets with one of their texts, cut."""
+        column = inputs.one_of("column", column, ("source", "description"))
+        length = inputs.whole("longest", longest, 1)
         rows = []
         for name, engine in self.items():
-            text = labels.cut(_data()["engines"][name][column], longest)
+            text = labels.cut(_data()["engines"][name][column], length)
             angle = getattr(engine, "bank_angle_deg", None)
             banks = "–" if angle is None else f"{angle:.6g}"
             rows.append((name, len(engine), banks, engine.firing_order or "–", text))

@@ -170,7 +170,7 @@ def with_counterweights(core: _core.Engine, weights: Iterable[Unbalance]) -> _co
     """Return an engine with these unbalances on its cranks."""
     listed = listed_items("counterweights", weights, Unbalance)
     made = core.with_counterweights([_weight(weight) for weight in listed])
-    checks.hardware(core, listed, ())
+    checks.hardware(made, of_shafts=False)
     return made
 
 
@@ -191,7 +191,7 @@ def with_shafts(core: _core.Engine, given: Iterable[Shaft]) -> _core.Engine:
     """Return an engine with these balance shafts."""
     listed = listed_items("shafts", given, Shaft)
     made = core.with_shafts([_shaft(each) for each in listed])
-    checks.hardware(core, (), listed)
+    checks.hardware(made, of_shafts=True)
     return made
 
 

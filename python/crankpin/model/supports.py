@@ -13,7 +13,7 @@ from crankpin._support.record import Input
 from crankpin.model.mounts import Mount, RigidBody
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
@@ -128,14 +128,13 @@ class Receptance(Input):
         square = (len(frequency), len(pairs), len(pairs))
         values = _complex("table: receptance", listed[1], square, hint)
         points = []
-        for name, moved in dict(self.receivers or {}).items():
+        for name, moved in _named(self.receivers):
             hint = (
                 "give complex receptances of shape (n_frequencies, 3, n_coordinates), m/N: "
                 "displacements along x, y and z over the force at each coordinate"
             )
-            of = inputs.text("receivers", name)
             shape = (len(frequency), 3, len(pairs))
-            points.append((of, _nested(_complex(f"receivers[{of!r}]", moved, shape, hint))))
+            points.append((name, _nested(_complex(f"receivers[{name!r}]", moved, shape, hint))))
         fields = {"coordinates": tuple(pairs), "table": (tuple(frequency), _nested(values))}
         self.__dict__.update(fields, receivers=tuple(points) or None)
         _core.check_support(self._figures)
@@ -151,6 +150,17 @@ class Receptance(Input):
             for name, moved in dict(self.receivers or ()).items()
         ]
         return (places, frequency, rows.tolist(), points)
+
+
+def _named(receivers: Any) -> Iterator[tuple[str, Any]]:  # noqa: ANN401 - checked here
+    """Yield names and displacements of what was given."""
+    hint = "give a mapping of names to receptances"
+    pairs = receivers.items() if isinstance(receivers, Mapping) else receivers
+    for pair in () if pairs is None else inputs.items("receivers", pairs, hint):
+        both = inputs.items("receivers", pair, hint)
+        if len(both) != 2:
+            raise inputs.rejected("receivers", receivers, hint)
+        yield inputs.text("receivers", both[0]), both[1]
 
 
 Support: TypeAlias = Subframe | Receptance

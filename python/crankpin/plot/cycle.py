@@ -8,6 +8,7 @@ import numpy as np
 
 from crankpin._support import labels, units
 from crankpin._support.drawing import picture
+from crankpin._support.inputs import optional_text
 from crankpin.analysis.flywheel import Flywheel
 from crankpin.analysis.prepared_trace import PreparedTrace
 from crankpin.model.computed_cycles import area
@@ -44,7 +45,7 @@ def _cycle(
 ) -> Axes:
     ax = axes_or_new(ax)
     first = not count_series(ax)
-    name = label or labels.printable(result.name) or "pressure"
+    name = optional_text("label", label) or labels.printable(result.name) or "pressure"
     set_title(ax, "Cylinder pressure", *([labels.printable(result.name)] if first else []))
     # The curve is closed, a period later.
     end = result.theta_deg[0] + result.period_deg
@@ -77,7 +78,7 @@ def _traces(
     first = not count_series(ax)
     named = labels.printable(result.name)
     set_title(ax, "Cylinder pressure", *([named] if first and named else []))
-    _band(result, ax, label or f"mean of {len(result)} cycles", style)
+    _band(result, ax, optional_text("label", label) or f"mean of {len(result)} cycles", style)
     label_x(ax, "crank angle after the firing top dead centre")
     add_legend(ax)
     return ax
@@ -114,7 +115,12 @@ def _prepared(
     panels = make_panels(ax, figure, 2, 1, row_height=0.55, sharex=True)
     before, after = result.stages[0], result.traces
     pressures = panels.axes[0, 0]
-    _band(after, pressures, ", ".join(filter(None, [label, "prepared"])), style)
+    _band(
+        after,
+        pressures,
+        ", ".join(filter(None, [optional_text("label", label), "prepared"])),
+        style,
+    )
     thin: dict[str, Any] = {"color": muted(pressures), "linewidth": 0.9, "linestyle": "--"}
     measured = before.pressure.mean(axis=0)
     pressures.plot(before.theta_deg, measured / 1e5, gid="", label="as measured", **thin)

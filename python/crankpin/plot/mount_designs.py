@@ -84,9 +84,12 @@ def _designs(
 ) -> Axes:
     """Draw the force over speed of many designs, thin, and of one of them."""
     name = mount if mount is None else inputs.one_of("mount", mount, result.powertrain.names)
-    wanted = None if order is None else inputs.order(order)
+    hint = f"is not among its orders: {labels.orders_text(result.orders)}"
+    try:
+        wanted = None if order is None else inputs.order(order)
+    except (TypeError, ValueError, OverflowError):
+        raise inputs.rejected("order", order, hint) from None
     if wanted is not None and wanted not in result.orders:
-        hint = f"is not among its orders: {labels.orders_text(result.orders)}"
         raise inputs.rejected("order", order, hint)
     most = inputs.whole("count", count, 1)
     least = int(np.linalg.norm(result.body_force_rms, axis=1).argmin())

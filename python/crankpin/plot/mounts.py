@@ -9,7 +9,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import LinearSegmentedColormap, LogNorm
 from matplotlib.patches import Rectangle
 
-from crankpin._support import inputs, labels, units
+from crankpin._support import inputs, labels
 from crankpin._support.drawing import picture
 from crankpin.analysis.mounts.modes import COORDINATES, OF_SUBFRAME, PLACES, MountModes
 from crankpin.analysis.mounts.response import READ, MountResponse, PointMotion
@@ -133,7 +133,7 @@ def _point(
 ) -> Axes:
     name = inputs.one_of("quantity", quantity, READ)
     given = {"orders": None if motion.order == ALL else motion.order} | options
-    words = plain_text(f"{name} of {units.in_text(motion._words)}")
+    words = plain_text(f"{name} of {motion._words}")
     return _picture(
         motion.result, Drawn(motion._moved(name)[None], *READ[name]), words, ax, **given
     )

@@ -28,7 +28,7 @@ COMMENT = re.compile(
 )
 EXPORT = re.compile(r"^export (?=(?:async )?(?:const|class|function))", re.MULTILINE)
 INDENT = re.compile(r"^\s+", re.MULTILINE)
-SPACE = re.compile(r"(?<=:) | (?=\{)")
+SPACE = re.compile(r"(?<=[:,;{]) | (?=[{}])")
 """Spaces that a style sheet does without."""
 
 

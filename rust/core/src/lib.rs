@@ -46,7 +46,7 @@ pub use mechanism::{harmonics, rod, slider_crank, spectrum};
 pub use numbers::angle::Angle;
 pub use numbers::cancel::Cancel;
 pub use numbers::crank_angles::CrankAngles;
-pub use numbers::error::{Error, Result};
+pub use numbers::error::{Error, Result, Warning};
 pub use numbers::order::Order;
 pub use numbers::{
     angle, crank_angles, double, error, index, limits, memory, order, pool, rational, ring,

@@ -178,8 +178,8 @@ impl Wrench {
         }
     }
 
-    /// The wrench of a sum of loads at an order, zero where rounding is all there is; of which so many have
-    /// a force, and so many are in all.
+    /// The wrench of a sum of loads at an order, zero where rounding is all there is; of the numbers of loads
+    /// with a force, and of all.
     #[must_use]
     pub fn snapped(&self, counts: [usize; 2], order: f64) -> Self {
         let [of_force, of_torque] = counts.map(|count| rounding(count, order));

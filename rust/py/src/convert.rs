@@ -1,7 +1,6 @@
 //! Between Python's values and the core's: angles, cylinders, spectra, arrays, errors.
 
 use crankpin_core as core;
-use crankpin_core::rational::Ratio;
 use crankpin_macros::guarded;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyMemoryError, PyValueError};
 use pyo3::prelude::*;
@@ -77,25 +76,6 @@ pub fn exact_angle(argument: &str, degrees: Degrees) -> PyResult<String> {
         Degrees::Text(text) => text.parse(),
     };
     angle.map(|angle| angle.to_string()).map_err(|error| error.named(argument)).or_raise()
-}
-
-/// Hint for an angle beside a part of a turn that no decimal is: `51.428571 is 4.3e-7° from 360/7`.
-#[guarded]
-#[pyfunction]
-pub fn near_miss(degrees: &str) -> Option<String> {
-    /// Fractions of more parts lie so close together that many angles are next to one.
-    const MOST_PARTS: i64 = 100;
-    let angle: core::Angle = degrees.parse().ok()?;
-    // A double within rounding of the fraction is taken as it.
-    core::Angle::from_degrees(degrees.parse().ok()?).ok()?.near_miss()?;
-    let (simple, distance) = angle.near_miss()?;
-    let (turns, parts) = simple.turns().filter(|(_, parts)| *parts <= MOST_PARTS)?;
-    // A decimal can be typed as it is: only others are rounded.
-    if simple.is_decimal() {
-        return None;
-    }
-    let simple = Ratio::new(360 * i128::from(turns), parts.into());
-    Some(format!("{degrees} is {distance:.1e}° from {simple}"))
 }
 
 /// Degrees as people give them.

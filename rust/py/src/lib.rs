@@ -29,6 +29,7 @@ mod sweep;
 mod tolerances;
 mod typed;
 mod vanishing;
+mod warnings;
 mod waveform;
 
 #[global_allocator]
@@ -51,7 +52,7 @@ mod _core {
         },
         bearing_loads::BearingLoadsModel,
         closed_form::closed_form,
-        convert::{exact_angle, near_miss},
+        convert::exact_angle,
         design::Objectives,
         engine::{Engine, check_load, harmonics_of_samples},
         explain::{Explanation, dead_text, explain, gas_text},
@@ -77,6 +78,12 @@ mod _core {
         tolerances::{Tolerances, orders_of_samples, peaks_of_sums},
         typed::{read_numbers, unit_factor, unit_symbol, unit_symbols, unit_terms},
         vanishing::{star, vanishing},
+        warnings::{
+            absolute_warnings, cycle_warnings, cylinder_warnings, engine_warnings, far_peak,
+            figure_warnings, hardware_warnings, imep_warnings, near_miss, peak_warnings,
+            pin_split_warnings, piston_speed_warnings, pressure_warnings, radians,
+            unbalance_warnings, unit_warnings,
+        },
         waveform::{CrankAngles, waveform},
     };
 
@@ -94,7 +101,9 @@ mod _core {
         module.add("FEWEST_POINTS", crank_angles::FEWEST_POINTS)?;
         module.add("MOST_CYLINDERS", limits::MOST_CYLINDERS)?;
         module.add("LARGEST_RESULT", limits::LARGEST_RESULT)?;
+        module.add("LARGEST", limits::LARGEST)?;
         module.add("LONGEST_AXIS", limits::LONGEST_AXIS)?;
+        module.add("SMALLEST", limits::SMALLEST)?;
         module.add("LONGEST_FILE", file::LONGEST_TEXT)?;
         let error = module.py().get_type::<crate::convert::InputError>();
         for field in ["argument", "value", "hint"] {

@@ -5,12 +5,12 @@ use serde_json::{Map, Value, json};
 
 use crate::answer::{self, Columns};
 use crate::arguments::Arguments;
-use crate::{balance, balancing, build, engine, figures, mounts, readings, typed, words};
+use crate::{balance, balancing, build, engine, figures, mounts, readings, typed, warnings, words};
 
 type Call = fn(&mut Arguments, &mut Columns) -> Result<Value>;
 
 /// Every call, for `site/core.mjs` and README.md.
-const CALLS: [(&str, Call); 17] = [
+const CALLS: [(&str, Call); 18] = [
     ("balance", balance::balance),
     ("balance_shafts", balancing::balance_shafts),
     ("bank_angles", readings::bank_angles),
@@ -26,6 +26,7 @@ const CALLS: [(&str, Call); 17] = [
     ("read", engine::read),
     ("sweep", readings::sweep),
     ("vanishing", engine::vanishing),
+    ("warnings", warnings::warnings),
     ("waveform", readings::waveform),
     ("with_cycle", readings::with_cycle),
 ];

@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use crankpin_core::engine::{CrankIndex, file};
 use crankpin_core::exact::vanishing::{ProofQuantity, QUANTITIES, Verdict, vanishing as of};
+use crankpin_core::index::ListIndex;
 use crankpin_core::mounts::Powertrain;
-use crankpin_core::{Cancel, Engine, Firing, Order, Result};
+use crankpin_core::{Angle, Cancel, Engine, Firing, Order, Result, Unbalance};
 use serde_json::{Map, Value, json};
 
 use crate::answer::{Columns, degrees, order};
@@ -36,6 +37,23 @@ fn summary(engine: &Engine, powertrain: Option<&Powertrain>) -> Result<Value> {
     let bank = |i| engine.bank_of(i);
     let cranks =
         engine.cranks().iter().map(|c| json!({ "x": c.axis[0], "y": c.axis[1], "ratio": c.ratio }));
+    let weight = |weight: &Unbalance, direction: Angle| json!({ "z": weight.z, "amount": weight.amount, "direction_deg": direction.degrees() });
+    let weights = engine.counterweights().iter().map(|each| {
+        let mut of_it = weight(each, engine.direction(each));
+        of_it["crank"] = json!(engine.crank_carrying(each).position());
+        of_it
+    });
+    let shafts = engine.shafts().iter().enumerate();
+    let shaft_weights = shafts.flat_map(|(k, shaft)| {
+        let of_shaft = move |each| {
+            let mut of_it = weight(each, each.angle);
+            let [x, y] = shaft.axis;
+            (of_it["shaft"], of_it["ratio"]) = (json!(k), json!(shaft.ratio));
+            (of_it["x"], of_it["y"]) = (json!(x), json!(y));
+            of_it
+        };
+        shaft.unbalances.iter().map(of_shaft)
+    });
     Ok(json!({
         "name": engine.shown_name(), "source": engine.source(), "cylinders": count,
         "strokes": engine.strokes().number(), "firing_order": engine.firing_order(), "firing": firing,
@@ -48,6 +66,7 @@ fn summary(engine: &Engine, powertrain: Option<&Powertrain>) -> Result<Value> {
         "cranks": cranks.collect::<Vec<_>>(), "mains": engine.bearings(CrankIndex::MAIN),
         "reference_z": engine.reference(None)?,
         "counterweights": engine.counterweights().len(), "shafts": engine.shafts().len(),
+        "weights": weights.collect::<Vec<_>>(), "shaft_weights": shaft_weights.collect::<Vec<_>>(),
         "fired": engine.gas().is_some(), "mounted": powertrain.is_some(),
     }))
 }

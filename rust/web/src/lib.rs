@@ -14,6 +14,7 @@ mod figures;
 mod mounts;
 mod readings;
 mod typed;
+mod warnings;
 mod words;
 
 use std::cell::RefCell;

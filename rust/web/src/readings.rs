@@ -170,7 +170,8 @@ pub fn firing(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
 
 /// The engine with an example cycle in all its cylinders, and the cycle's pressure.
 pub fn with_cycle(arguments: &mut Arguments, columns: &mut Columns) -> Result<Value> {
-    let engine = arguments.engine()?.without_gas();
+    let (engine, powertrain) = arguments.mounted()?;
+    let engine = engine.without_gas();
     let kind = arguments.word("kind", &[("petrol", Kind::Petrol), ("diesel", Kind::Diesel)])?;
     let (load, cancel) = (arguments.or("load", 1.0)?, Cancel::new());
     let cycle = Arc::new(Example::new(kind, load, engine.strokes(), &cancel)?.cycle(&cancel)?);
@@ -181,7 +182,7 @@ pub fn with_cycle(arguments: &mut Arguments, columns: &mut Columns) -> Result<Va
     );
     let firing = firing_of(&engine)?;
     let engine = engine.fired_by(cycle, firing.in_second_turn())?;
-    let mut answer = written(&engine, None)?;
+    let mut answer = written(&engine, powertrain.as_ref())?;
     answer["theta_deg"] = theta;
     answer["pressure"] = pressure;
     Ok(answer)

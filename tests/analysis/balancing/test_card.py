@@ -200,6 +200,8 @@ def test_parts_of_every_cylinder_fit_on_a_sheet(name: str, open_file: Open, tmp_
     page = open_file(file, viewport=paper)
     page.emulate_media(media="print")
     assert page.evaluate("document.documentElement.scrollWidth") <= paper["width"]
+    modes = "all => all.map((each) => getComputedStyle(each).writingMode)"
+    assert set(page.eval_on_selector_all("th", modes)) == {"horizontal-tb"}
 
 
 @pytest.mark.parametrize(

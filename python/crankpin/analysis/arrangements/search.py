@@ -340,8 +340,8 @@ class ArrangementSearch(Tabled):
         InputError
             If an argument is out of range.
         """
-        angle = inputs.number("bank_angle_deg", bank_angle_deg)
-        tolerance = inputs.number("tolerance_deg", tolerance_deg)
+        angle = inputs.finite("bank_angle_deg", bank_angle_deg)
+        tolerance = inputs.finite("tolerance_deg", tolerance_deg)
         return tuple(self.within(angle - tolerance, angle + tolerance))
 
     def best(

@@ -57,9 +57,13 @@ caption { text-align: left; font-weight: bold; padding: 1mm 0; }
 th, td { border-bottom: 0.2mm solid #999; padding: 0.7mm 1.2mm; text-align: right; }
 th:first-child, td:first-child { text-align: left; }
 th { border-bottom: 0.4mm solid #000; }
-table:has(th:nth-child(10)) th:nth-child(n + 4) { writing-mode: vertical-rl; text-align: left; }
-table:has(th:nth-child(13)) { font-size: 7.5pt; }
+th { vertical-align: bottom; hyphens: auto; }
+table:has(th:nth-child(10)) { font-size: 8.5pt; }
+table:has(th:nth-child(10)) :is(th, td) { padding: 0.7mm; }
+table:has(th:nth-child(13)) { font-size: 7pt; }
 table:has(th:nth-child(17)) { font-size: 6pt; }
+table:has(th:nth-child(13)) :is(th, td) { padding: 0.4mm; }
+table:has(th:nth-child(13)) th:nth-child(n + 4) { font-size: .8em; }
 p { margin: 0 0 4mm; }
 @page { size: auto; margin: 12mm; }
 @media print { body { margin: 0; max-width: none; } }

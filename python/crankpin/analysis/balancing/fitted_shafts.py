@@ -228,7 +228,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
             for weight in shaft.unbalances
         ]  # fmt: skip
         note = ""
-        if self.engine.fired:
+        if self.engine.fired and self.rpm is not None:
             note = (
                 f"Places count the torque of gas pressure at {self.rpm:g} rpm: it does not scale "
                 "with the square of the speed as the shafts' torques do."

@@ -113,7 +113,7 @@ class Fitted(NamedTuple):
 def check_factor(name: str, factor: ArrayLike) -> None:
     """Raise an InputError unless factors are shares of the reciprocating mass."""
     listed = np.asarray(factor)
-    if not ((listed >= 0.0) & (listed <= LARGEST_FACTOR)).all():
+    if not listed.size or not ((listed >= 0.0) & (listed <= LARGEST_FACTOR)).all():
         hint = f"give a share of the reciprocating mass, 0 to {LARGEST_FACTOR:g}, such as 0.5"
         if not listed.ndim and LARGEST_FACTOR < listed <= 100.0:
             hint += f"; {listed:g} % is {listed / 100.0:g}"

@@ -140,7 +140,7 @@ class Designs(ByObjectives, Listed[Design], Tabled):
         if not self.objectives[0].quantity:
             raise inputs.rejected("by", self.by[0], "give the name of a force, moment or torque")
         angles = inputs.vector("bank_angle_deg", bank_angle_deg)
-        designs = self.designs[:count]
+        designs = self.designs[: inputs.whole("count", count, 1)]
         chosen: dict[str, Any] = {
             "rpm": self.rpm,
             "orders": "auto" if self.orders is None else self.orders,

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
+from crankpin import _core
 from crankpin._support import inputs
 from crankpin.analysis.arrangements.cranks import (
     HALF,
@@ -271,6 +272,8 @@ def _shafts(shaft_ratios: Iterable[int]) -> tuple[int, ...]:
     hint = "give different speed ratios such as [-1] or [2, -2]; for 1 give counterweights=True"
     listed = inputs.items("shafts", shaft_ratios, hint)
     ratios = [inputs.whole("shafts", each) for each in listed]
+    if max(map(abs, ratios), default=0) > _core.HIGHEST_ORDER:
+        raise inputs.rejected("shafts", listed, f"give ratios up to {_core.HIGHEST_ORDER}")
     if {0, 1} & set(ratios) or len(set(ratios)) < len(ratios):
         raise inputs.rejected("shafts", listed, hint)
     return tuple(ratios)

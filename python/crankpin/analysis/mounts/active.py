@@ -12,7 +12,7 @@ from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.record import changed, read_only
 from crankpin._support.tables import Column, Table
-from crankpin.analysis.mounts.adaptive import AdaptiveLaw
+from crankpin.analysis.mounts.adaptive import MOST_UPDATE_DELAYS, AdaptiveLaw
 from crankpin.analysis.mounts.phasors import least_largest, optimal
 from crankpin.analysis.mounts.response import SUPPORT, MountResponse, PointMotion
 from crankpin.analysis.quantity import ALL
@@ -207,7 +207,7 @@ class Cancellation(Tabled):
         InputError
             If a figure is not finite.
         """
-        share = inputs.finite("amplitude", amplitude)
+        share = inputs.limited("amplitude", amplitude)
         ahead = inputs.finite("phase_deg", phase_deg)
         return changed(self, amplitude_error=share, phase_error_deg=ahead)
 
@@ -245,14 +245,13 @@ class Cancellation(Tabled):
         InputError
             If an argument is out of range.
         """
-        size = inputs.finite("step", step)
-        if size <= 0.0:
-            raise inputs.rejected("step", step, "give a number that is more than zero")
+        size = inputs.positive("step", step)
         late = inputs.finite("delay", delay)
         if late < 0.0:
             raise inputs.rejected("delay", delay, "give zero or more, s")
         error = inputs.finite("phase_error_deg", phase_error_deg)
-        return AdaptiveLaw(self, size, late, error, inputs.whole("update_delay", update_delay, 0))
+        updates = inputs.whole("update_delay", update_delay, 0, MOST_UPDATE_DELAYS)
+        return AdaptiveLaw(self, size, late, error, updates)
 
     # --- tables -----------------------------------------------------------------------------------
 
@@ -469,6 +468,8 @@ def cancel(
         if absent := [order for order in wanted if order not in response.orders]:
             hint = f"is not among the orders of the response: {labels.orders_text(response.orders)}"
             raise inputs.rejected("orders", absent[0], hint)
+    if not chosen:
+        raise inputs.rejected("orders", orders, "give one order or more")
     receivers = _places("at", at, response)
     watched = () if watch is None else _places("watch", watch, response)
     shared = (response, tuple(given), receivers, watched, tuple(chosen), weight)

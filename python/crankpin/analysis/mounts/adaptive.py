@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 QUARTER = 90.0
 """Phase error, degrees, at which no step converges."""
 MOST_UPDATES = 1_000_000
+MOST_UPDATE_DELAYS = 100
+"""Largest delay in updates: rates are roots of polynomials of that degree."""
 """Updates that are followed."""
 TENTH = 20.0
 """Decibels of a tenth."""
@@ -130,9 +132,7 @@ class AdaptiveLaw(Tabled):
         InputError
             If it is below zero, or too large.
         """
-        count = inputs.whole("updates", updates, 0)
-        if count > MOST_UPDATES:
-            raise inputs.rejected("updates", count, f"give {MOST_UPDATES} at most")
+        count = inputs.whole("updates", updates, 0, MOST_UPDATES)
         target: NDArray[np.complex128] = self.cancellation.__dict__["_target"]
         target = np.moveaxis(self._cancelled(np.moveaxis(target, -1, 0)), 0, -1)
         left = np.linalg.svd(self._effect(), full_matrices=False)[0]

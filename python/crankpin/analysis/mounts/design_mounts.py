@@ -284,7 +284,7 @@ class Question:
         ]
         if not self.objectives:
             raise inputs.rejected("by", by, 'give "decoupling" or a force such as "mount_force[2]"')
-        self.rpm = None if rpm is None else inputs.vector("rpm", rpm)
+        self.rpm = None if rpm is None else inputs.positive_array("rpm", inputs.vector("rpm", rpm))
         if ("decoupling", None) in self.objectives:
             powertrain._core.require_ground()
         if self.rpm is None and any(order is not None for _, order in self.objectives):
@@ -306,7 +306,7 @@ class Question:
                     )
         hertz = self._roll_frequency(powertrain)
         if roll_frequency is not None:
-            hertz = inputs.finite("roll_frequency", roll_frequency)
+            hertz = inputs.positive("roll_frequency", roll_frequency)
         if hertz <= 0.0:
             raise inputs.rejected("roll_frequency", roll_frequency, "give Hz, more than zero")
         self.square = (2.0 * np.pi * hertz) ** 2

@@ -265,7 +265,8 @@ def designs(
         raise inputs.faulty(
             "vary", f"has {listed} values", "give one value of each figure for each design"
         )
-    places = tuple(_vector(f"at[{k}]", place) for k, place in enumerate(at))
+    points = inputs.items("at", at, "give a list of points (x, y, z), m")
+    places = tuple(_vector(f"at[{k}]", place) for k, place in enumerate(points))
     given = None if frequency is None else inputs.number("frequency", frequency)
     is_each = inputs.flag("mount_force", mount_force)
     found = DesignResponses(

@@ -9,7 +9,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support import inputs, labels, optional
+from crankpin._support import inputs, labels, optional, units
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.record import AbsentError, changed, read_only
@@ -109,7 +109,9 @@ class PointMotion(Tabled):
         if isinstance(self.point, str):
             return f"{self.point!r}"
         on = " on the support" if self.on == SUPPORT else ""
-        return f"the point {self.point} m{on}"
+        shown = units.convert("m")
+        place = ", ".join(f"{shown.factor * float(x):.6g}" for x in self.point)
+        return f"the point ({place}) {shown.unit}{on}"
 
     def _moved(self, name: str) -> VectorQuantity:
         words = f"{name} of {self._words}"

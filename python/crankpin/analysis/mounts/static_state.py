@@ -165,6 +165,7 @@ def static(
 ) -> StaticState:
     """Return the state at rest; :meth:`Powertrain.static` documents the arguments."""
     leaving: Any = torque
+    inputs.angular_speed(rpm)
     if isinstance(torque, str):
         inputs.one_of("torque", torque, ("engine",))
         if not powertrain.engine.fired:

@@ -181,6 +181,16 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         """Balance of the nominal engine, of the same orders."""
         return Balance(self.engine, self.rpm, self.request)
 
+    @property
+    def causes(self) -> tuple[str, ...]:
+        """None: samples are of all that makes a quantity together."""
+        return ()
+
+    @property
+    def _has_means(self) -> bool:
+        """False: spreads are of harmonics, and means have none."""
+        return False
+
     # --- arrays ---------------------------------------------------------------------------------
 
     @cached_property

@@ -174,15 +174,13 @@ export class Full extends View {
   pressures(span) {
     const { numbers } = this;
     const fired = numbers.gas.flatMap((cylinder, k) => (cylinder ? [k] : []));
-    const largest = Math.max(...fired.flatMap((k) => numbers.gas[k].samples));
     const angles = Array.from({ length: span / 2 + 1 }, (_, k) => 2 * k);
+    const curves = fired.map((k) => angles.map((angle) => numbers.pressureAt(numbers.gas[k], angle)));
+    const largest = Math.max(...curves.flat());
     return {
       title: STRINGS.pressure, range: [0, largest], missing: "",
       scale: scaleFor(largest, this.units.pressure),
-      curves: fired.map((k) => ({
-        name: "pressure", span, value: (pose) => pose.pressures[k],
-        samples: angles.map((angle) => numbers.pressureAt(numbers.gas[k], angle)),
-      })),
+      curves: fired.map((k, curve) => ({ name: "pressure", span, value: (pose) => pose.pressures[k], samples: curves[curve] })),
     };
   }
 

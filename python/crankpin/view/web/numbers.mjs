@@ -4,7 +4,7 @@
 // polynomials are evaluated at (the rod ratio), or by how much a bank's terms are turned (the bank angle).
 
 import { multiply, reduced, scale, unit } from "./complex.mjs";
-import { factorsAt, orderSum, realSum, summed } from "./series.mjs";
+import { chebyshev, factorsAt, orderSum, realSum, summed } from "./series.mjs";
 
 export const angularSpeed = (rpm) => (rpm * 2 * Math.PI) / 60;
 
@@ -42,7 +42,7 @@ export class Numbers {
     /** Gas pressure on each piston; null where there is none. */
     this.gas = figures.cylinders.map((given) => (given.cycle === null ? null : {
       ...given,
-      samples: figures.gas.cycles[given.cycle],
+      panels: figures.gas.cycles[given.cycle],
       crankcase: figures.gas.crankcase,
       delay: shift(given.bank).delay,
       swept: first(summed(terms.swept[given.swept] ?? [], factor, () => (value) => value)),
@@ -79,12 +79,16 @@ export class Numbers {
     return { force, moment, torque: inertia + gas, inertia, gas, driving, moving, pressures };
   }
 
-  /** Absolute pressure in a cylinder, Pa; between two samples of its cycle it changes evenly. */
-  pressureAt({ samples, pressure_deg: fires, delay }, thetaDeg) {
-    const { cycle } = this;
-    const at = (reduced(thetaDeg - fires - delay, cycle) * (samples.length - 1)) / cycle;
-    const before = Math.min(Math.floor(at), samples.length - 2);
-    return samples[before] + (at - before) * (samples[before + 1] - samples[before]);
+  /** Absolute pressure in a cylinder, Pa: the polynomial of its cycle that counts there. */
+  pressureAt({ panels: { edges_deg: edges, coefficients }, pressure_deg: fires, delay }, thetaDeg) {
+    const at = edges[0] + reduced(thetaDeg - fires - delay - edges[0], this.cycle);
+    let [k, end] = [0, coefficients.length];
+    while (end - k > 1) {
+      const middle = (k + end) >> 1;
+      if (edges[middle] <= at) k = middle;
+      else end = middle;
+    }
+    return chebyshev(coefficients[k], (2 * at - edges[k] - edges[k + 1]) / (edges[k + 1] - edges[k]));
   }
 }
 

@@ -21,13 +21,16 @@ const RANKS = {
   other: ["shaft", "bore", "journal", "weight", "throw", "rod", "piston"],
 };
 
+/** Part of a crank radius within which places along the crank are one. */
+const ONE_PLACE = 1e-6;
+
 /** How much lengths along the crank are stretched where cylinders stand closer than bores allow. */
 export function stretchAlong({ cylinders }) {
   let least = Infinity;
   for (const a of cylinders) {
     for (const b of cylinders) {
       const apart = Math.abs(a.z - b.z);
-      if (a !== b && a.bank === b.bank && apart > 0) {
+      if (a !== b && a.bank === b.bank && apart > ONE_PLACE * a.crank_radius) {
         least = Math.min(least, apart / (BORE * Math.max(a.crank_radius, b.crank_radius)));
       }
     }
@@ -328,7 +331,7 @@ function dimensions(engine) {
   /** Where the throws of each crank stand. */
   const places = cranks.map((_, k) => distinct(cylinders.filter(({ crank }) => crank === k)));
   const stretch = stretchAlong(engine);
-  const gaps = places.flatMap((of) => of.slice(1).map((z, k) => z - of[k]));
+  const gaps = places.flatMap((of) => of.slice(1).map((z, k) => z - of[k])).filter((gap) => gap > ONE_PLACE * radius);
   const halfThrow = 0.3 * Math.min(BORE * radius / stretch, ...gaps);
   const overhang = (0.75 * BORE * radius) / stretch;
   const largestWeight = {};

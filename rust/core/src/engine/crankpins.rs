@@ -183,13 +183,11 @@ impl Engine {
             self.crank_carrying(weight) == bay.crank && front <= weight.z && weight.z < rear
         };
         // The cylinder at whose pin a weight is may be in another bay.
-        let at_own_angle = |weight: Unbalance| {
-            let angle = match weight.pin {
-                None => weight.angle,
-                Some(i) if self.cranks()[bay.crank].ratio < 0 => self.pin(i) - weight.angle,
-                Some(i) => self.pin(i) + weight.angle,
-            };
-            Unbalance { angle: angle.reduced(), pin: None, crank: own, ..weight }
+        let at_own_angle = |weight: Unbalance| Unbalance {
+            angle: self.direction(&weight),
+            pin: None,
+            crank: own,
+            ..weight
         };
 
         let weights = self.counterweights().iter().copied().filter(is_inside).map(at_own_angle);

@@ -14,6 +14,7 @@ mod name;
 pub mod periodic;
 pub mod radial;
 mod shaft;
+pub mod warnings;
 
 use serde::{Deserialize, Serialize};
 
@@ -311,6 +312,16 @@ impl Engine {
     pub fn pin(&self, cylinder: usize) -> Angle {
         let Station { bank, tdc, .. } = self.stations[cylinder];
         self.cranks[self.crank_of[cylinder]].pin(bank, tdc)
+    }
+
+    /// Direction of an unbalance of a crank, from +x, at θ = 0: ahead of its crankpin in the sense in which
+    /// that turns, where it has one.
+    #[must_use]
+    pub fn direction(&self, unbalance: &Unbalance) -> Angle {
+        let Some(i) = unbalance.pin else { return unbalance.angle.reduced() };
+        let turns_back = self.cranks[self.crank_of[i]].ratio < 0;
+        let ahead = if turns_back { Angle::ZERO - unbalance.angle } else { unbalance.angle };
+        (self.pin(i) + ahead).reduced()
     }
 
     /// The same engine with its crankpins in these directions, from +x, at θ = 0, one for each cylinder.

@@ -83,7 +83,7 @@ pub(super) fn push(loads: &mut LoadList, engine: &Engine) {
 }
 
 /// The force of a load on its shaft, or on the block, at a speed, rad/s: coefficients of `e^{ikθ/2}` of x + iy,
-/// by k; without what stays.
+/// by k; without its mean.
 pub(crate) fn waves(engine: &Engine, load: &PeriodicLoad, omega: f64) -> Vec<(i32, Complex64)> {
     let (_, ratio) = load.shaft(engine);
     let scalings = scalings(load);
@@ -126,7 +126,7 @@ fn scalings(load: &PeriodicLoad) -> Vec<(Scaling, f64)> {
 }
 
 /// A force along a direction that turns at some times crank speed, along that direction and a quarter turn
-/// ahead of it, both at rest: by orders, without what stays.
+/// ahead of it, both at rest: by orders, without the mean.
 fn components(force: &[(u32, Complex64)], ratio: f64) -> [Series; 2] {
     let (mut along, mut across) = (Vec::new(), Vec::new());
     let speed = (2.0 * ratio) as i64;
@@ -166,7 +166,7 @@ fn at_orders(series: &Series, orders: &[Order]) -> Vec<Complex64> {
     orders.iter().map(value).collect()
 }
 
-/// Sum of the sizes of orders above so many halves.
+/// Sum of the sizes of orders above a number of halves.
 fn above(series: &Series, halves: u32) -> f64 {
     let own = series.iter().filter(|(order, _)| order.halves() > halves);
     own.map(|(_, amplitude)| amplitude.norm()).sum()

@@ -202,7 +202,7 @@ pub trait Source: Debug + Send + Sync + Any {
     /// Orders that it has up to one, multiples of the speed of the main crank.
     fn orders(&self, highest: Order) -> Vec<Order>;
 
-    /// Bounds of what orders above so many halves add; infinite where none is known.
+    /// Bounds of what orders above a number of halves add; infinite where none is known.
     fn beyond(&self, halves: u32, torque: bool) -> Tail;
 
     /// Whether bounds of what orders above one add are known only as its torque is integrated: then

@@ -52,7 +52,7 @@ impl Mechanism {
         [f64::from(self.ratio.signum()), f64::from(self.ratio.abs())]
     }
 
-    /// The highest multiple of the speed of its own crank that is not above so many halves of the main crank's.
+    /// The highest multiple of the speed of its own crank that is not above a number of halves of the main crank's.
     pub fn own_highest(&self, halves: u32) -> u32 {
         halves / (2 * self.ratio.unsigned_abs())
     }

@@ -7,6 +7,21 @@ use thiserror::Error;
 /// The result of anything that takes a caller's figures.
 pub type Result<T> = std::result::Result<T, Error>;
 
+/// A figure that no engine has, or almost none: what is computed of it is right, and hardly what was meant.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Warning {
+    /// Name of the figure.
+    pub argument: String,
+    /// The figure, its value and the likely mistake, in a sentence.
+    pub text: String,
+}
+
+impl Warning {
+    pub(crate) fn new(argument: &str, text: String) -> Self {
+        Self { argument: argument.to_owned(), text }
+    }
+}
+
 /// An input that makes no engine, or a request that cannot be met.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Error {

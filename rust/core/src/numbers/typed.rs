@@ -572,7 +572,7 @@ const VULGAR: [(char, i128, i128); 18] = [
     ('⅞', 7, 8),
 ];
 
-/// The range that somebody may mean who types 10-20, 10..20 or 10 to 20.
+/// The range that may be meant by 10-20, 10..20 or 10 to 20.
 fn as_range(text: &str) -> Option<String> {
     let number = |text: &str| {
         let whole = digits_of(text).0.len();

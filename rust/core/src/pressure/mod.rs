@@ -11,6 +11,7 @@ mod harmonics;
 mod interpolant;
 pub mod map;
 mod strokes;
+pub mod warnings;
 
 use serde::{Deserialize, Serialize};
 
@@ -161,6 +162,11 @@ impl Cycle {
     /// Crank angles at which pressure may jump or bend, degrees: the edges of the polynomials.
     pub(crate) fn edges_deg(&self) -> &[f64] {
         &self.panels.edges
+    }
+
+    /// Chebyshev coefficients of the polynomials between those edges.
+    pub(crate) fn polynomials(&self) -> impl Iterator<Item = &[f64]> {
+        (0..self.panels.edges.len() - 1).map(|k| self.panels.panel(k))
     }
 
     /// Largest pressure at its points, either way, Pa.

@@ -11,13 +11,14 @@ use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
+use crate::numbers::figure;
 use crate::numbers::index::ListIndex;
 use crate::pressure::Cycle;
 
 /// Mass of the block, which is not known, over that of the pistons: 90 kg for two litres.
 const BLOCK: f64 = 50.0;
-/// Degrees between the samples of a cycle, between which a picture interpolates.
-const PRESSURE_STEP: f64 = 0.5;
+/// Significant digits of a cycle's largest pressure to which all of its coefficients are.
+const PRESSURE_DIGITS: i32 = 13;
 
 /// An engine at rest, its angles in degrees.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -108,9 +109,16 @@ pub struct DrawnPressure {
 pub struct DrawnGas {
     /// Absolute pressure in the crankcase, Pa.
     crankcase: f64,
-    /// Absolute pressures of the cycles that differ, every half degree over their period, the first repeated
-    /// at the end, whole pascals.
-    cycles: Vec<Vec<i64>>,
+    /// Those of the cycles that differ.
+    cycles: Vec<DrawnCycle>,
+}
+
+/// Absolute pressure over a period, Pa: polynomials between edges, degrees after the firing top dead centre.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DrawnCycle {
+    edges_deg: Vec<f64>,
+    /// Coefficients of Chebyshev's polynomials, in a list for each panel between two edges.
+    coefficients: Vec<Vec<f64>>,
 }
 
 /// A bar that stands for the block.
@@ -236,13 +244,18 @@ fn cycles(engine: &Engine) -> Vec<Arc<Cycle>> {
 #[must_use]
 pub fn gas(engine: &Engine) -> Option<DrawnGas> {
     let crankcase = engine.gas()?.crankcase;
-    Some(DrawnGas { crankcase, cycles: cycles(engine).iter().map(|c| pressures(c)).collect() })
+    Some(DrawnGas { crankcase, cycles: cycles(engine).iter().map(|c| drawn_cycle(c)).collect() })
 }
 
-fn pressures(cycle: &Cycle) -> Vec<i64> {
-    let last = cycle.strokes().cycle().degrees() / PRESSURE_STEP;
-    let at = |k: u32| cycle.pressure_deg(f64::from(k) * PRESSURE_STEP).round_ties_even() as i64;
-    (0..=last as u32).map(at).collect()
+fn drawn_cycle(cycle: &Cycle) -> DrawnCycle {
+    let decimals = PRESSURE_DIGITS - cycle.largest().max(1.0).log10().ceil() as i32;
+    let rounded = |&value: &f64| figure::rounded(value, decimals.max(0) as usize);
+    let panel = |panel: &[f64]| {
+        let last = panel.iter().rposition(|&value| rounded(&value) != 0.0).map_or(0, |k| k + 1);
+        panel[..last].iter().map(rounded).collect()
+    };
+    let coefficients = cycle.polynomials().map(panel).collect();
+    DrawnCycle { edges_deg: cycle.edges_deg().to_vec(), coefficients }
 }
 
 /// Length of a rod in pictures, m: an infinite one is the bar of a Scotch yoke, four crank radii long.

@@ -98,7 +98,7 @@ pub(crate) fn on_cranks(
     if cranks.len() == 1 {
         return Ok(vec![turning(engine, ratio, cancel)?]);
     }
-    // Loads that do not scale with speed as weights do are refused, as on one crank.
+    // Loads that do not scale with speed as weights do are rejected, as on one crank.
     turning(engine, ratio, cancel)?;
     let engine = &engine.bare();
     let request = Request { rpm: UNIT_RPM, reference_z: None, torque: false };

@@ -1,0 +1,158 @@
+//! Warnings of figures that no engine has.
+
+use crankpin_core as core;
+use crankpin_core::Warning;
+use crankpin_core::engine::warnings;
+use crankpin_core::pressure::warnings as pressure;
+use crankpin_macros::guarded;
+use numpy::PyReadonlyArray1;
+use pyo3::prelude::*;
+
+use crate::convert::OrRaise;
+use crate::engine::Engine;
+use crate::pressure::Cycle;
+
+fn texts(found: impl IntoIterator<Item = Warning>) -> Vec<String> {
+    found.into_iter().map(|warning| warning.text).collect()
+}
+
+/// Of a cylinder's crank radius, rod length and bore.
+#[guarded]
+#[pyfunction]
+pub fn cylinder_warnings(radius: f64, rod_length: f64, bore: Option<f64>) -> Vec<String> {
+    let bore = bore.and_then(|diameter| warnings::bore(diameter, 2.0 * radius));
+    texts(warnings::cylinder(radius, rod_length).into_iter().chain(bore))
+}
+
+/// Of an unbalance, kg·m.
+#[guarded]
+#[pyfunction]
+pub fn unbalance_warnings(amount: f64) -> Vec<String> {
+    texts(warnings::unbalance(amount))
+}
+
+/// Of a mean piston speed, m/s.
+#[guarded]
+#[pyfunction]
+pub fn piston_speed_warnings(speed: f64) -> Vec<String> {
+    texts(warnings::piston_speed(speed))
+}
+
+/// Degrees of angles that are parts of a turn in radians.
+#[guarded]
+#[pyfunction]
+pub fn radians(angles: Vec<f64>) -> Option<String> {
+    warnings::radians(&angles)
+}
+
+/// Hint for an angle beside a part of a turn that no decimal is: `51.428571 is 4.3e-7° from 360/7`.
+#[guarded]
+#[pyfunction]
+pub fn near_miss(degrees: &str) -> Option<String> {
+    warnings::near_miss(degrees)
+}
+
+/// Of cylinder pressures, Pa.
+#[guarded]
+#[pyfunction]
+pub fn pressure_warnings(values: PyReadonlyArray1<'_, f64>) -> Vec<String> {
+    texts(pressure::pressures(&values.as_array().to_vec()))
+}
+
+/// Of the pressures of a cycle, and where they peak.
+#[guarded]
+#[pyfunction]
+pub fn cycle_warnings(cycle: &Cycle) -> Vec<String> {
+    texts(pressure::of_cycle(&cycle.0))
+}
+
+/// Crank angle of the peak of pressure if it is far from the firing top dead centre, degrees.
+#[guarded]
+#[pyfunction]
+pub fn far_peak(
+    theta_deg: PyReadonlyArray1<'_, f64>,
+    values: PyReadonlyArray1<'_, f64>,
+    period_deg: f64,
+) -> Option<f64> {
+    let [theta, values] = [theta_deg, values].map(|given| given.as_array().to_vec());
+    pressure::far_peak(&theta, &values, period_deg)
+}
+
+/// Of pressure whose peak is far from the firing top dead centre.
+#[guarded]
+#[pyfunction]
+pub fn peak_warnings(
+    theta_deg: PyReadonlyArray1<'_, f64>,
+    values: PyReadonlyArray1<'_, f64>,
+    period_deg: f64,
+) -> Vec<String> {
+    let [theta, values] = [theta_deg, values].map(|given| given.as_array().to_vec());
+    texts(pressure::peak(&theta, &values, period_deg))
+}
+
+/// Of a mean effective pressure, Pa.
+#[guarded]
+#[pyfunction]
+pub fn imep_warnings(mean_effective: f64) -> Vec<String> {
+    texts(pressure::mean_effective(mean_effective))
+}
+
+/// Of the pressure of a crankcase or intake, Pa.
+#[guarded]
+#[pyfunction]
+pub fn absolute_warnings(argument: &str, value: f64) -> Vec<String> {
+    texts(pressure::absolute(argument, value))
+}
+
+/// Of pins split to the wrong side, in a vee.
+#[guarded]
+#[pyfunction]
+pub fn pin_split_warnings(engine: &Engine, split: &str) -> PyResult<Vec<String>> {
+    let split: core::Angle = split.parse().or_raise()?;
+    Ok(texts(warnings::pin_split(&engine.0, split)))
+}
+
+/// Of an engine as a whole: its lengths, masses and what it carries.
+#[guarded]
+#[pyfunction]
+pub fn engine_warnings(engine: &Engine) -> Vec<String> {
+    texts(warnings::of_engine(&engine.0))
+}
+
+/// Of an engine's places and masses; its cylinders are asked alone.
+#[guarded]
+#[pyfunction]
+pub fn unit_warnings(engine: &Engine) -> Vec<String> {
+    texts(warnings::units(&engine.0))
+}
+
+/// Of an engine's counterweights, or of its balance shafts.
+#[guarded]
+#[pyfunction]
+pub fn hardware_warnings(engine: &Engine, of_shafts: bool) -> Vec<String> {
+    let engine = &engine.0;
+    let (weights, shafts) =
+        if of_shafts { (&[][..], engine.shafts()) } else { (engine.counterweights(), &[][..]) };
+    texts(warnings::hardware(engine, weights, shafts))
+}
+
+/// Of a figure beside an engine: an unbalance (`kg·m`), a mass (`kg`), a moment of inertia (`kg·m²`) or a place
+/// (`m`) that is beside the middle of the engine, or another one.
+#[guarded]
+#[pyfunction]
+#[pyo3(signature = (engine, unit, argument, value, middle=None))]
+pub fn figure_warnings(
+    engine: &Engine,
+    unit: &str,
+    argument: &str,
+    value: f64,
+    middle: Option<f64>,
+) -> Vec<String> {
+    let engine = &engine.0;
+    texts(match unit {
+        "kg·m" => warnings::amount(engine, argument, value),
+        "kg" => warnings::mass(engine, argument, value),
+        "kg·m²" => warnings::flywheel(engine, value),
+        _ => warnings::place(engine, argument, value, middle.unwrap_or_else(|| engine.middle())),
+    })
+}
