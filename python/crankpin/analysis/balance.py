@@ -15,6 +15,7 @@ from crankpin._support.warnings import suppressed
 from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.quantity import ALL, one_order
 from crankpin.analysis.request import Request, check_request, engine_core
+from crankpin.model.loads import of_speed_squared
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -48,8 +49,8 @@ def balance(
 
 
 def over_square(engine: Engine, orders: Sequence[Order]) -> Balance:
-    """Return the balance over ω²: forces in kg·m, moments in kg·m²."""
-    return balance(engine, labels.UNIT_RPM, orders=orders, torque=False)
+    """Return the balance over ω², of what scales so: forces in kg·m, moments in kg·m²."""
+    return balance(of_speed_squared(engine), labels.UNIT_RPM, orders=orders, torque=False)
 
 
 def mean_piston_speed(engine: Engine, rpm: float) -> float:
