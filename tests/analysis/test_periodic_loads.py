@@ -389,3 +389,12 @@ def test_pages_say_which_loads_they_do_not_draw() -> None:
         "Without gas pressure; without the loads: fan."
     )
     assert figures(four, 3000, spectrum=None)["loads"] == "Without gas pressure."
+
+
+def test_what_is_ranked_by_force_names_the_loads_that_act_on_it() -> None:
+    fan = cp.PeriodicLoad("fan", on="shaft", force={2: 8}, z=-0.1)
+    v6 = cp.Engine.preset("v6-60")
+    engines = [each.with_loads([fan]) for each in (v6, v6.with_bank_angle(70, hold="pins"))]
+    ranked = cp.rank(engines, rpm=3000, by="total.force.peak")
+    assert ranked.loads_counted == "loads: fan"
+    assert cp.rank([v6], rpm=3000, by="total.force.peak").loads_counted == ""
