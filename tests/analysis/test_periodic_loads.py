@@ -10,6 +10,7 @@ from typing import Any, Literal
 import crankpin as cp
 import numpy as np
 import pytest
+from crankpin.analysis import export
 from crankpin.view import mounted
 from crankpin.view.figures import figures
 from rederivation import periodic
@@ -398,3 +399,25 @@ def test_what_is_ranked_by_force_names_the_loads_that_act_on_it() -> None:
     ranked = cp.rank(engines, rpm=3000, by="total.force.peak")
     assert ranked.loads_counted == "loads: fan"
     assert cp.rank([v6], rpm=3000, by="total.force.peak").loads_counted == ""
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_parts_of_a_sweep_are_those_of_its_balances(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    loaded = engine(seed).with_loads([built(drawn(random), "pump"), built(drawn(random), "fan")])
+    speeds = [1000.0, 3500.0]
+    swept = cp.sweep(loaded, rpm=speeds, orders=[0.5, 1, 2, 3])
+    for quantity in QUANTITIES:
+        whole: Any = getattr(swept, quantity)
+        names = [quantity, *(f"{quantity}.{part}" for part in whole.parts)]
+        assert len(names) >= 1 + 2 * (quantity != "moment")
+        for name, what in [(each, what) for each in names for what in export.arrays(each)]:
+            found = swept.read(name, what)
+            for k, rpm in enumerate(speeds):
+                alone = loaded.balance(rpm, orders=swept.orders).read(name, what)
+                assert found[k].shape == alone.shape, (name, what)
+                # Sums of parts are of other order.
+                size = max(np.abs(alone).max(), np.abs(swept.read(quantity, "peak")[k]).max())
+                assert np.abs(found[k] - alone).max() <= 1e-12 * size, (name, what)
+    dataset = swept.to_xarray()
+    assert dataset["force_pump_peak"].dims == ("rpm", "order")
