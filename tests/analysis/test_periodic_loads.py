@@ -421,3 +421,24 @@ def test_parts_of_a_sweep_are_those_of_its_balances(seed: int) -> None:
                 assert np.abs(found[k] - alone).max() <= 1e-12 * size, (name, what)
     dataset = swept.to_xarray()
     assert dataset["force_pump_peak"].dims == ("rpm", "order")
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_parts_of_a_sweep_are_read_over_angle_as_in_waveforms(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    loaded = engine(seed).with_loads([built(drawn(random), "pump"), built(drawn(random), "fan")])
+    speeds, theta = [1000.0, 3500.0], np.arange(0, 720, 7.5)
+    orders = [0.5, 1, 1.5, 2, 3, 4]
+    swept = cp.sweep(loaded, rpm=speeds, orders=orders)
+    over_angle = swept.waveform(theta_deg=theta)
+    for k, rpm in enumerate(speeds):
+        alone = loaded.waveform(rpm, theta_deg=theta, orders=orders)
+        for quantity in QUANTITIES:
+            size = np.abs(alone.read(quantity)).max()
+            parts = getattr(swept, quantity).parts
+            # Also one that adds nothing.
+            for name in [quantity, *(f"{quantity}.{part}" for part in parts)]:
+                found = alone.read(name)
+                largest = max(size, np.abs(found).max())
+                # Sums of parts are of other order.
+                assert np.abs(over_angle.read(name)[k] - found).max() <= 1e-12 * largest, name

@@ -153,7 +153,7 @@ class Balance(ByOrder[float]):
 
     def _proved_zero(self, quantity: str, order: Order) -> bool:
         """Return whether a quantity of one order is proved to vanish."""
-        self.request.check(quantity, self.causes)
+        self.request.check(quantity, self)
         whole, _, part = quantity.partition(".")
         order = one_order(order)
         if part not in ("", "inertia", "gas"):

@@ -348,7 +348,8 @@ class Sweep(ByOrder[Any]):
     def sel(self, **selection: object) -> Any:  # noqa: ANN401 - a balance or a sweep
         """Return the balance at a point of the sweep, or the sweep of what is left to choose.
 
-        The values of a balance are those of the sweep, to the last bit.
+        The values of a balance are those of the sweep, to the last bit; to rounding where
+        periodic loads act.
 
         Parameters
         ----------

@@ -1,5 +1,6 @@
 //! Periodic loads that are given: what a valve train, a pump, a belt, a propeller or a machine makes.
 
+use num_traits::One;
 use serde::{Deserialize, Serialize};
 
 use super::loads::{GAS, INERTIA};
@@ -125,7 +126,7 @@ pub struct PeriodicLoad {
     pub crank: Option<usize>,
     /// Speed of a shaft of its own over that of the main crank, negative where it turns the other way: a
     /// multiple of a half.
-    #[serde(default = "main_speed", skip_serializing_if = "is_main_speed")]
+    #[serde(default = "One::one", skip_serializing_if = "One::is_one")]
     pub ratio: f64,
     /// Axis of a shaft of its own, x and y from that of the main crank, m.
     #[serde(default, skip_serializing_if = "is_default")]
@@ -166,15 +167,6 @@ fn zero_angle() -> Angle {
 
 fn is_zero_angle(angle: &Angle) -> bool {
     *angle == Angle::ZERO
-}
-
-fn main_speed() -> f64 {
-    1.0
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
-fn is_main_speed(ratio: &f64) -> bool {
-    *ratio == 1.0
 }
 
 impl PeriodicLoad {
