@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import copy
 import pickle
+import warnings
 from typing import Any, Literal
 
 import crankpin as cp
 import numpy as np
 import pytest
+from crankpin.analysis import export
+from crankpin.view import mounted
+from crankpin.view.figures import figures
 from rederivation import periodic
 from several_cranks import Draft
 
@@ -313,3 +317,128 @@ def test_a_crank_or_cylinder_that_is_not_there_is_refused() -> None:
         four.with_loads([cp.PeriodicLoad("a", on="shaft", torque={1: 1}, cylinder=5)])
     with pytest.raises(cp.InputError, match="PeriodicLoad"):
         four.with_loads(["a"])  # type: ignore[list-item]
+
+
+def on_mounts(engine: cp.Engine) -> cp.Powertrain:
+    body = cp.RigidBody(150, (0.01, 0.06, 0.1), (7, 8, 4.5))
+    places = [(0.3, 0.0, 0.0), (-0.3, 0.0, 0.0), (0.0, 0.1, 0.5)]
+    mounts = [
+        cp.Mount(f"{k}", at, stiffness=(2e5, 1e5, 1e5), loss_factor=0.1)
+        for k, at in enumerate(places)
+    ]
+    return cp.Powertrain(engine, body, mounts)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_pages_of_mounts_have_the_loads_of_a_response(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    engine = cp.Engine.preset("i4")
+    if random.random() < 0.5:
+        bored = [each.replace(bore=0.08) for each in engine.cylinders]
+        engine = engine.replace(cylinder=bored).with_cycle(cp.Cycle.example())
+    loads = [built(drawn(random), f"load {k}") for k in range(3)]
+    powertrain = on_mounts(engine.with_loads(loads))
+    page = mounted.figures(powertrain, 3000.0)["mounted"]
+    for rpm in (900.0, 4200.0):
+        response = powertrain.response(rpm, orders=page["orders"])
+        omega = rpm * np.pi / 30
+        inertia, still = (np.array(page[name]) @ [1, 1j] for name in ("inertia", "gas"))
+        expected = np.asarray(response.load)
+        # Each of some hundred terms is rounded once or twice.
+        assert np.abs(omega**2 * inertia + still - expected).max() < 1e-12 * np.abs(expected).max()
+    table = cp.PeriodicLoad("pump", on="both", torque={2: [1, 2]}, rpm=[1000, 6000])
+    with pytest.raises(cp.InputError, match="a page has loads at any speed"):
+        mounted.figures(on_mounts(engine.with_loads([table])), 3000.0)
+
+
+def test_what_is_fitted_over_the_square_of_speed_leaves_other_orders_loads_out() -> None:
+    fan = cp.PeriodicLoad("fan", on="shaft", force={2: [1, 2]}, rpm=[1000, 6000], z=-0.1)
+    pump = cp.PeriodicLoad("pump", on="block", force={3: 50.0}, z=0.1)
+    engine = cp.Engine.preset("v6-60")
+    for load in (fan, pump):
+        for fit in (cp.counterweights, lambda e: cp.balance_shafts(e, ratios=[1, -1])):
+            with_load, without = fit(engine.with_loads([load])), fit(engine)
+            assert str(with_load.table) == str(without.table)
+            assert with_load.residual[1].moment.peak == without.residual[1].moment.peak
+    weights = cp.bob_weight(engine.with_loads([pump])).residual[1].force.peak
+    assert weights == cp.bob_weight(engine).residual[1].force.peak
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_weights_of_several_cranks_count_what_scales_as_they_do(seed: int) -> None:
+    draft = Draft(seed, ratios=(1, -1))
+    engine = draft.engine()
+    fan = cp.PeriodicLoad(
+        "fan", on="shaft", force={1: 900 - 300j}, z=0.1, scaling="speed squared", rpm=3000
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)
+        fit = cp.counterweights(engine.with_loads([fan]))
+        before = cp.counterweights(engine)
+    with_load, without = (each.residual[1].force.forward for each in (fit, before))
+    # Weights of cranks that turn forwards balance half of a force to and fro; others cannot.
+    half = 0.5 * (900 - 300j) / (3000 * np.pi / 30) ** 2
+    turns_forwards = any(draft.cranks[crank][2] == 1 for crank in draft.crank_of)
+    left = 0.0 if turns_forwards else half
+    assert abs(with_load - without - left) < 1e-9 * (abs(without) + abs(half))
+
+
+def test_pages_say_which_loads_they_do_not_draw() -> None:
+    fan = cp.PeriodicLoad("fan", on="shaft", force={2: 8}, z=-0.1)
+    four = cp.Engine.preset("i4")
+    assert figures(four.with_loads([fan]), 3000, spectrum=None)["loads"] == (
+        "Without gas pressure; without the loads: fan."
+    )
+    assert figures(four, 3000, spectrum=None)["loads"] == "Without gas pressure."
+
+
+def test_what_is_ranked_by_force_names_the_loads_that_act_on_it() -> None:
+    fan = cp.PeriodicLoad("fan", on="shaft", force={2: 8}, z=-0.1)
+    v6 = cp.Engine.preset("v6-60")
+    engines = [each.with_loads([fan]) for each in (v6, v6.with_bank_angle(70, hold="pins"))]
+    ranked = cp.rank(engines, rpm=3000, by="total.force.peak")
+    assert ranked.loads_counted == "loads: fan"
+    assert cp.rank([v6], rpm=3000, by="total.force.peak").loads_counted == ""
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_parts_of_a_sweep_are_those_of_its_balances(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    loaded = engine(seed).with_loads([built(drawn(random), "pump"), built(drawn(random), "fan")])
+    speeds = [1000.0, 3500.0]
+    swept = cp.sweep(loaded, rpm=speeds, orders=[0.5, 1, 2, 3])
+    for quantity in QUANTITIES:
+        whole: Any = getattr(swept, quantity)
+        names = [quantity, *(f"{quantity}.{part}" for part in whole.parts)]
+        assert len(names) >= 1 + 2 * (quantity != "moment")
+        for name, what in [(each, what) for each in names for what in export.arrays(each)]:
+            found = swept.read(name, what)
+            for k, rpm in enumerate(speeds):
+                alone = loaded.balance(rpm, orders=swept.orders).read(name, what)
+                assert found[k].shape == alone.shape, (name, what)
+                # Sums of parts are of other order.
+                size = max(np.abs(alone).max(), np.abs(swept.read(quantity, "peak")[k]).max())
+                assert np.abs(found[k] - alone).max() <= 1e-12 * size, (name, what)
+    dataset = swept.to_xarray()
+    assert dataset["force_pump_peak"].dims == ("rpm", "order")
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_parts_of_a_sweep_are_read_over_angle_as_in_waveforms(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    loaded = engine(seed).with_loads([built(drawn(random), "pump"), built(drawn(random), "fan")])
+    speeds, theta = [1000.0, 3500.0], np.arange(0, 720, 7.5)
+    orders = [0.5, 1, 1.5, 2, 3, 4]
+    swept = cp.sweep(loaded, rpm=speeds, orders=orders)
+    over_angle = swept.waveform(theta_deg=theta)
+    for k, rpm in enumerate(speeds):
+        alone = loaded.waveform(rpm, theta_deg=theta, orders=orders)
+        for quantity in QUANTITIES:
+            size = np.abs(alone.read(quantity)).max()
+            parts = getattr(swept, quantity).parts
+            # Also one that adds nothing.
+            for name in [quantity, *(f"{quantity}.{part}" for part in parts)]:
+                found = alone.read(name)
+                largest = max(size, np.abs(found).max())
+                # Sums of parts are of other order.
+                assert np.abs(over_angle.read(name)[k] - found).max() <= 1e-12 * largest, name

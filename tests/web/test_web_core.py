@@ -11,6 +11,7 @@ import json
 import math
 import warnings
 from collections.abc import Callable
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -282,10 +283,12 @@ def test_counterweights_and_shafts_are_the_librarys(ask: Ask) -> None:
                 ("balance_shafts", given | {"ratios": [1, -1], "x": [0.1, -0.1], "y": [0, 0]}),
             ],
         )
-        pairs = [
-            (weights, cp.counterweights(engine).fitted),
-            (shafts, cp.balance_shafts(engine, [1, -1], x=[0.1, -0.1], y=[0, 0]).fitted),
-        ]
+        turns = pytest.warns(UserWarning, match="roll torque of order 1")
+        with turns if name == "radial-7" else nullcontext():
+            pairs = [
+                (weights, cp.counterweights(engine).fitted),
+                (shafts, cp.balance_shafts(engine, [1, -1], x=[0.1, -0.1], y=[0, 0]).fitted),
+            ]
         for found, expected in pairs:
             ours = cp.Engine.from_toml(found["toml"])
             size = engine.balance(RPM, orders=[1]).force.peak.max() + 1.0

@@ -15,6 +15,7 @@ from crankpin._support.warnings import suppressed
 from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.quantity import ALL, one_order
 from crankpin.analysis.request import Request, check_request, engine_core
+from crankpin.model.loads import of_speed_squared
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -48,8 +49,8 @@ def balance(
 
 
 def over_square(engine: Engine, orders: Sequence[Order]) -> Balance:
-    """Return the balance over ω²: forces in kg·m, moments in kg·m²."""
-    return balance(engine, labels.UNIT_RPM, orders=orders, torque=False)
+    """Return the balance over ω², of what scales so: forces in kg·m, moments in kg·m²."""
+    return balance(of_speed_squared(engine), labels.UNIT_RPM, orders=orders, torque=False)
 
 
 def mean_piston_speed(engine: Engine, rpm: float) -> float:
@@ -152,7 +153,7 @@ class Balance(ByOrder[float]):
 
     def _proved_zero(self, quantity: str, order: Order) -> bool:
         """Return whether a quantity of one order is proved to vanish."""
-        self.request.check(quantity, self.causes)
+        self.request.check(quantity, self)
         whole, _, part = quantity.partition(".")
         order = one_order(order)
         if part not in ("", "inertia", "gas"):

@@ -167,7 +167,7 @@ class ByOrder(Keyed, Quantities["NDArray[np.float64]", Value], Labelled, Generic
         InputError
             If there is no such quantity or array.
         """
-        self.request.check(quantity, self.causes)
+        self.request.check(quantity, self)
         inputs.one_of("what", what, export.arrays(quantity))
         array: NDArray[Any] | None = self._kept.get((quantity, what))
         if array is None:

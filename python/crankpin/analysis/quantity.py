@@ -132,7 +132,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
     """The order; ``"all"`` for all orders together, None for every order."""
 
     def __post_init__(self) -> None:
-        self.result.request.check(self.name, self.result.causes)
+        self.result.request.check(self.name, self.result)
 
     @property
     def kind(self) -> Kind:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from crankpin import _core
 from crankpin._support import inputs, labels
@@ -17,6 +17,14 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Order, Orders, Spectrum
 
 ENGINE_HINT = 'give a crankpin.Engine, such as Engine.preset("i4")'
+
+
+class Caused(Protocol):
+    """A result whose quantities have parts."""
+
+    @property
+    def causes(self) -> tuple[str, ...]:
+        """Names of what makes the quantities."""
 
 
 class Request(NamedTuple):
@@ -113,15 +121,16 @@ class Request(NamedTuple):
             return tuple(names)
         return tuple(dict.fromkeys((*PART_WORDS, *names)))
 
-    def check(self, quantity: str, names: Sequence[str] = ("inertia",)) -> None:
-        """Raise an error if a quantity is not available, of the names of what makes it."""
+    def check(self, quantity: str, of: Caused | None = None) -> None:
+        """Raise an error if a quantity, or a part of one of a result, is not available."""
         whole, point, _ = (
             quantity.partition(".") if isinstance(quantity, str) else (quantity, "", "")
         )
         kind = QUANTITIES[inputs.one_of("quantity", whole, QUANTITIES)]
-        if point and not names:
-            raise inputs.rejected("quantity", quantity, f"has no parts here; give {whole!r}")
         if point:
+            names = ("inertia",) if of is None else of.causes
+            if not names:
+                raise inputs.rejected("quantity", quantity, f"has no parts here; give {whole!r}")
             known = [f"{whole}.{each}" for each in self.parts(whole, names)]
             inputs.one_of("quantity", quantity, known)
         if self._has_torque or kind.planar:

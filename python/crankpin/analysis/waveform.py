@@ -118,7 +118,7 @@ class OverAngle(Labelled):
         InputError
             If there is no such quantity.
         """
-        self.request.check(quantity, self.causes)
+        self.request.check(quantity, self)
         return self._values(quantity)
 
     def _values(self, quantity: str) -> NDArray[np.float64]:

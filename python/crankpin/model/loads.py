@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from crankpin._support.inputs import Angle, Order
+    from crankpin.model.engine import Engine
 
 Amplitudes: TypeAlias = "Mapping[Order, complex | Sequence[complex]]"
 """Order → peak phasor, or one for each speed of a table; order 0 is the mean."""
@@ -245,11 +246,7 @@ class PeriodicLoad(Input):
             if rows.shape[1] < 3:  # two do not determine cosine and sine
                 raise inputs.rejected(quantity, samples, "give 3 samples or more over its period")
             _warn_of_jump(quantity, rows)
-            each = [_core.harmonics_of_samples(row.tolist(), count) for row in rows]
-            by_order = {
-                halves // 2 if halves % 2 == 0 else 0.5 * halves: [row[k][1] for row in each]
-                for k, (halves, _) in enumerate(each[0])
-            }
+            by_order = _orders_of(rows, count)
             if quantity == "force" and not options.get("turning", False):
                 del by_order[0]
             kept = {n: values for n, values in by_order.items() if any(values)}
@@ -321,6 +318,12 @@ def loads(core: _core.Engine) -> tuple[PeriodicLoad, ...]:
     return tuple(PeriodicLoad._of(fields) for fields in json.loads(core.loads))
 
 
+def of_speed_squared(engine: Engine) -> Engine:
+    """Return an engine without the loads that do not scale with the square of the speed."""
+    kept = [load for load in engine.loads if load.scaling == "speed squared"]
+    return engine if len(kept) == len(engine.loads) else engine.with_loads(kept)
+
+
 def lines(core: _core.Engine) -> list[str]:
     """Return the periodic loads in words."""
     listed = loads(core)
@@ -388,6 +391,19 @@ def _of_rows(rows: Iterable[Sequence[float]], *, table: bool) -> dict[Order, Any
         values = [complex(re, im) for re, im in zip(parts[::2], parts[1::2], strict=True)]
         found[int(order) if order == int(order) else order] = values if table else values[0]
     return found
+
+
+def _orders_of(rows: np.ndarray[Any, Any], turns: int) -> dict[Order, list[complex]]:
+    """Return the orders of samples over one or two turns, one amplitude for each row."""
+    amplitudes = np.fft.rfft(rows) / rows.shape[1]
+    # Real samples have each order twice, but the mean and, of an even number, the highest.
+    amplitudes[:, 1 : (rows.shape[1] + 1) // 2] *= 2.0
+    columns = amplitudes.T.tolist()[: turns * _core.HIGHEST_ORDER + 1]
+    return {k if turns == 1 else _half(k): column for k, column in enumerate(columns)}
+
+
+def _half(halves: int) -> Order:
+    return halves // 2 if halves % 2 == 0 else 0.5 * halves
 
 
 def _warn_of_jump(name: str, rows: np.ndarray[Any, Any]) -> None:

@@ -50,7 +50,7 @@ def _comparison(
     **style: object,
 ) -> Drawn:
     name = drawn_quantity(quantity, nonzero_in(result.before, result.after))
-    result.before.request.check(name, result.before.causes)
+    result.before.request.check(name, result.before)
     beside = width_for(figure) >= SIDE_BY_SIDE
     shape: dict[str, Any] = {"width_ratios": [3, 2]} if beside else {"height_ratios": [2, 3]}
     grid = (1, 2) if beside else (2, 1)

@@ -104,13 +104,14 @@ def figures(
     Settings.of(engine, rpm).check(engine)
     inputs.warn_of_units(mean_piston_speed(engine, float(rpm)))
     pairs = inputs.spectrum(spectrum)
-    block, gas = map(json.loads, _core.drawn_loads(engine_core(engine)))
+    core = engine_core(engine)
+    block, gas = map(json.loads, _core.drawn_loads(core))
     return {
         **places(engine, rpm),
         "terms": terms(engine, pairs),
         "block": block,
         "gas": gas,
-        "loads": labels.in_words(labels.SPECTRUM_GIVEN if pairs else engine.loads_counted),
+        "loads": labels.in_words(labels.SPECTRUM_GIVEN if pairs else core.loads_drawn),
         "flywheel": None if pairs is not None else _inertia(engine, float(rpm), inertia),
         "compact": inputs.flag("compact", compact),
         "controls": _controls(engine, controls, compact=compact),

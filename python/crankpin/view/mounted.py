@@ -11,8 +11,8 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import mean_piston_speed
+from crankpin.model.loads import of_speed_squared
 from crankpin.view.figures import in_units, named_controls, places
-from crankpin.view.terms import ONE_RADIAN_PER_SECOND
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from crankpin._support.inputs import Order
     from crankpin.analysis.mounts.powertrain import Powertrain
+    from crankpin.model.engine import Engine
     from crankpin.model.mounts import Mount
     from crankpin.view.figures import Controls
 
@@ -85,7 +86,7 @@ def largest_order(powertrain: Powertrain, rpm: float) -> Order | str:
     """Return the order of the largest force on the body, or ``"all"`` where there is no answer."""
     largest: Order | str = "all"
     most = 0.0
-    for order in powertrain.engine.balance(ONE_RADIAN_PER_SECOND).orders:
+    for order in powertrain.engine.balance(labels.UNIT_RPM).orders:
         try:
             with suppressed():  # The page says which motions are free.
                 force = powertrain.response(rpm, orders=[order])[order].body_force.rms
@@ -176,21 +177,35 @@ def _mass(powertrain: Powertrain) -> dict[str, Any]:
 
 
 def _engine_loads(powertrain: Powertrain) -> dict[str, Any]:
-    """Return the load of each order about the CG: of inertia over the square of speed, of gas."""
-    balance = powertrain.engine.balance(ONE_RADIAN_PER_SECOND)
-    wrench = balance.about(powertrain.body.cg)
-    count = len(balance.orders)
-    inertia, gas = np.zeros((2, count, 6), complex)
-    inertia[:, :2] = np.stack([wrench.force.x, wrench.force.y], axis=1)
-    inertia[:, 3:5] = np.stack([wrench.moment.x, wrench.moment.y], axis=1)
-    inertia[:, 5] = wrench.torque.inertia.phasor
-    if powertrain.engine.fired:
-        gas[:, 5] = wrench.torque.gas.phasor
-    return {
-        "orders": list(balance.orders),
-        "inertia": [_pairs(load) for load in inertia],
-        "gas": [_pairs(load) for load in gas],
-    }
+    """Return the load of each order about the CG: over the square of speed, and at any speed."""
+    engine = powertrain.engine
+    tables = [each.name for each in engine.loads if isinstance(each.rpm, tuple)]
+    if tables:
+        hint = "a page has loads at any speed: give it amplitudes of one, or leave it out"
+        raise inputs.rejected("loads", tables[0], hint)
+    scaling = of_speed_squared(engine)
+    still = engine.with_loads(each for each in engine.loads if each not in scaling.loads)
+    known = [each.balance(labels.UNIT_RPM).orders for each in (scaling, still)]
+    orders = sorted({*known[0], *known[1]})
+
+    def load(of: Engine, without: str) -> list[Any]:
+        wrench = of.balance(labels.UNIT_RPM, orders=orders).about(powertrain.body.cg)
+        load = np.zeros((len(orders), 6), complex)
+        for at, quantity in ((0, wrench.force), (3, wrench.moment)):
+            for part in _parts(quantity, without):
+                load[:, at : at + 2] += np.stack([part.x, part.y], axis=1)
+        for part in _parts(wrench.torque, without):
+            load[:, 5] += part.phasor
+        return [_pairs(each) for each in load]
+
+    return {"orders": orders, "inertia": load(scaling, "gas"), "gas": load(still, "inertia")}
+
+
+def _parts(quantity: Any, without: str) -> list[Any]:  # noqa: ANN401 - of any of three types
+    """Return the parts of a quantity but one; what has no parts is all of inertia."""
+    if not quantity.parts:
+        return [] if without == "inertia" else [quantity]
+    return [quantity.part(name) for name in quantity.parts if name != without]
 
 
 def _mounts(powertrain: Powertrain) -> list[dict[str, Any]]:
@@ -236,7 +251,7 @@ def _stiffness(mount: Mount) -> dict[str, Any]:
     with suppressed():
         plain = mount.replace(stiffness=1.0, dynamic_stiffness=None, damping=0.0, track=None)
         damper = mount.replace(stiffness=0.0, dynamic_stiffness=None, track=None)
-    once = ONE_RADIAN_PER_SECOND / 60.0
+    once = labels.UNIT_RPM / 60.0
     return {
         "table": None,
         "unit": _pairs(plain.dynamic_at(once)),

@@ -32,8 +32,6 @@ FEWEST_POINTS, MOST_POINTS = 16, 512
 """Rod ratios at which terms are computed: twice as many until their polynomials have converged."""
 DIGITS = 13
 """Decimals of values of parts that stand still."""
-ONE_RADIAN_PER_SECOND = 1.0 / _core.angular_speed(1.0)
-"""Speed, rpm, at which loads of inertia are those over the square of the speed."""
 SIZES = ("force", "moment", "torque", "gas")
 """What the cylinders make one by one: inertia over the square of speed, and gas."""
 

@@ -9,7 +9,7 @@ use crankpin_core::engine::crankpins::Crankpin;
 use crankpin_core::engine::radial::Radial;
 use crankpin_core::engine::{
     Crank, CrankIndex, Details, Gas, Hold, PeriodicLoad, RodFigures, Shaft, Station, Unbalance,
-    file, periodic,
+    file,
 };
 use crankpin_core::index::ListIndex;
 use crankpin_core::layout::{
@@ -683,6 +683,12 @@ impl Engine {
         self.0.loads_counted()
     }
 
+    /// The same of a picture, which turns without further loads.
+    #[getter]
+    fn loads_drawn(&self) -> String {
+        self.0.loads_drawn()
+    }
+
     /// Periodic loads, as JSON.
     #[getter]
     fn loads(&self) -> PyResult<String> {
@@ -728,11 +734,4 @@ fn unreadable(error: &serde_json::Error) -> PyErr {
 pub fn check_load(load: &str) -> PyResult<()> {
     let load: PeriodicLoad = serde_json::from_str(load).map_err(|error| unreadable(&error))?;
     load.checked("").map(drop).or_raise()
-}
-
-/// Orders in halves and amplitudes of samples, evenly spaced over one or two turns.
-#[guarded]
-#[pyfunction]
-pub fn harmonics_of_samples(samples: Vec<f64>, turns: u32) -> PyResult<Vec<(u32, Complex64)>> {
-    periodic::harmonics_of_samples(&samples, turns).or_raise()
 }

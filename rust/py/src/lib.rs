@@ -54,7 +54,7 @@ mod _core {
         closed_form::closed_form,
         convert::exact_angle,
         design::Objectives,
-        engine::{Engine, check_load, harmonics_of_samples},
+        engine::{Engine, check_load},
         explain::{Explanation, dead_text, explain, gas_text},
         figures::{
             drawn, drawn_loads, drawn_rod, fired_kinds, group_terms, listed_orders,

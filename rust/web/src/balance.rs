@@ -1,6 +1,7 @@
 //! How an engine shakes, order by order.
 
 use crankpin_core::balance::{Balance, Orders, Request, Vector, balance as of};
+use crankpin_core::engine::loads::{GAS, INERTIA};
 use crankpin_core::quantity::Part;
 use crankpin_core::{Cancel, Result};
 use serde_json::{Map, Value, json};
@@ -79,7 +80,10 @@ fn in_json(found: &Balance, cancel: &Cancel) -> Result<Value> {
 
 /// Torques and their parts, by name.
 fn torques(found: &Balance) -> impl Iterator<Item = (String, Part<'_>)> {
-    let parts = found.names().iter().map(|name| (format!("torque.{name}"), Part::Of(name)));
+    let further =
+        found.names().iter().map(|name| &**name).filter(|name| ![INERTIA, GAS].contains(name));
+    let names = [INERTIA, GAS].into_iter().chain(further);
+    let parts = names.map(|name| (format!("torque.{name}"), Part::Of(name)));
     let whole = std::iter::once(("torque".to_owned(), Part::Whole));
     whole.chain(parts).filter(|_| found.has_torque)
 }

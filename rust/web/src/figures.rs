@@ -20,7 +20,7 @@ pub fn figures(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
     let rpm: f64 = arguments.required("rpm")?;
     crankpin_core::balance::angular_speed(rpm)?;
     let inertia: Option<f64> = arguments.optional("inertia")?;
-    let loads = engine.loads_counted();
+    let loads = engine.loads_drawn();
     let loads: String =
         loads.chars().take(1).flat_map(char::to_uppercase).chain(loads.chars().skip(1)).collect();
     let sentences = sentences_of(&engine, (rpm > 0.0).then_some(rpm), false, &shown(arguments)?)?;

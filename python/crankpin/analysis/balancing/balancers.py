@@ -205,8 +205,9 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
 
     @property
     def loads_counted(self) -> str:
-        """Loads that count where more could, in words; empty for objectives without torque."""
-        return self.engine.loads_counted if self._of_torque else ""
+        """Loads that count where more could, in words; of torque gas pressure does too."""
+        loads = self.engine.loads_counted
+        return loads if self._of_torque else labels.without_gas(loads)
 
     def _note(self) -> str:
         if not self.targets:

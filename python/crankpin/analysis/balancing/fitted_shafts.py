@@ -19,6 +19,7 @@ from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import Balance, balance
 from crankpin.analysis.bearings import on_shaft_bearings
 from crankpin.analysis.request import engine_core
+from crankpin.model.loads import of_speed_squared
 from crankpin.model.shafts import Shaft
 
 if TYPE_CHECKING:
@@ -113,9 +114,9 @@ class BalanceShafts(Listed[Shaft], Tabled):
         return self._of(self.fitted)
 
     def _of(self, engine: Engine) -> Balance:
-        return balance(
-            engine, labels.UNIT_RPM if self.rpm is None else self.rpm, orders=self.orders
-        )
+        if self.rpm is None:  # The fit rejects other loads of these orders.
+            return balance(of_speed_squared(engine), labels.UNIT_RPM, orders=self.orders)
+        return balance(engine, self.rpm, orders=self.orders)
 
     @cached_property
     def heights(self) -> Mapping[int, Mapping[str, float]]:

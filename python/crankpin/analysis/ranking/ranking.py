@@ -186,9 +186,10 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
 
     @property
     def loads_counted(self) -> str:
-        """Loads that count where more could, in words; empty for objectives without torque."""
+        """Loads that count where more could, in words; of torque gas pressure does too."""
         loads = self.sweep.loads_counted
-        return loads if self._of_torque or loads == labels.SPECTRUM_GIVEN else ""
+        all_count = self._of_torque or loads == labels.SPECTRUM_GIVEN
+        return loads if all_count else labels.without_gas(loads)
 
 
 def _several(angles: tuple[float, ...]) -> str:

@@ -14,7 +14,7 @@ from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
 from crankpin._support.drawing import draw
-from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
+from crankpin._support.quantities import QUANTITIES, kind_of
 from crankpin._support.record import changed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis import export
@@ -332,10 +332,11 @@ class Sweep(ByOrder[Any]):
                 for k, part in enumerate(labels.TURNING):  # computed together
                     self._kept.setdefault((quantity, part), read_only(both[..., k]))
                 return self._kept[quantity, what]  # type: ignore[no-any-return]
+            planar = kind_of(quantity).planar
             figures = {
-                "peak": "length" if quantity in PLANE_VECTORS else "amplitude",
+                "peak": "length" if planar else "amplitude",
                 "peak_xy": "amplitude",
-                "total_peak": "length of sum" if quantity in PLANE_VECTORS else "sum",
+                "total_peak": "length of sum" if planar else "sum",
                 "total_peak_xy": "sum",
                 "zero_bound": "zero bound",
                 "mean": "mean",
@@ -347,7 +348,8 @@ class Sweep(ByOrder[Any]):
     def sel(self, **selection: object) -> Any:  # noqa: ANN401 - a balance or a sweep
         """Return the balance at a point of the sweep, or the sweep of what is left to choose.
 
-        The values of a balance are those of the sweep, to the last bit.
+        The values of a balance are those of the sweep, to the last bit; to rounding where
+        periodic loads act.
 
         Parameters
         ----------

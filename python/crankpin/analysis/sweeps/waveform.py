@@ -144,7 +144,7 @@ class SweepWaveform(OverAngle):
         >>> force is buffer
         True
         """
-        self.sweep.request.check(quantity, self.causes)
+        self.sweep.request.check(quantity, self)
         name = quantity
         progress = progress_bar.checked(progress)
         core = self.sweep._core

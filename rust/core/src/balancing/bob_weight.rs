@@ -130,8 +130,9 @@ impl FirstOrder {
         let of_force: f64 = weights.iter().map(|weight| weight.amount).sum();
         let lever = |weight: &Unbalance| (weight.z - reference).abs();
         let of_moment: f64 = weights.iter().map(|weight| weight.amount * lever(weight)).sum();
-        let [start, end] = [&bare, &weighted]
-            .map(|engine| over_square(&engine.bare(), Order::FIRST, true, None, cancel));
+        let [start, end] = [&bare, &weighted].map(|engine| {
+            over_square(&engine.of_speed_squared(), Order::FIRST, true, None, cancel)
+        });
         let (start, end) = (start?, end?);
         let arm = |weight: &Unbalance| {
             let [x, y] = engine.cranks()[engine.crank_carrying(weight)].axis;

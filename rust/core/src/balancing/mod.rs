@@ -95,9 +95,9 @@ pub fn appearing(
     let mut found = Vec::new();
     for order in orders {
         let order = Order::whole(order)?;
-        // Hardware changes what inertia does alone.
+        // Hardware changes what scales as it does alone.
         let [was, is] = [before, after].map(|engine| {
-            let wrench = over_square(&engine.bare(), order, true, None, cancel)?;
+            let wrench = over_square(&engine.of_speed_squared(), order, true, None, cancel)?;
             let (force, moment, torque) = (wrench.force, wrench.moment, wrench.torque);
             Ok([
                 (force.peak(), force.size),

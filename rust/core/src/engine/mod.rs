@@ -475,7 +475,10 @@ impl Engine {
         let crank_of = crank_of.into_iter().map(CrankIndex::new).collect();
         let engine = Self { cranks: List::new(cranks), crank_of, ..self.clone() };
         engine.check_throws_between(&engine.mains)?;
-        engine.with_counterweights(engine.counterweights.clone())?.with_known_torque()
+        engine
+            .with_counterweights(engine.counterweights.clone())?
+            .with_loads(engine.loads.clone())?
+            .with_known_torque()
     }
 
     /// The same engine with these masses at its crankpins, one for each cylinder, kg.
@@ -694,6 +697,22 @@ mod tests {
         let rod = RodFigures { mass: -1.0, inertia: 0.0, to_crankpin: 0.0 };
         let negative = Details { rod: Some(rod), ..bored };
         assert!(engine.with_details(vec![negative; 2]).is_err());
+    }
+
+    #[test]
+    fn loads_keep_the_crank_that_they_sit_on() {
+        let load = PeriodicLoad {
+            crank: Some(1),
+            torque: Amplitudes(vec![(2, vec![crate::Complex64::ONE])]),
+            ..PeriodicLoad::new("pump", ActsOn::Both)
+        };
+        let engine = vee(60.0, 120.0);
+        let other = Crank { axis: [0.3, 0.0], ratio: -1 };
+        let count = engine.stations().len();
+        let two = engine.with_cranks(vec![Crank::MAIN, other], vec![0; count]).unwrap();
+        let loaded = two.with_loads(vec![load]).unwrap();
+        assert!(loaded.with_cranks(vec![Crank::MAIN, other], vec![1; count]).is_ok());
+        assert!(loaded.with_cranks(vec![Crank::MAIN], vec![0; count]).is_err());
     }
 
     fn weight(angle: f64, pin: Option<usize>) -> Unbalance {

@@ -1,7 +1,6 @@
 //! Periodic loads that are given: what a valve train, a pump, a belt, a propeller or a machine makes.
 
-use std::f64::consts::TAU;
-
+use num_traits::One;
 use serde::{Deserialize, Serialize};
 
 use super::loads::{GAS, INERTIA};
@@ -127,7 +126,7 @@ pub struct PeriodicLoad {
     pub crank: Option<usize>,
     /// Speed of a shaft of its own over that of the main crank, negative where it turns the other way: a
     /// multiple of a half.
-    #[serde(default = "main_speed", skip_serializing_if = "is_main_speed")]
+    #[serde(default = "One::one", skip_serializing_if = "One::is_one")]
     pub ratio: f64,
     /// Axis of a shaft of its own, x and y from that of the main crank, m.
     #[serde(default, skip_serializing_if = "is_default")]
@@ -168,15 +167,6 @@ fn zero_angle() -> Angle {
 
 fn is_zero_angle(angle: &Angle) -> bool {
     *angle == Angle::ZERO
-}
-
-fn main_speed() -> f64 {
-    1.0
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
-fn is_main_speed(ratio: &f64) -> bool {
-    *ratio == 1.0
 }
 
 impl PeriodicLoad {
@@ -351,40 +341,6 @@ impl Amplitudes {
     }
 }
 
-/// Amplitudes of samples over one or two turns of the crank, evenly spaced from its phase on, in which the
-/// last is followed by the first: orders up to half their number in a turn, as the samples have them.
-pub fn harmonics_of_samples(samples: &[f64], turns: u32) -> Result<Vec<(u32, Complex64)>> {
-    let count = samples.len();
-    if !(1..=2).contains(&turns) {
-        return Err(Error::value("turns", turns, "give 1, or 2 for what repeats in a cycle"));
-    }
-    let most = 4 * limits::HIGHEST_ORDER as usize;
-    if !(3..=most).contains(&count) {
-        let hint = format!("give 3 to {most} samples over its period");
-        return Err(Error::value("samples", count, hint));
-    }
-    for &sample in samples {
-        limits::finite("samples", sample)?;
-    }
-    let step = if turns == 1 { 2 } else { 1 };
-    let unit = |k: usize| Complex64::cis(-TAU * k as f64 / count as f64);
-    let units: Vec<Complex64> = (0..count).map(unit).collect();
-    // Of an even number the highest order is half known: its sine is zero at every sample.
-    let highest = count / 2;
-    let amplitude = |k: usize| {
-        let terms = samples.iter().enumerate().map(|(i, sample)| units[k * i % count] * sample);
-        let sum: Complex64 = terms.sum();
-        let share = if k == 0 || 2 * k == count { 1.0 } else { 2.0 };
-        let value = sum * (share / count as f64);
-        let is_real = k == 0 || 2 * k == count;
-        (k as u32 * step, if is_real { Complex64::from(value.re) } else { value })
-    };
-    Ok((0..=highest)
-        .map(amplitude)
-        .filter(|(halves, _)| *halves <= 2 * limits::HIGHEST_ORDER)
-        .collect())
-}
-
 impl Engine {
     /// Periodic loads besides those of pistons, pressure and unbalances.
     #[must_use]
@@ -411,6 +367,14 @@ impl Engine {
     #[must_use]
     pub fn bare(&self) -> Self {
         Self { loads: Vec::new(), ..self.without_gas() }
+    }
+
+    /// The same engine with what scales with the square of the speed alone: without pressure and loads
+    /// that do not.
+    #[must_use]
+    pub fn of_speed_squared(&self) -> Self {
+        let scales = |load: &&PeriodicLoad| matches!(load.over_speed, OverSpeed::SpeedSquared(_));
+        Self { loads: self.loads.iter().filter(scales).cloned().collect(), ..self.without_gas() }
     }
 
     /// Rejects crank speeds that a load's table does not have, rpm.

@@ -9,6 +9,7 @@ use super::{LoadList, Place};
 use crate::Complex64;
 use crate::engine::{Crank, Engine, Origin, OverSpeed, PeriodicLoad};
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
+use crate::numbers::UNIT_RPM;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -111,7 +112,7 @@ fn scalings(load: &PeriodicLoad) -> Vec<(Scaling, f64)> {
     match &load.over_speed {
         OverSpeed::Independent => vec![(Scaling::Independent, 1.0)],
         OverSpeed::SpeedSquared(rpm) => {
-            let omega = rpm * std::f64::consts::PI / 30.0;
+            let omega = rpm / UNIT_RPM;
             vec![(Scaling::SpeedSquared, 1.0 / (omega * omega))]
         }
         OverSpeed::Table(rpm) => {

@@ -9,6 +9,7 @@ use crate::Complex64;
 pub use crate::engine::loads::{GAS, INERTIA};
 use crate::mechanism::Mechanism;
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
+use crate::numbers::UNIT_RPM;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::error::Result;
@@ -58,7 +59,7 @@ impl Scaling {
             Self::SpeedSquared => omega * omega,
             Self::Independent => 1.0,
             Self::Row([below, at, above]) => {
-                let rpm = omega * 30.0 / std::f64::consts::PI;
+                let rpm = omega * UNIT_RPM;
                 // Speeds of a table that was given in rpm come back with a rounding.
                 let share = |end: f64| ((rpm - end) / (at - end)).clamp(0.0, 1.0);
                 if rpm < at {
@@ -156,9 +157,8 @@ pub type SourceUpTo = (Arc<dyn Source>, Vec<f64>);
 
 /// What acts at a place, over the weights of a load.
 ///
-/// A source says what every reading asks of it; none asks which source it is. Another crate's needs its name,
-/// how it acts, its orders, their amplitudes and a bound of the rest; what else there is follows from these,
-/// and `check_source` runs it through every reading.
+/// A source says what every reading asks of it; none asks which source it is. It has a name, says how it acts,
+/// and has orders, their amplitudes and a bound of the rest; what else there is follows from these.
 pub trait Source: Debug + Send + Sync + Any {
     /// Under which its loads are counted: `inertia`, `gas`, or a name of its own.
     fn name(&self) -> &str;

@@ -21,6 +21,9 @@ pub(crate) mod singular_values;
 pub mod typed;
 pub mod units;
 
+/// Crank speed at which ω is 1 rad/s.
+pub const UNIT_RPM: f64 = 30.0 / std::f64::consts::PI;
+
 /// Numbers between -1 and 1 that repeat after 2^31 (a linear congruential generator).
 #[cfg(test)]
 pub(crate) fn draws(mut seed: u64) -> impl FnMut() -> f64 {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::load::{GroupIndex, Load, LoadList, count};
+pub use crate::numbers::UNIT_RPM;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::List;
@@ -15,9 +16,6 @@ use crate::readings::choice;
 use crate::readings::peaks::PeakFinder;
 use crate::readings::quantity::Part;
 use crate::wrench::{Planar, Torque, Wrench, rounding};
-
-/// Crank speed at which ω is 1 rad/s.
-pub const UNIT_RPM: f64 = 30.0 / std::f64::consts::PI;
 
 /// Which orders to report.
 #[derive(Debug, Clone, PartialEq)]

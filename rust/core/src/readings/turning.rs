@@ -100,7 +100,7 @@ pub(crate) fn on_cranks(
     }
     // Loads that do not scale with speed as weights do are rejected, as on one crank.
     turning(engine, ratio, cancel)?;
-    let engine = &engine.bare();
+    let engine = &engine.of_speed_squared();
     let request = Request { rpm: UNIT_RPM, reference_z: None, torque: false };
     let others = cranks.len();
     let group_of = |origin: Origin| {
@@ -137,7 +137,7 @@ pub(crate) struct RollOfAxes {
 pub(crate) fn roll_of_axes(engine: &Engine, cancel: &Cancel) -> Result<RollOfAxes> {
     /// Part of the terms of a sum that its rounding is below.
     const ROUNDING: f64 = 1e-12;
-    let engine = &engine.bare();
+    let engine = &engine.of_speed_squared();
     let axis = |crank: CrankIndex| {
         let [x, y] = engine.cranks()[crank].axis;
         Complex64::new(x, y)

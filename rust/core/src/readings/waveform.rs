@@ -151,7 +151,6 @@ impl Shape {
             let [force, own_torque] = loads.has(k);
             (has[0], has[1]) = (has[0] || force, has[1] || own_torque && torque);
         }
-        parts.retain(|(_, has)| *has != [false; 2]);
         Self { torque, parts, zero_bounds: [0.0; 2] }
     }
 

@@ -24,7 +24,7 @@ use self::kernel::Job;
 use self::operating::Nodes;
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::source::Scaling;
+use crate::load::source::{INERTIA, Scaling};
 use crate::load::{Group, LoadList, find_or_push};
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
@@ -272,7 +272,8 @@ impl Sweep {
     ) -> Result<()> {
         let figure = if figure == Statistic::Turning { Statistic::Amplitude } else { figure };
         let width = self.checked_width(quantity, figure, out.len())?;
-        let has_others = self.scalings(quantity) != [Scaling::SpeedSquared];
+        let has_others =
+            self.scalings(quantity) != [Scaling::SpeedSquared] || self.may_have_mean(quantity);
         let finder = figure.is_of_sum().then(|| {
             let orders = &self.orders;
             if has_others && !quantity.is_planar() {
@@ -441,16 +442,29 @@ impl Sweep {
         self.result_shape(quantity, figure)[self.shape().len()..].iter().product()
     }
 
+    /// Groups that make a quantity.
+    fn groups_of(&self, quantity: Quantity) -> impl Iterator<Item = &Group> {
+        let makes =
+            move |[force, torque]: [bool; 2]| if quantity.is_planar() { force } else { torque };
+        let own =
+            self.groups.iter().filter(move |(_, parts)| makes(*parts)).map(|(group, _)| group);
+        own.filter(move |group| quantity.part.has(&group.name))
+    }
+
     /// Ways in which what makes a quantity scales with speed.
     fn scalings(&self, quantity: Quantity) -> Vec<Scaling> {
         let mut scalings = Vec::new();
-        for (group, [force, torque]) in &self.groups {
-            let makes = if quantity.is_planar() { *force } else { *torque };
-            if makes && quantity.part.has(&group.name) && !scalings.contains(&group.scaling) {
+        for group in self.groups_of(quantity) {
+            if !scalings.contains(&group.scaling) {
                 scalings.push(group.scaling);
             }
         }
         scalings
+    }
+
+    /// Whether it is a torque that more than inertia makes.
+    fn may_have_mean(&self, quantity: Quantity) -> bool {
+        !quantity.is_planar() && self.groups_of(quantity).any(|group| &*group.name != INERTIA)
     }
 
     /// Number of points of a selection: of rod ratio and pin offset and, of what does not scale with speed,
