@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING
 import bearings
 import gas_orders
 import harmonics
+import ledger
 import mounts
 import orders
 import peaks
@@ -227,3 +228,16 @@ def test_tolerances(
     tolerances.main()
     assert [row["engine"] for row in read(tmp_path / "tolerances.csv")] == [*tolerances.ENGINES]
     assert "NumPy / crankpin" in capsys.readouterr().out
+
+
+def test_the_ledger_has_every_call_and_fails_where_one_grows() -> None:
+    of, known = ledger.read()
+    assert of.startswith("rustc ")
+    assert list(known) == list(ledger.calls())
+    assert not ledger.grown(known, known)
+    first, *_, last = known
+    faster = known | {first: known[first] // 2, last: round(1.02 * known[last])}
+    assert not ledger.grown(faster, known)
+    slower = known | {last: round(1.04 * known[last])}
+    assert ledger.grown(slower, known) == [last]
+    assert ledger.grown({"new": 1}, {"old": 1}) == ["new", "old"]
