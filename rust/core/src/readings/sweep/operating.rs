@@ -280,7 +280,7 @@ impl<T: Number> Operating<'_, T> {
         let rows =
             (NUMBERS_PER_TASK / (self.width.max(width) * cost).max(1)).clamp(1, ROWS_PER_TASK);
         let numbers = out.len() * cost;
-        let pieces = memory::collected(out.chunks_mut(rows * width).enumerate())?;
+        let pieces = memory::collected(out.chunks_mut((rows * width).max(1)).enumerate())?;
         cancel.expect(pieces.len());
         let piece = |(k, out): (usize, &mut [O])| {
             let row: Vec<T> = memory::zeros(self.width)?;
