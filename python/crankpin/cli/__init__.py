@@ -127,8 +127,8 @@ def registered(names: Iterable[str] = ORDER) -> Mapping[str, Callable[[Commands]
     return COMMANDS
 
 
-def _parser(names: Iterable[str]) -> Parser:
-    """Return the parser of some commands."""
+def _parser(names: Iterable[str] = ORDER) -> Parser:
+    """Return the parser of some commands, by default of all."""
     parser = Parser(
         prog=PROG,
         description="Shaking forces, rocking moments and torques of piston engines.",
