@@ -411,7 +411,7 @@ pub(crate) fn vanishing_of(
         return Err(Error::value("orders", half, "half orders need a firing order"));
     }
     let strokes = firing.map_or(engine.strokes(), Firing::strokes);
-    let proof = Proof::new(engine, reference_z, cancel)?;
+    let proof = Proof::of(engine, reference_z, cancel)?;
     let gas = Stars::of_gas(engine, firing, cancel)?;
     // Cycles of faster cranks begin at turns of their own, which nothing says.
     let is_faster = |i| engine.cranks()[engine.crank_of(i)].ratio.abs() != 1;
@@ -505,7 +505,7 @@ fn evaluated(
     let orders = Orders::Given(orders.to_vec());
     let all = balance::balance(engine, &request, &orders, cancel)?;
     let found = all.of_part(Part::INERTIA);
-    let loads = LoadList::new(engine, engine.reference(reference_z)?);
+    let loads = LoadList::of(engine, engine.reference(reference_z)?)?;
     let weights = loads.torque_weights();
     let of_sources = weights.iter().zip(&loads.sources);
     let largest: f64 =
