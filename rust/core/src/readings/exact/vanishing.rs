@@ -427,7 +427,13 @@ pub(crate) fn vanishing_of(
     let evaluated = within_rounding.iter_mut().zip(gas_remains);
     for ((&order, numbered), (within, gas_remains)) in orders.iter().zip(&numbered.0).zip(evaluated)
     {
-        let sums = proof.sums(order);
+        // Neither gas nor half orders, which inertia does not have, need them.
+        let of_inertia = quantities.iter().any(|&own| own != ProofQuantity::GasTorque);
+        let sums = if of_inertia && order.as_whole().is_some() {
+            proof.sums(order)
+        } else {
+            SymbolSums::new()
+        };
         let mut of_order = [Verdict::Undecided; 10];
         for (k, quantity) in QUANTITIES.into_iter().enumerate() {
             if !quantities.contains(&quantity) {
