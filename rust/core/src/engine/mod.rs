@@ -30,6 +30,7 @@ use crate::mechanism::spectrum::Spectrum;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::{List, ListIndex, distinct, list_index};
+use crate::numbers::kept::Kept;
 use crate::numbers::limits;
 
 list_index! {
@@ -150,6 +151,8 @@ pub struct Engine {
     mains: Vec<f64>,
     /// Reference plane of moments, where it is not the middle, m.
     reference_z: Option<f64>,
+    /// Its loads, and what was read of them.
+    kept: Kept,
 }
 
 impl Engine {
@@ -212,8 +215,14 @@ impl Engine {
             details: vec![Details::default(); count],
             mains: Vec::new(),
             reference_z: None,
+            kept: Kept::default(),
         };
         engine.named(name, source)
+    }
+
+    /// What was read of it last.
+    pub(crate) fn kept(&self) -> &Kept {
+        &self.kept
     }
 
     /// Name, may be empty.

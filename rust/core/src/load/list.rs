@@ -66,6 +66,12 @@ pub(crate) struct LoadList {
 }
 
 impl LoadList {
+    /// Loads of an engine, which are kept with it.
+    pub fn of(engine: &Engine, reference: f64) -> Result<Arc<Self>> {
+        let is_such = |known: &Self| known.reference.to_bits() == reference.to_bits();
+        engine.kept().get(is_such, || Ok(Self::new(engine, reference)))
+    }
+
     /// Loads of an engine. Pistons of equal crank radius, rod length and pin offset share a source, hence
     /// their harmonics; a spectrum is one source for all, with masses and radius in it.
     pub fn new(engine: &Engine, reference: f64) -> Self {

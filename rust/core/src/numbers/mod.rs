@@ -9,6 +9,7 @@ pub mod double;
 pub mod error;
 pub mod figure;
 pub mod index;
+pub(crate) mod kept;
 pub mod limits;
 pub mod memory;
 pub mod order;

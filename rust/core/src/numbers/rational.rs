@@ -17,6 +17,9 @@ const LARGEST_DENOMINATOR_OF_RATIO: f64 = 10_000.0;
 /// random is taken for a ratio with a chance of t times the square of [`LARGEST_DENOMINATOR_OF_RATIO`].
 const COARSEST: f64 = 1e-12;
 
+/// Number of figures among which one that is equal is looked for.
+const ALIKE_WITHIN: usize = 8;
+
 /// A rational number in lowest terms, denominator > 0. Its checked arithmetic gives None where it
 /// overflows.
 pub type Ratio = num_rational::Ratio<i128>;
@@ -37,10 +40,53 @@ pub fn nearest(numerator: i128, denominator: i128) -> f64 {
     if (numerator < 0) == (denominator < 0) { size } else { -size }
 }
 
+/// Numerator and denominator where products of two of them fit 64 bits: a division of 128 takes some ten
+/// times as long.
+fn small(ratio: Ratio) -> Option<[i64; 2]> {
+    let part = |whole: i128| i32::try_from(whole).ok().map(i64::from);
+    Some([part(*ratio.numer())?, part(*ratio.denom())?])
+}
+
+/// A quotient in lowest terms, of a denominator > 0.
+fn lowest_terms(numerator: i64, denominator: i64) -> Ratio {
+    let divisor = divisor(numerator.unsigned_abs(), denominator.unsigned_abs()) as i64;
+    Ratio::new_raw((numerator / divisor).into(), (denominator / divisor).into())
+}
+
+/// The product. None where it overflows.
+#[must_use]
+pub fn product(a: Ratio, b: Ratio) -> Option<Ratio> {
+    match (small(a), small(b)) {
+        (Some([n, d]), Some([m, e])) => Some(lowest_terms(n * m, d * e)),
+        _ => num_traits::CheckedMul::checked_mul(&a, &b),
+    }
+}
+
+/// The sum of two parts of a turn, less whole turns. Denominators are below 10⁹.
+#[must_use]
+pub fn turned(a: Ratio, b: Ratio) -> Ratio {
+    if let (Some([n, d]), Some([m, e])) = (small(a), small(b)) {
+        let common = d / divisor(d.unsigned_abs(), e.unsigned_abs()) as i64 * e;
+        let part = |numerator: i64, denominator: i64| {
+            numerator.rem_euclid(denominator) * (common / denominator)
+        };
+        let sum = part(n, d) + part(m, e);
+        lowest_terms(if sum < common { sum } else { sum - common }, common)
+    } else {
+        let sum = a + b;
+        sum - sum.floor()
+    }
+}
+
 /// The largest number of which both are whole multiples, of either sign; 0 if both are 0. None where
 /// it overflows.
 #[must_use]
 pub fn common_measure(a: Ratio, b: Ratio) -> Option<Ratio> {
+    if let (Some([n, d]), Some([m, e])) = (small(a), small(b)) {
+        let (left, right) = ((n * e).unsigned_abs(), (m * d).unsigned_abs());
+        let measure = if left == 0 && right == 0 { 0 } else { divisor(left, right) as i64 };
+        return Some(lowest_terms(measure, d * e));
+    }
     let left = a.numer().checked_mul(*b.denom())?;
     let right = b.numer().checked_mul(*a.denom())?;
     let common = a.denom().checked_mul(*b.denom())?;
@@ -116,7 +162,13 @@ impl Multiples {
     /// sometimes a decimal by chance, and what is a multiple of it then is one of 1 with it.
     pub fn new(figures: &[f64], cancel: &Cancel) -> Result<Self> {
         use num_traits::{CheckedDiv, CheckedMul};
-        let decimals: Vec<Option<Ratio>> = figures.iter().map(|&x| decimal(x)).collect();
+        let mut decimals: Vec<Option<Ratio>> = Vec::with_capacity(figures.len());
+        for (i, &figure) in figures.iter().enumerate() {
+            // Cylinders are mostly alike, and a decimal is read from text.
+            let last = &figures[i.saturating_sub(ALIKE_WITHIN)..i];
+            let known = last.iter().rev().position(|known| known.to_bits() == figure.to_bits());
+            decimals.push(known.map_or_else(|| decimal(figure), |back| decimals[i - 1 - back]));
+        }
         if let Some(of) = decimals.iter().map(|ratio| ratio.map(|r| (0, r))).collect() {
             return Ok(Self { units: vec![1.0], of });
         }
@@ -311,7 +363,33 @@ mod tests {
         assert_eq!(common_multiple(i128::MAX, i128::MAX - 1), None);
     }
 
+    /// Numbers on both sides of 32 bits, against the arithmetic of 128.
+    fn ratios() -> impl Strategy<Value = Ratio> {
+        let parts = [1_i128, 2, 3, 360, 999_999_937, i32::MAX.into(), (1 << 31) + 1];
+        let whole = [0_i128, 1, -1, 2, 7, -360, i32::MIN.into(), i32::MAX.into(), 1 << 32];
+        (select(&whole), select(&parts)).prop_map(|(numerator, parts)| Ratio::new(numerator, parts))
+    }
+
+    fn select(from: &[i128]) -> impl Strategy<Value = i128> + use<> {
+        proptest::sample::select(from.to_vec())
+    }
+
     proptest! {
+        #[test]
+        fn small_and_large_numbers_have_one_arithmetic(a in ratios(), b in ratios()) {
+            prop_assert_eq!(product(a, b), a.checked_mul(&b));
+            let sum = a + b;
+            prop_assert_eq!(turned(a, b), sum - sum.floor());
+            let measure = common_measure(a, b).unwrap();
+            let zero = a == Ratio::ZERO && b == Ratio::ZERO;
+            prop_assert_eq!(measure == Ratio::ZERO, zero);
+            if !zero {
+                let [of_a, of_b] = [a, b].map(|one| one / measure);
+                prop_assert!(of_a.is_integer() && of_b.is_integer() && measure > Ratio::ZERO);
+                prop_assert_eq!(common_divisor(of_a.to_integer(), of_b.to_integer()), 1);
+            }
+        }
+
         #[test]
         fn fractions_are_recognised(p in -999_i32..999, q in 1_i32..999, unit in 0.01..10.0) {
             let figure = f64::from(p) * unit / f64::from(q);

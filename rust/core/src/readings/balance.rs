@@ -411,7 +411,7 @@ pub fn balance(
 ) -> Result<Balance> {
     let omega = angular_speed(request.rpm)?;
     engine.check_speeds(&[request.rpm])?;
-    let loads = LoadList::new(engine, engine.reference(request.reference_z)?);
+    let loads = LoadList::of(engine, engine.reference(request.reference_z)?)?;
     let torque = request.torque && engine.spectrum().is_none();
     let chosen = choice::evaluated(engine, &loads, orders, torque, cancel)?;
     let mut balance = chosen.at_speed(&loads, omega)?;

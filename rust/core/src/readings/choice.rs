@@ -35,6 +35,9 @@ const HIGHEST_INTEGRATED: u32 = 192;
 /// [`HIGHEST_INTEGRATED`].
 const FIRST_INTEGRATED: u32 = 48;
 
+/// Largest number of given orders that are kept with an engine.
+const MOST_ORDERS_KEPT: usize = 100;
+
 /// Orders chosen for an engine, over what its groups scale with so that they serve any speed.
 pub(crate) struct Chosen {
     /// Orders evaluated, ascending.
@@ -72,10 +75,10 @@ impl Chosen {
     }
 
     /// The balance at a speed, rad/s.
-    pub fn at_speed(self, loads: &LoadList, omega: f64) -> Result<Balance> {
+    pub fn at_speed(&self, loads: &LoadList, omega: f64) -> Result<Balance> {
         let Self { orders, kept, wrenches, means, left_out } = self;
-        let all = Balance::of(loads, &loads.list, orders, &wrenches, &means, omega)?;
-        Ok(all.keep(&kept, bounds(&left_out, &loads.groups, omega)))
+        let all = Balance::of(loads, &loads.list, orders.clone(), wrenches, means, omega)?;
+        Ok(all.keep(kept, bounds(left_out, &loads.groups, omega)))
     }
 }
 
@@ -200,8 +203,27 @@ impl Choice {
     }
 }
 
-/// Orders of an engine that are given, or chosen.
+/// Orders of all loads of an engine that are given, or chosen; the last ones are kept with it, since they
+/// serve any speed.
 pub(crate) fn evaluated(
+    engine: &Engine,
+    loads: &LoadList,
+    orders: &Orders,
+    torque: bool,
+    cancel: &Cancel,
+) -> Result<Arc<Chosen>> {
+    type Known = ((f64, bool), Orders, Arc<Chosen>);
+    let new = || Ok(Arc::new(evaluated_anew(engine, loads, orders, torque, cancel)?));
+    if matches!(orders, Orders::Given(orders) if orders.len() > MOST_ORDERS_KEPT) {
+        return new();
+    }
+    let of = (loads.reference, torque);
+    let is_such = |(own, known, _): &Known| *own == of && known == orders;
+    let known = engine.kept().get(is_such, || Ok((of, orders.clone(), new()?)))?;
+    Ok(Arc::clone(&known.2))
+}
+
+fn evaluated_anew(
     engine: &Engine,
     loads: &LoadList,
     orders: &Orders,

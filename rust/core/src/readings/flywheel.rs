@@ -506,11 +506,11 @@ fn mean_of(values: &[f64]) -> f64 {
 /// Mean moment of inertia over a turn of each cylinder's piston and rod as seen from the main crank, kg·m².
 pub fn mean_inertias(engine: &Engine, cancel: &Cancel) -> Result<Vec<f64>> {
     let grid = CycleGrid::new(360.0, &[], cancel)?;
-    let loads = LoadList::new(engine, engine.reference(None)?);
+    let loads = LoadList::of(engine, engine.reference(None)?)?;
     let of_cylinder = |i: usize| {
         let own = |load: &&Load| load.place.origin == Origin::Cylinder(i);
         let list = loads.list.iter().filter(own).copied().collect();
-        let own = LoadList { list, ..loads.clone() };
+        let own = LoadList { list, ..(*loads).clone() };
         let [inertia, _] = moving_of(&own, &grid.nodes_deg, cancel)?;
         Ok(grid.mean(&inertia))
     };
@@ -522,7 +522,8 @@ fn moving(engine: Option<&Engine>, edges_deg: &[f64], cancel: &Cancel) -> Result
     let Some(engine) = engine else {
         return Ok([memory::zeros(edges_deg.len())?, memory::zeros(edges_deg.len())?]);
     };
-    moving_of(&LoadList::new(engine, engine.reference(None)?), edges_deg, cancel)
+    let loads = LoadList::of(engine, engine.reference(None)?)?;
+    moving_of(&loads, edges_deg, cancel)
 }
 
 /// The same of these loads.

@@ -108,7 +108,7 @@ impl EngineLoads {
             omega.push(angular_speed(rpm)?);
         }
         engine.check_speeds(rpm)?;
-        let loads = LoadList::new(engine, cg.z);
+        let loads = LoadList::of(engine, cg.z)?;
         let torque = engine.spectrum().is_none();
         let chosen = choice::evaluated(engine, &loads, orders, torque, cancel)?;
         let counts = [false, true].map(|torque| count(&loads.list, torque));
@@ -123,7 +123,7 @@ impl EngineLoads {
             omitted: chosen.omitted(),
             error_bound: chosen.error_bound(&loads, &omega).moved([cg.x, cg.y, 0.0]),
             omega,
-            groups: loads.groups,
+            groups: loads.groups.clone(),
             unit,
             roundings,
         })

@@ -80,7 +80,7 @@ pub(super) fn sums_by(
     let omega = angular_speed(request.rpm)?;
     engine.check_speeds(&[request.rpm])?;
     let torque = request.torque && engine.spectrum().is_none();
-    let loads = LoadList::new(engine, engine.reference(request.reference_z)?);
+    let loads = LoadList::of(engine, engine.reference(request.reference_z)?)?;
     let amplitudes = Amplitudes::new(&loads.sources, torque, orders, cancel)?;
     let mut own: Vec<Vec<Load>> = vec![Vec::new(); groups]; // bounded: by the parts of an engine
     for load in &loads.list {

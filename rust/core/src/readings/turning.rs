@@ -51,7 +51,7 @@ pub(crate) fn over_square(
         return Err(Error::figure("rpm", rpm, hint));
     }
     engine.check_speeds(rpm.as_slice())?;
-    let loads = LoadList::new(engine, engine.reference(None)?);
+    let loads = LoadList::of(engine, engine.reference(None)?)?;
     let torque = torque && engine.spectrum().is_none();
     let (by_group, _) = wrenches(&loads, &loads.sources, torque, &[order], cancel)?;
     let mut sum = Wrench::default();

@@ -80,7 +80,7 @@ pub fn exact(
     let omega = angular_speed(request.rpm)?;
     engine.check_speeds(&[request.rpm])?;
     let reference = engine.reference(request.reference_z)?;
-    let loads = LoadList::new(engine, reference);
+    let loads = LoadList::of(engine, reference)?;
     let kinematics = Kinematics::new(&loads);
     let factors = kinematics.factors(omega);
     let mut shape = Shape::new(&loads, request.torque);
@@ -111,7 +111,7 @@ pub fn from_orders(
     cancel: &Cancel,
 ) -> Result<Waveform> {
     let balance = balance::balance(engine, request, orders, cancel)?;
-    let loads = LoadList::new(engine, engine.reference(request.reference_z)?);
+    let loads = LoadList::of(engine, engine.reference(request.reference_z)?)?;
     // Phasors that cancel are zero already.
     let shape = Shape::new(&loads, balance.has_torque);
     let parts = shape.parts.iter().map(|(name, _)| balance.of_part(Part::Of(name)));

@@ -168,7 +168,7 @@ impl BearingLoadsModel {
             mains: engine.cranks().indices().flat_map(of_crank).collect(),
             ratios: engine.cranks().map_to(|crank| crank.ratio),
         };
-        for load in LoadList::new(engine, 0.0).list.iter().filter(|load| load.is_turning()) {
+        for load in LoadList::of(engine, 0.0)?.list.iter().filter(|load| load.is_turning()) {
             let crank = match load.place.origin {
                 Origin::Cylinder(i) => Some(engine.crank_of(i)),
                 Origin::Counterweight(k) => {

@@ -20,7 +20,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::{List, list_index};
 use crate::numbers::order::Order;
-use crate::numbers::rational::{Multiples, Ratio, common_measure, decimal};
+use crate::numbers::rational::{Multiples, Ratio, common_measure, decimal, product};
 use crate::readings::amplitude::Amplitudes;
 use crate::wrench::Wrench;
 
@@ -35,7 +35,7 @@ fn whole(weights: &[Ratio]) -> Result<(Vec<i128>, Ratio)> {
     if measure == Ratio::ZERO {
         return Ok((vec![0; weights.len()], Ratio::ONE));
     }
-    let whole = weights.iter().map(|w| w.checked_div(&measure).map(|count| count.to_integer()));
+    let whole = weights.iter().map(|&w| Some(product(w, measure.recip())?.to_integer()));
     Ok((whole.collect::<Option<_>>().ok_or_else(too_long)?, measure))
 }
 
@@ -172,7 +172,7 @@ impl NumberedLoads {
         if engine.loads().is_empty() {
             return Ok(Self(acts));
         }
-        let loads = LoadList::new(engine, engine.reference(reference)?);
+        let loads = LoadList::of(engine, engine.reference(reference)?)?;
         let is_numbered = |load: &&Load| {
             let source = loads.source(load);
             source.exact() == ExactFactor::Unknown && !source.has_open_tail()

@@ -6,7 +6,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::decimal::WITHIN_ULP;
 use crate::numbers::error::Result;
 use crate::numbers::index::List;
-use crate::numbers::rational::{Ratio, recognise};
+use crate::numbers::rational::{Ratio, product, recognise, turned};
 
 /// Angles of more parts of a turn are symbols: those of six decimals have 3.6e8 at most.
 const MOST_PARTS_OF_ROOT: i64 = 1_000_000_000;
@@ -81,8 +81,7 @@ pub(super) struct UnityRoot {
 impl UnityRoot {
     /// Turned by a part of a turn, whose denominator is below 10⁹ as that of the others.
     pub fn turned(self, by: Ratio) -> Self {
-        let turns = self.turns + by;
-        Self { turns: turns - turns.floor(), ..self }
+        Self { turns: turned(self.turns, by), ..self }
     }
 }
 
@@ -120,7 +119,8 @@ impl Arithmetic for FormalSum {
         let PartOfTurn { turns, symbol } = self.phases[i];
         let none =
             UnityRoot { turns: Ratio::ZERO, direction: (0, SymbolEntry::UnityRoot), phase: symbol };
-        none.turned(turns * i128::from(times))
+        let times = i128::from(times);
+        none.turned(product(turns, times.into()).unwrap_or_else(|| turns * times))
     }
 
     fn toward(&self, (i, _): (LoadIndex, &Load), unit: &UnityRoot, conjugate: bool) -> UnityRoot {

@@ -411,7 +411,7 @@ pub(crate) fn vanishing_of(
         return Err(Error::value("orders", half, "half orders need a firing order"));
     }
     let strokes = firing.map_or(engine.strokes(), Firing::strokes);
-    let proof = Proof::new(engine, reference_z, cancel)?;
+    let proof = Proof::of(engine, reference_z, cancel)?;
     let gas = Stars::of_gas(engine, firing, cancel)?;
     // Cycles of faster cranks begin at turns of their own, which nothing says.
     let is_faster = |i| engine.cranks()[engine.crank_of(i)].ratio.abs() != 1;
@@ -427,7 +427,13 @@ pub(crate) fn vanishing_of(
     let evaluated = within_rounding.iter_mut().zip(gas_remains);
     for ((&order, numbered), (within, gas_remains)) in orders.iter().zip(&numbered.0).zip(evaluated)
     {
-        let sums = proof.sums(order);
+        // Neither gas nor half orders, which inertia does not have, need them.
+        let of_inertia = quantities.iter().any(|&own| own != ProofQuantity::GasTorque);
+        let sums = if of_inertia && order.as_whole().is_some() {
+            proof.sums(order)
+        } else {
+            SymbolSums::new()
+        };
         let mut of_order = [Verdict::Undecided; 10];
         for (k, quantity) in QUANTITIES.into_iter().enumerate() {
             if !quantities.contains(&quantity) {
@@ -505,7 +511,7 @@ fn evaluated(
     let orders = Orders::Given(orders.to_vec());
     let all = balance::balance(engine, &request, &orders, cancel)?;
     let found = all.of_part(Part::INERTIA);
-    let loads = LoadList::new(engine, engine.reference(reference_z)?);
+    let loads = LoadList::of(engine, engine.reference(reference_z)?)?;
     let weights = loads.torque_weights();
     let of_sources = weights.iter().zip(&loads.sources);
     let largest: f64 =

@@ -85,7 +85,8 @@ impl Job<'_> {
                 Waves::new(sweep, self.selection.quantity, angle_slab.clone(), self.cancel)?;
             for point_slab in slabs(points) {
                 let parts: Vec<Range<usize>> = parts(point_slab.clone(), PART).collect();
-                let each_part = sweep.loads.iter().zip(&layouts).flat_map(|of_engine| {
+                let loads = sweep.loads.iter().map(AsRef::as_ref);
+                let each_part = loads.zip(&layouts).flat_map(|of_engine| {
                     parts.iter().map(move |points| (of_engine, points.clone()))
                 });
                 let coefficients = |(of_engine, points): ((&LoadList, &Layout), Range<usize>)| {

@@ -95,7 +95,7 @@ pub struct Sweep {
     engines: Vec<Arc<Engine>>,
     axes: SweepAxes,
     /// Loads of each engine.
-    loads: Vec<LoadList>,
+    loads: Vec<Arc<LoadList>>,
     /// Groups of the loads of all engines, and whether each has forces, and torques.
     groups: Vec<(Group, [bool; 2])>,
     /// Places of speeds and loads in a map of cycles.
@@ -132,7 +132,7 @@ impl Sweep {
         for engine in &engines {
             cancel.check()?;
             engine.check_speeds(&axes.rpm)?;
-            let list = LoadList::new(engine, engine.reference(reference_z)?);
+            let list = LoadList::of(engine, engine.reference(reference_z)?)?;
             for (k, group) in list.groups.indices().zip(&list.groups) {
                 let new = || (group.clone(), [false; 2]);
                 let (_, has) = find_or_push(&mut groups, |(own, _)| own == group, new);

@@ -24,7 +24,7 @@ pub(super) struct Placed {
 impl Sweep {
     /// An engine with one of the swept bank angles.
     pub(super) fn placed(&self, engine: usize, angle: usize) -> Result<Placed> {
-        let loads = match &self.axes.bank_angle {
+        let loads: &LoadList = match &self.axes.bank_angle {
             Some((angles, hold)) => {
                 let angle = Angle::from_degrees(angles[angle])?;
                 let turned = self.engines[engine].with_bank_angle(angle, *hold)?;

@@ -133,7 +133,7 @@ pub fn orders(
     cancel: &Cancel,
 ) -> Result<(Vec<Order>, ErrorBounds)> {
     let omega = angular_speed(request.rpm)?;
-    let loads = LoadList::new(engine, engine.reference(request.reference_z)?);
+    let loads = LoadList::of(engine, engine.reference(request.reference_z)?)?;
     let wanted = (request.torque, omega);
     let (mut orders, left_out) = choice::within_each(rtol, engine, &loads, wanted, cancel)?;
     if orders.first() != Some(&Order::FIRST) && !orders.contains(&Order::FIRST) {

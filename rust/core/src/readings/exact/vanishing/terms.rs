@@ -1,7 +1,7 @@
 //! The terms of an engine's sums: of every quantity and order, each load's weight, root of unity and
 //! symbol.
 
-use num_traits::CheckedMul;
+use std::sync::Arc;
 
 use super::super::roots::{FormalSum, PartOfTurn, Share, SymbolEntry, parts_of_turn};
 use super::super::{ExactLoads, Levers, MotionIndex, TypedProportions, too_long};
@@ -15,7 +15,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::index::{List, distinct, list_index};
 use crate::numbers::order::Order;
-use crate::numbers::rational::{Multiples, Ratio};
+use crate::numbers::rational::{Multiples, Ratio, product};
 
 list_index! {
     /// Index of a running gear with the speed of its crank, whichever its sense, among those that differ.
@@ -122,7 +122,15 @@ pub(super) struct Proof {
 }
 
 impl Proof {
-    pub fn new(engine: &Engine, reference: Option<f64>, cancel: &Cancel) -> Result<Self> {
+    /// Of an engine, with which it is kept.
+    pub fn of(engine: &Engine, reference: Option<f64>, cancel: &Cancel) -> Result<Arc<Self>> {
+        type Known = (Option<f64>, Arc<Proof>);
+        let is_such = |(own, _): &Known| own.map(f64::to_bits) == reference.map(f64::to_bits);
+        let new = || Ok((reference, Arc::new(Self::new(engine, reference, cancel)?)));
+        Ok(Arc::clone(&engine.kept().get(is_such, new)?.1))
+    }
+
+    fn new(engine: &Engine, reference: Option<f64>, cancel: &Cancel) -> Result<Self> {
         let ExactLoads { loads, motions, motion_of } = ExactLoads::new(engine, reference)?;
         let levers = Levers::new(engine, &loads, reference, cancel)?;
         let weights = |of: &dyn Fn(&Load) -> f64| {
@@ -290,13 +298,13 @@ impl Proof {
             Weight::ArmX => (SymbolWeights::Arm, self.arms[i][0]),
             Weight::ArmY => (SymbolWeights::Arm, self.arms[i][1]),
         };
-        let weight = weight.checked_mul(&Ratio::from(i128::from(share.halves)));
+        let weight = product(weight, Ratio::from(i128::from(share.halves)));
         let weight = weight.ok_or_else(too_long)?;
         if share.weight != Weight::Moment {
             return Ok(vec![((list, unit), 0, weight)]);
         }
         let levered = |&(lever, factor): &(usize, Ratio)| {
-            Ok(((list, unit), lever, weight.checked_mul(&factor).ok_or_else(too_long)?))
+            Ok(((list, unit), lever, product(weight, factor).ok_or_else(too_long)?))
         };
         self.levers.of[i].iter().map(levered).collect()
     }
@@ -318,7 +326,8 @@ impl Proof {
                         for (channel, of_channel) in
                             self.channels(sum.harmonic, &share, order, view)
                         {
-                            let amount = amount * (sign * of_channel);
+                            // Both signs are 1 or −1.
+                            let amount = if sign == of_channel { amount } else { -amount };
                             if amount == Ratio::ZERO {
                                 continue;
                             }
