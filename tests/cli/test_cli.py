@@ -378,7 +378,15 @@ def test_ranges(text: str, values: float | list[float] | None) -> None:
 def test_rank_csv_is_the_library_s_choice(capsys: CAPTURE) -> None:
     by = ["[1].moment.backward", "[2].moment.peak"]
     argv = ["rank", "ijesc-v6", "--rpm", "5000", "--by", ",".join(by), "--reference-z", "0"]
-    argv += ["--orders", "1,2", "--spectrum", "1=0.0669,2=0.0191", "--refine"]
+    argv += [
+        "--bank-angle",
+        "10:170:10",
+        "--orders",
+        "1,2",
+        "--spectrum",
+        "1=0.0669,2=0.0191",
+        "--refine",
+    ]
     known = [cp.Engine.preset(name) for name in IJESC]
     engines = {each.name: each.replace(reference_z=0.0) for each in known}
     for hold in ("pins", "firing"):
@@ -654,6 +662,17 @@ def test_errors_are_one_line(
     assert not any(tmp_path.iterdir())
 
 
+def test_engines_are_ranked_as_they_are_unless_angles_are_given(capsys: CAPTURE) -> None:
+    ranking = cp.rank(
+        {"a": cp.Engine.preset("v6-60"), "b": cp.Engine.preset("v6-120")},
+        rpm=3000,
+        by="total.moment.peak",
+    )
+    _, rows, values = numbers(printed(capsys, "rank", "v6-60", "v6-120", "--csv"), labels=3)
+    np.testing.assert_array_equal(values, [choice.values for choice in ranking])
+    assert sorted(angle for _, _, angle in rows) == ["120", "60"]
+
+
 def test_an_error_named_as_in_a_shell_keeps_its_fields() -> None:
     hint = 'give hold="pins", or rpm=[1, 2]; see bank_angle'
     error = error_in_options(
@@ -662,7 +681,7 @@ def test_an_error_named_as_in_a_shell_keeps_its_fields() -> None:
     )
     assert type(error) is AbsentItemError
     assert (error.argument, error.value) == ("--bank-angle[1]", "190.0")
-    assert error.hint == "give --hold pins, or --rpm 1,2; see bank_angle"
+    assert error.hint == "give --hold pins, or --rpm 1,2; see --bank-angle"
     assert str(error) == f"{error.argument} = {error.value}: {error.hint}"
     assert error_in_options(cp.InputError("a sentence"), {}).args == ("a sentence",)
 
@@ -733,6 +752,46 @@ def test_interrupt_is_quiet(monkeypatch: pytest.MonkeyPatch, capsys: CAPTURE) ->
     monkeypatch.setattr(cp.Engine, "balance", interrupted)
     assert main(["balance", "i4"]) == 130
     assert capsys.readouterr() == ("", "")
+
+
+def test_phases_are_those_of_the_phasors(capsys: CAPTURE) -> None:
+    """A peak and its phase are the phasor P of Re(P·exp(inθ)), of each component."""
+    for name in ("v6-90-odd-fire", "i5", "boxer-2"):
+        argv = ["balance", name, "--orders", "1,2,3,4", "--phases", "--csv"]
+        balance = cp.Engine.preset(name).balance(3000, orders=(1, 2, 3, 4))
+        head, *rows = csv.reader(io.StringIO(printed(capsys, *argv)))
+        assert head[1:5] == ["|F_x| N", "F_x phase °", "|F_y| N", "F_y phase °"]
+        for order, *cells in rows[:4]:
+            parts = balance[int(order)]
+            phasors = [*parts.force.xy, *parts.moment.xy, parts.torque.phasor]
+            for peak, phase, phasor in zip(cells[::2], cells[1::2], phasors, strict=True):
+                turned = float(peak) * np.exp(1j * np.radians(float(phase or 0)))
+                assert abs(turned - phasor) <= 1e-14 * abs(phasor)
+                assert bool(phase) == bool(phasor)
+        assert rows[4][2::2] == [""] * 5
+    theta = np.arange(0.0, 360.0, 7.0)
+    wave = cp.Engine.preset("v6-90-odd-fire").waveform(3000, theta, orders=(1,)).moment
+    argv = ["balance", "v6-90-odd-fire", "--orders", "1", "--phases", "--csv"]
+    _, first, *_ = csv.reader(io.StringIO(printed(capsys, *argv)))
+    along = float(first[5]) * np.cos(np.radians(theta + float(first[6])))
+    np.testing.assert_allclose(along, wave[..., 0], atol=1e-9)
+    text = printed(capsys, "balance", "v6-90-odd-fire", "--phases")
+    assert "Order n is peak·cos(n·θ + phase)" in text
+
+
+def test_errors_name_what_a_shell_user_typed(capsys: CAPTURE) -> None:
+    assert refused(capsys, "mounts", "i4").startswith("FILE = 'i4': an engine file ends in")
+    assert refused(capsys, "mounts-fit", "i4", "--x", "1mm").startswith("FILE = 'i4': ")
+    line = ["new", "firing-order", "--firing-order", "1-3-4-2"]
+    said = refused(capsys, *line, "--odd-bank", "left")
+    assert said.startswith("--odd-bank = 'left': acts only beside --bank-angle; give --bank-angle")
+    assert refused(capsys, *line, "--shared-pins").endswith("needs --bank-angle")
+
+
+def test_a_file_behind_csv_is_answered_with_where_csv_goes(capsys: CAPTURE) -> None:
+    said = refused(capsys, "balance", "i4", "--csv", "out.csv")
+    assert said.endswith("--csv prints CSV, so write it to a file by: --csv > out.csv")
+    assert "--csv >" not in refused(capsys, "balance", "i4", "out.csv")
 
 
 # --- help ---------------------------------------------------------------------------------------

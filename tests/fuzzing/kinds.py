@@ -312,6 +312,7 @@ KINDS: dict[str, list[Any]] = {
     "text": [TOML, JSON, "mm"],
     "topic": ["v-twin"],
     "units_shown": ["mm"],
+    "units": ["g, mm, lbf"],
     "values": [[1.0, 2.0]],
     "what": ["peak"],
     "pistons": [SIX],

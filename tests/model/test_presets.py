@@ -701,3 +701,8 @@ def test_families() -> None:
     assert presets_module.family("v14") == ["v14-9.13", "v14-49.54", "v14-63.03", "v14-170.87"]
     assert presets_module.family("v6-60") == ["v6-60"]  # not v6-60-ebook: a preset is itself
     assert presets_module.family("v7") == ["v7"]
+
+
+def test_presets_take_no_further_attributes() -> None:
+    with pytest.raises(AttributeError):
+        cp.presets().other = 1  # type: ignore[attr-defined]

@@ -216,3 +216,33 @@ def test_the_command_line_has_every_frame(
             assert err == (f"crankpin: {table.loads}\n" if options and table.loads else "")
     assert main([*typed.split(), "--frame", "tables"]) == 2
     assert "--frame = tables: give table or" in capsys.readouterr().err
+
+
+@every_result
+def test_exports_are_si_whatever_is_shown_and_in_units_that_are_asked(name: str) -> None:
+    result, units = result_of(name), "g, mm, lbf, psi"
+    plain = {frame: exports(result, frame, "") for frame in result.frames}
+    with cp.units(units):
+        for frame, before in plain.items():
+            assert exports(result, frame, "") == before
+    for frame in result.frames:
+        with cp.units(units):
+            table = result.frames[frame].to(units)
+        shown = exports(result, frame, units)
+        assert shown[0] == table.to_csv()
+        assert shown[1] == [head for head, _ in table._distinct()]
+        assert shown[2] == [column.unit for column in table.columns]
+    whole, other = result.to_xarray(), result.to_xarray(units="mm, lbf")
+    for key, variable in whole.variables.items():
+        if variable.attrs.get("units") == "N":
+            assert other[key].attrs["units"] == "lbf"
+            np.testing.assert_allclose(other[key] * 4.4482216152605, variable, rtol=1e-12)
+
+
+def exports(result: Any, frame: str, units: str) -> tuple[str, list[str], list[str]]:  # noqa: ANN401
+    """CSV, and the heads and units of a data frame and a dataset."""
+    data = result.to_pandas(frame=frame, units=units)
+    arrays = result.to_xarray(frame=frame, units=units)
+    units_of = [variable.attrs.get("units", "") for variable in arrays.values()]
+    heads = [*data.columns]
+    return result.to_csv(frame=frame, units=units), heads, units_of

@@ -184,7 +184,7 @@ def test_no_text_has_other_units_than_those_set(name: str) -> None:
         texts = [repr(value)] if isinstance(value, (cp.Engine, cp.types.Explanation)) else []
         if isinstance(value, Tabled):
             for key, frame in value.frames.items():
-                texts += [frame.text(), frame.html(), value.to_csv(frame=key)]
+                texts += [frame.text(), frame.html(), value.to_csv(frame=key, units=IMPERIAL)]
     for text in texts:
         for line in re.sub("<[^>]*>", "|", text).splitlines():
             words = re.sub(r"m·r[^ ]*", "", line)  # of formulas
@@ -322,3 +322,31 @@ def test_blocks_in_any_order_leave_no_setting(seed: int) -> None:
 def test_a_setting_takes_no_further_attributes() -> None:
     with cp.units("mm") as setting, pytest.raises(AttributeError):
         setting.other = 1  # type: ignore[attr-defined]
+
+
+NAME = "Run 7: rod 0.145 m, at (0.1, 0.2) m, 3 to 4 N"
+
+
+@pytest.mark.parametrize("setting", [IMPERIAL, "g, mm, kN, bar"])
+def test_figures_of_a_name_stay(setting: str) -> None:
+    """A name is shown as it was given, whatever units are shown; figures around it are not."""
+    cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+    engine = cp.Engine.preset("i4", cylinder=cylinder).replace(name=NAME)
+    fired = engine.with_cycle(cp.Cycle.example())
+    results: list[Any] = [
+        engine.balance(3000), engine.firing(), cp.sweep(engine, rpm=[1000, 2000]),
+        cp.rank({NAME: engine}, rpm=3000, by="total.moment.peak"), cp.bob_weight(engine),
+        cp.counterweights(engine, planes=[0, 0.1]), cp.bearing_loads(fired, 3000),
+        cp.flywheel(fired, 3000, inertia=0.2), fired.balance(3000).crank_torque, engine.explain(),
+        cp.balance_shafts(engine, [2, -2]), cp.tolerances(engine, rpm=3000, z=1e-4, samples=20),
+        cp.match_parts(engine, [0.5] * 4), cp.Cycle.example().replace(name=NAME),
+        cp.compare(engine, engine, 3000), fired.waveform(3000),
+    ]  # fmt: skip
+    with cp.units(setting):
+        for result in results:
+            text = repr(result).replace("\N{NO-BREAK SPACE}", " ")
+            assert NAME in text or "0.145" not in text, text
+    assert sum(NAME in repr(each).replace("\N{NO-BREAK SPACE}", " ") for each in results) > 10
+    assert engine.balance(3000).table.title.startswith(
+        NAME.replace(" m", "\N{NO-BREAK SPACE}m")[:9]
+    )

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, overload
 
 import numpy as np
 
-from crankpin._support import files, inputs, labels, latex, optional, units
+from crankpin._support import files, inputs, labels, latex, optional
+from crankpin._support import units as unit_names
 from crankpin._support.record import AbsentItemError, Record, changed
 from crankpin._support.warnings import without_controls
 
@@ -38,7 +39,8 @@ NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.ASCII | re.IGNOREC
 class Frames(Mapping[str, "Table"]):
     """Tables of a result by name, in the order in which they are shown.
 
-    A table is computed when it is read, in the units that :func:`crankpin.units` has set.
+    A table is computed when it is read; text and HTML are in the units that
+    :func:`crankpin.units` has set.
     """
 
     def __init__(
@@ -50,8 +52,7 @@ class Frames(Mapping[str, "Table"]):
 
     def __getitem__(self, name: str) -> Table:
         """Return the table of a name, or raise an InputError."""
-        made = self._makers[inputs.one_of("frame", name, self._makers, AbsentItemError)]()
-        return made._in(units.current())
+        return self._makers[inputs.one_of("frame", name, self._makers, AbsentItemError)]()
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._makers)
@@ -62,7 +63,7 @@ class Frames(Mapping[str, "Table"]):
     def _first(self, name: str, rows: int | None) -> Table:
         """Return a table, of one that is long its first rows if they can be computed alone."""
         head = self._beginning(rows) if rows is not None and name == FIRST else None
-        return self[name] if head is None else head._in(units.current())
+        return self[name] if head is None else head
 
     def _shown(self, rows: int | None) -> Iterator[Table]:
         """Yield the tables; of neighbours that count the same loads the last one says so."""
@@ -115,17 +116,26 @@ class Tabled(Record):
     def _repr_html_(self) -> str | None:
         return None if self._brief else self.frames._repr_html_()
 
+    def _exported(self, frame: str, units: str) -> Table:
+        """Return a frame in units that an export asks for."""
+        setting = unit_names.read(units)
+        with unit_names.Shown(setting):  # sentences among its cells are made in them
+            return self.frames[frame]._in(setting)
+
     def _dataset(self) -> xr.Dataset | None:
         """Return the arrays of a result that has dimensions."""
         return None
 
-    def to_pandas(self, *, frame: str = FIRST) -> pd.DataFrame:
+    def to_pandas(self, *, frame: str = FIRST, units: str = "") -> pd.DataFrame:
         """Return a frame as a DataFrame (needs pandas).
 
         Parameters
         ----------
         frame : str, default "table"
             Name of one of ``frames``.
+        units : str, default ""
+            Units of its numbers, as :func:`crankpin.units` takes them, by default those of results,
+            SI.
 
         Returns
         -------
@@ -135,11 +145,11 @@ class Tabled(Record):
         Raises
         ------
         InputError
-            If there is no such frame.
+            If there is no such frame or unit.
         ImportError
             If pandas is not installed.
         """
-        table = self.frames[frame]
+        table = self._exported(frame, units)
         data = {
             head: each.data if isinstance(each.data, np.ndarray) else list(each.data)
             for head, each in table._distinct()
@@ -148,7 +158,7 @@ class Tabled(Record):
         data_frame.attrs.update(labels.attributes(table.loads))
         return data_frame
 
-    def to_xarray(self, *, frame: str | None = None) -> xr.Dataset:
+    def to_xarray(self, *, frame: str | None = None, units: str = "") -> xr.Dataset:
         """Return a Dataset with units and named dimensions (needs xarray).
 
         Parameters
@@ -156,6 +166,9 @@ class Tabled(Record):
         frame : str, optional
             Name of one of ``frames``; by default the arrays of a result that has dimensions, which
             rows would flatten, or else the table.
+        units : str, default ""
+            Units of its numbers, as :func:`crankpin.units` takes them, by default those of results,
+            SI.
 
         Returns
         -------
@@ -165,13 +178,13 @@ class Tabled(Record):
         Raises
         ------
         InputError
-            If there is no such frame.
+            If there is no such frame or unit.
         ImportError
             If xarray is not installed.
         """
         if frame is None and (whole := self._dataset()) is not None:
-            return whole
-        table = self.frames[FIRST if frame is None else frame]
+            return in_units(whole, unit_names.read(units))
+        table = self._exported(FIRST if frame is None else frame, units)
         arrays = {
             head: ("row", each._array(), {"units": each.unit} if each.unit else {})
             for head, each in table._distinct(units=False)
@@ -180,12 +193,14 @@ class Tabled(Record):
         return optional.dataset(arrays, {}, attributes)
 
     @overload
-    def to_csv(self, path: None = None, *, frame: str = FIRST) -> str: ...
+    def to_csv(self, path: None = None, *, frame: str = FIRST, units: str = "") -> str: ...
 
     @overload
-    def to_csv(self, path: str | Path, *, frame: str = FIRST) -> None: ...
+    def to_csv(self, path: str | Path, *, frame: str = FIRST, units: str = "") -> None: ...
 
-    def to_csv(self, path: str | Path | None = None, *, frame: str = FIRST) -> str | None:
+    def to_csv(
+        self, path: str | Path | None = None, *, frame: str = FIRST, units: str = ""
+    ) -> str | None:
         """Return a frame as CSV, numbers in full: they read back unchanged; or write a file.
 
         A text that a spreadsheet would take for a formula has an apostrophe before it.
@@ -196,6 +211,9 @@ class Tabled(Record):
             A ``.csv`` file to write, in UTF-8; by default the text is returned.
         frame : str, default "table"
             Name of one of ``frames``.
+        units : str, default ""
+            Units of its numbers, as :func:`crankpin.units` takes them, by default those of results,
+            SI.
 
         Returns
         -------
@@ -205,12 +223,12 @@ class Tabled(Record):
         Raises
         ------
         InputError
-            If there is no such frame, the name ends otherwise, or the text would take more memory
-            than any result may.
+            If there is no such frame or unit, the name ends otherwise, or the text would take more
+            memory than any result may.
         OSError
             If the file cannot be written.
         """
-        table = self.frames[frame]
+        table = self._exported(frame, units)
         if path is None:
             table._check_text()
         return _written(_csv(table), path, ".csv")
@@ -224,7 +242,7 @@ class Tabled(Record):
     def to_latex(self, path: str | Path | None = None, *, frame: str = FIRST) -> str | None:
         """Return a frame as a table of LaTeX, which needs its package booktabs; or write a file.
 
-        The title is its caption; numbers are rounded as in text.
+        The title is its caption; numbers are rounded, and in the units, as in text.
 
         Parameters
         ----------
@@ -246,11 +264,22 @@ class Tabled(Record):
         OSError
             If the file cannot be written.
         """
-        table = self.frames[frame]
+        table = self.frames[frame]._in(unit_names.current())
         cells = table.cells()
         columns = "".join("l" if column.is_text else "r" for column in table.columns)
         text = latex.table(table.title, table.header, cells, table._notes(), columns)
         return _written(text, path, ".tex")
+
+
+def in_units(dataset: xr.Dataset, setting: unit_names.Setting) -> xr.Dataset:
+    """Return a Dataset in the units of a setting, coordinates included."""
+    for name, array in dataset.variables.items():
+        unit = array.attrs.get("units", "")
+        shown = unit_names.convert(unit, setting)
+        if shown.unit != unit:
+            attributes = {**array.attrs, "units": shown.unit}
+            dataset = dataset.assign({name: (array.dims, array.values * shown.factor, attributes)})
+    return dataset
 
 
 def _csv(table: Table) -> Iterator[str]:

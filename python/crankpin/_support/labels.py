@@ -114,6 +114,11 @@ def about_axis(cranks: Sequence[tuple[float, float, int]]) -> str:
 
 
 def printable(text: str) -> str:
+    """Return a name in one line, control characters as spaces, its figures in no other unit."""
+    return units.verbatim(one_line(text))
+
+
+def one_line(text: str) -> str:
     """Return a text in one line, control characters as spaces."""
     return " ".join(without_controls(text).split())
 

@@ -42,7 +42,7 @@ ESCAPES = str.maketrans(
 
 def escaped(text: str) -> str:
     """Return a text as LaTeX sets it, in one line."""
-    return labels.printable(text).translate(ESCAPES)
+    return labels.one_line(text).translate(ESCAPES)
 
 
 def in_mathematics(text: str) -> str:
@@ -64,7 +64,7 @@ def _cell(text: str) -> str:
 
 def _head(text: str) -> str:
     """Return a head of a column: symbols with an index in mathematics, ``|F_x|`` or ``M_z``."""
-    parts = SYMBOL.split(labels.printable(text))  # by turns text and symbols
+    parts = SYMBOL.split(labels.one_line(text))  # by turns text and symbols
     return "".join(
         f"${part}$" if k % 2 else part.translate(ESCAPES) for k, part in enumerate(parts)
     )

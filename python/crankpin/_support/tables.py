@@ -227,11 +227,7 @@ class Table(Tabled):
         first, *others = self.title.split("\n")
         if {*distinct} == {first.rpartition(", ")[2]}:
             first, _ = units.after_comma(first, setting)
-        name, colon, rest = first.partition(": ")  # of engines, which stay
-        title = "\n".join(
-            [name + colon + units.in_text(rest, setting)]
-            + [units.in_text(each, setting) for each in others]
-        )
+        title = "\n".join(units.in_text(each, setting) for each in (first, *others))
         return changed(
             self, title=title, columns=columns, note=units.in_text(self.note, setting),
             row_units=tuple(each.unit for each in shown),

@@ -248,6 +248,13 @@ def in_text(text: str, setting: Mapping[Dimension, str] | None = None) -> str:
     return _VECTOR.sub(several, _FIGURE.sub(one, text))
 
 
+def verbatim(name: str) -> str:
+    """Return a name whose figures are not those of the library: their spaces do not break."""
+    for figures in (_FIGURE, _VECTOR):
+        name = figures.sub(lambda found: found[0].replace(" ", "\N{NO-BREAK SPACE}"), name)
+    return name
+
+
 def after_comma(text: str, setting: Mapping[Dimension, str] | None = None) -> tuple[str, float]:
     """Return ``force, N`` with the unit that a setting shows, and the factor of its numbers."""
     match = re.fullmatch(r"(.*, )([^ ,]+)( \(.*\))?", text)

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from crankpin._support import inputs, labels, optional
-from crankpin._support.frames import Tabled
+from crankpin._support import units as unit_names
+from crankpin._support.frames import Tabled, in_units
 from crankpin._support.quantities import PLANE_VECTORS, kind_of
 from crankpin._support.tables import Column, Table
 
@@ -153,7 +154,11 @@ class Labelled(Tabled):
         return _long(self._arrays(())[0], parts, self.loads_counted)
 
     def to_xarray(
-        self, *quantities: str, frame: str | None = None, split_complex: bool = False
+        self,
+        *quantities: str,
+        frame: str | None = None,
+        units: str = "",
+        split_complex: bool = False,
     ) -> xr.Dataset:
         """Return the arrays with dimensions, units and bounds (needs xarray).
 
@@ -165,6 +170,9 @@ class Labelled(Tabled):
             ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
         frame : str, optional
             Name of one of ``frames``, to return its rows instead.
+        units : str, default ""
+            Units of its numbers, as :func:`crankpin.units` takes them, by default those of results,
+            SI.
         split_complex : bool, default False
             Store complex arrays as real ones with a dimension ``part`` of "re" and "im", for
             ``to_netcdf(path)``: netCDF has no complex numbers. With the package netCDF4,
@@ -178,7 +186,7 @@ class Labelled(Tabled):
         Raises
         ------
         InputError
-            If there is no such quantity or frame.
+            If there is no such quantity, frame or unit.
         ImportError
             If xarray is not installed.
 
@@ -192,10 +200,11 @@ class Labelled(Tabled):
         ('rpm', 'theta_deg', 'axis')
         """
         if frame is not None:
-            return super().to_xarray(frame=frame)
+            return super().to_xarray(frame=frame, units=units)
         named = self.request.named(quantities, self.causes)
         coords, arrays = self._arrays(named)
-        return dataset(self, named, coords, arrays, split_complex=split_complex)
+        whole = dataset(self, named, coords, arrays, split_complex=split_complex)
+        return in_units(whole, unit_names.read(units))
 
 
 def dataset(

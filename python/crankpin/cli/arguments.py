@@ -52,6 +52,9 @@ UNITS: dict[str, units.Dimension] = {
 class Parser(argparse.ArgumentParser):
     """A parser whose errors are an InputError in one line."""
 
+    refused: Callable[[argparse.Namespace], set[str]]
+    """Options that are rejected beside what was typed before them."""
+
     def parse_known_args(  # type: ignore[override] # of two overloads
         self, args: Sequence[str] | None = None, namespace: argparse.Namespace | None = None
     ) -> tuple[argparse.Namespace, list[str]]:
@@ -60,6 +63,8 @@ class Parser(argparse.ArgumentParser):
         if others:
             meant = inputs.nearest(others[0].partition("=")[0], self._option_string_actions)
             hint = meant or f"; see {self.prog} --help"
+            if Path(others[0]).suffix.lower() == ".csv" and getattr(found, "csv", False):
+                hint = f"; --csv prints CSV, so write it to a file by: --csv > {others[0]}"
             raise InputError(f"unrecognized arguments: {labels.cut(' '.join(others))}{hint}")
         return found, []
 
@@ -210,6 +215,20 @@ BUILDER = re.compile(
 """A builder of the library, by the name of its kind."""
 
 
+class Help(argparse._HelpAction):
+    """Help without the options that are rejected beside what is typed before it."""
+
+    def __call__(
+        self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, *_: object
+    ) -> None:
+        """Print the help of what was typed."""
+        refused = parser.refused(namespace) if isinstance(parser, Parser) else set()
+        for action in parser._actions:
+            if refused & {*action.option_strings}:
+                action.help = argparse.SUPPRESS
+        super().__call__(parser, namespace, None)
+
+
 class Option(NamedTuple):
     """An option as argparse takes it."""
 
@@ -229,9 +248,17 @@ COMMANDS: dict[str, Callable[[Commands], None]] = {}
 
 
 def command(
-    name: str, what: str, *options: str | Option, example: str, note: str = ""
+    name: str,
+    what: str,
+    *options: str | Option,
+    example: str,
+    note: str = "",
+    refused: Callable[[argparse.Namespace], set[str]] = lambda _: set(),
 ) -> Callable[[Run], Run]:
-    """Make a function a command; several options of :data:`OPTIONS` are named in one text."""
+    """Make a function a command; several options of :data:`OPTIONS` are named in one text.
+
+    ``refused`` names options that the help leaves out beside what is typed before it.
+    """
     listed = list[Option]()
     for each in options:
         if isinstance(each, Option):
@@ -247,7 +274,11 @@ def command(
                 description=f"{what[0].upper()}{what[1:]}.",
                 epilog=f"{note}\n\nexample:\n  {PROG} {example}".strip(),
                 formatter_class=argparse.RawDescriptionHelpFormatter,
+                add_help=False,
             )
+            parser.refused = refused
+            words = "show this help message and exit"
+            parser.add_argument("-h", "--help", action=Help, help=words)
             parser.set_defaults(run=run)
             groups: dict[str, argparse._ActionsContainer] = {"": parser}
             for names, settings, group in listed:
@@ -287,7 +318,11 @@ def error_in_options(error: InputError, typed: Mapping[str, object]) -> InputErr
     error.argument = re.sub(r"^\w+", lambda word: _option(word[0], among), error.argument)
     if error.value == "None" and error.argument.startswith("--"):  # None was not typed
         value = " is left out: "
-    error.hint = _hint_in_options(error.hint, typed)
+    all_options = _options(typed, left_out=True)
+    # Names of several words that stand alone.
+    bare = r"(?<![\w.(-])[a-z]+(_[a-z]+)+(?![\w(=.])"
+    hint = _hint_in_options(error.hint, typed)
+    error.hint = re.sub(bare, lambda word: _option(word[0], all_options), hint)
     error.args = (error.argument + value + error.hint,)
     return error
 

@@ -13,6 +13,7 @@ from crankpin.analysis.mounts.design_mounts import KINDS, design_mounts
 from crankpin.analysis.mounts.powertrain import Powertrain
 from crankpin.cli.arguments import MOST_ROWS, PROG, command, option, rejected
 from crankpin.cli.outputs import Shown
+from crankpin.model import engine_files
 
 if TYPE_CHECKING:
     from crankpin.cli.arguments import Given
@@ -20,6 +21,11 @@ if TYPE_CHECKING:
 AT_REST = ("--torque", "--gear", "--gravity", "--robustness")
 """Options of what is computed without a response."""
 PICTURES = ("cuts", "map", "waterfall", "spectrum")
+
+
+def _powertrain(given: Given) -> Powertrain:
+    """Return what FILE has."""
+    return Powertrain.load(engine_files.checked(given.text("name"), "FILE"))
 
 
 @command(
@@ -81,7 +87,7 @@ PICTURES = ("cuts", "map", "waterfall", "spectrum")
     note="A range is START:STOP:STEP (stop included), a list a,b,c, or one number.",
 )
 def _mounts(given: Given) -> Shown:
-    powertrain = Powertrain.load(given.text("name"))
+    powertrain = _powertrain(given)
     if given.text("--misfire") is not None:
         powertrain = powertrain.without(given.whole("--misfire"))
     rpm: Any = given.range("--rpm", "rpm")
@@ -209,7 +215,7 @@ def _at_rest(given: Given, powertrain: Powertrain) -> Shown:
     note=f"Also {PROG} mounts fit FILE …",
 )
 def _fit(given: Given) -> Shown:
-    powertrain = Powertrain.load(given.text("name"))
+    powertrain = _powertrain(given)
     bounds: dict[str, Any] = {}
     for kind in KINDS:
         flag = "--tilt" if kind == "tilt_deg" else f"--{kind}"

@@ -11,6 +11,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from crankpin._support import inputs, units
+from crankpin._support.warnings import suppressed
 from crankpin.analysis.mounts.powertrain import Powertrain
 from crankpin.cli.arguments import PROG, command, option, rejected
 from crankpin.model import checks, engine_files, presets
@@ -20,7 +21,8 @@ from crankpin.model.engine import Engine
 from crankpin.model.mounts import Mount, RigidBody
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    import argparse
+    from collections.abc import Callable, Iterable, Mapping
 
     from crankpin.cli.arguments import Given
 
@@ -100,6 +102,41 @@ COUNTING = ("--throws", "--cylinders", "--firing-order", "--banks", "--tdc", "--
 """Options that set the number of cylinders."""
 
 
+def _refused(typed: argparse.Namespace) -> set[str]:
+    """Return the options that a layout rejects, and those without effect on it."""
+    if typed.kind is None:
+        return set()
+    base = _layout(typed.kind)
+    refused = {*LAYOUT} - {*_flags(base)}
+    if "shared_pins" not in _names(base):
+        refused.add("--shared-pins")
+    if base.builder == "from_firing_order":
+        refused.add("--dummy")
+    if typed.kind not in BUILDERS and len(base.arguments.get("throws_deg", ())) == 1:
+        refused.add("--spacing")  # of one throw
+    return refused
+
+
+def _parameters(base: presets.Layout) -> Mapping[str, inspect.Parameter]:
+    """Return the parameters of the builder of a layout by name."""
+    return inspect.signature(getattr(Engine, base.builder)).parameters
+
+
+def _flags(base: presets.Layout) -> dict[str, str]:
+    """Return the options of a layout that it takes, with the argument of its builder."""
+    return {flag: name for flag, (name, *_) in LAYOUT.items() if name in _names(base)}
+
+
+def _names(base: presets.Layout) -> set[str]:
+    """Return the arguments that the builder of a layout takes."""
+    names = {*_parameters(base)}
+    if "places" in base.arguments:  # of a preset of lists, whose angles go together
+        names = {"spacing", "firing_order", "strokes"}
+    if "rule" in base.arguments:  # by which the intervals follow from the order
+        names -= {"intervals_deg", "shared_pins"}
+    return names
+
+
 def _wrapped(names: Iterable[str]) -> str:
     return textwrap.fill(", ".join(names), 88, initial_indent="  ", subsequent_indent="  ")
 
@@ -159,7 +196,9 @@ METAVARS = {
     f'or any preset ("{PROG} presets" lists them), whose layout is taken with other figures;\n'
     "or a builder, which takes its layout from options:\n"
     f"{_wrapped(BUILDERS)}\n"
-    "Lengths and masses take units: 86mm, 3.4in, 480g, 17oz, 1.2lb.",
+    "Lengths and masses take units: 86mm, 3.4in, 480g, 17oz, 1.2lb.\n"
+    f'"{PROG} new KIND --help" lists what that layout takes.',
+    refused=_refused,
 )
 def _new(given: Given) -> str:
     """Write the file; return what the command prints."""
@@ -229,14 +268,11 @@ def _engine(
         changes |= _split(base, changes)
     dummies = _dummies(given, base)
     spacing = changes.pop("spacing", None)
-    if spacing is None:
-        along = base.builder != "from_lists" or "places" in base.arguments
+    if assumed := spacing is None:
         first = cylinder[0] if isinstance(cylinder, list) else cylinder
         bores = None if first is None else first.bore, base.cylinder.bore
         ratio = bores[0] / bores[1] if bores[0] and bores[1] else 1.0
         spacing = float(f"{base.spacing * ratio:.3g}")
-        if along:
-            notes.append(f"Spacing {spacing * 1e3:g} mm, in proportion to the bore (--spacing).")
     order = base.arguments.get("firing_order", "")
     required = base.builder == "from_firing_order"
     known = bool(order) and "firing_order" not in changes and not required
@@ -244,9 +280,13 @@ def _engine(
     changes["source"] = shlex.join([PROG, *given.typed])
     if (name := given.text("--name")) is not None or {"throws_deg", "strokes"} & changes.keys():
         changes["name"] = name or ""
-    engine = base.build(
-        cylinder or base.cylinder, spacing, **changes | ({"firing_order": ""} if known else {})
-    )
+    changes |= {"firing_order": ""} if known else {}
+    engine = base.build(cylinder or base.cylinder, spacing, **changes)
+    if assumed:
+        with suppressed():  # Warned of above.
+            wider = base.build(cylinder or base.cylinder, 2.0 * spacing, **changes)
+        if (wider.z != engine.z).any():
+            notes.append(f"Spacing {spacing * 1e3:g} mm, in proportion to the bore (--spacing).")
     if dummies:
         engine = _with_dummies(given, engine, dummies, named)
     _check_count(given, kind, base, engine)
@@ -254,8 +294,6 @@ def _engine(
         engine = engine.replace(firing_order=allowed(engine._core, order, engine.strokes))
     if not engine.firing_order:
         notes.append(f'No firing order is known: "{PROG} firing" lists those of the crank.')
-    if len({*engine.z.tolist()}) == 1:
-        notes[:] = [note for note in notes if not note.startswith("Spacing")]
     return engine
 
 
@@ -316,11 +354,7 @@ def _layout(kind: str) -> presets.Layout:
 
 def _changes(given: Given, kind: str, base: presets.Layout) -> dict[str, Any]:
     """Return the arguments of the builder that options give."""
-    takes = inspect.signature(getattr(Engine, base.builder)).parameters
-    names = {*takes}
-    if "places" in base.arguments:  # of a preset of lists, whose angles go together
-        names = {"spacing", "firing_order", "strokes"}
-    flags = {flag: name for flag, (name, *_) in LAYOUT.items() if name in names}
+    takes, flags = _parameters(base), _flags(base)
     changes = dict[str, Any]()
     for flag, (name, how, _) in LAYOUT.items():
         if given.text(flag) is None:
@@ -330,7 +364,7 @@ def _changes(given: Given, kind: str, base: presets.Layout) -> dict[str, Any]:
             raise rejected(flag, given.text(flag), hint)
         changes[name] = _read(given, flag, how)
     if given.text("--shared-pins"):
-        if "shared_pins" not in takes:
+        if "shared_pins" not in _names(base):
             hint = "pins follow from a firing order in new firing-order alone; leave it out"
             raise inputs.faulty("--shared-pins", f"does not apply to {kind}", hint)
         changes["shared_pins"] = True
@@ -469,7 +503,7 @@ def _rod(
     ends = small is not None and big is not None
     if ends == (mass is not None) or (small is None) != (big is None):
         hint = "--small-end and --big-end, or else give --reciprocating-mass and --rotating-mass"
-        hint = f"a rod needs --rod-mass, or both {hint}"
+        hint = f"a rod needs --rod-mass, or both {hint}; firing needs neither lengths nor masses"
         if mass is None:
             raise inputs.faulty("--rod-mass", "is left out", hint)
         raise inputs.rejected("--rod-mass", mass, hint)

@@ -61,7 +61,7 @@ def _printed(given: Given, found: Shown) -> tuple[str, str]:
     """Return text or CSV, and the loads beside CSV, where a line would be a row to a program."""
     name = given.frame()
     if given.text("--csv"):
-        table = found.frames[name or FIRST]
+        table = found.frames[name or FIRST]._in(units.current())
         return table.to_csv(), table.loads
     shown = found.frames if name is None else found.frames[name]
     return f"{shown.text()}\n{units.in_text(found.note)}", ""

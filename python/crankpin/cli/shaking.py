@@ -12,13 +12,15 @@ import numpy as np
 from crankpin._support import inputs, labels, tables
 from crankpin._support.frames import FIRST, Frames
 from crankpin._support.quantities import QUANTITIES
-from crankpin._support.tables import Table
+from crankpin._support.record import changed
+from crankpin._support.tables import Column, Table
 from crankpin.analysis.ranking.rank import rank
 from crankpin.analysis.sweeps.sweep import Sweep, engine_titles, sweep
 from crankpin.cli.arguments import MOST_ROWS, PROG, command, option
 from crankpin.cli.outputs import Shown, in_short, left_out, only
 
 if TYPE_CHECKING:
+    from crankpin.analysis.balance import Balance
     from crankpin.cli.arguments import Given
 
 SWEPT = {
@@ -30,6 +32,10 @@ SWEPT = {
 """Swept dimension → its option and unit."""
 
 
+PHASES = (
+    "Order n is peak·cos(n·θ + phase), θ the crank angle: the phase is that of the phasor P in\n"
+    "Re(P·exp(i·n·θ)); x is to the right, y up, seen from the flywheel.\n"
+)
 HALF_ORDERS = (
     f"Half orders are those of gas pressure, which this engine lacks: try {PROG} torque.\n"
 )
@@ -38,7 +44,9 @@ HALF_ORDERS = (
 @command(
     "balance",
     "peaks of force, moment and torque at one speed, order by order",
-    "name --rpm --orders --rtol --quantity --reference-z --about --spectrum --units --csv --plot",
+    "name --rpm --orders --rtol --quantity --reference-z --about --spectrum",
+    option("--phases", action="store_true", help="print the phase beside the peak along each axis"),
+    "--units --csv --plot",
     example="balance v6-60 --rpm 6000 --plot v6.png",
 )
 def _balance(given: Given) -> Shown:
@@ -52,11 +60,27 @@ def _balance(given: Given) -> Shown:
     elif any(order % 1 for order in chosen["orders"]) and not engine.fired:
         note = HALF_ORDERS
     table = balance.table
+    if given.text("--phases"):
+        table, note = _with_phases(balance), PHASES + note
     if not given.text("--csv"):
         table = in_short(
             table, balance, *(n for n in balance.request.quantities if n != "crank_torque")
         )
     return Shown(only(table), balance, {"quantity": given.quantity([engine])}, note=note)
+
+
+def _with_phases(balance: Balance) -> Table:
+    """Return the table of a balance with the phase of each component beside its peak."""
+    keys, *peaks = balance.table.columns
+    names = [name for name in balance.request.quantities if name != "crank_torque"]
+    parts = [np.reshape(balance.read(name, "phasors"), (len(balance.orders), -1)) for name in names]
+    phasors = dict(zip(balance.orders, np.concatenate(parts, axis=1), strict=True))
+    columns = [keys]
+    for k, peak in enumerate(peaks):
+        of_rows = [phasors[key][k] if key in phasors else 0.0 for key in keys.values]
+        phases = tuple(float(np.angle(each, deg=True)) if each else None for each in of_rows)
+        columns += [peak, Column(f"{peak.name.strip('|')} phase", phases, "°", digits=4)]
+    return changed(balance.table, columns=tuple(columns))
 
 
 @command(
@@ -191,21 +215,21 @@ def _how(result: Sweep, given: Given) -> str:
 
 @command(
     "rank",
-    "engines ranked by an objective, best first, each at its best bank angles",
+    "engines ranked by an objective, best first, at the best of some bank angles or at their own",
     option("names", metavar="NAME", nargs="+", help="as for sweep"),
     "--by",
     option(
         "--bank-angle",
         metavar="RANGE",
-        help="degrees to choose from, or own for each engine's own (default: 10:170:10 if every "
-        "engine has two banks, else own)",
+        help="degrees to choose from, or own for each engine's own (default: own)",
     ),
     "--hold",
     option("--refine", action="store_true", help="look between these angles too"),
     "--rpm --orders --rtol --reference-z --spectrum --units --csv --plot",
     option("--save", help="write the best engine at its best bank angle (.toml, .json)"),
     "--force",
-    example="rank ijesc-v6 --rpm 5000 --by [1].moment.backward,[2].moment.peak",
+    example="rank ijesc-v6 --rpm 5000 --bank-angle 10:170:10 "
+    "--by [1].moment.backward,[2].moment.peak",
     note="Of several objectives the later ones break ties. They are total.moment.peak and\n"
     "total.force.peak (the longest vector, all orders together), the same with .peak_xy,\n"
     "total.torque.peak, [1].moment.backward (left by counterweights), [2].moment.peak\n"
@@ -213,11 +237,8 @@ def _how(result: Sweep, given: Given) -> str:
 )
 def _rank(given: Given) -> Shown:
     engines = given.engines()
-    own = given.text("--bank-angle") == "own"
+    own = given.text("--bank-angle") in (None, "own")
     angles: Any = None if own else given.range("--bank-angle", "°")
-    if given.text("--bank-angle") is None:
-        vees = all(len(engine.banks) == 2 for engine in engines.values())
-        own, angles = not vees, np.arange(10.0, 171.0, 10.0) if vees else None
     points = len(engines) * (1 if angles is None else np.size(angles))
     if points > MOST_ROWS:
         raise inputs.faulty("rank", f"has {points} points to rank", f"give {MOST_ROWS} at most")

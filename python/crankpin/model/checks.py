@@ -37,6 +37,18 @@ GYRATION = (1e-3, 5.0)
 MOUNT_STIFFNESS = (1e3, 1e9)
 """Stiffness of a mount, N/m, below and above which it is likely not in N/m."""
 
+DENSEST = 4e5
+"""Mass of a body over the product of its radii of gyration, kg/m³, that none of osmium reaches.
+
+Of all bodies of one density a ball has the most: 16.7 times the density.
+"""
+
+LEAST_DAMPING = 1e-5
+"""Damping of a mount over its stiffness, s: less is a loss of 1 % at 160 Hz, below any spring's."""
+
+LARGEST_LOSS = 3.0
+"""Loss factor of a mount above which it is likely in per cent: rubber reaches about 1."""
+
 UNITS = "Lengths are metres here, masses kilograms"
 MILLIMETRES = ": was it given in millimetres?"
 
@@ -154,18 +166,37 @@ def body(mass: float, cg: Sequence[float], moments: Sequence[float], missing: fl
             "it about the centre of gravity, with the right sign of its products?"
         )
     found = []
-    smallest, largest = (math.sqrt(moments[k] / mass) for k in (0, 2))
+    radii = [math.sqrt(moment / mass) for moment in moments]
+    smallest, largest = radii[0], radii[2]
     if smallest < GYRATION[0] or largest > GYRATION[1]:
         found.append(
             f"inertia has radii of gyration from {smallest:.3g} to {largest:.3g} m: are mass and "
             "inertia in kg and kg·m²?"
         )
+    elif mass > DENSEST * math.prod(radii):
+        found.append(
+            f"mass = {mass:g} kg has radii of gyration from {smallest:.3g} to {largest:.3g} m, so "
+            "dense is no metal: was it given in grams?"
+        )
     _report(found + _outside("cg", cg))
 
 
-def mount(name: str, at: Sequence[float], **stiffness: Iterable[float]) -> None:
+def mount(
+    name: str,
+    at: Sequence[float],
+    loss_factor: Sequence[float] = (),
+    damping: Sequence[float] = (),
+    **stiffness: Iterable[float],
+) -> None:
     """Warn of a mount whose figures seem to be in other units: its place, stiffness by argument."""
     found = []
+    if wrong := [each for each in loss_factor if each > LARGEST_LOSS]:
+        words = f"loss_factor of mount {name!r} = {wrong[0]:g}"
+        found.append(f"{words}: was it given in per cent?")
+    least_damping = LEAST_DAMPING * min(filter(None, stiffness.get("stiffness", ())), default=0.0)
+    if wrong := [each for each in damping if 0.0 < each < least_damping]:
+        words = f"damping of mount {name!r} = {wrong[0]:g} N·s/m"
+        found.append(f"{words}: was it given in N·s/mm?")
     least, most = MOUNT_STIFFNESS
     for argument, values in stiffness.items():
         if wrong := [k for k in values if k and not least <= k <= most]:

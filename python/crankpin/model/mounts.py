@@ -180,7 +180,8 @@ class Mount(Input):
     Warns
     -----
     UserWarning
-        If a stiffness seems to be in N/mm, or a place in millimetres.
+        If a stiffness seems to be in N/mm, damping in N·s/mm, a loss factor in per cent, or a place
+            in millimetres.
 
     Examples
     --------
@@ -240,7 +241,7 @@ class Mount(Input):
         fields["table"] = None if table is None else _table(table)
         self.__dict__.update(fields)
         _core.check_mount(self._figures)
-        checks.mount(self.name, fields["at"], **self._stiffnesses)
+        checks.mount(self.name, fields["at"], self.loss_factor, self.damping, **self._stiffnesses)
 
     @property
     def _figures(self) -> Any:  # noqa: ANN401 - as the core takes them
@@ -264,6 +265,10 @@ class Mount(Input):
         table = np.abs(self.table[1]).max(axis=0).tolist() if self.table is not None else ()
         along = {"stiffness": self.stiffness, "dynamic_stiffness": self.dynamic_stiffness or ()}
         return {**along, "table": table}
+
+    def _warn(self) -> None:
+        """Warn of figures in other units."""
+        checks.mount(self.name, self.at, self.loss_factor, self.damping, **self._stiffnesses)
 
     @classmethod
     def _of(cls, figures: Any) -> Mount:  # noqa: ANN401 - as the core gives them

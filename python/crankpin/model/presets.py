@@ -44,6 +44,8 @@ class Presets(Mapping[str, Engine]):
     Made by :func:`crankpin.presets`.
     """
 
+    __slots__ = ()
+
     def __getitem__(self, name: str) -> Engine:
         return preset(name)
 

@@ -107,6 +107,9 @@ def test_impossible_tensors_are_warned_of_with_their_figures() -> None:
         (lambda: cp.RigidBody(100, (0, 60, 0), (7, 8, 5)), "cg = .*millimetres"),
         (lambda: cp.RigidBody(100, (0, 0, 0), (7e6, 8e6, 5e6)), "radii of gyration"),
         (lambda: cp.RigidBody(1e5, (0, 0, 0), (7e-3, 8e-3, 5e-3)), "radii of gyration"),
+        (lambda: cp.RigidBody(150e3, (0, 0, 0), (7, 8, 4.5)), "mass = 150000 kg .*grams"),
+        (lambda: cp.Mount("a", (0, 0, 0), 2e5, damping=0.2), "damping of mount 'a' .*N·s/mm"),
+        (lambda: cp.Mount("a", (0, 0, 0), 2e5, loss_factor=8), "loss_factor of mount .*per cent"),
     ],
 )
 def test_other_units_are_warned_of(make: Callable[[], object], said: str) -> None:
@@ -219,3 +222,15 @@ def test_datasets_have_dimensions_and_units() -> None:
     data = P.response([800.0, 900.0], orders=[2]).to_xarray()
     assert data.mount_force.dims == ("rpm", "order", "mount", "axis")
     assert data.mount_force.attrs["units"] == "N"
+
+
+def test_bodies_as_dense_as_any_metal_are_not_warned_of() -> None:
+    """Balls and plates of osmium, 22 590 kg/m³; a car's engine has a fifteenth of that."""
+    for radius in (0.01, 0.3, 2.0):
+        mass = 22590 * 4 / 3 * np.pi * radius**3
+        cp.RigidBody(mass, (0, 0, 0), (0.4 * mass * radius**2,) * 3)
+    for a, b, c in [(0.5, 0.5, 0.01), (1.0, 0.05, 0.05), (0.3, 0.2, 0.1)]:
+        mass = 22590 * a * b * c
+        cp.RigidBody(mass, (0, 0, 0), mass / 12 * np.array([b**2 + c**2, a**2 + c**2, a**2 + b**2]))
+    cp.Mount("a", (0, 0, 0), 2e5, damping=5, loss_factor=1.2)
+    cp.Mount("a", (0, 0, 0), (2e5, 0, 0), damping=(50, 0, 0))

@@ -88,6 +88,7 @@ def test_a_receptance_is_the_body_it_was_measured_on() -> None:
     assert measured.power_in == near(total, 1e-11)
 
 
+@pytest.mark.filterwarnings("ignore:mass = 1e.12 kg")
 @pytest.mark.parametrize("kind", ["body", "receptance"])
 def test_what_does_not_move_is_one_stage(kind: str) -> None:
     still: Any = cp.Subframe(LOWER.replace(mass=1e12, inertia=(1e12,) * 3), four(4e5, 0.05))

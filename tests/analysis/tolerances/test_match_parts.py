@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import pickle
 from typing import TYPE_CHECKING, Any
 
@@ -339,3 +340,13 @@ def test_the_work_for_influences_grows_as_the_number_of_cylinders(
     assert len(parts.kinds) == 2
     # The engine itself, and a cylinder for each influence.
     assert sum(summed) <= 3 * count
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("length", [1e-310, 1e-300, 1e-12])
+def test_an_engine_of_next_to_no_length_is_matched_without_a_word_of_numpy(length: float) -> None:
+    cylinders = [cp.Cylinder(0.05, 0.15, 0.5)] * 4
+    z = [k * length for k in range(4)]
+    engine = cp.Engine.from_lists(cylinders, tdc_deg=[0, 180, 180, 0], bank_deg=[90] * 4, z=z)
+    match = cp.match_parts(engine, [0.5, 0.51, 0.52, 0.53])
+    assert math.isfinite(match.value)

@@ -345,7 +345,7 @@ class Counterweights(Tabled):
         ]
         note = "; ".join(words) + "."
         if "undecided" in note and self.missing:
-            note += f" Within {self.missing:.1e} of what was wanted."
+            note += f" {100.0 * self.missing:.3g} % of what was wanted is not removed."
         title = "Residual of order 1, half axes over ω²"
         heads = ["quantity", "state", "longest", "shortest"]
         units = [row[0].rpartition(", ")[2] for row in rows]

@@ -15,7 +15,7 @@ from crankpin.analysis.mounts import modes as natural
 from crankpin.analysis.mounts import response as forced
 from crankpin.analysis.mounts.robustness import MountRobustness
 from crankpin.analysis.request import engine_core
-from crankpin.model import checks, engine_files, supports
+from crankpin.model import engine_files, supports
 from crankpin.model.engine import Engine
 from crankpin.model.mounts import Mount, RigidBody
 from crankpin.model.supports import Receptance, Subframe, Support
@@ -688,7 +688,7 @@ class Powertrain(Input):
         body = RigidBody(mass, cg, inertia, products="tensor")
         mounts = [Mount._of(figures) for figures in core.mounts]
         for mount in mounts:
-            checks.mount(mount.name, mount.at, **mount._stiffnesses)
+            mount._warn()
         engine = Engine._read(core_engine)
         with suppressed():
             return cls(engine, body, mounts, supports.of_core(core.support))

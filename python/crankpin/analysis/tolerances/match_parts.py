@@ -111,7 +111,8 @@ class MeasuredParts(Record):
     ) -> NDArray[np.float64]:
         """Return forward and backward parts as real numbers, moments over half the length."""
         half = 0.5 * (self.engine.z.max() - self.engine.z.min())
-        together = np.concatenate([*force, *(moment / half if half > 0.0 else ())])
+        has_length = half > np.finfo(float).tiny  # by less no complex number can be divided
+        together = np.concatenate([*force, *(moment / half if has_length else ())])
         return np.concatenate([together.real, together.imag])
 
     def chosen(self, assignment: Assignment) -> tuple[NDArray[np.intp], ...]:
