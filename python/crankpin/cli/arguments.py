@@ -204,7 +204,8 @@ OPPOSITES = {"gauge": "absolute"}
 """Argument of the library that may be False → the option that says so."""
 RENAMED = {
     "path": "out", "to_crankpin": "rod_centre", "cylinder": "misfire", "amount_g_mm": "amounts",
-    "angle_deg": "angles", "measured_z": "measured", "correction_z": "correct",
+    "angle_deg": "angles", "measured_z": "measured", "correction_z": "correct", "point": "at",
+    "rods": "small_ends", "cycles": "leave_out",
 }  # fmt: skip
 """Argument of the library → the option of a command that has it under another name."""
 

@@ -222,6 +222,8 @@ def _coordinates(given: Given, flag: str) -> float | list[float | None] | None:
     if text is None or "," not in text:
         return given.optional(flag, "m")
     parts = text.split(",")
+    if all(part.strip() for part in parts):
+        return [*given.listed(flag, text, "m")]
     return [given.one(flag, part, "m") if part.strip() else None for part in parts]
 
 

@@ -398,6 +398,8 @@ def _read(given: Given, flag: str, how: str) -> Any:  # noqa: ANN401 - as the bu
     }
     if how in readers:
         return readers[how]()
+    if how != "angles" and "," in text:  # of a decimal, or one too many
+        text = repr(given.one(flag, text, "°"))
     typed = [each.strip().removesuffix("deg").rstrip("°") for each in text.split(",")]
     angles = [inputs.angle(flag, each) for each in typed]
     checks.radians(flag, text, [float(each) for each in typed if "." in each and "/" not in each])
