@@ -219,7 +219,7 @@ def main() -> None:
         write(here, counts)
     elif over := grown(counts, known):
         sys.exit(
-            f"ledger: over {TOLERANCE:.0%} more than {LEDGER.name} says: {', '.join(over)}. Mend"
+            f"ledger: over {TOLERANCE:.0%} more than {LEDGER.name} says: {', '.join(over)}. Fix"
             " it, or write the file anew with --update, and give the reason in the same commit"
         )
 
