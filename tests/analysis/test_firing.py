@@ -965,3 +965,33 @@ def test_intervals_of_cylinders_that_fire_together_are_named() -> None:
 def test_a_vee_of_an_odd_number_of_cylinders_is_shown_how() -> None:
     with pytest.raises(cp.InputError, match=r"Engine\.vee\(throws_deg=.*, absent=\[4\]"):
         cp.Engine.from_firing_order(CYLINDER, "1-3-2", bank_angle_deg=60, spacing=0.1)
+
+
+def test_intervals_in_place_of_a_firing_order_are_answered_with_where_they_go() -> None:
+    cylinder, i2 = cp.Cylinder(0.05, 0.15, 0.5), cp.Engine.preset("i2-360")
+    intervals = i2.firing().intervals_deg
+    said = r"^firing_order = \[360.0, 360.0\]: .*intervals are intervals_deg of Engine\."
+    for call in (
+        lambda: cp.Engine.from_firing_order(cylinder, intervals, spacing=0.1),
+        lambda: i2.firing(intervals),
+        lambda: i2.replace(firing_order=intervals.tolist()),
+    ):
+        with pytest.raises(cp.InputError, match=said):
+            call()
+    engine = cp.Engine.from_firing_order(cylinder, "1-2", intervals_deg=intervals, spacing=0.1)
+    assert engine.firing().intervals_deg.tolist() == intervals.tolist()
+
+
+def test_a_fast_crank_fires_in_no_order_and_says_so() -> None:
+    parts: dict[str, Any] = {"tdc_deg": [0, 90], "bank_deg": [90, 90], "z": [0, 0.1]}
+    parts |= {"cranks": [(0.3, 0, 2)], "crank": [0, 1]}
+    fast = cp.Engine.from_lists([cp.Cylinder(0.05, 0.15, 0.5)] * 2, **parts)
+    assert fast.firing_order == ""
+    for call in (
+        lambda: fast.firing("1-2"),
+        fast.firing_orders,
+        lambda: fast.replace(firing_order="1-2"),
+        lambda: fast.with_cycle(cp.Cycle.example()),
+    ):
+        with pytest.raises(cp.InputError, match=r"^cranks\[1\].ratio = 2: .*of ratio 1 or -1"):
+            call()

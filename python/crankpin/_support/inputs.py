@@ -461,7 +461,12 @@ def firing_order(
     """
     hint = "give cylinder numbers, such as '1-3-4-2' or [1, 3, 4, 2]"
     if not isinstance(values, str):
-        return "-".join(shorten(number) for number in items(name, values, hint))
+        listed = items(name, values, hint)
+        if any(isinstance(each, (float, np.floating)) for each in listed):
+            numbers = [float(each) if isinstance(each, np.floating) else each for each in listed]
+            hint = f"{hint}; firing intervals are intervals_deg of Engine.from_firing_order"
+            raise rejected(name, numbers, hint)
+        return "-".join(shorten(number) for number in listed)
     typed = text(name, values, hint)
     plain = typed.strip()
     if len(plain) <= len(DIGITS) and sorted(plain) == list(DIGITS[: len(plain)]):
