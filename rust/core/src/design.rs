@@ -10,7 +10,6 @@ mod objective;
 use self::objective::{ObjectiveFunction, Rotor, TurningPhasor, dot};
 use crate::Complex64;
 use crate::engine::{Engine, Origin};
-use crate::load::source::{Repeats, Scaling};
 use crate::load::{
     Arithmetic, Factor, Load, LoadIndex, LoadList, PhasorSum, Phasors, Term, Wanted, Weight,
     superpose,
@@ -22,6 +21,7 @@ use crate::numbers::limits;
 use crate::numbers::order::{self, Order};
 use crate::numbers::pool;
 use crate::readings::amplitude::{Amplitude, Amplitudes};
+use crate::source::{Repeats, Scaling};
 
 /// Weight of each objective relative to the one before it. A length that can vanish stays at zero under
 /// weights this small: its slope there is 1.

@@ -1,12 +1,12 @@
 //! A force of inertia that was given, order by order: it does not determine a torque, nor a motion.
 
-use super::source::{ExactFactor, ForcePart, INERTIA, Parts, Scale, Source, Tail, is_equal};
 use crate::Complex64;
 use crate::mechanism::at_own_orders;
 use crate::mechanism::spectrum::Spectrum;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
+use crate::source::{ExactFactor, ForcePart, INERTIA, Parts, Scale, Source, Tail, is_equal};
 
 /// Force over ω², kg·m: masses and radius are in it.
 #[derive(Debug, Clone, PartialEq)]

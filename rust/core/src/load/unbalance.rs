@@ -1,12 +1,12 @@
 //! A mass off the axis of a shaft that turns evenly.
 
-use super::kinematics::{AngleBlock, BLOCK, Columns, LoadSum, Quantities};
-use super::source::{ExactFactor, ForcePart, INERTIA, Parts, Scale, Source, Tail, is_equal};
 use crate::Complex64;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 use crate::numbers::simd::vectorised;
+use crate::source::over_angle::{AngleBlock, BLOCK, Columns, LoadSum, Quantities};
+use crate::source::{ExactFactor, ForcePart, INERTIA, Parts, Scale, Source, Tail, is_equal};
 
 /// Force over unbalance, ω² and the square of the shaft's speed, which this is.
 #[derive(Debug, Clone, PartialEq)]

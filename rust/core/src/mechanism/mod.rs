@@ -15,7 +15,7 @@ use crate::numbers::order::Order;
 
 /// How a piston moves: a slider-crank whose crank turns at some speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Mechanism {
+pub struct Mechanism {
     /// Its lengths; what moves has no mass here.
     cylinder: Cylinder,
     /// Proportions of its motion: its own, or those of a point of a sweep.
