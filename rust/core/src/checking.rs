@@ -87,8 +87,8 @@ fn same(reading: &str, found: Complex64, expected: Complex64, slack: f64) -> Res
     if (found - expected).norm() <= slack {
         return Ok(());
     }
-    let hint = format!("plain sums of the amplitudes of its source make {expected:.9}");
-    Err(Error::value(reading, format!("{found:.9}"), hint))
+    let hint = format!("plain sums of the amplitudes of its source make {expected:.9e}");
+    Err(Error::value(reading, format!("{found:.9e}"), hint))
 }
 
 /// Rejects what a source says of itself.
@@ -163,11 +163,12 @@ impl Amplitudes {
         };
         let (values, mean) = at(&orders)?;
         let all: Vec<Order> = (1..=4 * 16).map(Order::from_halves).collect::<Result<_>>()?;
+        let largest = values.iter().flatten().map(|value| value.norm()).fold(0.0, f64::max);
         for (order, of_order) in all.iter().zip(at(&all)?.0) {
             let own = orders.binary_search(order).map_or([Complex64::ZERO; 3], |k| values[k]);
             for (found, expected) in of_order.into_iter().zip(own) {
                 let reading = format!("Source::force or torque at order {order}");
-                same(&reading, found, expected, ROUNDING * expected.norm())?;
+                same(&reading, found, expected, ROUNDING * largest)?;
             }
         }
         let tails = source.up_to(Order::whole(HIGHEST)?, &cancel)?.map(|(_, tails)| tails);
@@ -347,7 +348,8 @@ impl<'a> Case<'a> {
         let on_shaft = self.on_shaft(k, rpm, turned);
         let [x, y] = if self.load.on == ActsOn::Both { [Complex64::ZERO; 2] } else { on_shaft };
         let ([at_x, at_y], _) = self.load.shaft(&self.bare);
-        let arm = [at_x - point[0], at_y - point[1], self.load.z - point[2]];
+        let axis = Complex64::new(at_x, at_y) * Complex64::cis(turned[0] / 360.0 * TAU);
+        let arm = [axis.re - point[0], axis.im - point[1], self.load.z - point[2]];
         [x, y, -y * arm[2], x * arm[2], roll + y * arm[0] - x * arm[1], crank]
     }
 

@@ -153,7 +153,8 @@ pub struct PeriodicLoad {
     /// Axis of a shaft of its own, x and y from that of the main crank, m.
     #[serde(default, skip_serializing_if = "is_default")]
     pub axis: [f64; 2],
-    /// Index of the cylinder with whose bank it turns as the bank angle changes; in files its number, from 1.
+    /// Index of the cylinder with whose bank it and its axis turn about the main crank as the bank angle changes; in
+    /// files its number, from 1.
     #[serde(default, skip_serializing_if = "is_default", with = "number_from_one")]
     pub cylinder: Option<usize>,
 }
@@ -422,12 +423,15 @@ impl Engine {
         }
     }
 
-    /// Turns the loads of a cylinder's bank with it, by an angle; with the pins held their phase goes along.
+    /// Turns the loads of a cylinder's bank with it, by an angle, their axes too; with the pins held their phase
+    /// goes along.
     pub(super) fn turn_loads(&mut self, bank: usize, by: Angle, with_phase: bool) {
         let bank_of = &self.bank_of;
         for load in
             self.loads.iter_mut().filter(|load| load.cylinder.is_some_and(|i| bank_of[i] == bank))
         {
+            let ([x, y], Complex64 { re: cos, im: sin }) = (load.axis, by.cis(1));
+            load.axis = [x * cos - y * sin, x * sin + y * cos];
             load.direction_deg = (load.direction_deg + by).reduced();
             if with_phase {
                 load.phase_deg = in_two_turns(load.phase_deg + by);

@@ -15,6 +15,7 @@ use crate::numbers::index::ListIndex;
 use crate::numbers::order::Order;
 use crate::source::{
     ForcePart, Parts, Point, Repeats, Scale, Scaling, Source, Tail, TorqueAmplitudes, is_equal,
+    resolved,
 };
 
 /// Amplitudes of some orders, ascending.
@@ -89,7 +90,7 @@ pub(crate) fn shaft_forces(
         let (half_phase, mut waves) = (load.phase_deg.half(), Vec::new());
         for (source, direction) in directed(load, engine) {
             let Parts { force: Some(_), scaling, .. } = source.parts() else { continue };
-            let (orders, unit) = (source.orders(Order::HIGHEST), direction.cis(1));
+            let (orders, unit) = (source.orders(resolved(&*source)?), direction.cis(1));
             for (order, amplitude) in orders.iter().zip(source.force(&orders, cancel)?) {
                 let halves = i64::from(order.halves());
                 let forward = 0.5 * scaling.factor(omega) * amplitude * half_phase.cis(-halves);

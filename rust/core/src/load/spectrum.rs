@@ -35,14 +35,16 @@ impl Source for GivenForce {
         })
     }
 
-    fn orders(&self, _: Order) -> Vec<Order> {
+    fn orders(&self, highest: Order) -> Vec<Order> {
         let own = self.spectrum.orders().into_iter();
-        own.filter_map(|own| Order::whole(own * self.ratio.unsigned_abs()).ok()).collect()
+        let orders = own.filter_map(|own| Order::whole(own * self.ratio.unsigned_abs()).ok());
+        orders.filter(|order| *order <= highest).collect()
     }
 
-    /// All of its orders are evaluated.
-    fn beyond(&self, _: u32, _: bool) -> Tail {
-        Tail::default()
+    fn beyond(&self, halves: u32, _: bool) -> Tail {
+        let own = self.spectrum.orders().into_iter();
+        let left = own.filter(|own| 2 * own * self.ratio.unsigned_abs() > halves);
+        Tail { force: left.map(|own| self.spectrum.amplitude(own).norm()).sum(), torque: 0.0 }
     }
 
     fn scale(&self) -> Scale {

@@ -36,13 +36,14 @@ impl Source for TurningUnbalance {
         Ok(orders.iter().map(one).collect())
     }
 
-    fn orders(&self, _: Order) -> Vec<Order> {
-        Order::whole(self.ratio.unsigned_abs()).into_iter().collect()
+    fn orders(&self, highest: Order) -> Vec<Order> {
+        let own = Order::whole(self.ratio.unsigned_abs());
+        own.into_iter().filter(|own| *own <= highest).collect()
     }
 
-    /// Its only order is always evaluated.
-    fn beyond(&self, _: u32, _: bool) -> Tail {
-        Tail::default()
+    fn beyond(&self, halves: u32, _: bool) -> Tail {
+        let is_left_out = 2 * self.ratio.unsigned_abs() > halves;
+        Tail { force: f64::from(u8::from(is_left_out)), torque: 0.0 }
     }
 
     fn scale(&self) -> Scale {

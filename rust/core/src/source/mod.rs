@@ -63,6 +63,7 @@ use crate::numbers::UNIT_RPM;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::error::Result;
+use crate::numbers::limits;
 use crate::numbers::order::Order;
 use crate::pressure::Cycle;
 
@@ -343,7 +344,7 @@ pub trait Source: Debug + Send + Sync + Any {
         columns: &mut Columns,
     ) -> Result<()> {
         let cancel = Cancel::new();
-        let orders = self.orders(Order::HIGHEST);
+        let orders = self.orders(resolved(self)?);
         let Columns { force: [force_x, force_y], moment: [moment_x, moment_y], torque } = columns;
         let [force, moment, arm] = [sum.force, sum.moment, sum.arm].map(|sum| sum * factor);
         let [on_block, on_crank] = torque;
@@ -391,6 +392,23 @@ pub trait Source: Debug + Send + Sync + Any {
     #[doc(hidden)]
     fn add_inertia(&self, sum: &LoadSum, angles: &CrankAngles, into: [&mut [f64]; 2]) {
         let _ = (sum, angles, into);
+    }
+}
+
+/// An order above which all of a source together are rounding.
+pub(crate) fn resolved<S: Source + ?Sized>(source: &S) -> Result<Order> {
+    /// Part of all orders that is rounding.
+    const ROUNDING: f64 = 1e-17;
+    let all = source.beyond(0, true);
+    let mut highest = 1;
+    loop {
+        let rest = source.beyond(2 * highest, true);
+        let is_below = |rest: f64, all: f64| rest.is_finite() && rest <= ROUNDING * all;
+        let is_rounding = is_below(rest.force, all.force) && is_below(rest.torque, all.torque);
+        if is_rounding || highest == limits::HIGHEST_ORDER {
+            return Order::whole(highest);
+        }
+        highest = limits::HIGHEST_ORDER.min(2 * highest);
     }
 }
 
