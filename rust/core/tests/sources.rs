@@ -36,7 +36,7 @@ impl ValveSprings {
 }
 
 impl Source for ValveSprings {
-    fn name(&self) -> &str {
+    fn name(&self) -> &'static str {
         SPRINGS
     }
 
@@ -66,7 +66,7 @@ impl Source for ValveSprings {
 struct Belt;
 
 impl Source for Belt {
-    fn name(&self) -> &str {
+    fn name(&self) -> &'static str {
         "belt"
     }
 
@@ -100,7 +100,7 @@ impl Pulses {
 }
 
 impl Source for Pulses {
-    fn name(&self) -> &str {
+    fn name(&self) -> &'static str {
         "pulses"
     }
 
@@ -134,7 +134,7 @@ impl Source for Pulses {
 }
 
 fn load(source: impl Source, on: ActsOn) -> PeriodicLoad {
-    PeriodicLoad::of(Arc::new(source), on)
+    PeriodicLoad::of(source, on)
 }
 
 fn four() -> Engine {

@@ -102,7 +102,7 @@ fn sources_of_the_house_are_counted_by_every_reading() {
         if kinds.contains(&kind) {
             continue;
         }
-        let mut load = PeriodicLoad::of(Arc::new(Renamed(Arc::clone(source))), ActsOn::Block);
+        let mut load = PeriodicLoad::of(Renamed(Arc::clone(source)), ActsOn::Block);
         if source.parts().force == Some(ForcePart::Turning) {
             // The shaft that a force turns with has its speed.
             load.ratio = source.orders(Order::HIGHEST)[0].number();

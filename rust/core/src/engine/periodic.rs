@@ -215,8 +215,9 @@ impl PeriodicLoad {
 
     /// A load of a source, under its name, whose force acts on something.
     #[must_use]
-    pub fn of(source: Arc<dyn Source>, on: ActsOn) -> Self {
-        Self { source: Some(Arc::clone(&source)), ..Self::new(source.name(), on) }
+    pub fn of(source: impl Source, on: ActsOn) -> Self {
+        let load = Self::new(source.name(), on);
+        Self { source: Some(Arc::new(source)), ..load }
     }
 
     /// Rejects what no engine can have; `place` is its name in errors, and a point.

@@ -6,8 +6,6 @@
 //! readings, against plain sums of its own amplitudes.
 //!
 //! ```
-//! use std::sync::Arc;
-//!
 //! use crankpin_core::engine::{ActsOn, PeriodicLoad};
 //! use crankpin_core::source::{Parts, Repeats, Scaling, Source, Tail, TorqueAmplitudes};
 //! use crankpin_core::{Cancel, Complex64, Order, Result, check_source};
@@ -17,7 +15,7 @@
 //! struct ValveSprings;
 //!
 //! impl Source for ValveSprings {
-//!     fn name(&self) -> &str {
+//!     fn name(&self) -> &'static str {
 //!         "valve springs"
 //!     }
 //!
@@ -40,7 +38,7 @@
 //!     }
 //! }
 //!
-//! let springs = PeriodicLoad::of(Arc::new(ValveSprings), ActsOn::Both);
+//! let springs = PeriodicLoad::of(ValveSprings, ActsOn::Both);
 //! check_source(&springs, None)?;
 //! # Ok::<(), crankpin_core::Error>(())
 //! ```
@@ -142,7 +140,7 @@ pub enum Repeats {
 
 impl Parts {
     /// Of inertia that repeats in a turn.
-    pub const fn inertia(force: Option<ForcePart>, roll: bool) -> Self {
+    pub(crate) const fn inertia(force: Option<ForcePart>, roll: bool) -> Self {
         Self { force, roll, scaling: Scaling::SpeedSquared, repeats: Repeats::EveryTurn }
     }
 }
