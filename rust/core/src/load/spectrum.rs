@@ -41,10 +41,11 @@ impl Source for GivenForce {
         orders.filter(|order| *order <= highest).collect()
     }
 
+    /// All of its orders are evaluated: no bound does without them.
     fn beyond(&self, halves: u32, _: bool) -> Tail {
-        let own = self.spectrum.orders().into_iter();
-        let left = own.filter(|own| 2 * own * self.ratio.unsigned_abs() > halves);
-        Tail { force: left.map(|own| self.spectrum.amplitude(own).norm()).sum(), torque: 0.0 }
+        let mut own = self.spectrum.orders().into_iter();
+        let is_left_out = own.any(|own| 2 * own * self.ratio.unsigned_abs() > halves);
+        Tail { force: if is_left_out { f64::INFINITY } else { 0.0 }, torque: 0.0 }
     }
 
     fn scale(&self) -> Scale {

@@ -41,9 +41,10 @@ impl Source for TurningUnbalance {
         own.into_iter().filter(|own| *own <= highest).collect()
     }
 
+    /// Its only order is always evaluated: no bound does without it.
     fn beyond(&self, halves: u32, _: bool) -> Tail {
         let is_left_out = 2 * self.ratio.unsigned_abs() > halves;
-        Tail { force: f64::from(u8::from(is_left_out)), torque: 0.0 }
+        Tail { force: if is_left_out { f64::INFINITY } else { 0.0 }, torque: 0.0 }
     }
 
     fn scale(&self) -> Scale {
