@@ -9,7 +9,7 @@ mod objective;
 
 use self::objective::{ObjectiveFunction, Rotor, TurningPhasor, dot};
 use crate::Complex64;
-use crate::engine::{Engine, Origin};
+use crate::engine::Engine;
 use crate::load::{
     Arithmetic, Factor, Load, LoadIndex, LoadList, PhasorSum, Phasors, Term, Wanted, Weight,
     superpose,
@@ -149,14 +149,8 @@ impl Objectives {
         let turns = |of: &dyn Fn(&Variable) -> f64| variables.iter().map(of).collect::<Vec<f64>>();
         let of_cylinder = |i: usize| [turns(&|each| each.bores[i]), turns(&|each| each.pins[i])];
         let fixed = || [vec![0.0; variables.len()], vec![0.0; variables.len()]];
-        let of_load = |load: &Load| match load.place.origin {
-            Origin::Cylinder(i) => of_cylinder(i),
-            Origin::Counterweight(k) => {
-                engine.counterweights()[k].pin.map_or_else(fixed, of_cylinder)
-            }
-            Origin::Shaft(_) => fixed(),
-            Origin::Load(k) => engine.loads()[k].cylinder.map_or_else(fixed, of_cylinder),
-        };
+        let of_load =
+            |load: &Load| engine.cylinder_with(load.place.origin).map_or_else(fixed, of_cylinder);
         let all_turns = loads.list.map_to(of_load);
         let arithmetic =
             Rotors { phasors: Phasors { reference: loads.reference }, turns: &all_turns };

@@ -77,11 +77,7 @@ pub(crate) fn shaft_forces(
     let mut forces = Vec::new();
     for load in LoadList::new(engine, 0.0).list.iter().filter(|load| load.is_turning()) {
         let place = &load.place;
-        let crank = match place.origin {
-            Origin::Cylinder(i) => Some(engine.crank_of(i)),
-            Origin::Counterweight(k) => Some(engine.crank_carrying(&engine.counterweights()[k])),
-            Origin::Shaft(_) | Origin::Load(_) => None,
-        };
+        let crank = engine.crank_with(place.origin);
         let force = load.weight * omega * omega * f64::from(place.speed_squared());
         let at_start = place.unit * place.phase.cis(-i64::from(place.ratio)) * force;
         forces.push(ShaftForce { z: place.z, crank, waves: vec![(2 * place.ratio, at_start)] });
