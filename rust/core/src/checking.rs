@@ -395,7 +395,7 @@ impl<'a> Case<'a> {
         Request { rpm, reference_z: Some(point[2]), torque: true }
     }
 
-    /// Orders that are asked for: those of the load and two that engines have, up to 24.
+    /// Orders that are compared: those of the load and two that engines have, up to 24.
     fn orders(&self) -> Result<Vec<Order>> {
         let mut orders = Order::all_whole(&[1, 2, 7])?;
         orders.extend(self.amplitudes.orders.iter().filter(|order| order.halves() <= 48));

@@ -227,8 +227,8 @@ pub type SourceUpTo = (Arc<dyn Source>, Vec<f64>);
 /// What acts at a place, over the weights of a load.
 ///
 /// A source says what every reading asks of it; none asks which source it is. It has a name, says how it acts,
-/// and has orders, their amplitudes and a bound of the rest; what else there is follows from these. The least
-/// of a source is [`name`], [`parts`], [`orders`], [`beyond`], and [`force`] or [`torque`].
+/// and has orders, their amplitudes and a bound of the rest; what else there is follows from these. A minimal
+/// source has [`name`], [`parts`], [`orders`], [`beyond`], and [`force`] or [`torque`].
 ///
 /// Orders are multiples of the speed of the main crank, whatever the shaft; amplitudes are peak phasors, those
 /// of order n at a crank angle θ `Re(A·e^{in(θ − φ)})`, with φ the phase of the place, and do not change with
