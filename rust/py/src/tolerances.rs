@@ -4,7 +4,7 @@ use crate::array::frozen;
 use crankpin_core as core;
 use crankpin_core::peaks::largest_sums;
 use crankpin_core::tolerances::{Deviations, Distribution, FIGURES};
-use crankpin_core::{Complex64, Order, Request, memory};
+use crankpin_core::{Complex64, Request, memory};
 use crankpin_macros::guarded;
 use ndarray::Array3;
 use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};

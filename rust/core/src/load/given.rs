@@ -75,7 +75,7 @@ pub(crate) fn shaft_forces(
     cancel: &Cancel,
 ) -> Result<Vec<ShaftForce>> {
     let mut forces = Vec::new();
-    for load in LoadList::new(engine, 0.0).list.iter().filter(|load| load.is_turning()) {
+    for load in LoadList::of(engine, 0.0)?.list.iter().filter(|load| load.is_turning()) {
         let place = &load.place;
         let crank = engine.crank_with(place.origin);
         let force = load.weight * omega * omega * f64::from(place.speed_squared());
