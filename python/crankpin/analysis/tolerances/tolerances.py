@@ -90,7 +90,7 @@ def tolerances(
         ``"total.moment.peak"`` or ``"[1].force.backward"``. By default the total peaks and the
         forward and backward parts of order 1.
     orders : float, sequence of float or "auto", default "auto"
-        Whole multiples of crank speed; by default the few that leave out at most ``rtol`` of any
+        Multiples of crank speed; by default the few that leave out at most ``rtol`` of any
         single cylinder, because tolerances undo what the layout cancels.
     rtol : float, optional
         For ``orders="auto"``: what omitted orders of one cylinder may add up to, relative to its
