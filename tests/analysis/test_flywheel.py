@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import crankpin as cp
 import numpy as np
@@ -561,3 +561,20 @@ def test_orders_that_the_engine_cancels_are_not_listed() -> None:
     assert cp.flywheel(fired, 800, inertia=0.1).frames["orders"]["order"].values == (2.0, 4.0, 6.0)
     steady = cp.flywheel(([0, 360], [300, 300]), rpm=600, inertia=2.0)
     assert steady.frames["orders"]["order"].values == ()
+
+
+@pytest.mark.parametrize("strokes", [2, 4])
+def test_further_loads_on_the_crank_drive_it_too(strokes: Literal[2, 4]) -> None:
+    cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+    cycle = cp.Cycle.example(strokes=strokes)
+    twin = cp.Engine.from_firing_order(cylinder, "1-2", spacing=0.1, strokes=strokes)
+    fired = twin.with_cycle(cycle)
+    pump = cp.PeriodicLoad("pump", on="both", torque={0: -12.0, 0.5: 30.0, 2: 20j})
+    alone, driven = (
+        cp.flywheel(engine, 2000, inertia=0.2) for engine in (fired, fired.with_loads([pump]))
+    )
+    theta = np.radians(driven.theta_deg)
+    added = -12.0 + 30.0 * np.cos(0.5 * theta) - 20.0 * np.sin(2 * theta)
+    gas = fired.waveform(2000, driven.theta_deg).read("crank_torque.gas")
+    np.testing.assert_allclose(driven.torque, gas + added, atol=1e-9 * np.abs(gas).max())
+    assert driven.mean_torque == pytest.approx(alone.mean_torque - 12.0, rel=1e-9)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import copy
 import pickle
 import warnings
@@ -132,6 +133,36 @@ def test_an_engine_with_a_load_is_the_sum_of_both(seed: int) -> None:
         assert np.abs(np.asarray(whole) - np.asarray(own) - added).max() < 1e-12 * size
         parts = sum(np.asarray(whole.part(name)) for name in whole.parts)
         assert np.abs(np.asarray(whole) - parts).max() < 1e-12 * size
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_loads_add_up_in_bearings_mounts_tolerances_and_words(seed: int) -> None:
+    """Of two loads: with both, less with either, plus without is nothing, at half orders too."""
+    random = np.random.default_rng(400 + seed)
+    bare = engine(seed)
+    one, other = (built(drawn(random), name) for name in ("one", "other"))
+    engines = [bare.with_loads(loads) for loads in ([], [one], [other], [one, other])]
+    orders, rpm = [0.5, 1, 1.5, 2, 3, 4], 2500.0
+
+    def read(each: cp.Engine) -> list[np.ndarray[Any, Any]]:
+        arrays = [np.asarray(on_mounts(each).response(rpm, orders=orders).load)]
+        with contextlib.suppress(cp.InputError):  # a crank without throws has no bearings
+            arrays.append(np.asarray(cp.bearing_loads(each, rpm, THETA).main))
+        if each.cycles is None:
+            spread = cp.tolerances(each, rpm=rpm, orders=orders, z=1e-3, samples=3)
+            arrays += [np.asarray(getattr(spread, quantity)) for quantity in QUANTITIES]
+        return arrays
+
+    for without, first, second, both in zip(*map(read, engines), strict=True):
+        size = np.abs(both).max() + np.abs(without).max() + 1.0
+        assert np.abs(both - first - second + without).max() < 1e-11 * size
+    texts = [each.explain(rpm).findings for each in engines]
+    for findings in texts[1:]:
+        assert [each for each in findings if each.kind != "load"] == list(texts[0])
+        assert len(findings) > len(texts[0])
+    if bare.firing_order:
+        stars = [cp.star_diagram(each, orders) for each in engines]
+        assert all(np.array_equal(stars[0].sums, star.sums) for star in stars)
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -57,8 +57,8 @@ def flywheel(
 
     The speed follows from the first integral of the equation of motion,
     ½J(θ)ω² = E₀ + ∫(T − T_load)dθ, exact for any fluctuation. Of an engine T is the torque of gas
-    pressure, and J varies with the motion of pistons and rods: that is their inertia torque, which
-    does not count in T a second time.
+    pressure and of its further loads, and J varies with the motion of pistons and rods: that is
+    their inertia torque, which does not count in T a second time.
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ def flywheel(
     inputs.only_one_of(inertia=inertia, irregularity=irregularity)
     engine = drive if isinstance(drive, EngineData) else None
     if engine is not None:
-        torque = _of_gas(engine, inputs.number("rpm", rpm), period_deg)
+        torque = _of_engine(engine, inputs.number("rpm", rpm), period_deg)
         checks.flywheel(engine._core, inputs.optional_number("inertia", inertia) or 0.0)
     else:
         torque = _diagram("drive", drive, period_deg)
@@ -234,7 +234,7 @@ class Flywheel(TwoPanels, Tabled):
     speed_rpm: NDArray[np.float64]
     """Speed there, rpm."""
     torque: NDArray[np.float64]
-    """Torque of the drive there, N·m; the gas's of an engine."""
+    """Torque of the drive there, N·m; of an engine all but that of inertia."""
     load: NDArray[np.float64]
     """Torque of the load there, N·m."""
     inertia_torque: NDArray[np.float64]
@@ -400,8 +400,8 @@ class _Diagram(NamedTuple):
     """Angles at which it bends or jumps."""
 
 
-def _of_gas(engine: Engine, rpm: float, period_deg: object) -> _Diagram:
-    """Return the torque of an engine's gas pressure on the crank."""
+def _of_engine(engine: Engine, rpm: float, period_deg: object) -> _Diagram:
+    """Return the torque on an engine's crank, but that of inertia."""
     cycles = engine.cycles
     if cycles is None:
         hint = "has no driving torque; give it gas pressure with engine.with_cycle(…)"
@@ -417,9 +417,15 @@ def _of_gas(engine: Engine, rpm: float, period_deg: object) -> _Diagram:
     ]
 
     def at(theta: NDArray[np.float64]) -> NDArray[np.float64]:
-        return waveform(engine, rpm, theta_deg=theta).read("crank_torque.gas")
+        whole = waveform(engine, rpm, theta_deg=theta)
+        parts = [whole.read(f"crank_torque.{name}") for name in whole.causes if name != "inertia"]
+        return np.asarray(sum(parts))
 
-    return _Diagram(at, 180.0 * engine.strokes, np.concatenate(bends))
+    # Loads of half orders repeat in two turns.
+    own = 180.0 * engine.strokes
+    period = TWO_TURNS if engine.loads else own
+    knots = [bend + start for start in np.arange(0.0, period, own) for bend in bends]
+    return _Diagram(at, period, np.concatenate(knots))
 
 
 def _bends(cycle: Cycle) -> NDArray[np.float64]:

@@ -79,8 +79,8 @@ class PeriodicLoad(Input):
     x, y : float, default 0.0
         Axis of its own shaft from that of the main crank, seen from the flywheel, m.
     cylinder : int, optional
-        Number of a cylinder with whose bank it turns as the bank angle changes, as a camshaft's
-        load does; by default it stays.
+        Number of a cylinder with whose bank it and its axis turn as the bank angle changes, as a
+        camshaft's load does; by default it stays.
 
     Raises
     ------

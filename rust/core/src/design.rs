@@ -9,8 +9,7 @@ mod objective;
 
 use self::objective::{ObjectiveFunction, Rotor, TurningPhasor, dot};
 use crate::Complex64;
-use crate::engine::{Engine, Origin};
-use crate::load::source::{Repeats, Scaling};
+use crate::engine::Engine;
 use crate::load::{
     Arithmetic, Factor, Load, LoadIndex, LoadList, PhasorSum, Phasors, Term, Wanted, Weight,
     superpose,
@@ -22,6 +21,7 @@ use crate::numbers::limits;
 use crate::numbers::order::{self, Order};
 use crate::numbers::pool;
 use crate::readings::amplitude::{Amplitude, Amplitudes};
+use crate::source::{Repeats, Scaling};
 
 /// Weight of each objective relative to the one before it. A length that can vanish stays at zero under
 /// weights this small: its slope there is 1.
@@ -149,14 +149,8 @@ impl Objectives {
         let turns = |of: &dyn Fn(&Variable) -> f64| variables.iter().map(of).collect::<Vec<f64>>();
         let of_cylinder = |i: usize| [turns(&|each| each.bores[i]), turns(&|each| each.pins[i])];
         let fixed = || [vec![0.0; variables.len()], vec![0.0; variables.len()]];
-        let of_load = |load: &Load| match load.place.origin {
-            Origin::Cylinder(i) => of_cylinder(i),
-            Origin::Counterweight(k) => {
-                engine.counterweights()[k].pin.map_or_else(fixed, of_cylinder)
-            }
-            Origin::Shaft(_) => fixed(),
-            Origin::Load(k) => engine.loads()[k].cylinder.map_or_else(fixed, of_cylinder),
-        };
+        let of_load =
+            |load: &Load| engine.cylinder_with(load.place.origin).map_or_else(fixed, of_cylinder);
         let all_turns = loads.list.map_to(of_load);
         let arithmetic =
             Rotors { phasors: Phasors { reference: loads.reference }, turns: &all_turns };

@@ -8,6 +8,7 @@
 //! - [`pressure`]: cylinder pressure over a cycle, and the torque of it;
 //! - [`mounts`]: a rigid body on elastic mounts, without an engine;
 //! - [`matching`]: parts of different masses assigned to cylinders;
+//! - [`source`]: what acts at a place of an engine: its own loads, and those of other crates;
 //! - [`engine`]: running gears, banks, cranks and shafts in their places, layouts, files;
 //! - [`firing`]: firing orders, their intervals, gas exchange;
 //! - `load`: every load of an engine in one list, superposed order by order;
@@ -15,7 +16,8 @@
 //!   exact answers, explanations in words;
 //! - [`balancing`]: counterweights and balance shafts fitted to an engine;
 //! - [`design`]: objectives of angles that vary, and their derivatives;
-//! - [`search`]: crank arrangements.
+//! - [`search`]: crank arrangements;
+//! - `checking`: sources run through every reading.
 //!
 //! Conventions: SI units; x to the right, y up and z from the front to the flywheel, seen from the
 //! flywheel, where the crank turns counter-clockwise; a quantity of order n is `Re(P·e^{inθ})`
@@ -25,6 +27,7 @@
 #![forbid(unsafe_code)]
 
 pub mod balancing;
+mod checking;
 pub mod design;
 pub mod engine;
 pub mod firing;
@@ -36,8 +39,11 @@ pub mod numbers;
 pub mod pressure;
 pub mod readings;
 pub mod search;
+pub mod source;
 pub mod wrench;
 
+pub use checking::Measured;
+pub use checking::check_source;
 pub use engine::{Crank, Engine, Hold, Shaft, Station, Unbalance, layout};
 pub use firing::Firing;
 pub use mechanism::slider_crank::Cylinder;

@@ -52,3 +52,72 @@ fn modules_import_those_above_them_alone() {
         }
     }
 }
+
+/// Folders whose subject are parts that move and the pressure on them.
+const HOMES: [&str; 5] = ["engine", "load", "mechanism", "pressure", "source"];
+
+/// Files and folders besides that name gas, pistons, rods or [`Origin`]s, and why.
+///
+/// [`Origin`]: crankpin_core::engine::Origin
+const NAMING: [(&str, &str); 16] = [
+    ("balancing/shafts.rs", "shafts stand beyond the reach of rods"),
+    ("checking.rs", "its engines have gas, and its load is an origin"),
+    ("firing/", "a word of errors and a module: pistons fire, gas is exchanged"),
+    ("lib.rs", "exports"),
+    ("readings/bearing_loads/", "rods, pistons and walls are what carries"),
+    ("readings/choice.rs", "an error names the rod ratio whose harmonics have no end"),
+    ("readings/drawing.rs", "draws them"),
+    ("readings/exact/", "proofs have symbols for motions, and the star is of pressure"),
+    ("readings/explain/", "words, and what is compared with one piston"),
+    ("readings/figures.rs", "what a page turns, by part of the engine"),
+    ("readings/flywheel.rs", "an inertia of each cylinder"),
+    ("readings/quantity.rs", "names of parts that are always there"),
+    ("readings/sweep/", "an axis is the rod ratio"),
+    ("readings/terms.rs", "terms are of each origin"),
+    ("readings/tolerances/", "the rod length is a figure that deviates, pressure none"),
+    ("readings/turning.rs", "what turns with a crank, by origin"),
+];
+
+/// Whether a word of code is one of those, in `snake_case` or `CamelCase`.
+fn names_a_kind(word: &str) -> bool {
+    let mut parts = vec![String::new()];
+    for letter in word.chars() {
+        let is_upper = letter.is_uppercase() && !word.chars().all(|c| c.is_uppercase() || c == '_');
+        if letter == '_' || is_upper {
+            parts.push(String::new());
+        }
+        if letter != '_' {
+            parts.last_mut().unwrap().extend(letter.to_lowercase());
+        }
+    }
+    let kinds = ["gas", "piston", "pistons", "rod", "rods"];
+    word == "Origin" || parts.iter().any(|part| kinds.contains(&&**part))
+}
+
+#[test]
+fn kinds_of_loads_are_named_where_they_live() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut naming = Vec::new();
+    for path in files(&source) {
+        let name = path.strip_prefix(&source).unwrap().to_str().unwrap().replace('\\', "/");
+        if HOMES.iter().any(|home| name.starts_with(home)) {
+            continue;
+        }
+        let text = read_to_string(&path).unwrap();
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
+        let word = |c: char| !c.is_alphanumeric() && c != '_';
+        if lines.flat_map(|line| line.split(word)).any(names_a_kind) {
+            naming.push(name);
+        }
+    }
+    let of = |name: &str| NAMING.iter().position(|(listed, _)| name.starts_with(listed));
+    let others: Vec<&String> = naming.iter().filter(|name| of(name).is_none()).collect();
+    assert!(others.is_empty(), "{others:?} name kinds of loads; ask the source, or say why");
+    let (listed, _): (Vec<&str>, Vec<&str>) = NAMING.into_iter().unzip();
+    let idle: Vec<_> = listed
+        .iter()
+        .filter(|listed| !naming.iter().any(|name| name.starts_with(**listed)))
+        .collect();
+    assert!(idle.is_empty(), "{idle:?} name none any more: take them off the list");
+}

@@ -4,7 +4,7 @@ use crate::array::frozen;
 use crankpin_core as core;
 use crankpin_core::peaks::largest_sums;
 use crankpin_core::tolerances::{Deviations, Distribution, FIGURES};
-use crankpin_core::{Complex64, Order, Request, memory};
+use crankpin_core::{Complex64, Request, memory};
 use crankpin_macros::guarded;
 use ndarray::Array3;
 use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
@@ -40,7 +40,7 @@ impl Tolerances {
         py: Python<'_>,
         engine: &Bound<'_, Engine>,
         rpm: f64,
-        orders: Vec<u32>,
+        orders: Vec<OrderNumber>,
         reference_z: Option<f64>,
         torque: bool,
         spreads: [Vec<f64>; FIGURES],
@@ -52,7 +52,7 @@ impl Tolerances {
         let distribution = choice("distribution", distribution, &distributions)?;
         let request = Request { rpm, reference_z, torque };
         let engine = &engine.get().0;
-        let orders = Order::all_whole(&orders).or_raise()?;
+        let orders = convert::orders(&orders)?;
         let plan = interrupt::run(py, |cancel| {
             core::tolerances::Tolerances::new(
                 engine,

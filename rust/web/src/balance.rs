@@ -1,8 +1,8 @@
 //! How an engine shakes, order by order.
 
 use crankpin_core::balance::{Balance, Orders, Request, Vector, balance as of};
-use crankpin_core::engine::loads::{GAS, INERTIA};
 use crankpin_core::quantity::Part;
+use crankpin_core::source::{GAS, INERTIA};
 use crankpin_core::{Cancel, Result};
 use serde_json::{Map, Value, json};
 

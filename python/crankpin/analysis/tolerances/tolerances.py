@@ -89,8 +89,8 @@ def tolerances(
         What tables, pictures and shares show: names as in :func:`crankpin.rank`, such as
         ``"total.moment.peak"`` or ``"[1].force.backward"``. By default the total peaks and the
         forward and backward parts of order 1.
-    orders : int, sequence of int or "auto", default "auto"
-        Whole multiples of crank speed; by default the few that leave out at most ``rtol`` of any
+    orders : float, sequence of float or "auto", default "auto"
+        Multiples of crank speed; by default the few that leave out at most ``rtol`` of any
         single cylinder, because tolerances undo what the layout cancels.
     rtol : float, optional
         For ``orders="auto"``: what omitted orders of one cylinder may add up to, relative to its
@@ -148,7 +148,7 @@ def tolerances(
     if not 1 <= count <= MOST_SAMPLES:
         raise inputs.rejected("samples", samples, f"give 1 to {MOST_SAMPLES}")
     request = Request.checked(
-        orders=inputs.orders(orders) or "auto", rtol=rtol, spectrum=None, torque=torque,
+        orders=inputs.half_orders(orders) or "auto", rtol=rtol, spectrum=None, torque=torque,
         default_rtol=1e-4,
     )  # fmt: skip
     speed = inputs.number("rpm", rpm)

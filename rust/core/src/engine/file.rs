@@ -275,8 +275,11 @@ impl PartsEntry {
 
 impl EngineFile {
     fn of(engine: &Engine) -> Result<Self> {
+        let hint = "is not part of an engine file; write the engine without it";
+        if let Some(load) = engine.loads().iter().find(|load| load.source.is_some()) {
+            return Err(Error::value("loads", format!("source {:?}", load.name), hint));
+        }
         if engine.spectrum().is_some() {
-            let hint = "is not part of an engine file; write the engine without it";
             return Err(Error::value("spectrum", "given", hint));
         }
         let each = engine.stations().iter().zip(engine.details());

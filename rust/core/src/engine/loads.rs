@@ -2,11 +2,6 @@
 
 use super::Engine;
 
-/// Name of what moving parts make.
-pub const INERTIA: &str = "inertia";
-/// Name of what the pressure in cylinders makes.
-pub const GAS: &str = "gas";
-
 /// Most characters of the names of cycles.
 const LONGEST_NAMES: usize = 60;
 /// Most characters of the numbers of dead cylinders.

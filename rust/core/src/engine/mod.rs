@@ -316,6 +316,25 @@ impl Engine {
         unbalance.pin.map_or(unbalance.crank, |cylinder| self.crank_of[cylinder])
     }
 
+    /// Index of the crank that carries a part; none of shafts and further loads.
+    pub(crate) fn crank_with(&self, origin: Origin) -> Option<CrankIndex> {
+        match origin {
+            Origin::Cylinder(i) => Some(self.crank_of[i]),
+            Origin::Counterweight(k) => Some(self.crank_carrying(&self.counterweights[k])),
+            Origin::Shaft(_) | Origin::Load(_) => None,
+        }
+    }
+
+    /// Index of the cylinder with whose bore or crankpin a part turns.
+    pub(crate) fn cylinder_with(&self, origin: Origin) -> Option<usize> {
+        match origin {
+            Origin::Cylinder(i) => Some(i),
+            Origin::Counterweight(k) => self.counterweights[k].pin,
+            Origin::Shaft(_) => None,
+            Origin::Load(k) => self.loads[k].cylinder,
+        }
+    }
+
     /// Direction of a cylinder's crankpin, from +x, at θ = 0.
     #[must_use]
     pub fn pin(&self, cylinder: usize) -> Angle {

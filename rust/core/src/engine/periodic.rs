@@ -1,15 +1,17 @@
 //! Periodic loads that are given: what a valve train, a pump, a belt, a propeller or a machine makes.
 
+use std::sync::Arc;
+
 use num_traits::One;
 use serde::{Deserialize, Serialize};
 
-use super::loads::{GAS, INERTIA};
 use super::{Crank, CrankIndex, Engine};
 use crate::Complex64;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::ListIndex;
 use crate::numbers::limits;
+use crate::source::{GAS, INERTIA, Scaling, Source};
 
 /// Most loads of an engine.
 const MOST_LOADS: usize = 256;
@@ -24,6 +26,21 @@ pub enum ActsOn {
     Block,
     /// Both, one against the other: a pump or a valve train, whose forces on the engine as a whole cancel.
     Both,
+}
+
+impl ActsOn {
+    /// Torques on the block and on the main crank over that on a shaft of a speed over that of the main crank.
+    ///
+    /// Shafts turn evenly, so that their gears transmit what acts on them: ρ times it arrives at the main
+    /// crank, and the block bears what the moments of all inner forces leave.
+    #[must_use]
+    pub fn torque_shares(self, ratio: f64) -> [f64; 2] {
+        match self {
+            Self::Shaft => [1.0 - ratio, ratio],
+            Self::Block => [1.0, 0.0],
+            Self::Both => [-ratio, ratio],
+        }
+    }
 }
 
 /// What amplitudes do as the speed changes.
@@ -89,7 +106,7 @@ fn halves(order: f64) -> Result<u32> {
     Err(Error::figure("orders", order, hint))
 }
 
-/// A periodic load.
+/// A periodic load: amplitudes, or a source that has them, and their place.
 ///
 /// Amplitudes are peak phasors: at a crank angle θ of the main crank an order n of amplitude A is
 /// Re(A·e^{in(θ − phase)}).
@@ -100,6 +117,11 @@ pub struct PeriodicLoad {
     pub name: String,
     /// What it acts on.
     pub on: ActsOn,
+    /// What has its amplitudes, in place of force, torque and their change with speed here. Its force acts along
+    /// the direction or turns with the shaft as the source says; its torques are those that it says, whatever the
+    /// load acts on. Files have none.
+    #[serde(skip)]
+    pub source: Option<Arc<dyn Source>>,
     /// Of the force, N.
     #[serde(default, skip_serializing_if = "is_default")]
     pub force: Amplitudes,
@@ -131,7 +153,8 @@ pub struct PeriodicLoad {
     /// Axis of a shaft of its own, x and y from that of the main crank, m.
     #[serde(default, skip_serializing_if = "is_default")]
     pub axis: [f64; 2],
-    /// Index of the cylinder with whose bank it turns as the bank angle changes; in files its number, from 1.
+    /// Index of the cylinder with whose bank it and its axis turn about the main crank as the bank angle changes; in
+    /// files its number, from 1.
     #[serde(default, skip_serializing_if = "is_default", with = "number_from_one")]
     pub cylinder: Option<usize>,
 }
@@ -175,6 +198,7 @@ impl PeriodicLoad {
         Self {
             name: name.into(),
             on,
+            source: None,
             force: Amplitudes::default(),
             torque: Amplitudes::default(),
             over_speed: OverSpeed::default(),
@@ -187,6 +211,13 @@ impl PeriodicLoad {
             axis: [0.0; 2],
             cylinder: None,
         }
+    }
+
+    /// A load of a source, under its name, whose force acts on something.
+    #[must_use]
+    pub fn of(source: impl Source, on: ActsOn) -> Self {
+        let load = Self::new(source.name(), on);
+        Self { source: Some(Arc::new(source)), ..load }
     }
 
     /// Rejects what no engine can have; `place` is its name in errors, and a point.
@@ -205,7 +236,14 @@ impl PeriodicLoad {
         {
             amplitudes.check(&named(field), rows, no_mean)?;
         }
-        if self.force == Amplitudes::default() && self.torque == Amplitudes::default() {
+        let is_empty = self.force == Amplitudes::default() && self.torque == Amplitudes::default();
+        if let Some(source) = &self.source {
+            let is_plain = is_empty && !self.turning && self.over_speed == OverSpeed::default();
+            if !is_plain || *self.name != *source.name() {
+                let hint = "has its name and amplitudes, and whether they turn and scale with speed: leave these out";
+                return Err(Error::value(named("source"), format!("{:?}", source.name()), hint));
+            }
+        } else if is_empty {
             let hint = "give amplitudes of a force, of a torque, or of both";
             return Err(Error::value(named("force"), "none", hint));
         }
@@ -286,20 +324,6 @@ impl PeriodicLoad {
     pub fn on_crank(&self) -> Option<usize> {
         self.crank.or((self.ratio == 1.0 && self.axis == [0.0; 2]).then_some(0))
     }
-
-    /// Torques on the block and on the main crank over that on its shaft.
-    ///
-    /// Shafts turn evenly, so that their gears transmit what acts on them: ρ times it arrives at the main
-    /// crank, and the block bears what the moments of all inner forces leave.
-    #[must_use]
-    pub fn torque_shares(&self, engine: &Engine) -> [f64; 2] {
-        let (_, ratio) = self.shaft(engine);
-        match self.on {
-            ActsOn::Shaft => [1.0 - ratio, ratio],
-            ActsOn::Block => [1.0, 0.0],
-            ActsOn::Both => [-ratio, ratio],
-        }
-    }
 }
 
 /// An angle in the two turns of a cycle.
@@ -373,7 +397,10 @@ impl Engine {
     /// that do not.
     #[must_use]
     pub fn of_speed_squared(&self) -> Self {
-        let scales = |load: &&PeriodicLoad| matches!(load.over_speed, OverSpeed::SpeedSquared(_));
+        let scales = |load: &&PeriodicLoad| match &load.source {
+            Some(source) => source.parts().scaling == Scaling::SpeedSquared,
+            None => matches!(load.over_speed, OverSpeed::SpeedSquared(_)),
+        };
         Self { loads: self.loads.iter().filter(scales).cloned().collect(), ..self.without_gas() }
     }
 
@@ -397,12 +424,15 @@ impl Engine {
         }
     }
 
-    /// Turns the loads of a cylinder's bank with it, by an angle; with the pins held their phase goes along.
+    /// Turns the loads of a cylinder's bank with it, by an angle, their axes too; with the pins held their phase
+    /// goes along.
     pub(super) fn turn_loads(&mut self, bank: usize, by: Angle, with_phase: bool) {
         let bank_of = &self.bank_of;
         for load in
             self.loads.iter_mut().filter(|load| load.cylinder.is_some_and(|i| bank_of[i] == bank))
         {
+            let ([x, y], Complex64 { re: cos, im: sin }) = (load.axis, by.cis(1));
+            load.axis = [x * cos - y * sin, x * sin + y * cos];
             load.direction_deg = (load.direction_deg + by).reduced();
             if with_phase {
                 load.phase_deg = in_two_turns(load.phase_deg + by);

@@ -2,11 +2,6 @@
 
 use std::sync::Arc;
 
-use super::kinematics::{AngleBlock, Columns, LoadSum, Quantities};
-use super::source::{
-    ExactFactor, GAS, Parts, Point, Repeats, Scale, Scaling, Source, SourceUpTo, Tail,
-    TorqueAmplitudes, is_equal,
-};
 use crate::engine::layout::Strokes;
 use crate::mechanism::Mechanism;
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
@@ -14,6 +9,11 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 use crate::pressure::{Cycle, GasTorque};
+use crate::source::over_angle::{AngleBlock, Columns, LoadSum, Quantities};
+use crate::source::{
+    ExactFactor, GAS, Parts, Point, Repeats, Scale, Scaling, Source, SourceUpTo, Tail,
+    TorqueAmplitudes, is_equal,
+};
 
 /// Torque over piston area and crank radius, Pa, of a cycle of pressure above the piston and an even one
 /// below.
@@ -124,7 +124,7 @@ impl Source for GasPressure {
     }
 
     fn exact(&self) -> ExactFactor {
-        ExactFactor::Unknown
+        ExactFactor::Cycle
     }
 
     fn over_angle(

@@ -1,19 +1,22 @@
 //! A periodic load that is given order by order: a force along a direction, torques, or both.
 
+use std::any::Any;
 use std::sync::Arc;
 
-use super::source::{
-    ForcePart, Parts, Repeats, Scale, Scaling, Source, Tail, TorqueAmplitudes, is_equal,
-};
 use super::{LoadList, Place};
 use crate::Complex64;
-use crate::engine::{Crank, Engine, Origin, OverSpeed, PeriodicLoad};
+use crate::engine::{ActsOn, Crank, CrankIndex, Engine, Origin, OverSpeed, PeriodicLoad};
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::UNIT_RPM;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
+use crate::numbers::index::ListIndex;
 use crate::numbers::order::Order;
+use crate::source::{
+    ForcePart, Parts, Point, Repeats, Scale, Scaling, Source, Tail, TorqueAmplitudes, is_equal,
+    resolved,
+};
 
 /// Amplitudes of some orders, ascending.
 type Series = Vec<(Order, Complex64)>;
@@ -32,79 +35,119 @@ pub(super) struct GivenLoad {
 /// Adds the loads that an engine was given to a list.
 pub(super) fn push(loads: &mut LoadList, engine: &Engine) {
     for (k, load) in engine.loads().iter().enumerate() {
-        let (axis, ratio) = load.shaft(engine);
-        let place = |direction: Angle, of: &GivenLoad| Place {
-            phase: match of.parts().repeats {
-                Repeats::EveryTurn => load.phase_deg.reduced(),
-                Repeats::EveryTwoTurns => load.phase_deg.half(),
-            },
-            // Orders are multiples of the speed of the main crank.
-            bank: load.cylinder.map(|cylinder| engine.bank_of(cylinder)),
-            ..Place::on_main(Origin::Load(k), direction, load.z).on(Crank { axis, ratio: 1 })
-        };
-        for (row, (scaling, factor)) in scalings(load).into_iter().enumerate() {
-            let name: Arc<str> = load.name.as_str().into();
-            let given = |force: Series, torque: [Series; 2], mean| GivenLoad {
-                name: Arc::clone(&name),
-                scaling,
-                force,
-                torque,
-                mean,
-            };
-            let of_row = |amplitudes: &[(u32, Vec<Complex64>)]| -> Vec<(u32, Complex64)> {
-                amplitudes.iter().map(|(halves, rows)| (*halves, rows[row] * factor)).collect()
-            };
-            let torque = of_row(&load.torque.0);
-            let mean = torque.first().filter(|(halves, _)| *halves == 0).map_or(0.0, |(_, a)| a.re);
-            let shares = load.torque_shares(engine);
-            let series = |share: f64| -> Series {
-                torque
-                    .iter()
-                    .filter(|(_, a)| *a * share != Complex64::ZERO)
-                    .filter_map(|&(n, a)| Some((Order::from_halves(n).ok()?, a * share)))
-                    .collect()
-            };
-            let force = if load.net_force() { of_row(&load.force.0) } else { Vec::new() };
-            let [along, across] = components(&force, if load.turning { ratio } else { 0.0 });
-            let torques = given(along, shares.map(series), shares.map(|share| share * mean));
+        let (axis, _) = load.shaft(engine);
+        for (source, direction) in directed(load, engine) {
+            let mut parts = source.parts();
             // A load of no size has a name, and no part in any sum.
-            loads.name_group(&torques);
-            let Parts { force, roll, .. } = torques.parts();
-            if force.is_some() || roll {
-                let [weight, roll] = [force.is_some(), roll].map(|has| f64::from(u8::from(has)));
-                loads.push(place(load.direction_deg, &torques), torques, weight, roll);
+            loads.name_group(&*source);
+            parts.force = parts.force.filter(|_| load.net_force());
+            if parts.force.is_none() && !parts.roll {
+                continue;
             }
-            if !across.is_empty() {
-                let direction = load.direction_deg + Angle::HALF_TURN.half();
-                let across = given(across, Default::default(), [0.0; 2]);
-                loads.push(place(direction, &across), across, 1.0, 0.0);
-            }
+            let place = Place {
+                phase: match parts.repeats {
+                    Repeats::EveryTurn => load.phase_deg.reduced(),
+                    Repeats::EveryTwoTurns => load.phase_deg.half(),
+                },
+                // Orders are multiples of the speed of the main crank.
+                bank: load.cylinder.map(|cylinder| engine.bank_of(cylinder)),
+                ..Place::on_main(Origin::Load(k), direction, load.z).on(Crank { axis, ratio: 1 })
+            };
+            let weights = [parts.force.is_some(), parts.roll].map(|has| f64::from(u8::from(has)));
+            loads.push_as(place, parts, source, weights);
         }
     }
 }
 
-/// The force of a load on its shaft, or on the block, at a speed, rad/s: coefficients of `e^{ikθ/2}` of x + iy,
-/// by k; without its mean.
-pub(crate) fn waves(engine: &Engine, load: &PeriodicLoad, omega: f64) -> Vec<(i32, Complex64)> {
+/// A force on a crank, or on the crankcase: coefficients of `e^{ikθ/2}` of x + iy, N, by k; without its mean.
+pub(crate) struct ShaftForce {
+    pub z: f64,
+    /// The crank that it acts on; the crankcase where there is none.
+    pub crank: Option<CrankIndex>,
+    pub waves: Vec<(i32, Complex64)>,
+}
+
+/// The forces on cranks and crankcase at a speed, rad/s, besides those of pistons and pressure: of unbalances,
+/// and of further loads, both sides of those that act from within.
+pub(crate) fn shaft_forces(
+    engine: &Engine,
+    omega: f64,
+    cancel: &Cancel,
+) -> Result<Vec<ShaftForce>> {
+    let mut forces = Vec::new();
+    for load in LoadList::of(engine, 0.0)?.list.iter().filter(|load| load.is_turning()) {
+        let place = &load.place;
+        let crank = engine.crank_with(place.origin);
+        let force = load.weight * omega * omega * f64::from(place.speed_squared());
+        let at_start = place.unit * place.phase.cis(-i64::from(place.ratio)) * force;
+        forces.push(ShaftForce { z: place.z, crank, waves: vec![(2 * place.ratio, at_start)] });
+    }
+    for load in engine.loads() {
+        let (half_phase, mut waves) = (load.phase_deg.half(), Vec::new());
+        for (source, direction) in directed(load, engine) {
+            let Parts { force: Some(_), scaling, .. } = source.parts() else { continue };
+            let (orders, unit) = (source.orders(resolved(&*source)?), direction.cis(1));
+            for (order, amplitude) in orders.iter().zip(source.force(&orders, cancel)?) {
+                let halves = i64::from(order.halves());
+                let forward = 0.5 * scaling.factor(omega) * amplitude * half_phase.cis(-halves);
+                if forward != Complex64::ZERO {
+                    waves.push((halves as i32, unit * forward));
+                    waves.push((-(halves as i32), unit * forward.conj()));
+                }
+            }
+        }
+        if waves.is_empty() {
+            continue;
+        }
+        if load.on == ActsOn::Both {
+            let against = waves.iter().map(|(halves, wave)| (*halves, -wave)).collect();
+            forces.push(ShaftForce { z: load.z, crank: None, waves: against });
+        }
+        let crank = load.on_crank().filter(|_| load.on != ActsOn::Block).map(CrankIndex::new);
+        forces.push(ShaftForce { z: load.z, crank, waves });
+    }
+    Ok(forces)
+}
+
+/// The sources of a load, each with the direction of its force: of one that turns also that a quarter turn ahead;
+/// of a table one for each speed.
+fn directed(load: &PeriodicLoad, engine: &Engine) -> Vec<(Arc<dyn Source>, Angle)> {
     let (_, ratio) = load.shaft(engine);
-    let scalings = scalings(load);
-    let sum = |rows: &[Complex64]| -> Complex64 {
-        let scaled = rows.iter().zip(&scalings);
-        scaled.map(|(a, (scaling, factor))| a * factor * scaling.factor(omega)).sum()
-    };
-    let force: Vec<_> = load.force.0.iter().map(|(halves, rows)| (*halves, sum(rows))).collect();
-    let [along, across] = components(&force, if load.turning { ratio } else { 0.0 });
-    let half_phase = load.phase_deg.half();
-    let (direction, mut waves) = (load.direction_deg.cis(1), Vec::new());
-    for (series, unit) in [(along, direction), (across, direction * Complex64::i())] {
-        for (order, amplitude) in series {
-            let halves = i64::from(order.halves());
-            let forward = 0.5 * amplitude * half_phase.cis(-halves);
-            waves.push((halves as i32, unit * forward));
-            waves.push((-(halves as i32), unit * forward.conj()));
+    let across = load.direction_deg + Angle::HALF_TURN.half();
+    let mut sources: Vec<(Arc<dyn Source>, Angle)> = Vec::new();
+    if let Some(source) = &load.source {
+        if source.parts().force != Some(ForcePart::Turning) {
+            return vec![(Arc::clone(source), load.direction_deg)];
+        }
+        let part = |ahead| TurningForce { source: Arc::clone(source), ratio, ahead };
+        return vec![(Arc::new(part(false)), load.direction_deg), (Arc::new(part(true)), across)];
+    }
+    let (name, shares): (Arc<str>, _) = (load.name.as_str().into(), load.on.torque_shares(ratio));
+    for (row, (scaling, factor)) in scalings(load).into_iter().enumerate() {
+        let of_row = |amplitudes: &[(u32, Vec<Complex64>)]| -> Vec<(u32, Complex64)> {
+            amplitudes.iter().map(|(halves, rows)| (*halves, rows[row] * factor)).collect()
+        };
+        let torque = of_row(&load.torque.0);
+        let mean = torque.first().filter(|(halves, _)| *halves == 0).map_or(0.0, |(_, a)| a.re);
+        let series = |share: f64| -> Series {
+            torque
+                .iter()
+                .filter(|(_, a)| *a * share != Complex64::ZERO)
+                .filter_map(|&(n, a)| Some((Order::from_halves(n).ok()?, a * share)))
+                .collect()
+        };
+        let force = of_row(&load.force.0);
+        let [along, ahead] = components(&force, if load.turning { ratio } else { 0.0 });
+        let given = |force: Series, torque: [Series; 2], mean| {
+            Arc::new(GivenLoad { name: Arc::clone(&name), scaling, force, torque, mean })
+        };
+        let mean = shares.map(|share| share * mean);
+        sources.push((given(along, shares.map(series), mean), load.direction_deg));
+        if !ahead.is_empty() {
+            sources.push((given(ahead, Default::default(), [0.0; 2]), across));
         }
     }
-    waves
+    sources
 }
 
 /// What each row of a load's table scales with, and the factor of its amplitudes.
@@ -229,5 +272,85 @@ impl Source for GivenLoad {
     fn scale(&self) -> Scale {
         let torque = self.torque.iter().map(largest).fold(0.0, f64::max);
         Scale { force: largest(&self.force), torque: (torque > 0.0).then_some(torque) }
+    }
+}
+
+/// A force that turns with a shaft, seen along a direction at rest: that from which it starts, with the torque of
+/// its source, or one a quarter turn ahead of it.
+#[derive(Debug)]
+struct TurningForce {
+    source: Arc<dyn Source>,
+    /// Speed of the shaft over crank speed, negative where it turns against the crank.
+    ratio: f64,
+    ahead: bool,
+}
+
+impl TurningForce {
+    /// The only order of the force.
+    fn own(&self) -> Option<Order> {
+        Order::from_halves((2.0 * self.ratio.abs()) as u32).ok()
+    }
+}
+
+impl Source for TurningForce {
+    fn name(&self) -> &str {
+        self.source.name()
+    }
+
+    fn parts(&self) -> Parts {
+        let parts = self.source.parts();
+        Parts { force: Some(ForcePart::Along), roll: parts.roll && !self.ahead, ..parts }
+    }
+
+    fn equals(&self, other: &dyn Source) -> bool {
+        let other = (other as &dyn Any).downcast_ref::<Self>();
+        other.is_some_and(|other| {
+            (self.ratio, self.ahead) == (other.ratio, other.ahead) && *self.source == *other.source
+        })
+    }
+
+    fn force(&self, orders: &[Order], cancel: &Cancel) -> Result<Vec<Complex64>> {
+        let factor = match (self.ahead, self.ratio > 0.0) {
+            (false, _) => Complex64::ONE,
+            (true, true) => -Complex64::i(),
+            (true, false) => Complex64::i(),
+        };
+        let own = self.own();
+        let at_own = |(order, amplitude)| {
+            if Some(order) == own { amplitude * factor } else { Complex64::ZERO }
+        };
+        let amplitudes = self.source.force(orders, cancel)?;
+        Ok(orders.iter().copied().zip(amplitudes).map(at_own).collect())
+    }
+
+    fn is_integrated(&self, orders: &[Order]) -> bool {
+        self.source.is_integrated(orders)
+    }
+
+    fn torque(&self, orders: &[Order], cancel: &Cancel) -> Result<TorqueAmplitudes> {
+        self.source.torque(orders, cancel)
+    }
+
+    fn orders(&self, highest: Order) -> Vec<Order> {
+        let mut orders = if self.ahead { Vec::new() } else { self.source.orders(highest) };
+        orders.extend(self.own());
+        orders.sort_unstable();
+        orders.dedup();
+        orders
+    }
+
+    fn beyond(&self, halves: u32, torque: bool) -> Tail {
+        let has_own = self.own().is_some_and(|own| own.halves() > halves);
+        let Tail { force, torque } = self.source.beyond(halves, torque && !self.ahead);
+        Tail { force: if has_own { force } else { 0.0 }, torque }
+    }
+
+    fn scale(&self) -> Scale {
+        self.source.scale()
+    }
+
+    fn at_point(&self, point: &Point) -> Result<Option<Arc<dyn Source>>> {
+        let at = self.source.at_point(point)?;
+        Ok(at.map(|source| -> Arc<dyn Source> { Arc::new(Self { source, ..*self }) }))
     }
 }

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use super::gas::GasPressure;
 use super::piston::PistonInertia;
 use super::rod::RodInertia;
-use super::source::{ExactFactor, INERTIA, Point, Repeats, Scaling, Source, at_point};
 use super::spectrum::GivenForce;
 use super::unbalance::TurningUnbalance;
 use super::{
@@ -17,6 +16,7 @@ use crate::mechanism::Mechanism;
 use crate::numbers::error::Result;
 use crate::numbers::index::List;
 use crate::numbers::order::Order;
+use crate::source::{ExactFactor, INERTIA, Parts, Point, Repeats, Scaling, Source, at_point};
 
 /// Largest magnitudes of the weights of some loads.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -139,13 +139,30 @@ impl LoadList {
 
     pub(super) fn push(&mut self, place: Place, source: impl Source, weight: f64, roll: f64) {
         let parts = source.parts();
-        let known = self.sources.indices().find(|&known| self.sources[known].equals(&source));
-        let index = known.unwrap_or_else(|| {
-            let group = self.name_group(&source);
-            self.group_of.push(group);
-            self.sources.push(Arc::new(source))
-        });
+        let index = self.index_of(&source).unwrap_or_else(|| self.push_source(Arc::new(source)));
         self.list.push(Load { place, source: index, parts, weight, roll });
+    }
+
+    /// A load with some of the parts of a source, and weights of force and torque.
+    pub(super) fn push_as(
+        &mut self,
+        place: Place,
+        parts: Parts,
+        source: Arc<dyn Source>,
+        [weight, roll]: [f64; 2],
+    ) {
+        let index = self.index_of(&*source).unwrap_or_else(|| self.push_source(source));
+        self.list.push(Load { place, source: index, parts, weight, roll });
+    }
+
+    fn index_of(&self, source: &dyn Source) -> Option<SourceIndex> {
+        self.sources.indices().find(|&known| *self.sources[known] == *source)
+    }
+
+    fn push_source(&mut self, source: Arc<dyn Source>) -> SourceIndex {
+        let group = self.name_group(&*source);
+        self.group_of.push(group);
+        self.sources.push(source)
     }
 
     /// The group of a source, which is there from now on.
@@ -213,7 +230,8 @@ impl LoadList {
     /// The loads, and sources, that exact sums know.
     pub fn retain_exact(&mut self) {
         let Self { list, sources, .. } = self;
-        list.retain(|load| sources[load.source].exact() != ExactFactor::Unknown);
+        let is_known = |factor| !matches!(factor, ExactFactor::Cycle | ExactFactor::Unknown);
+        list.retain(|load| is_known(sources[load.source].exact()));
     }
 
     /// Largest weights of the loads of a source, times the square of their speed.

@@ -31,17 +31,16 @@ mod list;
 mod piston;
 mod place;
 mod rod;
-pub(crate) mod source;
 mod spectrum;
 mod unbalance;
 
 pub(crate) use self::list::{Group, LargestWeights, LoadList, Sources};
 pub(crate) use self::place::Place;
-use self::source::{Column, ForcePart, Parts, Repeats, Scaling};
 use crate::Complex64;
 use crate::engine::Hold;
 use crate::numbers::index::{ListIndex, list_index};
 use crate::numbers::order::Order;
+use crate::source::{Column, ForcePart, Parts, Repeats, Scaling};
 use crate::wrench::Planar;
 
 list_index! {

@@ -2,11 +2,6 @@
 
 use std::sync::Arc;
 
-use super::kinematics::{AngleBlock, BLOCK, Columns, LoadSum, Quantities, add_inertia};
-use super::source::{
-    Column, ExactFactor, ForcePart, INERTIA, Parts, Point, Scale, Source, Tail, TorqueAmplitudes,
-    is_equal,
-};
 use crate::Complex64;
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::mechanism::slider_crank::Proportions;
@@ -16,6 +11,11 @@ use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 use crate::numbers::simd::vectorised;
+use crate::source::over_angle::{AngleBlock, BLOCK, Columns, LoadSum, Quantities, add_inertia};
+use crate::source::{
+    Column, ExactFactor, ForcePart, INERTIA, Parts, Point, Scale, Source, Tail, TorqueAmplitudes,
+    is_equal,
+};
 
 /// Force over m·r·ω², torque over m·r²·ω².
 #[derive(Debug, Clone, PartialEq)]

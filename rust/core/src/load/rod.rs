@@ -2,11 +2,7 @@
 
 use std::sync::Arc;
 
-use super::kinematics::{AngleBlock, BLOCK, Columns, LoadSum, Quantities, add_inertia};
 use super::piston::{multiples, torque_beyond, torque_by};
-use super::source::{
-    Column, ExactFactor, INERTIA, Parts, Point, Scale, Source, Tail, TorqueAmplitudes, is_equal,
-};
 use crate::mechanism::rod::Swing;
 use crate::mechanism::{Mechanism, harmonics};
 use crate::numbers::cancel::Cancel;
@@ -14,6 +10,10 @@ use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 use crate::numbers::simd::vectorised;
+use crate::source::over_angle::{AngleBlock, BLOCK, Columns, LoadSum, Quantities, add_inertia};
+use crate::source::{
+    Column, ExactFactor, INERTIA, Parts, Point, Scale, Source, Tail, TorqueAmplitudes, is_equal,
+};
 
 /// Torque over the rod's inertia and ω².
 #[derive(Debug, Clone, PartialEq)]

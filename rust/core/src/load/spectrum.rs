@@ -1,12 +1,12 @@
 //! A force of inertia that was given, order by order: it does not determine a torque, nor a motion.
 
-use super::source::{ExactFactor, ForcePart, INERTIA, Parts, Scale, Source, Tail, is_equal};
 use crate::Complex64;
 use crate::mechanism::at_own_orders;
 use crate::mechanism::spectrum::Spectrum;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
+use crate::source::{ExactFactor, ForcePart, INERTIA, Parts, Scale, Source, Tail, is_equal};
 
 /// Force over ω², kg·m: masses and radius are in it.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,14 +35,17 @@ impl Source for GivenForce {
         })
     }
 
-    fn orders(&self, _: Order) -> Vec<Order> {
+    fn orders(&self, highest: Order) -> Vec<Order> {
         let own = self.spectrum.orders().into_iter();
-        own.filter_map(|own| Order::whole(own * self.ratio.unsigned_abs()).ok()).collect()
+        let orders = own.filter_map(|own| Order::whole(own * self.ratio.unsigned_abs()).ok());
+        orders.filter(|order| *order <= highest).collect()
     }
 
-    /// All of its orders are evaluated.
-    fn beyond(&self, _: u32, _: bool) -> Tail {
-        Tail::default()
+    /// All of its orders are evaluated: no bound does without them.
+    fn beyond(&self, halves: u32, _: bool) -> Tail {
+        let mut own = self.spectrum.orders().into_iter();
+        let is_left_out = own.any(|own| 2 * own * self.ratio.unsigned_abs() > halves);
+        Tail { force: if is_left_out { f64::INFINITY } else { 0.0 }, torque: 0.0 }
     }
 
     fn scale(&self) -> Scale {

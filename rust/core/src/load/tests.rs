@@ -2,8 +2,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::gas::GasPressure;
-use super::kinematics::{AngleBlock, Columns, Kinematics, Quantities};
-use super::source::GAS as GAS_NAME;
+use super::kinematics::Kinematics;
 use super::*;
 use crate::Spectrum;
 use crate::engine::{CrankIndex, Details, Engine, Gas, Shaft, Station, Unbalance};
@@ -14,6 +13,8 @@ use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::index::ListIndex;
 use crate::pressure::{Cycle, Given};
 use crate::readings::amplitude::wrenches;
+use crate::source::over_angle::{AngleBlock, Columns, Quantities};
+use crate::source::{self, GAS as GAS_NAME};
 use crate::wrench::Wrench;
 
 const REFERENCE: f64 = 0.03;
@@ -220,7 +221,7 @@ fn pressure_under_a_piston_is_a_load_of_the_other_sign() {
     let (mut columns, wanted) = (Columns::ZERO, Quantities { planar: false, torque: true });
     for sum in &Kinematics::new(&loads).sums {
         let factor = f64::from(u8::from(sum.group != GroupIndex::default()));
-        sum.source.over_angle(sum, &block, wanted, factor, &mut columns).unwrap();
+        sum.source.over_angle(&sum.loads, &block, wanted, factor, &mut columns).unwrap();
     }
     let orders: Vec<Order> = (1..400).map(|halves| Order::from_halves(halves).unwrap()).collect();
     let by_orders = wrenches(&loads, &loads.sources, true, &orders, &Cancel::new()).unwrap();
@@ -281,7 +282,7 @@ fn pressure_at_another_point_is_evaluated_anew() {
     ];
     for point in points {
         let [once, fresh] =
-            [&known, source].map(|source| super::source::at_point(source, &point).unwrap());
+            [&known, source].map(|source| crate::source::at_point(source, &point).unwrap());
         assert_eq!(torque(&*once), torque(&*fresh));
         assert_ne!(torque(&*once), torque(&*known));
     }

@@ -1,12 +1,12 @@
 //! A mass off the axis of a shaft that turns evenly.
 
-use super::kinematics::{AngleBlock, BLOCK, Columns, LoadSum, Quantities};
-use super::source::{ExactFactor, ForcePart, INERTIA, Parts, Scale, Source, Tail, is_equal};
 use crate::Complex64;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 use crate::numbers::simd::vectorised;
+use crate::source::over_angle::{AngleBlock, BLOCK, Columns, LoadSum, Quantities};
+use crate::source::{ExactFactor, ForcePart, INERTIA, Parts, Scale, Source, Tail, is_equal};
 
 /// Force over unbalance, ω² and the square of the shaft's speed, which this is.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,13 +36,15 @@ impl Source for TurningUnbalance {
         Ok(orders.iter().map(one).collect())
     }
 
-    fn orders(&self, _: Order) -> Vec<Order> {
-        Order::whole(self.ratio.unsigned_abs()).into_iter().collect()
+    fn orders(&self, highest: Order) -> Vec<Order> {
+        let own = Order::whole(self.ratio.unsigned_abs());
+        own.into_iter().filter(|own| *own <= highest).collect()
     }
 
-    /// Its only order is always evaluated.
-    fn beyond(&self, _: u32, _: bool) -> Tail {
-        Tail::default()
+    /// Its only order is always evaluated: no bound does without it.
+    fn beyond(&self, halves: u32, _: bool) -> Tail {
+        let is_left_out = 2 * self.ratio.unsigned_abs() > halves;
+        Tail { force: if is_left_out { f64::INFINITY } else { 0.0 }, torque: 0.0 }
     }
 
     fn scale(&self) -> Scale {

@@ -15,7 +15,7 @@ use crate::numbers::order::Order;
 
 /// How a piston moves: a slider-crank whose crank turns at some speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Mechanism {
+pub struct Mechanism {
     /// Its lengths; what moves has no mass here.
     cylinder: Cylinder,
     /// Proportions of its motion: its own, or those of a point of a sweep.
@@ -26,34 +26,34 @@ pub(crate) struct Mechanism {
 
 impl Mechanism {
     /// Of a cylinder on a crank of this speed.
-    pub fn new(cylinder: &Cylinder, ratio: i32) -> Self {
+    pub(crate) fn new(cylinder: &Cylinder, ratio: i32) -> Self {
         let cylinder = cylinder.without_masses();
         Self { cylinder, proportions: cylinder.proportions(), ratio }
     }
 
     /// Its lengths.
-    pub fn cylinder(&self) -> &Cylinder {
+    pub(crate) fn cylinder(&self) -> &Cylinder {
         &self.cylinder
     }
 
     /// Whether it has no pin offset.
-    pub fn is_centred(&self) -> bool {
+    pub(crate) fn is_centred(&self) -> bool {
         self.proportions.offset == 0.0
     }
 
     /// With rod ratio and pin offset (m) replaced.
-    pub fn replaced(&self, rod_ratio: Option<f64>, pin_offset: Option<f64>) -> Result<Self> {
+    pub(crate) fn replaced(&self, rod_ratio: Option<f64>, pin_offset: Option<f64>) -> Result<Self> {
         Ok(Self { proportions: self.cylinder.proportions_with(rod_ratio, pin_offset)?, ..*self })
     }
 
     /// Factors of the torques on the block and on the main crank: turning the other way mirrors the
     /// torque on the block, and power is torque times speed.
-    pub fn senses(&self) -> [f64; 2] {
+    pub(crate) fn senses(&self) -> [f64; 2] {
         [f64::from(self.ratio.signum()), f64::from(self.ratio.abs())]
     }
 
     /// The highest multiple of the speed of its own crank that is not above a number of halves of the main crank's.
-    pub fn own_highest(&self, halves: u32) -> u32 {
+    pub(crate) fn own_highest(&self, halves: u32) -> u32 {
         halves / (2 * self.ratio.unsigned_abs())
     }
 }

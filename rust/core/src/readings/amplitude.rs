@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use crate::Complex64;
-use crate::load::source::{Column, Source, TorqueAmplitudes};
 use crate::load::{
     GroupIndex, Harmonic, Load, LoadList, Phasors, SourceIndex, Sources, Wanted, count, superpose,
 };
@@ -12,6 +11,7 @@ use crate::numbers::error::Result;
 use crate::numbers::index::{List, ListIndex};
 use crate::numbers::memory;
 use crate::numbers::order::Order;
+use crate::source::{Column, Source, TorqueAmplitudes};
 use crate::wrench::Wrench;
 
 /// Mean torques of each group on the block and on the main crank.

@@ -8,7 +8,6 @@
 use std::sync::Arc;
 
 use crate::engine::Engine;
-use crate::load::source::{Repeats, Scale, Source, Tail};
 use crate::load::{
     Group, GroupIndex, LargestWeights, Load, LoadList, Sources, count, find_or_push,
 };
@@ -19,6 +18,7 @@ use crate::numbers::limits;
 use crate::numbers::order::{self, Order};
 use crate::readings::amplitude::wrenches;
 use crate::readings::balance::{Balance, ErrorBounds, Orders};
+use crate::source::{Repeats, Scale, Source, Tail};
 use crate::wrench::Wrench;
 
 /// Orders above the last one evaluated add less than this part of the tolerance.

@@ -7,7 +7,7 @@
 use std::sync::LazyLock;
 
 use crate::engine::{Engine, Origin};
-use crate::load::kinematics::{BLOCK, Kinematics};
+use crate::load::kinematics::Kinematics;
 use crate::load::{Load, LoadList};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, parts};
@@ -16,6 +16,7 @@ use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::quadrature::gauss_legendre;
 use crate::readings::balance::angular_speed;
+use crate::source::over_angle::BLOCK;
 
 /// Widest cell, degrees. Extremes between edges are those of a cubic, which misses a wave of order 12
 /// by 3e-7 of its height.

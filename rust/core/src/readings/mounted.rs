@@ -10,7 +10,6 @@ use nalgebra::Vector3;
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::source::Scaling;
 use crate::load::{Group, GroupIndex, LoadList, count};
 use crate::mounts::equations::{Equations, LANES, lanes, rows};
 use crate::mounts::{
@@ -25,6 +24,7 @@ use crate::numbers::order::Order;
 use crate::numbers::pool;
 use crate::readings::balance::{ErrorBounds, Orders, angular_speed};
 use crate::readings::choice;
+use crate::source::Scaling;
 use crate::wrench::{Planar, Wrench, rounding, snapped};
 
 /// Points solved between two checks for cancellation.

@@ -1,7 +1,7 @@
 //! What is read of an engine: force, moment or a torque, whole or the part of it that one name makes.
 
-use crate::load::source::{GAS, INERTIA};
 use crate::numbers::error::{Error, Result};
+use crate::source::{GAS, INERTIA};
 
 /// Kinds of quantities.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

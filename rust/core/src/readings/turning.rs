@@ -3,7 +3,6 @@
 use crate::Complex64;
 use crate::engine::{CrankIndex, Engine, Origin};
 use crate::load::LoadList;
-use crate::load::source::Scaling;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::ListIndex;
@@ -11,6 +10,7 @@ use crate::numbers::order::Order;
 use crate::readings::amplitude::wrenches;
 use crate::readings::balance::{Request, UNIT_RPM, angular_speed};
 use crate::readings::terms::sums_by;
+use crate::source::Scaling;
 use crate::wrench::Wrench;
 
 /// Force and moment that turn with a shaft, x + iy at θ = 0, over ω².

@@ -6,8 +6,7 @@ use ndarray::{Array1, Array2};
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::kinematics::{AngleBlock, BLOCK, Columns, Kinematics, Quantities, Units};
-use crate::load::source::INERTIA;
+use crate::load::kinematics::Kinematics;
 use crate::load::{LoadList, find_or_push};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, check};
@@ -18,6 +17,8 @@ use crate::numbers::pool;
 use crate::numbers::simd::vectorised;
 use crate::readings::balance::{self, Balance, Orders, Request, Vector, angular_speed};
 use crate::readings::quantity::Part;
+use crate::source::INERTIA;
+use crate::source::over_angle::{AngleBlock, BLOCK, Columns, Quantities, Units};
 
 /// An engine's shaking over crank angle.
 #[derive(Debug, Clone, PartialEq)]
@@ -91,7 +92,7 @@ pub fn exact(
         let block = AngleBlock::new(angles, 0..angles.len());
         for sum in &kinematics.sums {
             let (factor, columns) = (factors[sum.group], &mut columns[part_of[sum.group]]);
-            sum.source.over_angle(sum, &block, wanted, factor, columns)?;
+            sum.source.over_angle(&sum.loads, &block, wanted, factor, columns)?;
         }
         if let [whole, parts @ ..] = columns {
             for part in parts.iter() {

@@ -18,9 +18,9 @@ pub use self::rod::TurningAxes;
 use self::rod::{DrivenRod, RodColumns};
 pub use self::sections::{Part, Sections};
 use crate::Complex64;
-use crate::engine::{ActsOn, CrankIndex, Engine, Origin};
-use crate::load::kinematics::{AngleColumn, BLOCK, Units};
-use crate::load::{Load, LoadList, find_or_push, given};
+use crate::engine::{CrankIndex, Engine};
+use crate::load::find_or_push;
+use crate::load::given::{ShaftForce, shaft_forces};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, check, parts};
 use crate::numbers::error::{Error, Result};
@@ -29,6 +29,7 @@ use crate::numbers::order::Order;
 use crate::numbers::simd::vectorised;
 use crate::numbers::{limits, memory, pool};
 use crate::readings::balance::angular_speed;
+use crate::source::over_angle::{AngleColumn, BLOCK, Units};
 use crate::wrench::rounding;
 
 /// Largest share of a load outside the end bearings that one carries: rounding is that times larger.
@@ -114,14 +115,6 @@ struct Periodic {
 }
 
 impl Periodic {
-    /// An unbalance at a square of angular speed.
-    fn turning(load: &Load, square: f64) -> Self {
-        let place = &load.place;
-        let force = load.weight * square * f64::from(place.speed_squared());
-        let at_start = place.unit * place.phase.cis(-i64::from(place.ratio)) * force;
-        Self { z: place.z, waves: vec![(2 * place.ratio, at_start)] }
-    }
-
     /// Adds real and imaginary part at a block of angles.
     fn add(
         waves: &[(i32, Complex64)],
@@ -168,16 +161,10 @@ impl BearingLoadsModel {
             mains: engine.cranks().indices().flat_map(of_crank).collect(),
             ratios: engine.cranks().map_to(|crank| crank.ratio),
         };
-        for load in LoadList::of(engine, 0.0)?.list.iter().filter(|load| load.is_turning()) {
-            let crank = match load.place.origin {
-                Origin::Cylinder(i) => Some(engine.crank_of(i)),
-                Origin::Counterweight(k) => {
-                    Some(engine.crank_carrying(&engine.counterweights()[k]))
-                }
-                Origin::Shaft(_) | Origin::Load(_) => None,
-            };
+        engine.check_speeds(&[rpm])?;
+        for ShaftForce { z, crank, waves } in shaft_forces(engine, omega, &Cancel::new())? {
             let on = crank.map_or(&mut found.on_crankcase, |crank| &mut found.on_cranks[crank]);
-            on.push(Periodic::turning(load, square));
+            on.push(Periodic { z, waves });
         }
         for i in 0..engine.stations().len() {
             let rod = DrivenRod::new(engine, i, square)?;
@@ -186,20 +173,6 @@ impl BearingLoadsModel {
             let waves = vec![(2 * rod.ratio, at_start)];
             found.on_cranks[rod.crank].push(Periodic { z: rod.z, waves });
             found.rods.push(rod);
-        }
-        engine.check_speeds(&[rpm])?;
-        for load in engine.loads() {
-            let (waves, z) = (given::waves(engine, load, omega), load.z);
-            if waves.is_empty() {
-                continue;
-            }
-            let against = || waves.iter().map(|(halves, wave)| (*halves, -wave)).collect();
-            if load.on == ActsOn::Both {
-                found.on_crankcase.push(Periodic { z, waves: against() });
-            }
-            let crank = load.on_crank().filter(|_| load.on != ActsOn::Block).map(CrankIndex::new);
-            let on = crank.map_or(&mut found.on_crankcase, |crank| &mut found.on_cranks[crank]);
-            on.push(Periodic { z, waves });
         }
         found.check_levers()?;
         Ok(found)

@@ -19,12 +19,12 @@ use crate::Complex64;
 use crate::engine::CrankIndex;
 use crate::engine::Engine;
 use crate::load::Place;
-use crate::load::kinematics::{AngleColumn, BLOCK, Units};
 use crate::mechanism::rod::Swing;
 use crate::mechanism::slider_crank::{CrankPosition, Proportions};
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::error::Result;
 use crate::pressure::Cycle;
+use crate::source::over_angle::{AngleColumn, BLOCK, Units};
 
 /// Axes that turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,10 +4,10 @@ use ndarray::{Array3, Axis};
 
 use super::{BearingLoadsModel, Periodic, check_angles, vectors};
 use crate::engine::CrankIndex;
-use crate::load::kinematics::BLOCK;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, parts};
 use crate::numbers::error::Result;
+use crate::source::over_angle::BLOCK;
 
 /// What is cut at some z.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -12,7 +12,6 @@ use num_traits::{CheckedAdd, CheckedDiv, CheckedMul, Signed};
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::source::ExactFactor;
 use crate::load::{Load, LoadIndex, LoadList, SourceIndex};
 use crate::mechanism::Mechanism;
 use crate::mechanism::slider_crank::Cylinder;
@@ -22,6 +21,7 @@ use crate::numbers::index::{List, list_index};
 use crate::numbers::order::Order;
 use crate::numbers::rational::{Multiples, Ratio, common_measure, decimal, product};
 use crate::readings::amplitude::Amplitudes;
+use crate::source::ExactFactor;
 use crate::wrench::Wrench;
 
 fn too_long() -> Error {
@@ -173,10 +173,7 @@ impl NumberedLoads {
             return Ok(Self(acts));
         }
         let loads = LoadList::of(engine, engine.reference(reference)?)?;
-        let is_numbered = |load: &&Load| {
-            let source = loads.source(load);
-            source.exact() == ExactFactor::Unknown && !source.has_open_tail()
-        };
+        let is_numbered = |load: &&Load| loads.source(load).exact() == ExactFactor::Unknown;
         let amplitudes = Amplitudes::new(&loads.sources, true, orders, cancel)?;
         for load in loads.list.iter().filter(is_numbered) {
             let wrenches = amplitudes.wrenches(&loads, &[*load], true, orders, cancel)?;

@@ -43,7 +43,6 @@ use crate::Complex64;
 use crate::engine::{Engine, Origin};
 use crate::firing::Firing;
 use crate::layout::Strokes;
-use crate::load::source::ForcePart;
 use crate::load::{Load, LoadIndex, LoadList};
 use crate::mechanism::Mechanism;
 use crate::mechanism::harmonics;
@@ -55,6 +54,7 @@ use crate::numbers::order::{Order, check_list};
 use crate::numbers::ring::RootSum;
 use crate::readings::balance::{self, Orders, Request, Vector};
 use crate::readings::quantity::Part;
+use crate::source::ForcePart;
 
 /// Sums of weights in doubles of angles within this part of Σ|weights| may be of one exact angle.
 const ROUNDED_ANGLES: f64 = 16.0 * f64::EPSILON;

@@ -30,7 +30,6 @@ use super::layout::{Layout, LayoutSum, Swung};
 use super::{Selection, Sweep, SweepAxes};
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::source::{Column, Point, Source, at_point};
 use crate::load::{GroupIndex, Harmonic, Sources};
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::cancel::Cancel;
@@ -39,6 +38,7 @@ use crate::numbers::order::Order;
 use crate::readings::amplitude::wrenches;
 use crate::readings::choice::{Candidate, Choice, IntegratedOrders, OrderSums, bounds, times};
 use crate::readings::quantity::{Kind, Part, Quantity};
+use crate::source::{Column, Point, Source, at_point};
 
 impl Sweep {
     /// With few orders that leave out at most `rtol` at any point, as [`crate::Orders::Auto`] does

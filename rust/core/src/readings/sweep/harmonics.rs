@@ -6,7 +6,6 @@ use std::sync::Arc;
 use super::layout::Layout;
 use super::{Selection, Sweep};
 use crate::Complex64;
-use crate::load::source::{Column, Point, Source, at_point};
 use crate::load::{Harmonic, Sources};
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::mechanism::harmonics::table;
@@ -17,6 +16,7 @@ use crate::numbers::order::Order;
 use crate::numbers::pool;
 use crate::pressure::Cycle;
 use crate::readings::quantity::Kind;
+use crate::source::{Column, Point, Source, at_point};
 
 /// Real and imaginary parts at some points, order by order.
 type PointColumns = Vec<[Vec<f64>; 2]>;

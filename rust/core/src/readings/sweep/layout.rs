@@ -3,12 +3,12 @@
 use super::{Selection, Sweep};
 use crate::Complex64;
 use crate::engine::{Engine, Hold};
-use crate::load::source::Column;
 use crate::load::{BankPhase, Harmonic, LoadList, PhasorSum, Term, Wanted, count, find_or_push};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 use crate::readings::quantity::{Kind, Quantity};
+use crate::source::Column;
 use crate::wrench::rounding;
 
 /// Sums of one harmonic of an order, over its amplitude.

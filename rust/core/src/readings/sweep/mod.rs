@@ -24,7 +24,6 @@ use self::kernel::Job;
 use self::operating::Nodes;
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::source::{INERTIA, Scaling};
 use crate::load::{Group, LoadList, find_or_push};
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
@@ -35,6 +34,7 @@ use crate::numbers::order::{self, Order};
 use crate::readings::balance::ErrorBounds;
 use crate::readings::peaks::PeakFinder;
 use crate::readings::quantity::Quantity;
+use crate::source::{INERTIA, Scaling};
 
 /// Rows of a quantity: of all that makes it, or of what scales with speed in one way.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -9,7 +9,6 @@ use super::kernel::{Number, ROWS_PER_TASK};
 use super::{Selection, Sweep};
 use crate::Complex64;
 use crate::load::SourceIndex;
-use crate::load::source::{Scaling, at_point};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
@@ -17,6 +16,7 @@ use crate::numbers::pool;
 use crate::numbers::simd::{MultiplyAdd, vectorised};
 use crate::pressure::map::{Between, between};
 use crate::readings::quantity::{Kind, Quantity};
+use crate::source::{Scaling, at_point};
 
 /// Numbers written between two checks for cancellation, of rows that are long.
 const NUMBERS_PER_TASK: usize = 1 << 16;

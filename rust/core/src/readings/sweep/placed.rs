@@ -4,13 +4,14 @@
 use std::sync::Arc;
 
 use super::{Selection, Sweep};
-use crate::load::kinematics::{AngleBlock, Columns, Kinematics, LoadSum, Quantities};
-use crate::load::source::{Source, at_point};
+use crate::load::kinematics::{Kinematics, SourceSum};
 use crate::load::{GroupIndex, LoadList};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
 use crate::numbers::index::List;
 use crate::readings::quantity::Kind;
+use crate::source::over_angle::{AngleBlock, Columns, Quantities};
+use crate::source::{Source, at_point};
 
 /// An engine at one bank angle.
 pub(super) struct Placed {
@@ -61,24 +62,27 @@ impl Placed {
     ) -> Result<()> {
         let torque = !quantity.is_planar();
         let wanted = Quantities { planar: !torque, torque };
-        let counts = |sum: &LoadSum| {
+        let counts = |sum: &SourceSum| {
             scaling.is_none_or(|scaling| sum.source.parts().scaling == scaling)
                 && quantity.part.has(&self.names[sum.group])
         };
-        let is_fixed = |sum: &LoadSum| sum.source.mechanism().is_none();
+        let is_fixed = |k: usize, sum: &SourceSum| {
+            self.points.iter().all(|of| Arc::ptr_eq(&of[k], &sum.source))
+        };
         let factors = self.kinematics.factors_of(scaling);
         let [of_force, of_moment] = self.kinematics.zero_bounds(&factors);
         let mut fixed = Columns::ZERO;
-        for sum in self.kinematics.sums.iter().filter(|sum| counts(sum) && is_fixed(sum)) {
-            sum.source.over_angle(sum, block, wanted, 1.0, &mut fixed)?;
+        let (standing, moving): (Vec<_>, Vec<_>) = (self.kinematics.sums.iter().enumerate())
+            .filter(|(_, sum)| counts(sum))
+            .partition(|(k, sum)| is_fixed(*k, sum));
+        for (_, sum) in standing {
+            sum.source.over_angle(&sum.loads, block, wanted, 1.0, &mut fixed)?;
         }
         let mut columns = Columns::ZERO;
         for (point, out) in self.points.iter().zip(outs) {
             columns.copy(&fixed, wanted);
-            for (sum, source) in self.kinematics.sums.iter().zip(point) {
-                if counts(sum) && !is_fixed(sum) {
-                    source.over_angle(sum, block, wanted, 1.0, &mut columns)?;
-                }
+            for (k, sum) in &moving {
+                point[*k].over_angle(&sum.loads, block, wanted, 1.0, &mut columns)?;
             }
             let Columns { force, moment, torque: [roll, crank], .. } = &columns;
             let ([x, y], bound) = match quantity.kind {

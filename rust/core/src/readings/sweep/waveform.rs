@@ -6,7 +6,6 @@ use super::placed::Placed;
 use super::tiles::{OrderWave, TILE, Tiles};
 use super::{Selection, Statistic, Sweep};
 use crate::Complex64;
-use crate::load::kinematics::{AngleBlock, BLOCK};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, parts};
 use crate::numbers::error::{Error, Result};
@@ -15,6 +14,7 @@ use crate::numbers::memory;
 use crate::numbers::pool;
 use crate::numbers::simd::vectorised;
 use crate::readings::quantity::Quantity;
+use crate::source::over_angle::{AngleBlock, BLOCK};
 
 /// Points that share a tile of cosines and sines.
 const ROWS: usize = 128;

@@ -17,7 +17,7 @@ use crate::load::{
 };
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
-use crate::numbers::error::{Error, Result};
+use crate::numbers::error::Result;
 use crate::numbers::index::{List, ListIndex, distinct, list_index};
 use crate::numbers::order::Order;
 use crate::numbers::simd::{sin_cos_degrees, vectorised};
@@ -62,7 +62,7 @@ enum DeviatingKind {
 /// Loads of an engine whose figures deviate.
 pub(super) struct Terms {
     orders: Vec<Order>,
-    /// The same of the main crank, as whole numbers.
+    /// The same of the main crank, as whole numbers; of half orders any.
     numbers: Vec<u32>,
     torque: bool,
     places: Vec<Station>,
@@ -84,11 +84,8 @@ impl Terms {
         reference: f64,
         torque: bool,
     ) -> Result<Self> {
-        let whole = |order: &Order| {
-            let hint = "give whole orders: those of inertia, which tolerances are of";
-            order.as_whole().ok_or_else(|| Error::value("orders", order, hint))
-        };
-        let numbers: Vec<u32> = orders.iter().map(whole).collect::<Result<_>>()?;
+        // Of half orders any: no load that deviates has them.
+        let numbers = orders.iter().map(|order| (order.halves() / 2).max(1)).collect();
         // Every pin carries mass: a tolerance of none is an unbalance too.
         let laden = engine.stations().iter().map(|p| Station { rotating_mass: 1.0, ..*p });
         let count = engine.stations().len();

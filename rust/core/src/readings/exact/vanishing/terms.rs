@@ -7,7 +7,6 @@ use super::super::roots::{FormalSum, PartOfTurn, Share, SymbolEntry, parts_of_tu
 use super::super::{ExactLoads, Levers, MotionIndex, TypedProportions, too_long};
 use super::ProofQuantity;
 use crate::engine::{Engine, Origin};
-use crate::load::source::{Column, ExactFactor};
 use crate::load::{self, Harmonic, Load, LoadIndex, LoadList, SourceIndex, Wanted, superpose};
 use crate::mechanism::Mechanism;
 use crate::mechanism::slider_crank::Cylinder;
@@ -16,6 +15,7 @@ use crate::numbers::error::Result;
 use crate::numbers::index::{List, distinct, list_index};
 use crate::numbers::order::Order;
 use crate::numbers::rational::{Multiples, Ratio, product};
+use crate::source::{Column, ExactFactor};
 
 list_index! {
     /// Index of a running gear with the speed of its crank, whichever its sense, among those that differ.

@@ -1,20 +1,74 @@
-//! What acts at a place: amplitudes by order, values over crank angle, bounds.
+//! What acts at a place of an engine: amplitudes by order, and a bound of the rest.
+//!
+//! The loads of an engine are sources at places. Its own are the inertia of pistons and rods, unbalances,
+//! pressure and loads that are given by numbers; any other implements [`Source`] and joins them by
+//! [`PeriodicLoad::of`]. Every reading then counts it under its name. [`check_source`] runs a source through the
+//! readings, against plain sums of its own amplitudes.
+//!
+//! ```
+//! use crankpin_core::engine::{ActsOn, PeriodicLoad};
+//! use crankpin_core::source::{Parts, Repeats, Scaling, Source, Tail, TorqueAmplitudes};
+//! use crankpin_core::{Cancel, Complex64, Order, Result, check_source};
+//!
+//! /// Springs that a camshaft compresses once in two turns: 10 N·m on it.
+//! #[derive(Debug)]
+//! struct ValveSprings;
+//!
+//! impl Source for ValveSprings {
+//!     fn name(&self) -> &'static str {
+//!         "valve springs"
+//!     }
+//!
+//!     fn parts(&self) -> Parts {
+//!         Parts { force: None, roll: true, scaling: Scaling::Independent, repeats: Repeats::EveryTwoTurns }
+//!     }
+//!
+//!     fn orders(&self, highest: Order) -> Vec<Order> {
+//!         Order::from_halves(1).into_iter().filter(|own| *own <= highest).collect()
+//!     }
+//!
+//!     fn torque(&self, orders: &[Order], _: &Cancel) -> Result<TorqueAmplitudes> {
+//!         let own = |order: &Order| if order.halves() == 1 { 10.0.into() } else { Complex64::ZERO };
+//!         let on_camshaft: Vec<Complex64> = orders.iter().map(own).collect();
+//!         Ok(TorqueAmplitudes::shared(&on_camshaft, 0.0, ActsOn::Both.torque_shares(0.5)))
+//!     }
+//!
+//!     fn beyond(&self, halves: u32, _: bool) -> Tail {
+//!         Tail { force: 0.0, torque: if halves < 1 { 5.0 } else { 0.0 } }
+//!     }
+//! }
+//!
+//! let springs = PeriodicLoad::of(ValveSprings, ActsOn::Both);
+//! check_source(&springs, None)?;
+//! # Ok::<(), crankpin_core::Error>(())
+//! ```
+//!
+//! [`check_source`]: crate::check_source
+//! [`PeriodicLoad::of`]: crate::engine::PeriodicLoad::of
+
+pub(crate) mod over_angle;
 
 use std::any::Any;
 use std::fmt::Debug;
+use std::ptr;
 use std::sync::Arc;
 
-use super::kinematics::{AngleBlock, Columns, LoadSum, Quantities};
+use self::over_angle::{AngleBlock, Columns, LoadSum, Quantities};
 use crate::Complex64;
-pub use crate::engine::loads::{GAS, INERTIA};
 use crate::mechanism::Mechanism;
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::UNIT_RPM;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::error::Result;
+use crate::numbers::limits;
 use crate::numbers::order::Order;
 use crate::pressure::Cycle;
+
+/// Name of what moving parts make.
+pub const INERTIA: &str = "inertia";
+/// Name of what the pressure in cylinders makes.
+pub const GAS: &str = "gas";
 
 /// How a source acts at its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,7 +88,8 @@ pub struct Parts {
 pub enum ForcePart {
     /// Along its direction, at multiples of the speed of its crank.
     Along,
-    /// Turning with its shaft, at the order of its speed alone.
+    /// Turning with its shaft, at the order of its speed alone; the argument of its amplitude is the angle by
+    /// which it is ahead of its direction in the sense of the shaft.
     Turning,
 }
 
@@ -85,7 +140,7 @@ pub enum Repeats {
 
 impl Parts {
     /// Of inertia that repeats in a turn.
-    pub const fn inertia(force: Option<ForcePart>, roll: bool) -> Self {
+    pub(crate) const fn inertia(force: Option<ForcePart>, roll: bool) -> Self {
         Self { force, roll, scaling: Scaling::SpeedSquared, repeats: Repeats::EveryTurn }
     }
 }
@@ -107,6 +162,18 @@ pub struct TorqueAmplitudes {
     pub harmonics: TorqueHarmonics,
     /// On the block and on the main crank.
     pub mean: [f64; 2],
+}
+
+impl TorqueAmplitudes {
+    /// Of a torque of which block and main crank get these shares: those of [`ActsOn::torque_shares`] where it
+    /// acts on a shaft.
+    ///
+    /// [`ActsOn::torque_shares`]: crate::engine::ActsOn::torque_shares
+    #[must_use]
+    pub fn shared(amplitudes: &[Complex64], mean: f64, shares: [f64; 2]) -> Self {
+        let [roll, crank] = shares.map(|share| amplitudes.iter().map(|a| a * share).collect());
+        Self { harmonics: TorqueHarmonics { roll, crank }, mean: shares.map(|share| share * mean) }
+    }
 }
 
 /// Bounds of what orders above one add.
@@ -136,6 +203,8 @@ pub enum ExactFactor {
     Piston,
     /// Of a rod's.
     Rod,
+    /// That of the sum of directions in which cylinders fire: of pressure.
+    Cycle,
     /// No rational multiple of anything.
     Unknown,
 }
@@ -158,9 +227,21 @@ pub type SourceUpTo = (Arc<dyn Source>, Vec<f64>);
 /// What acts at a place, over the weights of a load.
 ///
 /// A source says what every reading asks of it; none asks which source it is. It has a name, says how it acts,
-/// and has orders, their amplitudes and a bound of the rest; what else there is follows from these.
+/// and has orders, their amplitudes and a bound of the rest; what else there is follows from these. A minimal
+/// source has [`name`], [`parts`], [`orders`], [`beyond`], and [`force`] or [`torque`].
+///
+/// Orders are multiples of the speed of the main crank, whatever the shaft; amplitudes are peak phasors, those
+/// of order n at a crank angle θ `Re(A·e^{in(θ − φ)})`, with φ the phase of the place, and do not change with
+/// speed but as [`Parts::scaling`] says: N and N·m, or kg·m and kg·m² where that is ω².
+///
+/// [`name`]: Self::name
+/// [`parts`]: Self::parts
+/// [`orders`]: Self::orders
+/// [`beyond`]: Self::beyond
+/// [`force`]: Self::force
+/// [`torque`]: Self::torque
 pub trait Source: Debug + Send + Sync + Any {
-    /// Under which its loads are counted: `inertia`, `gas`, or a name of its own.
+    /// Under which its loads are counted: a name of its own; engines count their own as `inertia` and `gas`.
     fn name(&self) -> &str;
 
     /// How it acts.
@@ -191,7 +272,8 @@ pub trait Source: Debug + Send + Sync + Any {
         false
     }
 
-    /// Amplitudes of its torque on the block and on the main crank, and their means.
+    /// Amplitudes of its torque on the block and on the main crank, and their means; without those that its
+    /// force makes about the main crank.
     fn torque(&self, orders: &[Order], cancel: &Cancel) -> Result<TorqueAmplitudes> {
         cancel.check()?;
         let zero = vec![Complex64::default(); orders.len()]; // bounded: by the orders of a request
@@ -199,10 +281,11 @@ pub trait Source: Debug + Send + Sync + Any {
         Ok(TorqueAmplitudes { harmonics, mean: [0.0; 2] })
     }
 
-    /// Orders that it has up to one, multiples of the speed of the main crank.
+    /// Orders that it has up to one, ascending.
     fn orders(&self, highest: Order) -> Vec<Order>;
 
-    /// Bounds of what orders above a number of halves add; infinite where none is known.
+    /// Bounds of what orders above a number of halves add at any crank angle, mostly the sum of the sizes of their
+    /// amplitudes; infinite where none is known. That of a torque, the larger of both, is wanted or not.
     fn beyond(&self, halves: u32, torque: bool) -> Tail;
 
     /// Whether bounds of what orders above one add are known only as its torque is integrated: then
@@ -222,7 +305,7 @@ pub trait Source: Debug + Send + Sync + Any {
         0.0
     }
 
-    /// What a tolerance is relative to.
+    /// What a tolerance is relative to: by default all of its orders together.
     fn scale(&self) -> Scale {
         let Tail { force, torque } = self.beyond(0, true);
         Scale { force, torque: (torque > 0.0).then_some(torque) }
@@ -259,11 +342,12 @@ pub trait Source: Debug + Send + Sync + Any {
         columns: &mut Columns,
     ) -> Result<()> {
         let cancel = Cancel::new();
-        let orders = self.orders(Order::HIGHEST);
+        let orders = self.orders(resolved(self)?);
         let Columns { force: [force_x, force_y], moment: [moment_x, moment_y], torque } = columns;
         let [force, moment, arm] = [sum.force, sum.moment, sum.arm].map(|sum| sum * factor);
         let [on_block, on_crank] = torque;
-        let has_force = self.parts().force.is_some();
+        let has_force =
+            self.parts().force.is_some() && [force, moment, arm] != [Complex64::ZERO; 3];
         let forces = if has_force { self.force(&orders, &cancel)? } else { Vec::new() };
         for (&order, amplitude) in orders.iter().zip(forces) {
             let (units, amplitude) = (block.orders(order), amplitude * sum.lag(order));
@@ -309,6 +393,23 @@ pub trait Source: Debug + Send + Sync + Any {
     }
 }
 
+/// An order above which all of a source together are rounding.
+pub(crate) fn resolved<S: Source + ?Sized>(source: &S) -> Result<Order> {
+    /// Part of all orders that is rounding.
+    const ROUNDING: f64 = 1e-17;
+    let all = source.beyond(0, true);
+    let mut highest = 1;
+    loop {
+        let rest = source.beyond(2 * highest, true);
+        let is_below = |rest: f64, all: f64| rest.is_finite() && rest <= ROUNDING * all;
+        let is_rounding = is_below(rest.force, all.force) && is_below(rest.torque, all.torque);
+        if is_rounding || highest == limits::HIGHEST_ORDER {
+            return Order::whole(highest);
+        }
+        highest = limits::HIGHEST_ORDER.min(2 * highest);
+    }
+}
+
 /// A source at a point of a sweep.
 pub(crate) fn at_point(source: &Arc<dyn Source>, point: &Point) -> Result<Arc<dyn Source>> {
     Ok(source.at_point(point)?.unwrap_or_else(|| Arc::clone(source)))
@@ -316,11 +417,11 @@ pub(crate) fn at_point(source: &Arc<dyn Source>, point: &Point) -> Result<Arc<dy
 
 impl PartialEq for dyn Source {
     fn eq(&self, other: &Self) -> bool {
-        self.equals(other)
+        ptr::addr_eq(self, other) || self.equals(other)
     }
 }
 
 /// Whether another source is of the same kind, and equal.
-pub(super) fn is_equal<S: Source + PartialEq>(source: &S, other: &dyn Source) -> bool {
+pub(crate) fn is_equal<S: Source + PartialEq>(source: &S, other: &dyn Source) -> bool {
     (other as &dyn Any).downcast_ref::<S>().is_some_and(|other| source == other)
 }

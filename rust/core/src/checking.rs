@@ -1,0 +1,879 @@
+//! Runs a source through every reading, against plain sums of its own amplitudes.
+//!
+//! Nothing here asks how loads are superposed: force, moment and torques of each order are written out, at each
+//! speed and turned bank, and compared with what readings of engines with the load, and without it, differ by.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use crate::Complex64;
+use crate::balancing::roll_torque;
+use crate::engine::{ActsOn, Details, Engine, Gas, Hold, Origin, PeriodicLoad, Station, file};
+use crate::mechanism::slider_crank::Cylinder;
+use crate::mounts::{Mount, MountFigures, Powertrain, RigidBody};
+use crate::numbers::angle::Angle;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::crank_angles::CrankAngles;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::order::Order;
+use crate::pressure::{Cycle, Given};
+use crate::readings::balance::{Balance, Orders, Request, Vector, balance};
+use crate::readings::bearing_loads::{BearingLoadsModel, Part as Section};
+use crate::readings::exact::vanishing::{Vanishing, Verdict, vanishing};
+use crate::readings::explain::finding::Finding;
+use crate::readings::explain::{Subject, explain};
+use crate::readings::mounted::Response;
+use crate::readings::quantity::{Kind, Part, Quantity};
+use crate::readings::sweep::{Statistic, Sweep, SweepAxes};
+use crate::readings::terms::terms;
+use crate::readings::tolerances::{Distribution, FIGURES, Tolerances};
+use crate::readings::waveform;
+use crate::source::{ForcePart, Repeats, Scaling, Source};
+
+/// Force of a load along its direction, N, and its torques on the block and on the main crank, N·m, at a crank
+/// speed, rpm, and a crank angle from its phase, degrees: measured, or known in another way.
+pub type Measured<'a> = &'a dyn Fn(f64, f64) -> [f64; 3];
+
+/// Highest order that is summed.
+const HIGHEST: u32 = 96;
+/// Part of the sizes of terms that a reading may differ by: rounding of a hundred orders, and of angles times them.
+const ROUNDING: f64 = 1e-10;
+/// Speeds at which readings are compared, rpm.
+const SPEEDS: [f64; 2] = [1000.0, 3000.0];
+/// Tolerance of default orders.
+const RTOL: f64 = 1e-6;
+
+/// Checks that a source says of itself what holds, and that every reading of engines that have its load counts
+/// it, under its name: balances about any point, default orders and their bounds, waveforms, sweeps, terms,
+/// proofs, bearings, mounts, tolerances, explanations. The error names the reading that disagrees.
+///
+/// The load is tried where it is, and at other places of its crank or shaft. With what is measured the
+/// amplitudes and their change with speed are compared as well.
+pub fn check_source(load: &PeriodicLoad, measured: Option<Measured>) -> Result<()> {
+    let Some(source) = &load.source else {
+        return Err(Error::value("load", format!("{:?}", load.name), "give a load of a source"));
+    };
+    let amplitudes = Amplitudes::new(&**source)?;
+    if let Some(measured) = measured {
+        amplitudes.check_measured(&**source, measured)?;
+    }
+    let phase_deg = Angle::from_degrees(400.0)?;
+    let direction_deg = Angle::from_degrees(30.0)?;
+    let other = PeriodicLoad { z: 0.17, phase_deg, direction_deg, ..load.clone() };
+    let with_bank = PeriodicLoad { cylinder: Some(1), ..other.clone() };
+    for load in [load.clone(), with_bank].into_iter().chain(
+        [ActsOn::Shaft, ActsOn::Block, ActsOn::Both].map(|on| PeriodicLoad { on, ..other.clone() }),
+    ) {
+        for fired in [false, true] {
+            let case = Case::new(&load, &amplitudes, fired)?;
+            case.check_balances()?;
+            case.check_default_orders()?;
+            case.check_waveforms()?;
+            case.check_sweeps()?;
+            case.check_proofs()?;
+            case.check_bearings()?;
+            case.check_mounts()?;
+            case.check_words()?;
+            if !fired {
+                case.check_tolerances()?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Rejects a figure of a reading that is not the plain one.
+fn same(reading: &str, found: Complex64, expected: Complex64, slack: f64) -> Result<()> {
+    if (found - expected).norm() <= slack {
+        return Ok(());
+    }
+    let hint = format!("plain sums of the amplitudes of its source make {expected:.9e}");
+    Err(Error::value(reading, format!("{found:.9e}"), hint))
+}
+
+/// Rejects what a source says of itself.
+fn wrong(of: &str, found: impl std::fmt::Display, hint: &str) -> Error {
+    Error::value(format!("Source::{of}"), found, hint)
+}
+
+/// What a source says, by order.
+struct Amplitudes {
+    /// Up to [`HIGHEST`].
+    orders: Vec<Order>,
+    /// Of the force, and of the torques on the block and on the main crank.
+    values: Vec<[Complex64; 3]>,
+    mean: [f64; 2],
+    /// Bounds of what orders above those add to force and torque.
+    tail: [f64; 2],
+}
+
+impl Amplitudes {
+    /// Checks what a source says of its orders and of its tail.
+    fn new(source: &dyn Source) -> Result<Self> {
+        let (cancel, parts) = (Cancel::new(), source.parts());
+        let orders = source.orders(Order::whole(HIGHEST)?);
+        let is_ascending = orders.is_sorted_by(|before, after| before < after);
+        if !is_ascending
+            || orders.last().is_some_and(|last| *last > Order::whole(HIGHEST).unwrap_or(*last))
+        {
+            return Err(wrong(
+                "orders",
+                format!("{orders:?}"),
+                "give them once, ascending, up to the highest",
+            ));
+        }
+        let half = orders.iter().find(|order| order.as_whole().is_none());
+        if let Some(half) = half.filter(|_| {
+            parts.repeats == Repeats::EveryTurn && parts.force != Some(ForcePart::Turning)
+        }) {
+            return Err(wrong(
+                "orders",
+                half,
+                "has a half order, and says that it repeats in every turn",
+            ));
+        }
+        let at = |orders: &[Order]| -> Result<(Vec<[Complex64; 3]>, [f64; 2])> {
+            let forces = match parts.force {
+                Some(_) => source.force(orders, &cancel)?,
+                None => vec![Complex64::ZERO; orders.len()], // bounded: by HIGHEST
+            };
+            if !parts.roll {
+                return Ok((
+                    forces
+                        .into_iter()
+                        .map(|force| [force, Complex64::ZERO, Complex64::ZERO])
+                        .collect(),
+                    [0.0; 2],
+                ));
+            }
+            let torque = source.torque(orders, &cancel)?;
+            let torques = torque.harmonics.roll.iter().zip(&torque.harmonics.crank);
+            if [forces.len(), torques.len()] != [orders.len(); 2] {
+                return Err(wrong(
+                    "force",
+                    forces.len(),
+                    "give one amplitude for each order, of force and torque",
+                ));
+            }
+            let all = forces
+                .into_iter()
+                .zip(torques)
+                .map(|(force, (roll, crank))| [force, *roll, *crank]);
+            Ok((all.collect(), torque.mean))
+        };
+        let (values, mean) = at(&orders)?;
+        let all: Vec<Order> = (1..=4 * 16).map(Order::from_halves).collect::<Result<_>>()?;
+        let largest = values.iter().flatten().map(|value| value.norm()).fold(0.0, f64::max);
+        for (order, of_order) in all.iter().zip(at(&all)?.0) {
+            let own = orders.binary_search(order).map_or([Complex64::ZERO; 3], |k| values[k]);
+            for (found, expected) in of_order.into_iter().zip(own) {
+                let reading = format!("Source::force or torque at order {order}");
+                same(&reading, found, expected, ROUNDING * largest)?;
+            }
+        }
+        let tails = source.up_to(Order::whole(HIGHEST)?, &cancel)?.map(|(_, tails)| tails);
+        let tail = |halves: u32| match &tails {
+            Some(tails) if halves == 0 => [0.0, f64::INFINITY],
+            Some(tails) => [0.0, tails.get(halves as usize - 1).copied().unwrap_or(f64::INFINITY)],
+            None => {
+                let tail = source.beyond(halves, true);
+                [tail.force, tail.torque]
+            }
+        };
+        let checked = Self { orders, values, mean, tail: tail(2 * HIGHEST) };
+        for halves in [0, 1, 2, 3, 4, 5, 8, 12, 24, 48] {
+            let bound = tail(halves);
+            for theta in (0..1440).map(|k| 0.5 * f64::from(k)) {
+                let [force, roll, crank] = checked.over_angle(theta, halves);
+                let largest = [force.abs(), roll.abs().max(crank.abs())];
+                for (largest, bound) in largest.into_iter().zip(bound) {
+                    if largest > bound * (1.0 + ROUNDING) + f64::MIN_POSITIVE {
+                        let hint =
+                            format!("orders above {} make {largest:?}", 0.5 * f64::from(halves));
+                        return Err(wrong("beyond", bound, &hint));
+                    }
+                }
+            }
+        }
+        Ok(checked)
+    }
+
+    /// Sum of the orders above a number of halves at a crank angle from the phase, degrees.
+    fn over_angle(&self, theta_deg: f64, halves: u32) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for (order, values) in
+            self.orders.iter().zip(&self.values).filter(|(order, _)| order.halves() > halves)
+        {
+            let unit = Complex64::cis(order.number() * theta_deg / 360.0 * TAU);
+            sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += (value * unit).re);
+        }
+        sum
+    }
+
+    fn check_measured(&self, source: &dyn Source, measured: Measured) -> Result<()> {
+        for rpm in SPEEDS {
+            let factor = factor(source.parts().scaling, rpm);
+            let thetas = || (0..96).map(|k| 7.5 * f64::from(k));
+            let all: Vec<[f64; 3]> = thetas().map(|theta| measured(rpm, theta)).collect();
+            for ((theta, measured), k) in
+                thetas().zip(&all).flat_map(|of| [(of, 0), (of, 1), (of, 2)])
+            {
+                let mean = [0.0, self.mean[0], self.mean[1]][k];
+                let own = factor * (self.over_angle(theta, 0)[k] + mean);
+                let largest = all.iter().fold(0.0, |most: f64, of| most.max(of[k].abs()));
+                let slack = 1e-9 * largest + factor * self.tail[k.min(1)];
+                if (own - measured[k]).abs() > slack {
+                    let what = ["force", "torque on the block", "torque on the crank"][k];
+                    let hint = format!(
+                        "its orders make {own:?} of {what} at {rpm} rpm and {theta}°, as they scale"
+                    );
+                    return Err(Error::figure("measured", measured[k], hint));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What amplitudes are multiplied by at a speed.
+fn factor(scaling: Scaling, rpm: f64) -> f64 {
+    match scaling {
+        Scaling::SpeedSquared => (rpm * TAU / 60.0).powi(2),
+        Scaling::Independent => 1.0,
+        Scaling::Row([below, at, above]) => {
+            let end = if rpm < at { below } else { above };
+            if rpm == at { 1.0 } else { ((rpm - end) / (at - end)).max(0.0) }
+        }
+    }
+}
+
+/// A load at a place of an engine.
+struct Case<'a> {
+    load: &'a PeriodicLoad,
+    amplitudes: &'a Amplitudes,
+    scaling: Scaling,
+    force: Option<ForcePart>,
+    bare: Arc<Engine>,
+    with: Arc<Engine>,
+    /// Rounding of the readings of the engine without it, over ω², and at any speed.
+    rounding: [f64; 2],
+    cancel: Cancel,
+}
+
+/// Force along x and y, moment about them, torque on the block and on the crank.
+type Six = [Complex64; 6];
+
+impl<'a> Case<'a> {
+    fn new(load: &'a PeriodicLoad, amplitudes: &'a Amplitudes, fired: bool) -> Result<Self> {
+        let [radius, mass] = [0.045, 0.5];
+        let cylinder = Cylinder::new(radius, 0.15, mass, 0.002)?;
+        let station = |[tdc, bank, z]: [f64; 3]| -> Result<Station> {
+            let [tdc, bank] = [Angle::from_degrees(tdc)?, Angle::from_degrees(bank)?];
+            Ok(Station { cylinder, tdc, bank, z, rotating_mass: 0.3 })
+        };
+        let places = [station([0.0, 120.0, 0.0])?, station([200.0, 60.0, 0.1])?];
+        // On the cranks that the load may sit on.
+        let cranks = (0..=load.crank.unwrap_or(0)).map(|k| crate::Crank {
+            axis: [0.2 * k as f64, 0.0],
+            ratio: if k == 0 { 1 } else { -1 },
+        });
+        let mut bare = Engine::new("", "", places.to_vec())?;
+        let cranks: Vec<crate::Crank> = cranks.collect();
+        let last = cranks.len() - 1;
+        if last > 0 {
+            bare = bare.with_cranks(cranks, vec![0, last])?;
+        }
+        if fired {
+            let theta_deg: Vec<f64> = (0..144).map(|k| 5.0 * f64::from(k)).collect();
+            let pressure = |theta: &f64| 1e5 + 2e6 * (-((theta - 60.0) / 25.0).powi(2)).exp();
+            let pressure = theta_deg.iter().map(pressure).collect();
+            let cycle = Cycle::new(Given {
+                name: String::new(),
+                strokes: 4,
+                theta_deg,
+                pressure,
+                degree: None,
+            })?;
+            let details = vec![Details { bore: Some(0.08), ..Details::default() }; 2];
+            let gas = Gas {
+                cycles: vec![Arc::new(cycle)],
+                cycle_of: vec![Some(0); 2],
+                crankcase: 1e5,
+                later: vec![false; 2],
+            };
+            bare = bare.with_details(details)?.with_gas(gas)?;
+        }
+        let with = bare.with_loads(vec![load.clone()])?;
+        let parts = load.source.as_ref().map(|source| source.parts());
+        let (scaling, force) =
+            parts.map_or_else(Default::default, |parts| (parts.scaling, parts.force));
+        let rounding = [4.0 * mass * radius, if fired { 1e3 } else { 0.0 }];
+        let (bare, with, cancel) = (Arc::new(bare), Arc::new(with), Cancel::new());
+        Ok(Self { load, amplitudes, scaling, force, bare, with, rounding, cancel })
+    }
+
+    fn factor(&self, rpm: f64) -> f64 {
+        factor(self.scaling, rpm)
+    }
+
+    /// Force on the shaft or block, along x and y, of the k-th order at a speed, turned as its bank is: its
+    /// direction and phase, degrees.
+    fn on_shaft(&self, k: usize, rpm: f64, [direction, phase]: [f64; 2]) -> [Complex64; 2] {
+        let (order, [force, ..]) = (self.amplitudes.orders[k], self.amplitudes.values[k]);
+        let lagged = self.lagged(k, force, rpm, phase);
+        let at = Complex64::cis((self.load.direction_deg.degrees() + direction) / 360.0 * TAU);
+        let (_, ratio) = self.load.shaft(&self.bare);
+        match self.force {
+            None => [Complex64::ZERO; 2],
+            Some(ForcePart::Along) => [lagged * at.re, lagged * at.im],
+            Some(ForcePart::Turning) if order.number() != ratio.abs() => [Complex64::ZERO; 2],
+            Some(ForcePart::Turning) => {
+                let sense = ratio.signum();
+                let x = lagged * Complex64::new(at.re, sense * at.im);
+                [x, x * Complex64::new(0.0, -sense)]
+            }
+        }
+    }
+
+    /// An amplitude of the k-th order at a speed, as seen at θ = 0.
+    fn lagged(&self, k: usize, amplitude: Complex64, rpm: f64, phase: f64) -> Complex64 {
+        let phase = (self.load.phase_deg.degrees() + phase) / 360.0 * TAU;
+        amplitude * self.factor(rpm) * Complex64::cis(-self.amplitudes.orders[k].number() * phase)
+    }
+
+    /// What the k-th order makes about a point.
+    fn six(&self, k: usize, rpm: f64, point: [f64; 3], turned: [f64; 2]) -> Six {
+        let [_, roll, crank] =
+            self.amplitudes.values[k].map(|one| self.lagged(k, one, rpm, turned[1]));
+        let on_shaft = self.on_shaft(k, rpm, turned);
+        let [x, y] = if self.load.on == ActsOn::Both { [Complex64::ZERO; 2] } else { on_shaft };
+        let ([at_x, at_y], _) = self.load.shaft(&self.bare);
+        let axis = Complex64::new(at_x, at_y) * Complex64::cis(turned[0] / 360.0 * TAU);
+        let arm = [axis.re - point[0], axis.im - point[1], self.load.z - point[2]];
+        [x, y, -y * arm[2], x * arm[2], roll + y * arm[0] - x * arm[1], crank]
+    }
+
+    /// The sum of some orders at a crank angle.
+    fn sum(
+        &self,
+        rpm: f64,
+        theta_deg: f64,
+        point: [f64; 3],
+        is_counted: impl Fn(Order) -> bool,
+    ) -> [f64; 6] {
+        let mut sum = [0.0; 6];
+        for (k, &order) in
+            self.amplitudes.orders.iter().enumerate().filter(|(_, order)| is_counted(**order))
+        {
+            let unit = Complex64::cis(order.number() * theta_deg / 360.0 * TAU);
+            let six = self.six(k, rpm, point, [0.0; 2]);
+            sum.iter_mut().zip(six).for_each(|(sum, one)| *sum += (one * unit).re);
+        }
+        sum
+    }
+
+    /// What rounding may change, of its own part, or of readings that have the engine's loads as well.
+    fn slack(&self, rpm: f64, of_engine: bool) -> f64 {
+        let [force, torque] = self.largest(rpm);
+        let [over_square, any] = self.rounding;
+        let omega = rpm * TAU / 60.0;
+        let others = if of_engine { over_square * omega * omega + any } else { 0.0 };
+        ROUNDING * (force + torque + others) + 1e-15
+    }
+
+    /// Sums of sizes of force and torque, with their arms.
+    fn largest(&self, rpm: f64) -> [f64; 2] {
+        let sums =
+            self.amplitudes.values.iter().fold([0.0; 2], |[force, torque], [f, roll, crank]| {
+                [force + f.norm(), torque + roll.norm() + crank.norm()]
+            });
+        let mean: f64 = self.amplitudes.mean.iter().map(|mean| mean.abs()).sum();
+        [sums[0] * self.factor(rpm), (sums[1] + mean) * self.factor(rpm)]
+    }
+
+    fn request(rpm: f64, point: [f64; 3]) -> Request {
+        Request { rpm, reference_z: Some(point[2]), torque: true }
+    }
+
+    /// Orders that are compared: those of the load and two that engines have, up to 24.
+    fn orders(&self) -> Result<Vec<Order>> {
+        let mut orders = Order::all_whole(&[1, 2, 7])?;
+        orders.extend(self.amplitudes.orders.iter().filter(|order| order.halves() <= 48));
+        orders.sort_unstable();
+        orders.dedup();
+        Ok(orders)
+    }
+
+    /// Index of an order among those of the load.
+    fn place(&self, order: Order) -> Option<usize> {
+        self.amplitudes.orders.binary_search(&order).ok()
+    }
+
+    /// What an order makes, none where the load does not have it.
+    fn plain(&self, order: Order, rpm: f64, point: [f64; 3], turned: [f64; 2]) -> Six {
+        self.place(order).map_or([Complex64::ZERO; 6], |k| self.six(k, rpm, point, turned))
+    }
+
+    fn compare(
+        &self,
+        reading: &str,
+        found: Six,
+        order: Order,
+        rpm: f64,
+        point: [f64; 3],
+    ) -> Result<()> {
+        let expected = self.plain(order, rpm, point, [0.0; 2]);
+        for (what, (found, expected)) in NAMES.iter().zip(found.into_iter().zip(expected)) {
+            same(
+                &format!("{reading}: {what} of order {order}"),
+                found,
+                expected,
+                self.slack(rpm, false),
+            )?;
+        }
+        Ok(())
+    }
+
+    fn check_balances(&self) -> Result<()> {
+        let (orders, name) = (self.orders()?, &*self.load.name);
+        for (rpm, point) in SPEEDS.into_iter().zip([[0.0, 0.0, 0.05], [0.1, -0.2, 0.3]]) {
+            let request = Self::request(rpm, point);
+            let found =
+                balance(&self.with, &request, &Orders::Given(orders.clone()), &self.cancel)?;
+            let found = found.moved([point[0], point[1], 0.0]);
+            if !found.names().iter().any(|own| **own == *name) {
+                return Err(Error::value(
+                    "names of a balance",
+                    format!("{:?}", found.names()),
+                    "lack its name",
+                ));
+            }
+            let own = found.of_part(Part::Of(name));
+            for (k, &order) in orders.iter().enumerate() {
+                self.compare("part of a balance", six_of(&own, k), order, rpm, point)?;
+                if let Some(at) = self.place(order) {
+                    let about = self.six(at, rpm, [0.0, 0.0, point[2]], [0.0; 2])[4];
+                    let rolls = [Some(rpm), None]
+                        .map(|rpm| roll_torque(&self.with, order, rpm, &self.cancel));
+                    let bare = roll_torque(&self.bare, order, Some(rpm), &self.cancel)?;
+                    let square = (rpm * TAU / 60.0).powi(2);
+                    let [at_speed, at_none] = rolls;
+                    same("roll_torque", (at_speed? - bare) * square, about, self.slack(rpm, true))?;
+                    if at_none.is_ok()
+                        && self.scaling != Scaling::SpeedSquared
+                        && about.norm() > 0.0
+                    {
+                        return Err(Error::value(
+                            "roll_torque",
+                            "a figure",
+                            "needs a speed, and asked for none",
+                        ));
+                    }
+                }
+            }
+            let mean = self.amplitudes.mean.map(|mean| mean * self.factor(rpm));
+            for (found, expected) in found.mean(Part::Of(name)).into_iter().zip(mean) {
+                same(
+                    "mean torque of a balance",
+                    found.into(),
+                    expected.into(),
+                    self.slack(rpm, false),
+                )?;
+            }
+            for (origin, part) in
+                terms(&self.with, &request, [point[0], point[1]], &orders, &self.cancel)?
+            {
+                for (k, &order) in orders.iter().enumerate().filter(|_| origin == Origin::Load(0)) {
+                    self.compare("terms", six_of(&part, k), order, rpm, point)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn check_default_orders(&self) -> Result<()> {
+        let point = [0.0, 0.0, 0.05];
+        for rpm in SPEEDS {
+            let request = Self::request(rpm, point);
+            let found = balance(&self.with, &request, &Orders::Auto { rtol: RTOL }, &self.cancel)?;
+            let sweep = Sweep::within(
+                RTOL,
+                vec![Arc::clone(&self.with)],
+                Self::axes(None, vec![rpm]),
+                Some(point[2]),
+                true,
+                &self.cancel,
+            )?;
+            for (reading, orders, bound) in [
+                ("default orders", &found.orders[..], found.error_bound),
+                ("default orders of a sweep", sweep.orders(), sweep.error_bound()),
+            ] {
+                for theta in (0..96).map(|k| 7.5 * f64::from(k)) {
+                    let left = self.sum(rpm, theta, point, |order| !orders.contains(&order));
+                    let left = [
+                        left[0].hypot(left[1]),
+                        left[2].hypot(left[3]),
+                        left[4].abs().max(left[5].abs()),
+                    ];
+                    for (what, (left, bound)) in ["force", "moment", "torque"]
+                        .iter()
+                        .zip(left.into_iter().zip(bound.values()))
+                    {
+                        if left > bound + self.slack(rpm, false) {
+                            let hint = format!("its orders that are left out make {left:?}");
+                            return Err(Error::figure(
+                                format!("{reading}: bound of {what}"),
+                                bound,
+                                hint,
+                            ));
+                        }
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn check_waveforms(&self) -> Result<()> {
+        let thetas: Vec<f64> = (0..48).map(|k| 15.0 * f64::from(k) + 1.0).collect();
+        let (rpm, point) = (SPEEDS[1], [0.0, 0.0, 0.05]);
+        let request = Self::request(rpm, point);
+        let orders = Orders::Given(self.orders()?);
+        let exact = waveform::exact(&self.with, &request, &thetas, &self.cancel)?;
+        let by_orders =
+            waveform::from_orders(&self.with, &request, &thetas, &orders, &self.cancel)?;
+        let tail: f64 = self.amplitudes.tail.iter().map(|tail| tail * self.factor(rpm)).sum();
+        let [slack, mean] = [self.slack(rpm, false), self.factor(rpm)];
+        for (reading, found, highest, slack) in [
+            ("exact waveform", &exact, 2 * HIGHEST, slack + tail),
+            ("waveform by orders", &by_orders, 48, slack),
+        ] {
+            let part = found.parts.iter().find(|part| *part.name == *self.load.name);
+            for (i, &theta) in thetas.iter().enumerate() {
+                let mut expected = self.sum(rpm, theta, point, |order| order.halves() <= highest);
+                expected[4] += mean * self.amplitudes.mean[0];
+                expected[5] += mean * self.amplitudes.mean[1];
+                let planar = part.and_then(|part| part.planar.as_ref()).map(|[force, moment]| {
+                    [force[[i, 0]], force[[i, 1]], moment[[i, 0]], moment[[i, 1]]]
+                });
+                let torque = part
+                    .and_then(|part| part.torque.as_ref())
+                    .map(|torque| torque.each_ref().map(|of| of[i]));
+                let [a, b, c, d] = planar.unwrap_or_default();
+                let [e, f] = torque.unwrap_or_default();
+                for (what, (found, expected)) in
+                    NAMES.iter().zip([a, b, c, d, e, f].into_iter().zip(expected))
+                {
+                    same(
+                        &format!("{reading}: {what} at {theta}°"),
+                        found.into(),
+                        expected.into(),
+                        slack,
+                    )?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn axes(bank_angle: Option<(Vec<f64>, Hold)>, rpm: Vec<f64>) -> SweepAxes {
+        SweepAxes { bank_angle, rpm, ..SweepAxes::default() }
+    }
+
+    fn check_sweeps(&self) -> Result<()> {
+        let (orders, point, angles) = (self.orders()?, [0.0, 0.0, 0.05], [50.0, 130.0]);
+        for hold in [Hold::Pins, Hold::Firing] {
+            // Cranks of other senses hold their pins in other ways.
+            let bank_angle = (self.bare.cranks().len() == 1).then(|| (angles.to_vec(), hold));
+            let turns: Vec<f64> = match &bank_angle {
+                None => vec![0.0],
+                // The second cylinder stands in the right bank, whose bore is at 60°.
+                Some(_) => angles.iter().map(|angle| 90.0 - 0.5 * angle - 60.0).collect(),
+            };
+            let engines = vec![Arc::clone(&self.with)];
+            let axes = Self::axes(bank_angle, SPEEDS.to_vec());
+            let sweep = Sweep::new(engines, axes, orders.clone(), Some(point[2]), &self.cancel)?;
+            for (kind, first) in
+                [(Kind::Force, 0), (Kind::Moment, 2), (Kind::Torque, 4), (Kind::CrankTorque, 5)]
+            {
+                let quantity = Quantity { kind, part: Part::Of(&self.load.name) };
+                let width = quantity.components();
+                let rows = turns.len() * SPEEDS.len();
+                let mut phasors = vec![Complex64::ZERO; rows * orders.len() * width]; // bounded: by HIGHEST
+                sweep.write_phasors(quantity, Statistic::Amplitude, &mut phasors, &self.cancel)?;
+                let mut means = vec![0.0; rows]; // bounded: by speeds and angles
+                sweep.write_peaks(quantity, Statistic::Mean, &mut means, &self.cancel)?;
+                let theta = 33.0;
+                let mut values = vec![0.0; rows * width]; // bounded: by speeds and angles
+                sweep.waveforms(
+                    quantity,
+                    &CrankAngles::new(&[theta])?,
+                    false,
+                    &mut values,
+                    &self.cancel,
+                )?;
+                for row in 0..rows {
+                    let (turn, rpm) = (turns[row / SPEEDS.len()], SPEEDS[row % SPEEDS.len()]);
+                    let turn = if self.load.cylinder.is_some() { turn } else { 0.0 };
+                    let turned = [turn, if hold == Hold::Pins { turn } else { 0.0 }];
+                    let slack = self.slack(rpm, false);
+                    let mean = if first < 4 {
+                        0.0
+                    } else {
+                        self.amplitudes.mean[first - 4] * self.factor(rpm)
+                    };
+                    if first >= 4 {
+                        same("mean torque of a sweep", means[row].into(), mean.into(), slack)?;
+                    }
+                    for component in 0..width {
+                        let mut sum = mean;
+                        for (k, &order) in orders.iter().enumerate() {
+                            let expected = self.plain(order, rpm, point, turned)[first + component];
+                            let found = phasors[(row * orders.len() + k) * width + component];
+                            let what = NAMES[first + component];
+                            same(
+                                &format!("sweep: {what} of order {order} at {rpm} rpm"),
+                                found,
+                                expected,
+                                slack,
+                            )?;
+                            sum += (expected
+                                * Complex64::cis(order.number() * theta / 360.0 * TAU))
+                            .re;
+                        }
+                        same(
+                            "waveform of a sweep",
+                            values[row * width + component].into(),
+                            sum.into(),
+                            slack,
+                        )?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn check_proofs(&self) -> Result<()> {
+        let (orders, point) = (self.orders()?, [0.0, 0.0, 0.05]);
+        let (whole, rpm) = (Order::all_whole(&[1, 2, 7])?, 1.0);
+        let of = |engine, orders: &[Order]| {
+            vanishing(engine, orders, Some(point[2]), None, &self.cancel)
+        };
+        let Vanishing { verdicts, .. } = of(&self.with, &orders)?;
+        let bare = of(&self.bare, &whole)?.verdicts;
+        for (order, verdicts) in orders.iter().zip(&verdicts) {
+            let [x, y, mx, my, roll, _] = self.plain(*order, rpm, point, [0.0; 2]);
+            let turning = |x: Complex64, y: Complex64| {
+                let i = Complex64::i();
+                [x, y, 0.5 * (x + i * y), 0.5 * (x - i * y)]
+            };
+            let acts = [turning(x, y), turning(mx, my)].concat();
+            let acts = acts.iter().chain([&roll]).map(|one| one.norm() > self.slack(rpm, false));
+            let alone = whole.iter().position(|own| own == order).map(|k| &bare[k]);
+            for (k, (verdict, acts)) in verdicts.iter().zip(acts).enumerate() {
+                let is_right = match alone {
+                    _ if acts => *verdict != Verdict::Vanishes,
+                    Some(alone) => *verdict == alone[k] || *verdict == Verdict::Undecided,
+                    None => true,
+                };
+                if !is_right {
+                    let reading = format!("proof of quantity {k} of order {order}");
+                    return Err(Error::value(
+                        reading,
+                        format!("{verdict:?}"),
+                        "it acts there, or nothing does",
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn check_bearings(&self) -> Result<()> {
+        let (rpm, thetas) = (SPEEDS[1], [10.0, 100.0, 333.0, 700.0]);
+        let of = |engine| -> Result<_> {
+            let model = BearingLoadsModel::new(engine, rpm)?;
+            let mains = model.loads(&thetas, &self.cancel)?.main;
+            let places: Vec<f64> = model.mains().iter().map(|main| main.z).collect();
+            let shear = model.sections(Section::Crankcase, &thetas, &self.cancel)?.shear;
+            let last = shear.shape()[0] - 1;
+            Ok((mains, places, shear.index_axis_move(ndarray::Axis(0), last)))
+        };
+        let ((bare, places, bare_shear), (with, _, shear)) = (of(&self.bare)?, of(&self.with)?);
+        let carried = self.load.on != ActsOn::Block && self.load.on_crank().is_some();
+        let slack = self.slack(rpm, true) + self.factor(rpm) * self.amplitudes.tail[0];
+        for (i, theta) in thetas.iter().enumerate() {
+            for axis in 0..2 {
+                let force: f64 = (0..self.amplitudes.orders.len())
+                    .map(|k| {
+                        let unit = Complex64::cis(
+                            self.amplitudes.orders[k].number() * theta / 360.0 * TAU,
+                        );
+                        (self.on_shaft(k, rpm, [0.0; 2])[axis] * unit).re
+                    })
+                    .sum();
+                let on_mains = |z0: f64| -> f64 {
+                    let own = |(main, z): (usize, &f64)| {
+                        (z - z0) * (with[[main, i, axis]] - bare[[main, i, axis]])
+                    };
+                    places.iter().enumerate().map(own).sum()
+                };
+                let force_on_mains = on_mains(-1.0) - on_mains(0.0);
+                let expected = if carried { force } else { 0.0 };
+                same(
+                    "force on main bearings",
+                    force_on_mains.into(),
+                    expected.into(),
+                    10.0 * slack,
+                )?;
+                same(
+                    "moment of main bearings",
+                    on_mains(0.0).into(),
+                    (expected * self.load.z).into(),
+                    10.0 * slack,
+                )?;
+                let net = if self.load.on == ActsOn::Both { 0.0 } else { force };
+                let found = shear[[i, axis]] - bare_shear[[i, axis]];
+                same("force on the crankcase", found.into(), net.into(), 10.0 * slack)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn check_mounts(&self) -> Result<()> {
+        let (orders, cg) = (self.orders()?, [0.02, 0.1, 0.3]);
+        let inertia = [[8.0, 0.0, 0.0], [0.0, 12.0, 0.0], [0.0, 0.0, 6.0]];
+        let body = RigidBody::new(150.0, cg, inertia, None)?;
+        let mount = |(name, x, z): (&str, f64, f64)| {
+            let (at, stiffness) = ([x, 0.0, z], [2e5, 4e5, 2e5]);
+            let loss_factor = [0.1; 3];
+            Mount::new(MountFigures {
+                name: name.into(),
+                at,
+                stiffness,
+                loss_factor,
+                ..MountFigures::default()
+            })
+        };
+        let mounts = [("a", -0.3, 0.1), ("b", 0.3, 0.1), ("c", 0.0, 0.6)].map(mount);
+        let powertrain =
+            Arc::new(Powertrain::new(body, mounts.into_iter().collect::<Result<_>>()?)?);
+        let of = |engine| {
+            Response::new(
+                engine,
+                Arc::clone(&powertrain),
+                &SPEEDS,
+                &Orders::Given(orders.clone()),
+                &self.cancel,
+            )
+        };
+        let (with, bare) = (of(&self.with)?, of(&self.bare)?);
+        for (row, (with, bare)) in with.loads().iter().zip(bare.loads()).enumerate() {
+            let (rpm, order) = (SPEEDS[row / orders.len()], orders[row % orders.len()]);
+            let [x, y, mx, my, roll, _] = self.plain(order, rpm, cg, [0.0; 2]);
+            for (k, expected) in [x, y, Complex64::ZERO, mx, my, roll].into_iter().enumerate() {
+                same(
+                    &format!("load of mounts at order {order}"),
+                    with[k] - bare[k],
+                    expected,
+                    self.slack(rpm, true),
+                )?;
+            }
+        }
+        Ok(())
+    }
+
+    fn check_tolerances(&self) -> Result<()> {
+        let (orders, rpm, point) = (self.orders()?, SPEEDS[1], [0.0, 0.0, 0.05]);
+        let spreads: [Vec<f64>; FIGURES] = Default::default();
+        let of = |engine| {
+            let spreads = (&spreads, Distribution::Normal);
+            let request = Self::request(rpm, point);
+            Tolerances::new(engine, &request, &orders, spreads, &[0, 1], &self.cancel)?.sample(
+                1,
+                &[&[]; FIGURES],
+                &self.cancel,
+            )
+        };
+        let (with, bare) = (of(&self.with)?, of(&self.bare)?);
+        for (k, &order) in orders.iter().enumerate() {
+            let expected = self.plain(order, rpm, point, [0.0; 2]);
+            let pairs = [
+                (with.force[k][0], bare.force[k][0]),
+                (with.force[k][1], bare.force[k][1]),
+                (with.moment[k][0], bare.moment[k][0]),
+                (with.moment[k][1], bare.moment[k][1]),
+                (with.torque[k][0], bare.torque[k][0]),
+                (with.torque[k][1], bare.torque[k][1]),
+            ];
+            for ((with, bare), expected) in pairs.into_iter().zip(expected) {
+                same(
+                    &format!("tolerances at order {order}"),
+                    with - bare,
+                    expected,
+                    self.slack(rpm, true),
+                )?;
+            }
+        }
+        Ok(())
+    }
+
+    fn check_words(&self) -> Result<()> {
+        let name = &self.load.name;
+        let text = self.with.loads_counted();
+        // Long lists of names are cut.
+        if !text.contains(name.as_str()) && name.len() < 30 {
+            return Err(Error::value("loads_counted", text, format!("lacks {name:?}")));
+        }
+        if file::to_toml(&self.with).is_ok() {
+            return Err(Error::value("to_toml", "a file", "a source of a program has no file"));
+        }
+        let (rpm, point) = (SPEEDS[1], [0.0, 0.0, 0.05]);
+        let found = explain(&self.with, Some(rpm), Subject::Everything, &self.cancel)?.findings;
+        let own = found.iter().find_map(|finding| match finding {
+            Finding::GivenLoad { name: own, largest } if own == name => Some(*largest),
+            _ => None,
+        });
+        let Some(Some([force, torque])) = own else {
+            return Err(Error::value("explain", format!("{found:?}"), format!("lacks {name:?}")));
+        };
+        let all = (0..self.amplitudes.orders.len()).map(|k| self.six(k, rpm, point, [0.0; 2]));
+        let largest = all.fold([0.0_f64; 2], |[force, torque], [x, y, _, _, roll, crank]| {
+            let i = Complex64::i();
+            let longest = 0.5 * ((x + i * y).norm() + (x - i * y).norm());
+            [force.max(longest), torque.max(roll.norm()).max(crank.norm())]
+        });
+        for (found, expected) in [force, torque].into_iter().zip(largest) {
+            let found = found.map_or(0.0, |(_, peak)| peak);
+            same(
+                "explain",
+                found.into(),
+                expected.into(),
+                1e-6 * expected + self.slack(rpm, false),
+            )?;
+        }
+        Ok(())
+    }
+}
+
+/// Names of the six figures.
+const NAMES: [&str; 6] = [
+    "force along x",
+    "force along y",
+    "moment about x",
+    "moment about y",
+    "torque",
+    "crank torque",
+];
+
+/// Force, moment and torques of the k-th order.
+fn six_of(balance: &Balance, k: usize) -> Six {
+    let torque = balance.wrenches[k].torque;
+    let [force, moment] =
+        [Vector::Force, Vector::Moment].map(|vector| balance.planar(vector, k).xy(0.0));
+    [force[0], force[1], moment[0], moment[1], torque.roll, torque.crank]
+}
+
+#[cfg(test)]
+mod tests;

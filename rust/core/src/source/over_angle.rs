@@ -1,0 +1,187 @@
+//! A block of crank angles, the values of loads there, and what of the loads of a source acts together.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use crate::Complex64;
+use crate::mechanism::Mechanism;
+use crate::mechanism::slider_crank::CrankPosition;
+use crate::numbers::angle::Angle;
+use crate::numbers::crank_angles::CrankAngles;
+use crate::numbers::order::Order;
+
+/// Crank angles evaluated side by side.
+pub(crate) const BLOCK: usize = 256;
+
+/// One value for each crank angle of a block.
+pub(crate) type AngleColumn = [f64; BLOCK];
+
+/// Values at a block of crank angles; whole lines of the cache.
+#[repr(align(64))]
+pub struct Columns {
+    /// Along x and y.
+    pub(crate) force: [AngleColumn; 2],
+    /// About x and y.
+    pub(crate) moment: [AngleColumn; 2],
+    /// On the block and on the main crank.
+    pub(crate) torque: [AngleColumn; 2],
+}
+
+/// Quantities to evaluate.
+#[derive(Debug, Clone, Copy)]
+pub struct Quantities {
+    /// Force and moment.
+    pub(crate) planar: bool,
+    /// Torques.
+    pub(crate) torque: bool,
+}
+
+/// Weights of the loads of one source and phase, summed.
+pub struct LoadSum {
+    pub(crate) phase: Angle,
+    /// Whether the phase is half the crank angle, which half orders turn by whole numbers.
+    pub(crate) halved: bool,
+    /// Speed of their crank or shaft.
+    pub(crate) ratio: i32,
+    /// Crank angle of the phase, degrees.
+    pub(crate) phase_deg: f64,
+    /// `e^{−iφ}` of the angle of their own crank at which the phase stands.
+    pub(crate) turned: Complex64,
+    /// Force and moment, x + iy, in their direction, over ω².
+    pub(crate) force: Complex64,
+    pub(crate) moment: Complex64,
+    /// The force's torque about the main crank's axis, as the imaginary part.
+    pub(crate) arm: Complex64,
+    /// Weight of the torque.
+    pub(crate) roll: f64,
+}
+
+impl LoadSum {
+    /// `e^{−inφ}` of an order.
+    pub(crate) fn lag(&self, order: Order) -> Complex64 {
+        let halves = i64::from(order.halves());
+        self.phase.cis(if self.halved { -halves } else { -halves / 2 })
+    }
+}
+
+/// Adds the moment of inertia of loads whose velocity and acceleration per unit of crank speed a function
+/// gives, and its slope: with I the kinetic energy is ½I·ω², and inertia torque −½I′·ω².
+pub(crate) fn add_inertia(
+    mechanism: &Mechanism,
+    sum: &LoadSum,
+    angles: &CrankAngles,
+    [inertia, slope]: [&mut [f64]; 2],
+    motion: impl Fn(&CrankPosition) -> [f64; 2],
+) {
+    let units = Units::at_speed(angles, 0..angles.len(), mechanism.ratio);
+    let [_, speed] = mechanism.senses();
+    for i in 0..angles.len() {
+        let [velocity, acceleration] = motion(&units.crank(sum.turned, i));
+        inertia[i] += sum.roll * velocity * velocity;
+        slope[i] += 2.0 * speed * sum.roll * velocity * acceleration;
+    }
+}
+
+impl Columns {
+    pub(crate) const ZERO: Self =
+        Self { force: [[0.0; BLOCK]; 2], moment: [[0.0; BLOCK]; 2], torque: [[0.0; BLOCK]; 2] };
+
+    /// Adds the wanted ones of other columns.
+    pub(crate) fn add(&mut self, other: &Self, wanted: Quantities) {
+        let planar = self.force.iter_mut().chain(&mut self.moment);
+        let planar = planar.zip(other.force.iter().chain(&other.moment)).filter(|_| wanted.planar);
+        let torque = self.torque.iter_mut().zip(&other.torque).filter(|_| wanted.torque);
+        for (into, from) in planar.chain(torque) {
+            into.iter_mut().zip(from).for_each(|(into, from)| *into += from);
+        }
+    }
+
+    /// The wanted ones of other columns in place of these.
+    pub(crate) fn copy(&mut self, from: &Self, wanted: Quantities) {
+        if wanted.planar {
+            self.force.clone_from_slice(&from.force);
+            self.moment.clone_from_slice(&from.moment);
+        }
+        if wanted.torque {
+            self.torque.clone_from_slice(&from.torque);
+        }
+    }
+}
+
+/// A block of crank angles.
+pub struct AngleBlock<'a> {
+    angles: &'a CrankAngles,
+    range: Range<usize>,
+    main: Units,
+}
+
+impl<'a> AngleBlock<'a> {
+    /// These of the angles, at most [`BLOCK`].
+    pub(crate) fn new(angles: &'a CrankAngles, range: Range<usize>) -> Self {
+        let main = Units::new(angles, range.clone(), Order::FIRST);
+        Self { angles, range, main }
+    }
+
+    /// `e^{iθ}` at some multiple of the angles, either way round.
+    pub(crate) fn units(&self, ratio: i32) -> Cow<'_, Units> {
+        if ratio.abs() == 1 {
+            return Cow::Borrowed(&self.main);
+        }
+        Cow::Owned(Units::at_speed(self.angles, self.range.clone(), ratio))
+    }
+
+    /// `e^{inθ}` of an order.
+    pub(crate) fn orders(&self, order: Order) -> Units {
+        Units::new(self.angles, self.range.clone(), order)
+    }
+
+    pub(crate) fn degrees(&self) -> &[f64] {
+        &self.angles.degrees()[self.range.clone()]
+    }
+}
+
+/// `e^{iθ}` of a block of crank angles, or of a multiple of θ; whole lines of the cache.
+#[derive(Clone)]
+#[repr(align(64))]
+pub(crate) struct Units {
+    pub cos: AngleColumn,
+    pub sin: AngleColumn,
+}
+
+impl Units {
+    /// At these crank angles, at most [`BLOCK`]; the rest of the columns is that of θ = 0.
+    pub(crate) fn new(angles: &CrankAngles, range: Range<usize>, order: Order) -> Self {
+        let mut units = Self { cos: [1.0; BLOCK], sin: [0.0; BLOCK] };
+        angles.multiples(order, range, &mut units.cos, &mut units.sin);
+        units
+    }
+
+    /// At some multiple of these crank angles; a shaft's speed is an order.
+    pub(crate) fn at_speed(angles: &CrankAngles, range: Range<usize>, ratio: i32) -> Self {
+        let order = Order::whole(ratio.unsigned_abs()).unwrap_or(Order::FIRST);
+        Self::new(angles, range, order)
+    }
+
+    /// Position of a crank that is `phase` ahead.
+    #[inline(always)]
+    pub(crate) fn crank(&self, phase: Complex64, i: usize) -> CrankPosition {
+        let (cos, sin) = (self.cos[i], self.sin[i]);
+        CrankPosition::new(sin * phase.re + cos * phase.im, cos * phase.re - sin * phase.im)
+    }
+
+    /// Adds real and imaginary part of a vector that turns from here at ±1 times these angles.
+    #[inline(always)]
+    pub(crate) fn add_turning(
+        &self,
+        at_start: Complex64,
+        sense: i32,
+        [x, y]: [&mut AngleColumn; 2],
+    ) {
+        let sign = f64::from(sense.signum());
+        for ((x, y), (cos, sin)) in x.iter_mut().zip(y).zip(self.cos.iter().zip(&self.sin[..])) {
+            let sin = sign * sin;
+            *x += at_start.re * cos - at_start.im * sin;
+            *y += at_start.re * sin + at_start.im * cos;
+        }
+    }
+}
