@@ -356,7 +356,7 @@ impl Amplitudes {
                 k > 0 && matches!(sign, '+' | '-' | '−') && !parts[..k].ends_with(['e', 'E'])
             });
             let (re, im) = parts.split_at(between.map_or(0, |(k, _)| k));
-            let part = |text: &str| number(&format!("{}{unit}", text.replace(' ', "")));
+            let part = |text: &str| number(&format!("{} {unit}", text.replace(' ', "")));
             Ok(Complex64::new(if re.trim().is_empty() { 0.0 } else { part(re)? }, part(im)?))
         };
         let entries = text.split([',', ';']).map(str::trim).filter(|entry| !entry.is_empty());

@@ -212,11 +212,12 @@ fn load_orders(engine: &Engine) -> Result<Vec<Order>> {
     }
     let loads = LoadList::of(engine, engine.reference(None)?)?;
     let orders = |load| loads.source(load).orders(Order::HIGHEST);
-    let own: BTreeSet<Order> = loads.list.iter().filter(is_given).flat_map(orders).collect();
+    let own: BTreeSet<Order> =
+        loads.list.iter().filter(|load| is_given(load)).flat_map(orders).collect();
     Ok(own.into_iter().collect())
 }
 
-fn is_given(load: &&Load) -> bool {
+fn is_given(load: &Load) -> bool {
     matches!(load.place.origin, Origin::Load(_))
 }
 
@@ -231,7 +232,7 @@ pub fn load_rows(engine: &Engine, rpm: f64, torque: bool, cancel: &Cancel) -> Re
     }
     let engine = engine.without_gas();
     let sums = Sums::new(&engine, None, torque, &orders, cancel)?;
-    let given = || sums.loads.list.iter().filter(is_given);
+    let given = || sums.loads.list.iter().filter(|load| is_given(load));
     let mut scalings: Vec<Scaling> = Vec::new();
     for load in given() {
         if !scalings.contains(&load.parts.scaling) {
