@@ -3,7 +3,7 @@
 // They are the library's. A setting is what they are multiplied by (the square of the speed), what their
 // polynomials are evaluated at (the rod ratio), or by how much a bank's terms are turned (the bank angle).
 
-import { magnitude, multiply, reduced, scale, unit } from "./complex.mjs";
+import { multiply, reduced, scale, unit } from "./complex.mjs";
 import { chebyshev, factorsAt, orderSum, realSum, summed } from "./series.mjs";
 
 export const angularSpeed = (rpm) => (rpm * 2 * Math.PI) / 60;
@@ -62,16 +62,11 @@ export class Numbers {
     this.whole = { ...terms.sizes };
     for (const name of ["force", "moment", "torque"]) this.whole[name] *= square;
     this.whole.torque += terms.sizes.gas;
-    const add = (name, row, from, to) => {
-      for (const [, ...values] of row[3]) {
-        for (let k = from; k < to; k += 2) this.whole[name] += ofLoad(row) * magnitude(values.slice(k, k + 2));
+    for (const [name, rows, from] of [["force", loads.planar, 1], ["moment", loads.planar, 5], ["torque", loads.torque, 1]]) {
+      for (const row of rows) {
+        for (const values of row[3]) this.whole[name] += ofLoad(row) * Math.hypot(...values.slice(from, from + 4));
       }
-    };
-    for (const row of loads.planar) {
-      add("force", row, 0, 4);
-      add("moment", row, 4, 8);
     }
-    for (const row of loads.torque) add("torque", row, 0, 2);
   }
 
   /**

@@ -1,7 +1,6 @@
 // The state of a page, from which every picture and every number follows; `Full` and `Compact` draw it.
 
 import { reduced } from "./complex.mjs";
-import { FASTEST } from "./controls.mjs";
 import { Numbers } from "./numbers.mjs";
 import { MOST_ORDERS, shown } from "./orders.mjs";
 import { configure, ownSettings, placesAt, strokesAt } from "./places.mjs";
@@ -40,13 +39,13 @@ export class View extends Turning {
     this.settings = new Settings(this);
   }
 
-  check({ rod_ratio, rpm }) {
-    const { loads, rod_ratios: reached } = this.figures.terms;
-    for (const [name, value, [least, most]] of [["rod_ratio", rod_ratio, reached], ["rpm", rpm, loads.speeds ?? [0, FASTEST]]]) {
-      if (value !== null && (value < least || value > most)) {
-        throw new RangeError(`${name} = ${value}: ${STRINGS.give} ${least}–${most}`);
-      }
+  check({ rod_ratio: ratio, rpm }) {
+    const { loads, rod_ratios: [least, most] } = this.figures.terms;
+    if (ratio < least || ratio > most) {
+      throw new RangeError(`rod_ratio = ${ratio}: ${STRINGS.give} ${least}–${most}`);
     }
+    const [low, high] = loads.speeds ?? [];
+    if (rpm < low || rpm > high) throw new RangeError(`rpm = ${rpm}: ${STRINGS.give} ${low}–${high}`);
   }
 
   follow(changed) {
