@@ -269,3 +269,67 @@ def test_a_trace_is_read_prepared_and_saved(capsys: CAPTURE, tmp_path: Path) -> 
     assert capsys.readouterr().err.startswith("crankpin: error: --bore = 0.0: ")
     assert main(["trace", "i4", str(file), "--exponent", "1.3"]) == 2
     assert "--compression-ratio" in capsys.readouterr().err
+
+
+FAN = "fan: on=shaft force=2:8@90,4:1-2j z=-100mm direction=30"
+CAM = "cam: on=both torque=0:-3,1.5:4 ratio=1/2 y=0.25"
+ADDED = [
+    cp.PeriodicLoad("fan", on="shaft", force={2: 8j, 4: 1 - 2j}, z=-0.1, direction_deg=30),
+    cp.PeriodicLoad("cam", on="both", torque={0: -3, 1.5: 4}, ratio="1/2", y=0.25),
+]
+
+
+def test_loads_are_added(capsys: CAPTURE) -> None:
+    """Parts of loads are columns under their names."""
+    typed = ["--rpm", "2000", "--add-load", FAN, "--add-load", CAM]
+    engine = cp.Engine.preset("i4").with_loads(ADDED)
+    assert main(["torque", "i4", "--cycle", "none", *typed, "--csv"]) == 0
+    expected = engine.balance(2000).crank_torque.table.to_csv()
+    assert capsys.readouterr().out == expected
+    assert "cam" in expected.partition("\n")[0]
+    assert main(["balance", "i4", *typed]) == 0
+    out = capsys.readouterr().out
+    assert out.startswith(repr(engine.balance(2000)).partition("\n")[0])
+    assert "loads: fan, cam" in out
+    assert main(["explain", "i4", *typed]) == 0
+    assert 'The load "cam" adds' in capsys.readouterr().out
+
+
+def test_loads_are_written_into_files(capsys: CAPTURE, tmp_path: Path) -> None:
+    file = tmp_path / "i4.toml"
+    grows = "mill: on=shaft force=0:5 turning=yes rpm=2500 crank=0 phase=400"
+    table = "shaker: on=block force=2:8/9 rpm=1000/2000 cylinder=1"
+    words = [word for load in (FAN, grows, table) for word in ("--add-load", load)]
+    assert main(["new", "i4", *words, "-o", str(file)]) == 0
+    capsys.readouterr()
+    fan, mill, shaker = cp.Engine.load(file).loads
+    assert fan == ADDED[0]
+    assert (mill.scaling, mill.rpm, mill.turning) == ("speed squared", 2500.0, True)
+    assert (shaker.rpm, shaker.force, shaker.cylinder) == ((1000.0, 2000.0), {2: (8, 9)}, 1)
+    # Beside those that a file has, in units of the shell's.
+    more = ["--units", "lbf,in", "--add-load", "belt: on=shaft force=1:2 z=3"]
+    assert main(["balance", str(file), "--rpm", "1500", *more]) == 0
+    assert "loads: fan, mill, shaker, belt" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("load", "said"),
+    [
+        ("fan", "on=shaft"),
+        ("fan: force=2:8", "say what it acts on"),
+        ("fan: on=ship force=2:8", "shaft"),
+        ("fan: on=shaft force=2", "ORDER:SIZE"),
+        ("fan: on=shaft force=2:x", "an amplitude"),
+        ("fan: on=shaft force=2.3:8", "half the crank speed"),
+        ("fan: on=shaft force=2:8 mass=3", "cylinder"),
+        ("fan: on=shaft", "amplitudes"),
+        ("fan: on=shaft force=2:8 ratio=0.3", "1/2"),
+        ("fan: on=shaft force=2:8 z=1kg", "mm"),
+        ("fan: on=shaft force=2:8 cylinder=9", "cylinder"),
+    ],
+)
+def test_slips_in_loads_are_said(capsys: CAPTURE, load: str, said: str) -> None:
+    assert main(["balance", "i4", "--add-load", load]) == 2
+    error = capsys.readouterr().err
+    assert said in error
+    assert error.count("\n") == 1

@@ -154,6 +154,11 @@ def without_gas(loads: str) -> str:
     return f"loads: {others}" if others else ""
 
 
+def gas_alone(loads: str) -> str:
+    """Return the gas pressure of the loads counted, in words."""
+    return loads.rpartition(AND_LOADS)[0] or loads
+
+
 def gas_text(names: Sequence[str | None], count: int = 1) -> str:
     """Return which gas pressure counts: ``gas: petrol; cylinder 3 does not fire``.
 

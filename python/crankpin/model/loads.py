@@ -291,8 +291,8 @@ class PeriodicLoad(Input):
         return cls(
             fields["name"],
             on=fields["on"],
-            force=_of_rows(fields.get("force", ()), table=table),
-            torque=_of_rows(fields.get("torque", ()), table=table),
+            force=of_rows(fields.get("force", ()), table=table),
+            torque=of_rows(fields.get("torque", ()), table=table),
             scaling=scaling,
             rpm=rpm,
             direction_deg=fields.get("direction_deg", 0.0),
@@ -385,7 +385,8 @@ def _rows(amplitudes: Mapping[Order, Any]) -> list[list[float]]:
     ]
 
 
-def _of_rows(rows: Iterable[Sequence[float]], *, table: bool) -> dict[Order, Any]:
+def of_rows(rows: Iterable[Sequence[float]], *, table: bool) -> dict[Order, Any]:
+    """Return amplitudes by order of rows of an order, then real and imaginary parts."""
     found: dict[Order, Any] = {}
     for order, *parts in rows:
         values = [complex(re, im) for re, im in zip(parts[::2], parts[1::2], strict=True)]

@@ -845,7 +845,7 @@ impl<'a> Case<'a> {
             [force.max(longest), torque.max(roll.norm()).max(crank.norm())]
         });
         for (found, expected) in [force, torque].into_iter().zip(largest) {
-            let found = found.map_or(0.0, |(_, peak)| peak);
+            let found = found.map_or(0.0, |largest| largest.peak);
             same(
                 "explain",
                 found.into(),

@@ -683,12 +683,6 @@ impl Engine {
         self.0.loads_counted()
     }
 
-    /// The same of a picture, which turns without further loads.
-    #[getter]
-    fn loads_drawn(&self) -> String {
-        self.0.loads_drawn()
-    }
-
     /// Periodic loads, as JSON.
     #[getter]
     fn loads(&self) -> PyResult<String> {

@@ -55,23 +55,26 @@ export function turnedBy([cos, sin], n) {
   return n < 0 ? [x, -y] : [x, y];
 }
 
-/** Real part of Σ phasor·e^{inθ}, of phasors by order, with e^{iθ}. */
-export function realSum(phasors, crank) {
+/** The same of n in halves, with e^{iθ/2}. */
+const turnedByHalves = (crank, half, n) => (n % 1 ? turnedBy(half, 2 * n) : turnedBy(crank, n));
+
+/** Real part of Σ phasor·e^{inθ}, of phasors by ascending order, with e^{iθ}, of half orders e^{iθ/2} too. */
+export function realSum(phasors, crank, half) {
   let [sum, reached, power] = [0, 0, [1, 0]];
   for (const [order, [re, im]] of phasors) {
-    power = multiply(power, turnedBy(crank, order - reached));
+    power = multiply(power, turnedByHalves(crank, half, order - reached));
     reached = order;
     sum += re * power[0] - im * power[1];
   }
   return sum;
 }
 
-/** Force and moment of orders: Σ forward·e^{inθ} + backward·e^{−inθ}, with e^{iθ}. */
-export function orderSum(orders, crank) {
+/** Force and moment of ascending orders: Σ forward·e^{inθ} + backward·e^{−inθ}, with e^{iθ} and e^{iθ/2}. */
+export function orderSum(orders, crank, half) {
   const sums = { force: [0, 0], moment: [0, 0] };
   let [reached, power] = [0, [1, 0]];
   for (const each of orders) {
-    power = multiply(power, turnedBy(crank, each.order - reached));
+    power = multiply(power, turnedByHalves(crank, half, each.order - reached));
     reached = each.order;
     const [cos, sin] = power;
     for (const quantity of ["force", "moment"]) {

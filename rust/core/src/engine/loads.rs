@@ -12,17 +12,6 @@ impl Engine {
     /// not fire, and the names of further loads.
     #[must_use]
     pub fn loads_counted(&self) -> String {
-        self.pressure_and("loads")
-    }
-
-    /// The same of a picture, which turns with pistons, pressure and unbalances alone.
-    #[must_use]
-    pub fn loads_drawn(&self) -> String {
-        self.pressure_and("without the loads")
-    }
-
-    /// Which pressure counts, and what is said before the names of further loads.
-    fn pressure_and(&self, before: &str) -> String {
         let gas = match self.gas() {
             Some(gas) => {
                 let name =
@@ -42,7 +31,7 @@ impl Engine {
         if names.is_empty() {
             return gas;
         }
-        format!("{gas}; {before}: {}", cut(&names.join(", "), LONGEST_NAMES))
+        format!("{gas}; loads: {}", cut(&names.join(", "), LONGEST_NAMES))
     }
 
     /// Number of cycles of the cylinders that differ.

@@ -3,6 +3,8 @@
 //! A balance is the sum of these: both superpose the one list of loads, this reading the loads of each
 //! part apart.
 
+use std::sync::Arc;
+
 use super::amplitude::Amplitudes;
 use super::balance::{Balance, Request, angular_speed};
 use crate::engine::{Engine, Origin};
@@ -79,20 +81,44 @@ pub(super) fn sums_by(
 ) -> Result<Vec<Balance>> {
     let omega = angular_speed(request.rpm)?;
     engine.check_speeds(&[request.rpm])?;
-    let torque = request.torque && engine.spectrum().is_none();
-    let loads = LoadList::of(engine, engine.reference(request.reference_z)?)?;
-    let amplitudes = Amplitudes::new(&loads.sources, torque, orders, cancel)?;
+    let sums = Sums::new(engine, request.reference_z, request.torque, orders, cancel)?;
     let mut own: Vec<Vec<Load>> = vec![Vec::new(); groups]; // bounded: by the parts of an engine
-    for load in &loads.list {
+    for load in &sums.loads.list {
         own[group_of(load.place.origin)].push(*load);
     }
-    let of_group = |own: Vec<Load>| {
-        let wrenches = amplitudes.wrenches(&loads, &own, torque, orders, cancel)?;
-        let means = amplitudes.means(&loads, &own);
-        let part = Balance::of(&loads, &own, orders.to_vec(), &wrenches, &means, omega)?;
-        let mut part = part.moved([x, y, 0.0]);
-        part.has_torque = torque;
-        Ok(part)
-    };
-    own.into_iter().map(of_group).collect()
+    own.iter().map(|own| Ok(sums.of(own, omega, cancel)?.moved([x, y, 0.0]))).collect()
+}
+
+/// Sums of some of an engine's loads at some orders.
+pub(super) struct Sums<'a> {
+    pub loads: Arc<LoadList>,
+    amplitudes: Amplitudes,
+    orders: &'a [Order],
+    torque: bool,
+}
+
+impl<'a> Sums<'a> {
+    /// Those about a plane; with torques, unless none follow from the engine's spectrum.
+    pub(super) fn new(
+        engine: &Engine,
+        reference_z: Option<f64>,
+        torque: bool,
+        orders: &'a [Order],
+        cancel: &Cancel,
+    ) -> Result<Self> {
+        let torque = torque && engine.spectrum().is_none();
+        let loads = LoadList::of(engine, engine.reference(reference_z)?)?;
+        let amplitudes = Amplitudes::new(&loads.sources, torque, orders, cancel)?;
+        Ok(Self { loads, amplitudes, orders, torque })
+    }
+
+    /// The sum of some loads at an angular speed, rad/s.
+    pub(super) fn of(&self, own: &[Load], omega: f64, cancel: &Cancel) -> Result<Balance> {
+        let Self { loads, amplitudes, orders, torque } = self;
+        let wrenches = amplitudes.wrenches(loads, own, *torque, orders, cancel)?;
+        let means = amplitudes.means(loads, own);
+        let mut sum = Balance::of(loads, own, orders.to_vec(), &wrenches, &means, omega)?;
+        sum.has_torque = *torque;
+        Ok(sum)
+    }
 }

@@ -8,8 +8,9 @@
 use num_traits::{CheckedDiv, CheckedMul};
 
 use super::roots::{FormalSum, Share};
-use super::{ExactLoads, Levers, NumberedLoads, too_long, whole};
-use crate::engine::Engine;
+use super::{ExactLoads, Levers, too_long, whole};
+use crate::Complex64;
+use crate::engine::{Engine, Origin};
 use crate::load::{Load, LoadIndex, LoadList, Wanted, superpose};
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
@@ -72,8 +73,10 @@ pub struct ClosedForm {
     pub period: i128,
     /// By which coefficients are divided.
     pub denominator: i128,
-    /// Along (about) x, along (about) y, forward, backward.
+    /// Along (about) x, along (about) y, forward, backward; without loads that are given by numbers.
     pub phasors: [Phasor; 4],
+    /// Indices of the periodic loads that act at this order besides.
+    pub loads: Vec<usize>,
 }
 
 fn refused(argument: &str, value: impl std::fmt::Display, hint: &str) -> Error {
@@ -157,11 +160,6 @@ pub fn closed_form(
         let hint = "cylinders on cranks as fast as the main one";
         return Err(refused("cranks", "of different speeds", hint));
     }
-    let numbered = NumberedLoads::new(engine, reference_z, &[order], cancel)?;
-    if numbered.0[0][if moment { 4..8 } else { 0..4 }].iter().any(|acts| *acts) {
-        let hint = "no load given by numbers at this order: engine.with_loads([]) has none";
-        return Err(refused("loads", "that act", hint));
-    }
     let [motion] = &*motions else {
         return Err(refused("cylinders", "of different proportions", "rods and offsets alike"));
     };
@@ -223,7 +221,31 @@ pub fn closed_form(
     // Real parts come doubled, and forward and backward are halves: a quarter.
     let denominator = denominator.checked_mul(4).ok_or_else(too_long)?;
     let period = forward.period();
-    Ok(ClosedForm { unit, spacing, no_harmonic, parts, period, denominator, phasors })
+    let loads = given_loads(engine, order, moment, reference_z, cancel)?;
+    Ok(ClosedForm { unit, spacing, no_harmonic, parts, period, denominator, phasors, loads })
+}
+
+/// Indices of the periodic loads whose force, or moment about a plane, has an order.
+fn given_loads(
+    engine: &Engine,
+    order: Order,
+    moment: bool,
+    reference_z: Option<f64>,
+    cancel: &Cancel,
+) -> Result<Vec<usize>> {
+    let loads = LoadList::of(engine, engine.reference(reference_z)?)?;
+    let mut found = Vec::new();
+    for load in &loads.list {
+        let Origin::Load(index) = load.place.origin else { continue };
+        let has_lever = !moment || load.place.z != loads.reference;
+        if load.parts.force.is_some() && has_lever && !found.contains(&index) {
+            let force = loads.source(load).force(&[order], cancel)?;
+            if force.iter().any(|amplitude| *amplitude != Complex64::ZERO) {
+                found.push(index);
+            }
+        }
+    }
+    Ok(found)
 }
 
 /// Twice the forward and twice the conjugate of the backward part, over a denominator; `products` are

@@ -117,7 +117,7 @@ pub enum Finding {
         /// Its name.
         name: String,
         /// Its largest orders of force and of torque on block or crank; none without a speed, at which they are.
-        largest: Option<[Option<(Order, f64)>; 2]>,
+        largest: Option<[Option<LargestOrder>; 2]>,
     },
     /// Rows of a radial, whose articulated rods are not modelled.
     Articulated {
@@ -265,8 +265,12 @@ impl Finding {
             },
             Self::GivenLoad { largest, .. } => {
                 let both: Vec<_> = largest.iter().flatten().flatten().collect();
-                let orders = both.iter().map(|(order, _)| *order).collect();
-                Row { orders, values: both.iter().map(|(_, peak)| *peak).collect(), ..row("load") }
+                let orders = both.iter().map(|largest| largest.order).collect();
+                Row {
+                    orders,
+                    values: both.iter().map(|largest| largest.peak).collect(),
+                    ..row("load")
+                }
             }
             Self::Articulated { rows } => {
                 Row { groups: rows.iter().map(|row| numbers(row)).collect(), ..row("articulated") }
@@ -277,6 +281,17 @@ impl Finding {
 
 fn evenness(even: bool) -> &'static str {
     if even { "evenly" } else { "unevenly" }
+}
+
+/// The largest order of what a load adds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LargestOrder {
+    /// Order.
+    pub order: Order,
+    /// Its peak, N or N·m.
+    pub peak: f64,
+    /// Whether it is more than each of the engine's other loads adds at this order.
+    pub dominates: bool,
 }
 
 impl Acting {

@@ -10,7 +10,7 @@ pub mod words;
 
 use std::sync::Arc;
 
-pub use self::finding::{Finding, Row};
+pub use self::finding::{Finding, LargestOrder, Row};
 pub use self::sentences::Wording;
 use self::sums::{Sums, proofs_of};
 use crate::engine::{CrankIndex, Engine, Origin, Unbalance};
@@ -304,9 +304,15 @@ fn given_loads(engine: &Engine, rpm: Option<f64>, cancel: &Cancel) -> Result<Vec
     let all = balance(engine, &request, &Orders::Auto { rtol: RTOL }, cancel)?;
     let of_name = |name: &str| {
         let own = all.of_part(quantity::Part::Of(name));
+        let others = all.names().iter().filter(|other| &***other != name);
+        let others: Vec<Balance> =
+            others.map(|other| all.of_part(quantity::Part::Of(other))).collect();
         let largest = |size: &dyn Fn(&Wrench) -> f64| {
-            let sizes = own.orders.iter().copied().zip(own.wrenches.iter().map(size));
-            sizes.filter(|(_, size)| *size > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))
+            let sizes = own.wrenches.iter().map(size).enumerate();
+            let (k, peak) =
+                sizes.filter(|(_, size)| *size > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))?;
+            let dominates = others.iter().all(|other| size(&other.wrenches[k]) < peak);
+            Some(LargestOrder { order: own.orders[k], peak, dominates })
         };
         let both =
             [largest(&|wrench| wrench.force.peak()), largest(&|wrench| wrench.torque.peak())];

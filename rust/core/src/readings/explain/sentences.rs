@@ -1,7 +1,7 @@
 //! The words of an explanation: a sentence for each kind of finding.
 
 use super::Explanation;
-use super::finding::{Acting, Finding, Reason, Weights};
+use super::finding::{Acting, Finding, LargestOrder, Reason, Weights};
 use super::words::{ACROSS, listed, number, orders, sense};
 use crate::engine::Engine;
 use crate::engine::loads::dead_text;
@@ -476,17 +476,18 @@ fn gas_torque(mean: f64, largest: &[(Order, f64)], wording: &Wording) -> String 
 /// What a further load adds: its largest orders of force and of torque, where a speed was given.
 fn given_load(
     name: &str,
-    largest: Option<&[Option<(Order, f64)>; 2]>,
+    largest: Option<&[Option<LargestOrder>; 2]>,
     wording: &Wording,
 ) -> String {
     let name = in_one_line(name);
     let Some(both) = largest else {
         return format!("the load \"{name}\" acts too; give a speed for what it adds");
     };
-    let one = |(largest, (what, unit)): (&Option<(Order, f64)>, (&str, &str))| {
-        let (order, peak) = (*largest)?;
+    let one = |(largest, (what, unit)): (&Option<LargestOrder>, (&str, &str))| {
+        let LargestOrder { order, peak, dominates } = (*largest)?;
         let figure = wording.figure(peak, unit, false);
-        Some(format!("a {what} of {figure} at {}", orders(&[order])))
+        let most = if dominates { ", the largest part of it" } else { "" };
+        Some(format!("a {what} of {figure} at {}{most}", orders(&[order])))
     };
     let adds = both.iter().zip([("force", "N"), ("torque", "N·m")]).filter_map(one);
     let adds = adds.collect::<Vec<_>>().join(" and ");
