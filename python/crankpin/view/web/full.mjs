@@ -1,6 +1,6 @@
 // The whole page: three pictures of the engine, dials, phasors and curves over a cycle.
 
-import { scale, unit } from "./complex.mjs";
+import { scale } from "./complex.mjs";
 import { choice } from "./controls.mjs";
 import { html, numbered, show } from "./dom.mjs";
 import { ENDS, Ends } from "./ends.mjs";
@@ -12,6 +12,7 @@ import { ownSettings } from "./places.mjs";
 import { displacement, largestDisplacement, rocking } from "./rocking.mjs";
 import { STILL, Scene } from "./scene.mjs";
 import { Sentences } from "./sentences.mjs";
+import { crankAt } from "./series.mjs";
 import { Sound } from "./sound.mjs";
 import { STRINGS } from "./strings.mjs";
 import { STROKES } from "./strokes.mjs";
@@ -130,7 +131,7 @@ export class Full extends View {
       // At first the engine rocks by up to a third of the crank radius.
       state.exaggeration = largest > 0 ? Math.min(roundBelow((radius / 3) / largest), 5e4) : 1;
     }
-    const turned = Array.from({ length: 91 }, (_, k) => unit(4 * k));
+    const turned = Array.from({ length: this.numbers.turns / 4 + 1 }, (_, k) => crankAt(4 * k));
     const moved = turned.map((crank) => displacement(this.rocking, crank));
     const traced = ends.map((z) => moved.map((at) => at(z)));
     this.ends.trace(traced.map((orbit) => orbit.map((at) => scale(at, state.exaggeration))));
@@ -144,7 +145,7 @@ export class Full extends View {
     const about = (most) => [-most, most];
     const { curve, numbers, peaks: largest, readouts: { scales } } = this;
     const component = (quantity, k) => ({
-      name: "xy"[k], label: STRINGS.components[quantity][k],
+      name: "xy"[k], span: numbers.turns, label: STRINGS.components[quantity][k],
       samples: curve[quantity].map((each) => each[k]), value: (pose) => pose[quantity][k],
     });
     const histories = ["force", "moment"].map((quantity) => ({

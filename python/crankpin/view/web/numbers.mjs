@@ -4,7 +4,7 @@
 // polynomials are evaluated at (the rod ratio), or by how much a bank's terms are turned (the bank angle).
 
 import { multiply, reduced, scale, unit } from "./complex.mjs";
-import { chebyshev, factorsAt, orderSum, realSum, summed } from "./series.mjs";
+import { chebyshev, crankAt, factorsAt, orderSum, realSum, summed } from "./series.mjs";
 
 export const angularSpeed = (rpm) => (rpm * 2 * Math.PI) / 60;
 
@@ -48,7 +48,9 @@ export class Numbers {
       swept: first(summed(terms.swept[given.swept] ?? [], factor, () => (value) => value)),
     }));
     this.cycle = figures.strokes === 2 ? 360 : 720;
-    this.span = figures.gas ? this.cycle : 360;
+    /** Degrees after which force and moment repeat, and all: shafts may turn at half the speed. */
+    this.turns = this.planar.every(({ order }) => Number.isInteger(order)) ? 360 : 720;
+    this.span = figures.gas ? Math.max(this.cycle, this.turns) : this.turns;
     /** What the cylinders make one by one. */
     this.whole = { ...terms.sizes };
     for (const name of ["force", "moment", "torque"]) this.whole[name] *= square;
@@ -62,7 +64,7 @@ export class Numbers {
    * on the main crank, and `moving` the moment of inertia of pistons and rods.
    */
   at(thetaDeg) {
-    const crank = unit(thetaDeg);
+    const crank = crankAt(thetaDeg);
     const { force, moment } = orderSum(this.planar, crank);
     const pressures = this.gas.map((cylinder) => cylinder && this.pressureAt(cylinder, thetaDeg));
     if (!this.inertia) return { force, moment, torque: null, pressures };
