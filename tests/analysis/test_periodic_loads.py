@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import contextlib
 import copy
+import math
 import pickle
 import warnings
-from typing import Any, Literal
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, Literal
 
 import crankpin as cp
 import numpy as np
@@ -16,6 +18,9 @@ from crankpin.view import mounted
 from crankpin.view.figures import figures
 from rederivation import periodic
 from several_cranks import Draft
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 QUANTITIES = ("force", "moment", "torque", "crank_torque")
 THETA = np.arange(0.0, 720.0, 7.5)
@@ -104,6 +109,68 @@ def test_a_load_is_its_free_body_in_waveforms_balances_and_sweeps(seed: int) -> 
             if quantity in ("torque", "crank_torque"):
                 assert abs(read.mean - part.mean()) < 1e-12 * size
                 assert abs(swept.mean[1] - read.mean) < 1e-12 * size
+
+
+@pytest.mark.parametrize("ratio", ["1/2", "-1/2", 1, -1, "3/2", "-3/2", 2])
+@pytest.mark.parametrize("seed", range(4))
+def test_an_unbalance_is_the_load_that_states_its_force(seed: int, ratio: int | str) -> None:
+    """On shafts of any speed, in every reading, and as a free body."""
+    random = np.random.default_rng(seed)
+    x, y, z = (float(random.choice([0.0, 0.1, -0.2])) for _ in range(3))
+    angle, amount, rpm = int(random.choice([0, 30, 90, 200])), 0.02, 3000.0
+    speed = float(Fraction(ratio))
+    shaft = cp.Shaft(ratio, [cp.Unbalance(amount, z, angle)], x + 0.1, y)
+    force = amount * (speed * math.tau * rpm / 60.0) ** 2
+    stated: dict[str, Any] = {"scaling": "speed squared", "rpm": rpm, "ratio": ratio, "z": z}
+    load = cp.PeriodicLoad(
+        "weight", on="shaft", force={0: force}, turning=True, direction_deg=angle, x=x + 0.1, y=y,
+        **stated,
+    )  # fmt: skip
+    bare = engine(seed)
+    one, other = bare.with_shafts([*bare.shafts, shaft]), bare.with_loads([load])
+    orders = [0.5 * n for n in range(1, 9)]
+
+    def both(read: Callable[[cp.Engine], Any], *quantities: str) -> None:
+        for quantity in quantities:
+            a, b = (np.asarray(getattr(read(each), quantity)) for each in (one, other))
+            assert np.abs(a - b).max() <= 1e-12 * (np.abs(a).max() + force), quantity
+
+    for read in (
+        lambda each: each.balance(rpm, orders=orders),
+        lambda each: each.balance(rpm, orders=orders).about((0.05, 0.1, 0.2)),
+        lambda each: each.waveform(rpm, THETA),
+        lambda each: each.waveform(rpm, THETA, orders=orders),
+        lambda each: cp.sweep(each, rpm=[1000.0, rpm], orders=orders),
+    ):
+        both(read, *QUANTITIES)
+    both(lambda each: each.balance(rpm, orders=orders).total.force, "peak")
+    if seed % 2 == 0:
+        both(lambda each: cp.bearing_loads(each, rpm), "main", "crankpin")
+    # The free body: a force that turns with the shaft, and its moments.
+    turned = force * np.exp(1j * np.deg2rad(angle + speed * THETA))
+    exact, before = one.waveform(rpm, THETA), bare.waveform(rpm, THETA)
+    plane = z - bare.reference_z
+    roll = (x + 0.1) * turned.imag - y * turned.real
+    expected = {
+        "force": np.column_stack([turned.real, turned.imag]),
+        "moment": plane * np.column_stack([-turned.imag, turned.real]),
+        "torque": roll,
+        "crank_torque": 0.0 * roll,
+    }
+    for quantity, part in expected.items():
+        whole, was = (np.asarray(getattr(each, quantity)) for each in (exact, before))
+        size = np.abs(was).max() + force
+        assert np.abs(whole - was - part).max() < 1e-12 * size, quantity
+    # At half orders an inline engine has nothing but the shaft.
+    if not bare.firing_order:
+        return
+    halves = [0.5, 1.5, 2.5]
+    remain = [order for order in halves if order == abs(speed)]
+    for proved in (one.vanishing_orders(halves), other.vanishing_orders(halves)):
+        assert proved.force.vanishing == tuple(order for order in halves if order not in remain)
+    assert one.balance(rpm, orders=halves).force[0.5].status == (
+        "summed" if 0.5 in remain else "zero, proved"
+    )
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -178,7 +178,7 @@ def test_the_schema_has_the_entries_that_the_reader_knows(place: str) -> None:
         ("counterweights.0", "pin", 0),
         ("shafts.0", "ratio", 0),
         ("shafts.0", "ratio", 21),
-        ("shafts.0", "ratio", 1.5),
+        ("shafts.0", "ratio", 1.3),
         ("shafts.0", "unbalances", None),
         ("cranks.0", "ratio", 0),
         ("cranks.0", "x", None),

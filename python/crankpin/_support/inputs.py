@@ -294,6 +294,18 @@ def crank_angles(theta_deg: ArrayLike | None) -> NDArray[np.float64]:
     return theta
 
 
+def speed_ratio(name: str, value: object) -> Order:
+    """Return the speed of a shaft over crank speed: a whole number, or a half as a float."""
+    hint = 'give a multiple of 1/2 other than 0, such as "1/2", -1 or 2'
+    try:
+        ratio = order(Fraction(value) if isinstance(value, str) else value)
+    except (TypeError, ValueError, ZeroDivisionError, OverflowError):
+        raise rejected(name, value, hint) from None
+    if ratio == 0:
+        raise rejected(name, value, hint)
+    return ratio
+
+
 def angular_speed(rpm: object) -> float:
     """Return ω in rad/s."""
     return _core.angular_speed(number("rpm", rpm))

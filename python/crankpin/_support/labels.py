@@ -107,7 +107,7 @@ def name_of(engine: Titled) -> str:
     return printable(engine.title)
 
 
-def about_axis(cranks: Sequence[tuple[float, float, int]]) -> str:
+def about_axis(cranks: Sequence[tuple[float, float, float]]) -> str:
     """Return about which axis a roll torque is, of cranks as x, y and ratio; none of one axis."""
     apart = any((x, y) != (0.0, 0.0) for x, y, _ in cranks)
     return " about the axis of the main crank" if apart else ""

@@ -22,13 +22,13 @@ from crankpin.model.cylinder import Cylinder
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from crankpin._support.inputs import Angle, Angles
+    from crankpin._support.inputs import Angle, Angles, Order
     from crankpin.model.loads import PeriodicLoad
     from crankpin.model.shafts import Shaft, Unbalance
 
 Hold: TypeAlias = Literal["pins", "firing"]
 _CoreEngine: TypeAlias = _core.Engine
-Cranks: TypeAlias = tuple[Sequence[tuple[float, float, int]], Sequence[int]]
+Cranks: TypeAlias = tuple[Sequence[tuple[float, float, "Order"]], Sequence[int]]
 """Axis and speed ratio of each crankshaft, and the index of each cylinder's own."""
 
 BANK_ANGLE = "{bank_angle}"

@@ -156,7 +156,7 @@ class PeriodicLoad(Input):
             keep(**{field: inputs.finite(field, value)})
         keep(crank=None if crank is None else inputs.whole("crank", crank, 0, 2**31))
         keep(cylinder=None if cylinder is None else inputs.whole("cylinder", cylinder, 1, 2**31))
-        keep(ratio=_ratio(ratio))
+        keep(ratio=inputs.speed_ratio("ratio", ratio))
         _core.check_load(self._text())
 
     def _speeds(self, rpm: object) -> float | tuple[float, ...] | None:
@@ -366,16 +366,6 @@ def _amplitude(name: str, value: object) -> complex:
     if not np.isfinite(amplitude):
         raise inputs.rejected(name, value, hint)
     return amplitude
-
-
-def _ratio(value: object) -> float:
-    if isinstance(value, str):
-        try:
-            return float(Fraction(value))
-        except (ValueError, ZeroDivisionError, OverflowError):
-            hint = 'give a multiple of 1/2, such as "1/2", -1 or 2'
-            raise inputs.rejected("ratio", value, hint) from None
-    return inputs.finite("ratio", value)
 
 
 def _rows(amplitudes: Mapping[Order, Any]) -> list[list[float]]:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from crankpin._support.inputs import Order
     from crankpin.model.engine import Engine
 
 LEAST_ROD_RATIO, LARGEST_ROD_RATIO = 0.05, 0.7
@@ -100,7 +101,7 @@ def at_rod_ratio(engine: Engine, ratio: float | None) -> Engine:
     return engine.replace(cylinder=[changed[cylinder] for cylinder in engine.cylinders])
 
 
-def listed_orders(engine: Engine, spectrum: Iterable[int] | None) -> list[int]:
+def listed_orders(engine: Engine, spectrum: Iterable[int] | None) -> list[Order]:
     """Return the orders whose phasors a page has: of pistons, of a spectrum, and of shafts."""
     given = {order * speed for order in spectrum or () for speed in _speeds(engine)}
     return sorted({*_core.listed_orders(engine_core(engine)), *given})
@@ -173,7 +174,7 @@ def has_halves(rows: Iterable[Row]) -> bool:
 class _Table:
     """Values by order, group and component at one rod ratio."""
 
-    orders: Sequence[int]
+    orders: Sequence[Order]
     powers: Sequence[int]
     """Powers of q with which orders begin."""
     values: Real
@@ -185,7 +186,7 @@ class _Sampler:
     """Terms of an engine at different rod ratios, summed over groups of parts."""
 
     def __init__(
-        self, engine: Engine, pairs: Sequence[tuple[int, complex]] | None, orders: list[int]
+        self, engine: Engine, pairs: Sequence[tuple[int, complex]] | None, orders: list[Order]
     ) -> None:
         self.engine = engine
         self.pairs = pairs
@@ -202,7 +203,7 @@ class _Sampler:
         tables = self._tables(core, cylinders=True)
         if not self.driven:
             return tables
-        orders = range(1, self.orders[-1] + 1)
+        orders = range(1, int(self.orders[-1]) + 1)
         powers = [min(n, HIGHEST_LISTED) - 1 for n in orders]
         for place in _core.fired_kinds(engine_core(self.engine)):
             swept = np.array(_core.swept(core, place, orders))
@@ -228,7 +229,9 @@ class _Sampler:
 
     def _tables(self, core: _core.Engine, *, cylinders: bool) -> dict[str, _Table]:
         planar, torque = _core.group_terms(core, cylinders, self.orders, self.pairs)
-        powers = [0 if self.pairs else min(n, HIGHEST_LISTED) - 1 for n in self.multiples]
+        powers = [
+            0 if self.pairs else max(0, int(min(n, HIGHEST_LISTED)) - 1) for n in self.multiples
+        ]
         tables = {"planar": _Table(self.orders, powers, planar.view(float), relative=True)}
         if self.pairs is None:
             read = torque if self.driven else torque[:, :, :1].copy()
@@ -286,7 +289,7 @@ def _parts(values: Real, digits: int) -> list[list[float]]:
 
 def _orders(
     engine: Engine, ratios: RodRatios, pairs: Sequence[tuple[int, complex]] | None
-) -> list[int]:
+) -> list[Order]:
     """Return the orders of cylinders or of a spectrum, of their cranks, and of shafts."""
     speeds = _speeds(engine)
     turning = {*speeds, *(abs(shaft.ratio) for shaft in engine.shafts)}
@@ -295,7 +298,7 @@ def _orders(
     return _core.orders_that_count(_core_at(engine, ratios.most))
 
 
-def _speeds(engine: Engine) -> set[int]:
+def _speeds(engine: Engine) -> set[Order]:
     return {abs(ratio) for _, _, ratio in engine_core(engine).cranks[0]}
 
 

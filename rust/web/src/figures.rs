@@ -10,7 +10,7 @@ use crankpin_core::figures::{
 use crankpin_core::{Cancel, Complex64, Engine, Order, Result};
 use serde_json::{Value, json};
 
-use crate::answer::{Columns, orders as numbers};
+use crate::answer::{self, Columns, orders as numbers};
 use crate::arguments::Arguments;
 use crate::words::{sentences_of, shown};
 
@@ -98,16 +98,16 @@ fn row(
 }
 
 /// Number of a row's order.
-struct RowOrder(u32);
+struct RowOrder(Value);
 
 impl From<u32> for RowOrder {
     fn from(order: u32) -> Self {
-        Self(order)
+        Self(order.into())
     }
 }
 
 impl From<Order> for RowOrder {
     fn from(order: Order) -> Self {
-        Self(order.as_whole().unwrap_or(0))
+        Self(answer::order(order))
     }
 }

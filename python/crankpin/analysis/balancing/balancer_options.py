@@ -211,7 +211,7 @@ def balancer_sets(
     engine: Engine,
     counterweights: tuple[Unbalance, ...],
     ratios: Sequence[int],
-    places: Mapping[int, Axis],
+    places: Mapping[float, Axis],
     most_shafts: int,
     rpm: float,
 ) -> list[BalancerOption]:
@@ -263,7 +263,7 @@ def _removals(turning_parts: Turning) -> tuple[Remove, ...]:
 
 def _name(parts: Sequence[Part], weights: tuple[Unbalance, ...]) -> str:
     words = [
-        f"{each.shaft.ratio:+d}".replace("-", "−")
+        f"{each.shaft.ratio:+g}".replace("-", "−")
         + ("" if each.remove == "both" else f" ({each.remove} alone)")
         for each in parts
     ]
@@ -299,7 +299,7 @@ def _limit(name: str, value: object) -> float:
     return number
 
 
-def _axes(places: object, ratios: Sequence[int]) -> Mapping[int, Axis]:
+def _axes(places: object, ratios: Sequence[int]) -> Mapping[float, Axis]:
     """Return ratio → x and y."""
     hint = "give a mapping ratio → (x, y), such as {-1: (0.1, 0.05)}"
     if places is None:

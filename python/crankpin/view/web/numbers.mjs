@@ -4,7 +4,7 @@
 // polynomials are evaluated at (the rod ratio), or by how much a bank's terms are turned (the bank angle).
 
 import { multiply, reduced, scale, unit } from "./complex.mjs";
-import { chebyshev, factorsAt, orderSum, realSum, summed } from "./series.mjs";
+import { chebyshev, crankAt, factorsAt, orderSum, realSum, summed } from "./series.mjs";
 
 export const angularSpeed = (rpm) => (rpm * 2 * Math.PI) / 60;
 
@@ -56,8 +56,8 @@ export class Numbers {
     }));
     this.cycle = figures.strokes === 2 ? 360 : 720;
     /** Degrees after which forces and moments repeat, and all that is drawn. */
-    this.turn = hasHalves(loads.planar) ? 720 : 360;
-    this.span = Math.max(this.turn, figures.gas ? this.cycle : 360, hasHalves(loads.torque) ? 720 : 360);
+    this.turn = this.planar.some(({ order }) => isHalf(order)) ? 720 : 360;
+    this.span = Math.max(this.turn, figures.gas ? this.cycle : 360, [...this.loads.keys()].some(isHalf) ? 720 : 360);
     /** What the cylinders and further loads make one by one. */
     this.whole = { ...terms.sizes };
     for (const name of ["force", "moment", "torque"]) this.whole[name] *= square;
@@ -76,9 +76,8 @@ export class Numbers {
    * gas and loads on the main crank, and `moving` the moment of inertia of pistons and rods.
    */
   at(thetaDeg) {
-    const crank = unit(thetaDeg);
-    const half = unit(0.5 * thetaDeg);
-    const { force, moment } = orderSum(this.planar, crank, half);
+    const crank = crankAt(thetaDeg);
+    const { force, moment } = orderSum(this.planar, crank);
     const pressures = this.gas.map((cylinder) => cylinder && this.pressureAt(cylinder, thetaDeg));
     if (!this.inertia) return { force, moment, torque: null, pressures };
     let [gas, driving] = [0, 0];
@@ -91,8 +90,8 @@ export class Numbers {
     });
     const inertia = realSum(this.inertia, crank);
     const moving = realSum(this.moving, crank);
-    const loads = realSum(this.loads, crank, half);
-    driving += realSum(this.loadsOnCrank, crank, half);
+    const loads = realSum(this.loads, crank);
+    driving += realSum(this.loadsOnCrank, crank);
     return { force, moment, torque: inertia + gas + loads, inertia, gas, loads, driving, moving, pressures };
   }
 
@@ -112,7 +111,7 @@ export class Numbers {
 /** The first value of each order, ascending. */
 const first = (values) => new Map([...values].map(([n, [value]]) => [n, value]).sort(([a], [b]) => a - b));
 
-const hasHalves = (rows) => rows.some(([order]) => order % 1);
+const isHalf = (order) => !Number.isInteger(order);
 
 /** Factor of a load at a speed: a power of the angular speed, or the height of a line through three speeds of a table. */
 function overSpeed(over, rpm) {

@@ -14,6 +14,7 @@ use crate::mounts::file::PowertrainEntry;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result, shorten};
 use crate::numbers::index::ListIndex;
+use crate::numbers::ratio::SpeedRatio;
 use crate::pressure::{ATMOSPHERE, Cycle};
 
 /// Version of the schema that this file reads and writes.
@@ -70,7 +71,7 @@ struct EngineFile {
 struct OtherCrank {
     x: f64,
     y: f64,
-    ratio: i32,
+    ratio: SpeedRatio,
 }
 
 #[derive(Serialize, Deserialize, Clone, Copy, PartialEq)]
@@ -160,7 +161,7 @@ struct WeightEntry {
 struct BalanceShaft {
     #[serde(default, skip_serializing_if = "is_default")]
     name: String,
-    ratio: i32,
+    ratio: SpeedRatio,
     #[serde(default)]
     x: f64,
     #[serde(default)]
@@ -665,11 +666,12 @@ mod tests {
             crank: CrankIndex::MAIN,
         });
         let weights = proptest::collection::vec(weight, 0..3);
-        let shaft = (prop_oneof![-2..0, 1..3], [-9.0..9.0, -9.0..9.0], weights.clone());
+        let shaft = (prop_oneof![-5..0, 1..5], [-9.0..9.0, -9.0..9.0], weights.clone());
         let shaft = shaft.prop_map(|(ratio, axis, mut unbalances)| {
             for unbalance in &mut unbalances {
                 unbalance.pin = None;
             }
+            let ratio = SpeedRatio::from_halves(ratio);
             Shaft { name: format!("{ratio}"), ratio, axis, unbalances }
         });
         let shafts = proptest::collection::vec(shaft, 0..3);
@@ -690,7 +692,7 @@ mod tests {
                 let details = (0..engine.stations().len()).map(details).collect();
                 let engine = engine.with_details(details).unwrap();
                 let engine = engine.with_reference(Some(0.125)).unwrap();
-                let other = Crank { axis: [0.25, -0.125], ratio: -1 };
+                let other = Crank { axis: [0.25, -0.125], ratio: SpeedRatio::whole(-1) };
                 let crank_of = (0..engine.stations().len()).map(|i| i % 2).collect();
                 let engine = engine.with_cranks(vec![Crank::MAIN, other], crank_of).unwrap();
                 let engine =
@@ -776,7 +778,7 @@ mod tests {
         };
         let shaft = Shaft {
             name: String::new(),
-            ratio: -2,
+            ratio: SpeedRatio::whole(-2),
             axis: [0.1, 0.2],
             unbalances: vec![weight; limits::MOST_UNBALANCES],
         };

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use num_traits::One;
 use serde::{Deserialize, Serialize};
 
 use super::{Crank, CrankIndex, Engine};
@@ -11,6 +10,7 @@ use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::ListIndex;
 use crate::numbers::limits;
+use crate::numbers::ratio::SpeedRatio;
 use crate::numbers::typed::{Field, Form};
 use crate::source::{GAS, INERTIA, Scaling, Source};
 
@@ -147,10 +147,9 @@ pub struct PeriodicLoad {
     /// Index of the crank that is its shaft, if one is.
     #[serde(default, skip_serializing_if = "is_default")]
     pub crank: Option<usize>,
-    /// Speed of a shaft of its own over that of the main crank, negative where it turns the other way: a
-    /// multiple of a half.
-    #[serde(default = "One::one", skip_serializing_if = "One::is_one")]
-    pub ratio: f64,
+    /// Speed of a shaft of its own.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub ratio: SpeedRatio,
     /// Axis of a shaft of its own, x and y from that of the main crank, m.
     #[serde(default, skip_serializing_if = "is_default")]
     pub axis: [f64; 2],
@@ -208,7 +207,7 @@ impl PeriodicLoad {
             turning: false,
             z: 0.0,
             crank: None,
-            ratio: 1.0,
+            ratio: SpeedRatio::ONE,
             axis: [0.0; 2],
             cylinder: None,
         }
@@ -249,21 +248,10 @@ impl PeriodicLoad {
             return Err(Error::value(named("force"), "none", hint));
         }
         limits::finite(&named("z"), self.z)?;
-        for (k, axis) in ["x", "y"].into_iter().zip(self.axis) {
-            limits::finite(&named(k), axis)?;
-        }
-        let halves = 2.0 * self.ratio;
-        let fastest = 2.0 * f64::from(super::shaft::FASTEST);
-        if halves == 0.0 || halves.fract() != 0.0 || halves.abs() > fastest {
-            let hint = format!(
-                "give a multiple of 1/2 but 0, to {}, negative where it turns against the crank",
-                super::shaft::FASTEST
-            );
-            return Err(Error::figure(named("ratio"), self.ratio, hint));
-        }
-        if self.crank.is_some() && (self.ratio != 1.0 || self.axis != [0.0; 2]) {
+        super::shaft::check_rotation(place, self.ratio, self.axis)?;
+        if self.crank.is_some() && self.own_shaft() != Crank::MAIN {
             let hint = "is that of the crank that it sits on; leave it out, or the crank";
-            return Err(Error::figure(named("ratio"), self.ratio, hint));
+            return Err(Error::value(named("ratio"), self.ratio, hint));
         }
         self.phase_deg = in_two_turns(self.phase_deg);
         self.direction_deg = self.direction_deg.reduced();
@@ -308,22 +296,20 @@ impl PeriodicLoad {
         self.on != ActsOn::Both
     }
 
+    fn own_shaft(&self) -> Crank {
+        Crank { axis: self.axis, ratio: self.ratio }
+    }
+
     /// Its shaft.
     #[must_use]
-    pub fn shaft(&self, engine: &Engine) -> ([f64; 2], f64) {
-        match self.crank {
-            Some(crank) => {
-                let Crank { axis, ratio } = engine.cranks()[CrankIndex::new(crank)];
-                (axis, f64::from(ratio))
-            }
-            None => (self.axis, self.ratio),
-        }
+    pub fn shaft(&self, engine: &Engine) -> Crank {
+        self.crank.map_or_else(|| self.own_shaft(), |crank| engine.cranks()[CrankIndex::new(crank)])
     }
 
     /// Index of the crank that it sits on: one that was named, or the main one where it has no shaft of its own.
     #[must_use]
     pub fn on_crank(&self) -> Option<usize> {
-        self.crank.or((self.ratio == 1.0 && self.axis == [0.0; 2]).then_some(0))
+        self.crank.or((self.own_shaft() == Crank::MAIN).then_some(0))
     }
 }
 

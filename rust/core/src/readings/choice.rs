@@ -272,10 +272,8 @@ pub(crate) fn within_each(
 ) -> Result<(Vec<Order>, ErrorBounds)> {
     let closed = loads.list.iter().filter(|load| !loads.source(load).has_open_tail());
     let (turning, others): (Vec<Load>, Vec<Load>) = closed.partition(|load| load.is_turning());
-    let mut orders = turning
-        .iter()
-        .map(|load| Order::whole(load.place.ratio.unsigned_abs()))
-        .collect::<Result<Vec<_>>>()?;
+    let mut orders =
+        turning.iter().map(|load| load.place.ratio.order()).collect::<Result<Vec<_>>>()?;
     let mut left_out = loads.groups.map_to(|_| OrderSums::default());
     let (origins, by_origin) = distinct::<usize, _>(others.iter().map(|load| load.place.origin));
     for origin in origins.indices() {
@@ -411,7 +409,7 @@ fn tail(
     let mut sums = loads.groups.map_to(|_| OrderSums::default());
     for load in &loads.list {
         let (place, beyond) = (&load.place, beyond[load.source]);
-        let square = f64::from(place.speed_squared());
+        let square = place.speed_squared();
         let force = times(load.weight.abs(), beyond.force) * square;
         let sum = &mut sums[loads.group_of[load.source]];
         sum.force += force;
@@ -443,7 +441,7 @@ fn scales(engine: &Engine, loads: &LoadList) -> List<GroupIndex, OrderSums> {
         let own = load.weight.abs() * of_force;
         let arm = || engine.largest_crank_radius().max(place.axis.norm());
         let of_torque = of_torque.map_or_else(|| own * arm(), |scale| load.roll.abs() * scale);
-        let square = f64::from(place.speed_squared());
+        let square = place.speed_squared();
         let sums = &mut scales[group];
         sums.force = sums.force.max(square * own);
         sums.torque = sums.torque.max(square * of_torque);
@@ -551,6 +549,7 @@ mod tests {
     use crate::mechanism::slider_crank::Cylinder;
     use crate::numbers::angle::Angle;
     use crate::numbers::index::ListIndex;
+    use crate::numbers::ratio::SpeedRatio;
 
     #[test]
     fn the_lowest_order_that_is_enough_is_found() {
@@ -624,16 +623,17 @@ mod tests {
         };
         let parts = [(0.5, 0.0, 0.0), (0.5, 0.01, 0.0), (0.0, 0.0, 1e-3), (0.5, 0.01, -1e-3)];
         for (ratio, (mass, offset, inertia)) in
-            [1, -1, 2, -2, 3, -3].into_iter().flat_map(|ratio: i32| parts.map(|own| (ratio, own)))
+            [1, -1, 2, -2, 3, -3].into_iter().flat_map(|ratio| parts.map(|own| (ratio, own)))
         {
             let cylinder = Cylinder::new(0.05, 0.15, mass, offset).unwrap();
             let cylinder = cylinder.with_rod_inertia_excess(inertia).unwrap();
             let on_main = rest(cylinder, Crank { axis: [0.0; 2], ..Crank::MAIN }, &[1, 2, 3]);
             assert!(on_main.torque > 0.0);
-            let speed = ratio.unsigned_abs();
+            let speed = i32::unsigned_abs(ratio);
             // Another load has an order above those of the cylinder, one of which is missing.
             let own = [1, 2, 3, 5].map(|own| own * speed);
-            let found = rest(cylinder, Crank { axis: [-0.3, 0.4], ratio }, &own);
+            let found =
+                rest(cylinder, Crank { axis: [-0.3, 0.4], ratio: SpeedRatio::whole(ratio) }, &own);
             let square = f64::from(speed * speed);
             let force = square * on_main.force;
             let inertia = square * f64::from(speed) * on_main.torque + 0.5 * force;

@@ -71,27 +71,26 @@ impl GroupTerms {
 }
 
 /// Speeds at which cranks turn, over that of the main one.
-fn speeds(engine: &Engine) -> BTreeSet<u32> {
-    engine.cranks().iter().map(|crank| crank.ratio.unsigned_abs()).collect()
+fn speeds(engine: &Engine) -> Result<BTreeSet<Order>> {
+    engine.cranks().iter().map(|crank| crank.ratio.order()).collect()
 }
 
 fn request(torque: bool) -> Request {
     Request { rpm: ONE_RADIAN_PER_SECOND, reference_z: None, torque }
 }
 
-fn all(orders: BTreeSet<u32>) -> Result<Vec<Order>> {
-    orders.into_iter().map(Order::whole).collect()
+/// Whole orders up to one, those of shafts, and others.
+fn with_shafts(highest: u32, engine: &Engine, others: BTreeSet<Order>) -> Result<Vec<Order>> {
+    let shafts = engine.shafts().iter().map(|shaft| shaft.ratio.order());
+    let all = (1..=highest).map(Order::whole).chain(shafts).chain(others.into_iter().map(Ok));
+    Ok(all.collect::<Result<BTreeSet<_>>>()?.into_iter().collect())
 }
 
 /// Orders whose phasors are listed: of pistons, of shafts and of further loads.
 pub fn listed_orders(engine: &Engine) -> Result<Vec<Order>> {
-    let shafts = engine.shafts().iter().map(|shaft| shaft.ratio.unsigned_abs());
-    let mut listed = all((1..=HIGHEST_LISTED).chain(shafts).collect())?;
     let of_loads = load_orders(engine)?.into_iter();
-    listed.extend(of_loads.filter(|order| order.halves() <= 2 * HIGHEST_LISTED));
-    listed.sort_unstable();
-    listed.dedup();
-    Ok(listed)
+    let listed = of_loads.filter(|order| order.halves() <= 2 * HIGHEST_LISTED).collect();
+    with_shafts(HIGHEST_LISTED, engine, listed)
 }
 
 /// Orders of the cylinders that are more than a rest, of their cranks, and of shafts.
@@ -99,7 +98,7 @@ pub fn orders(engine: &Engine, cancel: &Cancel) -> Result<Vec<Order>> {
     let bare = engine.bare();
     let mut count = HIGHEST_LISTED;
     let last = loop {
-        let tried = all((1..=2 * count).collect())?;
+        let tried = (1..=2 * count).map(Order::whole).collect::<Result<Vec<_>>>()?;
         let parts = terms(&bare, &request(true), [0.0; 2], &tried, cancel)?;
         let last = parts.iter().filter_map(|(origin, part)| {
             let sizes = |k: usize| {
@@ -117,8 +116,7 @@ pub fn orders(engine: &Engine, cancel: &Cancel) -> Result<Vec<Order>> {
         }
         count *= 2;
     };
-    let shafts = engine.shafts().iter().map(|shaft| shaft.ratio.unsigned_abs());
-    all((1..=last).chain(shafts).chain(speeds(engine)).collect())
+    with_shafts(last, engine, speeds(engine)?)
 }
 
 /// Terms of an engine's parts over ω², by order and summed over groups; what cancels within a group is
@@ -320,15 +318,14 @@ pub struct Sizes {
 
 /// What the cylinders make one by one.
 pub fn sizes(engine: &Engine, cancel: &Cancel) -> Result<Sizes> {
-    let speeds: Vec<u32> = speeds(engine).into_iter().collect();
-    let parts =
-        terms(&engine.bare(), &request(false), [0.0; 2], &Order::all_whole(&speeds)?, cancel)?;
+    let speeds: Vec<Order> = speeds(engine)?.into_iter().collect();
+    let parts = terms(&engine.bare(), &request(false), [0.0; 2], &speeds, cancel)?;
     let reference = engine.reference(None)?.abs();
     let mut found = Sizes::default();
     for (origin, part) in &parts {
         let Origin::Cylinder(i) = *origin else { continue };
         let (station, crank) = (&engine.stations()[i], &engine.cranks()[engine.crank_of(i)]);
-        let speed = speeds.iter().position(|&speed| speed == crank.ratio.unsigned_abs());
+        let speed = speeds.iter().position(|&speed| crank.ratio.order() == Ok(speed));
         let force = speed.map_or(0.0, |k| part.planar(Vector::Force, k).peak());
         let [x, y] = crank.axis;
         found.force += force;

@@ -153,10 +153,10 @@ pub fn closed_form(
     cancel: &Cancel,
 ) -> Result<ClosedForm> {
     if order.as_whole().is_none() {
-        return Err(refused("order", order, "a whole order: inertia has no others"));
+        return Err(refused("order", order, "a whole order: pistons have no others"));
     }
     let ExactLoads { mut loads, motions, .. } = ExactLoads::new(engine, reference_z)?;
-    if motions.iter().any(|motion| motion.ratio.abs() != 1) {
+    if motions.iter().any(|motion| !motion.ratio.is_crank_speed()) {
         let hint = "cylinders on cranks as fast as the main one";
         return Err(refused("cranks", "of different speeds", hint));
     }
@@ -193,8 +193,8 @@ pub fn closed_form(
             (true, false) => LoadMotion::Forward,
             _ => LoadMotion::Backward,
         };
-        let square = place.speed_squared();
-        let weight = weight.checked_mul(&Ratio::from(i128::from(square))).ok_or_else(too_long)?;
+        let speed = Ratio::new(place.ratio.halves().into(), 2);
+        let weight = weight.checked_mul(&(speed * speed)).ok_or_else(too_long)?;
         let argument = if motion == LoadMotion::Along { "bank_deg" } else { "angle_deg" };
         let direction = part_of_turn(argument, place.direction)?;
         parts.push(LoadPart {
@@ -265,7 +265,8 @@ fn sums(
         let shares =
             terms.iter().flat_map(|t| if moment { &t.moment[side] } else { &t.force[side] });
         let root = |share: &Share| {
-            let factor = i128::from(share.halves).checked_mul(*measure.numer())?;
+            // What turns here has crank speed: shares are whole halves.
+            let factor = i128::from(share.eighths / 4).checked_mul(*measure.numer())?;
             let (numerator, denominator) = share.root.turns.into_raw();
             Some((numerator, denominator, weights[share.load].checked_mul(factor)?))
         };
@@ -296,6 +297,7 @@ mod tests {
     use super::*;
     use crate::engine::{CrankIndex, Shaft, Station, Unbalance};
     use crate::mechanism::slider_crank::Cylinder;
+    use crate::numbers::ratio::SpeedRatio;
     use crate::readings::balance::{Request, Vector, balance};
 
     /// Of a whole order.
@@ -344,6 +346,7 @@ mod tests {
                 pin: None,
                 crank: CrankIndex::MAIN,
             };
+            let ratio = SpeedRatio::whole(ratio);
             Shaft { name: String::new(), ratio, axis: [0.0; 2], unbalances: vec![unbalance] }
         };
         let engine = crossplane().with_shafts(vec![shaft(1), shaft(-1)]).unwrap();

@@ -1,6 +1,7 @@
 //! A fact about an engine, before it is put into words.
 
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 use crate::readings::balance::Vector;
 
 /// A fact about an engine. Parts of a vector are forward and backward; cylinders are indices; forces
@@ -44,7 +45,7 @@ pub enum Finding {
         /// What counterweights, or else the shafts, leave.
         kept: f64,
         /// Ratios of balance shafts.
-        shafts: Vec<i32>,
+        shafts: Vec<SpeedRatio>,
         /// Counterweights, which take what turns with a crank.
         weights: Weights,
     },
@@ -219,7 +220,10 @@ impl Finding {
             },
             Self::Remedy { order, kept, shafts, weights, .. } => Row {
                 orders: one(order),
-                values: [*kept].into_iter().chain(shafts.iter().map(|&r| f64::from(r))).collect(),
+                values: [*kept]
+                    .into_iter()
+                    .chain(shafts.iter().map(|ratio| ratio.number()))
+                    .collect(),
                 reason: weights.name(),
                 ..row("remedy")
             },

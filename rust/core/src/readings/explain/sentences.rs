@@ -8,6 +8,7 @@ use crate::engine::loads::dead_text;
 use crate::engine::loads::in_one_line;
 use crate::numbers::figure::{rounded, significant};
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 use crate::readings::balance::Vector;
 
 /// Most pairs of cylinders that a sentence lists.
@@ -287,7 +288,7 @@ impl Explanation {
         &self,
         what: &str,
         order: Order,
-        shafts: &[i32],
+        shafts: &[SpeedRatio],
         weights: Weights,
         least: &str,
         is_all: bool,
@@ -297,10 +298,15 @@ impl Explanation {
         if weights == Weights::OnCranks {
             other.push_str(" on the cranks");
         }
-        let speed = if order == Order::FIRST { "crank speed" } else { "twice crank speed" };
+        let speed = match order.halves() {
+            1 => "half crank speed".to_owned(),
+            2 => "crank speed".to_owned(),
+            4 => "twice crank speed".to_owned(),
+            _ => format!("{order} times crank speed"),
+        };
         let is_fitted = self.engine.shafts().iter().any(|shaft| shafts.contains(&shaft.ratio));
         let [one, two] = if is_fitted { ["another", "two more"] } else { ["a", "two"] };
-        let senses: Vec<&str> = shafts.iter().map(|&ratio| sense(ratio > 0)).collect();
+        let senses: Vec<&str> = shafts.iter().map(|ratio| sense(ratio.is_forward())).collect();
         let shaft = match &senses[..] {
             [] if is_all => return format!("{other} could remove all of {what}"),
             [] => {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::*;
 use crate::engine::{CrankIndex, Details, Gas, Hold, Shaft, Station, Unbalance};
+use crate::numbers::ratio::SpeedRatio;
 use crate::pressure::{Cycle, Given};
 use crate::search::{Bank, Criterion, Search};
 use crate::{Angle, Cylinder};
@@ -353,10 +354,11 @@ fn weights() -> impl Strategy<Value = (Vec<Unbalance>, Vec<Shaft>)> {
     };
     let arm = || select(vec![0.0, 0.1, -0.1, 0.2, 0.1 * 2.0_f64.sqrt()]);
     // Each shaft with a second unbalance, opposite the first one or not.
-    let shaft = (select(vec![1, -1, 2, -2, 3]), [arm(), arm()], unbalance(), any::<bool>())
+    let shaft = (select(vec![1, -1, 2, -2, 4, -3, 6]), [arm(), arm()], unbalance(), any::<bool>())
         .prop_map(|(ratio, axis, first, twice)| {
             let second = Unbalance { angle: first.angle + Angle::HALF_TURN, ..first };
             let unbalances = if twice { vec![first, second] } else { vec![first] };
+            let ratio = SpeedRatio::from_halves(ratio);
             Shaft { name: String::new(), ratio, axis, unbalances }
         });
     let on_crank = (unbalance(), select(vec![None, Some(0), Some(1)]))
@@ -392,8 +394,12 @@ proptest! {
 fn an_undecided_roll_torque_of_a_shaft_is_named() {
     let unbalance =
         Unbalance { amount: 10.0, angle: Angle::ZERO, z: 0.0, pin: None, crank: CrankIndex::MAIN };
-    let shaft =
-        Shaft { name: String::new(), ratio: 1, axis: [0.0, 0.1], unbalances: vec![unbalance] };
+    let shaft = Shaft {
+        name: String::new(),
+        ratio: SpeedRatio::ONE,
+        axis: [0.0, 0.1],
+        unbalances: vec![unbalance],
+    };
     let engine = engine(&[(0.0, 0.0, 0.0, 400.0, 0.0)]).with_shafts(vec![shaft]).unwrap();
     let found = vanishing(&engine, &[1], None, &crate::Cancel::new()).unwrap();
     assert_eq!(found.verdicts[0][8], U);
@@ -412,11 +418,12 @@ fn roll_torques_of_shafts_cancel_where_one_leads_by_a_quarter() {
                 let angle = Angle::from_degrees(degrees).unwrap();
                 let unbalance =
                     Unbalance { amount: 0.004, angle, z: 0.1, pin: None, crank: CrankIndex::MAIN };
+                let ratio = SpeedRatio::whole(ratio);
                 Shaft { name: String::new(), ratio, axis, unbalances: vec![unbalance] }
             };
             let shafts = vec![shaft([0.1, 0.0], beside), shaft([0.0, 0.1], above)];
             let engine = twin.with_shafts(shafts).unwrap();
-            let found = vanishing(&engine, &[ratio.unsigned_abs()], None, &cancel).unwrap();
+            let found = vanishing(&engine, &[i32::unsigned_abs(ratio)], None, &cancel).unwrap();
             assert_eq!(found.verdicts[0][8] == V, found.within_rounding[0][8], "{ratio}");
             found.verdicts[0][8]
         };
