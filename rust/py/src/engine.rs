@@ -683,6 +683,12 @@ impl Engine {
         self.0.loads_counted()
     }
 
+    /// The further loads alone, in words.
+    #[getter]
+    fn further_loads(&self) -> String {
+        self.0.further_loads()
+    }
+
     /// The same of a picture, which turns without further loads.
     #[getter]
     fn loads_drawn(&self) -> String {
