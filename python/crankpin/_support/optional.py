@@ -36,8 +36,8 @@ def library(name: str) -> Any:  # noqa: ANN401 - a module
         raise ImportError(f"{name} is not installed: {hint}") from error
 
 
-LEGAL = re.compile(r"[0-9A-Za-z_][-0-9A-Za-z_.@+ !\"#$%&\\()*,:;<=>?\[\]^`{|}~\xa1-\xff]*(?<! )")
-"""Names of variables and attributes that files of NetCDF can have."""
+LEGAL = re.compile(r"[-0-9A-Za-z_.@+ !\"#$%&\\()*,:;<=>?\[\]^`{|}~\xa1-\xff]+(?<! )")
+"""Names of variables and attributes that every writer of NetCDF 3 takes."""
 
 
 def dataset(

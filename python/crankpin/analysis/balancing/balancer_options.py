@@ -267,7 +267,7 @@ def balancer_sets(
 
 
 def _choices(choices: Sequence[Sequence[Part | None]], most: int) -> Iterator[list[Part]]:
-    """Yield one choice from each list, of at most so many parts."""
+    """Yield one choice from each list, of at most ``most`` parts."""
     if not choices:
         yield []
         return
