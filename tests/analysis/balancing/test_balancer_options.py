@@ -279,7 +279,7 @@ def test_the_long_form_has_all_sets() -> None:
     [
         ({"engine": "i4"}, "^engine = 'i4': give a crankpin.Engine"),
         ({"rpm": "fast"}, "^rpm = 'fast': give a number"),
-        ({"by": "force"}, "^target = 'force': give"),
+        ({"by": "force"}, "^by = 'force': give"),
         ({"target": 3.0}, "^target = 3.0: by has objectives of several units"),
         ({"target": -1.0, "by": "total.force.peak"}, "^target = -1.0: give 0 or more"),
         ({"target": {"total.force.peak": np.nan}}, r"^target\['total.force.peak'\] = nan"),
