@@ -333,3 +333,46 @@ def test_slips_in_loads_are_said(capsys: CAPTURE, load: str, said: str) -> None:
     error = capsys.readouterr().err
     assert said in error
     assert error.count("\n") == 1
+
+
+def test_traces_of_several_cylinders_in_one_file(capsys: CAPTURE, tmp_path: Path) -> None:
+    """As of Python, cylinder by cylinder; the engine saved has the cycle of each."""
+    theta, random = np.arange(-360.0, 360.0, 1.0), np.random.default_rng(4)
+    centres, sizes = [0.0, 540.0, 180.0, 360.0], [1.0, 0.9, 0.8, 0.7]
+    cycle = cp.Cycle.example()
+    pressure = [
+        size * cycle.pressure_at(theta - tdc) + random.normal(0.0, 1e3, len(theta))
+        for tdc, size in zip(centres, sizes, strict=True)
+    ]
+    file, out, picture = (tmp_path / name for name in ("run8.csv", "run8.toml", "run8.png"))
+    header = "angle [deg];" + ";".join(f"p{k} abs [bar]" for k in range(1, 5))
+    np.savetxt(
+        file, np.c_[theta, np.transpose(pressure) / 1e5], delimiter=";", header=header, comments=""
+    )
+    columns = ["angle", "p1 abs", "p2 abs", "p3 abs", "p4 abs"]
+    typed = [
+        *("trace", "i4", str(file), "--columns", ",".join(columns), "--tdc", "0,540,180,360"),
+        *("--lowpass-order", "60", "--save", str(out), "--plot", str(picture)),
+    ]
+    assert main(typed) == 0
+    text = capsys.readouterr().out
+    traces = cp.Traces.load_cylinders(file, columns=columns, tdc_deg=centres, strokes=4)
+    cylinder = cp.Engine.preset("i4").cylinders[0]
+    prepared = [cp.prepare_trace(each, cylinder, lowpass_order=60) for each in traces]
+    saved = cp.Engine.load(out)
+    assert saved.cycles == tuple(each.cycle for each in prepared)
+    assert "Prepared traces of run8, 4 cylinders: change by step" in text
+    assert picture.stat().st_size > 1000
+    assert main([*typed[:7], "--lowpass-order", "60", "--csv"]) == 0
+    rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
+    assert [row["cylinder"] for row in rows] == ["1", "1", "2", "2", "3", "3", "4", "4"]
+    for one, of in zip(rows[1::2], prepared, strict=True):
+        imep = next(text for head, text in one.items() if head.startswith("imep"))
+        assert float(imep) == of.table["imep"].values[-1]
+    for tdc, columns_typed, word in [
+        ("0,540", "angle,p1 abs,p2 abs", "--tdc = 0,540: the engine has 4 cylinders"),
+        ("0,540,180,360", "angle,p1 abs", "--tdc has 4 angles for 1 cylinders"),
+    ]:
+        short = ["trace", "i4", str(file), "--columns", columns_typed, "--tdc", tdc]
+        assert main(short) == 2
+        assert word in capsys.readouterr().err

@@ -538,10 +538,10 @@ def orders(values: object, name: str = "orders") -> list[int] | None:
     return _orders(values, name, _index, hint)
 
 
-def half_orders(values: object) -> list[Order] | None:
+def half_orders(values: object, name: str = "orders") -> list[Order] | None:
     """Return a list of orders, halves among them, or None for ``"auto"``."""
     hint = "orders are multiples of crank speed, whole or half, such as [0.5, 1, 2]"
-    return _orders(values, "orders", order, hint)
+    return _orders(values, name, order, hint)
 
 
 def _orders(
@@ -573,9 +573,9 @@ def explicit_orders(values: object, name: str = "orders") -> list[int]:
     return _given(orders(values, name), name, "whole numbers")
 
 
-def explicit_half_orders(values: object) -> list[Order]:
+def explicit_half_orders(values: object, name: str = "orders") -> list[Order]:
     """Return a list of orders, halves among them, where none can be chosen."""
-    return _given(half_orders(values), "orders", "numbers")
+    return _given(half_orders(values, name), name, "numbers")
 
 
 def _given(listed: list[Number] | None, name: str, what: str) -> list[Number]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._core import ATMOSPHERE, InputError
-from crankpin._support import files, inputs
+from crankpin._support import files, inputs, labels
 from crankpin._support.record import AbsentError, read_only
 from crankpin._support.warnings import suppressed, warn
 from crankpin.model import checks, engine_files
@@ -254,7 +254,7 @@ class EngineData:
         >>> i4.with_cycle([petrol, petrol, None, petrol]).loads_counted
         'gas: example petrol, full load; cylinder 3 does not fire'
         """
-        return self._core.loads_counted
+        return labels.Loads(self._core.loads_counted, self._core.further_loads)
 
     @property
     def firing_deg(self) -> NDArray[np.float64]:

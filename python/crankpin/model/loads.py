@@ -342,7 +342,7 @@ def _amplitudes(name: str, given: object, rows: int | None) -> Mapping[Order, An
         raise inputs.rejected(name, given, "give a mapping: order → complex amplitude, {2: 4 - 1j}")
     listed: dict[Order, Any] = {}
     for order, value in given.items():
-        key = 0 if order == 0 else inputs.explicit_half_orders([order])[0]
+        key = 0 if order == 0 else inputs.explicit_half_orders([order], name)[0]
         if key in listed:
             raise inputs.rejected(name, order, "is given twice; give each order once")
         if rows is None:

@@ -693,6 +693,12 @@ impl Engine {
         self.0.loads_counted()
     }
 
+    /// The further loads alone, in words.
+    #[getter]
+    fn further_loads(&self) -> String {
+        self.0.further_loads()
+    }
+
     /// Periodic loads, as JSON.
     #[getter]
     fn loads(&self) -> PyResult<String> {

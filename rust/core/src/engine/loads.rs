@@ -21,6 +21,13 @@ impl Engine {
             }
             None => gas_text(&[], 0),
         };
+        let further = self.further_loads();
+        if further.is_empty() { gas } else { format!("{gas}; {further}") }
+    }
+
+    /// The further loads alone, in words; empty where there are none.
+    #[must_use]
+    pub fn further_loads(&self) -> String {
         let mut names: Vec<String> = Vec::new();
         for load in self.loads() {
             let name = in_one_line(&load.name);
@@ -29,9 +36,9 @@ impl Engine {
             }
         }
         if names.is_empty() {
-            return gas;
+            return String::new();
         }
-        format!("{gas}; loads: {}", cut(&names.join(", "), LONGEST_NAMES))
+        format!("loads: {}", cut(&names.join(", "), LONGEST_NAMES))
     }
 
     /// Number of cycles of the cylinders that differ.
