@@ -261,6 +261,27 @@ def test_amplitudes_are_read_as_in_a_shell(ask: Ask) -> None:
             _core.read_amplitudes("f", text, "N", "")
 
 
+def test_intervals_are_kept_as_they_were_typed(ask: Ask) -> None:
+    """Twingles and big bangs are no more even for being possible in other turns."""
+    parts = {"stroke": 0.086, "rod_length": 0.145, "reciprocating_mass": 0.66, "bore": 0.086}
+    calls, expected = Calls(), list[cp.Engine]()
+    for order, intervals, more in [
+        ("1-2", [30, 690], {}),
+        ("1-2", [540, 180], {}),
+        ("1-2", [360, 360], {}),
+        ("1-2-3-4", [10, 10, 10, 690], {}),
+        ("1+2-3", [0, 300, 420], {}),
+        ("1-2", [405, 315], {"bank_angle_deg": 45}),
+    ]:
+        given: dict[str, Any] = {"firing_order": order, "intervals_deg": intervals, **more}
+        calls.append(("build", {"kind": "firing_order", "spacing": 0.1, **parts, **given}))
+        engine = cp.Engine.from_firing_order(CYLINDER, spacing=0.1, **given)
+        assert engine.firing().intervals_deg.tolist() == intervals
+        expected.append(engine)
+    for found, engine in zip(results(ask, calls), expected, strict=True):
+        assert cp.Engine.from_toml(found["toml"]) == engine
+
+
 def test_figures_have_what_the_page_of_the_library_has(ask: Ask) -> None:
     listed = [*preset_engines(), *(fired_engine(seed) for seed in range(8))]
     fan = cp.PeriodicLoad("fan", on="shaft", force={0.5: 8, 2: 1j}, torque={0: 3, 4: 1}, z=-0.1)
