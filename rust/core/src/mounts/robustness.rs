@@ -594,7 +594,9 @@ mod tests {
         for count in [1, 2, 3, 4, 50] {
             let mut all: Vec<(f64, usize)> = (0..count).map(|k| (number(), k)).collect();
             let mut kept = [(f64::INFINITY, 0); STARTS];
-            all.iter().for_each(|&one| keep(&mut kept, one));
+            for &one in &all {
+                keep(&mut kept, one);
+            }
             all.sort_by(|a, b| a.0.total_cmp(&b.0));
             all.resize(STARTS.max(count), (f64::INFINITY, 0));
             assert_eq!(kept, all[..STARTS]);
