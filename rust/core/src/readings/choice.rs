@@ -667,9 +667,14 @@ mod tests {
                 place(cylinder(0.0, 0.0), 0.0, 0.7, 0.0),
                 place(cylinder(0.2, 0.0), 100.0, 0.1, 0.3),
             ]),
+            engine(vec![place(cylinder(0.4, 0.0), 0.0, 0.2, 0.0)])
+                .with_cranks(vec![Crank::MAIN, Crank { axis: [0.3, -0.4], ratio: -2 }], vec![1])
+                .unwrap(),
         ];
         // Of each the largest m·r, the longest lever about 0.05 of what has weight, and the largest m·r².
-        let scales_of = [[0.02, 0.15], [0.05, 0.15], [0.03, 0.25], [0.03, 0.25], [0.02, 0.25]];
+        // On a crank of twice the speed a weight counts four times.
+        let scales_of =
+            [[0.02, 0.15], [0.05, 0.15], [0.03, 0.25], [0.03, 0.25], [0.02, 0.25], [0.08, 0.15]];
         let all = Order::all_whole(&(1..=100).collect::<Vec<_>>()).unwrap();
         let cancel = Cancel::new();
         for (engine, [weight, lever]) in engines.iter().zip(scales_of) {
@@ -764,6 +769,44 @@ mod tests {
         let error = within(1e-9, &engine, &loads, true, &Cancel::new()).err().unwrap();
         let ratio = format!("at a rod ratio of {:?};", 1.0 / cylinder.proportions().rod);
         assert!(error.to_string().contains(&ratio), "{error}");
+    }
+
+    /// Where no order leaves a hundredth of the tolerance, the highest is enough if it leaves a quarter.
+    #[test]
+    fn the_highest_order_is_enough_where_it_leaves_a_quarter() {
+        let cylinder = Cylinder::new(0.05, 0.05 * (1.0 + 1e-9), 0.5, 0.0).unwrap();
+        let (tdc, bank) = (Angle::ZERO, Angle::ZERO);
+        let place = Station { cylinder, tdc, bank, z: 0.0, rotating_mass: 0.0 };
+        let engine = Engine::new("", "", vec![place; 2]).unwrap();
+        let loads = LoadList::new(&engine, 0.0);
+        let rest =
+            loads.sources[SourceIndex::new(0)].beyond(2 * limits::HIGHEST_ORDER, false).force;
+        assert!(rest > 0.0 && rest.is_finite());
+        let scales = scales(&engine, &loads);
+        // Of two cylinders each leaves half of that.
+        for (part, is_enough) in [(0.1, true), (0.12, true), (0.13, false), (0.3, false)] {
+            let found = candidates(rest / part, &scales, &loads, &loads.sources, false);
+            assert_eq!(found.is_ok(), is_enough, "{part}");
+            let highest = found.ok().and_then(|orders| orders.last().copied());
+            assert!(!is_enough || highest.and_then(Order::as_whole) == Some(limits::HIGHEST_ORDER));
+        }
+    }
+
+    #[test]
+    fn tolerances_are_relative_to_amplitudes_and_to_what_rods_make() {
+        let cylinder = Cylinder::new(0.05, 0.15, 0.0, 0.0).unwrap();
+        let cylinder = cylinder.with_rod_inertia_excess(0.01).unwrap();
+        let (tdc, bank) = (Angle::ZERO, Angle::ZERO);
+        let place = Station { cylinder, tdc, bank, z: 0.2, rotating_mass: 0.0 };
+        let rod = Engine::new("", "", vec![place]).unwrap();
+        let scales_of =
+            |engine: &Engine| scales(engine, &LoadList::new(engine, 0.05))[GroupIndex::default()];
+        // About J·r/l.
+        let torque = scales_of(&rod).torque;
+        assert!((torque / (0.01 / 3.0) - 1.0).abs() < 0.1, "{torque}");
+        let spectrum = crate::Spectrum::new([(1, 0.02.into()), (2, 0.005.into())]).unwrap();
+        let OrderSums { force, moment, .. } = scales_of(&rod.with_spectrum(spectrum));
+        assert!((force - 0.02).abs() < 1e-16 && (moment - 0.15 * 0.02).abs() < 1e-16);
     }
 
     #[test]
