@@ -668,7 +668,10 @@ mod tests {
                 place(cylinder(0.2, 0.0), 100.0, 0.1, 0.3),
             ]),
             engine(vec![place(cylinder(0.4, 0.0), 0.0, 0.2, 0.0)])
-                .with_cranks(vec![Crank::MAIN, Crank { axis: [0.3, -0.4], ratio: -2 }], vec![1])
+                .with_cranks(
+                    vec![Crank::MAIN, Crank { axis: [0.3, -0.4], ratio: SpeedRatio::whole(-2) }],
+                    vec![1],
+                )
                 .unwrap(),
         ];
         // Of each the largest m·r, the longest lever about 0.05 of what has weight, and the largest m·r².

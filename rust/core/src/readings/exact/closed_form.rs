@@ -518,7 +518,7 @@ mod tests {
         let places = proptest::collection::vec(place, 1..4);
         let shaft = (select(vec![1, -1, 2]), unbalance()).prop_map(|(ratio, unbalance)| Shaft {
             name: String::new(),
-            ratio,
+            ratio: SpeedRatio::whole(ratio),
             axis: [0.0; 2],
             unbalances: vec![unbalance],
         });
@@ -545,7 +545,7 @@ mod tests {
     /// What refuses a closed form of such an engine, if anything does.
     fn refusal(engine: &Engine, order: u32) -> Option<&'static str> {
         let masses = engine.stations().iter().map(|place| place.cylinder.reciprocating_mass());
-        let turns = |ratio: i32| ratio.unsigned_abs() == order;
+        let turns = |ratio: SpeedRatio| ratio.halves_of_speed() == 2 * order;
         let on_crank = !engine.counterweights().is_empty()
             || engine.stations().iter().any(|place| place.rotating_mass > 0.0);
         let turning =

@@ -725,7 +725,7 @@ fn wholes(kinds: Vec<[i64; 3]>, ratios: Vec<i64>) -> impl Strategy<Value = Vec<W
 fn assert_plain(cylinders: &[Whole], plane: Option<i64>) {
     let (mut cranks, mut crank_of) = (vec![Crank::MAIN], Vec::new());
     for of in cylinders {
-        let crank = Crank { axis: [0.0; 2], ratio: of.ratio as i32 };
+        let crank = Crank { axis: [0.0; 2], ratio: SpeedRatio::whole(of.ratio as i32) };
         crank_of.push(cranks.iter().position(|own| *own == crank).unwrap_or_else(|| {
             cranks.push(crank);
             cranks.len() - 1
