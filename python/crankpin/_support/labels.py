@@ -167,11 +167,6 @@ def without_gas(loads: str) -> str:
     return loads.further if isinstance(loads, Loads) else ""
 
 
-def gas_alone(loads: str) -> str:
-    """Return the gas pressure of the loads counted, in words."""
-    return loads.rpartition(AND_LOADS)[0] or loads
-
-
 def gas_text(names: Sequence[str | None], count: int = 1) -> str:
     """Return which gas pressure counts: ``gas: petrol; cylinder 3 does not fire``.
 
