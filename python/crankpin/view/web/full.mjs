@@ -12,7 +12,6 @@ import { ownSettings } from "./places.mjs";
 import { displacement, largestDisplacement, rocking } from "./rocking.mjs";
 import { STILL, Scene } from "./scene.mjs";
 import { Sentences } from "./sentences.mjs";
-import { crankAt } from "./series.mjs";
 import { Sound } from "./sound.mjs";
 import { STRINGS } from "./strings.mjs";
 import { STROKES } from "./strokes.mjs";
@@ -131,8 +130,8 @@ export class Full extends View {
       // At first the engine rocks by up to a third of the crank radius.
       state.exaggeration = largest > 0 ? Math.min(roundBelow((radius / 3) / largest), 5e4) : 1;
     }
-    const turned = Array.from({ length: this.numbers.turn / 4 + 1 }, (_, k) => crankAt(4 * k));
-    const moved = turned.map((crank) => displacement(this.rocking, crank));
+    const angles = Array.from({ length: this.numbers.turn / 4 + 1 }, (_, k) => 4 * k);
+    const moved = angles.map((angle) => displacement(this.rocking, angle));
     const traced = ends.map((z) => moved.map((at) => at(z)));
     this.ends.trace(traced.map((orbit) => orbit.map((at) => scale(at, state.exaggeration))));
     const reach = Math.max(...traced.flat().map(([x, y]) => Math.hypot(x, y)));
