@@ -59,10 +59,10 @@ export class Bench extends Full {
 }
 
 /** What a picture is made of once: another engine that has the same only moves it. */
-function structure({ cylinders, counterweights, shafts, firing_deg: fires, gas, loads, strokes, bank_angle_deg: angle, units }) {
+function structure({ terms: { loads: { torque, speeds } }, flywheel, cylinders, counterweights, shafts, firing_deg: fires, gas, loads, strokes, bank_angle_deg: angle, units }) {
   return JSON.stringify([
     cylinders.map(({ bank, crank, cycle }) => [bank, crank, cycle]), new Set(cylinders.map(({ z }) => z)).size,
     counterweights.length, shafts.map(({ unbalances }) => unbalances.length), Boolean(fires), Boolean(gas), loads, strokes,
-    angle === null, units,
+    angle === null, units, torque.length > 0, torque.length > 0 && flywheel === null, speeds,
   ]);
 }

@@ -1,6 +1,6 @@
 // One engine as it is typed: its kind, the texts of its fields, and what a file has besides them.
 
-import { DEFAULTS, FIELDS, KINDS, groupsOf } from "./fields.mjs";
+import { DEFAULTS, FIELDS, KINDS, LOAD_FIELDS, groupsOf } from "./fields.mjs";
 import { TypingError, quantity } from "./quantity.mjs";
 import { PRESETS, UNITS } from "./tables.mjs";
 
@@ -26,9 +26,16 @@ const PLACE_DIGITS = 12;
 const WRITTEN_IN = { m: ["mm", 3], kg: ["g", 3] };
 
 export class Design {
-  /** `file` is an engine's file as an object, of other kinds than `lists` what it has besides cylinders; `extra` what panes fitted to the engine. */
-  constructor({ kind, fields = {}, file = null, preset = null, extra = null, rpm = SPEED }) {
+  /**
+   * `file` is an engine's file as an object, of other kinds than `lists` what it has besides cylinders; `loads` texts of
+   * periodic loads, by default the file's; `extra` what panes fitted to the engine.
+   */
+  constructor({ kind, fields = {}, file: given = null, loads = null, preset = null, extra = null, rpm = SPEED }) {
+    const { loads: own = [], ...rest } = given ?? {};
+    const file = given && rest;
     Object.assign(this, { kind, file, preset, extra, rpm });
+    /** Texts of the fields of each load. */
+    this.loads = (loads ?? own.map(textsOf)).map((each) => ({ ...each }));
     /** Texts of the preset that are no fields. */
     const { title = "", source = "" } = PRESETS[preset] ?? {};
     this.texts = { title, source };
@@ -52,8 +59,8 @@ export class Design {
   unrolled(json, name) {
     const file = { ...JSON.parse(json), name };
     for (const each of file.placements) each.z = Number(each.z.toPrecision(PLACE_DIGITS));
-    const { extra, rpm, fields: { inertia } } = this;
-    return new Design({ kind: "lists", file, fields: { inertia }, extra, rpm });
+    const { extra, loads, rpm, fields: { inertia } } = this;
+    return new Design({ kind: "lists", file, loads, fields: { inertia }, extra, rpm });
   }
 
   /** The same design, to be changed by itself. */
@@ -67,9 +74,9 @@ export class Design {
     const shared = KINDS[kind].fields;
     const kept = Object.fromEntries(Object.entries(fields).filter(([key]) => this.names.includes(key)
       && (shared.includes(key) ? key !== "firing_order" : groupsOf(kind)[1][1].includes(key))));
-    const { file, extra, rpm } = this;
+    const { file, extra, loads, rpm } = this;
     const rest = file && Object.fromEntries(BESIDE_CYLINDERS.filter((name) => name in file).map((name) => [name, file[name]]));
-    return new Design({ kind, fields: { ...kept, name: "" }, file: rest, extra, rpm });
+    return new Design({ kind, fields: { ...kept, name: "" }, file: rest, loads, extra, rpm });
   }
 
   /** Have a pane's fit, or none of it. */
@@ -102,12 +109,13 @@ export class Design {
         faults.push(error);
       }
     }
+    const loads = this.loads.map((texts, k) => loadOf(core, texts, k, units, faults));
     if (faults.length) throw Object.assign(new Error(faults[0].message), { faults });
     const { gas, inertia } = read;
     delete read.gas;
     delete read.inertia;
     const angles = Object.entries(read).filter(([name]) => FIELDS[name].unit === "°");
-    const more = { gas, inertia: inertia ?? null, angles: Object.fromEntries(angles.map(([name, typed]) => [name, [typed].flat()])) };
+    const more = { gas, loads, inertia: inertia ?? null, angles: Object.fromEntries(angles.map(([name, typed]) => [name, [typed].flat()])) };
     const { title, source } = this.texts;
     read.name ??= NAMED.some((name) => this.changed.includes(name)) ? "" : title;
     return this.kind === "lists" ? { ...more, file: this.listed(read) } : { ...more, call: { kind: this.kind, source, ...read } };
@@ -145,6 +153,59 @@ export class Design {
       ...rest, name: read.name, firing_order: read.firing_order ?? "", strokes: Number(read.strokes), placements,
     });
   }
+}
+
+/** A load as files have it, of its texts; errors go to a list. */
+function loadOf(core, texts, k, units, faults) {
+  const read = {};
+  for (const [key, field] of Object.entries(LOAD_FIELDS)) {
+    const typed = (texts[key] ?? "").trim();
+    if (!typed) continue;
+    const name = `load-${k}-${key}`;
+    try {
+      read[key] = loadValue(core, typed, name, field, units);
+    } catch (error) {
+      if (!error.hint) throw error;
+      faults.push(error);
+    }
+  }
+  const { x = 0, y = 0, rpm, turning, name = "", ...rest } = read;
+  const over = rpm && { over_speed: rpm.length > 1 ? { table: rpm } : { speed_squared: rpm[0] } };
+  const crank = texts.crank ? { crank: Number(texts.crank) } : {};
+  return { name, ...rest, ...over, ...crank, turning: turning === "yes", axis: [x, y] };
+}
+
+function loadValue(core, typed, name, { unit, amplitudes, speeds, ratio, whole }, units) {
+  if (amplitudes) return core.call("amplitudes", { text: typed, unit, name });
+  if (speeds) return quantity(core, typed.replaceAll("/", "; "), { unit, plain: unit, name, form: "list" }).values;
+  if (ratio) {
+    const [over, under = "1"] = typed.split("/");
+    const value = Number(over) / Number(under);
+    if (!Number.isFinite(value)) throw new TypingError(name, typed, "give a multiple of 1/2, such as 1/2, -1 or 2");
+    return value;
+  }
+  if (whole) return quantity(core, typed, { unit: "count", name, what: "a whole number" }).values[0];
+  if (unit === "°") {
+    const { values: [value], texts: [text] } = quantity(core, typed, { unit, plain: unit, name });
+    return degrees(text, value);
+  }
+  return unit ? quantity(core, typed, { unit, plain: plainUnit(unit, units), name }).values[0] : typed;
+}
+
+/** The texts of a load in a file. */
+function textsOf(load) {
+  const { name, on, over_speed: over = {}, axis: [x, y] = [0, 0], turning, crank, cylinder, ratio, z } = load;
+  const sign = (im) => (im < 0 || Object.is(im, -0) ? "" : "+");
+  const amplitude = (re, im) => (im ? `${re}${sign(im)}${im}j` : `${re}`);
+  const amplitudes = (rows = []) => rows.map(([order, ...parts]) => `${order}: ${
+    parts.flatMap((re, k) => (k % 2 ? [] : [amplitude(re, parts[k + 1])])).join("/")}`).join(", ");
+  const length = (value) => (value ? written(value, "m") : "");
+  return {
+    name, on, force: amplitudes(load.force), torque: amplitudes(load.torque), turning: turning ? "yes" : "",
+    rpm: over.table ? over.table.join("/") : `${over.speed_squared ?? ""}`,
+    ratio: `${ratio ?? ""}`, z: length(z), x: length(x), y: length(y), direction_deg: `${load.direction_deg ?? ""}`,
+    phase_deg: `${load.phase_deg ?? ""}`, cylinder: `${cylinder ?? ""}`, crank: `${crank ?? ""}`,
+  };
 }
 
 /** What is not typed in a preset is nothing, not what other fields begin with. */

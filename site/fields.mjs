@@ -46,6 +46,34 @@ export const FIELDS = {
   strokes: { label: "Cycle", choices: { 4: "four-stroke", 2: "two-stroke" } },
 };
 
+const BY_ORDER = "order: size, size@phase° or complex, such as 2: 8, 4: 1.5@-30, 6: 4-1j; order 0 is the mean";
+
+/** What can be typed of a periodic load, as of an engine; `seldom` of those that are behind a summary. */
+export const LOAD_FIELDS = {
+  name: { label: "Name", text: true, said: "under which results count it" },
+  on: {
+    label: "Acts on", choices: { shaft: "its shaft, from outside", block: "the block, from outside", both: "its shaft, against the block" },
+    said: "a propeller or belt on its shaft; pumps and valve trains against the block, which turn it back and leave no net force",
+  },
+  force: { label: "Force by order", unit: "N", amplitudes: true, optional: true, said: BY_ORDER },
+  torque: { label: "Torque by order", unit: "N·m", amplitudes: true, optional: true, said: BY_ORDER },
+  rpm: {
+    label: "Grows from", unit: "rpm", speeds: true, optional: true,
+    said: "with the square of the speed from this one on; 1000/2000 with sizes 8/9 is a table; empty: the same at any speed",
+  },
+  ratio: { label: "Speed of its shaft", ratio: true, optional: true, said: "over the crank’s, in halves: 1/2 of a camshaft; empty: on the crank’s" },
+  z: { label: "Place along the crank", unit: "m", optional: true, said: "from the front to the flywheel" },
+  x: { label: "Axis, x", unit: "m", optional: true, seldom: true, said: "of a shaft of its own, to the right of the crank’s" },
+  y: { label: "Axis, y", unit: "m", optional: true, seldom: true, said: "above the crank’s" },
+  direction_deg: { label: "Direction of the force", unit: "°", optional: true, seldom: true, said: "from the right, counter-clockwise" },
+  turning: { label: "The force", choices: { "": "keeps its direction", yes: "turns with its shaft" }, seldom: true },
+  phase_deg: { label: "Phase", unit: "°", optional: true, seldom: true, said: "crank angle at which its own is 0" },
+  cylinder: { label: "Turns with the bank of cylinder", whole: true, optional: true, seldom: true, said: "as the bank angle changes" },
+};
+
+/** What a load has until something is typed. */
+export const NEW_LOAD = { name: "load", on: "shaft", torque: "2: 10" };
+
 const OF_A_CYLINDER = ["bore", "stroke", "rod_length", "reciprocating_mass", "rotating_mass", "pin_offset"];
 const FIRING = ["firing_order", "strokes", "gas", "inertia"];
 const BANKS = ["spacing", "bank_stagger", "odd_bank", "numbering"];

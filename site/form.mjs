@@ -2,7 +2,7 @@
 
 import { plainUnit } from "./design.mjs";
 import { html } from "./dom.mjs";
-import { FIELDS, KINDS, groupsOf } from "./fields.mjs";
+import { FIELDS, KINDS, LOAD_FIELDS, NEW_LOAD, groupsOf } from "./fields.mjs";
 import { withUnit } from "./quantity.mjs";
 import { readable } from "./table.mjs";
 import { GROUPS, PRESETS, UNITS } from "./tables.mjs";
@@ -41,7 +41,7 @@ export class Form {
         this.said),
       this.groups, this.helper);
     this.element.addEventListener("focusin", ({ target }) => {
-      this.helper.textContent = target === this.kind ? WORDS.kindSaid : saidOf(FIELDS[target.dataset.field]);
+      this.helper.textContent = target === this.kind ? WORDS.kindSaid : saidOf(this.entries.get(target.dataset.field)?.field);
     });
     this.element.addEventListener("focusout", () => { this.helper.textContent = ""; });
     this.element.addEventListener("submit", (event) => event.preventDefault());
@@ -55,19 +55,42 @@ export class Form {
     this.kind.value = design.kind;
     this.entries = new Map();
     this.groups.replaceChildren(...groupsOf(design.kind).map(([title, names]) => html("fieldset", { class: "group" },
-      html("legend", {}, title), ...names.map((name) => this.entry(name)))));
+      html("legend", {}, title), ...names.map((name) => this.entry(name)))), ...this.loads());
     this.faults([]);
   }
 
   /** The preset that the engine still is: another figure makes it the reader's own, and the list leads back. */
   showPreset() {
-    const { preset, changed } = this.design;
+    const { preset, changed, loads } = this.design;
     const listed = [...this.preset.options].some(({ value }) => value === preset);
-    this.preset.value = listed && !changed.length ? preset : "";
+    this.preset.value = listed && !changed.length && !loads.length ? preset : "";
   }
 
-  entry(name) {
-    const { label, unit, choices: all, said, range } = FIELDS[name];
+  /** A group for each periodic load, and buttons that add and remove them. */
+  loads() {
+    const { loads } = this.design;
+    const button = (text, act) => {
+      const element = html("button", { type: "button" }, text);
+      element.addEventListener("click", () => {
+        act();
+        this.show(this.design, this.units);
+        this.act.changed();
+      });
+      return element;
+    };
+    const groups = loads.map((texts, k) => {
+      const of = (isSeldom) => Object.entries(LOAD_FIELDS).filter(([, { seldom = false }]) => seldom === isSeldom)
+        .map(([name, field]) => this.entry(`load-${k}-${name}`, field, texts, name));
+      return html("fieldset", { class: "group" }, html("legend", {}, `${WORDS.load} ${k + 1}`), ...of(false),
+        html("details", {}, html("summary", {}, WORDS.moreOfLoad), ...of(true)),
+        button(WORDS.removeLoad, () => loads.splice(k, 1)));
+    });
+    return [...groups, html("div", { class: "group" }, button(WORDS.addLoad, () => loads.push({ ...NEW_LOAD })))];
+  }
+
+  /** A field of the engine, or of a load with texts of its own, in which it has another name. */
+  entry(name, field = FIELDS[name], texts = this.design.fields, key = name) {
+    const { label, unit, choices: all, said, range } = field;
     // A file may have gas pressure of its own.
     const choices = name === "gas" && this.design.file?.cycles ? { ...all, "": WORDS.ownGas } : all;
     const id = `${this.id}-${name}`;
@@ -75,13 +98,13 @@ export class Form {
       ? html("select", { id }, ...Object.entries(choices).map(([value, text]) => html("option", { value }, text)))
       : html("input", { id, type: "text", spellcheck: "false", autocapitalize: "off", inputmode: range ? "decimal" : null, placeholder: " " });
     control.setAttribute("data-field", name);
-    control.value = this.design.fields[name] ?? "";
+    control.value = texts[key] ?? "";
     const fault = html("p", { class: "fault", id: `${id}-fault`, hidden: true });
-    const hint = said ? html("small", { id: `${id}-said` }, saidOf(FIELDS[name])) : "";
+    const hint = said ? html("small", { id: `${id}-said` }, saidOf(field)) : "";
     control.setAttribute("aria-describedby", [said ? `${id}-said` : "", `${id}-fault`].join(" ").trim());
     const typed = () => {
       this.last = name;
-      this.design.fields[name] = control.value;
+      texts[key] = control.value;
       this.showPreset();
       if (slide) slide.value = Number.parseFloat(control.value) || 0;
       this.act.changed(name);
@@ -97,16 +120,16 @@ export class Form {
         typed();
       });
     }
-    if (unit && !choices) {
+    if (unit && !choices && !field.amplitudes && !field.speeds) {
       control.addEventListener("change", () => {
         const plain = plainUnit(unit, this.units);
-        const list = FIELDS[name].listed || control.value.includes(",");
+        const list = field.listed || control.value.includes(",");
         if (unit === "°" || list || !plain) return;
         control.value = withUnit(this.core, control.value, unit, plain);
-        this.design.fields[name] = control.value;
+        texts[key] = control.value;
       });
     }
-    this.entries.set(name, { control, fault });
+    this.entries.set(name, { control, fault, field });
     return html("div", { class: `entry${range ? " ranged" : ""}` }, html("label", { for: id }, label), control, slide ?? "", hint, fault);
   }
 
@@ -127,10 +150,11 @@ export class Form {
     const wrong = new Set();
     for (const { argument, message, hint, value, isNote } of list.map(spoken)) {
       const [bare] = `${argument ?? ""}`.split(/[[. ]/);
-      const own = this.entries.has(bare) ? bare : FIELD_OF[bare];
+      const [, k, part] = `${argument ?? ""}`.match(/^loads\[(\d+)\]\.?(\w*)/) ?? [];
+      const own = [argument, `load-${k}-${part}`, `load-${k}-name`, bare].find((each) => this.entries.has(each)) ?? FIELD_OF[bare];
       // An error of several figures stands beside the one that was typed.
       const name = this.entries.has(this.last) && `${value} ${hint}`.includes(this.last) ? this.last : own;
-      if (this.entries.has(name)) of.set(name, [of.get(name), inWords(hint ?? message, FIELDS[name].unit, this.units)].filter(Boolean).join("; "));
+      if (this.entries.has(name)) of.set(name, [of.get(name), inWords(hint ?? message, this.entries.get(name).field.unit, this.units)].filter(Boolean).join("; "));
       else rest.push(inWords(message));
       if (this.entries.has(name) && !isNote) wrong.add(name);
     }
@@ -138,11 +162,13 @@ export class Form {
       const text = of.get(name) ?? "";
       if (fault.textContent !== text) fault.textContent = text;
       fault.hidden = !text;
+      const folded = text && control.closest("details");
+      if (folded) folded.open = true;
       if (wrong.has(name)) control.setAttribute("aria-invalid", "true");
       else control.removeAttribute("aria-invalid");
     }
     this.said.classList.toggle("note", list.every(({ isNote }) => isNote));
-    const whole = rest.join("; ") || (wrong.size ? WORDS.faulty([...wrong].map((name) => FIELDS[name].label)) : "");
+    const whole = rest.join("; ") || (wrong.size ? WORDS.faulty([...wrong].map((name) => this.entries.get(name).field.label)) : "");
     if (this.said.textContent !== whole) this.said.textContent = whole;
   }
 

@@ -1,7 +1,7 @@
 // An engine in the page's address, behind the #, which no browser sends: a preset or a kind, and what was typed.
 
 import { Design } from "./design.mjs";
-import { KINDS } from "./fields.mjs";
+import { KINDS, LOAD_FIELDS } from "./fields.mjs";
 import { checkedFits } from "./fits.mjs";
 import { TypingError } from "./quantity.mjs";
 import { UNITS } from "./tables.mjs";
@@ -17,6 +17,7 @@ export async function fragmentOf([design, ...others], units) {
   if (design.file && !design.preset) found.set("file", await packed(JSON.stringify(design.file)));
   const names = design.preset || design.file?.placements ? design.changed : design.names;
   for (const name of names) found.set(name, design.fields[name] ?? "");
+  if (design.loads.length) found.set("loads", await packed(JSON.stringify(design.loads)));
   if (design.extra) found.set("extra", await packed(JSON.stringify(design.extra)));
   found.set("rpm", `${design.rpm}`);
   if (units !== UNITS.settings[0]) found.set("units", units);
@@ -37,11 +38,18 @@ export async function designsOf(fragment, most = 2) {
   for (const name of design.names) {
     if (given.has(name)) design.fields[name] = given.get(name);
   }
+  if (given.has("loads")) design.loads = checkedLoads(JSON.parse(await unpacked(given.get("loads"))));
   if (given.has("extra")) design.extra = checkedFits(JSON.parse(await unpacked(given.get("extra"))));
   const rpm = Number(given.get("rpm"));
   if (given.has("rpm") && rpm >= 0 && rpm <= 1e6) design.rpm = rpm;
   const others = most > 1 && given.has("with") ? await designsOf(given.get("with"), most - 1) : null;
   return { designs: [design, ...(others?.designs ?? [])], units };
+}
+
+/** Loads of a link: texts of fields. */
+function checkedLoads(list) {
+  const known = [...Object.keys(LOAD_FIELDS), "crank"];
+  return list.map((each) => Object.fromEntries(known.map((name) => [name, `${each[name] ?? ""}`])));
 }
 
 async function packed(text) {

@@ -90,7 +90,7 @@ export class Slot {
   /** The engine that is typed, without what was fitted to it: its files, and what the core says that it is. */
   built() {
     const { core, design } = this;
-    const { call, file, gas, inertia, angles } = design.request(core, this.units);
+    const { call, file, gas, loads, inertia, angles } = design.request(core, this.units);
     this.inertia = inertia;
     this.angles = angles;
     this.notes = [];
@@ -106,6 +106,7 @@ export class Slot {
       this.notes = [Object.assign(error, { hint: WORDS.leftOut(error.hint), isNote: true })];
     }
     if (call && design.file) found = read(found.json, design.file);
+    if (loads.length) found = read(found.json, { loads });
     if (!gas) return found;
     const [kind, load] = gas.split(" ");
     return core.call("with_cycle", { engine: found.json, kind, load: Number(load) });

@@ -7,6 +7,7 @@ so that it is seen far below the rounding of a waveform.
 from __future__ import annotations
 
 import itertools
+import math
 from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
@@ -317,7 +318,7 @@ def check(
 def highest(engine: cp.Engine) -> int:
     """An order above which nothing counts, of the fastest crank or shaft."""
     ratios = [ratio for *_, ratio in engine._core.cranks[0]] + [s.ratio for s in engine.shafts]
-    return top(engine) * max(map(abs, ratios))
+    return math.ceil(top(engine) * max(map(abs, ratios)))
 
 
 def allowed(engine: cp.Engine, rtol: float) -> dict[str, float]:

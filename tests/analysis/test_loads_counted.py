@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import inspect
+import pickle
 from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
@@ -163,6 +165,30 @@ def test_engines_that_differ_are_named() -> None:
     words = cp.compare(BARE, LAME, 3000, orders=[1]).loads_counted
     assert words.startswith("without gas pressure (before); gas: example petrol, full load; cyl")
     assert words.endswith("cylinder 3 does not fire (after)")
+
+
+def test_further_loads_of_several_engines_are_all_named() -> None:
+    """With and without gas, whatever they are called."""
+    shake, knock = (
+        cp.PeriodicLoad(name, on="block", force={1: 10.0}) for name in ("a; loads: b", "knock")
+    )
+    engines = {"x": FIRED.with_loads([shake]), "y": BARE.with_loads([knock])}
+    swept = cp.sweep(engines, rpm=[1000, 2000], orders=[1, 2])
+    further = "loads: a; loads: b (x); loads: knock (y)"
+    assert swept.force.loads_counted == further
+    assert cp.sweep(engines, rpm=1000, orders=[1], torque=False).loads_counted == further
+    with_gas = "gas: example petrol, full load; loads: a; loads: b (x); "
+    assert swept.loads_counted == f"{with_gas}without gas pressure; loads: knock (y)"
+    assert swept.torque.loads_counted == swept.loads_counted
+    one = engines["x"].balance(1000, orders=[1])
+    assert one.force.loads_counted == "loads: a; loads: b"
+    assert engines["x"].replace(name="z").loads_counted == engines["x"].loads_counted
+    for same in (pickle.loads(pickle.dumps(one)), copy.deepcopy(one)):  # noqa: S301 - its own
+        assert same.force.loads_counted == one.force.loads_counted
+    table = cp.CycleMap([1000, 3000], [0, 1], [[PETROL, PETROL]] * 2)
+    mapped = cp.sweep(engines["y"], rpm=[1000, 2000], load=0.5, cycle=table, orders=[1, 2])
+    assert mapped.loads_counted == "gas: cycle map; loads: knock"
+    assert mapped.force.loads_counted == "loads: knock"
 
 
 def test_cycles_without_names_and_maps() -> None:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import contextlib
 import copy
+import math
 import pickle
 import warnings
-from typing import Any, Literal
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, Literal
 
 import crankpin as cp
 import numpy as np
@@ -16,6 +18,9 @@ from crankpin.view import mounted
 from crankpin.view.figures import figures
 from rederivation import periodic
 from several_cranks import Draft
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 QUANTITIES = ("force", "moment", "torque", "crank_torque")
 THETA = np.arange(0.0, 720.0, 7.5)
@@ -104,6 +109,68 @@ def test_a_load_is_its_free_body_in_waveforms_balances_and_sweeps(seed: int) -> 
             if quantity in ("torque", "crank_torque"):
                 assert abs(read.mean - part.mean()) < 1e-12 * size
                 assert abs(swept.mean[1] - read.mean) < 1e-12 * size
+
+
+@pytest.mark.parametrize("ratio", ["1/2", "-1/2", 1, -1, "3/2", "-3/2", 2])
+@pytest.mark.parametrize("seed", range(4))
+def test_an_unbalance_is_the_load_that_states_its_force(seed: int, ratio: int | str) -> None:
+    """On shafts of any speed, in every reading, and as a free body."""
+    random = np.random.default_rng(seed)
+    x, y, z = (float(random.choice([0.0, 0.1, -0.2])) for _ in range(3))
+    angle, amount, rpm = int(random.choice([0, 30, 90, 200])), 0.02, 3000.0
+    speed = float(Fraction(ratio))
+    shaft = cp.Shaft(ratio, [cp.Unbalance(amount, z, angle)], x + 0.1, y)
+    force = amount * (speed * math.tau * rpm / 60.0) ** 2
+    stated: dict[str, Any] = {"scaling": "speed squared", "rpm": rpm, "ratio": ratio, "z": z}
+    load = cp.PeriodicLoad(
+        "weight", on="shaft", force={0: force}, turning=True, direction_deg=angle, x=x + 0.1, y=y,
+        **stated,
+    )  # fmt: skip
+    bare = engine(seed)
+    one, other = bare.with_shafts([*bare.shafts, shaft]), bare.with_loads([load])
+    orders = [0.5 * n for n in range(1, 9)]
+
+    def both(read: Callable[[cp.Engine], Any], *quantities: str) -> None:
+        for quantity in quantities:
+            a, b = (np.asarray(getattr(read(each), quantity)) for each in (one, other))
+            assert np.abs(a - b).max() <= 1e-12 * (np.abs(a).max() + force), quantity
+
+    for read in (
+        lambda each: each.balance(rpm, orders=orders),
+        lambda each: each.balance(rpm, orders=orders).about((0.05, 0.1, 0.2)),
+        lambda each: each.waveform(rpm, THETA),
+        lambda each: each.waveform(rpm, THETA, orders=orders),
+        lambda each: cp.sweep(each, rpm=[1000.0, rpm], orders=orders),
+    ):
+        both(read, *QUANTITIES)
+    both(lambda each: each.balance(rpm, orders=orders).total.force, "peak")
+    if seed % 2 == 0:
+        both(lambda each: cp.bearing_loads(each, rpm), "main", "crankpin")
+    # The free body: a force that turns with the shaft, and its moments.
+    turned = force * np.exp(1j * np.deg2rad(angle + speed * THETA))
+    exact, before = one.waveform(rpm, THETA), bare.waveform(rpm, THETA)
+    plane = z - bare.reference_z
+    roll = (x + 0.1) * turned.imag - y * turned.real
+    expected = {
+        "force": np.column_stack([turned.real, turned.imag]),
+        "moment": plane * np.column_stack([-turned.imag, turned.real]),
+        "torque": roll,
+        "crank_torque": 0.0 * roll,
+    }
+    for quantity, part in expected.items():
+        whole, was = (np.asarray(getattr(each, quantity)) for each in (exact, before))
+        size = np.abs(was).max() + force
+        assert np.abs(whole - was - part).max() < 1e-12 * size, quantity
+    # At half orders an inline engine has nothing but the shaft.
+    if not bare.firing_order:
+        return
+    halves = [0.5, 1.5, 2.5]
+    remain = [order for order in halves if order == abs(speed)]
+    for proved in (one.vanishing_orders(halves), other.vanishing_orders(halves)):
+        assert proved.force.vanishing == tuple(order for order in halves if order not in remain)
+    assert one.balance(rpm, orders=halves).force[0.5].status == (
+        "summed" if 0.5 in remain else "zero, proved"
+    )
 
 
 @pytest.mark.parametrize("seed", SEEDS)
@@ -266,8 +333,100 @@ def test_proofs_hold_where_no_load_acts_and_are_undecided_where_one_does() -> No
     balance = six.with_loads([along_x]).balance(3000)
     assert balance.force[1].status == "summed"
     assert balance.force[2].status == "zero, proved"
-    with pytest.raises(cp.InputError, match="loads"):
-        six.with_loads([along_x]).closed_form(1, "force")
+
+
+@pytest.mark.parametrize("turning", [False, True])
+@pytest.mark.parametrize("quantity", ["force", "moment"])
+def test_closed_forms_have_a_symbol_where_a_load_acts(
+    quantity: Literal["force", "moment"], turning: bool
+) -> None:
+    sp = pytest.importorskip("sympy")
+    six = cp.Engine.preset("v6-60")
+    load = cp.PeriodicLoad(
+        "belt", on="shaft", force={1: 50 - 20j, 3: 4}, turning=turning, z=0.4, direction_deg=30,
+        scaling="speed squared", rpm=2000,
+    )  # fmt: skip
+    other = cp.PeriodicLoad("pump", on="both", torque={2: 4}, force={2: 3})
+    loaded = six.with_loads([other, load])
+    acting, orders = ((0, 2, 4) if turning else (1, 3)), (1, 2, 3, 4)
+    for order in orders:
+        form, bare = loaded.closed_form(order, quantity), six.closed_form(order, quantity)
+        assert form.loads == ((load,) if order in acting else ())
+        if order not in acting:
+            assert form.peak == bare.peak
+            assert form.forward == bare.forward
+        else:
+            assert "belt" in form.units_text
+            assert form.peak.has(sp.Abs)
+        balance = getattr(loaded.balance(3000, orders=[order]), quantity)
+        values = form.evaluate(3000)
+        size = 1e-9 * float(max(balance.peak[0], 1e3))
+        for axis in ("x", "y", "forward", "backward"):
+            assert abs(values[axis] - getattr(balance, axis)[0]) < size
+
+
+@pytest.mark.parametrize("quantity", ["force", "moment"])
+def test_symbols_of_loads_are_their_phasors(quantity: Literal["force", "moment"]) -> None:
+    sp = pytest.importorskip("sympy")
+    six = cp.Engine.preset("i6")  # balanced in order 1: nothing but the load
+    place = six.reference_z + 0.3
+    load = cp.PeriodicLoad(
+        "belt", on="block", force={1: 50 - 20j}, z=place, direction_deg=30, phase_deg=40
+    )
+    form = six.with_loads([load]).closed_form(1, quantity)
+    values = {sp.Symbol("P1"): (50 - 20j) * np.exp(-1j * np.radians(40))}
+    lever = sp.Symbol("b1", real=True)
+    for axis, expected in form.evaluate(1000).items():
+        found = complex(getattr(form, axis).subs({**values, lever: 0.3}))
+        assert found == pytest.approx(expected, rel=1e-9, abs=1e-9)
+    assert float(form.peak.subs({**values, lever: 0.3})) == pytest.approx(
+        float(getattr(six.with_loads([load]).balance(1000), quantity)[1].peak)
+    )
+    text = str(form)
+    assert "belt" in text
+    assert "P1" in form._repr_latex_().replace("_", "").replace("{", "").replace("}", "")
+
+
+def test_flywheels_are_driven_by_loads_too() -> None:
+    four = cp.Engine.preset("i4", cylinder=cp.Cylinder(0.043, 0.145, 0.5, bore=0.086))
+    fired = four.with_cycle(cp.Cycle.example())
+    mill = cp.PeriodicLoad("mill", on="shaft", torque={0: -120, 1: 60 - 9j, 0.5: 25j}, ratio="1/2")
+    loaded = cp.flywheel(fired.with_loads([mill]), 1500, inertia=0.3)
+
+    def against(theta: np.ndarray) -> np.ndarray:
+        waves = [(1, 60 - 9j), (0.5, 25j)]
+        angle = np.radians(theta)
+        return np.asarray(-0.5 * sum((a * np.exp(1j * n * angle)).real for n, a in waves))
+
+    same = cp.flywheel(fired, 1500, inertia=0.3, load=against)
+    assert loaded.irregularity == pytest.approx(same.irregularity, rel=1e-9)
+    assert loaded.loads_counted.endswith("loads: mill")
+    alone = cp.flywheel(four.with_loads([mill]), 1500, inertia=0.3)
+    assert alone.irregularity > 0.0
+    with pytest.raises(cp.InputError, match="no driving torque"):
+        cp.flywheel(four, 1500, inertia=0.3)
+
+
+def test_parts_of_pictures_name_loads() -> None:
+    plt = pytest.importorskip("matplotlib.pyplot")
+    fan = cp.PeriodicLoad("fan $1", on="shaft", force={2: 80}, torque={2: 5}, z=-0.1)
+    four = cp.Engine.preset("i4").with_loads([fan, fan.replace(name="fan 2")])
+    ax = four.plot(kind="side")
+    assert any("fan" in text.get_text() and "fan 2" in text.get_text() for text in ax.texts)
+    (mark,) = (line for line in ax.lines if line.get_gid() == "crankpin loads")
+    assert mark.get_xdata() == pytest.approx([-0.1])
+    axes = four.balance(2000).plot(kind="phasors", quantity="force", orders=[2])
+    legend = axes[0, 0].figure.legends[0]
+    assert "loads" in [text.get_text() for text in legend.get_texts()]
+    plt.close("all")
+
+
+def test_sentences_say_where_a_load_is_the_largest_part() -> None:
+    six = cp.Engine.preset("i6")
+    large = cp.PeriodicLoad("belt", on="shaft", force={1: 50}, torque={3: 1e-3})
+    said = six.with_loads([large]).explain(3000).sentences[-1]
+    assert "force of 50 N at order 1, the largest part of it" in said
+    assert said.count("largest part") == 1
 
 
 def test_bearings_carry_what_is_on_the_crank_and_the_crankcase_the_rest() -> None:
@@ -414,11 +573,35 @@ def test_weights_of_several_cranks_count_what_scales_as_they_do(seed: int) -> No
     assert abs(with_load - without - left) < 1e-9 * (abs(without) + abs(half))
 
 
-def test_pages_say_which_loads_they_do_not_draw() -> None:
+@pytest.mark.parametrize("hold", ["pins", "firing"])
+def test_shafts_of_loads_turn_with_their_bank(hold: Literal["pins", "firing"]) -> None:
+    """In a sweep as in an engine at that bank angle."""
+    load = cp.PeriodicLoad(
+        "cam", on="block", force={1: 100, 2: 50j}, x=0.1, y=0.2, cylinder=1, direction_deg=20
+    )
+    six = cp.Engine.preset("v6-60").with_loads([load])
+    swept = cp.sweep(six, rpm=1000, bank_angle_deg=[60, 90], hold=hold, orders=[1, 2])
+    turned = six.with_bank_angle(90, hold=hold)
+    alone = turned.balance(1000, orders=[1, 2])
+    np.testing.assert_allclose(swept.torque.peak[1], alone.torque.peak, rtol=1e-12)
+    at = turned.loads[0]
+    assert abs(complex(at.x, at.y) / complex(0.1, 0.2) - np.exp(-1j * np.pi / 12)) < 1e-12
+
+
+def test_stars_are_of_firings_and_say_nothing_of_loads() -> None:
+    cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+    fired = cp.Engine.preset("i4", cylinder=cylinder).with_cycle(cp.Cycle.example())
+    fan = cp.PeriodicLoad("fan", on="shaft", torque={2: 8})
+    star, before = (cp.star_diagram(each) for each in (fired.with_loads([fan]), fired))
+    assert star.loads_counted == before.loads_counted == "gas: example petrol, full load"
+    assert (star.sums == before.sums).all()
+
+
+def test_pages_say_which_loads_they_count() -> None:
     fan = cp.PeriodicLoad("fan", on="shaft", force={2: 8}, z=-0.1)
     four = cp.Engine.preset("i4")
     assert figures(four.with_loads([fan]), 3000, spectrum=None)["loads"] == (
-        "Without gas pressure; without the loads: fan."
+        "Without gas pressure; loads: fan."
     )
     assert figures(four, 3000, spectrum=None)["loads"] == "Without gas pressure."
 

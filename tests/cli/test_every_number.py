@@ -21,7 +21,7 @@ CAPTURE = pytest.CaptureFixture[str]
 WORDS = {
     "--name", "--units", "--out", "--plot", "--save", "--html", "--motored", "--cycle", "--sheet",
     "--pressure-unit", "--controls", "--columns", "--sides", "--vary", "--by", "--firing-order",
-    "--odd-bank", "--numbering", "--target",
+    "--odd-bank", "--numbering", "--target", "--add-load",
 }  # fmt: skip
 """Options that are names, files and sequences, no numbers."""
 NAMES = {

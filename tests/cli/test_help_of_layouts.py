@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import io
 import re
+import shlex
 import warnings
 from pathlib import Path
 
@@ -55,6 +56,7 @@ SOUND = {
     "--body": "--body 150:0,0.06,0.1:7,8,4.5 --mount a:0.3,0,0:200000",
     "--mount": "--body 150:0,0.06,0.1:7,8,4.5 --mount a:0.3,0,0:200000:0.1",
     "--name": "--name mine",
+    "--add-load": "--add-load 'fan: on=shaft force=2:8 z=-10mm'",
     "--units": "--units g,mm",
     "--out": "-o new.toml --force",
     "--force": "-o new.toml --force",
@@ -122,7 +124,7 @@ def test_every_option_in_the_help_of_a_kind_is_taken(
     assert len(flags) > 20
     needed = LINES.get(kind, "").split()
     for flag in flags:
-        typed = (SOUND.get(flag) or of_the_engine(kind, flag)).split()
+        typed = shlex.split(SOUND.get(flag) or of_the_engine(kind, flag))
         beside = [each for each in zip(needed[::2], needed[1::2], strict=True) if flag != each[0]]
         if (kind, flag) == ("lists", "--pins"):
             beside = [each for each in beside if each[0] != "--tdc"]

@@ -269,3 +269,110 @@ def test_a_trace_is_read_prepared_and_saved(capsys: CAPTURE, tmp_path: Path) -> 
     assert capsys.readouterr().err.startswith("crankpin: error: --bore = 0.0: ")
     assert main(["trace", "i4", str(file), "--exponent", "1.3"]) == 2
     assert "--compression-ratio" in capsys.readouterr().err
+
+
+FAN = "fan: on=shaft force=2:8@90,4:1-2j z=-100mm direction=30"
+CAM = "cam: on=both torque=0:-3,1.5:4 ratio=1/2 y=0.25"
+ADDED = [
+    cp.PeriodicLoad("fan", on="shaft", force={2: 8j, 4: 1 - 2j}, z=-0.1, direction_deg=30),
+    cp.PeriodicLoad("cam", on="both", torque={0: -3, 1.5: 4}, ratio="1/2", y=0.25),
+]
+
+
+def test_loads_are_added(capsys: CAPTURE) -> None:
+    """Parts of loads are columns under their names."""
+    typed = ["--rpm", "2000", "--add-load", FAN, "--add-load", CAM]
+    engine = cp.Engine.preset("i4").with_loads(ADDED)
+    assert main(["torque", "i4", "--cycle", "none", *typed, "--csv"]) == 0
+    expected = engine.balance(2000).crank_torque.table.to_csv()
+    assert capsys.readouterr().out == expected
+    assert "cam" in expected.partition("\n")[0]
+    assert main(["balance", "i4", *typed]) == 0
+    out = capsys.readouterr().out
+    assert out.startswith(repr(engine.balance(2000)).partition("\n")[0])
+    assert "loads: fan, cam" in out
+    assert main(["explain", "i4", *typed]) == 0
+    assert 'The load "cam" adds' in capsys.readouterr().out
+
+
+def test_loads_are_written_into_files(capsys: CAPTURE, tmp_path: Path) -> None:
+    file = tmp_path / "i4.toml"
+    grows = "mill: on=shaft force=0:5 turning=yes rpm=2500 crank=0 phase=400"
+    table = "shaker: on=block force=2:8/9 rpm=1000/2000 cylinder=1"
+    words = [word for load in (FAN, grows, table) for word in ("--add-load", load)]
+    assert main(["new", "i4", *words, "-o", str(file)]) == 0
+    capsys.readouterr()
+    fan, mill, shaker = cp.Engine.load(file).loads
+    assert fan == ADDED[0]
+    assert (mill.scaling, mill.rpm, mill.turning) == ("speed squared", 2500.0, True)
+    assert (shaker.rpm, shaker.force, shaker.cylinder) == ((1000.0, 2000.0), {2: (8, 9)}, 1)
+    # Beside those that a file has, in units of the shell's.
+    more = ["--units", "lbf,in", "--add-load", "belt: on=shaft force=1:2 z=3"]
+    assert main(["balance", str(file), "--rpm", "1500", *more]) == 0
+    assert "loads: fan, mill, shaker, belt" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("load", "said"),
+    [
+        ("fan", "on=shaft"),
+        ("fan: force=2:8", "say what it acts on"),
+        ("fan: on=ship force=2:8", "shaft"),
+        ("fan: on=shaft force=2", "ORDER:SIZE"),
+        ("fan: on=shaft force=2:x", "an amplitude"),
+        ("fan: on=shaft force=2.3:8", "half the crank speed"),
+        ("fan: on=shaft force=2:8 mass=3", "cylinder"),
+        ("fan: on=shaft", "amplitudes"),
+        ("fan: on=shaft force=2:8 ratio=0.3", "1/2"),
+        ("fan: on=shaft force=2:8 z=1kg", "mm"),
+        ("fan: on=shaft force=2:8 cylinder=9", "cylinder"),
+    ],
+)
+def test_slips_in_loads_are_said(capsys: CAPTURE, load: str, said: str) -> None:
+    assert main(["balance", "i4", "--add-load", load]) == 2
+    error = capsys.readouterr().err
+    assert said in error
+    assert error.count("\n") == 1
+
+
+def test_traces_of_several_cylinders_in_one_file(capsys: CAPTURE, tmp_path: Path) -> None:
+    """As of Python, cylinder by cylinder; the engine saved has the cycle of each."""
+    theta, random = np.arange(-360.0, 360.0, 1.0), np.random.default_rng(4)
+    centres, sizes = [0.0, 540.0, 180.0, 360.0], [1.0, 0.9, 0.8, 0.7]
+    cycle = cp.Cycle.example()
+    pressure = [
+        size * cycle.pressure_at(theta - tdc) + random.normal(0.0, 1e3, len(theta))
+        for tdc, size in zip(centres, sizes, strict=True)
+    ]
+    file, out, picture = (tmp_path / name for name in ("run8.csv", "run8.toml", "run8.png"))
+    header = "angle [deg];" + ";".join(f"p{k} abs [bar]" for k in range(1, 5))
+    np.savetxt(
+        file, np.c_[theta, np.transpose(pressure) / 1e5], delimiter=";", header=header, comments=""
+    )
+    columns = ["angle", "p1 abs", "p2 abs", "p3 abs", "p4 abs"]
+    typed = [
+        *("trace", "i4", str(file), "--columns", ",".join(columns), "--tdc", "0,540,180,360"),
+        *("--lowpass-order", "60", "--save", str(out), "--plot", str(picture)),
+    ]
+    assert main(typed) == 0
+    text = capsys.readouterr().out
+    traces = cp.Traces.load_cylinders(file, columns=columns, tdc_deg=centres, strokes=4)
+    cylinder = cp.Engine.preset("i4").cylinders[0]
+    prepared = [cp.prepare_trace(each, cylinder, lowpass_order=60) for each in traces]
+    saved = cp.Engine.load(out)
+    assert saved.cycles == tuple(each.cycle for each in prepared)
+    assert "Prepared traces of run8, 4 cylinders: change by step" in text
+    assert picture.stat().st_size > 1000
+    assert main([*typed[:7], "--lowpass-order", "60", "--csv"]) == 0
+    rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
+    assert [row["cylinder"] for row in rows] == ["1", "1", "2", "2", "3", "3", "4", "4"]
+    for one, of in zip(rows[1::2], prepared, strict=True):
+        imep = next(text for head, text in one.items() if head.startswith("imep"))
+        assert float(imep) == of.table["imep"].values[-1]
+    for tdc, columns_typed, word in [
+        ("0,540", "angle,p1 abs,p2 abs", "--tdc = 0,540: the engine has 4 cylinders"),
+        ("0,540,180,360", "angle,p1 abs", "--tdc has 4 angles for 1 cylinders"),
+    ]:
+        short = ["trace", "i4", str(file), "--columns", columns_typed, "--tdc", tdc]
+        assert main(short) == 2
+        assert word in capsys.readouterr().err

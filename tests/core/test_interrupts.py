@@ -6,6 +6,7 @@ long stopping takes.
 
 from __future__ import annotations
 
+import inspect
 import signal
 import subprocess
 import sys
@@ -71,6 +72,21 @@ LONG_CALLS = {
         "on_mounts.designs(np.linspace(600, 6000, 2000), {'a': {'stiffness': "
         "np.linspace(1e5, 4e5, 200_000)}}, orders=range(1, 13))"
     ),
+    "matching of a thousand parts": (
+        "[cp.match_parts(many, np.linspace(0.4, 0.45, 1000)) for _ in range(10_000)]"
+    ),
+    "designs of cranks": (
+        "[cp.design(16, layout='vee', cylinder=v6.cylinders[0], bank_angle_deg=90, spacing=0.1, "
+        "rpm=6000, by='total.moment.peak') for _ in range(10_000)]"
+    ),
+    "sets of shafts": (
+        "[cp.balancer_options(v6, 3000, shaft_orders=range(1, 20), most_shafts=10) "
+        "for _ in range(10_000)]"
+    ),
+    "design of mounts": (
+        "[cp.design_mounts(on_mounts, vary='stiffness', bounds={'stiffness': (5e4, 5e5)}) "
+        "for _ in range(10_000)]"
+    ),
     "corners of mounts": "[on_mounts.robustness(0.1) for _ in range(10_000)]",
     "waveform as a sum of orders": (
         "v6.waveform(1000, theta_deg=np.linspace(0, 720, 20_000_000), orders=range(1, 300))"
@@ -96,6 +112,7 @@ mounts = [
     for name, x, z in zip("abcdef", [0.3, -0.3, 0.3, -0.3, 0.1, -0.1], [0, 0, 0.7, 0.7, 0.3, 0.4])
 ]
 on_mounts = cp.Powertrain(v6, cp.RigidBody(250, (0.01, 0.1, 0.2), (14, 15, 9)), mounts)
+many = cp.Engine.inline(v6.cylinders[0], throws_deg=range(1000), spacing=0.1)
 # Whoever started the tests may ignore SIGINT, as nohup and shells do for background jobs.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 print("ready", flush=True)
@@ -104,6 +121,19 @@ try:
 except KeyboardInterrupt:
     print("stopped", flush=True)
 """
+
+
+def test_every_function_that_reports_progress_is_among_the_long_calls() -> None:
+    """Those are long by what they say themselves."""
+    functions = {name: getattr(cp, name) for name in cp.__all__}
+    long = [
+        name
+        for name, function in functions.items()
+        if inspect.isfunction(function) and "progress" in inspect.signature(function).parameters
+    ]
+    assert "match_parts" in long
+    typed = " ".join(LONG_CALLS.values())
+    assert [name for name in long if f"cp.{name}(" not in typed] == []
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="sends SIGINT")

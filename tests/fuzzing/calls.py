@@ -124,8 +124,8 @@ def problem(call: Call, changed: str = "") -> str:
                 found = f"took a number that is none and returned {shown(answer)}"
         except cp.InputError as error:
             found = unclear(error)
-            if not found and changed and not names_one_of(call.target, str(error)):
-                found = f"raised an error that names no argument: {shown(str(error))}"
+            if not found and changed and not names(call.target, changed, str(error)):
+                found = f"raised an error that does not name {changed}: {shown(str(error))}"
         except ALLOWED:
             found = ""
         except TypeError as error:
@@ -149,6 +149,7 @@ DERIVED = {
     "quantities": "quantity",
     "reference_z": "z",
     "point": "reference_z",
+    "z": "reference_z",
     "text": "units|engine file",
     "frequency": "rpm",
     "piston_mass": "reciprocating_mass",
@@ -159,17 +160,35 @@ DERIVED = {
     "shaft_orders": "shafts",
     "recorded_rpm": "theta_deg",
     "tdc_deg": "theta_deg",
+    "loss_angle_deg": "theta_deg",
     "heat": "pressure",
     "intake_pressure": "pressure",
     "to_crankpin": "inertia",
 }
 """Arguments, and what is made of them where an error names that."""
+BESIDE = {
+    # Contents of a file as it is read: the error names the file, its line and its column.
+    ("load", "columns"): "path",
+    ("load", "recorded_rpm"): "path",
+    ("load_cylinders", "columns"): "path|tdc_deg",
+    ("load_cylinders", "recorded_rpm"): "path",
+    # Arguments of which one does not fit the other: either may be the wrong one.
+    ("CycleMap", "rpm"): "cycles",
+    ("PeriodicLoad", "rpm"): "force|torque",
+    ("from_samples", "rpm"): "force|torque",
+    ("Receptance", "coordinates"): "table",
+    ("Traces", "theta_deg"): "pressure",
+    ("flywheel", "rpm"): "inertia",
+    ("sweep", "rod_ratio"): "rtol",
+    ("wiebe", "intake_closes_deg"): "start_deg",
+}
+"""Last part of a target and its argument, and what an error may name instead."""
 
 
-def names_one_of(target: Target, message: str) -> bool:
-    """Whether a message names an argument of the call, or what is made of it."""
-    names = [parameter.name for parameter in target.parameters]
-    words = [*names, *(DERIVED[name] for name in names if name in DERIVED)]
+def names(target: Target, changed: str, message: str) -> bool:
+    """Whether a message names the argument that was changed, or what is made of it."""
+    beside = BESIDE.get((target.label.rpartition(".")[2], changed))
+    words = filter(None, [changed, DERIVED.get(changed), beside])
     return re.search(rf"\b({'|'.join(words)})\b", message) is not None
 
 

@@ -6,12 +6,12 @@ import json
 import re
 import tomllib
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import crankpin as cp
 import numpy as np
 import pytest
-from crankpin.model import engine_files
+from crankpin.model import computed_cycles, engine_files
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -178,14 +178,23 @@ def test_the_schema_has_the_entries_that_the_reader_knows(place: str) -> None:
         ("counterweights.0", "pin", 0),
         ("shafts.0", "ratio", 0),
         ("shafts.0", "ratio", 21),
-        ("shafts.0", "ratio", 1.5),
+        ("shafts.0", "ratio", 1.3),
         ("shafts.0", "unbalances", None),
         ("cranks.0", "ratio", 0),
         ("cranks.0", "x", None),
-        ("cycles.0", "pressure", None),
-        ("cycles.0", "pressure", [-2e5, *everything()["cycles"][0]["pressure"][1:]]),
-        ("cycles.0", "strokes", 3),
-        ("cycles.0", "degree", 0),
+        ("cycles.0", "example", None),
+        ("cycles.0", "example", "steam"),
+        ("cycles.0", "example", 1),
+        ("cycles.0", "name", "mine"),
+        ("cycles.0", "pressure", [1e5] * 8),
+        ("cycles.0", "degree", 1),
+        ("cycles.1", "pressure", None),
+        ("cycles.1", "theta_deg", None),
+        ("cycles.1", "strokes", None),
+        ("cycles.1", "pressure", [-2e5, *everything()["cycles"][1]["pressure"][1:]]),
+        ("cycles.1", "strokes", 3),
+        ("cycles.1", "degree", 0),
+        ("cycles.1", "example", "petrol"),
     ],
 )
 def test_schema_and_reader_reject_the_same_mistakes(place: str, entry: str, value: object) -> None:
@@ -209,6 +218,31 @@ def test_the_schema_takes_angles_that_the_reader_takes(angle: str) -> None:
     data["placements"][0]["tdc_deg"] = angle
     assert mistakes(data) == []
     cp.Engine.from_json(json.dumps(data))
+
+
+@pytest.mark.parametrize("kind", computed_cycles.EXAMPLES)
+@pytest.mark.parametrize("strokes", [4, 2])
+def test_examples_are_written_by_name_and_read_back_to_the_last_bit(
+    kind: Literal["petrol", "diesel"], strokes: int
+) -> None:
+    example = cp.Cycle.example(kind, strokes=strokes)
+    single = cp.Engine.inline(PISTON_AND_ROD, throws_deg=[0], spacing=0.1, strokes=strokes)
+    for cycle, by_name in [
+        (example, True),
+        (example.replace(name="mine"), False),
+        (example.replace(pressure=np.nextafter(example.pressure, 1e9)), False),
+        (cp.Cycle.example(kind, strokes=strokes, load=0.5), False),
+    ]:
+        engine = single.with_cycle(cycle)
+        for text, read in [
+            (engine.to_toml(), cp.Engine.from_toml),
+            (engine.to_json(), cp.Engine.from_json),
+        ]:
+            assert ("pressure" not in text) == by_name
+            assert read(text) == engine
+            cycles = read(text).cycles
+            assert cycles is not None
+            assert cycles[0] == cycle
 
 
 def test_files_explain_each_entry_once() -> None:

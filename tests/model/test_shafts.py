@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import pickle
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import conftest
@@ -67,6 +68,9 @@ def test_unbalance_and_shaft_keep_what_is_given() -> None:
     assert (shaft.ratio, shaft.x, shaft.y, shaft.name) == (-2, 1.0, 2.0, "lower")
     assert shaft.unbalances == (weight,)
     assert shaft == Shaft(-2, (weight,), 1, 2, "lower")
+    halves = [Shaft(ratio, [weight]).ratio for ratio in ("1/2", -0.5, Fraction(3, 2), "-2", 1.0)]
+    assert halves == [0.5, -0.5, 1.5, -2, 1]
+    assert [type(ratio) for ratio in halves] == [float, float, float, int, int]
     assert hash(shaft) == hash(Shaft(-2, (weight,), 1, 2, "lower"))
     assert eval(repr(shaft)) == shaft  # noqa: S307 - its own
     assert shaft.replace(x=3.0) == Shaft(-2, [weight], 3, 2, "lower")
@@ -75,6 +79,22 @@ def test_unbalance_and_shaft_keep_what_is_given() -> None:
         shaft.replace(ratio=0)
     with pytest.raises(AttributeError):
         shaft.ratio = 1  # type: ignore[misc]
+
+
+def test_files_carry_shafts_at_halves_of_crank_speed() -> None:
+    camshafts = [Shaft(ratio, [Unbalance(0.02, 0.1)]) for ratio in ("1/2", "-3/2", 2)]
+    engine = I4.with_shafts(camshafts)
+    text = engine.to_toml()
+    assert all(f"ratio = {ratio}\n" in text for ratio in ("0.5", "-1.5", "2"))
+    for typed in (text, text.replace("ratio = 0.5", 'ratio = "1/2"')):
+        assert cp.Engine.from_toml(typed).shafts == tuple(camshafts)
+    with pytest.raises(cp.InputError, match=r"multiple of 1/2"):
+        cp.Engine.from_toml(text.replace("ratio = 0.5", "ratio = 0.4"))
+    with pytest.raises(cp.InputError, match=r"cranks\[1\].ratio = 1/2: cylinders need a"):
+        cp.Engine.from_lists(
+            CYLINDER, tdc_deg=[0, 0], bank_deg=[90, 90], z=[0, 0.1], cranks=[(0.2, 0, 0.5)],
+            crank=[0, 1],
+        )  # fmt: skip
 
 
 @pytest.mark.parametrize(
@@ -87,12 +107,14 @@ def test_unbalance_and_shaft_keep_what_is_given() -> None:
         (lambda: Unbalance(-0.1, 0), "^amount = -0.1: give zero or more"),
         (lambda: Unbalance(float("nan"), 0), "^amount = nan: give a finite number"),
         (lambda: Unbalance(0.1, float("-inf")), "^z = -inf: give a finite number"),
-        (lambda: Shaft(0, []), "^ratio = 0: give a whole number other than 0"),
+        (lambda: Shaft(0, []), "^ratio = 0: give a multiple of 1/2 other than 0"),
         (lambda: Shaft(1, [], x=float("inf")), "^x = inf: give a finite number"),
         (lambda: Shaft(1, [Unbalance(1, 0, pin=2)]), r"^unbalances\[0\].pin = 2: leave it out"),
         (lambda: Unbalance(0.1, 0, pin=0), "^pin = 0: give the number of a cylinder, from 1"),
         (lambda: Unbalance(0.1, 0, pin=1.5), "^pin = 1.5: give a whole number"),  # type: ignore[arg-type]
-        (lambda: Shaft(1.5, []), "^ratio = 1.5: give a whole number"),  # type: ignore[arg-type]
+        (lambda: Shaft(1.3, []), "^ratio = 1.3: give a multiple of 1/2"),
+        (lambda: Shaft("1/3", []), "^ratio = '1/3': give a multiple of 1/2"),
+        (lambda: Shaft("1/0", []), "^ratio = '1/0': give a multiple of 1/2"),
         (lambda: Shaft(1, [], x="left"), "^x = 'left': give a number"),  # type: ignore[arg-type]
         (lambda: Shaft(1, [], name=3), "^name = 3"),  # type: ignore[arg-type]
         (lambda: Shaft(1, [3]), r"^unbalances\[0\] = 3: give a crankpin.Unbalance"),  # type: ignore[list-item]
@@ -130,8 +152,8 @@ def test_an_engine_rejects_a_counterweight_out_of_range(
 @pytest.mark.parametrize(
     ("shaft", "words"),
     [
-        (lambda: Shaft(21, []), "ratio = 21: give a whole number from -20 to 20 except 0"),
-        (lambda: Shaft(-(10**9), []), "ratio = -1000000000: give a whole number from -20 to 20"),
+        (lambda: Shaft(21, []), "ratio = 21: give a multiple of 1/2 from -20 to 20 except 0"),
+        (lambda: Shaft(-(10**9), []), "ratio = -1000000000: give a multiple of 1/2 from -20 to 20"),
         (lambda: Shaft(1, [], y=1e31), "y = 1e31"),
     ],
 )

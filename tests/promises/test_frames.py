@@ -114,13 +114,54 @@ def test_data_frames_and_datasets_have_the_same_numbers(name: str) -> None:
         assert len(arrays) == len(table.columns)
         assert data.attrs.get("loads", "") == arrays.attrs.get("loads", "") == table.loads
         for k, (variable, column) in enumerate(zip(arrays.values(), table.columns, strict=True)):
-            assert variable.attrs == ({"units": column.unit} if column.unit else {})
+            about = {name: text for name, text in variable.attrs.items() if name != "long_name"}
+            assert about == ({"units": column.unit} if column.unit else {})
             if any(isinstance(value, (str, bool)) for value in column.values):
                 assert [*data.iloc[:, k]] == [*column.values]
                 continue
             numbers = np.array([np.nan if each is None else each for each in column.values])
             np.testing.assert_array_equal(data.iloc[:, k].to_numpy(dtype=np.float64), numbers)
             np.testing.assert_array_equal(variable.to_numpy().astype(np.float64), numbers)
+
+
+@every_result
+def test_every_frame_and_every_dataset_is_written_as_netcdf_and_read_back(
+    name: str, tmp_path: Path
+) -> None:
+    """Whatever heads and names are; complex numbers as their parts."""
+    import xarray as xr  # noqa: PLC0415 - of seconds
+
+    result, path = result_of(name), tmp_path / "result.nc"
+    for frame in (None, *result.frames):
+        whole = result.to_xarray(frame=frame)
+        dataset = result.to_xarray(frame=frame, split_complex=True)
+        dataset.to_netcdf(path, engine="scipy")
+        with xr.open_dataset(path, engine="scipy") as again:
+            assert set(again.data_vars) == set(whole.data_vars)
+            for variable, array in whole.data_vars.items():
+                found = again[variable]
+                assert found.attrs.get("long_name") == array.attrs.get("long_name")
+                if array.dtype.kind == "c":
+                    found = found.sel(part="re") + 1j * found.sel(part="im")
+                if array.dtype.kind in "cfiub":
+                    np.testing.assert_array_equal(found.values, array.values)
+
+
+def test_names_that_netcdf_cannot_have_are_replaced_and_kept(tmp_path: Path) -> None:
+    import xarray as xr  # noqa: PLC0415 - of seconds
+
+    names = ["fan 2/rev", "fan 2:rev", "fan_2_rev", "'quoted'", "ωt", "trailing ", "double"]
+    loads = [cp.PeriodicLoad(name, on="block", force={1: 10.0 + 1j}) for name in names]
+    balance = cp.Engine.preset("i4").with_loads(loads).balance(3000, orders=[1, 2])
+    balance.to_xarray(split_complex=True).to_netcdf(tmp_path / "b.nc", engine="scipy")
+    with xr.open_dataset(tmp_path / "b.nc", engine="scipy") as found:
+        for name in names:
+            known = [
+                found[key] for key in found if found[key].attrs.get("long_name") == f"force_{name}"
+            ]
+            array = known[0] if known else found[f"force_{name}"]
+            phasors = array.sel(part="re") + 1j * array.sel(part="im")
+            np.testing.assert_array_equal(phasors, balance.force.part(name))
 
 
 def tabular(latex: str) -> tuple[str, list[list[str]]]:

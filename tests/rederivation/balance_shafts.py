@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-def turning(samples: Array, ratio: int) -> complex:
+def turning(samples: Array, ratio: float) -> complex:
     """The part of a plane vector (n, 2) that turns at ``ratio`` times crank speed, at theta = 0."""
     theta = crank_angles(len(samples))
     return complex(np.mean((samples[:, 0] + 1j * samples[:, 1]) * np.exp(-1j * ratio * theta)))

@@ -30,7 +30,7 @@ class Rotor:
     radius: float
     angle_deg: float
     z: float
-    ratio: int = 1
+    ratio: float = 1
     axis: complex = 0.0
 
     def position(self, theta: Array) -> NDArray[np.complex128]:

@@ -36,6 +36,12 @@ ENGINES = {
     },
     "everything": everything(),
     "radial": radial(),
+    "at halves of crank speed": cp.Engine.preset("i4").with_shafts(
+        [
+            cp.Shaft("1/2", [cp.Unbalance(0.02, 0.1, 30)], x=0.1, y=0.2),
+            cp.Shaft("-3/2", [cp.Unbalance(0.004, 0.3, 70)], x=-0.1),
+        ]
+    ),
     "cranks of many speeds": random_engine(26),
     "cranks of both senses": random_engine(24, ratios=(1, -1)),
 }  # fmt: skip

@@ -83,7 +83,7 @@ def assert_agree(page: Page, engine: cp.Engine, rpm: float = 3000.0) -> None:
         wave = changed.waveform(each.rpm, theta_deg=ANGLES)
         for k, at in enumerate(found["at"]):
             shown = [*at["force"], *at["moment"], at["inertia"]]
-            torque = wave.read("torque.inertia" if changed.fired else "torque")[k]
+            torque = wave.read("torque.inertia")[k]
             expected = [*wave.force[k], *wave.moment[k], torque]
             np.testing.assert_allclose(shown, expected, rtol=0, atol=WITHIN * whole)
         balance = changed.balance(
@@ -142,6 +142,59 @@ def vee(seed: int) -> cp.Engine:
 @pytest.mark.parametrize("seed", range(8))
 def test_random_vees(page: Page, seed: int) -> None:
     assert_agree(page, vee(seed))
+
+
+def loads(seed: int, cylinders: int) -> list[cp.PeriodicLoad]:
+    """Return random periodic loads, of few values, so that they coincide."""
+    random = np.random.default_rng(seed)
+
+    def pick(*values: Any) -> Any:  # noqa: ANN401 - one of them
+        return values[random.integers(len(values))]
+
+    def one() -> cp.PeriodicLoad:
+        speeds: Any = pick(None, 2400.0, [600.0, 1500.0, 4000.0])
+        rows = isinstance(speeds, list)
+
+        def amplitude() -> Any:  # noqa: ANN401 - one, or one for each speed
+            values = [1e3 * pick(1.0, -2j, 0.0, 3 + 1j) for _ in (speeds if rows else [0])]
+            return values if rows else values[0]
+
+        turning = pick(True, False)
+        orders = [pick(0.5, 1, 2), pick(1.5, 3, 4)]
+        mean = {0: [500.0] * 3 if rows else 500.0}
+        return cp.PeriodicLoad(
+            pick("pump", "fan"),
+            on=pick("shaft", "block", "both"),
+            force={n: amplitude() for n in orders} | (mean if turning else {}),
+            torque={n: amplitude() for n in orders} | mean,
+            scaling="speed squared" if isinstance(speeds, float) else "independent",
+            rpm=speeds,
+            turning=turning,
+            ratio=pick(1, "1/2", -1, 2),
+            phase_deg=pick(0, 30, 400),
+            direction_deg=pick(0, 90, 33.3),
+            z=pick(0.0, 0.1, -0.2),
+            x=pick(0.0, 0.1),
+            cylinder=pick(None, cylinders),
+        )
+
+    return [one() for _ in range(int(random.integers(1, 5)))]
+
+
+@pytest.mark.slow  # a browser
+@pytest.mark.parametrize("seed", range(12))
+def test_random_loads(page: Page, seed: int) -> None:
+    """At other speeds, bank angles and rod ratios, with gas pressure and without."""
+    engine = [vee, random_engine, fired_engine][seed % 3](seed)
+    engine = engine.with_loads(loads(seed, len(engine)))
+    assert_agree(page, engine)
+    settings = all_settings(engine, 3000.0)
+    for each, found in zip(settings, numbers(page, engine, 3000.0, settings), strict=True):
+        changed = each.applied(engine)
+        wave = changed.waveform(each.rpm, theta_deg=ANGLES)
+        largest = 1e3 + abs(changed.waveform(each.rpm).torque).max()
+        shown = [at["torque"] for at in found["at"]]
+        np.testing.assert_allclose(shown, wave.torque, rtol=0, atol=1e-9 * largest)
 
 
 @pytest.mark.slow  # a browser

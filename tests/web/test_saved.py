@@ -68,8 +68,29 @@ def own_engine() -> cp.Engine:
     weights = [cp.Unbalance(0.002, 0.05, 10, pin=2), cp.Unbalance(0.001, 0.2, "360/7")]
     shaft = cp.Shaft(-1, [cp.Unbalance(0.0015, 0.1, 30)], 0.1, -0.05)
     return (
-        cp.Engine.preset("i3").replace(name="own").with_counterweights(weights).with_shafts([shaft])
+        cp.Engine.preset("i3")
+        .replace(name="own")
+        .with_counterweights(weights)
+        .with_shafts([shaft])
+        .with_loads(own_loads())
     )
+
+
+def own_loads() -> list[cp.PeriodicLoad]:
+    """Return a load of each kind: on a shaft of its own, that turns, and a table over speed."""
+    return [
+        cp.PeriodicLoad(
+            "valve train", on="both", torque={0: -3, 1.5: 8 + 3j}, ratio="1/2", x=0.1, y=0.25,
+            z=0.05, phase_deg="360/7",
+        ),
+        cp.PeriodicLoad(
+            "propeller", on="shaft", force={0: 25, 2: -4.5j}, torque={3: 12 - 1e-7j}, turning=True,
+            scaling="speed squared", rpm=2400, z=-0.1, direction_deg=30,
+        ),
+        cp.PeriodicLoad(
+            "pump", on="block", force={0.5: [1, 2 + 1j], 4: [3, 1.5]}, rpm=[500, 8000], cylinder=2
+        ),
+    ]  # fmt: skip
 
 
 def opened(open_workbench: Open, engine: cp.Engine | cp.Powertrain, folder: Path) -> Page:
@@ -162,6 +183,50 @@ def test_an_engine_that_is_not_drawn_is_not_saved(open_workbench: Open, tmp_path
     assert "up to 64" in page.locator(".said").inner_text()
 
 
+def test_loads_are_kept_through_fields_links_and_kinds(
+    open_workbench: Open, tmp_path: Path
+) -> None:
+    own = own_engine()
+    page = opened(open_workbench, own, tmp_path)
+    assert engine(page).loads == own.loads
+    link = page.evaluate("async () => { await workbench.writeAddress(); return location.hash; }")
+    again = open_workbench(link)
+    assert save(again, tmp_path) == own
+    choose(page, kind="inline")
+    type_in(page, throws_deg="0, 240, 120")
+    assert faults(page) == []
+    assert engine(page).loads == own.loads
+    choose(page, kind="lists")
+    saved = save(page, tmp_path)
+    assert saved is not None
+    assert saved.loads == own.loads
+    assert_shown_is(page, saved)
+
+
+def test_a_load_is_typed(open_workbench: Open, tmp_path: Path) -> None:
+    page = open_workbench("#preset=i4")
+    page.get_by_role("button", name="Add a periodic load").click()
+    settle(page)
+    type_in(
+        page, **{"load-0-name": "fan", "load-0-force": "2: 8 N@90, 4: 1-2j", "load-0-z": "-100"}
+    )
+    type_in(page, **{"load-0-torque": ""})
+    assert faults(page) == []
+    saved = save(page, tmp_path)
+    assert saved is not None
+    fan = cp.PeriodicLoad("fan", on="shaft", force={2: 8j, 4: 1 - 2j}, z=-0.1)
+    assert saved.loads == (fan,)
+    assert saved == cp.Engine.preset("i4").with_loads([fan])
+    assert_shown_is(page, saved)
+    assert field(page, "preset").input_value() == ""
+    type_in(page, **{"load-0-force": "2: fast"})
+    assert len(faults(page)) == 1
+    assert save(page, tmp_path) is None
+    page.get_by_role("button", name="Remove this load").click()
+    settle(page)
+    assert engine(page) == cp.Engine.preset("i4")
+
+
 def test_a_file_keeps_its_body_and_hardware(open_workbench: Open, tmp_path: Path) -> None:
     body = cp.RigidBody(mass=148, cg=(0.02, 0.07, 0.09), inertia=(8.1, 7.6, 4.9))
     places = {"right": (0.28, 0, -0.09), "left": (-0.28, 0, -0.09), "rear": (0, -0.12, 0.55)}
@@ -195,6 +260,14 @@ TYPED = {
     "name": ["", "n", "<b>"],
     "z": ["0 mm", "0, 100, 250", "0, 100"],
 }
+LOADS = {
+    "name": ["pump", "a: <b>", ""],
+    "force": ["2: 10", "1: 8@30, 2.5: 1-2j", "x", "0: 5", "2: 1e3 N"],
+    "torque": ["", "0: 4, 2: 1j", "3: 5 N·m"],
+    "ratio": ["", "1/2", "-1", "x", "0.3"],
+    "z": ["", "100", "-2.5 in"],
+    "rpm": ["", "3000", "1000/2000"],
+}
 PRESETS = ["single", "i3", "i4", "v6-60", "boxer-4"]
 KINDS = ["inline", "vee", "boxer", "lists"]
 
@@ -205,11 +278,18 @@ class Own:
 
     engine: cp.Engine
     fits: dict[str, cp.Engine | None] = dataclasses.field(default_factory=dict)
+    loads: tuple[cp.PeriodicLoad, ...] | None = dataclasses.field(init=False)
+    """Its periodic loads; None while what is typed of one is wrong."""
+
+    def __post_init__(self) -> None:
+        self.loads = self.engine.loads
 
 
 def step(page: Page, own: Own, chance: np.random.Generator, files: list[Path]) -> Own:
     """Do something, and return what the engine has then."""
-    kind = chance.choice(["type", "type", "fit", "fit", "off", "open", "preset", "kind", "gas"])
+    kind = chance.choice(
+        ["type", "type", "fit", "fit", "off", "open", "preset", "kind", "gas", "load", "load"]
+    )
     if kind == "type":
         shown = [name for name in TYPED if field(page, name).count()]
         name = str(chance.choice(shown))
@@ -222,6 +302,8 @@ def step(page: Page, own: Own, chance: np.random.Generator, files: list[Path]) -
             button.click()
             done(page)
             own.fits[pane] = engine(page) if kind == "fit" else None
+    elif kind == "load":
+        own.loads = change_loads(page, chance)
     elif kind == "open":
         file = files[chance.integers(len(files))]
         take_file(page, file)
@@ -238,7 +320,24 @@ def step(page: Page, own: Own, chance: np.random.Generator, files: list[Path]) -
     return own
 
 
+def change_loads(page: Page, chance: np.random.Generator) -> tuple[cp.PeriodicLoad, ...] | None:
+    """Add a load, remove one or type in one; return the loads that are typed, if they are some."""
+    listed = page.locator("[data-field$=-force]").count()
+    what = chance.choice(["add", "remove", "type", "type"]) if listed else "add"
+    if what == "add" and listed < 4:
+        page.get_by_role("button", name="Add a periodic load").click()
+    elif what == "remove":
+        page.get_by_role("button", name="Remove this load").first.click()
+    else:
+        name = str(chance.choice(["name", "force", "torque", "ratio", "z", "rpm"]))
+        type_in(page, **{f"load-{chance.integers(listed)}-{name}": str(chance.choice(LOADS[name]))})
+    settle(page)
+    return None if faults(page) else engine(page).loads
+
+
 def assert_nothing_is_lost(saved: cp.Engine, own: Own) -> None:
+    if own.loads is not None:
+        assert saved.loads == own.loads
     kept = [] if own.fits.get("bob") else list(own.engine.counterweights)
     assert list(saved.counterweights[: len(kept)]) == kept
     assert saved.shafts[: len(own.engine.shafts)] == own.engine.shafts

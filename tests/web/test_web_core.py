@@ -233,8 +233,62 @@ def test_builders_are_the_librarys(ask: Ask) -> None:
         assert cp.Engine.from_toml(found["toml"]) == engine
 
 
+def same_rows(found: Any, expected: Any) -> None:  # noqa: ANN401 - of JSON
+    """Compare numbers of nested lists, of which sines are another library's."""
+    if isinstance(expected, dict):
+        assert found.keys() == expected.keys()
+        found, expected = list(found.values()), list(expected.values())
+    if isinstance(expected, list):
+        assert len(found) == len(expected)
+        for one, other in zip(found, expected, strict=True):
+            same_rows(one, other)
+    elif expected is None:
+        assert found is None
+    else:
+        assert math.isclose(found, expected, rel_tol=1e-13, abs_tol=1e-13)
+
+
+def test_amplitudes_are_read_as_in_a_shell(ask: Ask) -> None:
+    texts = ["2:8, 4: 1.5@-30, 6:4-1j", "0.5: 1/2j/-1e-3-2e+3j", "2: 3 lbf@90; 3: 1 kN"]
+    calls: Calls = [("amplitudes", {"text": text, "unit": "N", "name": "f"}) for text in texts]
+    for text, found in zip(texts, results(ask, calls), strict=True):
+        same_rows(found, _core.read_amplitudes("f", text, "N", ""))
+    (first, table, _) = (_core.read_amplitudes("f", text, "N", "") for text in texts)
+    assert [first[0], first[2]] == [[2.0, 8.0, 0.0], [6.0, 4.0, -1.0]]
+    assert table == [[0.5, 1.0, 0.0, 0.0, 2.0, -1e-3, -2e3]]
+    for text in ("", "2", "2:", "2:x", "x:2", "0.3:1", "2:1j2", "2:1@x"):
+        with pytest.raises(cp.InputError, match=r"f|orders"):
+            _core.read_amplitudes("f", text, "N", "")
+
+
+def test_intervals_are_kept_as_they_were_typed(ask: Ask) -> None:
+    """Twingles and big bangs are no more even for being possible in other turns."""
+    parts = {"stroke": 0.086, "rod_length": 0.145, "reciprocating_mass": 0.66, "bore": 0.086}
+    calls, expected = Calls(), list[cp.Engine]()
+    for order, intervals, more in [
+        ("1-2", [30, 690], {}),
+        ("1-2", [540, 180], {}),
+        ("1-2", [360, 360], {}),
+        ("1-2-3-4", [10, 10, 10, 690], {}),
+        ("1+2-3", [0, 300, 420], {}),
+        ("1-2", [405, 315], {"bank_angle_deg": 45}),
+    ]:
+        given: dict[str, Any] = {"firing_order": order, "intervals_deg": intervals, **more}
+        calls.append(("build", {"kind": "firing_order", "spacing": 0.1, **parts, **given}))
+        engine = cp.Engine.from_firing_order(CYLINDER, spacing=0.1, **given)
+        assert engine.firing().intervals_deg.tolist() == intervals
+        expected.append(engine)
+    for found, engine in zip(results(ask, calls), expected, strict=True):
+        assert cp.Engine.from_toml(found["toml"]) == engine
+
+
 def test_figures_have_what_the_page_of_the_library_has(ask: Ask) -> None:
     listed = [*preset_engines(), *(fired_engine(seed) for seed in range(8))]
+    fan = cp.PeriodicLoad("fan", on="shaft", force={0.5: 8, 2: 1j}, torque={0: 3, 4: 1}, z=-0.1)
+    mill = cp.PeriodicLoad(
+        "mill", on="both", torque={1.5: [2, 1j]}, rpm=[500, 900], ratio="1/2", cylinder=1
+    )
+    listed += [each.with_loads([fan, mill]) for each in listed[-10:]]
     rpm = 600.0
     calls: Calls = [("figures", {"engine": each.to_json(), "rpm": rpm}) for each in listed]
     others = {"rod_ratio", "terms", "flywheel", "sentences", "loads", "name"}
@@ -252,6 +306,7 @@ def test_figures_have_what_the_page_of_the_library_has(ask: Ask) -> None:
         terms, theirs = found["terms"], expected["terms"]
         assert terms["orders"] == theirs["orders"]
         assert len(terms["swept"]) == len(theirs["swept"])
+        same_rows(terms["loads"], theirs["loads"])
         for name, size in theirs["sizes"].items():
             assert math.isclose(terms["sizes"][name], size, rel_tol=1e-14), name
         numbers = list(dict.fromkeys(row[0] for row in terms["planar"]))

@@ -158,7 +158,9 @@ class Tabled(Record):
         data_frame.attrs.update(labels.attributes(table.loads))
         return data_frame
 
-    def to_xarray(self, *, frame: str | None = None, units: str = "") -> xr.Dataset:
+    def to_xarray(
+        self, *, frame: str | None = None, units: str = "", split_complex: bool = False
+    ) -> xr.Dataset:
         """Return a Dataset with units and named dimensions (needs xarray).
 
         Parameters
@@ -169,6 +171,9 @@ class Tabled(Record):
         units : str, default ""
             Units of its numbers, as :func:`crankpin.units` takes them, by default those of results,
             SI.
+        split_complex : bool, default False
+            Store complex arrays as real ones with a dimension ``part`` of "re" and "im", for
+            ``to_netcdf(path)``: netCDF has no complex numbers.
 
         Returns
         -------
@@ -182,15 +187,18 @@ class Tabled(Record):
         ImportError
             If xarray is not installed.
         """
+        split = inputs.flag("split_complex", split_complex)
         if frame is None and (whole := self._dataset()) is not None:
-            return in_units(whole, unit_names.read(units))
+            whole = in_units(whole, unit_names.read(units))
+            return optional.split_complex(whole) if split else whole
         table = self._exported(FIRST if frame is None else frame, units)
         arrays = {
             head: ("row", each._array(), {"units": each.unit} if each.unit else {})
             for head, each in table._distinct(units=False)
         }
         attributes = {"title": table.title} | labels.attributes(table.loads)
-        return optional.dataset(arrays, {}, attributes)
+        rows = optional.dataset(arrays, {}, attributes)
+        return optional.split_complex(rows) if split else rows
 
     @overload
     def to_csv(self, path: None = None, *, frame: str = FIRST, units: str = "") -> str: ...

@@ -294,6 +294,18 @@ def crank_angles(theta_deg: ArrayLike | None) -> NDArray[np.float64]:
     return theta
 
 
+def speed_ratio(name: str, value: object) -> Order:
+    """Return the speed of a shaft over crank speed: a whole number, or a half as a float."""
+    hint = 'give a multiple of 1/2 other than 0, such as "1/2", -1 or 2'
+    try:
+        ratio = order(Fraction(value) if isinstance(value, str) else value)
+    except (TypeError, ValueError, ZeroDivisionError, OverflowError):
+        raise rejected(name, value, hint) from None
+    if ratio == 0:
+        raise rejected(name, value, hint)
+    return ratio
+
+
 def angular_speed(rpm: object) -> float:
     """Return ω in rad/s."""
     return _core.angular_speed(number("rpm", rpm))
@@ -526,10 +538,10 @@ def orders(values: object, name: str = "orders") -> list[int] | None:
     return _orders(values, name, _index, hint)
 
 
-def half_orders(values: object) -> list[Order] | None:
+def half_orders(values: object, name: str = "orders") -> list[Order] | None:
     """Return a list of orders, halves among them, or None for ``"auto"``."""
     hint = "orders are multiples of crank speed, whole or half, such as [0.5, 1, 2]"
-    return _orders(values, "orders", order, hint)
+    return _orders(values, name, order, hint)
 
 
 def _orders(
@@ -561,9 +573,9 @@ def explicit_orders(values: object, name: str = "orders") -> list[int]:
     return _given(orders(values, name), name, "whole numbers")
 
 
-def explicit_half_orders(values: object) -> list[Order]:
+def explicit_half_orders(values: object, name: str = "orders") -> list[Order]:
     """Return a list of orders, halves among them, where none can be chosen."""
-    return _given(half_orders(values), "orders", "numbers")
+    return _given(half_orders(values, name), name, "numbers")
 
 
 def _given(listed: list[Number] | None, name: str, what: str) -> list[Number]:

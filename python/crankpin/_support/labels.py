@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, Self
 
 import numpy as np
 
@@ -107,7 +107,7 @@ def name_of(engine: Titled) -> str:
     return printable(engine.title)
 
 
-def about_axis(cranks: Sequence[tuple[float, float, int]]) -> str:
+def about_axis(cranks: Sequence[tuple[float, float, float]]) -> str:
     """Return about which axis a roll torque is, of cranks as x, y and ratio; none of one axis."""
     apart = any((x, y) != (0.0, 0.0) for x, y, _ in cranks)
     return " about the axis of the main crank" if apart else ""
@@ -144,14 +144,27 @@ SPECTRUM_GIVEN = "spectrum given"
 """Loads of a result whose forces are those of a spectrum."""
 
 
-AND_LOADS = "; loads: "
-"""What stands between the gas pressure and the further loads that a result counts."""
+class Loads(str):
+    """Loads that results count, in words."""
+
+    __slots__ = ("further",)
+    further: str
+    """The same without gas pressure, which does not act on forces; empty where nothing is left."""
+
+    def __new__(cls, text: str, further: str = "") -> Self:
+        """Return the words."""
+        loads = super().__new__(cls, text)
+        loads.further = further
+        return loads
+
+    def __reduce__(self) -> tuple[type[Loads], tuple[str, str]]:
+        """Return what copies and pickles are made of."""
+        return type(self), (str(self), self.further)
 
 
 def without_gas(loads: str) -> str:
     """Return the further loads of the loads counted, in words; empty where there are none."""
-    _, _, others = loads.rpartition(AND_LOADS) if AND_LOADS in loads else ("", "", "")
-    return f"loads: {others}" if others else ""
+    return loads.further if isinstance(loads, Loads) else ""
 
 
 def gas_text(names: Sequence[str | None], count: int = 1) -> str:
@@ -175,12 +188,19 @@ def dead_text(cycles: Iterable[object]) -> str:
 
 def loads_of(engines: Sequence[Titled], titles: Sequence[str]) -> str:
     """Return which gas pressure counts in results of several engines, once where it is the same."""
-    texts = [engine.loads_counted for engine in engines]
+    loads = [engine.loads_counted for engine in engines]
+    further = [without_gas(each) for each in loads]
+    return Loads(_once(loads, titles), _once(further, titles))
+
+
+def _once(texts: Sequence[str], titles: Sequence[str]) -> str:
+    """Return texts of engines with their titles, each text once; without titles if there is one."""
     if len(set(texts)) == 1:
-        return texts[0]
+        return str(texts[0])
     names: dict[str, list[str]] = {}
     for title, text in zip(titles, texts, strict=True):
-        names.setdefault(text, []).append(printable(title))
+        if text:
+            names.setdefault(text, []).append(printable(title))
     return "; ".join(f"{text} ({cut(', '.join(each), 40)})" for text, each in names.items())
 
 
@@ -191,7 +211,7 @@ def in_words(loads: str) -> str:
 
 def attributes(loads: str) -> dict[str, str]:
     """Return the attributes of a data frame or dataset that say which loads it counts."""
-    return {"loads": loads} if loads else {}
+    return {"loads": str(loads)} if loads else {}
 
 
 def cut(text: str, longest: int = 60) -> str:

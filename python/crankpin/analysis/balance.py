@@ -15,6 +15,7 @@ from crankpin._support.warnings import suppressed
 from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.quantity import ALL, one_order
 from crankpin.analysis.request import Request, check_request, engine_core
+from crankpin.model import shafts as rotating
 from crankpin.model.loads import of_speed_squared
 
 if TYPE_CHECKING:
@@ -160,8 +161,8 @@ class Balance(ByOrder[float]):
             return False  # numbers that were given
         engine = self.engine if not part else self.engine.with_loads([])
         bare = kind_of(whole).planar or not self.fired or part == "inertia"
-        if order % 1 and bare and not engine.loads:
-            return True  # inertia has whole orders
+        if order % 1 and bare and not engine.loads and rotating.repeat_in_a_turn(engine._core):
+            return True
         if self.request.pairs is not None or (whole == "torque" and any(self.request.aside)):
             return False
         core, plane = engine_core(engine), self.request.reference_z

@@ -7,16 +7,20 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
+import numpy as np
+
 from crankpin import _core
 from crankpin._support import inputs, labels, latex, optional, units
 from crankpin._support.frames import Tabled
 from crankpin._support.quantities import COMPONENTS, QUANTITIES
 from crankpin._support.tables import Table
+from crankpin.analysis.contributions import contributions
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks
 
 if TYPE_CHECKING:
     from crankpin.model.engine import Engine
+    from crankpin.model.loads import PeriodicLoad
 
 Expression: TypeAlias = Any
 """A SymPy expression; SymPy is imported when it is used."""
@@ -45,6 +49,9 @@ class ClosedForm(Tabled):
     those of :class:`Balance`: a quantity is ``Re(P exp(inθ))``, and ``x + iy = forward exp(inθ) +
     backward exp(−inθ)``. aₙ is below zero in orders 4, 8, …; with a pin offset it is complex, and
     ``backward`` goes with its conjugate.
+    A periodic load that acts at the order is ``P1``, ``P2``, …: the phasor of its force along its
+    direction, of one that turns ``P1f`` and ``P1b``, forward and backward; ``b1``, … are distances
+    from the plane of moments. Other orders are as without it.
     Angles of 15° and its multiples, among others, give radicals; the rest stay cosines.
 
     Made by :meth:`Engine.closed_form`. Jupyter shows the sum over the cylinders and its value.
@@ -75,6 +82,8 @@ class ClosedForm(Tabled):
     """Symbol for the spacing."""
     theta: Expression = field(init=False, compare=False)
     """Symbol for the crank angle."""
+    loads: tuple[PeriodicLoad, ...] = field(init=False, compare=False)
+    """Periodic loads that act at the order: those of ``P1``, ``P2``, …."""
     _unit: Expression = field(init=False, compare=False)
     _zero: bool = field(init=False, compare=False)
     _parts: list[Any] = field(init=False, compare=False)
@@ -85,7 +94,7 @@ class ClosedForm(Tabled):
     def __post_init__(self) -> None:
         sp = optional.library("sympy")
         moment = self.quantity == "moment"
-        unit, spacing, zero, parts, period, denominator, phasors = _core.closed_form(
+        unit, spacing, zero, parts, period, denominator, phasors, acting = _core.closed_form(
             engine_core(self.engine), self.order, moment, self.plane
         )
         F, a = sp.Symbol("F", positive=True), sp.Symbol("a", positive=True)
@@ -95,6 +104,7 @@ class ClosedForm(Tabled):
             F=F,
             a=a,
             theta=sp.Symbol("theta", real=True),
+            loads=tuple(self.engine.loads[k] for k in acting),
             _unit=a * F if moment else F,
             _zero=zero,
             _parts=parts,
@@ -134,22 +144,24 @@ class ClosedForm(Tabled):
     def peak(self) -> Expression:
         """Length of the longest vector: forward and backward parts aligned."""
         sp = optional.library("sympy")
+        if self.loads:
+            return self.forward_magnitude + self.backward_magnitude
         return sp.expand(self._size("forward") + self._size("backward")) * self._unit
 
     @cached_property
     def peak_xy(self) -> tuple[Expression, Expression]:
         """Peaks along (about) x and y."""
-        return (self._size("x") * self._unit, self._size("y") * self._unit)
+        return (self._magnitude("x"), self._magnitude("y"))
 
     @cached_property
     def forward_magnitude(self) -> Expression:
         """Magnitude of the part that turns with the crank."""
-        return self._size("forward") * self._unit
+        return self._magnitude("forward")
 
     @cached_property
     def backward_magnitude(self) -> Expression:
         """Magnitude of the part that turns against the crank."""
-        return self._size("backward") * self._unit
+        return self._magnitude("backward")
 
     @cached_property
     def forward_phase(self) -> Expression:
@@ -220,7 +232,16 @@ class ClosedForm(Tabled):
             real, imaginary = (complex(part.evalf(20)).real for part in self._parts_of(axis))
             factor = unit.conjugate() if axis == "backward" else unit
             values[axis] = complex(real, imaginary) * factor
-        return values
+        if self.loads:
+            balance = self.engine.balance(rpm, orders=[self.order], torque=False)
+            listed = contributions(balance.about(self.reference_z), self.quantity)
+            own = [part.phasors[:, 0] for part in listed if part.group == "loads"]
+            forward, backward = np.sum(own, axis=0)
+            values["forward"] += forward
+            values["backward"] += backward
+            values["x"] += forward + np.conj(backward)
+            values["y"] -= 1j * (forward - np.conj(backward))
+        return {axis: complex(value) for axis, value in values.items()}
 
     # --- construction -------------------------------------------------------------------------
 
@@ -242,7 +263,46 @@ class ClosedForm(Tabled):
 
     def _phasor(self, axis: str) -> Expression:
         real, imaginary = self._parts_of(axis)
-        return (real + optional.library("sympy").I * imaginary) * self._unit
+        pistons = (real + optional.library("sympy").I * imaginary) * self._unit
+        return pistons + sum(self._of_load(k, axis) for k in range(len(self.loads)))
+
+    def _of_load(self, k: int, axis: str) -> Expression:
+        """Return the phasor of a periodic load, in symbols."""
+        sp = optional.library("sympy")
+        load, name = self.loads[k], f"P{k + 1}"
+        lever = sp.I * sp.Symbol(f"b{k + 1}", real=True) if self.quantity == "moment" else 1
+        if load.turning:
+            forward, backward = (
+                sp.Symbol(f"{name}{side}") if turns else sp.Integer(0)
+                for side, turns in zip("fb", self._turns(load), strict=True)
+            )
+        else:
+            towards = sp.pi * sp.Rational(Fraction(load.exact_direction)) / 180
+            along = (sp.cos(towards) + sp.I * sp.sin(towards)) / 2
+            forward, backward = along * sp.Symbol(name), along * sp.conjugate(sp.Symbol(name))
+        forward, backward = lever * forward, lever * backward
+        if axis in ("forward", "backward"):
+            return sp.expand(forward if axis == "forward" else backward)
+        sum_of = forward + sp.conjugate(backward)
+        return sp.expand(sum_of if axis == "x" else -sp.I * (forward - sp.conjugate(backward)))
+
+    def _turns(self, load: PeriodicLoad) -> tuple[bool, bool]:
+        """Return whether a force that turns has a forward and a backward part at the order."""
+        ratio = load.ratio
+        if load.crank is not None:
+            ratio = engine_core(self.engine).cranks[0][load.crank][2]
+        speeds = [
+            speed
+            for order, size in load.force.items()
+            if np.any(size)
+            for speed in (ratio + order, ratio - order)
+        ]
+        return self.order in speeds, -self.order in speeds
+
+    def _magnitude(self, axis: str) -> Expression:
+        if self.loads:
+            return optional.library("sympy").Abs(self._phasor(axis))
+        return self._size(axis) * self._unit
 
     def _size(self, axis: str) -> Expression:
         sp = optional.library("sympy")
@@ -253,6 +313,8 @@ class ClosedForm(Tabled):
 
     def _phase(self, axis: str) -> Expression:
         sp = optional.library("sympy")
+        if self.loads:
+            return sp.arg(self._phasor(axis))
         real, imaginary = self._parts_of(axis)
         if real == 0 or imaginary == 0:
             return sp.atan2(imaginary, real) if real != imaginary else sp.Integer(0)
@@ -266,8 +328,9 @@ class ClosedForm(Tabled):
 
     def _terms(self, axis: str) -> tuple[Expression, ...]:
         sp = optional.library("sympy")
+        of_loads = tuple(self._over_angle(self._of_load(k, axis)) for k in range(len(self.loads)))
         if self._zero:
-            return ()
+            return of_loads
         # The moment of a force about x comes from its part along y, and is negative.
         moment = self.quantity == "moment"
         along, sign = ("y" if axis == "x" else "x", -1) if moment else (axis, 1)
@@ -286,7 +349,12 @@ class ClosedForm(Tabled):
             bore = 2 * sp.pi * sp.Rational(*direction)
             component = sp.cos(bore) if along == "x" else sp.sin(bore)
             terms.append(component * factor * self._wave(-lag))
-        return tuple(terms)
+        return (*terms, *of_loads)
+
+    def _over_angle(self, phasor: Expression) -> Expression:
+        """Return what a load's phasor makes over the crank angle."""
+        sp = optional.library("sympy")
+        return sp.re(phasor * sp.exp(sp.I * self.order * self.theta), evaluate=False)
 
     def _wave(self, turns: Fraction) -> Expression:
         """Return cos(nθ + phase) unevaluated: SymPy would turn some into sines."""
@@ -299,7 +367,9 @@ class ClosedForm(Tabled):
         sp = optional.library("sympy")
         real, imaginary = self._parts_of(axis)
         angle = self.order * self.theta
-        return (real * sp.cos(angle) - imaginary * sp.sin(angle)) * self._unit
+        pistons = (real * sp.cos(angle) - imaginary * sp.sin(angle)) * self._unit
+        loads = range(len(self.loads))
+        return pistons + sum(self._over_angle(self._of_load(k, axis)) for k in loads)
 
     # --- text -----------------------------------------------------------------------------------
 
@@ -320,6 +390,11 @@ class ClosedForm(Tabled):
             text += " (in lengths its size)"
         if self.quantity == "moment" and self.spacing:
             text += f", a = {units.figure(1e3 * self.spacing, 'mm', 6)}"
+        for k, load in enumerate(self.loads, 1):
+            text += f", P{k} of the load {labels.printable(load.name)}"
+            if self.quantity == "moment":
+                place = 1e3 * (load.z - self.reference_z)
+                text += f", b{k} = {units.figure(place, 'mm', 6)}"
         return text
 
     @property

@@ -20,9 +20,11 @@ class Contribution(NamedTuple):
     """What one part of an engine adds to a quantity, order by order."""
 
     part: str
-    """``"1"``, ``"2"``, … for cylinders, ``"W1"``, … for counterweights, ``"S1"``, … for shafts."""
+    """``"1"``, ``"2"``, … for cylinders, ``"W1"``, … for counterweights, ``"S1"``, … for shafts,
+    ``"L1"``, … for periodic loads."""
     group: str
-    """The cylinder's bank as the engine names it, ``"counterweights"`` or ``"balance shafts"``."""
+    """The cylinder's bank as the engine names it, ``"counterweights"``, ``"balance shafts"`` or
+    ``"loads"``."""
     phasors: NDArray[np.complex128]
     """Forward and backward parts of force or moment, N or N·m: (2, n_orders); the phasors of a
     torque, N·m: (1, n_orders)."""
@@ -54,6 +56,8 @@ def contributions(whole: Balance, quantity: str) -> list[Contribution]:
             name, group = f"W{name}", "counterweights"
         elif kind == "shaft":
             name, group = f"S{name}", "balance shafts"
+        elif kind == "load":
+            name, group = f"L{name}", "loads"
         vectors = part.phasors(quantity, quantity in PLANE_VECTORS)
         by_order = vectors.T if vectors.ndim == 2 else vectors[np.newaxis]
         listed.append(Contribution(name, group, by_order, part.zero_bound(quantity)))

@@ -200,11 +200,11 @@ class Labelled(Tabled):
         ('rpm', 'theta_deg', 'axis')
         """
         if frame is not None:
-            return super().to_xarray(frame=frame, units=units)
+            return super().to_xarray(frame=frame, units=units, split_complex=split_complex)
+        split = inputs.flag("split_complex", split_complex)
         named = self.request.named(quantities, self.causes)
-        coords, arrays = self._arrays(named)
-        whole = dataset(self, named, coords, arrays, split_complex=split_complex)
-        return in_units(whole, unit_names.read(units))
+        whole = in_units(dataset(self, named, *self._arrays(named)), unit_names.read(units))
+        return optional.split_complex(whole) if split else whole
 
 
 def dataset(
@@ -212,28 +212,16 @@ def dataset(
     quantities: Sequence[str],
     coords: Mapping[str, Any],
     arrays: Mapping[str, Variable],
-    *,
-    split_complex: bool = False,
 ) -> xr.Dataset:
     """Return arrays of some quantities with dimensions, units, loads and bounds."""
     labelled = labels.coordinates(coords)
     if set(PLANE_VECTORS) & set(quantities):
         labelled["axis"] = ("axis", ["x", "y"])
-    if inputs.flag("split_complex", split_complex):
-        arrays = {name: _split(*variable) for name, variable in arrays.items()}
-        labelled["part"] = ("part", ["re", "im"])
     attributes = dict(result._attributes) | labels.attributes(result.loads_counted)
     for name in quantities:
         bound = result.error_bound[name.partition(".")[0]]
         attributes[f"{name.replace('.', '_')}_error_bound"] = bound
     return optional.dataset(arrays, labelled, attributes)
-
-
-def _split(dims: tuple[str, ...], values: NDArray[Any], attributes: dict[str, str]) -> Variable:
-    """Return a variable of real and imaginary parts, unless it is real."""
-    if values.dtype.kind != "c":
-        return dims, values, attributes
-    return (*dims, "part"), np.stack([values.real, values.imag], axis=-1), attributes
 
 
 def units(quantity: str) -> dict[str, str]:

@@ -19,7 +19,7 @@ from crankpin.model import checks
 from crankpin.model.data import EngineData
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
@@ -63,7 +63,8 @@ def flywheel(
     Parameters
     ----------
     drive : Engine, callable or pair of array_like
-        A fired engine (:meth:`Engine.with_cycle`); or a turning-moment diagram, the torque on the
+        A fired engine (:meth:`Engine.with_cycle`), or one with periodic loads
+        (:meth:`Engine.with_loads`); or a turning-moment diagram, the torque on the
         crank, N·m: a function of an array of crank angles in degrees, or a pair of angles, degrees,
         and torques, between which it is linear. An angle given twice is one where torque jumps.
         Angles over one or two turns, open or closed, are read as those of a :class:`Cycle`; those
@@ -91,8 +92,8 @@ def flywheel(
     Raises
     ------
     InputError
-        If an argument is out of range, the engine has no cycle, both or neither of ``inertia`` and
-        ``irregularity`` are given, or the crank would stop within the cycle.
+        If an argument is out of range, the engine has neither cycle nor load, both or neither of
+        ``inertia`` and ``irregularity`` are given, or the crank would stop within the cycle.
 
     Warns
     -----
@@ -372,7 +373,9 @@ class Flywheel(TwoPanels, Tabled):
 
     def _approximated(self) -> Table:
         # Without pistons there is one.
-        names = APPROXIMATIONS if self.engine is not None else ("torque",)
+        names: Sequence[str] = APPROXIMATIONS if self.engine is not None else ("torque",)
+        if self.engine is not None and self.engine.loads:
+            names = [name.replace("gas", "gas, loads", 1) for name in names]
         pairs = zip(names, self.approximations, self.errors, strict=False)
         return Table.from_rows(
             "Textbooks' irregularity, fluctuation of energy over mean inertia and speed squared",
@@ -401,19 +404,23 @@ class _Diagram(NamedTuple):
 
 
 def _of_engine(engine: Engine, rpm: float, period_deg: object) -> _Diagram:
-    """Return the torque on an engine's crank, but that of inertia."""
-    cycles = engine.cycles
-    if cycles is None:
+    """Return the torque of an engine's gas pressure and periodic loads on the crank."""
+    if not (engine.fired or engine.loads):
         hint = "has no driving torque; give it gas pressure with engine.with_cycle(…)"
         raise inputs.rejected("drive", labels.name_of(engine), hint)
     if period_deg is not None:
         hint = "the period is that of the engine's cycle; leave it out"
         raise inputs.rejected("period_deg", period_deg, hint)
     # Where pressure jumps or bends, at the firing of each cylinder.
+    fired = zip(engine.firing_deg, engine.cycles, strict=True) if engine.cycles else ()
+    cycle_deg = 180.0 * engine.strokes
+    # Half orders of loads repeat after two turns.
+    period = TWO_TURNS if engine.loads else cycle_deg
     bends = [
-        start + _bends(cycle)
-        for start, cycle in zip(engine.firing_deg, cycles, strict=True)
+        start + turned + _bends(cycle)
+        for start, cycle in fired
         if cycle is not None
+        for turned in np.arange(0.0, period, cycle_deg)
     ]
 
     def at(theta: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -421,11 +428,7 @@ def _of_engine(engine: Engine, rpm: float, period_deg: object) -> _Diagram:
         parts = [whole.read(f"crank_torque.{name}") for name in whole.causes if name != "inertia"]
         return np.asarray(sum(parts))
 
-    # Loads of half orders repeat in two turns.
-    own = 180.0 * engine.strokes
-    period = TWO_TURNS if engine.loads else own
-    knots = [bend + start for start in np.arange(0.0, period, own) for bend in bends]
-    return _Diagram(at, period, np.concatenate(knots))
+    return _Diagram(at, period, np.concatenate([*bends, []]))
 
 
 def _bends(cycle: Cycle) -> NDArray[np.float64]:

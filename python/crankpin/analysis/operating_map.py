@@ -127,7 +127,7 @@ def operating_map(
         peaks,
         None if uneven is None else uneven.copy(),
         None if swing is None else swing.copy(),
-        engine.loads_counted if gas is None else gas.loads_counted,
+        engine.loads_counted if gas is None else gas.loads_counted([engine], [""]),
     )
 
 

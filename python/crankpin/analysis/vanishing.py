@@ -157,7 +157,8 @@ class VanishingOrders(Tabled):
 
     Each order has ten sums: force and moment along (about) x and y, their parts that turn with the
     crank and against it, torque of inertia, and torque of gas of cylinders with one cycle. Inertia
-    has no half orders; those of gas follow from the engine's firing order.
+    has half orders of shafts at half the speed alone; those of gas follow from the engine's firing
+    order.
 
     Each is a sum of roots of unity with rational weights where angles are rational parts of a turn,
     and masses and positions rational multiples of each other; it is zero if and only if the

@@ -17,6 +17,7 @@ from crankpin._support.quantities import QUANTITIES
 from crankpin.model import checks, engine_files, presets
 from crankpin.model.cycle_files import ANGLE_UNITS, PRESSURE_UNITS
 from crankpin.model.engine import Engine
+from crankpin.model.loads import PeriodicLoad, of_rows
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -91,6 +92,15 @@ Run: TypeAlias = "Callable[[Given], str | Shown]"
 
 OPTIONS: dict[str, dict[str, Any]] = {
     "name": {"metavar": "NAME", "help": "a preset, or an engine file (.toml, .json)"},
+    "--add-load": {
+        "metavar": "LOAD",
+        "action": "append",
+        "help": "a periodic load that the engine has besides: NAME: on=shaft|block|both, "
+        "force=ORDER:N,… torque=ORDER:NM,… (8@-30 is 8 at a phase of −30°, 4-1j complex), and any "
+        "of z= direction= turning=yes phase= crank= ratio= x= y= cylinder= rpm= (with which it "
+        "grows from that speed on by its square; rpm=1000/2000 force=2:8/9 is a table); once for "
+        "each",
+    },
     "--rpm": {"default": "3000", "help": "crank speed (default: %(default)s)"},
     "--by": {
         "metavar": "OBJECTIVE,…",
@@ -199,6 +209,23 @@ OPTIONS: dict[str, dict[str, Any]] = {
 }
 """Options of several commands."""
 
+LOAD_FIELDS = {
+    "on": ("on", ""),
+    "force": ("force", "N"),
+    "torque": ("torque", "N·m"),
+    "rpm": ("rpm", "rpm"),
+    "direction": ("direction_deg", ""),
+    "turning": ("turning", ""),
+    "phase": ("phase_deg", ""),
+    "z": ("z", "m"),
+    "crank": ("crank", "count"),
+    "ratio": ("ratio", ""),
+    "x": ("x", "m"),
+    "y": ("y", "m"),
+    "cylinder": ("cylinder", "count"),
+}
+"""Field of ``--add-load`` → argument of :class:`PeriodicLoad` and its unit; empty of a word."""
+
 
 OPPOSITES = {"gauge": "absolute"}
 """Argument of the library that may be False → the option that says so."""
@@ -266,6 +293,8 @@ def command(
             listed.append(each)
         else:
             listed += (Option((flag,), OPTIONS[flag], "") for flag in each.split())
+    if "name" in " ".join(each for each in options if isinstance(each, str)).split():
+        listed.append(Option(("--add-load",), OPTIONS["--add-load"], ""))
 
     def register(run: Run) -> Run:
         def add(commands: Commands) -> None:
@@ -499,11 +528,47 @@ class Given:
         if (plane := self._typed.get("reference_z")) is not None:
             z = self.one("--reference-z", plane, "m")
             typed = {name: engine.replace(reference_z=z) for name, engine in typed.items()}
+        typed = {name: self.with_loads(engine) for name, engine in typed.items()}
         titles = [engine.title if engine.name else "" for engine in typed.values()]
         return {
             title if title and titles.count(title) == 1 else name: engine
             for title, (name, engine) in zip(titles, typed.items(), strict=True)
         }
+
+    def with_loads(self, engine: Engine) -> Engine:
+        """Return an engine with the loads of ``--add-load`` besides its own."""
+        typed = self._typed.get("add_load") or []
+        return engine.with_loads([*engine.loads, *map(self._load, typed)]) if typed else engine
+
+    def _load(self, text: str) -> PeriodicLoad:
+        """Return a load as it is typed: its name, then fields."""
+        flag = "--add-load"
+        name, _, rest = text.partition(":")
+        fields = dict[str, Any]()
+        for part in re.split(r"\s+(?=\w+=)", rest.strip()):
+            key, _, value = (each.strip() for each in part.partition("="))
+            if key not in LOAD_FIELDS or not value:
+                hint = f'give "NAME: on=shaft force=2:8 z=-0.1", of {", ".join(LOAD_FIELDS)}'
+                raise rejected(flag, text, hint)
+            argument, unit = LOAD_FIELDS[key]
+            if key in ("force", "torque"):
+                plain = units.convert(unit, self._setting).unit
+                rows = _core.read_amplitudes(flag, value, unit, plain)
+                fields[argument] = of_rows(rows, table=any(len(row) > 3 for row in rows))
+            elif unit:
+                listed = [self.one(flag, each, unit) for each in value.split("/")]
+                fields[argument] = listed if len(listed) > 1 else listed[0]
+            else:
+                fields[argument] = {"yes": True, "no": False}.get(value, value)
+        if "on" not in fields:
+            raise rejected(flag, text, "say what it acts on: on=shaft, on=block or on=both")
+        if isinstance(fields.get("rpm"), float):
+            fields["scaling"] = "speed squared"
+        fields |= {key: int(fields[key]) for key in ("crank", "cylinder") if key in fields}
+        try:
+            return PeriodicLoad(name.strip(), **fields)
+        except InputError as error:
+            raise rejected(flag, text, str(error)) from None
 
     def about(self, balance: Balance) -> Balance:
         """Return a balance about the point of ``--about``, if it is given."""

@@ -139,7 +139,7 @@ def _axis(flag: str, where: str) -> Option:
     "shafts",
     "balance shafts fitted to an engine, or sets of hardware compared",
     "name",
-    option("--ratios", metavar="N,…", help="speed of each shaft over crank speed: -1, or 2,-2"),
+    option("--ratios", metavar="N,…", help="speed of each shaft over crank speed: -1, 2,-2 or 1/2"),
     _axis("--x", "to the right of"),
     _axis("--y", "above"),
     option("--planes", metavar="Z,…", help="places of the unbalances along the crank, m"),
@@ -188,7 +188,7 @@ def _shafts(given: Given) -> Shown:
 def _fit(engine: Engine, given: Given) -> Shown:
     fit = balance_shafts(
         engine,
-        given.whole_numbers("--ratios"),
+        given.text("--ratios").split(","),
         x=_coordinates(given, "--x"),
         y=_coordinates(given, "--y"),
         planes=given.numbers("--planes", "m"),

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs, labels
+from crankpin._support.frames import Frames
 from crankpin._support.quantities import LOADS
 from crankpin._support.record import changed
+from crankpin._support.tables import Column, Table
 from crankpin.analysis.bearings import AXES, bearing_loads
 from crankpin.analysis.prepared_trace import prepare_trace
 from crankpin.cli.arguments import command, option, rejected
@@ -20,6 +23,9 @@ from crankpin.model.traces import Traces
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from matplotlib.axes import Axes
+
+    from crankpin.analysis.prepared_trace import PreparedTrace
     from crankpin.cli.arguments import Given
     from crankpin.model.cycle_files import FileOptions
     from crankpin.model.cylinder import Cylinder
@@ -151,7 +157,8 @@ def fired(given: Given, name: str) -> tuple[Engine, str]:
         example: Any = kind or next(iter(EXAMPLES))
         cycle = Cycle.example(example, load=part, strokes=strokes)
     else:
-        cycle = _loaded(Cycle.load, "--cycle", typed, _read_as(given, strokes))
+        read_as = _read_as(given, strokes, given.optional("--tdc", "°") or 0.0)
+        cycle = _loaded(Cycle.load, "--cycle", typed, read_as)
     cylinders, note = _with_bores(engine, bore)
     try:
         driven = engine.replace(cylinder=cylinders).with_cycle(cycle, crankcase=crankcase)
@@ -177,7 +184,14 @@ def _with_bores(engine: Engine, bore: float | None) -> tuple[list[Cylinder], str
     "name",
     option("file", metavar="FILE", help="cylinder pressure of one or many cycles, a text file"),
     "--bore",
-    *(each._replace(group="the files") for each in OF_A_FILE),
+    *(each._replace(group="the files") for each in OF_A_FILE if "--tdc" not in each.names),
+    option(
+        "--tdc",
+        group="the files",
+        metavar="ANGLE,…",
+        help="angle of the firing top dead centre as the file counts, degrees (default: 0); of "
+        "several cylinders in one file that of each, their columns of pressure in --columns",
+    ),
     option("--motored", metavar="FILE", help="the same without combustion, which finds the TDC"),
     option("--loss-angle", metavar="ANGLE", help="from the motored peak to the TDC (default: 0.7)"),
     option(
@@ -197,29 +211,85 @@ def _with_bores(engine: Engine, bore: float | None) -> tuple[list[Cylinder], str
 def _trace(given: Given) -> Shown:
     engine = given.engine("trace")
     cylinders, note = _with_bores(engine, given.optional("--bore", "m"))
-    read_as = _read_as(given, engine.strokes)
-    traces = _loaded(Traces.load, "file", given.text("file"), read_as)
-    motored, left = given.text("--motored"), given.text("--leave-out")
-    exponent = given.text("--exponent")
-    prepared = prepare_trace(
-        traces,
-        cylinders[0],
-        motored=motored and _loaded(Traces.load, "--motored", motored, read_as),
-        leave_out=left if left in (None, "odd") else given.whole_numbers("--leave-out"),
-        spikes=given.text("--spikes"),
-        loss_angle_deg=given.optional("--loss-angle", "°"),
-        lowpass_order=given.optional("--lowpass-order"),
-        intake_pressure=given.optional("--intake-pressure", "Pa"),
-        exponent=exponent if exponent in (None, "fit") else given.number("--exponent"),
-        compression_ratio=given.optional("--compression-ratio"),
-    )
-    with_mean = engine.replace(cylinder=cylinders).with_cycle(prepared.cycle)
-    return Shown(
-        prepared.frames, prepared, engine=with_mean, note=f"{note}Read: {traces.origin}.\n"
-    )
+    centres = given.numbers("--tdc", "°") or [0.0]
+    several = len(centres) > 1
+    if several and len(centres) != len(engine):
+        hint = f"the engine has {len(engine)} cylinders; give one angle, or one for each"
+        raise rejected("--tdc", given.text("--tdc"), hint)
+    read_as = _read_as(given, engine.strokes, centres if several else centres[0])
+
+    def loaded(option: str, path: str) -> tuple[Traces, ...]:
+        if several:
+            return _loaded(Traces.load_cylinders, option, path, read_as)
+        return (_loaded(Traces.load, option, path, read_as),)
+
+    traces, motored = loaded("file", given.text("file")), given.text("--motored")
+    without_fire = loaded("--motored", motored) if motored else [None] * len(traces)
+    left, exponent = given.text("--leave-out"), given.text("--exponent")
+    prepared = [
+        prepare_trace(
+            each,
+            cylinder,
+            motored=by_motoring,
+            leave_out=left if left in (None, "odd") else given.whole_numbers("--leave-out"),
+            spikes=given.text("--spikes"),
+            loss_angle_deg=given.optional("--loss-angle", "°"),
+            lowpass_order=given.optional("--lowpass-order"),
+            intake_pressure=given.optional("--intake-pressure", "Pa"),
+            exponent=exponent if exponent in (None, "fit") else given.number("--exponent"),
+            compression_ratio=given.optional("--compression-ratio"),
+        )
+        for each, cylinder, by_motoring in zip(traces, cylinders, without_fire, strict=False)
+    ]
+    cycles = [each.cycle for each in prepared]
+    with_mean = engine.replace(cylinder=cylinders).with_cycle(cycles if several else cycles[0])
+    whole = OfCylinders(tuple(prepared)) if several else prepared[0]
+    note += f"Read: {'; '.join(dict.fromkeys(each.origin for each in traces))}.\n"
+    return Shown(whole.frames, whole, engine=with_mean, note=note)
 
 
-Read = TypeVar("Read", Cycle, Traces)
+class OfCylinders(NamedTuple):
+    """Prepared traces of the cylinders of an engine."""
+
+    prepared: tuple[PreparedTrace, ...]
+
+    @property
+    def frames(self) -> Frames:
+        """The frames of all cylinders, a row of each below those of the one before."""
+        first = self.prepared[0].traces.name.partition(",")[0]
+        name = f"{labels.printable(first)}, {len(self.prepared)} cylinders"
+        titles = {
+            "table": f"Prepared traces of {name}: change by step",
+            "orders": "Peak, noise, spread and amplitudes of torque",
+            "spread": f"{name}, spread",
+        }
+        stacked = self._stacked
+        return Frames({frame: partial(stacked, frame, title) for frame, title in titles.items()})
+
+    def _stacked(self, frame: str, title: str) -> Table:
+        tables = [each.frames[frame] for each in self.prepared]
+        numbers = tuple(k for k, each in enumerate(tables, 1) for _ in each.columns[0].values)
+        columns = [
+            changed(same[0], data=tuple(value for each in same for value in each.values))
+            for same in zip(*(each.columns for each in tables), strict=True)
+        ]
+        return changed(
+            tables[0],
+            title=title,
+            columns=(Column("cylinder", numbers), *columns),
+            row_units=tuple(unit for each in tables for unit in each.row_units),
+        )
+
+    def plot(self) -> Axes:
+        """Draw the mean of each cylinder in the band of its cycles."""
+        first, *others = self.prepared
+        ax = first.traces.plot(label="cylinder 1")
+        for k, each in enumerate(others, 2):
+            each.traces.plot(ax, label=f"cylinder {k}")
+        return ax
+
+
+Read = TypeVar("Read", Cycle, Traces, tuple[Traces, ...])
 
 
 def _loaded(load: Callable[..., Read], option: str, path: str, read_as: FileOptions) -> Read:
@@ -235,7 +305,7 @@ def _loaded(load: Callable[..., Read], option: str, path: str, read_as: FileOpti
         raise inputs.faulty(repr(labels.cut(Path(path).name)), fault, error.hint) from None
 
 
-def _read_as(given: Given, strokes: int) -> FileOptions:
+def _read_as(given: Given, strokes: int, tdc_deg: Any) -> FileOptions:  # noqa: ANN401 - one or several
     """Return how a file of cylinder pressure is read."""
     gauge, absolute = given.text("--gauge"), given.text("--absolute")
     if gauge and absolute:
@@ -250,7 +320,7 @@ def _read_as(given: Given, strokes: int) -> FileOptions:
         "gauge": gauge if gauge or absolute else None,
         "atmosphere": given.optional("--atmosphere", "Pa") or ATMOSPHERE,
         "recorded_rpm": given.optional("--recorded-rpm", "rpm"),
-        "tdc_deg": given.optional("--tdc", "°") or 0.0,
+        "tdc_deg": tdc_deg,
         "columns": columns,
         "sheet": given.text("--sheet"),
         "strokes": strokes,

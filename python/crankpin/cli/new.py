@@ -184,7 +184,7 @@ METAVARS = {
         help="place, m, stiffness, N/m, or K,K,K along x, y and z, and loss factor; once for each",
     ),
     option("--name", help="name of the engine (default: that of its kind)"),
-    "--units",
+    "--add-load --units",
     option(
         "-o", "--out", metavar="FILE", help="the engine file (.toml, .json); without it, print TOML"
     ),
@@ -205,7 +205,7 @@ def _new(given: Given) -> str:
     file = given.engine_file("--out")
     notes = list[str]()
     cylinder, rotating = _parts(given, notes)
-    engine = _engine(given, cylinder, rotating, notes)
+    engine = given.with_loads(_engine(given, cylinder, rotating, notes))
     powertrain = _on_mounts(given, engine)
     if file is None:
         whole = engine.to_toml() if powertrain is None else powertrain._text(toml=True)

@@ -194,8 +194,8 @@ def mount(
         words = f"loss_factor of mount {name!r} = {wrong[0]:g}"
         found.append(f"{words}: was it given in per cent?")
     least_damping = LEAST_DAMPING * min(filter(None, stiffness.get("stiffness", ())), default=0.0)
-    if wrong := [each for each in damping if 0.0 < each < least_damping]:
-        words = f"damping of mount {name!r} = {wrong[0]:g} N·s/m"
+    if 0.0 < (largest := max(damping, default=0.0)) < least_damping:
+        words = f"damping of mount {name!r} = {largest:g} N·s/m"
         found.append(f"{words}: was it given in N·s/mm?")
     least, most = MOUNT_STIFFNESS
     for argument, values in stiffness.items():

@@ -10,7 +10,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._core import ATMOSPHERE, InputError
-from crankpin._support import files, inputs
+from crankpin._support import files, inputs, labels
 from crankpin._support.record import AbsentError, read_only
 from crankpin._support.warnings import suppressed, warn
 from crankpin.model import checks, engine_files
@@ -22,13 +22,13 @@ from crankpin.model.cylinder import Cylinder
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from crankpin._support.inputs import Angle, Angles
+    from crankpin._support.inputs import Angle, Angles, Order
     from crankpin.model.loads import PeriodicLoad
     from crankpin.model.shafts import Shaft, Unbalance
 
 Hold: TypeAlias = Literal["pins", "firing"]
 _CoreEngine: TypeAlias = _core.Engine
-Cranks: TypeAlias = tuple[Sequence[tuple[float, float, int]], Sequence[int]]
+Cranks: TypeAlias = tuple[Sequence[tuple[float, float, "Order"]], Sequence[int]]
 """Axis and speed ratio of each crankshaft, and the index of each cylinder's own."""
 
 BANK_ANGLE = "{bank_angle}"
@@ -254,7 +254,7 @@ class EngineData:
         >>> i4.with_cycle([petrol, petrol, None, petrol]).loads_counted
         'gas: example petrol, full load; cylinder 3 does not fire'
         """
-        return self._core.loads_counted
+        return labels.Loads(self._core.loads_counted, self._core.further_loads)
 
     @property
     def firing_deg(self) -> NDArray[np.float64]:

@@ -156,7 +156,7 @@ class PeriodicLoad(Input):
             keep(**{field: inputs.finite(field, value)})
         keep(crank=None if crank is None else inputs.whole("crank", crank, 0, 2**31))
         keep(cylinder=None if cylinder is None else inputs.whole("cylinder", cylinder, 1, 2**31))
-        keep(ratio=_ratio(ratio))
+        keep(ratio=inputs.speed_ratio("ratio", ratio))
         _core.check_load(self._text())
 
     def _speeds(self, rpm: object) -> float | tuple[float, ...] | None:
@@ -291,8 +291,8 @@ class PeriodicLoad(Input):
         return cls(
             fields["name"],
             on=fields["on"],
-            force=_of_rows(fields.get("force", ()), table=table),
-            torque=_of_rows(fields.get("torque", ()), table=table),
+            force=of_rows(fields.get("force", ()), table=table),
+            torque=of_rows(fields.get("torque", ()), table=table),
             scaling=scaling,
             rpm=rpm,
             direction_deg=fields.get("direction_deg", 0.0),
@@ -342,7 +342,7 @@ def _amplitudes(name: str, given: object, rows: int | None) -> Mapping[Order, An
         raise inputs.rejected(name, given, "give a mapping: order → complex amplitude, {2: 4 - 1j}")
     listed: dict[Order, Any] = {}
     for order, value in given.items():
-        key = 0 if order == 0 else inputs.explicit_half_orders([order])[0]
+        key = 0 if order == 0 else inputs.explicit_half_orders([order], name)[0]
         if key in listed:
             raise inputs.rejected(name, order, "is given twice; give each order once")
         if rows is None:
@@ -368,16 +368,6 @@ def _amplitude(name: str, value: object) -> complex:
     return amplitude
 
 
-def _ratio(value: object) -> float:
-    if isinstance(value, str):
-        try:
-            return float(Fraction(value))
-        except (ValueError, ZeroDivisionError, OverflowError):
-            hint = 'give a multiple of 1/2, such as "1/2", -1 or 2'
-            raise inputs.rejected("ratio", value, hint) from None
-    return inputs.finite("ratio", value)
-
-
 def _rows(amplitudes: Mapping[Order, Any]) -> list[list[float]]:
     return [
         [order, *(part for each in np.atleast_1d(value) for part in (each.real, each.imag))]
@@ -385,7 +375,8 @@ def _rows(amplitudes: Mapping[Order, Any]) -> list[list[float]]:
     ]
 
 
-def _of_rows(rows: Iterable[Sequence[float]], *, table: bool) -> dict[Order, Any]:
+def of_rows(rows: Iterable[Sequence[float]], *, table: bool) -> dict[Order, Any]:
+    """Return amplitudes by order of rows of an order, then real and imaginary parts."""
     found: dict[Order, Any] = {}
     for order, *parts in rows:
         values = [complex(re, im) for re, im in zip(parts[::2], parts[1::2], strict=True)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from fractions import Fraction
 from typing import TYPE_CHECKING, TypeAlias
 
 from crankpin._support import inputs, labels
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from crankpin import _core
-    from crankpin._support.inputs import Angle
+    from crankpin._support.inputs import Angle, Order
     from crankpin._support.record import Item
 
 _Weight: TypeAlias = tuple[float, str, float, int | None, int]
@@ -105,9 +106,9 @@ class Shaft(Input):
 
     Parameters
     ----------
-    ratio : int
-        Speed over crank speed, a whole number other than 0: −1 turns against the crank, 2 with it
-        at twice its speed.
+    ratio : number or str
+        Speed over crank speed, a multiple of 1/2 other than 0: −1 turns against the crank, 2 with
+        it at twice its speed; ``"1/2"`` is a camshaft.
     unbalances : sequence of Unbalance
         What the shaft carries, each without ``pin``.
     x, y : float, default 0.0
@@ -118,7 +119,7 @@ class Shaft(Input):
     Raises
     ------
     InputError
-        If the ratio is no whole number or 0, or an unbalance has a pin.
+        If the ratio is no multiple of 1/2 or 0, or an unbalance has a pin.
 
     Examples
     --------
@@ -136,7 +137,7 @@ class Shaft(Input):
     True
     """
 
-    ratio: int
+    ratio: Order
     unbalances: tuple[Unbalance, ...]
     x: float
     y: float
@@ -144,15 +145,13 @@ class Shaft(Input):
 
     def __init__(
         self,
-        ratio: int,
+        ratio: float | str | Fraction,
         unbalances: Iterable[Unbalance],
         x: float = 0.0,
         y: float = 0.0,
         name: str = "",
     ) -> None:
-        object.__setattr__(self, "ratio", inputs.whole("ratio", ratio))
-        if self.ratio == 0:
-            raise inputs.rejected("ratio", 0, "give a whole number other than 0, such as -1 or 2")
+        object.__setattr__(self, "ratio", inputs.speed_ratio("ratio", ratio))
         object.__setattr__(self, "x", inputs.finite("x", x))
         object.__setattr__(self, "y", inputs.finite("y", y))
         object.__setattr__(self, "name", inputs.text("name", name))
@@ -203,18 +202,24 @@ def shafts(core: _core.Engine) -> tuple[Shaft, ...]:
     )
 
 
+def repeat_in_a_turn(core: _core.Engine) -> bool:
+    """Return whether cranks and shafts all come round in a turn of the main crank."""
+    ratios = [ratio for *_, ratio in core.cranks[0]] + [shaft[1] for shaft in core.shafts]
+    return all(ratio % 1 == 0 for ratio in ratios)
+
+
 def lines(core: _core.Engine) -> list[str]:
     """Return counterweights, shafts and further crankshafts in words."""
     found = []
     for x, y, ratio in core.cranks[0][1:5]:
-        found.append(f"another crankshaft: ratio {ratio:+d} at ({x:.4g}, {y:.4g}) m")
+        found.append(f"another crankshaft: ratio {ratio:+g} at ({x:.4g}, {y:.4g}) m")
     if core.counterweights:
         listed = ", ".join(map(_text, core.counterweights[:4]))
         found.append(f"counterweights: {listed}{', …' if len(core.counterweights) > 4 else ''}")
     for name, ratio, x, y, weights in core.shafts[:4]:
         total = sum(weight[0] for weight in weights)
         title = f"balance shaft {labels.printable(name)}".strip()
-        found.append(f"{title}: ratio {ratio:+d} at ({x:.4g}, {y:.4g}) m, {total:.4g} kg·m")
+        found.append(f"{title}: ratio {ratio:+g} at ({x:.4g}, {y:.4g}) m, {total:.4g} kg·m")
     return found
 
 
@@ -232,7 +237,7 @@ def _weight(unbalance: Unbalance) -> _Weight:
     return (unbalance.amount, unbalance.exact_angle, unbalance.z, pin, unbalance.crank)
 
 
-def _shaft(shaft: Shaft) -> tuple[str, int, float, float, list[_Weight]]:
+def _shaft(shaft: Shaft) -> tuple[str, Order, float, float, list[_Weight]]:
     return (shaft.name, shaft.ratio, shaft.x, shaft.y, [_weight(u) for u in shaft.unbalances])
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.font_manager import FontProperties
 from matplotlib.transforms import Bbox
 
+from crankpin._support import labels
 from crankpin.analysis.geometry import (
     assumed_bores,
     direction,
@@ -59,6 +60,12 @@ AS_LARGE = 6.0**-0.5
 """Radius of a disc over that of a sector of the same area."""
 WEIGHTS = "crankpin counterweights"
 """Marks the counterweights of the side view."""
+LOADS = "crankpin loads"
+"""Marks the places of periodic loads in the side view."""
+MOST_LOADS = 8
+"""Places of loads that have their names."""
+LONGEST_NAMES = 40
+"""Most characters of the names at one place."""
 
 # --- star ---------------------------------------------------------------------------------------
 
@@ -236,7 +243,7 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     add(ax, wheels, facecolor=ink.metal, edgecolor=ink.line, linewidth=0.8, zorder=3)
     _weights(engine, ax, theta_deg, ink, thick, lines)
     _shafts(engine, ax, theta_deg, ink, (front, back + 2.0 * thick), thick)
-    low = min(lines.values()) - reach
+    low = _loads(engine, ax, ink, lines, min(lines.values()) - reach, (front, back))
     ax.update_datalim([(front - thick, low), (back + 3.0 * thick, lines[min(lines)] + reach)])
     if len(lines) > 1:
         for crank, line in lines.items():
@@ -329,6 +336,34 @@ def _shafts(
         name = plain_text(", ".join(texts))
         write(ax, name, complex(ends[1], y), 4.0 + 0j, ha="left", fontsize="x-small")
         ax.update_datalim([(ends[0], y - crank_radius(engine)), (ends[1], y)])
+
+
+def _loads(
+    engine: Engine, ax: Axes, ink: Inks, lines: dict[int, float], low: float, ends: Sequence[float]
+) -> float:
+    """Mark where periodic loads sit, with their names below everything else; return how low, m.
+
+    Their shafts are at the height of their axes; those of one place share a mark.
+    """
+    places: dict[tuple[float, float], list[str]] = {}
+    for load in engine.loads:
+        y = load.y if load.crank is None else lines.get(load.crank, 0.0)
+        names = places.setdefault((load.z, y), [])
+        if load.name not in names:
+            names.append(load.name)
+    along = [*ends, *(z for z, _ in places)]
+    per_metre = 0.5 * 72.0 * inches_of(ax) / (max(along) - min(along))
+    line = LINE * FontProperties(size="x-small").get_size_in_points() / per_metre
+    for k, ((z, y), names) in enumerate(sorted(places.items())):
+        at = {"color": ink.line, "zorder": 6}
+        ax.plot(z, y, marker="D", markersize=5, markerfacecolor=ink.paper, gid=LOADS, **at)
+        if k < MOST_LOADS:
+            low = min(low, y) - line
+            ax.plot([z, z], [y, low], linewidth=0.6, linestyle=":", **at)
+            text = labels.cut(labels.printable(", ".join(names)), LONGEST_NAMES)
+            write(ax, plain_text(text), complex(z, low), 3.0 + 0j, ha="left", fontsize="x-small")
+        ax.update_datalim([(z, low)])
+    return low
 
 
 def _plate(weight: Weight, radius: float, y: float, thick: float) -> NDArray[np.complex128]:

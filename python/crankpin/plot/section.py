@@ -164,9 +164,9 @@ def _shafts(engine: Engine, ax: Axes, theta_deg: float, ink: Inks) -> None:
         ax.update_datalim(points(reach))
 
 
-def shaft_text(name: str, ratio: int) -> str:
+def shaft_text(name: str, ratio: float) -> str:
     """Return the words at a balance shaft: its name and its speed over the crank's."""
-    return f"{name} {ratio:+d}×".strip().replace("-", "−")
+    return f"{name} {ratio:+g}×".strip().replace("-", "−")
 
 
 def _scale_bar(engine: Engine, ax: Axes, ink: Inks) -> None:

@@ -16,7 +16,7 @@ from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.explain import Explanation
 from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.request import engine_core
-from crankpin.view.terms import RodRatios, at_rod_ratio, listed_orders, terms
+from crankpin.view.terms import RodRatios, at_rod_ratio, has_halves, listed_orders, load_rows, terms
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
     from crankpin._support.inputs import Spectrum
     from crankpin.analysis.quantity import Quantity
+    from crankpin.analysis.waveform import Waveform
     from crankpin.model.engine import Engine, Hold
 
 Controls: TypeAlias = "str | Sequence[str] | None"
@@ -108,10 +109,10 @@ def figures(
     block, gas = map(json.loads, _core.drawn_loads(core))
     return {
         **places(engine, rpm),
-        "terms": terms(engine, pairs),
+        "terms": terms(engine, pairs, float(rpm)),
         "block": block,
         "gas": gas,
-        "loads": labels.in_words(labels.SPECTRUM_GIVEN if pairs else core.loads_drawn),
+        "loads": labels.in_words(labels.SPECTRUM_GIVEN if pairs else core.loads_counted),
         "flywheel": None if pairs is not None else _inertia(engine, float(rpm), inertia),
         "compact": inputs.flag("compact", compact),
         "controls": _controls(engine, controls, compact=compact),
@@ -139,7 +140,10 @@ def core_numbers(
     changed = settings.applied(engine)
     orders = listed_orders(engine, spectrum)
     balance = changed.balance(settings.rpm, orders=orders, spectrum=spectrum, torque=False)
-    turns = 180.0 * changed.strokes if changed.fired else 360.0
+    loads = load_rows(changed, settings.rpm, torque=spectrum is None)
+    repeats = 720.0 if has_halves(loads["planar"]) else 360.0
+    of_torque = 720.0 if has_halves(loads["torque"]) else 360.0
+    turns = max(repeats, of_torque, 180.0 * changed.strokes if changed.fired else 0.0)
     waveform = changed.waveform(
         settings.rpm,
         theta_deg=np.arange(0.0, turns + 1.0, CURVE_STEP),
@@ -148,9 +152,9 @@ def core_numbers(
         torque=spectrum is None,
     )
     planar = {"force": balance.force, "moment": balance.moment}
-    turn = waveform.theta_deg <= 360.0
+    turn = waveform.theta_deg <= repeats
     torques = {"torque": "torque"}
-    if changed.fired:
+    if changed.fired or changed.loads:
         torques |= {"gas": "torque.gas", "inertia": "torque.inertia"}
     return {
         "settings": dataclasses.asdict(settings),
@@ -165,9 +169,17 @@ def core_numbers(
                 name: [None] if spectrum is not None else waveform.read(quantity).tolist()
                 for name, quantity in torques.items()
             },
+            "loads": [None] if spectrum is not None else _of_loads(waveform),
             "speed": _speeds(changed, settings.rpm, inertia, waveform.theta_deg),
         },
     }
+
+
+def _of_loads(waveform: Waveform) -> list[float]:
+    """Return the torque of periodic loads on the block."""
+    others = [waveform.read(f"torque.{name}") for name in ("inertia", "gas")]
+    rest: list[float] = (waveform.torque - others[0] - others[1]).tolist()
+    return rest
 
 
 def _bank_angle(engine: Engine) -> float | None:

@@ -28,6 +28,8 @@ COMMENT = re.compile(
 )
 EXPORT = re.compile(r"^export (?=(?:async )?(?:const|class|function))", re.MULTILINE)
 INDENT = re.compile(r"^\s+", re.MULTILINE)
+END = re.compile(r"(?<=[{(\[,;])\n")
+"""Ends of lines that a module does without."""
 SPACE = re.compile(r"(?<=[:,;{]) | (?=[{}])")
 """Spaces that a style sheet does without."""
 
@@ -109,8 +111,8 @@ def modules(*entries: str, folder: Path = WEB) -> dict[str, str]:
     """Return modules of a folder, or of pages, with what they import, each behind its imports.
 
     The modules import each other by name, without renaming, and no two have a name in common: one
-    after the other, without ``import`` and ``export``, they are one module. Comments and indents
-    are left out: no text goes over several lines.
+    after the other, without ``import`` and ``export``, they are one module. Comments, indents
+    and most ends of lines are left out: no text goes over several lines.
     """
     found: dict[str, str] = {}
 
@@ -120,7 +122,8 @@ def modules(*entries: str, folder: Path = WEB) -> dict[str, str]:
         text = _read(name, folder if (folder / name).exists() else WEB)
         for each in IMPORT.findall(text):
             visit(each)
-        found[name] = INDENT.sub("", EXPORT.sub("", COMMENT.sub("", IMPORT.sub("", text))))
+        text = INDENT.sub("", EXPORT.sub("", COMMENT.sub("", IMPORT.sub("", text))))
+        found[name] = END.sub("", text)
 
     for entry in entries:
         visit(entry)

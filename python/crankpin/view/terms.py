@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import math
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from crankpin._support.inputs import Order
     from crankpin.model.engine import Engine
 
 LEAST_ROD_RATIO, LARGEST_ROD_RATIO = 0.05, 0.7
@@ -99,19 +101,22 @@ def at_rod_ratio(engine: Engine, ratio: float | None) -> Engine:
     return engine.replace(cylinder=[changed[cylinder] for cylinder in engine.cylinders])
 
 
-def listed_orders(engine: Engine, spectrum: Iterable[int] | None) -> list[int]:
+def listed_orders(engine: Engine, spectrum: Iterable[int] | None) -> list[Order]:
     """Return the orders whose phasors a page has: of pistons, of a spectrum, and of shafts."""
     given = {order * speed for order in spectrum or () for speed in _speeds(engine)}
     return sorted({*_core.listed_orders(engine_core(engine)), *given})
 
 
-def terms(engine: Engine, pairs: Sequence[tuple[int, complex]] | None) -> dict[str, Any]:
+def terms(
+    engine: Engine, pairs: Sequence[tuple[int, complex]] | None, rpm: float
+) -> dict[str, Any]:
     """Return the terms of an engine as a page has them, over the square of the crank's speed.
 
     ``planar`` has forward and backward parts of force and moment; ``torque`` the roll torque and,
-    of a fired engine, the moment of inertia of pistons and rods as seen from the crank; ``swept``,
-    of each kind of cylinder with pressure, the volume that its piston adds per radian past its top
-    dead centre; ``sizes`` what the cylinders make one by one. Complex values are pairs.
+    of an engine with gas pressure or loads, the moment of inertia of pistons and rods as seen from
+    the crank; ``swept``, of each kind of cylinder with pressure, the volume that its piston adds
+    per radian past its top dead centre; ``sizes`` what the cylinders make one by one; ``loads`` the
+    terms of periodic loads, which other factors of the speed multiply. Complex values are pairs.
 
     Parameters
     ----------
@@ -119,6 +124,8 @@ def terms(engine: Engine, pairs: Sequence[tuple[int, complex]] | None) -> dict[s
         Engine at its own settings.
     pairs
         Spectrum in place of the pistons' own amplitudes; no torque follows from it.
+    rpm
+        Crank speed, which tables of loads must have.
     """
     ratios = RodRatios.of(engine)
     sampler = _Sampler(engine, pairs, _orders(engine, ratios, pairs))
@@ -147,15 +154,27 @@ def terms(engine: Engine, pairs: Sequence[tuple[int, complex]] | None) -> dict[s
         "torque": tables.pop("torque", None),
         "swept": list(tables.values()),
         "sizes": dict(zip(SIZES, _core.sizes(engine_core(engine)), strict=True)),
+        "loads": load_rows(engine, rpm, torque=pairs is None),
         "orders": listed_orders(engine, None if pairs is None else [n for n, _ in pairs]),
     }
+
+
+def load_rows(engine: Engine, rpm: float, *, torque: bool) -> dict[str, Any]:
+    """Return the rows of periodic loads: as others, and how each changes with the speed."""
+    rows: dict[str, Any] = json.loads(_core.load_rows(engine_core(engine), rpm, torque))
+    return rows
+
+
+def has_halves(rows: Iterable[Row]) -> bool:
+    """Return whether rows have a half order, which repeats after two turns."""
+    return any(order % 1 for order, *_ in rows)
 
 
 @dataclasses.dataclass(frozen=True)
 class _Table:
     """Values by order, group and component at one rod ratio."""
 
-    orders: Sequence[int]
+    orders: Sequence[Order]
     powers: Sequence[int]
     """Powers of q with which orders begin."""
     values: Real
@@ -167,12 +186,12 @@ class _Sampler:
     """Terms of an engine at different rod ratios, summed over groups of parts."""
 
     def __init__(
-        self, engine: Engine, pairs: Sequence[tuple[int, complex]] | None, orders: list[int]
+        self, engine: Engine, pairs: Sequence[tuple[int, complex]] | None, orders: list[Order]
     ) -> None:
         self.engine = engine
         self.pairs = pairs
         self.orders = orders
-        self.fired = engine.cycles is not None and pairs is None
+        self.driven = (engine.fired or bool(engine.loads)) and pairs is None
         # Orders of the fastest crank that has them, whose harmonics begin with the lowest power.
         self.multiples = [
             min((n // each for each in _speeds(engine) if n % each == 0), default=n) for n in orders
@@ -182,9 +201,9 @@ class _Sampler:
         """Return the terms of the cylinders at a rod ratio; None leaves each its own."""
         core = _core_at(self.engine, ratio)
         tables = self._tables(core, cylinders=True)
-        if not self.fired:
+        if not self.driven:
             return tables
-        orders = range(1, self.orders[-1] + 1)
+        orders = range(1, int(self.orders[-1]) + 1)
         powers = [min(n, HIGHEST_LISTED) - 1 for n in orders]
         for place in _core.fired_kinds(engine_core(self.engine)):
             swept = np.array(_core.swept(core, place, orders))
@@ -210,10 +229,12 @@ class _Sampler:
 
     def _tables(self, core: _core.Engine, *, cylinders: bool) -> dict[str, _Table]:
         planar, torque = _core.group_terms(core, cylinders, self.orders, self.pairs)
-        powers = [0 if self.pairs else min(n, HIGHEST_LISTED) - 1 for n in self.multiples]
+        powers = [
+            0 if self.pairs else max(0, int(min(n, HIGHEST_LISTED)) - 1) for n in self.multiples
+        ]
         tables = {"planar": _Table(self.orders, powers, planar.view(float), relative=True)}
         if self.pairs is None:
-            read = torque if self.fired else torque[:, :, :1].copy()
+            read = torque if self.driven else torque[:, :, :1].copy()
             powers = [max(0, power - 1) for power in powers]
             tables["torque"] = _Table(self.orders, powers, read.view(float))
         return tables
@@ -268,7 +289,7 @@ def _parts(values: Real, digits: int) -> list[list[float]]:
 
 def _orders(
     engine: Engine, ratios: RodRatios, pairs: Sequence[tuple[int, complex]] | None
-) -> list[int]:
+) -> list[Order]:
     """Return the orders of cylinders or of a spectrum, of their cranks, and of shafts."""
     speeds = _speeds(engine)
     turning = {*speeds, *(abs(shaft.ratio) for shaft in engine.shafts)}
@@ -277,7 +298,7 @@ def _orders(
     return _core.orders_that_count(_core_at(engine, ratios.most))
 
 
-def _speeds(engine: Engine) -> set[int]:
+def _speeds(engine: Engine) -> set[Order]:
     return {abs(ratio) for _, _, ratio in engine_core(engine).cranks[0]}
 
 

@@ -16,6 +16,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 use crate::pressure::{Cycle, Given};
 use crate::readings::balance::{Balance, Orders, Request, Vector, balance};
 use crate::readings::bearing_loads::{BearingLoadsModel, Part as Section};
@@ -275,7 +276,7 @@ impl<'a> Case<'a> {
         // On the cranks that the load may sit on.
         let cranks = (0..=load.crank.unwrap_or(0)).map(|k| crate::Crank {
             axis: [0.2 * k as f64, 0.0],
-            ratio: if k == 0 { 1 } else { -1 },
+            ratio: SpeedRatio::whole(if k == 0 { 1 } else { -1 }),
         });
         let mut bare = Engine::new("", "", places.to_vec())?;
         let cranks: Vec<crate::Crank> = cranks.collect();
@@ -322,7 +323,7 @@ impl<'a> Case<'a> {
         let (order, [force, ..]) = (self.amplitudes.orders[k], self.amplitudes.values[k]);
         let lagged = self.lagged(k, force, rpm, phase);
         let at = Complex64::cis((self.load.direction_deg.degrees() + direction) / 360.0 * TAU);
-        let (_, ratio) = self.load.shaft(&self.bare);
+        let ratio = self.load.shaft(&self.bare).ratio.number();
         match self.force {
             None => [Complex64::ZERO; 2],
             Some(ForcePart::Along) => [lagged * at.re, lagged * at.im],
@@ -347,7 +348,7 @@ impl<'a> Case<'a> {
             self.amplitudes.values[k].map(|one| self.lagged(k, one, rpm, turned[1]));
         let on_shaft = self.on_shaft(k, rpm, turned);
         let [x, y] = if self.load.on == ActsOn::Both { [Complex64::ZERO; 2] } else { on_shaft };
-        let ([at_x, at_y], _) = self.load.shaft(&self.bare);
+        let [at_x, at_y] = self.load.shaft(&self.bare).axis;
         let axis = Complex64::new(at_x, at_y) * Complex64::cis(turned[0] / 360.0 * TAU);
         let arm = [axis.re - point[0], axis.im - point[1], self.load.z - point[2]];
         [x, y, -y * arm[2], x * arm[2], roll + y * arm[0] - x * arm[1], crank]
@@ -845,7 +846,7 @@ impl<'a> Case<'a> {
             [force.max(longest), torque.max(roll.norm()).max(crank.norm())]
         });
         for (found, expected) in [force, torque].into_iter().zip(largest) {
-            let found = found.map_or(0.0, |(_, peak)| peak);
+            let found = found.map_or(0.0, |largest| largest.peak);
             same(
                 "explain",
                 found.into(),

@@ -20,6 +20,7 @@ use crate::numbers::index::List;
 use crate::numbers::limits;
 use crate::numbers::order::{self, Order};
 use crate::numbers::pool;
+use crate::numbers::ratio::SpeedRatio;
 use crate::readings::amplitude::{Amplitude, Amplitudes};
 use crate::source::{Repeats, Scaling};
 
@@ -137,7 +138,7 @@ impl Objectives {
         variables: &[Variable],
         objectives: &[Objective],
         orders: &[Order],
-        removed: &[i32],
+        removed: &[SpeedRatio],
         cancel: &Cancel,
     ) -> Result<Self> {
         let loads = LoadList::new(engine, engine.reference(None)?);
@@ -162,7 +163,8 @@ impl Objectives {
         if !all.is_empty() {
             order::check_list(&all)?;
         }
-        if let Some(half) = all.iter().find(|order| order.as_whole().is_none()) {
+        let repeat = loads.list.iter().all(|load| load.parts.repeats == Repeats::EveryTurn);
+        if let Some(half) = all.iter().find(|order| repeat && order.as_whole().is_none()) {
             return Err(Error::value("orders", half, "give whole orders: inertia has no others"));
         }
         if loads.list.iter().any(|load| load.parts.scaling != Scaling::SpeedSquared) {
@@ -176,9 +178,7 @@ impl Objectives {
             .enumerate()
             .map(|(k, &order)| {
                 let terms = superpose(&arithmetic, &loads.list, order, wanted);
-                quantities(&terms, i64::from(order.as_whole().unwrap_or(0)), removed, |term| {
-                    amplitudes.of(term.harmonic, k)
-                })
+                quantities(&terms, order, removed, |term| amplitudes.of(term.harmonic, k))
             })
             .collect();
         let function = |objective: &Objective| {
@@ -256,23 +256,23 @@ impl Objectives {
 /// Parts of force, moment, roll torque and crank torque of one order, in the order of [`ObjectiveQuantity`].
 fn quantities(
     terms: &[Term<Vec<Rotor>>],
-    order: i64,
-    removed: &[i32],
+    order: Order,
+    removed: &[SpeedRatio],
     amplitudes: impl Fn(&Term<Vec<Rotor>>) -> Amplitude,
 ) -> [Vec<TurningPhasor>; 4] {
-    let kept = |speed: i64| !removed.iter().any(|&ratio| i64::from(ratio) == speed);
+    let [forward, backward] = [true, false].map(|forward| SpeedRatio::at(order, forward));
     let planar = |of: fn(&Term<Vec<Rotor>>) -> &[Vec<Rotor>; 2]| {
-        let part = |side: usize, speed: i64| {
+        let part = |side: usize, speed: SpeedRatio| {
             let mut part = TurningPhasor::new(speed);
-            for term in terms.iter().filter(|_| kept(speed)) {
+            for term in terms.iter().filter(|_| !removed.contains(&speed)) {
                 part.extend(&of(term)[side], amplitudes(term).force);
             }
             part
         };
-        vec![part(0, order), part(1, -order).conjugate()]
+        vec![part(0, forward), part(1, backward).conjugate()]
     };
     let torque = |of: fn(&Amplitude) -> Complex64| {
-        let mut part = TurningPhasor::new(order);
+        let mut part = TurningPhasor::new(forward);
         for term in terms {
             part.extend(&term.roll, of(&amplitudes(term)));
         }

@@ -54,6 +54,7 @@ pub use numbers::cancel::Cancel;
 pub use numbers::crank_angles::CrankAngles;
 pub use numbers::error::{Error, Result, Warning};
 pub use numbers::order::Order;
+pub use numbers::ratio::SpeedRatio;
 pub use numbers::{
     angle, crank_angles, double, error, index, limits, memory, order, pool, rational, ring,
 };

@@ -4,7 +4,8 @@
 //! an engine is `start + Σⱼ added(j, p)`; the sum of the lengths of the remainders over all sets is
 //! minimised, or that of their spreads, where each place is a dimension. Few parts are compared
 //! exhaustively for the least lengths: the arrangements of one half of the places against those of the
-//! other, and all partitions into sets. Of many, two are exchanged as long as that helps.
+//! other, and all partitions into sets. Of many, two are exchanged as long as that helps, from one start
+//! after another until a matching is at the bound.
 
 mod exhaustive;
 
@@ -22,6 +23,8 @@ const KINDS: usize = 2;
 const BETTER: f64 = 1e-12;
 /// Exchanges that are worse by more than this part are not computed to rounding.
 const CLOSE: f64 = 1e-9;
+/// No further start is made once a matching is above the bound by no more than this part of it.
+const AT_BOUND: f64 = 1e-8;
 
 /// Parts of one kind, such as pistons or rods, and their effects.
 #[derive(Debug, Clone)]
@@ -34,8 +37,6 @@ pub struct PartKind {
     influences: Vec<Vec<Vec<f64>>>,
     /// The same, by place: (places, dimensions, figures).
     by_place: Vec<f64>,
-    /// Effect of each part in each place: (places, parts, dimensions).
-    added: Vec<f64>,
 }
 
 /// A chosen part of each place of each set, by kind: set after set.
@@ -122,20 +123,11 @@ impl PartKind {
                 "give each figure a deviation of every part, and its influence in every place";
             return Err(Error::value("parts", found, hint));
         }
-        let mut added = memory::with_capacity(places * parts * dimensions)?;
-        for place in 0..places {
-            for part in 0..parts {
-                added.extend((0..dimensions).map(|k| {
-                    let figures = deviations.iter().zip(&influences);
-                    figures.map(|(of, unit)| of[part] * unit[place][k]).sum::<f64>()
-                }));
-            }
-        }
         let mut by_place = memory::with_capacity(places * dimensions * deviations.len())?;
         for (place, k) in (0..places).flat_map(|place| (0..dimensions).map(move |k| (place, k))) {
             by_place.extend(influences.iter().map(|unit| unit[place][k]));
         }
-        Ok(Self { parts, deviations, influences, by_place, added })
+        Ok(Self { parts, deviations, influences, by_place })
     }
 
     /// Influences in a place: (dimensions, figures).
@@ -181,10 +173,6 @@ fn length(vector: &[f64]) -> f64 {
     vector.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-fn add(to: &mut [f64], sign: f64, vector: &[f64]) {
-    to.iter_mut().zip(vector).for_each(|(sum, x)| *sum += sign * x);
-}
-
 impl Matching {
     /// A number of sets of parts of each kind.
     pub fn new(
@@ -225,10 +213,14 @@ impl Matching {
             return Err(Error::value("starts", format!("{} sequences", starts.len()), hint));
         }
         cancel.expect(starts.len());
+        let bound = match self.measure {
+            Measure::Length => self.bound(),
+            Measure::Spread => 0.0,
+        };
         let mut best = (f64::INFINITY, Partition::new());
         let mut compared = 0;
         for sequences in starts {
-            if compared < MOST_EXCHANGES {
+            if compared < MOST_EXCHANGES && best.0 > bound * (1.0 + AT_BOUND) {
                 let chosen = self.exchanged(sequences.clone(), &mut compared, cancel)?;
                 let value = self.value(&chosen);
                 if value < best.0 {
@@ -248,17 +240,20 @@ impl Matching {
         let chosen = found.unwrap_or(best.1);
         let value = self.value(&chosen);
         let bound = match self.measure {
-            Measure::Length if !exact => self.bound().min(value),
-            Measure::Spread => 0.0,
-            Measure::Length => value,
+            Measure::Length if exact => value,
+            Measure::Length | Measure::Spread => bound.min(value),
         };
         Ok(Match { chosen, value, bound, exact })
     }
 
-    fn added(&self, kind: usize, place: usize, part: usize) -> &[f64] {
-        let (kind, dimensions) = (&self.kinds[kind], self.start.len());
-        let begin = (place * kind.parts + part) * dimensions;
-        &kind.added[begin..begin + dimensions]
+    /// Add the effect of a part in a place to a remainder, or subtract it.
+    fn add(&self, to: &mut [f64], sign: f64, kind: usize, [place, part]: [usize; 2]) {
+        let kind = &self.kinds[kind];
+        let units = kind.units(place).chunks_exact(kind.deviations.len());
+        for (sum, units) in to.iter_mut().zip(units) {
+            let figures = kind.deviations.iter().zip(units);
+            *sum += sign * figures.map(|(of, unit)| of[part] * unit).sum::<f64>();
+        }
     }
 
     /// Remainder of each set.
@@ -267,7 +262,7 @@ impl Matching {
         for (kind, parts) in chosen.iter().enumerate() {
             for (slot, &part) in parts.iter().take(self.sets * self.places).enumerate() {
                 let place = slot % self.places;
-                add(&mut found[slot / self.places], 1.0, self.added(kind, place, part));
+                self.add(&mut found[slot / self.places], 1.0, kind, [place, part]);
             }
         }
         found
@@ -420,8 +415,8 @@ impl Matching {
                         for k in (0..2).filter(|&k| slots[k] < used) {
                             let (trial, place) =
                                 (&mut trials[k.min(changed - 1)], slots[k] % self.places);
-                            add(trial, -1.0, self.added(kind, place, moved[k]));
-                            add(trial, 1.0, self.added(kind, place, moved[1 - k]));
+                            self.add(trial, -1.0, kind, [place, moved[k]]);
+                            self.add(trial, 1.0, kind, [place, moved[1 - k]]);
                         }
                         let after: f64 =
                             trials[..changed].iter().map(|each| self.measure.of(each)).sum();
@@ -585,11 +580,15 @@ mod tests {
         assert!(0.0 < of_far.bound && of_far.bound < of_far.value);
         assert_eq!(of_far.bound, far.bound());
         assert_eq!(found.value, valid(&problem, &found.chosen));
-        let values = starts
-            .clone()
-            .map(|start| problem.value(&problem.exchanged(start, &mut 0, &Cancel::new()).unwrap()));
-        assert_eq!(found.value, values[0].min(values[1]));
-        assert_ne!(values[0], values[1]);
+        // All starts are made where no matching is at the bound.
+        for problem in [&problem, &far] {
+            let values = starts.clone().map(|start| {
+                problem.value(&problem.exchanged(start, &mut 0, &Cancel::new()).unwrap())
+            });
+            let found = problem.solve(&starts, &Cancel::new()).unwrap();
+            assert_eq!(found.value, values[0].min(values[1]));
+            assert_ne!(values[0], values[1]);
+        }
         no_exchange_is_better(&problem, &found.chosen);
         let cancel = Cancel::new();
         cancel.raise();

@@ -12,7 +12,9 @@ use common::{angle, by_orders};
 use crankpin_core::balance::{Orders, Request, Vector};
 use crankpin_core::engine::CrankIndex;
 use crankpin_core::engine::Unbalance;
-use crankpin_core::{Cancel, Complex64, Crank, Cylinder, Engine, Station, harmonics, waveform};
+use crankpin_core::{
+    Cancel, Complex64, Crank, Cylinder, Engine, SpeedRatio, Station, harmonics, waveform,
+};
 
 const RADIUS: f64 = 0.04;
 const ROD: f64 = 0.13;
@@ -70,7 +72,7 @@ fn derived(cranks: &[Crank], pieces: &[Piece], reference: f64, order: u32) -> [C
     for s in pieces {
         let Crank { axis: [x, y], ratio } = cranks[s.crank];
         let (axis, along, ratio) =
-            (Complex64::new(x, y), Complex64::cis(s.bore.to_radians()), f64::from(ratio));
+            (Complex64::new(x, y), Complex64::cis(s.bore.to_radians()), ratio.number());
         // Angle of the crankpin past the bore, by which it has turned since top dead centre.
         let past = |θ: f64| ratio * (θ - s.tdc.to_radians());
         // Piston: distance from the crank, and its speed over that of the main crank.
@@ -148,7 +150,7 @@ fn check(cranks: &[Crank], pieces: &[Piece]) -> Engine {
 }
 
 fn beside(x: f64, ratio: i32) -> Crank {
-    Crank { axis: [x, 0.0], ratio }
+    Crank { axis: [x, 0.0], ratio: SpeedRatio::whole(ratio) }
 }
 
 #[test]
@@ -195,7 +197,7 @@ fn a_square_four_is_two_twins_back_to_back() {
 #[test]
 fn a_u_four_has_two_parallel_twins() {
     for (ratio, phase) in [(1, 90.0), (-1, 33.0), (2, 10.0), (-2, 20.0)] {
-        let cranks = [Crank::MAIN, Crank { axis: [0.09, -0.02], ratio }];
+        let cranks = [Crank::MAIN, Crank { axis: [0.09, -0.02], ratio: SpeedRatio::whole(ratio) }];
         let on = |crank, tdc, z| Piece {
             rotating_mass: 0.2,
             weight: [0.01, 170.0],
@@ -205,7 +207,7 @@ fn a_u_four_has_two_parallel_twins() {
             on(0, 0.0, 0.0),
             on(0, 180.0, 0.1),
             on(1, phase, 0.0),
-            on(1, phase + 180.0 / f64::from(ratio.abs()), 0.1),
+            on(1, phase + 180.0 / f64::from(i32::abs(ratio)), 0.1),
         ];
         check(&cranks, &pieces);
     }
@@ -213,7 +215,7 @@ fn a_u_four_has_two_parallel_twins() {
 
 #[test]
 fn opposed_pistons_balance_if_their_cranks_are_in_phase() {
-    let cranks = [Crank::MAIN, Crank { axis: [0.0, 0.5], ratio: -1 }];
+    let cranks = [Crank::MAIN, Crank { axis: [0.0, 0.5], ratio: SpeedRatio::whole(-1) }];
     let pair = |lag: f64| [piece(0, 0.0, 90.0, 0.0), piece(1, lag, 270.0, 0.0)];
     let rpm = 60.0 / TAU;
     let request = Request { rpm, reference_z: None, torque: true };
@@ -236,6 +238,10 @@ fn cranks_that_are_none_are_rejected_by_name() {
     assert!(error(&[], &[0, 0]).starts_with("cranks[0]"));
     assert!(error(&both[1..], &[0, 0]).starts_with("cranks[0]"));
     assert!(error(&[Crank::MAIN, beside(0.1, 0)], &[0, 1]).starts_with("cranks[1].ratio = 0"));
+    let half = Crank { ratio: SpeedRatio::from_halves(-1), ..beside(0.1, 1) };
+    let text = error(&[Crank::MAIN, half], &[0, 1]);
+    assert!(text.starts_with("cranks[1].ratio = -1/2: cylinders need"), "{text}");
+    assert!(plain.with_cranks(vec![Crank::MAIN, half], vec![0, 0]).is_ok());
     assert!(error(&[Crank::MAIN, beside(f64::NAN, 1)], &[0, 1]).starts_with("cranks[1].x = NaN"));
     assert!(error(&both, &[0]).starts_with("crank_of has 1 entries"));
     assert!(error(&both, &[0, 2]).starts_with("crank_of[1] = 2"));

@@ -14,7 +14,7 @@ use crankpin_core::quantity::{Part, Quantity};
 use crankpin_core::sweep::{MapAxes, Statistic, SweepAxes};
 use crankpin_core::{
     Angle, Cancel, Complex64, Crank, CrankAngles, Cycle, Cylinder, Engine, Hold, Order, Shaft,
-    Station, Sweep, Unbalance, waveform,
+    SpeedRatio, Station, Sweep, Unbalance, waveform,
 };
 
 const BORE: f64 = 0.08;
@@ -53,7 +53,10 @@ fn pair(cylinder: Cylinder) -> Engine {
 /// Two upright cylinders on cranks of these ratios, 0.2 m apart.
 fn twin(ratios: [i32; 2]) -> Engine {
     let engine = pair(Cylinder::new(RADIUS, ROD, 0.5, 0.0).unwrap());
-    let cranks = ratios.map(|ratio| Crank { axis: [0.2 * f64::from(1 - ratio), 0.0], ratio });
+    let cranks = ratios.map(|ratio| Crank {
+        axis: [0.2 * f64::from(1 - ratio), 0.0],
+        ratio: SpeedRatio::whole(ratio),
+    });
     if ratios == [1, 1] {
         return engine;
     }
@@ -175,7 +178,7 @@ fn pressure_that_makes_no_torque_known_is_refused() {
     assert!(refused(twin([1, 1]), two).starts_with("cycle[0].strokes = 2"));
     let engine = fired([1, 1]);
     assert!(engine.with_details(vec![Details::default(); 2]).is_err());
-    let geared = vec![Crank::MAIN, Crank { axis: [0.1, 0.0], ratio: -3 }];
+    let geared = vec![Crank::MAIN, Crank { axis: [0.1, 0.0], ratio: SpeedRatio::whole(-3) }];
     assert!(engine.with_cranks(geared, vec![0, 1]).is_err());
     // Without any cycle there is nothing to refuse, and nothing is kept.
     assert_eq!(twin([1, 1]).with_gas(gas(vec![cycle(4)], [None; 2])).unwrap(), twin([1, 1]));
@@ -305,7 +308,7 @@ fn fired_vee([ratio, offset]: [f64; 2]) -> Engine {
     let weight =
         Unbalance { amount: 0.005, angle: angle(33.0), z: 0.1, pin: None, crank: CrankIndex::MAIN };
     let (name, axis) = (String::new(), [0.1, -0.05]);
-    let beside = Shaft { name, ratio: 2, axis, unbalances: vec![weight] };
+    let beside = Shaft { name, ratio: SpeedRatio::whole(2), axis, unbalances: vec![weight] };
     Engine::new("", "", vec![place(30.0, 350.0, 0.0), place(100.0, 50.0, 0.1)])
         .and_then(|engine| engine.with_details(vec![known; 2]))
         .and_then(|engine| engine.with_gas(gas(vec![cycle(4)], [None, Some(0)])))

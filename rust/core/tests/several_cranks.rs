@@ -15,8 +15,8 @@ use crankpin_core::pressure::Given;
 use crankpin_core::quantity::{Part, Quantity};
 use crankpin_core::sweep::{Statistic, SweepAxes};
 use crankpin_core::{
-    Cancel, Complex64, Crank, Cycle, Cylinder, Engine, Order, Orders, Spectrum, Station, Sweep,
-    Unbalance, balance, terms, waveform,
+    Cancel, Complex64, Crank, Cycle, Cylinder, Engine, Order, Orders, Spectrum, SpeedRatio,
+    Station, Sweep, Unbalance, balance, terms, waveform,
 };
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -34,7 +34,7 @@ fn of(engine: &Engine) -> Balance {
 /// Cylinders on one to three cranks of either sense, some of them without cylinders.
 fn engines() -> impl Strategy<Value = Engine> {
     let crank = (select(vec![1, -1, 2, -2]), [-0.3..0.3, -0.3..0.3]);
-    let crank = crank.prop_map(|(ratio, axis)| Crank { axis, ratio });
+    let crank = crank.prop_map(|(ratio, axis)| Crank { axis, ratio: SpeedRatio::whole(ratio) });
     let place = (cylinders(true), angles(), angles(), -0.5..0.5, 0.0..2.0, 0_usize..3);
     let lists = (proptest::collection::vec(crank, 1..3), proptest::collection::vec(place, 1..7));
     lists.prop_map(|(others, places)| {
@@ -58,7 +58,7 @@ fn fired(engines: impl Strategy<Value = Engine>) -> impl Strategy<Value = Engine
     (engines, fires).prop_map(move |(engine, fires)| {
         let ratio = |i: usize| engine.cranks()[engine.crank_of(i)].ratio;
         let cylinders = 0..engine.stations().len();
-        let cycle_of = |i: usize| (fires[i][0] && ratio(i).abs() == 1).then_some(0);
+        let cycle_of = |i: usize| (fires[i][0] && ratio(i).is_crank_speed()).then_some(0);
         let gas = Gas {
             cycles: vec![Arc::clone(&cycle)],
             cycle_of: cylinders.clone().map(cycle_of).collect(),
@@ -89,7 +89,7 @@ fn bounds(balance: &Balance, k: usize) -> [f64; 6] {
 #[test]
 fn a_crankpin_points_along_its_bore_at_top_dead_centre_whichever_way_it_turns() {
     for (ratio, pin) in [(1, 60.0), (-1, 120.0), (2, 30.0), (-2, 150.0)] {
-        let crank = Crank { axis: [0.1, 0.0], ratio };
+        let crank = Crank { axis: [0.1, 0.0], ratio: SpeedRatio::whole(ratio) };
         assert_eq!(crank.pin(angle(90.0), angle(30.0)), angle(pin), "{ratio}");
         assert_eq!(crank.tdc(angle(90.0), angle(pin)), angle(30.0), "{ratio}");
     }
@@ -106,7 +106,7 @@ fn cylinders_on_two_cranks_share_no_crankpin_nor_throw() {
         rotating_mass: 0.0,
     };
     let engine = Engine::new("", "", vec![at(60.0), at(120.0)]).unwrap();
-    let beside = Crank { axis: [0.2, 0.0], ratio: 1 };
+    let beside = Crank { axis: [0.2, 0.0], ratio: SpeedRatio::ONE };
     let apart = engine.with_cranks(vec![Crank::MAIN, beside], vec![0, 1]).unwrap();
     let pins = |engine: &Engine| -> Vec<(usize, Vec<usize>)> {
         engine
@@ -138,7 +138,7 @@ fn pistons_of_unlike_cranks_have_unlike_harmonics() {
         rotating_mass: 0.0,
     };
     let engine = Engine::new("", "", vec![at(1.0, 90.0), at(0.25, 270.0)]).unwrap();
-    let twice = Crank { axis: [0.0, 0.2], ratio: 2 };
+    let twice = Crank { axis: [0.0, 0.2], ratio: SpeedRatio::whole(2) };
     let engine = engine.with_cranks(vec![Crank::MAIN, twice], vec![0, 1]).unwrap();
     // Order 2 is a₂ of the first and a₁ of the second, of one weight: they do not cancel.
     let second = [Order::whole(2).unwrap()];
@@ -161,10 +161,10 @@ proptest! {
         let weight = Unbalance { amount: 0.1, angle: angle(0.0), z: 0.0, pin: Some(cylinder), crank: CrankIndex::MAIN };
         let laden = still.with_counterweights(vec![weight]).unwrap();
         let ratio = engine.cranks()[engine.crank_of(cylinder)].ratio;
-        let k = orders().iter().position(|o| o.as_whole() == Some(ratio.unsigned_abs())).unwrap();
-        let side = usize::from(ratio < 0);
+        let k = orders().iter().position(|o| Ok(*o) == ratio.order()).unwrap();
+        let side = usize::from(!ratio.is_forward());
         let added = phasors(&of(&laden), k)[side] - phasors(&of(&still), k)[side];
-        let square = (3000.0 * std::f64::consts::TAU / 60.0).powi(2) * f64::from(ratio * ratio);
+        let square = (3000.0 * std::f64::consts::TAU / 60.0).powi(2) * ratio.number().powi(2);
         let expected = engine.pin(cylinder).cis(1) * 0.1 * square;
         let bound = bounds(&of(&laden), k)[0] + bounds(&of(&still), k)[0];
         prop_assert!((added - expected).norm() <= bound, "{added} {expected}");
@@ -175,10 +175,10 @@ proptest! {
         let pins: Vec<_> = (0..engine.stations().len()).map(|i| engine.pin(i)).collect();
         let again = engine.with_pins(&pins).unwrap();
         for (i, pin) in pins.iter().enumerate() {
-            let ratio = engine.cranks()[engine.crank_of(i)].ratio.unsigned_abs();
+            let ratio = engine.cranks()[engine.crank_of(i)].ratio.size();
             let apart = again.stations()[i].tdc.degrees() - engine.stations()[i].tdc.degrees();
             // Cranks twice as fast are at top dead centre twice a turn.
-            let turns = apart * f64::from(ratio) / 360.0;
+            let turns = apart * ratio / 360.0;
             prop_assert!((turns - turns.round()).abs() < 1e-12);
             prop_assert!((again.pin(i).degrees() - pin.degrees()).abs() < 1e-10);
         }
@@ -249,13 +249,13 @@ proptest! {
             let (mut expected, mut size) = (Complex64::default(), 0.0);
             for (i, station) in engine.stations().iter().enumerate() {
                 let ratio = engine.cranks()[engine.crank_of(i)].ratio;
-                let speed = ratio.unsigned_abs();
+                let speed = ratio.as_whole().unwrap().unsigned_abs();
                 let own = (order % speed == 0).then_some((order / speed) as usize);
                 let of_piston = own.and_then(|n| amplitudes.get(n - 1)).copied();
                 let turning = station.rotating_mass * station.cylinder.crank_radius();
-                let turning = if ratio == order as i32 { turning } else { 0.0 };
+                let turning = if ratio == SpeedRatio::whole(order as i32) { turning } else { 0.0 };
                 let lag = station.bank.degrees() - f64::from(order) * station.tdc.degrees();
-                let weight = f64::from(ratio * ratio) * square;
+                let weight = ratio.number().powi(2) * square;
                 let amplitude = 0.5 * of_piston.unwrap_or_default() + turning;
                 expected += Complex64::cis(lag.to_radians()) * amplitude * weight;
                 size += (2.0 + station.rotating_mass) * weight;
@@ -299,7 +299,7 @@ proptest! {
         let at = |tdc: i64, bank: i64| Station {
             cylinder, tdc: step(tdc), bank: step(bank), z: 0.0, rotating_mass: 0.0
         };
-        let beside = Crank { axis: if above { [0.0, 0.125] } else { [0.125, 0.0] }, ratio };
+        let beside = Crank { axis: if above { [0.0, 0.125] } else { [0.125, 0.0] }, ratio: SpeedRatio::whole(ratio) };
         let engine = Engine::new("", "", vec![at(tdc, 6), at(tdc + lag, 6 + bank)]).unwrap();
         let engine = engine.with_cranks(vec![Crank::MAIN, beside], vec![0, 1]).unwrap();
         let found = vanishing(&engine, &orders(), None, None, &Cancel::new()).unwrap();

@@ -11,8 +11,8 @@ use crankpin_core::quantity::{Part, Quantity};
 use crankpin_core::source::{ForcePart, Parts, Repeats, Scaling, Source, Tail, TorqueAmplitudes};
 use crankpin_core::sweep::{Statistic, Sweep, SweepAxes};
 use crankpin_core::{
-    Angle, Cancel, Complex64, Cylinder, Engine, Error, Order, Orders, Request, Result, Station,
-    balancing, check_source, waveform,
+    Angle, Cancel, Complex64, Cylinder, Engine, Error, Order, Orders, Request, Result, SpeedRatio,
+    Station, balancing, check_source, waveform,
 };
 
 const SPRINGS: &str = "valve springs";
@@ -159,9 +159,14 @@ const REQUEST: Request = Request { rpm: 3000.0, reference_z: None, torque: true 
 #[test]
 fn sources_of_another_crate_are_counted_by_every_reading() {
     check_source(&load(ValveSprings::HONEST, ActsOn::Both), None).unwrap();
-    let belt = PeriodicLoad { ratio: 0.5, axis: [0.1, 0.2], z: -0.1, ..load(Belt, ActsOn::Shaft) };
+    let belt = PeriodicLoad {
+        ratio: SpeedRatio::from_halves(1),
+        axis: [0.1, 0.2],
+        z: -0.1,
+        ..load(Belt, ActsOn::Shaft)
+    };
     check_source(&belt, None).unwrap();
-    check_source(&PeriodicLoad { ratio: -0.5, ..belt }, None).unwrap();
+    check_source(&PeriodicLoad { ratio: SpeedRatio::from_halves(-1), ..belt }, None).unwrap();
     for crank in [0, 1] {
         let sitting = PeriodicLoad { crank: Some(crank), ..load(Pulses, ActsOn::Shaft) };
         check_source(&sitting, None).unwrap();

@@ -16,7 +16,7 @@ use crankpin_core::slider_crank::Proportions;
 use crankpin_core::sweep::{Statistic, SweepAxes};
 use crankpin_core::{
     Angle, Balance, Cancel, Complex64, CrankAngles, Cylinder, Engine, Error, Hold, Request, Shaft,
-    Spectrum, Station, Sweep, Unbalance, harmonics,
+    Spectrum, SpeedRatio, Station, Sweep, Unbalance, harmonics,
 };
 use proptest::prelude::*;
 
@@ -784,7 +784,8 @@ fn loads(engine: &Engine, torque: bool) -> usize {
 /// The last order evaluated: orders above it add a hundredth of the tolerance at most, even if every
 /// load had its part in them; and no unbalance has a higher order.
 fn last(engines: &[Arc<Engine>], axes: &SweepAxes, rtol: f64, torque: bool) -> u32 {
-    let ratios = engines.iter().flat_map(|e| e.shafts()).map(|shaft| shaft.ratio.unsigned_abs());
+    let ratios =
+        engines.iter().flat_map(|e| e.shafts()).map(|shaft| shaft.ratio.size().ceil() as u32);
     let mut last = ratios.max().unwrap_or(1);
     for place in places(sweep(engines, axes, &[1], None).shape()) {
         let engine = &engines[place[0]];
@@ -998,7 +999,12 @@ fn with_fast_shaft() -> Arc<Engine> {
         pin: None,
         crank: CrankIndex::MAIN,
     };
-    let shaft = Shaft { name: String::new(), ratio: 20, axis: [0.0; 2], unbalances: vec![against] };
+    let shaft = Shaft {
+        name: String::new(),
+        ratio: SpeedRatio::whole(20),
+        axis: [0.0; 2],
+        unbalances: vec![against],
+    };
     let engine = Engine::new("", "", vec![single]).unwrap();
     Arc::new(engine.with_shafts(vec![shaft]).unwrap())
 }
@@ -1013,8 +1019,12 @@ fn balanced_at(ratio: f64) -> Arc<Engine> {
     let single = Station { cylinder, tdc, bank, z, rotating_mass: 0.0 };
     let amount = 0.5 * 0.5 * 0.05 * second / 4.0;
     let against = Unbalance { amount, angle: -bank, z, pin: None, crank: CrankIndex::MAIN };
-    let shaft =
-        |ratio| Shaft { name: String::new(), ratio, axis: [0.0; 2], unbalances: vec![against] };
+    let shaft = |ratio| Shaft {
+        name: String::new(),
+        ratio: SpeedRatio::whole(ratio),
+        axis: [0.0; 2],
+        unbalances: vec![against],
+    };
     let engine = Engine::new("", "", vec![single]).unwrap();
     Arc::new(engine.with_shafts(vec![shaft(2), shaft(-2)]).unwrap())
 }

@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 
 use crate::array::frozen;
 use crate::balance::vector;
-use crate::convert::OrRaise;
+use crate::convert::{OrRaise, OrderNumber, RatioNumber, number, orders, ratio};
 use crate::engine::{Engine, Weight, choice, weight};
 use crate::interrupt;
 
@@ -27,14 +27,15 @@ type Pair = (Complex64, Complex64);
 /// x and y of an axis, None where free.
 type FreeAxis = (Option<f64>, Option<f64>);
 /// Ratio, axis, places of the unbalances, and what to remove.
-type WantedShaft = (i32, FreeAxis, Option<Vec<f64>>, String);
+type WantedShaft = (RatioNumber, FreeAxis, Option<Vec<f64>>, String);
 /// Axis, unbalances, force and moment.
 type FittedShaft = ((f64, f64), Vec<Weight>, Pair);
 
 /// Part of force and moment that turns with a shaft of this ratio, over ω².
 #[guarded]
 #[pyfunction]
-pub fn turning(engine: &Bound<'_, Engine>, ratio: i32) -> PyResult<Pair> {
+pub fn turning(engine: &Bound<'_, Engine>, speed: RatioNumber) -> PyResult<Pair> {
+    let ratio = ratio(speed)?;
     let core = &engine.get().0;
     let work = |cancel: &_| balancing::turning(core, ratio, cancel);
     let found = interrupt::run(engine.py(), work)?;
@@ -53,7 +54,10 @@ pub fn bay_loads(engine: &Bound<'_, Engine>) -> PyResult<Vec<Pair>> {
 /// Orders, and quantities of them, that vanish in an engine and not in the same with other hardware.
 #[guarded]
 #[pyfunction]
-pub fn appearing(before: &Bound<'_, Engine>, after: &Engine) -> PyResult<Vec<(u32, &'static str)>> {
+pub fn appearing(
+    before: &Bound<'_, Engine>,
+    after: &Engine,
+) -> PyResult<Vec<(OrderNumber, &'static str)>> {
     let (core, after) = (&before.get().0, &after.0);
     let found = interrupt::run(before.py(), |cancel| balancing::appearing(core, after, cancel))?;
     let named = |(order, kind): (Order, Appearing)| {
@@ -62,9 +66,9 @@ pub fn appearing(before: &Bound<'_, Engine>, after: &Engine) -> PyResult<Vec<(u3
             Appearing::Moment => "moment",
             Appearing::Roll => "torque",
         };
-        Some((order.as_whole()?, name))
+        (number(order), name)
     };
-    Ok(found.into_iter().filter_map(named).collect())
+    Ok(found.into_iter().map(named).collect())
 }
 
 /// Roll torque of an order over ω², with that of gas pressure at a speed.
@@ -72,10 +76,10 @@ pub fn appearing(before: &Bound<'_, Engine>, after: &Engine) -> PyResult<Vec<(u3
 #[pyfunction]
 pub fn roll_torque(
     engine: &Bound<'_, Engine>,
-    order: u32,
+    order: OrderNumber,
     rpm: Option<f64>,
 ) -> PyResult<Complex64> {
-    let (core, order) = (&engine.get().0, Order::whole(order).or_raise()?);
+    let (core, order) = (&engine.get().0, orders(&[order])?[0]);
     interrupt::run(engine.py(), |cancel| balancing::roll_torque(core, order, rpm, cancel))
 }
 
@@ -240,9 +244,9 @@ pub fn fit_shafts(
     rpm: Option<f64>,
 ) -> PyResult<(Vec<FittedShaft>, Option<f64>)> {
     let words = [("both", Remove::Both), ("force", Remove::Force), ("moment", Remove::Moment)];
-    let request = |(ratio, (x, y), planes, remove): WantedShaft| {
+    let request = |(speed, (x, y), planes, remove): WantedShaft| {
         let remove = choice("remove", &remove, &words)?;
-        Ok(shafts::ShaftRequest { ratio, axis: [x, y], planes, remove })
+        Ok(shafts::ShaftRequest { ratio: ratio(speed)?, axis: [x, y], planes, remove })
     };
     let wanted = wanted.into_iter().map(request).collect::<PyResult<Vec<_>>>()?;
     let core = &engine.get().0;

@@ -15,8 +15,8 @@ type Fraction = (i128, i128);
 type Load = (Fraction, Fraction, i8, Fraction, Fraction);
 /// Coefficients of the real part, of the imaginary one and of the square of the size.
 type Coefficients = (Vec<i128>, Vec<i128>, Vec<i128>);
-/// Unit cylinder, spacing, whether aₙ is zero, loads, period, denominator, phasors.
-type Form = (usize, f64, bool, Vec<Load>, i128, i128, Vec<Coefficients>);
+/// Unit cylinder, spacing, whether aₙ is zero, loads, period, denominator, phasors, indices of periodic loads.
+type Form = (usize, f64, bool, Vec<Load>, i128, i128, Vec<Coefficients>, Vec<usize>);
 
 /// Force or moment of one order.
 #[guarded]
@@ -32,7 +32,8 @@ pub fn closed_form(
     let found = interrupt::run(py, |cancel| {
         core::closed_form(&engine, order, moment, reference_z, cancel)
     })?;
-    let ClosedForm { unit, spacing, no_harmonic, parts, period, denominator, phasors } = found;
+    let ClosedForm { unit, spacing, no_harmonic, parts, period, denominator, phasors, loads } =
+        found;
     let ratio = |r: Ratio| r.into_raw();
     let turns = |(numerator, denominator): (i64, i64)| (numerator.into(), denominator.into());
     let sense = |motion: LoadMotion| match motion {
@@ -52,5 +53,6 @@ pub fn closed_form(
         period,
         denominator,
         phasors.into_iter().map(coefficients).collect(),
+        loads,
     ))
 }

@@ -111,6 +111,29 @@ pub enum OrderNumber {
     Half(f64),
 }
 
+/// A speed ratio as Python has it: a whole number, or a half as a float.
+#[derive(FromPyObject, IntoPyObject, Clone, Copy)]
+pub enum RatioNumber {
+    /// Whole.
+    Whole(i32),
+    /// A half.
+    Half(f64),
+}
+
+impl From<core::SpeedRatio> for RatioNumber {
+    fn from(ratio: core::SpeedRatio) -> Self {
+        ratio.as_whole().map_or_else(|| Self::Half(ratio.number()), Self::Whole)
+    }
+}
+
+/// The core's speed ratio.
+pub fn ratio(number: RatioNumber) -> PyResult<core::SpeedRatio> {
+    match number {
+        RatioNumber::Whole(ratio) => Ok(core::SpeedRatio::whole(ratio)),
+        RatioNumber::Half(ratio) => core::SpeedRatio::from_number(ratio).or_raise(),
+    }
+}
+
 /// The core's orders.
 pub fn orders(orders: &[OrderNumber]) -> PyResult<Vec<core::Order>> {
     let order = |number: &OrderNumber| match *number {
@@ -125,10 +148,12 @@ pub fn orders_of_halves(halves: Vec<u32>) -> PyResult<Vec<core::Order>> {
     halves.into_iter().map(core::Order::from_halves).collect::<core::Result<_>>().or_raise()
 }
 
+/// An order for Python.
+pub fn number(order: core::Order) -> OrderNumber {
+    order.as_whole().map_or_else(|| OrderNumber::Half(order.number()), OrderNumber::Whole)
+}
+
 /// Orders for Python.
 pub fn numbers(orders: &[core::Order]) -> Vec<OrderNumber> {
-    let number = |order: &core::Order| {
-        order.as_whole().map_or_else(|| OrderNumber::Half(order.number()), OrderNumber::Whole)
-    };
-    orders.iter().map(number).collect()
+    orders.iter().copied().map(number).collect()
 }

@@ -3,7 +3,7 @@
 use crate::array::frozen;
 use crankpin_core as core;
 use crankpin_core::design::{Objective, ObjectiveQuantity, Reading, Variable};
-use crankpin_core::{Order, memory};
+use crankpin_core::{Order, SpeedRatio, memory};
 use crankpin_macros::guarded;
 use numpy::{PyArray2, PyArray3, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -65,7 +65,7 @@ impl Objectives {
                 &variables,
                 &objectives,
                 &orders,
-                &removed,
+                &removed.into_iter().map(SpeedRatio::whole).collect::<Vec<_>>(),
                 cancel,
             )
         })?;

@@ -23,7 +23,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
 
 use crate::boundary;
-use crate::convert::{Angle, OrRaise, Parts, angles, cylinder, python_error};
+use crate::convert::{Angle, OrRaise, Parts, RatioNumber, angles, cylinder, python_error, ratio};
 use crate::interrupt;
 use crate::pressure::Cycle;
 
@@ -70,7 +70,7 @@ fn pin(pin: &Crankpin) -> Pin {
 }
 
 /// Axis and speed ratio of each crankshaft, the main one first, and of each cylinder the index of its own.
-type Cranks = (Vec<(f64, f64, i32)>, Vec<usize>);
+type Cranks = (Vec<(f64, f64, RatioNumber)>, Vec<usize>);
 
 /// Cylinders by number.
 pub fn numbers(cylinders: &[usize]) -> Vec<usize> {
@@ -284,6 +284,11 @@ impl Engine {
                 rotating_mass: rotating_mass[i],
             });
         }
+        let further = |(cranks, of): Cranks| -> PyResult<_> {
+            let crank = |(x, y, speed)| Ok(Crank { axis: [x, y], ratio: ratio(speed)? });
+            Ok((cranks.into_iter().map(crank).collect::<PyResult<_>>()?, of))
+        };
+        let cranks = cranks.map(further).transpose()?;
         let engine = match bank {
             Some(bank) => {
                 same_length("bank", bank.len(), count)?;
@@ -292,10 +297,7 @@ impl Engine {
             None => core::Engine::new("", "", stations),
         };
         let engine = engine.and_then(|engine| match cranks {
-            Some((cranks, crank_of)) => {
-                let crank = |(x, y, ratio)| Crank { axis: [x, y], ratio };
-                engine.with_cranks(cranks.into_iter().map(crank).collect(), crank_of)
-            }
+            Some((cranks, crank_of)) => engine.with_cranks(cranks, crank_of),
             None => Ok(engine),
         });
         let engine = engine.and_then(|engine| match pins {
@@ -504,7 +506,7 @@ impl Engine {
 
     #[getter]
     fn cranks(&self) -> Cranks {
-        let crank = |&Crank { axis: [x, y], ratio }: &Crank| (x, y, ratio);
+        let crank = |&Crank { axis: [x, y], ratio }: &Crank| (x, y, ratio.into());
         let of = (0..self.0.stations().len()).map(|i| self.0.crank_of(i).position());
         (self.0.cranks().iter().map(crank).collect(), of.collect())
     }
@@ -658,23 +660,31 @@ impl Engine {
     }
 
     #[getter]
-    fn shafts(&self) -> Vec<(String, i32, f64, f64, Vec<Weight>)> {
+    fn shafts(&self) -> Vec<(String, RatioNumber, f64, f64, Vec<Weight>)> {
         let shaft = |shaft: &Shaft| {
             let [x, y] = shaft.axis;
-            (shaft.name.clone(), shaft.ratio, x, y, shaft.unbalances.iter().map(weight).collect())
+            (
+                shaft.name.clone(),
+                shaft.ratio.into(),
+                x,
+                y,
+                shaft.unbalances.iter().map(weight).collect(),
+            )
         };
         self.0.shafts().iter().map(shaft).collect()
     }
 
     fn with_shafts(
         &self,
-        shafts: Vec<(String, i32, f64, f64, Vec<GivenWeight>)>,
+        shafts: Vec<(String, RatioNumber, f64, f64, Vec<GivenWeight>)>,
     ) -> PyResult<Self> {
-        let shaft = |(name, ratio, x, y, weights): (String, i32, f64, f64, Vec<GivenWeight>)| {
-            let unbalances = weights.into_iter().map(unbalance).collect();
-            Shaft { name, ratio, axis: [x, y], unbalances }
-        };
-        self.0.with_shafts(shafts.into_iter().map(shaft).collect()).or_raise().map(Self::from)
+        let shaft =
+            |(name, speed, x, y, weights): (String, RatioNumber, f64, f64, Vec<GivenWeight>)| {
+                let unbalances = weights.into_iter().map(unbalance).collect();
+                Ok(Shaft { name, ratio: ratio(speed)?, axis: [x, y], unbalances })
+            };
+        let shafts = shafts.into_iter().map(shaft).collect::<PyResult<_>>()?;
+        self.0.with_shafts(shafts).or_raise().map(Self::from)
     }
 
     /// Loads besides those of moving parts, in words.
@@ -683,10 +693,10 @@ impl Engine {
         self.0.loads_counted()
     }
 
-    /// The same of a picture, which turns without further loads.
+    /// The further loads alone, in words.
     #[getter]
-    fn loads_drawn(&self) -> String {
-        self.0.loads_drawn()
+    fn further_loads(&self) -> String {
+        self.0.further_loads()
     }
 
     /// Periodic loads, as JSON.

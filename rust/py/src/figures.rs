@@ -88,6 +88,15 @@ pub fn drawn(engine: &Bound<'_, Engine>) -> PyResult<String> {
     Ok(json!(drawn).to_string())
 }
 
+/// Terms of an engine's periodic loads, with torques or without; at a crank speed that they must have.
+#[guarded]
+#[pyfunction]
+pub fn load_rows(engine: &Bound<'_, Engine>, rpm: f64, torque: bool) -> PyResult<String> {
+    let core = &engine.get().0;
+    let rows = interrupt::run(engine.py(), |cancel| figures::load_rows(core, rpm, torque, cancel))?;
+    Ok(json!(rows).to_string())
+}
+
 /// A bar that stands for its block, and the pressure in its cylinders: as JSON, null where there is none.
 #[guarded]
 #[pyfunction]

@@ -57,7 +57,7 @@ mod _core {
         engine::{Engine, check_load},
         explain::{Explanation, dead_text, explain, gas_text},
         figures::{
-            drawn, drawn_loads, drawn_rod, fired_kinds, group_terms, listed_orders,
+            drawn, drawn_loads, drawn_rod, fired_kinds, group_terms, listed_orders, load_rows,
             orders_that_count, sizes, swept,
         },
         firing::{Firing, check_timing, inline_throws, vee_throws},
@@ -76,7 +76,9 @@ mod _core {
         },
         sweep::Sweep,
         tolerances::{Tolerances, orders_of_samples, peaks_of_sums},
-        typed::{read_numbers, unit_factor, unit_symbol, unit_symbols, unit_terms},
+        typed::{
+            read_amplitudes, read_numbers, unit_factor, unit_symbol, unit_symbols, unit_terms,
+        },
         vanishing::{star, vanishing},
         warnings::{
             absolute_warnings, cycle_warnings, cylinder_warnings, engine_warnings, far_peak,

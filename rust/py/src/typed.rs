@@ -1,5 +1,6 @@
 //! Numbers and units as people type them.
 
+use crankpin_core::engine::Amplitudes;
 use crankpin_core::numbers::decimal::Exact;
 use crankpin_core::numbers::typed::{Field, Form};
 use crankpin_core::numbers::units::{self, Dimension};
@@ -28,6 +29,19 @@ pub fn read_numbers(
     let field = Field { argument, unit, plain, what, infinite };
     let read = field.read(text, Form::named(form).or_raise()?).or_raise()?;
     Ok((read.values, read.unit, read.is_listed, read.point))
+}
+
+/// Rows of amplitudes by order, as they are typed: an order, then real and imaginary parts.
+#[guarded]
+#[pyfunction]
+pub fn read_amplitudes(
+    argument: &str,
+    text: &str,
+    unit: &str,
+    plain: &str,
+) -> PyResult<Vec<Vec<f64>>> {
+    let field = Field { argument, unit, plain, what: "an amplitude", infinite: false };
+    Ok(Amplitudes::typed(text, &field).or_raise()?.into())
 }
 
 type Symbols = Vec<(&'static str, usize, Parts)>;

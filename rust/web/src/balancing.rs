@@ -5,7 +5,7 @@ use crankpin_core::balancing::shafts::{Remove, ShaftRequest, fit};
 use crankpin_core::balancing::weights::Minimise;
 use crankpin_core::engine::CrankIndex;
 use crankpin_core::engine::crankpins::Bay;
-use crankpin_core::{Cancel, Result};
+use crankpin_core::{Cancel, Result, SpeedRatio};
 use serde_json::{Value, json};
 
 use crate::answer::Columns;
@@ -45,11 +45,11 @@ pub fn balance_shafts(arguments: &mut Arguments, _: &mut Columns) -> Result<Valu
     let (engine, powertrain) = arguments.mounted()?;
     let words = [("both", Remove::Both), ("force", Remove::Force), ("moment", Remove::Moment)];
     let remove = arguments.word("remove", &words)?;
-    let ratios: Vec<i32> = arguments.required("ratios")?;
+    let ratios: Vec<SpeedRatio> = arguments.required("ratios")?;
     let axes: [Vec<Option<f64>>; 2] =
         [arguments.or("x", Vec::new())?, arguments.or("y", Vec::new())?];
     let planes: Option<Vec<f64>> = arguments.optional("planes")?;
-    let request = |(k, ratio): (usize, i32)| {
+    let request = |(k, ratio): (usize, SpeedRatio)| {
         let axis = [0, 1].map(|along| axes[along].get(k).copied().flatten());
         ShaftRequest { ratio, axis, planes: planes.clone(), remove }
     };

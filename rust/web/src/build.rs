@@ -41,6 +41,7 @@ pub fn build(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
     let (cylinder, details) = cylinder(arguments)?;
     let strokes = Strokes::from_number(arguments.or("strokes", 4)?)?;
     let order: Option<String> = arguments.optional("firing_order")?;
+    let mut intervals = None;
     let (engine, order) = match kind {
         Kind::Inline => (inline(arguments)?.engine(cylinder)?, order.unwrap_or_default()),
         Kind::Vee | Kind::Flat | Kind::Boxer => {
@@ -54,14 +55,20 @@ pub fn build(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
         }
         Kind::FiringOrder => {
             let order = order.ok_or_else(|| Error::value("firing_order", "none", "is required"))?;
-            (fired_so(arguments, cylinder, &order.parse()?, strokes)?, order)
+            intervals = arguments.angles("intervals_deg")?;
+            (fired_so(arguments, cylinder, &order.parse()?, strokes, intervals.as_deref())?, order)
         }
     };
     let count = engine.stations().len();
     let engine = engine.with_details(vec![details; count])?;
     let name: String = arguments.or("name", String::new())?;
     let engine = engine.named(name, arguments.or("source", String::new())?)?;
-    written(&fired_as(engine, &order, strokes)?, None)
+    let fired = fired_as(engine, &order, strokes)?;
+    let Some(intervals) = intervals else { return written(&fired, None) };
+    // As they were typed, whatever turns would be more even.
+    let (fired, cancel) = (Arc::new(fired), Cancel::new());
+    let firing = Firing::at_intervals(&fired, &order.parse()?, strokes, &intervals, &cancel)?;
+    written(&firing.kept(&cancel)?, None)
 }
 
 /// The engine with a firing order that its crank allows.
@@ -158,9 +165,10 @@ fn fired_so(
     cylinder: Cylinder,
     order: &FiringOrder,
     strokes: Strokes,
+    intervals: Option<&[Angle]>,
 ) -> Result<Engine> {
-    let rule = match arguments.angles("intervals_deg")? {
-        Some(intervals) => FiringRule::Intervals(strokes, intervals),
+    let rule = match intervals {
+        Some(intervals) => FiringRule::Intervals(strokes, intervals.to_vec()),
         None => FiringRule::Even(strokes),
     };
     if arguments.has("bank_angle_deg") {

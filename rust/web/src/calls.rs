@@ -10,7 +10,8 @@ use crate::{balance, balancing, build, engine, figures, mounts, readings, typed,
 type Call = fn(&mut Arguments, &mut Columns) -> Result<Value>;
 
 /// Every call, for `site/core.mjs` and README.md.
-const CALLS: [(&str, Call); 18] = [
+const CALLS: [(&str, Call); 19] = [
+    ("amplitudes", typed::amplitudes),
     ("balance", balance::balance),
     ("balance_shafts", balancing::balance_shafts),
     ("bank_angles", readings::bank_angles),

@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use crankpin_core::drawing::{Drawing, block, fired_kinds, gas};
 use crankpin_core::figures::{
-    GROUPS, GroupTerms, Parts, Sizes, group_terms, listed_orders, mean_inertia, orders, sizes,
-    swept,
+    GROUPS, GroupTerms, Parts, Sizes, group_terms, listed_orders, load_rows, mean_inertia, orders,
+    sizes, swept,
 };
 use crankpin_core::{Cancel, Complex64, Engine, Order, Result};
 use serde_json::{Value, json};
 
-use crate::answer::{Columns, orders as numbers};
+use crate::answer::{self, Columns, orders as numbers};
 use crate::arguments::Arguments;
 use crate::words::{sentences_of, shown};
 
@@ -20,7 +20,7 @@ pub fn figures(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
     let rpm: f64 = arguments.required("rpm")?;
     crankpin_core::balance::angular_speed(rpm)?;
     let inertia: Option<f64> = arguments.optional("inertia")?;
-    let loads = engine.loads_drawn();
+    let loads = engine.loads_counted();
     let loads: String =
         loads.chars().take(1).flat_map(char::to_uppercase).chain(loads.chars().skip(1)).collect();
     let sentences = sentences_of(&engine, (rpm > 0.0).then_some(rpm), false, &shown(arguments)?)?;
@@ -28,7 +28,7 @@ pub fn figures(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
     let engine = Arc::new(engine);
     let mut figures = json!(Drawing::new(&engine, &cancel)?);
     let own = json!({
-        "rpm": rpm, "rod_ratio": null, "terms": terms(&engine, &cancel)?, "block": block(&engine),
+        "rpm": rpm, "rod_ratio": null, "terms": terms(&engine, rpm, &cancel)?, "block": block(&engine),
         "gas": gas(&engine), "loads": loads, "flywheel": inertia, "compact": false,
         "sentences": sentences,
     });
@@ -40,13 +40,13 @@ pub fn figures(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
 
 /// Rows as those of the library: order, power and polynomial of the rod ratio, values of groups, and the
 /// factor at the engine's own.
-fn terms(engine: &Engine, cancel: &Cancel) -> Result<Value> {
+fn terms(engine: &Engine, rpm: f64, cancel: &Cancel) -> Result<Value> {
     let all = orders(engine, cancel)?;
     let tables = [Parts::Moving, Parts::Standing]
         .map(|parts| group_terms(engine, parts, &all, true, cancel));
     let [moving, standing] = tables;
     let tables = [moving?, standing?];
-    let fired = engine.gas().is_some();
+    let driven = engine.gas().is_some() || !engine.loads().is_empty();
     let rows = |values: &dyn Fn(&GroupTerms) -> Vec<Complex64>| {
         let of = |table: &Vec<[GroupTerms; GROUPS]>| -> Vec<Value> {
             all.iter()
@@ -58,10 +58,10 @@ fn terms(engine: &Engine, cancel: &Cancel) -> Result<Value> {
     };
     let planar = rows(&|terms| terms.planar.to_vec());
     let mut torque = rows(&|terms| {
-        if fired { vec![terms.roll, terms.inertia] } else { vec![terms.roll] }
+        if driven { vec![terms.roll, terms.inertia] } else { vec![terms.roll] }
     });
     let mut volumes = Vec::new();
-    if fired {
+    if driven {
         let mean = mean_inertia(engine, cancel)?;
         torque.insert(0, json!([0, 0, [1], [[0, 0, 0, mean, 0]], 1]));
         let last = all.iter().filter_map(|n| n.as_whole()).max().unwrap_or(1);
@@ -77,7 +77,7 @@ fn terms(engine: &Engine, cancel: &Cancel) -> Result<Value> {
         // One rod ratio: pages offer no other.
         "rod_ratios": [0, 1, 1], "planar": planar, "torque": torque, "swept": volumes,
         "sizes": { "force": force, "moment": moment, "torque": of_torque, "gas": gas },
-        "orders": numbers(&listed_orders(engine)?),
+        "loads": load_rows(engine, rpm, true, cancel)?, "orders": numbers(&listed_orders(engine)?),
     }))
 }
 
@@ -98,16 +98,16 @@ fn row(
 }
 
 /// Number of a row's order.
-struct RowOrder(u32);
+struct RowOrder(Value);
 
 impl From<u32> for RowOrder {
     fn from(order: u32) -> Self {
-        Self(order)
+        Self(order.into())
     }
 }
 
 impl From<Order> for RowOrder {
     fn from(order: Order) -> Self {
-        Self(order.as_whole().unwrap_or(0))
+        Self(answer::order(order))
     }
 }

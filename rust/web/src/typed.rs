@@ -1,6 +1,7 @@
 //! Numbers as they are typed.
 
 use crankpin_core::Result;
+use crankpin_core::engine::Amplitudes;
 use crankpin_core::numbers::typed::{Field, Form};
 use serde_json::{Value, json};
 
@@ -21,4 +22,14 @@ pub fn quantity(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
         "values": read.values, "texts": read.texts, "unit": read.unit, "listed": read.is_listed,
         "point": read.point,
     }))
+}
+
+/// Amplitudes by order of a text: rows of an order, then real and imaginary parts.
+pub fn amplitudes(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
+    let text: String = arguments.required("text")?;
+    let unit: String = arguments.required("unit")?;
+    let name: String = arguments.required("name")?;
+    let what = "an amplitude";
+    let field = Field { argument: &name, unit: &unit, plain: &unit, what, infinite: false };
+    Ok(json!(Amplitudes::typed(&text, &field)?))
 }

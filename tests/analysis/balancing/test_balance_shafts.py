@@ -669,10 +669,10 @@ def test_to_pandas() -> None:
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ({"ratios": 0}, "^ratios = 0: give whole numbers other than 0"),
-        ({"ratios": 1.5}, "^ratios = 1.5: give a whole number"),
+        ({"ratios": 0}, "^ratios = 0: give a multiple of 1/2 other than 0"),
+        ({"ratios": 1.3}, "^ratios = 1.3: give a multiple of 1/2"),
         ({"ratios": []}, "^ratios has 0 shafts: give 1 to 100"),
-        ({"ratios": "2"}, "^ratios = '2'"),
+        ({"ratios": "2,1"}, "^ratios = '2,1'"),
         ({"ratios": 10**6}, "^ratios = 1000000: give"),
         ({"x": [1, 2]}, "^x has 2 entries: give one for each of 1 shafts"),
         ({"x": float("nan")}, "^x = nan: give a finite number"),

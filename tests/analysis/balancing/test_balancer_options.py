@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import itertools
 import pickle
 from typing import Any
 
@@ -11,6 +12,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from crankpin import Shaft, Unbalance
+from crankpin.analysis.balancing.balancer_options import _front
 
 RPM = 3000.0
 CYLINDER = conftest.CYLINDER
@@ -281,7 +283,7 @@ def test_the_long_form_has_all_sets() -> None:
         ({"target": 3.0}, "^target = 3.0: by has objectives of several units"),
         ({"target": -1.0, "by": "total.force.peak"}, "^target = -1.0: give 0 or more"),
         ({"target": {"total.force.peak": np.nan}}, r"^target\['total.force.peak'\] = nan"),
-        ({"target": {"force": 1.0}}, "^by = 'force': give"),
+        ({"target": {"force": 1.0}}, "^target = 'force': give"),
         ({"relative": 1}, "^relative = 1: give True or False"),
         ({"counterweights": None}, "^counterweights = None: give True or False"),
         ({"shaft_orders": 0}, "^shaft_orders = 0"),
@@ -306,4 +308,35 @@ def test_errors_name_the_argument(given: dict[str, Any], words: str) -> None:
 
 def test_too_many_sets() -> None:
     with pytest.raises(cp.InputError, match=r"^shaft_orders make .* sets of shafts: give fewer"):
-        cp.balancer_options(V6_90, rpm=RPM, shaft_orders=range(1, 30), most_shafts=1)
+        cp.balancer_options(V6_90, rpm=RPM, shaft_orders=range(1, 20), most_shafts=19)
+
+
+@pytest.mark.parametrize("most", [0, 1, 2])
+def test_sets_are_all_those_of_at_most_so_many_shafts(most: int) -> None:
+    """However many there would be of more."""
+    options = cp.balancer_options(V6_90, rpm=RPM, shaft_orders=range(1, 20), most_shafts=most)
+    of_one = cp.balancer_options(V6_90, rpm=RPM, shaft_orders=range(1, 20), most_shafts=1)
+    shafts = {each.shafts[0].ratio: 0 for each in of_one if each.shafts}
+    for ratio in shafts:  # shafts of one ratio: those that remove both, or one of the two
+        same = [each for each in of_one if each.shafts and each.shafts[0].ratio == ratio]
+        shafts[ratio] = len(same) // 2  # with counterweights and without
+    counts = list(shafts.values())
+    expected = [1, sum(counts), sum(a * b for a, b in itertools.combinations(counts, 2))]
+    for number in range(3):
+        got = sum(len(each.shafts) == number for each in options)
+        assert got == (2 * expected[number] if number <= most else 0)
+
+
+def test_the_front_is_what_nothing_is_better_than() -> None:
+    """Of few values, so that rows are equal, or differ by less than the slack."""
+    random = np.random.default_rng(3)
+    for _ in range(300):
+        shape = (random.integers(1, 30), random.integers(1, 5))
+        values = random.integers(0, 3, shape) + 0.4e-9 * random.integers(0, 4, shape)
+        slack = np.full(shape[1], 1e-9)
+        slack[0] = 0.0
+        better = [
+            [(other <= row + slack).all() and (other < row - slack).any() for other in values]
+            for row in values
+        ]
+        np.testing.assert_array_equal(_front(values, slack), ~np.any(better, axis=1))

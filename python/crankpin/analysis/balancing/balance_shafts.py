@@ -18,9 +18,11 @@ from crankpin.model.shafts import Shaft, unbalance_of, with_more
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from fractions import Fraction
 
     from numpy.typing import ArrayLike
 
+    from crankpin._support.inputs import Order
     from crankpin.model.engine import Engine
 
 
@@ -33,7 +35,7 @@ MOST_SHAFTS = 100
 
 def balance_shafts(
     engine: Engine,
-    ratios: int | Sequence[int],
+    ratios: float | str | Fraction | Sequence[float | str | Fraction],
     *,
     x: ArrayLike | Sequence[float | None] | None = None,
     y: ArrayLike | Sequence[float | None] | None = None,
@@ -53,9 +55,9 @@ def balance_shafts(
     ----------
     engine : Engine
         The engine, with its counterweights.
-    ratios : int or sequence of int
-        Speed of each shaft over crank speed: −1 for one that turns against the crank, ``[2, -2]``
-        for a Lanchester pair.
+    ratios : number, str or sequence of these
+        Speed of each shaft over crank speed, a multiple of 1/2: −1 for one that turns against the
+        crank, ``[2, -2]`` for a Lanchester pair, ``"1/2"`` for one as fast as a camshaft.
     x, y : float or sequence of float or None, optional
         Axis of each shaft from the crank axis, seen from the flywheel, m: a number for all, or a
         list with one for each. None is free: such coordinates are placed where the shafts cancel
@@ -162,7 +164,7 @@ def balance_shafts(
 class ShaftRequest:
     """A shaft to be fitted; None is free."""
 
-    ratio: int
+    ratio: Order
     """Speed over crank speed."""
     x: float | None
     """Axis to the right of the crank axis, m."""
@@ -201,22 +203,23 @@ def _shaft_requests(
     return requests
 
 
-def _ratios(ratios: object) -> list[int]:
-    hint = "give whole numbers other than 0, such as -1 or [2, -2]"
-    listed = inputs.items("ratios", ratios, hint) if isinstance(ratios, Iterable) else [ratios]
-    numbers = [inputs.whole("ratios", each) for each in listed]
+def _ratios(ratios: object) -> list[Order]:
+    hint = 'give multiples of 1/2 other than 0, such as -1, "1/2" or [2, -2]'
+    several = isinstance(ratios, Iterable) and not isinstance(ratios, str)
+    listed = inputs.items("ratios", ratios, hint) if several else [ratios]
+    numbers = [inputs.speed_ratio("ratios", each) for each in listed]
     if not 1 <= len(numbers) <= MOST_SHAFTS:
         raise inputs.faulty("ratios", f"has {len(numbers)} shafts", f"give 1 to {MOST_SHAFTS}")
     for each in numbers:
-        if each == 0 or abs(each) > _core.HIGHEST_ORDER:
+        if abs(each) > _core.HIGHEST_ORDER:
             raise inputs.rejected("ratios", ratios, hint)
     return numbers
 
 
-def _removals(remove: object, ratios: list[int]) -> list[Remove]:
+def _removals(remove: object, ratios: list[Order]) -> list[Remove]:
     alike = isinstance(remove, str) or not isinstance(remove, Iterable)
     listed = [remove] * len(ratios) if alike else _each("remove", remove, len(ratios))
-    removals: dict[int, Remove] = {}
+    removals: dict[Order, Remove] = {}
     for ratio, each in zip(ratios, listed, strict=True):
         word = cast("Remove", inputs.one_of("remove", each, REMOVE))
         if removals.setdefault(ratio, word) != word:

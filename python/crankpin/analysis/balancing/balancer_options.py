@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
@@ -181,11 +181,22 @@ def _ratios(orders: Sequence[int], *, with_weights: bool) -> list[int]:
 
 def _front(criteria: NDArray[np.float64], slack: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return which rows no other row is as good as in all columns, and better in one."""
+    # Nothing is better than what a row is better than that is nowhere above it, slack or not.
+    least = _least(criteria)
     undominated = np.ones(len(criteria), dtype=bool)
     for k, row in enumerate(criteria):
-        as_good = (criteria <= row + slack).all(axis=1)
-        undominated[k] = not (as_good & (criteria < row - slack).any(axis=1)).any()
+        as_good = (least <= row + slack).all(axis=1)
+        undominated[k] = not (as_good & (least < row - slack).any(axis=1)).any()
     return undominated
+
+
+def _least(criteria: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the rows that no other row is at most in all columns, each once."""
+    rows, least = np.unique(criteria, axis=0), []
+    while len(rows):
+        least.append(rows[0])
+        rows = rows[(rows < rows[0]).any(axis=1)]
+    return np.array(least)
 
 
 # --- sets of hardware ---------------------------------------------------------------------------
@@ -211,7 +222,7 @@ def balancer_sets(
     engine: Engine,
     counterweights: tuple[Unbalance, ...],
     ratios: Sequence[int],
-    places: Mapping[int, Axis],
+    places: Mapping[float, Axis],
     most_shafts: int,
     rpm: float,
 ) -> list[BalancerOption]:
@@ -220,9 +231,13 @@ def balancer_sets(
     Ratios that have nothing to remove are left out.
     """
     removals = {ratio: _removals(turning(engine, ratio)) for ratio in ratios}
-    count = math.prod(1 + len(each) for each in removals.values())
+    by_shafts = [1]
+    for listed in removals.values():
+        one_more = [0, *(len(listed) * number for number in by_shafts)]
+        by_shafts = list(map(sum, itertools.zip_longest(by_shafts, one_more, fillvalue=0)))
+    count = sum(by_shafts[: most_shafts + 1])
     if count > MOST_SETS:
-        hint = f"give fewer orders, for {MOST_SETS} at most"
+        hint = f"give fewer orders or most_shafts, for {MOST_SETS} at most"
         raise inputs.faulty("shaft_orders", f"make {count} sets of shafts", hint)
     choices: list[list[Part | None]] = [[None] for _ in removals]
     for parts, (ratio, listed) in zip(choices, removals.items(), strict=True):
@@ -235,10 +250,7 @@ def balancer_sets(
         for weights in dict.fromkeys([(), counterweights])
     }
     sets = []
-    for choice in itertools.product(*choices):
-        chosen = [each for each in choice if each is not None]
-        if len(chosen) > most_shafts:
-            continue
+    for chosen in _choices(choices, most_shafts):
         wanted = [
             (each.shaft.ratio, places.get(each.shaft.ratio, (None, None)), None, each.remove)
             for each in chosen
@@ -254,6 +266,18 @@ def balancer_sets(
     return sorted(sets, key=lambda each: (len(each.shafts), each.unbalance))
 
 
+def _choices(choices: Sequence[Sequence[Part | None]], most: int) -> Iterator[list[Part]]:
+    """Yield one choice from each list, of at most ``most`` parts."""
+    if not choices:
+        yield []
+        return
+    for each in choices[0]:
+        parts = [] if each is None else [each]
+        if len(parts) <= most:
+            for others in _choices(choices[1:], most - len(parts)):
+                yield parts + others
+
+
 def _removals(turning_parts: Turning) -> tuple[Remove, ...]:
     """Return what a shaft can remove, each another way."""
     if turning_parts.force and turning_parts.moment:
@@ -263,7 +287,7 @@ def _removals(turning_parts: Turning) -> tuple[Remove, ...]:
 
 def _name(parts: Sequence[Part], weights: tuple[Unbalance, ...]) -> str:
     words = [
-        f"{each.shaft.ratio:+d}".replace("-", "−")
+        f"{each.shaft.ratio:+g}".replace("-", "−")
         + ("" if each.remove == "both" else f" ({each.remove} alone)")
         for each in parts
     ]
@@ -289,7 +313,7 @@ def _objectives(
         return objectives, dict.fromkeys(names, _limit("target", target))
     limits = {name: _limit(f"target[{name!r}]", value) for name, value in target.items()}
     more = [name for name in limits if name not in names]
-    return objectives + (listed_objectives(more) if more else []), limits
+    return objectives + (listed_objectives(more, "target") if more else []), limits
 
 
 def _limit(name: str, value: object) -> float:
@@ -299,7 +323,7 @@ def _limit(name: str, value: object) -> float:
     return number
 
 
-def _axes(places: object, ratios: Sequence[int]) -> Mapping[int, Axis]:
+def _axes(places: object, ratios: Sequence[int]) -> Mapping[float, Axis]:
     """Return ratio → x and y."""
     hint = "give a mapping ratio → (x, y), such as {-1: (0.1, 0.05)}"
     if places is None:

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
+    from crankpin._support.inputs import Order
     from crankpin.analysis.balancing.planes import Turning
     from crankpin.model.engine import Engine
 
@@ -40,7 +41,7 @@ EQUAL = 1e-9
 class Part(NamedTuple):
     """A part of a quantity of one order before shafts are fitted and after, over ω²."""
 
-    order: int
+    order: Order
     quantity: str
     part: str
     """``"forward"`` or ``"backward"``; empty for torque."""
@@ -86,7 +87,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
         return self.engine.with_shafts([*self.engine.shafts, *self.hardware])
 
     @property
-    def orders(self) -> tuple[int, ...]:
+    def orders(self) -> tuple[Order, ...]:
         """Orders that the shafts act on, ascending."""
         return tuple(sorted({abs(each.ratio) for each in self.hardware}))
 
@@ -119,7 +120,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
         return balance(engine, self.rpm, orders=self.orders)
 
     @cached_property
-    def heights(self) -> Mapping[int, Mapping[str, float]]:
+    def heights(self) -> Mapping[Order, Mapping[str, float]]:
         """Order → places of its one pair, ±n with equal forces, that cancel its roll torque.
 
         A pair pushes along one line. With *up* along that line, its roll torque depends on the
@@ -222,7 +223,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
         heads = ("shaft", "ratio", ("x", "m"), ("y", "m"), ("z", "m"), ("unbalance", "kg·m"))
         rows = [
             (
-                f"{k}", f"{shaft.ratio:+d}", shaft.x, shaft.y, weight.z, weight.amount,
+                f"{k}", f"{shaft.ratio:+g}", shaft.x, shaft.y, weight.z, weight.amount,
                 inputs.degrees(weight.angle_deg),
             )
             for k, shaft in enumerate(self.hardware, 1)
@@ -306,7 +307,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
         return tuple(parts)
 
 
-def _is_a_pair(forces: list[tuple[int, complex]]) -> bool:
+def _is_a_pair(forces: list[tuple[Order, complex]]) -> bool:
     """Return whether shafts, as ratio and force, are one pair of opposite ratio and equal force."""
     if len(forces) != 2 or forces[0][0] != -forces[1][0]:
         return False

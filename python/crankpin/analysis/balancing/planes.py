@@ -160,7 +160,7 @@ class Turning(NamedTuple):
     """Moment about the reference plane, kg·m²."""
 
 
-def turning(engine: Engine, ratio: int) -> Turning:
+def turning(engine: Engine, ratio: float) -> Turning:
     """Return the part of an engine's force and moment that turns with a shaft of this ratio."""
     return Turning(*_core.turning(engine_core(engine), ratio))
 

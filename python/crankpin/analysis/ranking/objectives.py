@@ -168,7 +168,7 @@ _PATH = re.compile(
 _ORDER_LAST = re.compile(rf"({'|'.join(QUANTITIES)})(\[[^]]*\])(\..*)")
 
 
-def named(label: str) -> Objective:
+def named(label: str, argument: str = "by") -> Objective:
     """Return the objective of this name."""
     if label == "unevenness_deg":
         words = "root mean square difference of the firing intervals from equal ones"
@@ -176,7 +176,7 @@ def named(label: str) -> Objective:
     # As of results, moment[1] is [1].moment.
     match = _PATH.fullmatch(_ORDER_LAST.sub(r"\2.\1\3", label))
     if not match or (match[1] is None and match[3] in ("forward", "backward")):
-        inputs.one_of("by", label, COMMON)
+        inputs.one_of(argument, label, COMMON)
     assert match is not None  # noqa: S101 - else rejected above
     order = None if match[1] is None else inputs.order(float(match[1]))
     quantity, what = match[2] or match[4], match[3] or match[5]
@@ -224,34 +224,34 @@ def _unevenness(balance: Balance) -> float:
 # --- by function --------------------------------------------------------------------------------
 
 
-def listed(by: object) -> list[Objective]:
+def listed(by: object, argument: str = "by") -> list[Objective]:
     """Return the objectives that names and functions give."""
     if by is None:
         some = ", ".join(f'"{name}"' for name in COMMON[:6])
         hint = f"give the quantity to minimise, such as {some}, or a function of a Balance"
-        raise inputs.rejected("by", by, hint)
+        raise inputs.rejected(argument, by, hint)
     if isinstance(by, str):
         by = [name.strip() for name in by.split(",")]
     elif callable(by):
         by = [by]
     hint = f"give a name ({', '.join(COMMON)}), a function of a Balance, or a list of these"
     objectives: list[Objective] = []
-    for each in inputs.items("by", by, hint):
+    for each in inputs.items(argument, by, hint):
         if isinstance(each, str):
-            objectives.append(named(each))
+            objectives.append(named(each, argument))
         elif callable(each):
             label = _free(each, objectives)
             words = f"{label}{FUNCTION_GIVEN}"
             objectives.append(Objective(label, label, words, "", of_balance=each))
         else:
-            raise inputs.rejected("by", each, hint)
+            raise inputs.rejected(argument, each, hint)
     if not objectives:
-        raise inputs.rejected("by", by, hint)
+        raise inputs.rejected(argument, by, hint)
     twice = {
         each.label for each in objectives if [one.label for one in objectives].count(each.label) > 1
     }
     if twice:
-        raise inputs.rejected("by", by, f"{min(twice)} is given twice; give it once")
+        raise inputs.rejected(argument, by, f"{min(twice)} is given twice; give it once")
     return objectives
 
 

@@ -64,12 +64,13 @@ class GasMap(Record):
         """One of the maps: all have its speeds and loads."""
         return next(each for each in self.maps if each is not None)
 
-    @property
-    def loads_counted(self) -> str:
-        """Gas pressure that counts, in words."""
+    def loads_counted(self, engines: Sequence[Engine], titles: Sequence[str]) -> str:
+        """Return the loads that results of engines with this gas pressure count, in words."""
         distinct = {each for each in self.maps if each is not None}
         names = ["cycle map" if each is not None else None for each in self.maps]
-        return labels.gas_text(names, len(distinct))
+        further = labels.without_gas(labels.loads_of(engines, titles))
+        words = filter(None, [labels.gas_text(names, len(distinct)), further])
+        return labels.Loads("; ".join(words), further)
 
     @cached_property
     def _distinct(self) -> list[CycleMap]:

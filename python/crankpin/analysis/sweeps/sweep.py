@@ -266,7 +266,7 @@ class Sweep(ByOrder[Any]):
         """Loads that count where more could, in words: as :attr:`Balance.loads_counted`."""
         if self.gas_map is None:
             return super().loads_counted
-        return self.request.loads_counted(self.gas_map.loads_counted)
+        return self.request.loads_counted(self.gas_map.loads_counted(self._engines, self._titles))
 
     @property
     def _core(self) -> _core.Sweep:

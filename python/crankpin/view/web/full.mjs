@@ -1,6 +1,6 @@
 // The whole page: three pictures of the engine, dials, phasors and curves over a cycle.
 
-import { scale, unit } from "./complex.mjs";
+import { scale } from "./complex.mjs";
 import { choice } from "./controls.mjs";
 import { html, numbered, show } from "./dom.mjs";
 import { ENDS, Ends } from "./ends.mjs";
@@ -130,8 +130,8 @@ export class Full extends View {
       // At first the engine rocks by up to a third of the crank radius.
       state.exaggeration = largest > 0 ? Math.min(roundBelow((radius / 3) / largest), 5e4) : 1;
     }
-    const turned = Array.from({ length: 91 }, (_, k) => unit(4 * k));
-    const moved = turned.map((crank) => displacement(this.rocking, crank));
+    const angles = Array.from({ length: this.numbers.turn / 4 + 1 }, (_, k) => 4 * k);
+    const moved = angles.map((angle) => displacement(this.rocking, angle));
     const traced = ends.map((z) => moved.map((at) => at(z)));
     this.ends.trace(traced.map((orbit) => orbit.map((at) => scale(at, state.exaggeration))));
     const reach = Math.max(...traced.flat().map(([x, y]) => Math.hypot(x, y)));
@@ -143,8 +143,9 @@ export class Full extends View {
   layoutTimeline() {
     const about = (most) => [-most, most];
     const { curve, numbers, peaks: largest, readouts: { scales } } = this;
+    const { span, turn } = numbers;
     const component = (quantity, k) => ({
-      name: "xy"[k], label: STRINGS.components[quantity][k],
+      name: "xy"[k], span: turn, label: STRINGS.components[quantity][k],
       samples: curve[quantity].map((each) => each[k]), value: (pose) => pose[quantity][k],
     });
     const histories = ["force", "moment"].map((quantity) => ({
@@ -153,9 +154,9 @@ export class Full extends View {
       missing: largest[quantity] ? "" : STRINGS.balanced,
     }));
     const known = curve.torque[0] !== null;
-    const { span } = numbers;
     const fired = this.figures.gas && known;
-    const torques = fired ? ["gas", "inertia", "torque"] : ["torque"];
+    const others = [...(fired ? ["gas"] : []), ...(numbers.loads.size ? ["loads"] : [])];
+    const torques = known && others.length ? [...others, "inertia", "torque"] : ["torque"];
     histories.push({
       title: STRINGS.torque, scale: scales.torque,
       range: about(torques.length > 1
@@ -166,7 +167,8 @@ export class Full extends View {
       })),
       missing: known ? (largest.torque ? "" : STRINGS.balanced) : STRINGS.noTorque,
     });
-    if (fired) histories.push(this.pressures(span), this.crankSpeed(span));
+    if (fired) histories.push(this.pressures(span));
+    if (fired || (torques.length > 1 && this.figures.flywheel !== null)) histories.push(this.crankSpeed(span));
     this.timeline.layout(this.engine, histories, Math.max(this.width, 300));
   }
 
@@ -196,7 +198,7 @@ export class Full extends View {
   }
 
   draw(pose, strokes) {
-    const moved = displacement(this.rocking, pose.crank);
+    const moved = displacement(this.rocking, pose.thetaDeg);
     const rocks = { ...STILL, at: ([, , z]) => [...scale(moved(z), this.state.exaggeration), 0] };
     this.scenes.forEach((scene, k) => scene.pose(pose, strokes, k ? rocks : STILL));
     this.ends.pose(rocks);
@@ -204,7 +206,7 @@ export class Full extends View {
     this.moment.pose(pose.moment);
     this.twist.pose(pose.torque);
     this.orbits.pose(this.scenes[2].dimensions.ends.map(moved));
-    this.phasors.pose(pose.crank);
+    this.phasors.pose(pose.thetaDeg);
     this.timeline.pose(pose);
   }
 }

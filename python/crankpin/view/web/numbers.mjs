@@ -4,7 +4,7 @@
 // polynomials are evaluated at (the rod ratio), or by how much a bank's terms are turned (the bank angle).
 
 import { multiply, reduced, scale, unit } from "./complex.mjs";
-import { chebyshev, factorsAt, orderSum, realSum, summed } from "./series.mjs";
+import { chebyshev, crankAt, factorsAt, orderSum, realSum, summed } from "./series.mjs";
 
 export const angularSpeed = (rpm) => (rpm * 2 * Math.PI) / 60;
 
@@ -14,16 +14,19 @@ export class Numbers {
   /** `figures` is what Python wrote of an engine. */
   constructor(figures, settings) {
     const { terms } = figures;
+    const { loads } = terms;
     const factor = factorsAt(terms.rod_ratios, settings.rod_ratio);
     const square = angularSpeed(settings.rpm) ** 2;
     const shift = (bank) => shiftOf(figures, settings, bank);
-    const planar = summed(terms.planar, factor, (bank, n) => {
+    // Rows of further loads say what they are multiplied by as the speed changes.
+    const ofLoad = ([, , , , , over]) => overSpeed(over, settings.rpm);
+    const planar = summed([...terms.planar, ...loads.planar], (row) => (row.length > 5 ? ofLoad(row) : square * factor(row)), (bank, n) => {
       const { turned, delay } = shift(bank);
       const [forward, backward] = [unit(turned - n * delay), unit(turned + n * delay)];
       return (value, k) => multiply(value, k % 2 ? backward : forward);
     });
     const at = (order) => {
-      const parts = (planar.get(order) ?? NONE).map((part) => scale(part, square));
+      const parts = planar.get(order) ?? NONE;
       const [force, moment] = [parts.slice(0, 2), parts.slice(2)]
         .map(([forward, backward]) => ({ forward, backward }));
       return { order, force, moment };
@@ -38,6 +41,10 @@ export class Numbers {
     this.planar = [...planar.keys()].sort((a, b) => a - b).map(at);
     /** Phasors by order: roll torque of inertia, N·m; moment of inertia of pistons and rods, kg·m². */
     this.inertia = torque && new Map([...first(torque)].map(([n, roll]) => [n, scale(roll, square)]));
+    /** Roll torque of further loads by order, N·m; order 0 is its mean. */
+    const ofLoads = summed(loads.torque, ofLoad, lagging);
+    this.loads = first(ofLoads);
+    this.loadsOnCrank = new Map([...this.loads.keys()].map((n) => [n, ofLoads.get(n)[1]]));
     this.moving = torque && new Map([...torque].flatMap(([n, [, moving]]) => (moving ? [[n, moving]] : [])));
     /** Gas pressure on each piston; null where there is none. */
     this.gas = figures.cylinders.map((given) => (given.cycle === null ? null : {
@@ -48,21 +55,28 @@ export class Numbers {
       swept: first(summed(terms.swept[given.swept] ?? [], factor, () => (value) => value)),
     }));
     this.cycle = figures.strokes === 2 ? 360 : 720;
-    this.span = figures.gas ? this.cycle : 360;
-    /** What the cylinders make one by one. */
+    /** Degrees after which forces and moments repeat, and all that is drawn. */
+    this.turn = this.planar.some(({ order }) => isHalf(order)) ? 720 : 360;
+    this.span = Math.max(this.turn, figures.gas ? this.cycle : 360, [...this.loads.keys()].some(isHalf) ? 720 : 360);
+    /** What the cylinders and further loads make one by one. */
     this.whole = { ...terms.sizes };
     for (const name of ["force", "moment", "torque"]) this.whole[name] *= square;
     this.whole.torque += terms.sizes.gas;
+    for (const [name, rows, from] of [["force", loads.planar, 1], ["moment", loads.planar, 5], ["torque", loads.torque, 1]]) {
+      for (const row of rows) {
+        for (const values of row[3]) this.whole[name] += ofLoad(row) * Math.hypot(...values.slice(from, from + 4));
+      }
+    }
   }
 
   /**
    * Force in N, moment and torque on the block in N·m, and absolute pressures in Pa, at a crank angle.
    *
-   * Torque is null of a given spectrum. `gas` and `inertia` are its parts; `driving` is the torque of the gas
-   * on the main crank, and `moving` the moment of inertia of pistons and rods.
+   * Torque is null of a given spectrum. `gas`, `inertia` and `loads` are its parts; `driving` is the torque of
+   * gas and loads on the main crank, and `moving` the moment of inertia of pistons and rods.
    */
   at(thetaDeg) {
-    const crank = unit(thetaDeg);
+    const crank = crankAt(thetaDeg);
     const { force, moment } = orderSum(this.planar, crank);
     const pressures = this.gas.map((cylinder) => cylinder && this.pressureAt(cylinder, thetaDeg));
     if (!this.inertia) return { force, moment, torque: null, pressures };
@@ -76,7 +90,9 @@ export class Numbers {
     });
     const inertia = realSum(this.inertia, crank);
     const moving = realSum(this.moving, crank);
-    return { force, moment, torque: inertia + gas, inertia, gas, driving, moving, pressures };
+    const loads = realSum(this.loads, crank);
+    driving += realSum(this.loadsOnCrank, crank);
+    return { force, moment, torque: inertia + gas + loads, inertia, gas, loads, driving, moving, pressures };
   }
 
   /** Absolute pressure in a cylinder, Pa: the polynomial of its cycle that counts there. */
@@ -92,8 +108,18 @@ export class Numbers {
   }
 }
 
-/** The first value of each order. */
-const first = (values) => new Map([...values].map(([n, [value]]) => [n, value]));
+/** The first value of each order, ascending. */
+const first = (values) => new Map([...values].map(([n, [value]]) => [n, value]).sort(([a], [b]) => a - b));
+
+const isHalf = (order) => !Number.isInteger(order);
+
+/** Factor of a load at a speed: a power of the angular speed, or the height of a line through three speeds of a table. */
+function overSpeed(over, rpm) {
+  if (!Array.isArray(over)) return angularSpeed(rpm) ** over;
+  const [below, at, above] = over;
+  const end = rpm < at ? below : above;
+  return rpm === at ? 1 : Math.min(Math.max((rpm - end) / (at - end), 0), 1);
+}
 
 /** By how many degrees settings turn a bank, and by how many it follows the crank later. */
 export function shiftOf({ bank_angle_deg: own }, { bank_angle_deg: angle, hold }, bank) {

@@ -1,10 +1,9 @@
 // Phasors of each order, turning: the forward part with the crank, the backward part against it.
 
-import { add, magnitude, multiply } from "./complex.mjs";
+import { add, magnitude, multiply, unit } from "./complex.mjs";
 import { fixed, html, numbered, show } from "./dom.mjs";
 import { scaleFor } from "./format.mjs";
 import { longest } from "./orders.mjs";
-import { turnedBy } from "./series.mjs";
 import { STRINGS } from "./strings.mjs";
 import { Dial } from "./vectors.mjs";
 
@@ -31,8 +30,8 @@ export class Phasors {
     orders.forEach((each, k) => this.cards[k].layout(each, whole));
   }
 
-  pose(crank) {
-    for (const card of this.cards) card.pose(crank);
+  pose(thetaDeg) {
+    for (const card of this.cards) card.pose(thetaDeg);
   }
 }
 
@@ -49,8 +48,8 @@ class Card {
     for (const each of this.pictures) each.layout(parts[each.quantity], whole[each.quantity]);
   }
 
-  pose(crank) {
-    const turned = [turnedBy(crank, this.order), turnedBy(crank, -this.order)];
+  pose(thetaDeg) {
+    const turned = [unit(this.order * thetaDeg), unit(-this.order * thetaDeg)];
     for (const each of this.pictures) each.pose(turned);
   }
 }

@@ -2,7 +2,7 @@
 
 import { DEGREE, add, multiply, reduced, scale, unit } from "./complex.mjs";
 import { shiftOf } from "./numbers.mjs";
-import { turnedBy } from "./series.mjs";
+import { crankAt, turnedBy } from "./series.mjs";
 
 /** Settings that leave the engine as it was given. */
 export function ownSettings({ rpm, bank_angle_deg, rod_ratio }) {
@@ -118,7 +118,7 @@ export function strokesAt({ cylinders, cycle }, thetaDeg) {
 
 /** Places in metres at a crank angle in degrees, and directions of weights. */
 export function placesAt({ cylinders, weights: all }, thetaDeg) {
-  const crank = unit(thetaDeg);
+  const crank = crankAt(thetaDeg);
   return {
     thetaDeg,
     crank,

@@ -1,8 +1,7 @@
 // Motion of the engine as a free rigid body, order by order.
 
-import { add, magnitude, multiply, scale } from "./complex.mjs";
+import { add, magnitude, multiply, scale, unit } from "./complex.mjs";
 import { angularSpeed } from "./numbers.mjs";
-import { turnedBy } from "./series.mjs";
 
 /** Displacement phasors of the crank axis, of the orders given; `block` is a body that moves against its loads. */
 export function rocking({ block, reference_z: reference }, { rpm }, orders) {
@@ -21,12 +20,12 @@ export function rocking({ block, reference_z: reference }, { rpm }, orders) {
   return { parts, reference };
 }
 
-/** Displacement x + iy of the crank axis for e^{iθ}, m: a function of z. */
-export function displacement({ parts, reference }, crank) {
+/** Displacement x + iy of the crank axis at a crank angle, m: a function of z. */
+export function displacement({ parts, reference }, thetaDeg) {
   let [shift, tilt] = [[0, 0], [0, 0]];
   for (const { order, forward, backward } of parts) {
     for (const [part, n] of [[forward, order], [backward, -order]]) {
-      const turned = turnedBy(crank, n);
+      const turned = unit(n * thetaDeg);
       shift = add(shift, multiply(part.shift, turned));
       tilt = add(tilt, multiply(part.tilt, turned));
     }

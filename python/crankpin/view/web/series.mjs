@@ -1,6 +1,6 @@
 // Sums of what the library computed: polynomials, and orders over the crank angle.
 
-import { add, magnitude, multiply } from "./complex.mjs";
+import { add, magnitude, multiply, unit } from "./complex.mjs";
 
 /** Sums below this part of the sum of their terms' magnitudes are rounding, and zero. */
 const ROUNDING = 1e-11;
@@ -48,14 +48,17 @@ export function summed(rows, factor, turn) {
   return new Map([...found].map(([order, sums]) => [order, sums.map(kept)]));
 }
 
-/** e^{inθ} of e^{iθ} for a whole n. */
-export function turnedBy([cos, sin], n) {
-  let [x, y] = [1, 0];
-  for (let k = 0; k < Math.abs(n); k++) [x, y] = [x * cos - y * sin, x * sin + y * cos];
+/** A crank angle: e^{iθ}, and behind it e^{iθ/2}, which turns by half orders are of. */
+export const crankAt = (thetaDeg) => [...unit(thetaDeg), ...unit(0.5 * thetaDeg)];
+
+/** e^{inθ} of a crank angle, or of e^{iθ} alone for a whole n. */
+export function turnedBy([cos, sin, ...half], n) {
+  let [x, y] = Number.isInteger(n) ? [1, 0] : half;
+  for (let k = 1; k <= Math.abs(n); k++) [x, y] = [x * cos - y * sin, x * sin + y * cos];
   return n < 0 ? [x, -y] : [x, y];
 }
 
-/** Real part of Σ phasor·e^{inθ}, of phasors by order, with e^{iθ}. */
+/** Real part of Σ phasor·e^{inθ}, of phasors by order, at a crank angle. */
 export function realSum(phasors, crank) {
   let [sum, reached, power] = [0, 0, [1, 0]];
   for (const [order, [re, im]] of phasors) {
@@ -66,7 +69,7 @@ export function realSum(phasors, crank) {
   return sum;
 }
 
-/** Force and moment of orders: Σ forward·e^{inθ} + backward·e^{−inθ}, with e^{iθ}. */
+/** Force and moment of orders: Σ forward·e^{inθ} + backward·e^{−inθ}, at a crank angle. */
 export function orderSum(orders, crank) {
   const sums = { force: [0, 0], moment: [0, 0] };
   let [reached, power] = [0, [1, 0]];

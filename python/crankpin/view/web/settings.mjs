@@ -13,9 +13,11 @@ export class Settings {
     // Cars' engines reach 8000 rpm, slow ones half as much again as they are shown at first.
     const slow = figures.rpm > 0 && figures.rpm < 1000;
     const fastest = slow ? 1.5 * figures.rpm : Math.max(1.5 * figures.rpm, 8000);
+    // Tables of loads have some speeds.
+    const [lowest, highest] = figures.terms.loads.speeds ?? [0, FASTEST];
     const settle = () => this.show(view.state);
-    this.rpm = pair(STRINGS.speed, STRINGS.speedField, "rpm", 0, fastest, slow ? 0.1 : 10, STRINGS.rpm,
-      (rpm) => view.set({ rpm }), settle, [0, FASTEST]);
+    this.rpm = pair(STRINGS.speed, STRINGS.speedField, "rpm", lowest, Math.min(fastest, highest), slow ? 0.1 : 10, STRINGS.rpm,
+      (rpm) => view.set({ rpm }), settle, [lowest, highest]);
     this.bank = pair(STRINGS.bankAngle, STRINGS.bankAngleField, "bank-angle", 0, 180, 0.5,
       STRINGS.degrees, (bank_angle_deg) => view.set({ bank_angle_deg }), settle);
     this.rod = pair(STRINGS.rodRatio, STRINGS.rodRatioField, "rod-ratio", least, most, 0.001, "",

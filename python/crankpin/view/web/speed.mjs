@@ -11,7 +11,7 @@ const SLOWEST = 1e-4;
 /**
  * Speeds in rpm at equal angles of a cycle, the first repeated at the end; null if the crank would stop.
  *
- * The first integral ½·J(θ)·ω² = E + ∫(T − mean)dθ, where T is the torque of the gas on the crank, J has
+ * The first integral ½·J(θ)·ω² = E + ∫(T − mean)dθ, where T is the torque of gas and loads on the crank, J has
  * pistons and rods, and E makes the mean speed that of turns over time.
  */
 export function speeds({ driving, moving }, { flywheel, rpm, cycle }) {

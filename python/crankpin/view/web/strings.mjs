@@ -50,7 +50,7 @@ export const STRINGS = {
   moment: "Rocking moment",
   crankEnds: "Orbits of the crank ends",
   torque: "Roll torque",
-  torques: { gas: "gas", inertia: "inertia", torque: "whole" },
+  torques: { gas: "gas", loads: "loads", inertia: "inertia", torque: "whole" },
   pressure: "Pressure in the cylinders, absolute",
   asGiven: "How it shakes, at",
   more: "more",

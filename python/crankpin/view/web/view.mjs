@@ -39,11 +39,13 @@ export class View extends Turning {
     this.settings = new Settings(this);
   }
 
-  check({ rod_ratio: ratio }) {
-    const [least, most] = this.figures.terms.rod_ratios;
+  check({ rod_ratio: ratio, rpm }) {
+    const { loads, rod_ratios: [least, most] } = this.figures.terms;
     if (ratio < least || ratio > most) {
       throw new RangeError(`rod_ratio = ${ratio}: ${STRINGS.give} ${least}–${most}`);
     }
+    const [low, high] = loads.speeds ?? [];
+    if (rpm < low || rpm > high) throw new RangeError(`rpm = ${rpm}: ${STRINGS.give} ${low}–${high}`);
   }
 
   follow(changed) {
@@ -82,7 +84,7 @@ export class View extends Turning {
     const { angle_deg: angle } = state;
     const pose = { ...placesAt(engine, angle), ...numbers.at(angle) };
     const within = reduced(angle, engine.cycle);
-    if (speed) pose.speed = between(speed, engine.cycle, within);
+    if (speed) pose.speed = between(speed, numbers.span, reduced(angle, numbers.span));
     this.last = pose;
     this.draw(pose, strokesAt(engine, angle));
     this.handle.pose(pose);

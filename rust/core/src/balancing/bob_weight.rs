@@ -11,6 +11,7 @@ use crate::numbers::error::Result;
 use crate::numbers::figure::rounded;
 use crate::numbers::limits::SMALLEST;
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 use crate::readings::balance::Vector;
 use crate::readings::explain::words::{across, turns};
 use crate::readings::turning::over_square;
@@ -143,7 +144,7 @@ impl FirstOrder {
             if arms == 0.0 { Complex64::default() } else { end.torque.roll - start.torque.roll };
         let roll = Part { start: start.torque.roll, change, size: arms };
         let mut found = Self { force: [Part::default(); 2], moment: [Part::default(); 2], roll };
-        for (sense, ratio) in [1, -1].into_iter().enumerate() {
+        for (sense, ratio) in [1, -1].map(SpeedRatio::whole).into_iter().enumerate() {
             let changes = engine.cranks().iter().any(|crank| crank.ratio == ratio);
             let [one, other] = [&start, &end].map(|wrench| TurningPart::of(wrench, ratio));
             let part = |start: Complex64, end: Complex64, size: f64| {

@@ -17,6 +17,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::ListIndex;
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 use crate::numbers::singular_values::SingularValues;
 use crate::readings::balance::Vector;
 use crate::readings::exact::vanishing::{ProofQuantity, QUANTITIES, Verdict, vanishing_of};
@@ -98,7 +99,7 @@ const NOTHING: f64 = 1e-14;
 
 impl Fit<'_> {
     /// Indices of the planes on cranks of a ratio, by the index of their crank.
-    fn planes_by_crank(&self, engine: &Engine, ratio: i32) -> Vec<(CrankIndex, Vec<usize>)> {
+    fn planes_by_crank(&self, engine: &Engine, ratio: SpeedRatio) -> Vec<(CrankIndex, Vec<usize>)> {
         let of_ratio =
             engine.cranks().indices().filter(|&crank| engine.cranks()[crank].ratio == ratio);
         let on = |crank: CrankIndex| {
@@ -113,7 +114,7 @@ impl Fit<'_> {
     fn wanted(
         &self,
         engine: &Engine,
-        ratio: i32,
+        ratio: SpeedRatio,
         cranks: &[CrankIndex],
         cancel: &Cancel,
     ) -> Result<Vec<[Option<Complex64>; 2]>> {
@@ -157,7 +158,7 @@ impl Fit<'_> {
     fn check(&self, engine: &Engine) -> Result<()> {
         for (k, plane) in self.planes.iter().enumerate() {
             let crank = engine.cranks().get(plane.crank.position());
-            if crank.is_none_or(|crank| crank.ratio.abs() != 1) {
+            if crank.is_none_or(|crank| !crank.ratio.is_crank_speed()) {
                 let hint = "give the number of a crank of ratio 1 or -1, 0 for the main one: \
                             weights on others have no force of order 1";
                 return Err(Error::value(
@@ -205,7 +206,7 @@ pub fn external(engine: &Engine, fit: &Fit, cancel: &Cancel) -> Result<FittedCou
     fit.check(engine)?;
     let (reference, length) = (engine.reference(None)?, fit.compared(engine)?);
     let mut all = FittedCounterweights { list: Vec::new(), exact: true, missing: 0.0 };
-    for ratio in [1, -1] {
+    for ratio in [1, -1].map(SpeedRatio::whole) {
         let by_crank = fit.planes_by_crank(engine, ratio);
         if by_crank.is_empty() {
             continue;
@@ -265,7 +266,7 @@ fn left_by(engine: &Engine, factor: f64) -> Result<Engine> {
 /// integers: of a crank that is `alone` in its sense, to which all of that sense belongs.
 fn can_remove(
     engine: &Engine,
-    ratio: i32,
+    ratio: SpeedRatio,
     alone: bool,
     places: &[f64],
     fit: &Fit,
@@ -311,11 +312,11 @@ fn can_remove(
 fn turning_vanishes(
     engine: &Engine,
     vector: Vector,
-    ratio: i32,
+    ratio: SpeedRatio,
     z: f64,
     cancel: &Cancel,
 ) -> Result<bool> {
-    let quantity = match (vector, ratio > 0) {
+    let quantity = match (vector, ratio.is_forward()) {
         (Vector::Force, true) => ProofQuantity::ForceForward,
         (Vector::Force, false) => ProofQuantity::ForceBackward,
         (Vector::Moment, true) => ProofQuantity::MomentForward,
@@ -330,7 +331,7 @@ fn turning_vanishes(
 #[must_use]
 pub fn bays(engine: &Engine) -> Vec<Bay> {
     let mut bays = engine.bays();
-    bays.retain(|bay| engine.cranks()[bay.crank].ratio.abs() == 1);
+    bays.retain(|bay| engine.cranks()[bay.crank].ratio.is_crank_speed());
     bays
 }
 
@@ -390,7 +391,7 @@ pub fn internal(
             ..one
         }));
     }
-    for ratio in [1, -1] {
+    for ratio in [1, -1].map(SpeedRatio::whole) {
         let kept = kept(engine, ratio, keep, cancel)?;
         if kept != [false; 2] && changes(engine, ratio, kept, &all.list)? {
             keep_sums(engine, fit, bays, (ratio, kept), &mut all, cancel)?;
@@ -419,7 +420,7 @@ fn half(bay: &Bay) -> f64 {
 }
 
 /// Which sums of what turns in a sense are to stay: of the force, of the moment.
-fn kept(engine: &Engine, ratio: i32, keep: Keep, cancel: &Cancel) -> Result<[bool; 2]> {
+fn kept(engine: &Engine, ratio: SpeedRatio, keep: Keep, cancel: &Cancel) -> Result<[bool; 2]> {
     match keep {
         Keep::Named(kept) => Ok(kept),
         Keep::Vanishing => {
@@ -435,7 +436,12 @@ fn lever(vector: usize, z: f64, reference: f64, length: f64) -> f64 {
 }
 
 /// Whether weights change one of the sums, by more than the errors of a fit.
-fn changes(engine: &Engine, ratio: i32, kept: [bool; 2], list: &[FittedWeight]) -> Result<bool> {
+fn changes(
+    engine: &Engine,
+    ratio: SpeedRatio,
+    kept: [bool; 2],
+    list: &[FittedWeight],
+) -> Result<bool> {
     let reference = engine.reference(None)?;
     Ok((0..2).filter(|&vector| kept[vector]).any(|vector| {
         let (mut sum, mut size) = (Complex64::default(), 0.0);
@@ -456,7 +462,7 @@ fn keep_sums(
     engine: &Engine,
     fit: &Fit,
     bays: &[Bay],
-    (ratio, kept): (i32, [bool; 2]),
+    (ratio, kept): (SpeedRatio, [bool; 2]),
     all: &mut FittedCounterweights,
     cancel: &Cancel,
 ) -> Result<()> {

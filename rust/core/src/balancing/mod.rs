@@ -13,12 +13,15 @@ mod least_squares;
 pub mod shafts;
 pub mod weights;
 
+use std::collections::BTreeSet;
+
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::limits::SMALLEST;
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 use crate::readings::turning::over_square;
 pub use crate::readings::turning::{TurningPart, turning};
 
@@ -91,10 +94,9 @@ pub fn appearing(
 ) -> Result<Vec<(Order, Appearing)>> {
     let cranks = after.cranks().iter().map(|crank| crank.ratio);
     let ratios = cranks.chain(after.shafts().iter().map(|shaft| shaft.ratio));
-    let orders: std::collections::BTreeSet<u32> = ratios.map(i32::unsigned_abs).collect();
+    let orders = ratios.map(SpeedRatio::order).collect::<Result<BTreeSet<_>>>()?;
     let mut found = Vec::new();
     for order in orders {
-        let order = Order::whole(order)?;
         // Hardware changes what scales as it does alone.
         let [was, is] = [before, after].map(|engine| {
             let wrench = over_square(&engine.of_speed_squared(), order, true, None, cancel)?;

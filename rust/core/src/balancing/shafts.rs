@@ -13,6 +13,7 @@ use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 use crate::readings::turning::over_square;
 
 /// What a shaft is to remove of its part of an order.
@@ -30,7 +31,7 @@ pub enum Remove {
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShaftRequest {
     /// Speed over crank speed.
-    pub ratio: i32,
+    pub ratio: SpeedRatio,
     /// Axis, x and y from the crank axis, m; None where free.
     pub axis: [Option<f64>; 2],
     /// Places of its unbalances, m; None where free.
@@ -70,12 +71,13 @@ pub fn fit(
     let reference = engine.reference(None)?;
     let mut found = vec![None; wanted.len()];
     let mut beyond: Option<f64> = None;
-    let orders: BTreeSet<u32> = wanted.iter().map(|each| each.ratio.unsigned_abs()).collect();
+    let orders: BTreeSet<Order> =
+        wanted.iter().map(|each| each.ratio.order()).collect::<Result<_>>()?;
     for order in orders {
-        let there = over_square(engine, Order::whole(order)?, true, rpm, cancel)?;
+        let there = over_square(engine, order, true, rpm, cancel)?;
         let torque = there.torque.roll;
         let mut free = Vec::new();
-        for ratio in [order as i32, -(order as i32)] {
+        for ratio in [true, false].map(|forward| SpeedRatio::at(order, forward)) {
             let same: Vec<usize> =
                 (0..wanted.len()).filter(|&k| wanted[k].ratio == ratio).collect();
             let shafts: Vec<&ShaftRequest> = same.iter().map(|&k| &wanted[k]).collect();
@@ -107,7 +109,7 @@ pub fn fit(
 fn place(
     engine: &Engine,
     torque: Complex64,
-    shafts: &[(i32, Complex64, [Option<f64>; 2])],
+    shafts: &[(SpeedRatio, Complex64, [Option<f64>; 2])],
 ) -> (Vec<[f64; 2]>, Option<f64>) {
     let mut axes: Vec<_> =
         shafts.iter().map(|(.., axis)| axis.map(Option::unwrap_or_default)).collect();
@@ -154,10 +156,11 @@ pub fn pair_heights(forward: Complex64, backward: Complex64, torque: Complex64) 
 }
 
 /// Roll torque's phasor for each metre of a shaft's axis along x and y: `x·F_y − y·F_x`.
-fn roll_per_metre(ratio: i32, force: Complex64) -> [Complex64; 2] {
+fn roll_per_metre(ratio: SpeedRatio, force: Complex64) -> [Complex64; 2] {
     // The force's phasors along x and y.
     let i = Complex64::i();
-    let [x, y] = if ratio > 0 { [force, -i * force] } else { [force.conj(), i * force.conj()] };
+    let [x, y] =
+        if ratio.is_forward() { [force, -i * force] } else { [force.conj(), i * force.conj()] };
     [y, -x]
 }
 
@@ -169,7 +172,7 @@ fn unbalances(
     reference: f64,
 ) -> Result<Vec<Vec<Unbalance>>> {
     let [ShaftRequest { ratio, remove, .. }, ..] = wanted else { return Ok(Vec::new()) };
-    let of_shaft = |of_engine: Complex64| -of_engine / f64::from(ratio * ratio);
+    let of_shaft = |of_engine: Complex64| -of_engine / (ratio.number() * ratio.number());
     let none = Complex64::default();
     let target = TurningPart {
         force: if *remove == Remove::Moment { none } else { of_shaft(there.force) },
@@ -219,8 +222,8 @@ pub fn unbalance(vector: Complex64, z: f64) -> Result<Unbalance> {
 }
 
 /// A shaft on the crank axis.
-fn fitted(ratio: i32, unbalances: Vec<Unbalance>, reference: f64) -> Fitted {
-    let square = f64::from(ratio * ratio);
+fn fitted(ratio: SpeedRatio, unbalances: Vec<Unbalance>, reference: f64) -> Fitted {
+    let square = ratio.number() * ratio.number();
     let terms: Vec<TurningPart> = unbalances
         .iter()
         .map(|each| {
@@ -268,13 +271,15 @@ mod tests {
         let force = Complex64::new(0.0, 3e-3);
         for rounding in [0.0, 1e-15, -1e-13, 1e-11] {
             let [one, other] = [(2, force, 0.08), (-2, force * (1.0 + rounding), -0.06)];
-            let shafts = [one, other].map(|(ratio, force, x)| (ratio, force, [Some(x), None]));
+            let shafts = [one, other]
+                .map(|(ratio, force, x)| (SpeedRatio::whole(ratio), force, [Some(x), None]));
             let (axes, beyond) = place(&single(), torque, &shafts);
             // Equal and opposite: the difference of heights is what counts.
             assert!((axes[0][1] + axes[1][1]).abs() < 1e-9 && axes[0][1].abs() < 0.05);
             assert!(beyond.is_none());
         }
-        let (axes, beyond) = place(&single(), torque, &[(2, force * 1e-6, [None, None])]);
+        let (axes, beyond) =
+            place(&single(), torque, &[(SpeedRatio::whole(2), force * 1e-6, [None, None])]);
         assert!(beyond.is_some_and(|distance| distance > 1e3));
         assert_eq!(axes, [[0.0, 0.0]]);
     }

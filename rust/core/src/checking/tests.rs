@@ -105,7 +105,7 @@ fn sources_of_the_house_are_counted_by_every_reading() {
         let mut load = PeriodicLoad::of(Renamed(Arc::clone(source)), ActsOn::Block);
         if source.parts().force == Some(ForcePart::Turning) {
             // The shaft that a force turns with has its speed.
-            load.ratio = source.orders(Order::HIGHEST)[0].number();
+            load.ratio = crate::SpeedRatio::at(source.orders(Order::HIGHEST)[0], true);
         }
         check_source(&load, None).unwrap_or_else(|error| panic!("{kind}: {error}"));
         kinds.push(kind);

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::{Derived, Objective, ObjectiveQuantity, Reading};
 use crate::Complex64;
+use crate::numbers::ratio::SpeedRatio;
 
 /// Crank angles to the shortest wave at which peaks are looked for.
 const SAMPLES: usize = 12;
@@ -20,16 +21,17 @@ pub(super) struct Rotor {
     pub rates: Vec<f64>,
 }
 
-/// Part of a quantity that turns at a multiple of crank speed, negative against the crank.
+/// Part of a quantity that turns at a multiple of crank speed.
 #[derive(Debug, Clone)]
 pub(super) struct TurningPhasor {
+    /// Multiple of crank speed, negative against the crank; or of half of it.
     speed: i64,
     rotors: Vec<Rotor>,
 }
 
 impl TurningPhasor {
-    pub fn new(speed: i64) -> Self {
-        Self { speed, rotors: Vec::new() }
+    pub fn new(speed: SpeedRatio) -> Self {
+        Self { speed: speed.halves().into(), rotors: Vec::new() }
     }
 
     pub fn extend(&mut self, sum: &[Rotor], factor: Complex64) {
@@ -91,12 +93,18 @@ pub(super) struct ObjectiveFunction {
     parts: Vec<TurningPhasor>,
     /// Largest value that it could have: that of all phasors in phase.
     pub scale: f64,
-    /// `e^{iθ}` at the crank angles of the samples.
+    /// `e^{iθ}`, or of half the crank angle, at those of the samples.
     units: Vec<Complex64>,
 }
 
 impl ObjectiveFunction {
-    pub fn new(objective: Objective, parts: Vec<TurningPhasor>) -> Self {
+    pub fn new(objective: Objective, mut parts: Vec<TurningPhasor>) -> Self {
+        if parts.iter().all(|part| part.speed % 2 == 0) {
+            // All is over in a turn.
+            for part in &mut parts {
+                part.speed /= 2;
+            }
+        }
         let sizes = parts.iter().flat_map(|part| &part.rotors).map(|each| each.phasor.norm());
         let scale: f64 = sizes.sum();
         let highest = parts.iter().map(|part| part.speed.unsigned_abs() as usize).max();

@@ -1,5 +1,6 @@
 //! Engines as TOML and JSON, with a schema version; what is written reads back as the same engine.
 
+use std::mem;
 use std::sync::Arc;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -14,7 +15,9 @@ use crate::mounts::file::PowertrainEntry;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result, shorten};
 use crate::numbers::index::ListIndex;
-use crate::pressure::{ATMOSPHERE, Cycle};
+use crate::numbers::ratio::SpeedRatio;
+use crate::pressure::example::{Kind, full_load};
+use crate::pressure::{ATMOSPHERE, Cycle, Given};
 
 /// Version of the schema that this file reads and writes.
 pub const SCHEMA: u32 = 1;
@@ -58,8 +61,8 @@ struct EngineFile {
     #[serde(default, skip_serializing_if = "is_default")]
     crankcase: Option<f64>,
     /// Pressure in cylinders over a cycle.
-    #[serde(default, skip_serializing_if = "is_default")]
-    cycles: Vec<Cycle>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    cycles: Vec<CycleOfFile>,
     /// The engine's body and its mounts, which an engine alone does not have.
     #[serde(default, skip_serializing_if = "is_default")]
     powertrain: Option<PowertrainEntry>,
@@ -70,7 +73,7 @@ struct EngineFile {
 struct OtherCrank {
     x: f64,
     y: f64,
-    ratio: i32,
+    ratio: SpeedRatio,
 }
 
 #[derive(Serialize, Deserialize, Clone, Copy, PartialEq)]
@@ -160,12 +163,111 @@ struct WeightEntry {
 struct BalanceShaft {
     #[serde(default, skip_serializing_if = "is_default")]
     name: String,
-    ratio: i32,
+    ratio: SpeedRatio,
     #[serde(default)]
     x: f64,
     #[serde(default)]
     y: f64,
     unbalances: Vec<WeightEntry>,
+}
+
+/// A cycle, and the example by whose name it is written instead of its points.
+#[derive(Serialize, Deserialize, Clone)]
+#[serde(try_from = "CycleEntry", into = "CycleEntry")]
+struct CycleOfFile {
+    cycle: Arc<Cycle>,
+    example: Option<Kind>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CycleEntry {
+    /// `petrol` or `diesel`: that example at full load, in place of points.
+    #[serde(default, skip_serializing_if = "is_default")]
+    example: Option<String>,
+    #[serde(default, skip_serializing_if = "is_default")]
+    name: String,
+    /// Absent: 4, of an example.
+    #[serde(default, skip_serializing_if = "is_default")]
+    strokes: Option<u32>,
+    #[serde(default, skip_serializing_if = "is_default")]
+    theta_deg: Option<Vec<f64>>,
+    #[serde(default, skip_serializing_if = "is_default")]
+    pressure: Option<Vec<f64>>,
+    #[serde(default, skip_serializing_if = "is_default")]
+    degree: Option<usize>,
+}
+
+impl From<CycleOfFile> for CycleEntry {
+    fn from(of_file: CycleOfFile) -> Self {
+        let Given { name, strokes, theta_deg, pressure, degree } = of_file.cycle.given().clone();
+        if let Some(kind) = of_file.example {
+            return Self {
+                example: Some(kind.name().to_owned()),
+                strokes: (strokes != 4).then_some(strokes),
+                name: String::new(),
+                theta_deg: None,
+                pressure: None,
+                degree: None,
+            };
+        }
+        let (theta_deg, pressure) = (Some(theta_deg), Some(pressure));
+        Self { example: None, name, strokes: Some(strokes), theta_deg, pressure, degree }
+    }
+}
+
+impl TryFrom<CycleEntry> for CycleOfFile {
+    type Error = Error;
+
+    fn try_from(entry: CycleEntry) -> Result<Self> {
+        let CycleEntry { example, name, strokes, theta_deg, pressure, degree } = entry;
+        let Some(example) = example else {
+            let missing = |entry: &str| {
+                Error::value(entry, "None", "give strokes, theta_deg and pressure, or example")
+            };
+            let strokes = strokes.ok_or_else(|| missing("strokes"))?;
+            let theta_deg = theta_deg.ok_or_else(|| missing("theta_deg"))?;
+            let pressure = pressure.ok_or_else(|| missing("pressure"))?;
+            let cycle = Cycle::new(Given { name, strokes, theta_deg, pressure, degree })?;
+            return Ok(Self { cycle: Arc::new(cycle), example: None });
+        };
+        let kind = Kind::ALL.into_iter().find(|kind| kind.name() == example);
+        let kind = kind.ok_or_else(|| {
+            let hint = format!("give one of {}", Kind::ALL.map(Kind::name).join(", "));
+            Error::value("example", shorten(&example), hint)
+        })?;
+        for (name, beside) in [
+            ("name", !name.is_empty()),
+            ("theta_deg", theta_deg.is_some()),
+            ("pressure", pressure.is_some()),
+            ("degree", degree.is_some()),
+        ] {
+            if beside {
+                let hint = "is given beside example, which has its own; leave one of the two out";
+                return Err(Error::value(name, "given", hint));
+            }
+        }
+        let strokes = Strokes::from_number(strokes.unwrap_or(4))?;
+        Ok(Self { cycle: full_load(kind, strokes)?, example: Some(kind) })
+    }
+}
+
+impl CycleOfFile {
+    fn by_points(cycle: &Arc<Cycle>) -> Self {
+        Self { cycle: Arc::clone(cycle), example: None }
+    }
+
+    /// The same, by name if it is an example at full load.
+    fn by_name(self) -> Result<Self> {
+        let mut example = None;
+        for kind in Kind::ALL {
+            let has_name = self.cycle.given().name == kind.name_at_full_load();
+            if has_name && *full_load(kind, self.cycle.strokes())? == *self.cycle {
+                example = Some(kind);
+            }
+        }
+        Ok(Self { example, ..self })
+    }
 }
 
 impl WeightEntry {
@@ -327,7 +429,7 @@ impl EngineFile {
                 .collect(),
             crankcase: engine.gas().map(|gas| gas.crankcase),
             cycles: engine.gas().map_or_else(Vec::new, |gas| {
-                gas.cycles.iter().map(|cycle| Cycle::clone(cycle)).collect()
+                gas.cycles.iter().map(CycleOfFile::by_points).collect()
             }),
             powertrain: None,
         })
@@ -339,9 +441,13 @@ impl EngineFile {
         Ok((self.engine()?, powertrain))
     }
 
-    fn with_powertrain(mut self, powertrain: Option<&Powertrain>) -> Self {
-        self.powertrain = powertrain.map(PowertrainEntry::of);
-        self
+    /// What is written of an engine for people, and its body on mounts: examples by name.
+    fn mounted_of(engine: &Engine, powertrain: Option<&Powertrain>) -> Result<Self> {
+        let mut file = Self::of(engine)?;
+        let cycles = mem::take(&mut file.cycles).into_iter();
+        file.cycles = cycles.map(CycleOfFile::by_name).collect::<Result<_>>()?;
+        file.powertrain = powertrain.map(PowertrainEntry::of);
+        Ok(file)
     }
 
     /// Pressure in the cylinders.
@@ -366,7 +472,7 @@ impl EngineFile {
             index.map_err(|number| Error::value(format!("placements[{i}].cycle"), number, hint))
         };
         Ok(Some(Gas {
-            cycles: self.cycles.iter().cloned().map(Arc::new).collect(),
+            cycles: self.cycles.iter().map(|of_file| Arc::clone(&of_file.cycle)).collect(),
             cycle_of: self.placements.iter().enumerate().map(cycle).collect::<Result<_>>()?,
             crankcase: self.crankcase.unwrap_or(ATMOSPHERE),
             later: self.placements.iter().map(|place| place.second_turn.unwrap_or(false)).collect(),
@@ -468,13 +574,13 @@ pub fn to_json(engine: &Engine) -> Result<String> {
 
 /// An engine, and its body on mounts, as TOML.
 pub fn mounted_to_toml(engine: &Engine, powertrain: Option<&Powertrain>) -> Result<String> {
-    let file = EngineFile::of(engine)?.with_powertrain(powertrain);
+    let file = EngineFile::mounted_of(engine, powertrain)?;
     toml::to_string(&file).map_err(|e| unreadable("TOML", &e))
 }
 
 /// An engine, and its body on mounts, as JSON.
 pub fn mounted_to_json(engine: &Engine, powertrain: Option<&Powertrain>) -> Result<String> {
-    let file = EngineFile::of(engine)?.with_powertrain(powertrain);
+    let file = EngineFile::mounted_of(engine, powertrain)?;
     serde_json::to_string_pretty(&file).map_err(|e| unreadable("JSON", &e))
 }
 
@@ -665,11 +771,12 @@ mod tests {
             crank: CrankIndex::MAIN,
         });
         let weights = proptest::collection::vec(weight, 0..3);
-        let shaft = (prop_oneof![-2..0, 1..3], [-9.0..9.0, -9.0..9.0], weights.clone());
+        let shaft = (prop_oneof![-5..0, 1..5], [-9.0..9.0, -9.0..9.0], weights.clone());
         let shaft = shaft.prop_map(|(ratio, axis, mut unbalances)| {
             for unbalance in &mut unbalances {
                 unbalance.pin = None;
             }
+            let ratio = SpeedRatio::from_halves(ratio);
             Shaft { name: format!("{ratio}"), ratio, axis, unbalances }
         });
         let shafts = proptest::collection::vec(shaft, 0..3);
@@ -690,7 +797,7 @@ mod tests {
                 let details = (0..engine.stations().len()).map(details).collect();
                 let engine = engine.with_details(details).unwrap();
                 let engine = engine.with_reference(Some(0.125)).unwrap();
-                let other = Crank { axis: [0.25, -0.125], ratio: -1 };
+                let other = Crank { axis: [0.25, -0.125], ratio: SpeedRatio::whole(-1) };
                 let crank_of = (0..engine.stations().len()).map(|i| i % 2).collect();
                 let engine = engine.with_cranks(vec![Crank::MAIN, other], crank_of).unwrap();
                 let engine =
@@ -776,7 +883,7 @@ mod tests {
         };
         let shaft = Shaft {
             name: String::new(),
-            ratio: -2,
+            ratio: SpeedRatio::whole(-2),
             axis: [0.1, 0.2],
             unbalances: vec![weight; limits::MOST_UNBALANCES],
         };
@@ -886,6 +993,52 @@ mod tests {
         }
         let axes = "tilt_deg = 45.0\naxes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]";
         assert!(error("tilt_deg = 45.0", axes).starts_with(said));
+    }
+
+    #[test]
+    fn examples_at_full_load_are_written_by_name() {
+        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+        let (tdc, bank) = (Angle::ZERO, Angle::QUARTER_TURN);
+        let place = Station { cylinder, tdc, bank, z: 0.0, rotating_mass: 0.0 };
+        let bore = Details { bore: Some(0.086), ..Details::default() };
+        let bare = Engine::new("", "", vec![place]).unwrap().with_details(vec![bore]).unwrap();
+        let fired = |cycle: Cycle| {
+            let (cycles, cycle_of) = (vec![Arc::new(cycle)], vec![Some(0)]);
+            let gas = Gas { cycles, cycle_of, crankcase: ATMOSPHERE, later: vec![false] };
+            let strokes = gas.cycles[0].strokes();
+            bare.firing_as("", strokes).unwrap().with_gas(gas).unwrap()
+        };
+        let all = |kind| [Strokes::Four, Strokes::Two].map(|strokes| (kind, strokes));
+        for (kind, strokes) in Kind::ALL.into_iter().flat_map(all) {
+            let example = Cycle::clone(&full_load(kind, strokes).unwrap());
+            let mut points = example.given().clone();
+            points.pressure[3] = points.pressure[3].next_up();
+            let mut renamed = example.given().clone();
+            renamed.name = "mine".to_owned();
+            let [points, renamed] = [points, renamed].map(|given| Cycle::new(given).unwrap());
+            for (cycle, by_name) in [(example, true), (points, false), (renamed, false)] {
+                let engine = fired(cycle);
+                for text in [to_toml(&engine).unwrap(), to_json(&engine).unwrap()] {
+                    assert_eq!(!text.contains("pressure"), by_name, "{text}");
+                }
+                assert_eq!(from_toml(&to_toml(&engine).unwrap()).unwrap(), engine);
+                assert_eq!(from_json(&to_json(&engine).unwrap()).unwrap(), engine);
+                assert_eq!(from_state(&to_state(&engine).unwrap()).unwrap(), engine);
+            }
+        }
+        let example = Cycle::clone(&full_load(Kind::Diesel, Strokes::Four).unwrap());
+        let text = to_toml(&fired(example)).unwrap();
+        let error =
+            |from: &str, to: &str| from_toml(&text.replacen(from, to, 1)).unwrap_err().to_string();
+        let line = "example = \"diesel\"";
+        assert!(error(line, "example = \"steam\"").contains("give one of petrol, diesel"));
+        assert!(error(line, "").contains("strokes = None: give strokes"));
+        for beside in ["name = \"a\"", "theta_deg = [0]", "pressure = []", "degree = 3"] {
+            let (name, _) = beside.split_once(' ').unwrap();
+            let said = format!("{name} = given: is given beside example");
+            let error = error(line, &format!("{line}\n{beside}"));
+            assert!(error.contains(&said), "{error}");
+        }
     }
 
     #[test]

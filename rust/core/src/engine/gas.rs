@@ -62,7 +62,7 @@ impl Engine {
     #[must_use]
     pub fn fires_in_main_cycles(&self) -> bool {
         let is_slow = |(of, &crank): (&super::Details, &CrankIndex)| {
-            of.dummy || self.cranks[crank].ratio.abs() == 1
+            of.dummy || self.cranks[crank].ratio.is_crank_speed()
         };
         self.details.iter().zip(&self.crank_of).all(is_slow)
     }
@@ -172,7 +172,7 @@ impl Engine {
     pub(crate) fn check_cycle_is_of_main_crank(&self, cylinder: usize, what: &str) -> Result<()> {
         let crank = self.crank_of[cylinder];
         let ratio = self.cranks[crank].ratio;
-        if ratio.abs() == 1 {
+        if ratio.is_crank_speed() {
             return Ok(());
         }
         let hint = format!("{what} on cranks of ratio 1 or -1, whose cycles are the main crank's");

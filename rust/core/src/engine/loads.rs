@@ -12,17 +12,6 @@ impl Engine {
     /// not fire, and the names of further loads.
     #[must_use]
     pub fn loads_counted(&self) -> String {
-        self.pressure_and("loads")
-    }
-
-    /// The same of a picture, which turns with pistons, pressure and unbalances alone.
-    #[must_use]
-    pub fn loads_drawn(&self) -> String {
-        self.pressure_and("without the loads")
-    }
-
-    /// Which pressure counts, and what is said before the names of further loads.
-    fn pressure_and(&self, before: &str) -> String {
         let gas = match self.gas() {
             Some(gas) => {
                 let name =
@@ -32,6 +21,13 @@ impl Engine {
             }
             None => gas_text(&[], 0),
         };
+        let further = self.further_loads();
+        if further.is_empty() { gas } else { format!("{gas}; {further}") }
+    }
+
+    /// The further loads alone, in words; empty where there are none.
+    #[must_use]
+    pub fn further_loads(&self) -> String {
         let mut names: Vec<String> = Vec::new();
         for load in self.loads() {
             let name = in_one_line(&load.name);
@@ -40,9 +36,9 @@ impl Engine {
             }
         }
         if names.is_empty() {
-            return gas;
+            return String::new();
         }
-        format!("{gas}; {before}: {}", cut(&names.join(", "), LONGEST_NAMES))
+        format!("loads: {}", cut(&names.join(", "), LONGEST_NAMES))
     }
 
     /// Number of cycles of the cylinders that differ.

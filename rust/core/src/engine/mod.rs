@@ -347,8 +347,8 @@ impl Engine {
     #[must_use]
     pub fn direction(&self, unbalance: &Unbalance) -> Angle {
         let Some(i) = unbalance.pin else { return unbalance.angle.reduced() };
-        let turns_back = self.cranks[self.crank_of[i]].ratio < 0;
-        let ahead = if turns_back { Angle::ZERO - unbalance.angle } else { unbalance.angle };
+        let is_forward = self.cranks[self.crank_of[i]].ratio.is_forward();
+        let ahead = if is_forward { unbalance.angle } else { -unbalance.angle };
         (self.pin(i) + ahead).reduced()
     }
 
@@ -453,7 +453,7 @@ impl Engine {
     pub(crate) fn mean_piston_speed_of(&self, rpm: f64, travel: impl Fn(&Cylinder) -> f64) -> f64 {
         let per_turn = |i: usize| {
             let ratio = self.cranks[self.crank_of[i]].ratio;
-            2.0 * travel(&self.stations[i].cylinder) * f64::from(ratio.abs())
+            2.0 * travel(&self.stations[i].cylinder) * ratio.size()
         };
         (0..self.stations.len()).map(per_turn).fold(0.0, f64::max) * rpm / 60.0
     }
@@ -475,11 +475,11 @@ impl Engine {
         // What is fixed to a shaft starts from where it was so much earlier.
         for weight in turned.counterweights.iter_mut().filter(|weight| weight.pin.is_none()) {
             let ratio = self.cranks[weight.crank].ratio;
-            weight.angle = (weight.angle - turn.times(ratio)).reduced();
+            weight.angle = (weight.angle - ratio.turned(turn)).reduced();
         }
         for shaft in &mut turned.shafts {
             for unbalance in &mut shaft.unbalances {
-                unbalance.angle = (unbalance.angle - turn.times(shaft.ratio)).reduced();
+                unbalance.angle = (unbalance.angle - shaft.ratio.turned(turn)).reduced();
             }
         }
         turned
@@ -493,12 +493,17 @@ impl Engine {
             return Err(Error::value("cranks[0]", format!("{:?}", cranks.first()), hint));
         }
         for (k, crank) in cranks.iter().enumerate() {
-            shaft::check_rotation(&format!("cranks[{k}]"), crank.ratio, crank.axis)?;
+            shaft::check_rotation(&format!("cranks[{k}]."), crank.ratio, crank.axis)?;
         }
         check_each_cylinder("crank_of", crank_of.len(), self.stations.len())?;
         if let Some(k) = crank_of.iter().position(|&crank| crank >= cranks.len()) {
             let hint = format!("give the number of a crank, below {}", cranks.len());
             return Err(Error::value(format!("crank_of[{k}]"), crank_of[k], hint));
+        }
+        if let Some(&k) = crank_of.iter().find(|&&k| cranks[k].ratio.as_whole().is_none()) {
+            let hint = "cylinders need a crank at a whole multiple of the speed of the main one: on \
+                        others they come to top dead centre elsewhere in every second turn";
+            return Err(Error::value(format!("cranks[{k}].ratio"), cranks[k].ratio, hint));
         }
         let crank_of = crank_of.into_iter().map(CrankIndex::new).collect();
         let engine = Self { cranks: List::new(cranks), crank_of, ..self.clone() };
@@ -611,6 +616,7 @@ fn check_each_cylinder(argument: &str, found: usize, expected: usize) -> Result<
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numbers::ratio::SpeedRatio;
 
     fn degrees(degrees: f64) -> Angle {
         Angle::from_degrees(degrees).unwrap()
@@ -735,7 +741,7 @@ mod tests {
             ..PeriodicLoad::new("pump", ActsOn::Both)
         };
         let engine = vee(60.0, 120.0);
-        let other = Crank { axis: [0.3, 0.0], ratio: -1 };
+        let other = Crank { axis: [0.3, 0.0], ratio: SpeedRatio::whole(-1) };
         let count = engine.stations().len();
         let two = engine.with_cranks(vec![Crank::MAIN, other], vec![0; count]).unwrap();
         let loaded = two.with_loads(vec![load]).unwrap();
@@ -750,7 +756,12 @@ mod tests {
     #[test]
     fn turning_the_crank_back_restores_the_engine() {
         let unbalances = vec![weight(10.0, None)];
-        let shaft = Shaft { name: "left".into(), ratio: -2, axis: [0.1, 0.2], unbalances };
+        let shaft = Shaft {
+            name: "left".into(),
+            ratio: SpeedRatio::whole(-2),
+            axis: [0.1, 0.2],
+            unbalances,
+        };
         let engine = vee(60.0, 120.0)
             .with_counterweights(vec![weight(180.0, Some(1)), weight(30.0, None)])
             .and_then(|engine| engine.with_shafts(vec![shaft]))
@@ -788,13 +799,23 @@ mod tests {
     fn impossible_shafts_are_rejected_by_name() {
         let engine = vee(60.0, 120.0);
         let error = |shaft: Shaft| engine.with_shafts(vec![shaft]).unwrap_err().to_string();
-        let shaft = Shaft { name: String::new(), ratio: 0, axis: [0.0; 2], unbalances: Vec::new() };
+        let shaft = Shaft {
+            name: String::new(),
+            ratio: SpeedRatio::whole(0),
+            axis: [0.0; 2],
+            unbalances: Vec::new(),
+        };
         assert!(error(shaft.clone()).contains("shafts[0].ratio = 0"));
-        assert!(error(Shaft { ratio: 21, ..shaft.clone() }).contains("ratio = 21"));
+        assert!(
+            error(Shaft { ratio: SpeedRatio::whole(21), ..shaft.clone() }).contains("ratio = 21")
+        );
         let axis = [0.0, f64::NAN];
-        assert!(error(Shaft { ratio: 1, axis, ..shaft.clone() }).contains("shafts[0].y = NaN"));
+        assert!(
+            error(Shaft { ratio: SpeedRatio::whole(1), axis, ..shaft.clone() })
+                .contains("shafts[0].y = NaN")
+        );
         let unbalances = vec![weight(0.0, Some(0))];
-        let pinned = Shaft { ratio: 1, unbalances, ..shaft };
+        let pinned = Shaft { ratio: SpeedRatio::whole(1), unbalances, ..shaft };
         assert!(error(pinned).contains("shafts[0].unbalances[0].pin"));
         let error = engine.with_counterweights(vec![weight(0.0, Some(2))]).unwrap_err().to_string();
         assert!(error.contains("counterweights[0].pin = 3"), "{error}");

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use num_traits::One;
 use serde::{Deserialize, Serialize};
 
 use super::{Crank, CrankIndex, Engine};
@@ -11,6 +10,8 @@ use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::ListIndex;
 use crate::numbers::limits;
+use crate::numbers::ratio::SpeedRatio;
+use crate::numbers::typed::{Field, Form};
 use crate::source::{GAS, INERTIA, Scaling, Source};
 
 /// Most loads of an engine.
@@ -146,10 +147,9 @@ pub struct PeriodicLoad {
     /// Index of the crank that is its shaft, if one is.
     #[serde(default, skip_serializing_if = "is_default")]
     pub crank: Option<usize>,
-    /// Speed of a shaft of its own over that of the main crank, negative where it turns the other way: a
-    /// multiple of a half.
-    #[serde(default = "One::one", skip_serializing_if = "One::is_one")]
-    pub ratio: f64,
+    /// Speed of a shaft of its own.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub ratio: SpeedRatio,
     /// Axis of a shaft of its own, x and y from that of the main crank, m.
     #[serde(default, skip_serializing_if = "is_default")]
     pub axis: [f64; 2],
@@ -207,7 +207,7 @@ impl PeriodicLoad {
             turning: false,
             z: 0.0,
             crank: None,
-            ratio: 1.0,
+            ratio: SpeedRatio::ONE,
             axis: [0.0; 2],
             cylinder: None,
         }
@@ -248,21 +248,10 @@ impl PeriodicLoad {
             return Err(Error::value(named("force"), "none", hint));
         }
         limits::finite(&named("z"), self.z)?;
-        for (k, axis) in ["x", "y"].into_iter().zip(self.axis) {
-            limits::finite(&named(k), axis)?;
-        }
-        let halves = 2.0 * self.ratio;
-        let fastest = 2.0 * f64::from(super::shaft::FASTEST);
-        if halves == 0.0 || halves.fract() != 0.0 || halves.abs() > fastest {
-            let hint = format!(
-                "give a multiple of 1/2 but 0, to {}, negative where it turns against the crank",
-                super::shaft::FASTEST
-            );
-            return Err(Error::figure(named("ratio"), self.ratio, hint));
-        }
-        if self.crank.is_some() && (self.ratio != 1.0 || self.axis != [0.0; 2]) {
+        super::shaft::check_rotation(place, self.ratio, self.axis)?;
+        if self.crank.is_some() && self.own_shaft() != Crank::MAIN {
             let hint = "is that of the crank that it sits on; leave it out, or the crank";
-            return Err(Error::figure(named("ratio"), self.ratio, hint));
+            return Err(Error::value(named("ratio"), self.ratio, hint));
         }
         self.phase_deg = in_two_turns(self.phase_deg);
         self.direction_deg = self.direction_deg.reduced();
@@ -307,22 +296,20 @@ impl PeriodicLoad {
         self.on != ActsOn::Both
     }
 
+    fn own_shaft(&self) -> Crank {
+        Crank { axis: self.axis, ratio: self.ratio }
+    }
+
     /// Its shaft.
     #[must_use]
-    pub fn shaft(&self, engine: &Engine) -> ([f64; 2], f64) {
-        match self.crank {
-            Some(crank) => {
-                let Crank { axis, ratio } = engine.cranks()[CrankIndex::new(crank)];
-                (axis, f64::from(ratio))
-            }
-            None => (self.axis, self.ratio),
-        }
+    pub fn shaft(&self, engine: &Engine) -> Crank {
+        self.crank.map_or_else(|| self.own_shaft(), |crank| engine.cranks()[CrankIndex::new(crank)])
     }
 
     /// Index of the crank that it sits on: one that was named, or the main one where it has no shaft of its own.
     #[must_use]
     pub fn on_crank(&self) -> Option<usize> {
-        self.crank.or((self.ratio == 1.0 && self.axis == [0.0; 2]).then_some(0))
+        self.crank.or((self.own_shaft() == Crank::MAIN).then_some(0))
     }
 }
 
@@ -332,6 +319,42 @@ fn in_two_turns(angle: Angle) -> Angle {
 }
 
 impl Amplitudes {
+    /// Reads amplitudes as they are typed: `2:8, 4:1.5@-30, 6:4-1j`, order and size at a phase in degrees, or
+    /// complex number; of a table one for each speed, `2:8/9/12`.
+    pub fn typed(text: &str, field: &Field) -> Result<Self> {
+        let form = "give ORDER:SIZE, ORDER:SIZE@DEGREES or ORDER:A+Bj, such as 2:8,4:1.5@-30";
+        let wrong = || Error::value(field.argument, text.trim(), form);
+        let number = |text: &str| -> Result<f64> {
+            let read = field.read(text, Form::Number)?;
+            read.values.first().copied().ok_or_else(wrong)
+        };
+        let amplitude = |text: &str| -> Result<Complex64> {
+            if let Some((size, phase)) = text.split_once('@') {
+                let phase: Angle =
+                    phase.trim().trim_end_matches('°').parse().map_err(|_| wrong())?;
+                return Ok(phase.cis(1) * number(size)?);
+            }
+            let Some((parts, unit)) = text.split_once('j') else {
+                return Ok(number(text)?.into());
+            };
+            // The sign between the parts: one that begins a number or its exponent is none.
+            let between = parts.char_indices().rev().find(|&(k, sign)| {
+                k > 0 && matches!(sign, '+' | '-' | '−') && !parts[..k].ends_with(['e', 'E'])
+            });
+            let (re, im) = parts.split_at(between.map_or(0, |(k, _)| k));
+            let part = |text: &str| number(&format!("{} {unit}", text.replace(' ', "")));
+            Ok(Complex64::new(if re.trim().is_empty() { 0.0 } else { part(re)? }, part(im)?))
+        };
+        let entries = text.split([',', ';']).map(str::trim).filter(|entry| !entry.is_empty());
+        let rows = entries.map(|entry| {
+            let (order, values) = entry.split_once(':').ok_or_else(wrong)?;
+            let order = halves(order.trim().parse().map_err(|_| wrong())?)?;
+            Ok((order, values.split('/').map(amplitude).collect::<Result<_>>()?))
+        });
+        let rows: Vec<_> = rows.collect::<Result<_>>()?;
+        if rows.is_empty() { Err(wrong()) } else { Ok(Self(rows)) }
+    }
+
     fn check(&mut self, place: &str, rows: usize, no_mean: &str) -> Result<()> {
         self.0.sort_by_key(|(halves, _)| *halves);
         if let Some(pair) = self.0.windows(2).find(|pair| pair[0].0 == pair[1].0) {
@@ -404,11 +427,24 @@ impl Engine {
         Self { loads: self.loads.iter().filter(scales).cloned().collect(), ..self.without_gas() }
     }
 
+    /// Loads tabulated over speed, with their first and last crank speed, rpm.
+    fn tables(&self) -> impl Iterator<Item = (&PeriodicLoad, [f64; 2])> {
+        self.loads.iter().filter_map(|load| match &load.over_speed {
+            OverSpeed::Table(rpm) => Some((load, [rpm[0], rpm[rpm.len() - 1]])),
+            OverSpeed::Independent | OverSpeed::SpeedSquared(_) => None,
+        })
+    }
+
+    /// Lowest and highest crank speed that every table of a load has, rpm; none without tables.
+    #[must_use]
+    pub fn speeds_of_tables(&self) -> Option<[f64; 2]> {
+        let ends = self.tables().map(|(_, ends)| ends);
+        ends.reduce(|[low, high], [first, last]| [low.max(first), high.min(last)])
+    }
+
     /// Rejects crank speeds that a load's table does not have, rpm.
     pub(crate) fn check_speeds(&self, rpm: &[f64]) -> Result<()> {
-        for load in &self.loads {
-            let OverSpeed::Table(table) = &load.over_speed else { continue };
-            let (first, last) = (table[0], table[table.len() - 1]);
+        for (load, [first, last]) in self.tables() {
             if let Some(&outside) = rpm.iter().find(|&&rpm| rpm < first || rpm > last) {
                 let hint = format!("{:?} is given from {first} to {last} rpm", load.name);
                 return Err(Error::figure("rpm", outside, hint));

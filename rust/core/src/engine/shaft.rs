@@ -5,6 +5,7 @@ use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::ListIndex;
 use crate::numbers::limits;
+use crate::numbers::ratio::SpeedRatio;
 
 /// Mass times eccentricity on a shaft (unbalance, ISO 21940).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,7 +43,7 @@ pub struct Shaft {
     /// Name, may be empty.
     pub name: String,
     /// Speed over crank speed; negative where it turns against the crank.
-    pub ratio: i32,
+    pub ratio: SpeedRatio,
     /// Place of its axis in the cross-section, x and y from the crank axis, m.
     pub axis: [f64; 2],
     /// What it carries; angles from +x, none at a pin.
@@ -56,43 +57,44 @@ pub struct Crank {
     /// Place of its axis in the cross-section, x and y from the main crank's, m.
     pub axis: [f64; 2],
     /// Speed over that of the main crank; negative where it turns the other way.
-    pub ratio: i32,
+    pub ratio: SpeedRatio,
 }
 
 /// Highest speed of a shaft over crank speed.
-pub(super) const FASTEST: i32 = 20;
+const FASTEST: f64 = 20.0;
 
 impl Crank {
     /// The main crank, to which crank angles and ratios refer.
-    pub const MAIN: Self = Self { axis: [0.0; 2], ratio: 1 };
+    pub const MAIN: Self = Self { axis: [0.0; 2], ratio: SpeedRatio::ONE };
 
     /// Direction of a crankpin, from +x, at θ = 0: it points along its bore at top dead centre, a crank
     /// angle of the main crank.
     #[must_use]
     pub fn pin(&self, bank: Angle, tdc: Angle) -> Angle {
-        (bank - tdc.times(self.ratio)).reduced()
+        (bank - self.ratio.turned(tdc)).reduced()
     }
 
     /// First crank angle of the main crank, from 0°, at which a crankpin of this direction at θ = 0 points
     /// along its bore.
     #[must_use]
     pub fn tdc(&self, bank: Angle, pin: Angle) -> Angle {
-        let ahead = if self.ratio > 0 { bank - pin } else { pin - bank };
-        ahead.reduced().over(self.ratio.abs())
+        let ahead = if self.ratio.is_forward() { bank - pin } else { pin - bank };
+        ahead.reduced().times(2).over(self.ratio.halves().abs())
     }
 }
 
-/// Rejects a ratio and an axis that no shaft or crank has; `place` is its name in errors.
-pub(super) fn check_rotation(place: &str, ratio: i32, axis: [f64; 2]) -> Result<()> {
-    if ratio == 0 || ratio.abs() > FASTEST {
+/// Rejects a ratio and an axis that no shaft or crank has; `place` is its name in errors,
+/// and a point.
+pub(super) fn check_rotation(place: &str, ratio: SpeedRatio, axis: [f64; 2]) -> Result<()> {
+    if ratio.halves() == 0 || ratio.size() > FASTEST {
         let hint = format!(
-            "give a whole number from -{FASTEST} to {FASTEST} except 0; 1 turns with the crank, \
+            "give a multiple of 1/2 from -{FASTEST} to {FASTEST} except 0; 1 turns with the crank, \
              -2 against it at twice its speed"
         );
-        return Err(Error::value(format!("{place}.ratio"), ratio, hint));
+        return Err(Error::value(format!("{place}ratio"), ratio, hint));
     }
     for (axis, name) in axis.iter().zip(["x", "y"]) {
-        limits::finite(&format!("{place}.{name}"), *axis)?;
+        limits::finite(&format!("{place}{name}"), *axis)?;
     }
     Ok(())
 }
@@ -124,7 +126,7 @@ impl Unbalance {
 impl Shaft {
     /// Checked; `place` is its name in errors.
     pub(super) fn checked(mut self, place: &str) -> Result<Self> {
-        check_rotation(place, self.ratio, self.axis)?;
+        check_rotation(&format!("{place}."), self.ratio, self.axis)?;
         limits::name(&format!("{place}.name"), &self.name)?;
         check_count(&format!("{place}.unbalances"), self.unbalances.len())?;
         for (i, unbalance) in self.unbalances.iter_mut().enumerate() {

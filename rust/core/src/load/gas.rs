@@ -8,6 +8,7 @@ use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 use crate::pressure::{Cycle, GasTorque};
 use crate::source::over_angle::{AngleBlock, Columns, LoadSum, Quantities};
 use crate::source::{
@@ -139,7 +140,7 @@ impl Source for GasPressure {
             return Ok(());
         }
         let [on_block, on_crank] = self.mechanism.senses();
-        let units = &*block.units(1);
+        let units = &*block.units(SpeedRatio::ONE);
         for (i, θ) in block.degrees().iter().enumerate() {
             let velocity =
                 self.mechanism.proportions.motion_at(&units.crank(sum.turned, i)).velocity;

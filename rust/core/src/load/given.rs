@@ -13,6 +13,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::index::ListIndex;
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 use crate::source::{
     ForcePart, Parts, Point, Repeats, Scale, Scaling, Source, Tail, TorqueAmplitudes, is_equal,
     resolved,
@@ -35,7 +36,7 @@ pub(super) struct GivenLoad {
 /// Adds the loads that an engine was given to a list.
 pub(super) fn push(loads: &mut LoadList, engine: &Engine) {
     for (k, load) in engine.loads().iter().enumerate() {
-        let (axis, _) = load.shaft(engine);
+        let axis = load.shaft(engine).axis;
         for (source, direction) in directed(load, engine) {
             let mut parts = source.parts();
             // A load of no size has a name, and no part in any sum.
@@ -51,7 +52,8 @@ pub(super) fn push(loads: &mut LoadList, engine: &Engine) {
                 },
                 // Orders are multiples of the speed of the main crank.
                 bank: load.cylinder.map(|cylinder| engine.bank_of(cylinder)),
-                ..Place::on_main(Origin::Load(k), direction, load.z).on(Crank { axis, ratio: 1 })
+                ..Place::on_main(Origin::Load(k), direction, load.z)
+                    .on(Crank { axis, ..Crank::MAIN })
             };
             let weights = [parts.force.is_some(), parts.roll].map(|has| f64::from(u8::from(has)));
             loads.push_as(place, parts, source, weights);
@@ -78,9 +80,13 @@ pub(crate) fn shaft_forces(
     for load in LoadList::of(engine, 0.0)?.list.iter().filter(|load| load.is_turning()) {
         let place = &load.place;
         let crank = engine.crank_with(place.origin);
-        let force = load.weight * omega * omega * f64::from(place.speed_squared());
-        let at_start = place.unit * place.phase.cis(-i64::from(place.ratio)) * force;
-        forces.push(ShaftForce { z: place.z, crank, waves: vec![(2 * place.ratio, at_start)] });
+        let force = load.weight * omega * omega * place.speed_squared();
+        let at_start = place.unit * place.ratio.cis(place.phase, -1) * force;
+        forces.push(ShaftForce {
+            z: place.z,
+            crank,
+            waves: vec![(place.ratio.halves(), at_start)],
+        });
     }
     for load in engine.loads() {
         let (half_phase, mut waves) = (load.phase_deg.half(), Vec::new());
@@ -112,7 +118,7 @@ pub(crate) fn shaft_forces(
 /// The sources of a load, each with the direction of its force: of one that turns also that a quarter turn ahead;
 /// of a table one for each speed.
 fn directed(load: &PeriodicLoad, engine: &Engine) -> Vec<(Arc<dyn Source>, Angle)> {
-    let (_, ratio) = load.shaft(engine);
+    let ratio = load.shaft(engine).ratio;
     let across = load.direction_deg + Angle::HALF_TURN.half();
     let mut sources: Vec<(Arc<dyn Source>, Angle)> = Vec::new();
     if let Some(source) = &load.source {
@@ -122,7 +128,8 @@ fn directed(load: &PeriodicLoad, engine: &Engine) -> Vec<(Arc<dyn Source>, Angle
         let part = |ahead| TurningForce { source: Arc::clone(source), ratio, ahead };
         return vec![(Arc::new(part(false)), load.direction_deg), (Arc::new(part(true)), across)];
     }
-    let (name, shares): (Arc<str>, _) = (load.name.as_str().into(), load.on.torque_shares(ratio));
+    let (name, shares): (Arc<str>, _) =
+        (load.name.as_str().into(), load.on.torque_shares(ratio.number()));
     for (row, (scaling, factor)) in scalings(load).into_iter().enumerate() {
         let of_row = |amplitudes: &[(u32, Vec<Complex64>)]| -> Vec<(u32, Complex64)> {
             amplitudes.iter().map(|(halves, rows)| (*halves, rows[row] * factor)).collect()
@@ -137,7 +144,7 @@ fn directed(load: &PeriodicLoad, engine: &Engine) -> Vec<(Arc<dyn Source>, Angle
                 .collect()
         };
         let force = of_row(&load.force.0);
-        let [along, ahead] = components(&force, if load.turning { ratio } else { 0.0 });
+        let [along, ahead] = components(&force, if load.turning { ratio.halves() } else { 0 });
         let given = |force: Series, torque: [Series; 2], mean| {
             Arc::new(GivenLoad { name: Arc::clone(&name), scaling, force, torque, mean })
         };
@@ -169,11 +176,11 @@ fn scalings(load: &PeriodicLoad) -> Vec<(Scaling, f64)> {
     }
 }
 
-/// A force along a direction that turns at some times crank speed, along that direction and a quarter turn
+/// A force along a direction that turns at some halves of crank speed, along that direction and a quarter turn
 /// ahead of it, both at rest: by orders, without the mean.
-fn components(force: &[(u32, Complex64)], ratio: f64) -> [Series; 2] {
+fn components(force: &[(u32, Complex64)], speed: i32) -> [Series; 2] {
     let (mut along, mut across) = (Vec::new(), Vec::new());
-    let speed = (2.0 * ratio) as i64;
+    let speed = i64::from(speed);
     let add = |series: &mut Vec<(i64, Complex64)>, halves: i64, amplitude: Complex64| {
         // Re(A·e^{−inθ}) is that of the conjugate at n.
         let (halves, amplitude) =
@@ -281,14 +288,14 @@ impl Source for GivenLoad {
 struct TurningForce {
     source: Arc<dyn Source>,
     /// Speed of the shaft over crank speed, negative where it turns against the crank.
-    ratio: f64,
+    ratio: SpeedRatio,
     ahead: bool,
 }
 
 impl TurningForce {
     /// The only order of the force.
     fn own(&self) -> Option<Order> {
-        Order::from_halves((2.0 * self.ratio.abs()) as u32).ok()
+        self.ratio.order().ok()
     }
 }
 
@@ -310,7 +317,7 @@ impl Source for TurningForce {
     }
 
     fn force(&self, orders: &[Order], cancel: &Cancel) -> Result<Vec<Complex64>> {
-        let factor = match (self.ahead, self.ratio > 0.0) {
+        let factor = match (self.ahead, self.ratio.is_forward()) {
             (false, _) => Complex64::ONE,
             (true, true) => -Complex64::i(),
             (true, false) => Complex64::i(),

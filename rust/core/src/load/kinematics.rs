@@ -37,12 +37,12 @@ impl Kinematics {
         let count = count(&loads.list, false);
         for load in &loads.list {
             let place = &load.place;
-            let square = f64::from(place.speed_squared());
+            let square = place.speed_squared();
             let mut force = place.unit * (load.weight * square);
             if load.weight != 0.0 {
                 // At a top dead centre a piston exerts its mass·radius and more.
                 let most = force.norm() * loads.source(load).scale().force;
-                let size = rounding(count, f64::from(place.ratio.abs())) * most;
+                let size = rounding(count, place.ratio.size()) * most;
                 let bounds = &mut zero_bounds[loads.group_of[load.source]];
                 bounds[0] += size;
                 bounds[1] += size * place.lever_size(loads.reference);
@@ -50,7 +50,7 @@ impl Kinematics {
             let mut phase = place.phase;
             if load.is_turning() {
                 // All of one speed are one vector at θ = 0.
-                force *= phase.cis(-i64::from(place.ratio));
+                force *= phase.cis(-load.turns_of_phase());
                 phase = Angle::ZERO;
             }
             let of_phase = load.phase_multiple(Order::FIRST);
@@ -64,7 +64,7 @@ impl Kinematics {
                     halved: load.parts.repeats == Repeats::EveryTwoTurns,
                     ratio: place.ratio,
                     phase_deg: of_phase as f64 * phase.degrees(),
-                    turned: phase.cis(-of_phase * i64::from(place.ratio.abs())),
+                    turned: phase.cis(-load.turns_of_phase().abs()),
                     force: Complex64::default(),
                     moment: Complex64::default(),
                     arm: Complex64::default(),

@@ -98,7 +98,7 @@ impl LoadList {
             if let Some(i) = pin {
                 // A crankpin points along its bore at top dead centre.
                 let bore = engine.stations()[i].bank;
-                let ahead = if ratio(i) > 0 { bore + angle } else { bore - angle };
+                let ahead = if ratio(i).is_forward() { bore + angle } else { bore - angle };
                 place = Place::on_main(origin, ahead, z).of_cylinder(engine, i);
             }
             loads.push_unbalance(place, amount);
@@ -238,7 +238,7 @@ impl LoadList {
     pub fn largest_weights(&self, source: SourceIndex) -> LargestWeights {
         let mut largest = LargestWeights::default();
         for load in self.list.iter().filter(|load| load.source == source) {
-            let square = f64::from(load.place.speed_squared());
+            let square = load.place.speed_squared();
             let force = square * load.weight.abs();
             largest.force = largest.force.max(force);
             largest.arm = largest.arm.max(force * load.place.axis.norm());

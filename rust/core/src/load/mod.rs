@@ -94,10 +94,10 @@ pub(crate) enum Weight {
     Roll,
 }
 
-/// Factor of a load's part: `halves`/2 · i^`quarters`.
+/// Factor of a load's part: `eighths`/8 · i^`quarters`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Factor {
-    pub halves: i32,
+    pub eighths: i32,
     pub quarters: i32,
 }
 
@@ -114,7 +114,7 @@ pub(crate) trait Arithmetic {
     /// A unit phasor times `e^{iβ}`, or its conjugate.
     fn toward(&self, load: (LoadIndex, &Load), unit: &Self::Unit, conjugate: bool) -> Self::Unit;
 
-    /// Adds a load's weight times a unit phasor, times half a whole number and a power of i.
+    /// Adds a load's weight times a unit phasor, times an eighth of a whole number and a power of i.
     fn add(
         &self,
         sum: &mut Self::Sum,
@@ -159,7 +159,7 @@ pub(crate) fn superpose<A: Arithmetic>(
     let acting = loads.iter().enumerate().filter(|(_, load)| load.acts_at(order));
     for at @ (_, load) in acting.map(|(i, load)| (LoadIndex::new(i), load)) {
         let (parts, place) = (load.parts, &load.place);
-        let square = place.speed_squared();
+        let halves_squared = place.ratio.halves() * place.ratio.halves();
         let phase = arithmetic.phase(at, -load.phase_multiple(order));
         let arm = wanted.roll && place.axis != Complex64::default();
         let bank = place.bank.filter(|_| wanted.by_bank);
@@ -167,14 +167,15 @@ pub(crate) fn superpose<A: Arithmetic>(
         if let Some(force) = parts.force.filter(|_| wanted.planar || arm) {
             let term = term_of(&mut terms, harmonic(Column::Force), parts.scaling, bank);
             // What moves along a line is half forward, half backward.
-            let halves = if force == ForcePart::Along { square } else { 2 * square };
+            let eighths =
+                if force == ForcePart::Along { halves_squared } else { 2 * halves_squared };
             for (side, sign) in [(0, 1), (1, -1)] {
                 if !load.has_part(side == 0) {
                     continue;
                 }
                 let unit = arithmetic.toward(at, &phase, side == 1);
                 let add = |sum: &mut A::Sum, weight, quarters| {
-                    arithmetic.add(sum, at, weight, &unit, Factor { halves, quarters });
+                    arithmetic.add(sum, at, weight, &unit, Factor { eighths, quarters });
                 };
                 if wanted.planar {
                     add(&mut term.force[side], Weight::Force, 0);
@@ -188,7 +189,7 @@ pub(crate) fn superpose<A: Arithmetic>(
             }
         }
         if parts.roll && wanted.roll {
-            let times = Factor { halves: 2 * square, quarters: 0 };
+            let times = Factor { eighths: 2 * halves_squared, quarters: 0 };
             let term = term_of(&mut terms, harmonic(Column::Roll), parts.scaling, bank);
             arithmetic.add(&mut term.roll, at, Weight::Roll, &phase, times);
         }
@@ -282,20 +283,21 @@ impl Arithmetic for Phasors {
             Weight::Roll => weight_and_size(load.roll),
         };
         sum.value += times.of(*unit) * weight;
-        sum.size += 0.5 * f64::from(times.halves) * size;
+        sum.size += 0.125 * f64::from(times.eighths) * size;
     }
 }
 
 impl Factor {
     /// A complex number times this factor.
     pub fn of(self, unit: Complex64) -> Complex64 {
-        let half = 0.5 * f64::from(self.halves);
-        half * match self.quarters.rem_euclid(4) {
-            0 => unit,
-            1 => Complex64::new(-unit.im, unit.re),
-            2 => -unit,
-            _ => Complex64::new(unit.im, -unit.re),
-        }
+        let factor = 0.125 * f64::from(self.eighths);
+        factor
+            * match self.quarters.rem_euclid(4) {
+                0 => unit,
+                1 => Complex64::new(-unit.im, unit.re),
+                2 => -unit,
+                _ => Complex64::new(unit.im, -unit.re),
+            }
     }
 }
 
@@ -313,7 +315,7 @@ impl Term<PhasorSum> {
 impl Load {
     /// Whether it has a part at this order.
     pub fn acts_at(&self, order: Order) -> bool {
-        let own = 2 * self.place.ratio.unsigned_abs();
+        let own = self.place.ratio.halves_of_speed();
         match (self.parts.force, self.parts.repeats) {
             (Some(ForcePart::Turning), _) => order.halves() == own,
             (_, Repeats::EveryTurn) => order.halves().is_multiple_of(own),
@@ -327,9 +329,15 @@ impl Load {
         if self.parts.repeats == Repeats::EveryTwoTurns { halves } else { halves / 2 }
     }
 
+    /// Multiple of its phase by which its shaft turns meanwhile.
+    fn turns_of_phase(&self) -> i64 {
+        let halves = i64::from(self.place.ratio.halves());
+        if self.parts.repeats == Repeats::EveryTwoTurns { halves } else { halves / 2 }
+    }
+
     /// Whether its force has a forward part, or a backward part.
     pub fn has_part(&self, forward: bool) -> bool {
-        !self.is_turning() || forward == (self.place.ratio > 0)
+        !self.is_turning() || forward == self.place.ratio.is_forward()
     }
 
     /// Whether it turns with a shaft.

@@ -10,6 +10,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 use crate::numbers::simd::vectorised;
 use crate::source::over_angle::{AngleBlock, BLOCK, Columns, LoadSum, Quantities, add_inertia};
 use crate::source::{
@@ -159,9 +160,9 @@ fn add<const PLANAR: bool, const TORQUE: bool, const YOKE: bool>(
 
 /// Multiples of the speed of a mechanism's crank up to an order of the main one.
 pub(super) fn multiples(mechanism: &Mechanism, highest: Order) -> Vec<Order> {
-    let ratio = mechanism.ratio.unsigned_abs();
+    let halves = mechanism.ratio.halves_of_speed();
     let own = 1..=mechanism.own_highest(highest.halves());
-    own.filter_map(|own| Order::whole(own * ratio).ok()).collect()
+    own.filter_map(|own| Order::from_halves(own * halves).ok()).collect()
 }
 
 /// Bound of what own orders above one add to either torque on the main crank and the block, if wanted.
@@ -175,7 +176,7 @@ pub(super) fn torque_beyond(
         return 0.0;
     }
     let bound = bound(&mechanism.proportions, own).unwrap_or(f64::INFINITY);
-    bound * f64::from(mechanism.ratio.abs())
+    bound * mechanism.ratio.size()
 }
 
 /// Torques of a mechanism on the block and on the main crank from those on its own crank.
@@ -191,7 +192,7 @@ pub(super) fn torque_by(
         Ok(torque.roll)
     })?;
     let mut crank = at_own_orders(mechanism.ratio, orders, |_| Ok(crank))?;
-    if mechanism.ratio != 1 {
+    if mechanism.ratio != SpeedRatio::ONE {
         let [on_block, on_crank] = mechanism.senses();
         for (roll, crank) in roll.iter_mut().zip(&mut crank) {
             *roll *= on_block;

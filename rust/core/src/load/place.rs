@@ -3,6 +3,7 @@
 use crate::Complex64;
 use crate::engine::{Crank, Engine, Origin};
 use crate::numbers::angle::Angle;
+use crate::numbers::ratio::SpeedRatio;
 
 /// Where, which way and when a load acts.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,8 +18,8 @@ pub(crate) struct Place {
     pub phase: Angle,
     /// Place along the crank, m.
     pub z: f64,
-    /// Speed of its shaft over crank speed, negative where it turns against the crank.
-    pub ratio: i32,
+    /// Speed of its shaft.
+    pub ratio: SpeedRatio,
     /// Place of the shaft's axis, x + iy, m.
     pub axis: Complex64,
     /// Bank that it belongs to: that of a piston, or of a crankpin's piston.
@@ -34,7 +35,7 @@ impl Place {
             unit: direction.cis(1),
             phase: Angle::ZERO,
             z,
-            ratio: 1,
+            ratio: SpeedRatio::ONE,
             axis: Complex64::default(),
             bank: None,
         }
@@ -70,7 +71,7 @@ impl Place {
     }
 
     /// Square of its shaft's speed, by which inertia scales.
-    pub fn speed_squared(&self) -> i32 {
-        self.ratio * self.ratio
+    pub fn speed_squared(&self) -> f64 {
+        self.ratio.number() * self.ratio.number()
     }
 }

@@ -6,14 +6,15 @@ use crate::mechanism::spectrum::Spectrum;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 use crate::source::{ExactFactor, ForcePart, INERTIA, Parts, Scale, Source, Tail, is_equal};
 
 /// Force over ω², kg·m: masses and radius are in it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct GivenForce {
     pub spectrum: Spectrum,
-    /// Speed of the crank over that of the main one, negative where it turns the other way.
-    pub ratio: i32,
+    /// Speed of the crank.
+    pub ratio: SpeedRatio,
 }
 
 impl Source for GivenForce {
@@ -37,14 +38,15 @@ impl Source for GivenForce {
 
     fn orders(&self, highest: Order) -> Vec<Order> {
         let own = self.spectrum.orders().into_iter();
-        let orders = own.filter_map(|own| Order::whole(own * self.ratio.unsigned_abs()).ok());
+        let orders =
+            own.filter_map(|own| Order::from_halves(own * self.ratio.halves_of_speed()).ok());
         orders.filter(|order| *order <= highest).collect()
     }
 
     /// All of its orders are evaluated: no bound does without them.
     fn beyond(&self, halves: u32, _: bool) -> Tail {
         let mut own = self.spectrum.orders().into_iter();
-        let is_left_out = own.any(|own| 2 * own * self.ratio.unsigned_abs() > halves);
+        let is_left_out = own.any(|own| own * self.ratio.halves_of_speed() > halves);
         Tail { force: if is_left_out { f64::INFINITY } else { 0.0 }, torque: 0.0 }
     }
 

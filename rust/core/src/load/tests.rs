@@ -11,6 +11,7 @@ use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::index::ListIndex;
+use crate::numbers::ratio::SpeedRatio;
 use crate::pressure::{Cycle, Given};
 use crate::readings::amplitude::wrenches;
 use crate::source::over_angle::{AngleBlock, Columns, Quantities};
@@ -55,7 +56,10 @@ pub(crate) fn engine() -> Engine {
         z,
         rotating_mass,
     };
-    let shaft = |ratio, axis, unbalances| Shaft { name: String::new(), ratio, axis, unbalances };
+    let shaft = |halves, axis, unbalances| {
+        let ratio = SpeedRatio::from_halves(halves);
+        Shaft { name: String::new(), ratio, axis, unbalances }
+    };
     Engine::new("", "", gears.into_iter().zip(places).map(place).collect())
         .unwrap()
         .with_counterweights(vec![
@@ -64,8 +68,8 @@ pub(crate) fn engine() -> Engine {
         ])
         .unwrap()
         .with_shafts(vec![
-            shaft(-1, [0.1, 0.05], vec![unbalance(0.004, 30.0, 0.3, None)]),
-            shaft(2, [-0.08, 0.2], vec![unbalance(0.003, 77.0, 0.1, None)]),
+            shaft(-2, [0.1, 0.05], vec![unbalance(0.004, 30.0, 0.3, None)]),
+            shaft(4, [-0.08, 0.2], vec![unbalance(0.003, 77.0, 0.1, None)]),
         ])
         .unwrap()
 }

@@ -4,15 +4,18 @@ use crate::Complex64;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 use crate::numbers::simd::vectorised;
 use crate::source::over_angle::{AngleBlock, BLOCK, Columns, LoadSum, Quantities};
-use crate::source::{ExactFactor, ForcePart, INERTIA, Parts, Scale, Source, Tail, is_equal};
+use crate::source::{
+    ExactFactor, ForcePart, INERTIA, Parts, Repeats, Scale, Source, Tail, is_equal,
+};
 
 /// Force over unbalance, ω² and the square of the shaft's speed, which this is.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct TurningUnbalance {
-    /// Speed of the shaft over crank speed, negative where it turns against the crank.
-    pub ratio: i32,
+    /// Speed of the shaft.
+    pub ratio: SpeedRatio,
 }
 
 impl Source for TurningUnbalance {
@@ -21,7 +24,11 @@ impl Source for TurningUnbalance {
     }
 
     fn parts(&self) -> Parts {
-        Parts::inertia(Some(ForcePart::Turning), false)
+        let repeats = match self.ratio.as_whole() {
+            Some(_) => Repeats::EveryTurn,
+            None => Repeats::EveryTwoTurns,
+        };
+        Parts { repeats, ..Parts::inertia(Some(ForcePart::Turning), false) }
     }
 
     fn equals(&self, other: &dyn Source) -> bool {
@@ -31,19 +38,19 @@ impl Source for TurningUnbalance {
     /// One at every order: loads of it have none but that of their speed.
     fn force(&self, orders: &[Order], cancel: &Cancel) -> Result<Vec<Complex64>> {
         cancel.check()?;
-        let own = Order::whole(self.ratio.unsigned_abs())?;
+        let own = self.ratio.order()?;
         let one = |order: &Order| Complex64::new(f64::from(u8::from(*order == own)), 0.0);
         Ok(orders.iter().map(one).collect())
     }
 
     fn orders(&self, highest: Order) -> Vec<Order> {
-        let own = Order::whole(self.ratio.unsigned_abs());
+        let own = self.ratio.order();
         own.into_iter().filter(|own| *own <= highest).collect()
     }
 
     /// Its only order is always evaluated: no bound does without it.
     fn beyond(&self, halves: u32, _: bool) -> Tail {
-        let is_left_out = 2 * self.ratio.unsigned_abs() > halves;
+        let is_left_out = self.ratio.halves_of_speed() > halves;
         Tail { force: if is_left_out { f64::INFINITY } else { 0.0 }, torque: 0.0 }
     }
 
@@ -71,13 +78,13 @@ impl Source for TurningUnbalance {
             #[inline(always)]
             || {
                 if wanted.planar {
-                    units.add_turning(force, sum.ratio, [force_x, force_y]);
-                    units.add_turning(moment, sum.ratio, [moment_x, moment_y]);
+                    units.add_turning(force, sum.ratio.sense(), [force_x, force_y]);
+                    units.add_turning(moment, sum.ratio.sense(), [moment_x, moment_y]);
                 }
                 // A shaft that turns evenly takes no torque of the crank.
                 if wanted.torque && arm != Complex64::default() {
                     let ([roll, _], mut real) = (torque, [0.0; BLOCK]);
-                    units.add_turning(arm, sum.ratio, [&mut real, roll]);
+                    units.add_turning(arm, sum.ratio.sense(), [&mut real, roll]);
                 }
             },
         );

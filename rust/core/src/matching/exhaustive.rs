@@ -6,7 +6,7 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::{KINDS, Matching, Partition, add};
+use super::{KINDS, Matching, Partition};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::{memory, pool};
@@ -136,7 +136,7 @@ impl Matching {
         for &part in &parts[kind] {
             if !chosen[kind * places.len()..].contains(&part) {
                 let mut sum = sum.clone();
-                add(&mut sum, 1.0, self.added(kind, place, part));
+                self.add(&mut sum, 1.0, kind, [place, part]);
                 chosen.push(part);
                 self.fill(to, places, parts, chosen, sum);
                 chosen.pop();

@@ -12,6 +12,7 @@ use self::slider_crank::{Cylinder, Proportions};
 use crate::Complex64;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 
 /// How a piston moves: a slider-crank whose crank turns at some speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,13 +21,13 @@ pub struct Mechanism {
     cylinder: Cylinder,
     /// Proportions of its motion: its own, or those of a point of a sweep.
     pub proportions: Proportions,
-    /// Speed of its crank over that of the main one, negative where it turns the other way.
-    pub ratio: i32,
+    /// Speed of its crank.
+    pub ratio: SpeedRatio,
 }
 
 impl Mechanism {
     /// Of a cylinder on a crank of this speed.
-    pub(crate) fn new(cylinder: &Cylinder, ratio: i32) -> Self {
+    pub(crate) fn new(cylinder: &Cylinder, ratio: SpeedRatio) -> Self {
         let cylinder = cylinder.without_masses();
         Self { cylinder, proportions: cylinder.proportions(), ratio }
     }
@@ -49,23 +50,23 @@ impl Mechanism {
     /// Factors of the torques on the block and on the main crank: turning the other way mirrors the
     /// torque on the block, and power is torque times speed.
     pub(crate) fn senses(&self) -> [f64; 2] {
-        [f64::from(self.ratio.signum()), f64::from(self.ratio.abs())]
+        [f64::from(self.ratio.sense()), self.ratio.size()]
     }
 
     /// The highest multiple of the speed of its own crank that is not above a number of halves of the main crank's.
     pub(crate) fn own_highest(&self, halves: u32) -> u32 {
-        halves / (2 * self.ratio.unsigned_abs())
+        halves / self.ratio.halves_of_speed()
     }
 }
 
 /// Values at the multiples of a crank's own speed among some orders of the main crank, zero at the others.
 pub(crate) fn at_own_orders(
-    ratio: i32,
+    ratio: SpeedRatio,
     orders: &[Order],
     of: impl FnOnce(&[u32]) -> Result<Vec<Complex64>>,
 ) -> Result<Vec<Complex64>> {
-    let ratio = ratio.unsigned_abs();
-    let own = |order: &Order| order.as_whole().filter(|n| n % ratio == 0).map(|n| n / ratio);
+    let speed = ratio.halves_of_speed();
+    let own = |order: &Order| Some(order.halves()).filter(|n| n % speed == 0).map(|n| n / speed);
     let whole: Vec<u32> = orders.iter().filter_map(own).collect();
     let mut values = of(&whole)?.into_iter();
     let value = |order: &Order| own(order).and_then(|_| values.next()).unwrap_or_default();

@@ -367,3 +367,343 @@ fn golden(mut low: f64, mut high: f64, mut value: impl FnMut(f64) -> f64) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mounts::tests::{four_mounts, mount, powertrain, random};
+    use crate::mounts::{Mount, MountFigures, Orientation, RigidBody, Support, modes};
+    use crate::numbers::draws;
+
+    /// Of each mount its own, none of the first.
+    fn tolerances(mounts: usize) -> MountTolerances {
+        let stiffness = (0..mounts).map(|k| 0.07 * (k % 4) as f64).collect();
+        MountTolerances { stiffness, mass: 0.03, inertia: 0.1, cg: 0.01, by_axis: false }
+    }
+
+    /// Every bound is that of the modes of engines made heavier, stiffer or moved, one after the other.
+    #[test]
+    fn bounds_are_those_of_powertrains_at_the_ends() {
+        let cancel = Cancel::new();
+        let mut number = draws(83);
+        for k in 0..6 {
+            let (above, below) = (random(&mut number, false), random(&mut number, false));
+            let on = |powertrain: Powertrain| {
+                let support = Support::Subframe(Box::new(below.clone()));
+                if k % 2 == 0 { powertrain } else { powertrain.on(support).unwrap() }
+            };
+            let plain = |body, mounts: &[Mount]| {
+                modes(&on(Powertrain::new(body, mounts.to_vec()).unwrap()), None).unwrap()
+            };
+            let (body, mounts) = (*above.body(), above.mounts());
+            let mut tolerances = tolerances(mounts.len());
+            // Corners are searched by the test above this one; here one mount has a tolerance.
+            tolerances.stiffness.iter_mut().skip(2).for_each(|share| *share = 0.0);
+            let found = robustness(&on(above.clone()), &tolerances, None, &cancel).unwrap();
+            let nominal = plain(body, mounts);
+            assert_eq!((&found.frequency, &found.purity), (&nominal.frequency, &nominal.purity));
+            let near = |found: &[f64], expected: &[f64]| {
+                for (found, expected) in found.iter().zip(expected) {
+                    // Roundings of another order of sums, at most of the highest frequency.
+                    let size = 1e-13 * nominal.frequency.last().unwrap();
+                    assert!((found - expected).abs() <= size, "{found} {expected}");
+                }
+                assert_eq!(found.len(), nominal.frequency.len());
+            };
+            for (end, sign) in [-1.0, 1.0].into_iter().enumerate() {
+                let scaled = mounts.iter().zip(&tolerances.stiffness).map(|(mount, share)| {
+                    let mut figures = mount.figures().clone();
+                    figures.stiffness = figures.stiffness.map(|along| along * (1.0 + sign * share));
+                    Mount::new(figures).unwrap()
+                });
+                let scaled: Vec<Mount> = scaled.collect();
+                near(&found.by_stiffness[end], &plain(body, &scaled).frequency);
+                let lighter = body.scaled(1.0 - 0.03 * sign, 1.0 - 0.1 * sign);
+                near(&found.by_mass[end], &plain(lighter, mounts).frequency);
+            }
+            let [mut least, mut largest] = [0; 2].map(|_| nominal.frequency.clone());
+            for (x, y, z) in (0..8).map(|k| (k & 1, k >> 1 & 1, k >> 2)) {
+                let shift = [x, y, z].map(|end| 0.01 * f64::from(2 * end - 1));
+                let moved = plain(body.at(body.cg() + Vector3::from(shift)), mounts);
+                for (mode, frequency) in moved.frequency.into_iter().enumerate() {
+                    least[mode] = least[mode].min(frequency);
+                    largest[mode] = largest[mode].max(frequency);
+                }
+            }
+            near(&found.by_cg[0], &least);
+            near(&found.by_cg[1], &largest);
+            let step = 1e-5;
+            for axis in 0..3 {
+                let at = |sign: f64| {
+                    let shift = Vector3::ith(axis, sign * step);
+                    plain(body.at(body.cg() + shift), mounts).frequency
+                };
+                let slopes = at(1.0).into_iter().zip(at(-1.0)).map(|(a, b)| 0.5 * (a - b) / step);
+                for (found, slope) in found.cg_slope[axis].iter().zip(slopes) {
+                    // Differences of the second order, and of roundings.
+                    let size = nominal.frequency.last().unwrap() / 0.1;
+                    assert!((found - slope).abs() < 1e-6 * size, "{k} {axis} {found} {slope}");
+                }
+            }
+        }
+    }
+
+    /// A cube on equal springs: three modes of one frequency, in any directions of their space.
+    #[test]
+    fn slopes_of_modes_of_one_frequency_are_their_mean() {
+        let body = |cg: f64| {
+            let moments = [[6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+            RigidBody::new(100.0, [0.0, cg, 0.0], moments, None).unwrap()
+        };
+        let places = [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
+        let on = |cg: f64, at: [f64; 3]| {
+            let mounts = places.into_iter().enumerate().map(|(k, place)| {
+                let place = [0, 1, 2].map(|axis| place[axis] + at[axis]);
+                mount(&k.to_string(), place, [1e5; 3])
+            });
+            powertrain(body(cg), mounts)
+        };
+        let nothing = MountTolerances {
+            stiffness: vec![0.0; 4],
+            mass: 0.0,
+            inertia: 0.0,
+            cg: 0.0,
+            by_axis: true,
+        };
+        let cancel = Cancel::new();
+        // Moved by equal stiffness in all directions, a sum of slopes of a group is what their sum does.
+        for (at, cg) in [([0.1, -0.2, 0.3], 0.0), ([0.0; 3], 0.0), ([0.0, 0.3, 0.0], 0.1)] {
+            let on_mounts = on(cg, at);
+            let found = robustness(&on_mounts, &nothing, None, &cancel).unwrap();
+            let group = modes(&on_mounts, None).unwrap().group;
+            let sum_of = |shift: f64, first: usize| -> f64 {
+                let moved = modes(&on(cg + shift, at), None).unwrap().frequency;
+                (0..6).filter(|&mode| group[mode] == first).map(|mode| moved[mode]).sum()
+            };
+            for mode in 0..6 {
+                let count = group.iter().filter(|of| **of == group[mode]).count() as f64;
+                let sum = (sum_of(1e-5, group[mode]) - sum_of(-1e-5, group[mode])) / 2e-5;
+                // Of frequencies of a few Hz, differences of the second order and of roundings.
+                let slope = found.cg_slope[1][mode];
+                assert!((slope - sum / count).abs() < 1e-6, "{slope} {sum} {count}");
+            }
+        }
+    }
+
+    #[test]
+    fn tolerances_out_of_range_are_named_and_so_are_too_many_corners() {
+        let cancel = Cancel::new();
+        let with = |count: usize| {
+            let places = (0..count).map(|k| [0.1 * k as f64, 0.02 * (k * k) as f64, 0.3]);
+            let mounts =
+                places.enumerate().map(|(k, at)| mount(&k.to_string(), at, [1e5, 0.0, 2e5]));
+            powertrain(*four_mounts(0.0).body(), mounts)
+        };
+        let none = |count: usize| MountTolerances {
+            stiffness: vec![0.0; count],
+            mass: 0.0,
+            inertia: 0.0,
+            cg: 0.0,
+            by_axis: false,
+        };
+        let error = |count: usize, of: &MountTolerances| {
+            robustness(&with(count), of, None, &cancel).unwrap_err().to_string()
+        };
+        for share in [-0.1, 1.0, f64::NAN] {
+            let of_mass = error(4, &MountTolerances { mass: share, ..none(4) });
+            assert!(of_mass.starts_with("mass = "), "{of_mass}");
+            let of_inertia = error(4, &MountTolerances { inertia: share, ..none(4) });
+            assert!(of_inertia.starts_with("inertia = "), "{of_inertia}");
+            let stiffness = vec![0.0, 0.0, share, 0.0];
+            let of_mount = error(4, &MountTolerances { stiffness, ..none(4) });
+            assert!(of_mount.starts_with("stiffness = "), "{of_mount}");
+        }
+        assert!(error(4, &MountTolerances { cg: -0.1, ..none(4) }).starts_with("cg = "));
+        assert!(error(4, &none(3)).contains("stiffness"));
+        // Along one axis of the three a mount has no stiffness, and no end.
+        let parameters = |count: usize, by_axis: bool, some: usize| {
+            let on_mounts = with(count);
+            let bodies = on_mounts.alone().unwrap();
+            let mut of = MountTolerances { by_axis, ..none(count) };
+            of.stiffness.iter_mut().take(some).for_each(|share| *share = 0.1);
+            let along = on_mounts.mounts().iter().map(Mount::static_stiffness).collect();
+            Search::new(&bodies, &of, along, &cancel).map(|search| search.parameters)
+        };
+        assert_eq!(parameters(20, false, 18).unwrap().len(), 18);
+        let by_axis = parameters(20, true, 9).unwrap();
+        let places: Vec<_> = by_axis.iter().map(|(places, _)| places[0]).collect();
+        let expected: Vec<_> = (0..9).flat_map(|mount| [(mount, 0), (mount, 2)]).collect();
+        assert_eq!(places, expected);
+        let error = |by_axis, some| parameters(20, by_axis, some).unwrap_err().to_string();
+        assert!(error(false, 19).contains("give tolerances of fewer mounts"));
+        assert!(
+            error(true, 10).contains("2 to the power of 20 corners: are too many: give corners=")
+        );
+    }
+
+    fn searched<const N: usize, R>(
+        bodies: &Bodies<N>,
+        tolerances: &MountTolerances,
+        of: impl FnOnce(&Search<N>) -> R,
+    ) -> R {
+        let along = bodies.static_stiffnesses();
+        let cancel = Cancel::new();
+        of(&Search::new(bodies, tolerances, along, &cancel).unwrap())
+    }
+
+    /// The corners, and then numbers that are the same on any machine.
+    #[test]
+    fn points_are_corners_and_draws() {
+        let on_mounts = four_mounts(0.0);
+        let bodies = on_mounts.alone().unwrap();
+        searched(&bodies, &tolerances(4), |search| {
+            // The first has no tolerance.
+            let corners: Vec<Vec<f64>> = (0..8).map(|k| search.point(k)).collect();
+            for (k, corner) in corners.iter().enumerate() {
+                let ends = [k & 1, k >> 1 & 1, k >> 2].map(|end| 2.0 * end as f64 - 1.0);
+                assert_eq!(corner[..], ends);
+                let factors = search.factors(corner);
+                let shares = [0.07, 0.14, 0.21];
+                assert_eq!(factors[0], [1.0; 3]);
+                for ((of, end), share) in factors[1..].iter().zip(ends).zip(shares) {
+                    assert!(of.iter().all(|factor| (factor - 1.0 - share * end).abs() < 1e-15));
+                }
+            }
+            let drawn: Vec<Vec<f64>> = (8..8 + RANDOM_POINTS).map(|k| search.point(k)).collect();
+            let all = drawn.concat();
+            let count = all.len() as f64;
+            let mean = |power: i32| all.iter().map(|x| x.powi(power)).sum::<f64>() / count;
+            // Even from −1 to 1, within three standard deviations of 12 288 draws.
+            assert!(all.iter().all(|x| (-1.0..1.0).contains(x)));
+            assert!(mean(1).abs() < 3.0 / (3.0 * count).sqrt(), "{}", mean(1));
+            assert!((mean(2) - 1.0 / 3.0).abs() < 3.0 * (4.0 / 45.0 / count).sqrt());
+            let mut sorted = all.clone();
+            sorted.sort_by(f64::total_cmp);
+            sorted.dedup();
+            assert_eq!(sorted.len(), all.len());
+            assert_eq!(
+                drawn[0],
+                [0.786_688_748_578_528_8, 0.939_441_951_812_663_8, 0.450_067_402_808_647_77]
+            );
+        });
+    }
+
+    #[test]
+    fn the_three_smallest_are_kept() {
+        let mut number = draws(5);
+        for count in [1, 2, 3, 4, 50] {
+            let mut all: Vec<(f64, usize)> = (0..count).map(|k| (number(), k)).collect();
+            let mut kept = [(f64::INFINITY, 0); STARTS];
+            for &one in &all {
+                keep(&mut kept, one);
+            }
+            all.sort_by(|a, b| a.0.total_cmp(&b.0));
+            all.resize(STARTS.max(count), (f64::INFINITY, 0));
+            assert_eq!(kept, all[..STARTS]);
+        }
+    }
+
+    #[test]
+    fn golden_sections_close_in_on_a_minimum() {
+        for k in 0..=30 {
+            let (low, high, least) = (-1.0, 2.0, -1.0 + 0.1 * f64::from(k));
+            let mut places = Vec::new();
+            golden(low, high, |place| {
+                places.push(place);
+                (place - least).abs()
+            });
+            assert_eq!(places.len(), SECTIONS + 2);
+            // A bracket is 0.618 of the one before it, and has the place looked at last.
+            for (step, place) in places.iter().enumerate().skip(1) {
+                let width = 3.0 * 0.618_034_f64.powi(step as i32 - 1);
+                assert!((place - least).abs() <= width, "{least} {step} {place}");
+                assert!((low..=high).contains(place));
+            }
+        }
+    }
+
+    /// A body whose stiffness along x goes through that along y: of a mount on its centre of gravity, beside one
+    /// that is turned a little and mixes both in a band a hundredth as wide as the tolerance.
+    fn crossing(turn: f64, share: f64) -> (Powertrain, MountTolerances) {
+        let moments = [[900.0, 0.0, 0.0], [0.0, 1000.0, 0.0], [0.0, 0.0, 1100.0]];
+        let body = RigidBody::new(100.0, [0.0; 3], moments, None).unwrap();
+        let turned = MountFigures {
+            orientation: Orientation::Tilt(turn),
+            ..mount("turned", [0.0; 3], [1e5, 1.53e5, 4e5])
+        };
+        let holds = [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0]];
+        let holding = holds.into_iter().enumerate().map(|(k, at)| {
+            let stiffness = [0, 1, 2].map(|axis| if at[axis] == 0.0 { 1e5 } else { 0.0 });
+            mount(&format!("hold {k}"), at, stiffness)
+        });
+        let varied = mount("varied", [0.0; 3], [5e4, 0.0, 0.0]);
+        let on_mounts = powertrain(body, [varied, turned].into_iter().chain(holding));
+        let mut stiffness = vec![0.0; 6];
+        stiffness[0] = share;
+        let tolerances =
+            MountTolerances { stiffness, mass: 0.0, inertia: 0.0, cg: 0.0, by_axis: true };
+        (on_mounts, tolerances)
+    }
+
+    /// On a line the minimum is met between the points of its grid, and so is a narrow band where modes mix.
+    #[test]
+    fn lines_meet_minima_and_crossings_between_their_points() {
+        for (turn, share) in [(0.3, 0.2), (5.0, 0.2), (0.1, 0.3)] {
+            let (on_mounts, tolerances) = crossing(turn, share);
+            let bodies = on_mounts.alone().unwrap();
+            searched(&bodies, &tolerances, |search| {
+                let scanned: Vec<([f64; 6], [f64; 6])> =
+                    (0..=2000).map(|k| search.at(&[1e-3 * f64::from(k) - 1.0])).collect();
+                for mode in 0..6 {
+                    let least = scanned.iter().map(|of| of.1[mode]).fold(f64::INFINITY, f64::min);
+                    for (start, direction) in [(-1.0, 1.0), (0.4, -3.0), (1.0, 0.25)] {
+                        let from = vec![start];
+                        let own = (search.at(&from).1[mode], from);
+                        let (purity, point) = search.along_line(mode, &[direction], own);
+                        assert!((-1.0..=1.0).contains(&point[0]));
+                        assert_eq!(search.at(&point).1[mode], purity);
+                        // Two modes that cross share their energy: half and half.
+                        assert!(purity < least + 0.2, "{turn} {mode} {start}: {purity} {least}");
+                    }
+                }
+            });
+        }
+    }
+
+    /// Searches from a point end where no line along a parameter leads further down, and no start is better.
+    #[test]
+    fn descents_end_where_no_parameter_leads_further_down() {
+        let mut number = draws(29);
+        for k in 0..3 {
+            let on_mounts = random(&mut number, false);
+            let bodies = on_mounts.alone().unwrap();
+            let mut tolerances = tolerances(on_mounts.mounts().len());
+            tolerances.by_axis = k == 0;
+            let some = if k == 0 { 2 } else { 4 };
+            tolerances.stiffness.iter_mut().skip(some).for_each(|share| *share = 0.0);
+            searched(&bodies, &tolerances, |search| {
+                let count = search.parameters.len();
+                for mode in 0..6 {
+                    let from: Vec<f64> = (0..count).map(|_| number()).collect();
+                    let start = (search.at(&from).1[mode], from);
+                    let (purity, point) = search.descended(mode, start.clone()).unwrap();
+                    assert!(purity <= start.0);
+                    assert_eq!(search.at(&point).1[mode], purity);
+                    for parameter in 0..count {
+                        let direction: Vec<f64> =
+                            (0..count).map(|k| if k == parameter { 1.0 } else { 0.0 }).collect();
+                        let further = search.along_line(mode, &direction, (purity, point.clone()));
+                        // A round that gains less than a millionth ends the search, or the eighth.
+                        assert!(further.0 >= purity * (1.0 - 1e-3), "{k} {mode} {parameter}");
+                    }
+                }
+                let all = search.least_pure().unwrap();
+                let starts = (1 << count) + RANDOM_POINTS;
+                for k in (0..starts).step_by(97).chain([0, (1 << count) - 1, starts - 1]) {
+                    let (_, purity) = search.at(&search.point(k));
+                    assert!(all.iter().zip(purity).all(|(least, purity)| least.0 <= purity));
+                }
+            });
+        }
+    }
+}

@@ -56,14 +56,14 @@ pub(crate) use list_index;
 /// #     cylinder = { crank_radius = 0.043, rod_length = 0.145, reciprocating_mass = 0.66 }
 /// #     placements = [{ tdc_deg = 0, bank_deg = 90, z = 0 }]",
 /// # )?;
-/// assert_eq!(single.cranks()[single.crank_of(0)].ratio, 1);
+/// assert_eq!(single.cranks()[single.crank_of(0)].ratio, crankpin_core::SpeedRatio::ONE);
 /// # Ok::<(), crankpin_core::Error>(())
 /// ```
 ///
 /// A running gear's index, or a cylinder's, is no crank's:
 ///
 /// ```compile_fail,E0308
-/// fn speed(engine: &crankpin_core::Engine) -> i32 {
+/// fn speed(engine: &crankpin_core::Engine) -> crankpin_core::SpeedRatio {
 ///     engine.cranks()[engine.gear_of(0)].ratio
 /// }
 /// ```

@@ -15,6 +15,7 @@ pub mod memory;
 pub mod order;
 pub mod pool;
 pub mod quadrature;
+pub mod ratio;
 pub mod rational;
 pub mod ring;
 pub(crate) mod simd;

@@ -1,5 +1,7 @@
 //! Cycles to begin with: computed, of no engine in particular.
 
+use std::sync::{Arc, OnceLock};
+
 use super::Cycle;
 use super::Strokes;
 use super::burn::{Heat, WallLoss, Wiebe};
@@ -27,6 +29,9 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Petrol, Self::Diesel];
+
     /// `petrol` or `diesel`.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -34,6 +39,15 @@ impl Kind {
             Self::Petrol => "petrol",
             Self::Diesel => "diesel",
         }
+    }
+
+    /// Name of its cycle at full load.
+    pub(crate) fn name_at_full_load(self) -> String {
+        self.name_at(1.0)
+    }
+
+    fn name_at(self, load: f64) -> String {
+        format!("example {}, {}", self.name(), load_in_words(load))
     }
 
     fn compression_ratio(self) -> f64 {
@@ -155,7 +169,7 @@ impl Example {
             compression_ratio: kind.compression_ratio(),
             strokes,
             wiebe: kind.full_load(),
-            name: format!("example {}, {}", kind.name(), load_in_words(load)),
+            name: kind.name_at(load),
         };
         if strokes == Strokes::Two {
             (full.wiebe.intake_closes_deg, full.wiebe.exhaust_opens_deg) = (-115.0, 105.0);
@@ -209,6 +223,18 @@ impl Example {
         let torque = self.cycle(cancel)?.torque_of(&proportions, ATMOSPHERE, &[], cancel)?;
         Ok(self.chamber()?.imep(torque.mean))
     }
+}
+
+/// The cycle of an example at full load, computed once.
+pub(crate) fn full_load(kind: Kind, strokes: Strokes) -> Result<Arc<Cycle>> {
+    static CYCLES: [[OnceLock<Arc<Cycle>>; 2]; 2] = [const { [const { OnceLock::new() }; 2] }; 2];
+    let cycle = &CYCLES[kind as usize][usize::from(strokes == Strokes::Two)];
+    if let Some(computed) = cycle.get() {
+        return Ok(Arc::clone(computed));
+    }
+    let cancel = Cancel::new();
+    let computed = Example::new(kind, 1.0, strokes, &cancel)?.cycle(&cancel)?;
+    Ok(Arc::clone(cycle.get_or_init(|| Arc::new(computed))))
 }
 
 fn load_in_words(load: f64) -> String {

@@ -272,10 +272,8 @@ pub(crate) fn within_each(
 ) -> Result<(Vec<Order>, ErrorBounds)> {
     let closed = loads.list.iter().filter(|load| !loads.source(load).has_open_tail());
     let (turning, others): (Vec<Load>, Vec<Load>) = closed.partition(|load| load.is_turning());
-    let mut orders = turning
-        .iter()
-        .map(|load| Order::whole(load.place.ratio.unsigned_abs()))
-        .collect::<Result<Vec<_>>>()?;
+    let mut orders =
+        turning.iter().map(|load| load.place.ratio.order()).collect::<Result<Vec<_>>>()?;
     let mut left_out = loads.groups.map_to(|_| OrderSums::default());
     let (origins, by_origin) = distinct::<usize, _>(others.iter().map(|load| load.place.origin));
     for origin in origins.indices() {
@@ -411,7 +409,7 @@ fn tail(
     let mut sums = loads.groups.map_to(|_| OrderSums::default());
     for load in &loads.list {
         let (place, beyond) = (&load.place, beyond[load.source]);
-        let square = f64::from(place.speed_squared());
+        let square = place.speed_squared();
         let force = times(load.weight.abs(), beyond.force) * square;
         let sum = &mut sums[loads.group_of[load.source]];
         sum.force += force;
@@ -443,7 +441,7 @@ fn scales(engine: &Engine, loads: &LoadList) -> List<GroupIndex, OrderSums> {
         let own = load.weight.abs() * of_force;
         let arm = || engine.largest_crank_radius().max(place.axis.norm());
         let of_torque = of_torque.map_or_else(|| own * arm(), |scale| load.roll.abs() * scale);
-        let square = f64::from(place.speed_squared());
+        let square = place.speed_squared();
         let sums = &mut scales[group];
         sums.force = sums.force.max(square * own);
         sums.torque = sums.torque.max(square * of_torque);
@@ -551,6 +549,7 @@ mod tests {
     use crate::mechanism::slider_crank::Cylinder;
     use crate::numbers::angle::Angle;
     use crate::numbers::index::ListIndex;
+    use crate::numbers::ratio::SpeedRatio;
 
     #[test]
     fn the_lowest_order_that_is_enough_is_found() {
@@ -624,16 +623,17 @@ mod tests {
         };
         let parts = [(0.5, 0.0, 0.0), (0.5, 0.01, 0.0), (0.0, 0.0, 1e-3), (0.5, 0.01, -1e-3)];
         for (ratio, (mass, offset, inertia)) in
-            [1, -1, 2, -2, 3, -3].into_iter().flat_map(|ratio: i32| parts.map(|own| (ratio, own)))
+            [1, -1, 2, -2, 3, -3].into_iter().flat_map(|ratio| parts.map(|own| (ratio, own)))
         {
             let cylinder = Cylinder::new(0.05, 0.15, mass, offset).unwrap();
             let cylinder = cylinder.with_rod_inertia_excess(inertia).unwrap();
             let on_main = rest(cylinder, Crank { axis: [0.0; 2], ..Crank::MAIN }, &[1, 2, 3]);
             assert!(on_main.torque > 0.0);
-            let speed = ratio.unsigned_abs();
+            let speed = i32::unsigned_abs(ratio);
             // Another load has an order above those of the cylinder, one of which is missing.
             let own = [1, 2, 3, 5].map(|own| own * speed);
-            let found = rest(cylinder, Crank { axis: [-0.3, 0.4], ratio }, &own);
+            let found =
+                rest(cylinder, Crank { axis: [-0.3, 0.4], ratio: SpeedRatio::whole(ratio) }, &own);
             let square = f64::from(speed * speed);
             let force = square * on_main.force;
             let inertia = square * f64::from(speed) * on_main.torque + 0.5 * force;
@@ -641,6 +641,186 @@ mod tests {
             for (found, expected) in found.values().into_iter().zip(expected.values()) {
                 assert!((found - expected).abs() <= 1e-14 * expected, "{found} {expected}");
             }
+        }
+    }
+
+    /// Engines on their own scales: what is left out, what it is over and what is kept, in plain sums.
+    #[test]
+    fn what_is_left_out_is_what_plain_sums_say() {
+        let cylinder = |mass: f64, offset: f64| Cylinder::new(0.05, 0.14, mass, offset).unwrap();
+        let place = |cylinder, tdc: f64, z, rotating_mass| Station {
+            cylinder,
+            tdc: Angle::from_degrees(tdc).unwrap(),
+            bank: Angle::QUARTER_TURN,
+            z,
+            rotating_mass,
+        };
+        let four = [(0.0, 0.0), (180.0, 0.1), (180.0, 0.2), (0.0, 0.3)];
+        let engine = |places: Vec<Station>| Engine::new("", "", places).unwrap();
+        let engines = [
+            engine(vec![place(cylinder(0.4, 0.0), 0.0, 0.2, 0.0)]),
+            engine(vec![place(cylinder(0.4, 0.01), 70.0, 0.2, 1.0)]),
+            engine(four.map(|(tdc, z)| place(cylinder(0.6, 0.0), tdc, z, 0.0)).to_vec()),
+            engine(four.map(|(tdc, z)| place(cylinder(0.6, 0.01), tdc, z, 0.3)).to_vec()),
+            engine(vec![
+                place(cylinder(0.4, 0.0), 0.0, -0.2, 0.0),
+                place(cylinder(0.0, 0.0), 0.0, 0.7, 0.0),
+                place(cylinder(0.2, 0.0), 100.0, 0.1, 0.3),
+            ]),
+            engine(vec![place(cylinder(0.4, 0.0), 0.0, 0.2, 0.0)])
+                .with_cranks(
+                    vec![Crank::MAIN, Crank { axis: [0.3, -0.4], ratio: SpeedRatio::whole(-2) }],
+                    vec![1],
+                )
+                .unwrap(),
+        ];
+        // Of each the largest m·r, the longest lever about 0.05 of what has weight, and the largest m·r².
+        // On a crank of twice the speed a weight counts four times.
+        let scales_of =
+            [[0.02, 0.15], [0.05, 0.15], [0.03, 0.25], [0.03, 0.25], [0.02, 0.25], [0.08, 0.15]];
+        let all = Order::all_whole(&(1..=100).collect::<Vec<_>>()).unwrap();
+        let cancel = Cancel::new();
+        for (engine, [weight, lever]) in engines.iter().zip(scales_of) {
+            let loads = LoadList::new(engine, 0.05);
+            let one = GroupIndex::default();
+            let scales = scales(engine, &loads)[one].values();
+            let expected = [weight, weight * lever, weight * 0.05];
+            for (scale, expected) in scales.into_iter().zip(expected) {
+                assert!((scale - expected).abs() < 1e-15, "{scales:?} {expected}");
+            }
+            let (every, _) = wrenches(&loads, &loads.sources, true, &all, &cancel).unwrap();
+            for rtol in [0.3, 1e-2, 1e-4, 1e-9] {
+                let chosen = within(rtol, engine, &loads, true, &cancel).unwrap();
+                let kept: Vec<Order> = chosen.kept().map(|(order, _)| order).collect();
+                let mut sums = [0.0; 3];
+                let mut of_kept = Vec::new();
+                for (order, wrench) in all.iter().zip(&every) {
+                    let sizes = OrderSums::of(wrench).values();
+                    if kept.contains(order) {
+                        of_kept.push(sizes);
+                    } else {
+                        sums.iter_mut().zip(sizes).for_each(|(sum, size)| *sum += size);
+                    }
+                    let is_left = chosen.orders.contains(order)
+                        && !kept.contains(order)
+                        && sizes.iter().any(|size| *size > 0.0);
+                    assert_eq!(chosen.omitted().contains(order), is_left);
+                }
+                let lost = chosen.left_out[one].values();
+                for k in 0..3 {
+                    let most = rtol * scales[k] * (1.0 + 1e-12);
+                    assert!(lost[k] >= sums[k] * (1.0 - 1e-12) && lost[k] <= most);
+                    // The rest above all that are evaluated is a hundredth of what may be left out.
+                    assert!(lost[k] <= sums[k] + NEGLIGIBLE_REST * most, "{lost:?} {sums:?}");
+                }
+                for sizes in of_kept {
+                    assert!((0..3).any(|k| lost[k] + sizes[k] > rtol * scales[k]));
+                }
+                let bound = chosen.error_bound(&loads, &[300.0, 100.0]).values();
+                assert_eq!(bound, lost.map(|lost| lost * (300.0 * 300.0)));
+            }
+        }
+    }
+
+    #[test]
+    fn bounds_of_groups_add_up_by_what_they_scale_with() {
+        let engine = crate::load::tests::fired([Some(0); 3]).0;
+        let loads = LoadList::new(&engine, 0.0);
+        assert_eq!(loads.groups.len(), 2);
+        let of = |k: f64| OrderSums { force: k, moment: 2.0 * k, torque: 3.0 * k };
+        let found = bounds(&[of(1.0), of(10.0)], &loads.groups, 5.0).values();
+        let factors = [0, 1].map(|k| loads.groups[GroupIndex::new(k)].scaling.factor(5.0));
+        assert_eq!(factors.iter().sum::<f64>(), 26.0);
+        let sum = factors[0] + 10.0 * factors[1];
+        assert_eq!(found, [sum, 2.0 * sum, 3.0 * sum]);
+    }
+
+    /// Each by itself, and the shafts.
+    #[test]
+    fn orders_of_cylinders_alone_are_those_of_engines_of_one() {
+        let engine = crate::load::tests::engine();
+        let (loads, cancel) = (LoadList::new(&engine, 0.03), Cancel::new());
+        for rtol in [1e-2, 1e-6] {
+            let mut expected = Order::all_whole(&[1, 2]).unwrap();
+            let mut sums = [0.0; 3];
+            for station in engine.stations() {
+                let alone = Station { rotating_mass: 0.0, ..*station };
+                let alone = Engine::new("", "", vec![alone]).unwrap();
+                let loads = LoadList::new(&alone, 0.03);
+                let chosen = within(rtol, &alone, &loads, true, &cancel).unwrap();
+                expected.extend(chosen.kept().map(|(order, _)| order));
+                let bound = chosen.error_bound(&loads, &[7.0]).values();
+                sums.iter_mut().zip(bound).for_each(|(sum, bound)| *sum += bound);
+            }
+            expected.sort_unstable();
+            expected.dedup();
+            let (orders, bound) = within_each(rtol, &engine, &loads, (true, 7.0), &cancel).unwrap();
+            assert_eq!(orders, expected);
+            for (bound, sum) in bound.values().into_iter().zip(sums) {
+                assert!(sum > 0.0 && (bound - sum).abs() <= 1e-13 * sum, "{bound} {sum}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_rod_hardly_longer_than_the_crank_needs_too_many_orders() {
+        let cylinder = Cylinder::new(0.05, 0.05 * (1.0 + 1e-13), 0.5, 0.0).unwrap();
+        let (tdc, bank) = (Angle::ZERO, Angle::ZERO);
+        let place = Station { cylinder, tdc, bank, z: 0.0, rotating_mass: 0.0 };
+        let engine = Engine::new("", "", vec![place]).unwrap();
+        let loads = LoadList::new(&engine, 0.0);
+        let error = within(1e-9, &engine, &loads, true, &Cancel::new()).err().unwrap();
+        let ratio = format!("at a rod ratio of {:?};", 1.0 / cylinder.proportions().rod);
+        assert!(error.to_string().contains(&ratio), "{error}");
+    }
+
+    /// Where no order leaves a hundredth of the tolerance, the highest is enough if it leaves a quarter.
+    #[test]
+    fn the_highest_order_is_enough_where_it_leaves_a_quarter() {
+        let cylinder = Cylinder::new(0.05, 0.05 * (1.0 + 1e-9), 0.5, 0.0).unwrap();
+        let (tdc, bank) = (Angle::ZERO, Angle::ZERO);
+        let place = Station { cylinder, tdc, bank, z: 0.0, rotating_mass: 0.0 };
+        let engine = Engine::new("", "", vec![place; 2]).unwrap();
+        let loads = LoadList::new(&engine, 0.0);
+        let rest =
+            loads.sources[SourceIndex::new(0)].beyond(2 * limits::HIGHEST_ORDER, false).force;
+        assert!(rest > 0.0 && rest.is_finite());
+        let scales = scales(&engine, &loads);
+        // Of two cylinders each leaves half of that.
+        for (part, is_enough) in [(0.1, true), (0.12, true), (0.13, false), (0.3, false)] {
+            let found = candidates(rest / part, &scales, &loads, &loads.sources, false);
+            assert_eq!(found.is_ok(), is_enough, "{part}");
+            let highest = found.ok().and_then(|orders| orders.last().copied());
+            assert!(!is_enough || highest.and_then(Order::as_whole) == Some(limits::HIGHEST_ORDER));
+        }
+    }
+
+    #[test]
+    fn tolerances_are_relative_to_amplitudes_and_to_what_rods_make() {
+        let cylinder = Cylinder::new(0.05, 0.15, 0.0, 0.0).unwrap();
+        let cylinder = cylinder.with_rod_inertia_excess(0.01).unwrap();
+        let (tdc, bank) = (Angle::ZERO, Angle::ZERO);
+        let place = Station { cylinder, tdc, bank, z: 0.2, rotating_mass: 0.0 };
+        let rod = Engine::new("", "", vec![place]).unwrap();
+        let scales_of =
+            |engine: &Engine| scales(engine, &LoadList::new(engine, 0.05))[GroupIndex::default()];
+        // About J·r/l.
+        let torque = scales_of(&rod).torque;
+        assert!((torque / (0.01 / 3.0) - 1.0).abs() < 0.1, "{torque}");
+        let spectrum = crate::Spectrum::new([(1, 0.02.into()), (2, 0.005.into())]).unwrap();
+        let OrderSums { force, moment, .. } = scales_of(&rod.with_spectrum(spectrum));
+        assert!((force - 0.02).abs() < 1e-16 && (moment - 0.15 * 0.02).abs() < 1e-16);
+    }
+
+    #[test]
+    fn nothing_times_anything_is_nothing() {
+        for (weight, bound, product) in [
+            (0.0, f64::INFINITY, 0.0),
+            (f64::INFINITY, 0.0, 0.0),
+            (3.0, 0.5, 1.5),
+            (2.0, f64::INFINITY, f64::INFINITY),
+        ] {
+            assert_eq!(times(weight, bound), product);
         }
     }
 

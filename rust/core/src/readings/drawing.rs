@@ -13,6 +13,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::figure;
 use crate::numbers::index::ListIndex;
+use crate::numbers::ratio::SpeedRatio;
 use crate::pressure::Cycle;
 
 /// Mass of the block, which is not known, over that of the pistons: 90 kg for two litres.
@@ -50,7 +51,7 @@ pub struct Drawing {
 pub struct DrawnCrank {
     x: f64,
     y: f64,
-    ratio: i32,
+    ratio: SpeedRatio,
 }
 
 /// A shaft: as a crank, with what turns on it.
@@ -58,7 +59,7 @@ pub struct DrawnCrank {
 pub struct DrawnShaft {
     x: f64,
     y: f64,
-    ratio: i32,
+    ratio: SpeedRatio,
     unbalances: Vec<DrawnUnbalance>,
 }
 
@@ -189,7 +190,7 @@ fn cylinders(engine: &Engine) -> Vec<DrawnCylinder> {
         let pressure = |swept| DrawnPressure {
             pressure_deg: engine.firing_phase(i).degrees(),
             swept,
-            roll: ratio.signum(),
+            roll: ratio.sense(),
         };
         DrawnCylinder {
             number: i + 1,

@@ -3,16 +3,21 @@
 
 use std::collections::BTreeSet;
 
+use serde::Serialize;
+
 use super::balance::{Balance, Request, Vector};
 use super::flywheel::mean_inertias;
 use super::quantity::Part;
-use super::terms::terms;
+use super::terms::{Sums, terms};
 use crate::Complex64;
 use crate::engine::{Engine, Origin};
+use crate::load::{Load, LoadList};
 use crate::mechanism::harmonics;
+use crate::numbers::UNIT_RPM;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
+use crate::source::Scaling;
 
 /// Highest order of the pistons whose phasors are listed.
 pub const HIGHEST_LISTED: u32 = 24;
@@ -66,22 +71,26 @@ impl GroupTerms {
 }
 
 /// Speeds at which cranks turn, over that of the main one.
-fn speeds(engine: &Engine) -> BTreeSet<u32> {
-    engine.cranks().iter().map(|crank| crank.ratio.unsigned_abs()).collect()
+fn speeds(engine: &Engine) -> Result<BTreeSet<Order>> {
+    engine.cranks().iter().map(|crank| crank.ratio.order()).collect()
 }
 
 fn request(torque: bool) -> Request {
     Request { rpm: ONE_RADIAN_PER_SECOND, reference_z: None, torque }
 }
 
-fn all(orders: BTreeSet<u32>) -> Result<Vec<Order>> {
-    orders.into_iter().map(Order::whole).collect()
+/// Whole orders up to one, those of shafts, and others.
+fn with_shafts(highest: u32, engine: &Engine, others: BTreeSet<Order>) -> Result<Vec<Order>> {
+    let shafts = engine.shafts().iter().map(|shaft| shaft.ratio.order());
+    let all = (1..=highest).map(Order::whole).chain(shafts).chain(others.into_iter().map(Ok));
+    Ok(all.collect::<Result<BTreeSet<_>>>()?.into_iter().collect())
 }
 
-/// Orders whose phasors are listed: of pistons and of shafts.
+/// Orders whose phasors are listed: of pistons, of shafts and of further loads.
 pub fn listed_orders(engine: &Engine) -> Result<Vec<Order>> {
-    let shafts = engine.shafts().iter().map(|shaft| shaft.ratio.unsigned_abs());
-    all((1..=HIGHEST_LISTED).chain(shafts).collect())
+    let of_loads = load_orders(engine)?.into_iter();
+    let listed = of_loads.filter(|order| order.halves() <= 2 * HIGHEST_LISTED).collect();
+    with_shafts(HIGHEST_LISTED, engine, listed)
 }
 
 /// Orders of the cylinders that are more than a rest, of their cranks, and of shafts.
@@ -89,7 +98,7 @@ pub fn orders(engine: &Engine, cancel: &Cancel) -> Result<Vec<Order>> {
     let bare = engine.bare();
     let mut count = HIGHEST_LISTED;
     let last = loop {
-        let tried = all((1..=2 * count).collect())?;
+        let tried = (1..=2 * count).map(Order::whole).collect::<Result<Vec<_>>>()?;
         let parts = terms(&bare, &request(true), [0.0; 2], &tried, cancel)?;
         let last = parts.iter().filter_map(|(origin, part)| {
             let sizes = |k: usize| {
@@ -107,8 +116,7 @@ pub fn orders(engine: &Engine, cancel: &Cancel) -> Result<Vec<Order>> {
         }
         count *= 2;
     };
-    let shafts = engine.shafts().iter().map(|shaft| shaft.ratio.unsigned_abs());
-    all((1..=last).chain(shafts).chain(speeds(engine)).collect())
+    with_shafts(last, engine, speeds(engine)?)
 }
 
 /// Terms of an engine's parts over ω², by order and summed over groups; what cancels within a group is
@@ -123,17 +131,14 @@ pub fn group_terms(
     torque: bool,
     cancel: &Cancel,
 ) -> Result<Vec<[GroupTerms; GROUPS]>> {
-    let banks = engine.check_bank_angle_can_change().ok();
-    let bank = |cylinder: usize| {
-        banks.map_or(0, |banks| usize::from(engine.bank_of(cylinder) != banks.right))
-    };
-    let still = if banks.is_some() { 2 } else { 0 };
+    let group_of = grouping(engine);
+    let bank = |cylinder: usize| engine.bank_of(cylinder);
     let group = |origin: Origin| match origin {
-        Origin::Cylinder(index) => (Parts::Moving, bank(index)),
+        Origin::Cylinder(index) => (Parts::Moving, group_of(Some(bank(index)))),
         Origin::Counterweight(index) => {
-            (Parts::Standing, engine.counterweights()[index].pin.map_or(still, bank))
+            (Parts::Standing, group_of(engine.counterweights()[index].pin.map(bank)))
         }
-        Origin::Shaft(_) | Origin::Load(_) => (Parts::Standing, still),
+        Origin::Shaft(_) | Origin::Load(_) => (Parts::Standing, group_of(None)),
     };
     let all = terms(&engine.bare(), &request(torque), [0.0; 2], orders, cancel)?;
     let own = |(origin, part): &(Origin, Balance)| {
@@ -161,6 +166,121 @@ pub fn group_terms(
         sums
     };
     Ok((0..orders.len()).map(summed).collect())
+}
+
+/// Group of what turns with a bank as the bank angle changes, or with none.
+fn grouping(engine: &Engine) -> impl Fn(Option<usize>) -> usize {
+    let right = engine.check_bank_angle_can_change().ok().map(|banks| banks.right);
+    move |bank| match (right, bank) {
+        (None, _) => 0,
+        (Some(right), Some(bank)) => usize::from(bank != right),
+        (Some(_), None) => 2,
+    }
+}
+
+/// Terms of periodic loads, in rows: order, power and polynomial of the rod ratio, values of groups, factor
+/// at the engine's own rod ratio, factor over speed.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct LoadRows {
+    /// Forward and backward parts of force, N, then of moment, N·m.
+    planar: Vec<LoadRow>,
+    /// Torques on the block and on the main crank, N·m; order 0 is their mean.
+    torque: Vec<LoadRow>,
+    /// Lowest and highest speed of tables, rpm, where there are some.
+    speeds: Option<[f64; 2]>,
+}
+
+type LoadRow = (f64, u8, [u8; 1], Vec<Vec<f64>>, u8, OverSpeed);
+
+/// Factor of amplitudes at a speed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(untagged)]
+enum OverSpeed {
+    /// Power of the angular speed, rad/s.
+    Power(u8),
+    /// Height of a line that rises from 0 at the first of three crank speeds to 1 at the second, and falls
+    /// to 0 at the third, rpm.
+    Line([f64; 3]),
+}
+
+/// Orders of periodic loads, ascending.
+fn load_orders(engine: &Engine) -> Result<Vec<Order>> {
+    if engine.loads().is_empty() {
+        return Ok(Vec::new());
+    }
+    let loads = LoadList::of(engine, engine.reference(None)?)?;
+    let orders = |load| loads.source(load).orders(Order::HIGHEST);
+    let own: BTreeSet<Order> =
+        loads.list.iter().filter(|load| is_given(load)).flat_map(orders).collect();
+    Ok(own.into_iter().collect())
+}
+
+fn is_given(load: &Load) -> bool {
+    matches!(load.place.origin, Origin::Load(_))
+}
+
+/// Terms of an engine's periodic loads, each at all speeds; a speed, rpm, that tables do not have is an
+/// error.
+pub fn load_rows(engine: &Engine, rpm: f64, torque: bool, cancel: &Cancel) -> Result<LoadRows> {
+    engine.check_speeds(&[rpm])?;
+    let mut rows = LoadRows { speeds: engine.speeds_of_tables(), ..LoadRows::default() };
+    let orders = load_orders(engine)?;
+    if engine.loads().is_empty() {
+        return Ok(rows);
+    }
+    let engine = engine.without_gas();
+    let sums = Sums::new(&engine, None, torque, &orders, cancel)?;
+    let given = || sums.loads.list.iter().filter(|load| is_given(load));
+    let mut scalings: Vec<Scaling> = Vec::new();
+    for load in given() {
+        if !scalings.contains(&load.parts.scaling) {
+            scalings.push(load.parts.scaling);
+        }
+    }
+    let group_of = grouping(&engine);
+    for scaling in scalings {
+        let (over, omega) = match scaling {
+            Scaling::SpeedSquared => (OverSpeed::Power(2), 1.0),
+            Scaling::Independent => (OverSpeed::Power(0), 1.0),
+            Scaling::Row(line) => (OverSpeed::Line(line), line[1] / UNIT_RPM),
+        };
+        let sum = |group: usize| {
+            let is_own =
+                |load: &&Load| load.parts.scaling == scaling && group_of(load.place.bank) == group;
+            let own: Vec<Load> = given().filter(is_own).copied().collect();
+            sums.of(&own, omega, cancel)
+        };
+        let groups: Vec<Balance> = (0..GROUPS).map(sum).collect::<Result<_>>()?;
+        let push = |rows: &mut Vec<LoadRow>, order: f64, values: &dyn Fn(&Balance) -> Vec<f64>| {
+            let of_groups = groups.iter().map(values).enumerate();
+            let listed: Vec<Vec<f64>> = of_groups
+                .filter(|(_, values)| values.iter().any(|value| *value != 0.0))
+                .map(|(group, values)| [group as f64].into_iter().chain(values).collect())
+                .collect();
+            if !listed.is_empty() {
+                rows.push((order, 0, [1], listed, 1, over));
+            }
+        };
+        if torque {
+            push(&mut rows.torque, 0.0, &|sum| {
+                let [roll, crank] = sum.mean(Part::Whole);
+                vec![roll, 0.0, crank, 0.0]
+            });
+        }
+        for (k, order) in orders.iter().enumerate() {
+            push(&mut rows.planar, order.number(), &|sum| {
+                let GroupTerms { planar, .. } = GroupTerms::of(sum, k);
+                planar.iter().flat_map(|part| [part.re, part.im]).collect()
+            });
+            if torque {
+                push(&mut rows.torque, order.number(), &|sum| {
+                    let torque = sum.torque(Part::Whole, k);
+                    [torque.roll, torque.crank].iter().flat_map(|part| [part.re, part.im]).collect()
+                });
+            }
+        }
+    }
+    Ok(rows)
 }
 
 /// Volume that a cylinder's piston adds per radian past its top dead centre, m³: phasors of orders.
@@ -198,15 +318,14 @@ pub struct Sizes {
 
 /// What the cylinders make one by one.
 pub fn sizes(engine: &Engine, cancel: &Cancel) -> Result<Sizes> {
-    let speeds: Vec<u32> = speeds(engine).into_iter().collect();
-    let parts =
-        terms(&engine.bare(), &request(false), [0.0; 2], &Order::all_whole(&speeds)?, cancel)?;
+    let speeds: Vec<Order> = speeds(engine)?.into_iter().collect();
+    let parts = terms(&engine.bare(), &request(false), [0.0; 2], &speeds, cancel)?;
     let reference = engine.reference(None)?.abs();
     let mut found = Sizes::default();
     for (origin, part) in &parts {
         let Origin::Cylinder(i) = *origin else { continue };
         let (station, crank) = (&engine.stations()[i], &engine.cranks()[engine.crank_of(i)]);
-        let speed = speeds.iter().position(|&speed| speed == crank.ratio.unsigned_abs());
+        let speed = speeds.iter().position(|&speed| crank.ratio.order() == Ok(speed));
         let force = speed.map_or(0.0, |k| part.planar(Vector::Force, k).peak());
         let [x, y] = crank.axis;
         found.force += force;

@@ -7,6 +7,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::ListIndex;
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 use crate::readings::amplitude::wrenches;
 use crate::readings::balance::{Request, UNIT_RPM, angular_speed};
 use crate::readings::terms::sums_by;
@@ -24,16 +25,16 @@ pub struct TurningPart {
 
 impl TurningPart {
     /// Part of an order's wrench that turns with a shaft of this ratio.
-    pub(crate) fn of(wrench: &Wrench, ratio: i32) -> Self {
+    pub(crate) fn of(wrench: &Wrench, ratio: SpeedRatio) -> Self {
         let [force, moment] = [wrench.force, wrench.moment]
-            .map(|vector| if ratio > 0 { vector.forward } else { vector.backward() });
+            .map(|vector| if ratio.is_forward() { vector.forward } else { vector.backward() });
         Self { force, moment }
     }
 }
 
 /// Part of an engine's force and moment that turns with a shaft of this ratio, over ω².
-pub fn turning(engine: &Engine, ratio: i32, cancel: &Cancel) -> Result<TurningPart> {
-    let order = Order::whole(ratio.unsigned_abs())?;
+pub fn turning(engine: &Engine, ratio: SpeedRatio, cancel: &Cancel) -> Result<TurningPart> {
+    let order = ratio.order()?;
     Ok(TurningPart::of(&over_square(engine, order, false, None, cancel)?, ratio))
 }
 
@@ -76,8 +77,8 @@ pub(crate) fn over_square(
 }
 
 /// Ratios of the cranks that carry throws and turn as fast as the main one, by sense, with their indices.
-pub(crate) fn cranks_by_sense(engine: &Engine) -> [(i32, Vec<CrankIndex>); 2] {
-    [1, -1].map(|ratio| {
+pub(crate) fn cranks_by_sense(engine: &Engine) -> [(SpeedRatio, Vec<CrankIndex>); 2] {
+    [1, -1].map(SpeedRatio::whole).map(|ratio| {
         let carries = |&crank: &CrankIndex| {
             engine.cranks()[crank].ratio == ratio
                 && (0..engine.stations().len()).any(|i| engine.crank_of(i) == crank)
@@ -91,7 +92,7 @@ pub(crate) fn cranks_by_sense(engine: &Engine) -> [(i32, Vec<CrankIndex>); 2] {
 /// other parts exert in that sense.
 pub(crate) fn on_cranks(
     engine: &Engine,
-    ratio: i32,
+    ratio: SpeedRatio,
     cranks: &[CrankIndex],
     cancel: &Cancel,
 ) -> Result<Vec<TurningPart>> {
@@ -111,7 +112,7 @@ pub(crate) fn on_cranks(
         };
         cranks.iter().position(|&own| Some(own) == crank).unwrap_or(others)
     };
-    let order = [Order::whole(ratio.unsigned_abs())?];
+    let order = [ratio.order()?];
     let sums = sums_by(engine, &request, [0.0; 2], &order, (others + 1, &group_of), cancel)?;
     let parts: Vec<TurningPart> =
         sums.iter().map(|sum| TurningPart::of(&sum.wrenches[0], ratio)).collect();
@@ -167,7 +168,7 @@ pub(crate) fn roll_of_axes(engine: &Engine, cancel: &Cancel) -> Result<RollOfAxe
         for (part, &crank) in on_cranks(engine, ratio, &own, cancel)?.iter().zip(&own) {
             // Im(ā·F) of a force F·e^{±iθ} in place of the one that is there.
             let removed = Complex64::i() * axis(crank).conj() * part.force;
-            kept += if ratio > 0 { removed } else { removed.conj() };
+            kept += if ratio.is_forward() { removed } else { removed.conj() };
             size += removed.norm();
         }
     }

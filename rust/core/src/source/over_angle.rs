@@ -9,6 +9,7 @@ use crate::mechanism::slider_crank::CrankPosition;
 use crate::numbers::angle::Angle;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 
 /// Crank angles evaluated side by side.
 pub(crate) const BLOCK: usize = 256;
@@ -42,7 +43,7 @@ pub struct LoadSum {
     /// Whether the phase is half the crank angle, which half orders turn by whole numbers.
     pub(crate) halved: bool,
     /// Speed of their crank or shaft.
-    pub(crate) ratio: i32,
+    pub(crate) ratio: SpeedRatio,
     /// Crank angle of the phase, degrees.
     pub(crate) phase_deg: f64,
     /// `e^{−iφ}` of the angle of their own crank at which the phase stands.
@@ -123,8 +124,8 @@ impl<'a> AngleBlock<'a> {
     }
 
     /// `e^{iθ}` at some multiple of the angles, either way round.
-    pub(crate) fn units(&self, ratio: i32) -> Cow<'_, Units> {
-        if ratio.abs() == 1 {
+    pub(crate) fn units(&self, ratio: SpeedRatio) -> Cow<'_, Units> {
+        if ratio.is_crank_speed() {
             return Cow::Borrowed(&self.main);
         }
         Cow::Owned(Units::at_speed(self.angles, self.range.clone(), ratio))
@@ -157,8 +158,8 @@ impl Units {
     }
 
     /// At some multiple of these crank angles; a shaft's speed is an order.
-    pub(crate) fn at_speed(angles: &CrankAngles, range: Range<usize>, ratio: i32) -> Self {
-        let order = Order::whole(ratio.unsigned_abs()).unwrap_or(Order::FIRST);
+    pub(crate) fn at_speed(angles: &CrankAngles, range: Range<usize>, ratio: SpeedRatio) -> Self {
+        let order = ratio.order().unwrap_or(Order::FIRST);
         Self::new(angles, range, order)
     }
 

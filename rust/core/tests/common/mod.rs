@@ -13,7 +13,7 @@ use crankpin_core::quantity::Quantity;
 use crankpin_core::sweep::{Statistic, SweepAxes};
 use crankpin_core::{
     Angle, Cancel, Complex64, Crank, Cylinder, Engine, Order, Orders, Request, Result, Shaft,
-    Station, Sweep, Unbalance,
+    SpeedRatio, Station, Sweep, Unbalance,
 };
 use ndarray::ArrayD;
 
@@ -56,7 +56,10 @@ pub fn weighted() -> Arc<Engine> {
         pin,
         crank: CrankIndex::MAIN,
     };
-    let shaft = |ratio, axis, unbalances| Shaft { name: String::new(), ratio, axis, unbalances };
+    let shaft = |ratio, axis, unbalances| {
+        let ratio = SpeedRatio::whole(ratio);
+        Shaft { name: String::new(), ratio, axis, unbalances }
+    };
     let engine = mixed().with_counterweights(vec![
         weight(0.02, 200.0, -0.02, None),
         weight(0.015, 180.0, 0.11, Some(1)),
@@ -88,7 +91,7 @@ pub fn plain() -> Arc<Engine> {
 
 /// The [`plain`] engine with cylinders on a second crank, which turns twice as fast the other way.
 pub fn geared() -> Arc<Engine> {
-    let cranks = vec![Crank::MAIN, Crank { axis: [0.2, 0.1], ratio: -2 }];
+    let cranks = vec![Crank::MAIN, Crank { axis: [0.2, 0.1], ratio: SpeedRatio::whole(-2) }];
     Arc::new(plain().with_cranks(cranks, vec![0, 1, 1]).unwrap())
 }
 
@@ -231,7 +234,7 @@ pub fn kinematics(engine: &Engine, reference: f64, θ: f64) -> ([f64; 6], [f64; 
         add(Complex64::cis(turned) * weight.amount, weight.z, [0.0; 2]);
     }
     for shaft in engine.shafts() {
-        let ratio = f64::from(shaft.ratio);
+        let ratio = shaft.ratio.number();
         for weight in &shaft.unbalances {
             let turned = weight.angle.degrees().to_radians() + ratio * θ;
             let force = Complex64::cis(turned) * (ratio * ratio * weight.amount);
@@ -262,7 +265,7 @@ pub fn scales(engine: &Engine, reference: f64) -> [f64; 3] {
     for shaft in engine.shafts() {
         let [x, y] = shaft.axis;
         for weight in &shaft.unbalances {
-            add(weight.amount * f64::from(shaft.ratio.pow(2)), radius.max(x.hypot(y)), weight.z);
+            add(weight.amount * shaft.ratio.number().powi(2), radius.max(x.hypot(y)), weight.z);
         }
     }
     for p in engine.stations() {

@@ -1,7 +1,7 @@
 //! Random engines.
 
 use crankpin_core::engine::CrankIndex;
-use crankpin_core::{Angle, Cylinder, Engine, Shaft, Station, Unbalance};
+use crankpin_core::{Angle, Cylinder, Engine, Shaft, SpeedRatio, Station, Unbalance};
 use proptest::prelude::*;
 use proptest::sample::select;
 
@@ -64,11 +64,12 @@ fn unbalances(most: usize) -> impl Strategy<Value = Vec<Unbalance>> {
     proptest::collection::vec(one, 0..most)
 }
 
-/// Balance shafts of ratio ±1 to ±3 beside the crank.
+/// Balance shafts of ratio ±½ to ±3 beside the crank.
 pub fn shafts() -> impl Strategy<Value = Vec<Shaft>> {
-    let ratio = select(vec![1, -1, 2, -2, 3, -3]);
+    let ratio = select(vec![1, -1, 2, -2, 3, -3, 4, -4, 6, -6]);
     let one =
         (ratio, [-0.3..0.3, -0.3..0.3], unbalances(3)).prop_map(|(ratio, axis, unbalances)| {
+            let ratio = SpeedRatio::from_halves(ratio);
             Shaft { name: String::new(), ratio, axis, unbalances }
         });
     proptest::collection::vec(one, 0..4)

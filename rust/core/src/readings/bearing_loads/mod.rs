@@ -26,6 +26,7 @@ use crate::numbers::crank_angles::{CrankAngles, check, parts};
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::{List, ListIndex};
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 use crate::numbers::simd::vectorised;
 use crate::numbers::{limits, memory, pool};
 use crate::readings::balance::angular_speed;
@@ -66,7 +67,7 @@ pub struct BearingLoadsModel {
     /// Main bearings by crank, those of one by place.
     mains: Vec<MainBearing>,
     /// Speed of each crank over that of the main one, negative where it turns the other way.
-    ratios: List<CrankIndex, i32>,
+    ratios: List<CrankIndex, SpeedRatio>,
 }
 
 /// A bearing of a crank in the crankcase.
@@ -137,7 +138,7 @@ struct Carried {
     /// The other forces: coefficients of `e^{ikθ/2}`, by k.
     waves: Vec<(i32, Complex64)>,
     /// Speed of its crank.
-    ratio: i32,
+    ratio: SpeedRatio,
     /// Forces up to this are rounding.
     bound: f64,
 }
@@ -170,7 +171,7 @@ impl BearingLoadsModel {
             let rod = DrivenRod::new(engine, i, square)?;
             // What the crankpin gets from the rod is part of the rotating mass.
             let at_start = rod.at_start(-rod.rotating);
-            let waves = vec![(2 * rod.ratio, at_start)];
+            let waves = vec![(rod.ratio.halves(), at_start)];
             found.on_cranks[rod.crank].push(Periodic { z: rod.z, waves });
             found.rods.push(rod);
         }
@@ -388,7 +389,7 @@ impl BearingLoadsModel {
         let bound = rounding(self.rods.len() + all.len(), 1.0) * sizes.sum::<f64>();
         let ratio = self.ratios[crank];
         // First what turns with the crank, of which there always is some.
-        let mut waves = vec![(2 * ratio, Complex64::ZERO)];
+        let mut waves = vec![(ratio.halves(), Complex64::ZERO)];
         for &(halves, wave) in all {
             let sum =
                 find_or_push(&mut waves, |(own, _)| *own == halves, || (halves, Complex64::ZERO));
@@ -413,7 +414,7 @@ impl BearingLoadsModel {
     fn blocks(&self, theta_deg: &[f64], cancel: &Cancel) -> Result<Vec<Blocks>> {
         let mut of_speeds = Vec::<Blocks>::new();
         for &ratio in &self.ratios {
-            let speed = ratio.unsigned_abs();
+            let speed = ratio.halves_of_speed();
             if of_speeds.iter().any(|(known, _)| *known == speed) {
                 continue;
             }
@@ -430,12 +431,12 @@ impl BearingLoadsModel {
     }
 }
 
-/// A speed over that of the main crank, and blocks of crank angles.
+/// A speed in halves of that of the main crank, and blocks of crank angles.
 type Blocks = (u32, Vec<(Range<usize>, Units)>);
 
 /// The blocks of a crank's speed.
-fn blocks_at(blocks: &[Blocks], ratio: i32) -> impl Iterator<Item = &(Range<usize>, Units)> {
-    let of_speed = blocks.iter().filter(move |(speed, _)| *speed == ratio.unsigned_abs());
+fn blocks_at(blocks: &[Blocks], ratio: SpeedRatio) -> impl Iterator<Item = &(Range<usize>, Units)> {
+    let of_speed = blocks.iter().filter(move |(speed, _)| *speed == ratio.halves_of_speed());
     of_speed.flat_map(|(_, blocks)| blocks)
 }
 

@@ -23,6 +23,7 @@ use crate::mechanism::rod::Swing;
 use crate::mechanism::slider_crank::{CrankPosition, Proportions};
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::error::Result;
+use crate::numbers::ratio::SpeedRatio;
 use crate::pressure::Cycle;
 use crate::source::over_angle::{AngleColumn, BLOCK, Units};
 
@@ -39,8 +40,7 @@ pub enum TurningAxes {
 pub(super) struct DrivenRod {
     proportions: Proportions,
     pub crank: CrankIndex,
-    /// Speed of that over the main one's, negative where it turns the other way.
-    pub ratio: i32,
+    pub ratio: SpeedRatio,
     /// `e^{−iφ}` of the angle φ of its own crank at top dead centre.
     pub phase: Complex64,
     /// Unit vectors along the bore, u, and across it, w.
@@ -118,13 +118,13 @@ impl DrivenRod {
         let (radius, length) = (cylinder.crank_radius(), cylinder.rod_length());
         let rotating = details.big_end(length)? * radius;
         let piston = details.piston_mass.map_or(cylinder.first_order(), |mass| mass * radius);
-        let square = square * f64::from(place.speed_squared());
-        let ahead = Complex64::new(0.0, f64::from(place.ratio.signum()));
+        let square = square * place.speed_squared();
+        let ahead = Complex64::new(0.0, f64::from(place.ratio.sense()));
         Ok(Self {
             proportions: cylinder.proportions(),
             crank: engine.crank_of(i),
             ratio: place.ratio,
-            phase: place.phase.cis(-i64::from(place.ratio.abs())),
+            phase: place.ratio.cis(place.phase, -place.ratio.sense()),
             axes: [place.unit, place.unit * ahead],
             z: place.z,
             reciprocating: cylinder.first_order() * square,
@@ -137,7 +137,7 @@ impl DrivenRod {
 
     /// Forces at a crank angle, degrees, where pressure has the polynomial that counts at another angle.
     pub fn forces_beside(&self, theta_deg: f64, at: f64) -> RodForces {
-        let unit = cis_degrees(theta_deg * f64::from(self.ratio.abs())) * self.phase;
+        let unit = cis_degrees(theta_deg * self.ratio.size()) * self.phase;
         let gas = self.gas.as_ref().map_or(0.0, |gas| gas.force(theta_deg, at));
         self.forces(&CrankPosition::new(unit.im, unit.re), gas)
     }
@@ -161,9 +161,10 @@ impl DrivenRod {
     /// Crank angles at which its pressure may jump or bend, and those at which the rod leans most, where
     /// loads of one hardly longer than the crank have narrow peaks, degrees.
     pub fn edges_deg(&self) -> impl Iterator<Item = f64> {
-        let (tdc, speed) = (-self.phase.arg().to_degrees(), self.ratio.unsigned_abs());
-        let quarter = move |k: u32| (tdc + 90.0 + 180.0 * f64::from(k)) / f64::from(speed);
-        let leaning = (0..4 * speed).map(quarter);
+        let (tdc, speed) = (-self.phase.arg().to_degrees(), self.ratio.size());
+        let quarter = move |k: u32| (tdc + 90.0 + 180.0 * f64::from(k)) / speed;
+        // In two turns of the main crank.
+        let leaning = (0..2 * self.ratio.halves_of_speed()).map(quarter);
         let gas = self.gas.iter();
         gas.flat_map(|gas| gas.cycle.edges_deg().iter().map(move |edge| edge + gas.phase))
             .chain(leaning)

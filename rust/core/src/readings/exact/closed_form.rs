@@ -8,8 +8,9 @@
 use num_traits::{CheckedDiv, CheckedMul};
 
 use super::roots::{FormalSum, Share};
-use super::{ExactLoads, Levers, NumberedLoads, too_long, whole};
-use crate::engine::Engine;
+use super::{ExactLoads, Levers, too_long, whole};
+use crate::Complex64;
+use crate::engine::{Engine, Origin};
 use crate::load::{Load, LoadIndex, LoadList, Wanted, superpose};
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
@@ -72,8 +73,10 @@ pub struct ClosedForm {
     pub period: i128,
     /// By which coefficients are divided.
     pub denominator: i128,
-    /// Along (about) x, along (about) y, forward, backward.
+    /// Along (about) x, along (about) y, forward, backward; without loads that are given by numbers.
     pub phasors: [Phasor; 4],
+    /// Indices of the periodic loads that act at this order besides.
+    pub loads: Vec<usize>,
 }
 
 fn refused(argument: &str, value: impl std::fmt::Display, hint: &str) -> Error {
@@ -150,17 +153,12 @@ pub fn closed_form(
     cancel: &Cancel,
 ) -> Result<ClosedForm> {
     if order.as_whole().is_none() {
-        return Err(refused("order", order, "a whole order: inertia has no others"));
+        return Err(refused("order", order, "a whole order: pistons have no others"));
     }
     let ExactLoads { mut loads, motions, .. } = ExactLoads::new(engine, reference_z)?;
-    if motions.iter().any(|motion| motion.ratio.abs() != 1) {
+    if motions.iter().any(|motion| !motion.ratio.is_crank_speed()) {
         let hint = "cylinders on cranks as fast as the main one";
         return Err(refused("cranks", "of different speeds", hint));
-    }
-    let numbered = NumberedLoads::new(engine, reference_z, &[order], cancel)?;
-    if numbered.0[0][if moment { 4..8 } else { 0..4 }].iter().any(|acts| *acts) {
-        let hint = "no load given by numbers at this order: engine.with_loads([]) has none";
-        return Err(refused("loads", "that act", hint));
     }
     let [motion] = &*motions else {
         return Err(refused("cylinders", "of different proportions", "rods and offsets alike"));
@@ -195,8 +193,8 @@ pub fn closed_form(
             (true, false) => LoadMotion::Forward,
             _ => LoadMotion::Backward,
         };
-        let square = place.speed_squared();
-        let weight = weight.checked_mul(&Ratio::from(i128::from(square))).ok_or_else(too_long)?;
+        let speed = Ratio::new(place.ratio.halves().into(), 2);
+        let weight = weight.checked_mul(&(speed * speed)).ok_or_else(too_long)?;
         let argument = if motion == LoadMotion::Along { "bank_deg" } else { "angle_deg" };
         let direction = part_of_turn(argument, place.direction)?;
         parts.push(LoadPart {
@@ -223,7 +221,31 @@ pub fn closed_form(
     // Real parts come doubled, and forward and backward are halves: a quarter.
     let denominator = denominator.checked_mul(4).ok_or_else(too_long)?;
     let period = forward.period();
-    Ok(ClosedForm { unit, spacing, no_harmonic, parts, period, denominator, phasors })
+    let loads = given_loads(engine, order, moment, reference_z, cancel)?;
+    Ok(ClosedForm { unit, spacing, no_harmonic, parts, period, denominator, phasors, loads })
+}
+
+/// Indices of the periodic loads whose force, or moment about a plane, has an order.
+fn given_loads(
+    engine: &Engine,
+    order: Order,
+    moment: bool,
+    reference_z: Option<f64>,
+    cancel: &Cancel,
+) -> Result<Vec<usize>> {
+    let loads = LoadList::of(engine, engine.reference(reference_z)?)?;
+    let mut found = Vec::new();
+    for load in &loads.list {
+        let Origin::Load(index) = load.place.origin else { continue };
+        let has_lever = !moment || load.place.z != loads.reference;
+        if load.parts.force.is_some() && has_lever && !found.contains(&index) {
+            let force = loads.source(load).force(&[order], cancel)?;
+            if force.iter().any(|amplitude| *amplitude != Complex64::ZERO) {
+                found.push(index);
+            }
+        }
+    }
+    Ok(found)
 }
 
 /// Twice the forward and twice the conjugate of the backward part, over a denominator; `products` are
@@ -243,7 +265,8 @@ fn sums(
         let shares =
             terms.iter().flat_map(|t| if moment { &t.moment[side] } else { &t.force[side] });
         let root = |share: &Share| {
-            let factor = i128::from(share.halves).checked_mul(*measure.numer())?;
+            // What turns here has crank speed: shares are whole halves.
+            let factor = i128::from(share.eighths / 4).checked_mul(*measure.numer())?;
             let (numerator, denominator) = share.root.turns.into_raw();
             Some((numerator, denominator, weights[share.load].checked_mul(factor)?))
         };
@@ -271,9 +294,13 @@ fn phasor(sum: &RootSum, cancel: &Cancel) -> Result<Phasor> {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+    use proptest::sample::select;
+
     use super::*;
     use crate::engine::{CrankIndex, Shaft, Station, Unbalance};
     use crate::mechanism::slider_crank::Cylinder;
+    use crate::numbers::ratio::SpeedRatio;
     use crate::readings::balance::{Request, Vector, balance};
 
     /// Of a whole order.
@@ -322,6 +349,7 @@ mod tests {
                 pin: None,
                 crank: CrankIndex::MAIN,
             };
+            let ratio = SpeedRatio::whole(ratio);
             Shaft { name: String::new(), ratio, axis: [0.0; 2], unbalances: vec![unbalance] }
         };
         let engine = crossplane().with_shafts(vec![shaft(1), shaft(-1)]).unwrap();
@@ -439,5 +467,154 @@ mod tests {
         let engine = Engine::new("", "", places).unwrap();
         let error = of_order(&engine, 1, false, None).unwrap_err().to_string();
         assert!(error.contains("reciprocating_mass"), "{error}");
+    }
+
+    #[test]
+    fn levers_are_multiples_of_the_distances_of_cylinders() {
+        let places = crossplane().stations().to_vec();
+        let of = |z: &[f64], plane: f64| {
+            let with = |(place, z): (&Station, &f64)| Station { z: *z, ..*place };
+            let engine = Engine::new("", "", places.iter().zip(z).map(with).collect()).unwrap();
+            let form = of_order(&engine, 1, true, Some(plane)).unwrap();
+            (form.parts.iter().map(|part| part.lever).collect::<Vec<_>>(), form.spacing)
+        };
+        // A third of a spacing from the plane: 0.3 m between them.
+        let (levers, spacing) = of(&[0.1, 0.4], 0.0);
+        assert_eq!(levers, [Ratio::new(1, 3), Ratio::new(4, 3)]);
+        assert!((spacing - 0.3).abs() < 1e-15);
+        // All in one place, beside a plane that is no decimal.
+        let plane = 0.1 * 2.0_f64.sqrt();
+        for z in [&[0.1][..], &[0.1; 2]] {
+            let (levers, spacing) = of(z, plane);
+            assert!(levers.iter().all(|lever| *lever == Ratio::from(-1)), "{levers:?}");
+            assert!((spacing - (plane - 0.1)).abs() < 1e-15);
+        }
+        assert_eq!(of(&[0.1; 2], 0.1), (vec![Ratio::ZERO; 2], 0.0));
+    }
+
+    fn engines() -> impl Strategy<Value = Engine> {
+        let angle = |angles: Vec<f64>| {
+            select(angles).prop_map(|degrees| Angle::from_degrees(degrees).unwrap())
+        };
+        let unbalance = move || {
+            let angle = angle(vec![0.0, 60.0, 270.0]);
+            (select(vec![0.0125, 0.02]), angle, select(vec![0.0, 0.1, 0.3])).prop_map(
+                |(amount, angle, z)| Unbalance {
+                    amount,
+                    angle,
+                    z,
+                    pin: None,
+                    crank: CrankIndex::MAIN,
+                },
+            )
+        };
+        let place = (
+            select(vec![0.5, 0.0, 0.75]),
+            angle(vec![0.0, 90.0, 120.0, 240.0]),
+            angle(vec![45.0, 90.0, 135.0]),
+            select(vec![0.1, 0.2, 0.4]),
+            select(vec![0.0, 0.0, 0.25]),
+        );
+        let places = proptest::collection::vec(place, 1..4);
+        let shaft = (select(vec![1, -1, 2]), unbalance()).prop_map(|(ratio, unbalance)| Shaft {
+            name: String::new(),
+            ratio: SpeedRatio::whole(ratio),
+            axis: [0.0; 2],
+            unbalances: vec![unbalance],
+        });
+        let weights = proptest::collection::vec(unbalance(), 0..2);
+        let shafts = proptest::collection::vec(shaft, 0..3);
+        (places, select(vec![0.0, 0.0, 0.01]), select(vec![0.0, 0.001]), weights, shafts).prop_map(
+            |(places, offset, inertia, weights, shafts)| {
+                let place = |(mass, tdc, bank, z, rotating_mass)| Station {
+                    cylinder: Cylinder::new(0.05, 0.15, mass, offset)
+                        .and_then(|cylinder| cylinder.with_rod_inertia_excess(inertia))
+                        .unwrap(),
+                    tdc,
+                    bank,
+                    z,
+                    rotating_mass,
+                };
+                let engine = Engine::new("", "", places.into_iter().map(place).collect());
+                let engine = engine.and_then(|engine| engine.with_counterweights(weights));
+                engine.and_then(|engine| engine.with_shafts(shafts)).unwrap()
+            },
+        )
+    }
+
+    /// What refuses a closed form of such an engine, if anything does.
+    fn refusal(engine: &Engine, order: u32) -> Option<&'static str> {
+        let masses = engine.stations().iter().map(|place| place.cylinder.reciprocating_mass());
+        let turns = |ratio: SpeedRatio| ratio.halves_of_speed() == 2 * order;
+        let on_crank = !engine.counterweights().is_empty()
+            || engine.stations().iter().any(|place| place.rotating_mass > 0.0);
+        let turning =
+            order == 1 && on_crank || engine.shafts().iter().any(|shaft| turns(shaft.ratio));
+        if masses.sum::<f64>() == 0.0 {
+            Some("reciprocating_mass")
+        } else if turning && order > 1 {
+            Some("shafts")
+        } else if turning && engine.stations()[0].cylinder.pin_offset() != 0.0 {
+            Some("pin_offset")
+        } else {
+            None
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(256))]
+
+        #[test]
+        fn closed_forms_are_balances_or_refused_with_the_reason(
+            engine in engines(),
+            order in 1_u32..5,
+            moment in any::<bool>(),
+            reference in select(vec![None, Some(0.0), Some(0.05)]),
+        ) {
+            let form = match (of_order(&engine, order, moment, reference), refusal(&engine, order)) {
+                (Ok(form), None) => form,
+                (Err(error), Some(argument)) => {
+                    let text = error.to_string();
+                    prop_assert!(text.starts_with(argument), "{text}");
+                    return Ok(());
+                }
+                (found, expected) => {
+                    return Err(TestCaseError::fail(format!("{expected:?} {found:?}")));
+                }
+            };
+            let rpm = 60.0 / std::f64::consts::TAU;
+            let orders = crate::Orders::whole(&[order]).unwrap();
+            let request = Request { rpm, reference_z: reference, torque: false };
+            let found = balance(&engine, &request, &orders, &Cancel::new()).unwrap();
+            let vector = if moment { Vector::Moment } else { Vector::Force };
+            let planar = found.planar(vector, 0);
+            let [x, y] = found.xy(vector, 0);
+            let cylinder = engine.stations()[form.unit].cylinder;
+            let proportions = cylinder.proportions();
+            let harmonic = crate::mechanism::harmonics::coefficients(
+                &proportions,
+                &[order],
+                &Cancel::new(),
+            ).unwrap()[0];
+            prop_assert_eq!(form.no_harmonic, harmonic.norm() == 0.0);
+            let length = if moment { form.spacing } else { 1.0 };
+            let unit = harmonic * (cylinder.first_order() * length);
+            let denominator = form.denominator as f64;
+            let expected = [x, y, planar.forward, planar.backward()];
+            for (k, (phasor, expected)) in form.phasors.iter().zip(expected).enumerate() {
+                let of = |part: &[i128]| value(part, form.period) / denominator;
+                // A backward part is the conjugate of what the harmonic multiplies.
+                let unit = if k == 3 { unit.conj() } else { unit };
+                let sum = crate::Complex64::new(of(&phasor.real), of(&phasor.imaginary)) * unit;
+                // Levers of up to ten spacings of 0.0375 kg·m.
+                prop_assert!((sum - expected).norm() < 1e-14, "{k} {sum} {expected}");
+                let size = value(&phasor.square, form.period).max(0.0).sqrt() / denominator;
+                prop_assert!((size * unit.norm() - expected.norm()).abs() < 1e-9);
+            }
+            for (part, load) in form.parts.iter().zip(engine.stations()) {
+                let angles = [load.bank, load.tdc].map(|angle| angle.turns().unwrap());
+                prop_assert_eq!([part.direction, part.phase], angles);
+            }
+        }
     }
 }

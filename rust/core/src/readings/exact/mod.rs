@@ -96,7 +96,7 @@ impl ExactLoads {
         for (source, mechanism) in mechanisms {
             // Quotients of doubles may differ where proportions are equal as typed.
             let proportions = TypedProportions::of(mechanism.cylinder());
-            let typed = (proportions, mechanism.ratio.unsigned_abs());
+            let typed = (proportions, mechanism.ratio.halves_of_speed());
             let known = motions.indices().find(|&known| motions[known].0 == typed);
             motion_of[source] = Some(known.unwrap_or_else(|| motions.push((typed, *mechanism))));
         }

@@ -85,13 +85,13 @@ impl UnityRoot {
     }
 }
 
-/// A load's part of a sum: a number of halves of its weight times a root.
+/// A load's part of a sum: a number of eighths of its weight times a root.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Share {
     pub load: LoadIndex,
     pub weight: Weight,
     pub root: UnityRoot,
-    pub halves: i32,
+    pub eighths: i32,
 }
 
 /// Arithmetic of proofs and closed forms: sums are lists of what each load adds.
@@ -137,9 +137,9 @@ impl Arithmetic for FormalSum {
         (load, _): (LoadIndex, &Load),
         weight: Weight,
         unit: &UnityRoot,
-        Factor { halves, quarters }: Factor,
+        Factor { eighths, quarters }: Factor,
     ) {
         let root = unit.turned(Ratio::new(quarters.into(), 4));
-        sum.push(Share { load, weight, root, halves });
+        sum.push(Share { load, weight, root, eighths });
     }
 }

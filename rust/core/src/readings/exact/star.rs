@@ -92,12 +92,12 @@ impl Stars {
         let sizes = |(i, place): (usize, &Station)| {
             let gear = &place.cylinder;
             let sizes = [gear.crank_radius(), gear.rod_length(), gear.pin_offset().abs()];
-            (sizes, engine.details()[i].bore, cycle_of(i), ratio(i).abs())
+            (sizes, engine.details()[i].bore, cycle_of(i), ratio(i).halves().abs())
         };
         let (_, groups) = distinct::<usize, _>(engine.stations().iter().enumerate().map(sizes));
         let mirrored = engine.stations().iter().map(|place| place.cylinder.pin_offset() < 0.0);
         let groups: Vec<_> = groups.into_iter().zip(mirrored).collect();
-        let sense = (0..groups.len()).map(|i| f64::from(ratio(i).signum()));
+        let sense = (0..groups.len()).map(|i| f64::from(ratio(i).sense()));
         Self::new(fire, sense.collect(), groups, fires(engine), cancel)
     }
 

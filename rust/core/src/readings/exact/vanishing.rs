@@ -251,7 +251,7 @@ impl Proof {
             Gear(gear) | OddOfGear(gear) => {
                 let (gear, speed) = self.gears[gear];
                 let weights = [gear.second_moment(), gear.rod_inertia_excess()];
-                ((gear, order.halves() / 2 / speed), weights)
+                ((gear, order.halves() / speed), weights)
             }
         };
         let torque = !matches!(channel, Force(_));
@@ -310,7 +310,7 @@ impl Proof {
         if directions.into_iter().any(|(load, of)| load.is_turning() && of.symbol > 0) {
             found.push("angles of unbalances that are no simple part of a turn".to_owned());
         }
-        let speeds = || self.motions.iter().map(|motion| motion.ratio.unsigned_abs());
+        let speeds = || self.motions.iter().map(|motion| motion.ratio.halves_of_speed());
         if speeds().any(|speed| Some(speed) != speeds().next()) {
             found.push("cranks of different speeds".to_owned());
         } else if self.motions.len() > 1 {
@@ -323,8 +323,10 @@ impl Proof {
         if self.planar_units > 1 {
             found.push("masses times radius that are no rational multiples of each other".into());
         }
-        if turning().any(|load| load.place.ratio.abs() > 1) {
-            found.push("unbalances of orders above 1, no rational multiples of pistons'".into());
+        if turning().any(|load| !load.place.ratio.is_crank_speed()) {
+            found.push(
+                "unbalances of other orders than 1, no rational multiples of pistons'".into(),
+            );
         }
         let beside = |load: &Load| load.place.axis != Complex64::default();
         if turning().any(beside) {
@@ -404,17 +406,18 @@ pub(crate) fn vanishing_of(
     cancel: &Cancel,
 ) -> Result<Vanishing> {
     check_list(orders)?;
+    let strokes = firing.map_or(engine.strokes(), Firing::strokes);
+    let proof = Proof::of(engine, reference_z, cancel)?;
     let half = orders.iter().find(|order| order.as_whole().is_none());
     if let (Some(half), None, None) = (half, firing, engine.gas())
         && engine.loads().is_empty()
+        && !proof.has_half_orders()
     {
         return Err(Error::value("orders", half, "half orders need a firing order"));
     }
-    let strokes = firing.map_or(engine.strokes(), Firing::strokes);
-    let proof = Proof::of(engine, reference_z, cancel)?;
     let gas = Stars::of_gas(engine, firing, cancel)?;
     // Cycles of faster cranks begin at turns of their own, which nothing says.
-    let is_faster = |i| engine.cranks()[engine.crank_of(i)].ratio.abs() != 1;
+    let is_faster = |i| !engine.cranks()[engine.crank_of(i)].ratio.is_crank_speed();
     let other_cycles = (0..engine.stations().len()).any(|i| engine.fires(i) && is_faster(i));
     let torques = [ProofQuantity::Torque, ProofQuantity::GasTorque];
     let torque = torques.iter().any(|torque| quantities.contains(torque));
@@ -427,13 +430,10 @@ pub(crate) fn vanishing_of(
     let evaluated = within_rounding.iter_mut().zip(gas_remains);
     for ((&order, numbered), (within, gas_remains)) in orders.iter().zip(&numbered.0).zip(evaluated)
     {
-        // Neither gas nor half orders, which inertia does not have, need them.
+        // Neither gas nor half orders, which inertia has of shafts at half speed alone, need them.
         let of_inertia = quantities.iter().any(|&own| own != ProofQuantity::GasTorque);
-        let sums = if of_inertia && order.as_whole().is_some() {
-            proof.sums(order)
-        } else {
-            SymbolSums::new()
-        };
+        let has_order = order.as_whole().is_some() || proof.has_half_orders();
+        let sums = if of_inertia && has_order { proof.sums(order) } else { SymbolSums::new() };
         let mut of_order = [Verdict::Undecided; 10];
         for (k, quantity) in QUANTITIES.into_iter().enumerate() {
             if !quantities.contains(&quantity) {
@@ -469,9 +469,7 @@ pub(crate) fn vanishing_of(
                     within[k] = false;
                     (Verdict::Undecided, None)
                 }
-                // Inertia repeats in every turn.
-                (_, None) => (Verdict::Vanishes, None),
-                (_, Some(_)) => proof.verdict(&sums, quantity, order, cancel),
+                _ => proof.verdict(&sums, quantity, order, cancel),
             };
             of_order[k] = verdict;
             if let Some(text) = error.map(|error| error.to_string())

@@ -1,6 +1,7 @@
 //! A fact about an engine, before it is put into words.
 
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 use crate::readings::balance::Vector;
 
 /// A fact about an engine. Parts of a vector are forward and backward; cylinders are indices; forces
@@ -44,7 +45,7 @@ pub enum Finding {
         /// What counterweights, or else the shafts, leave.
         kept: f64,
         /// Ratios of balance shafts.
-        shafts: Vec<i32>,
+        shafts: Vec<SpeedRatio>,
         /// Counterweights, which take what turns with a crank.
         weights: Weights,
     },
@@ -117,7 +118,7 @@ pub enum Finding {
         /// Its name.
         name: String,
         /// Its largest orders of force and of torque on block or crank; none without a speed, at which they are.
-        largest: Option<[Option<(Order, f64)>; 2]>,
+        largest: Option<[Option<LargestOrder>; 2]>,
     },
     /// Rows of a radial, whose articulated rods are not modelled.
     Articulated {
@@ -219,7 +220,10 @@ impl Finding {
             },
             Self::Remedy { order, kept, shafts, weights, .. } => Row {
                 orders: one(order),
-                values: [*kept].into_iter().chain(shafts.iter().map(|&r| f64::from(r))).collect(),
+                values: [*kept]
+                    .into_iter()
+                    .chain(shafts.iter().map(|ratio| ratio.number()))
+                    .collect(),
                 reason: weights.name(),
                 ..row("remedy")
             },
@@ -265,8 +269,12 @@ impl Finding {
             },
             Self::GivenLoad { largest, .. } => {
                 let both: Vec<_> = largest.iter().flatten().flatten().collect();
-                let orders = both.iter().map(|(order, _)| *order).collect();
-                Row { orders, values: both.iter().map(|(_, peak)| *peak).collect(), ..row("load") }
+                let orders = both.iter().map(|largest| largest.order).collect();
+                Row {
+                    orders,
+                    values: both.iter().map(|largest| largest.peak).collect(),
+                    ..row("load")
+                }
             }
             Self::Articulated { rows } => {
                 Row { groups: rows.iter().map(|row| numbers(row)).collect(), ..row("articulated") }
@@ -277,6 +285,17 @@ impl Finding {
 
 fn evenness(even: bool) -> &'static str {
     if even { "evenly" } else { "unevenly" }
+}
+
+/// The largest order of what a load adds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LargestOrder {
+    /// Order.
+    pub order: Order,
+    /// Its peak, N or N·m.
+    pub peak: f64,
+    /// Whether it is more than each of the engine's other loads adds at this order.
+    pub dominates: bool,
 }
 
 impl Acting {

@@ -10,7 +10,7 @@ pub mod words;
 
 use std::sync::Arc;
 
-pub use self::finding::{Finding, Row};
+pub use self::finding::{Finding, LargestOrder, Row};
 pub use self::sentences::Wording;
 use self::sums::{Sums, proofs_of};
 use crate::engine::{CrankIndex, Engine, Origin, Unbalance};
@@ -20,6 +20,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::figure::rounded;
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 use crate::readings::balance::{
     Balance, Orders, Request, UNIT_RPM, Vector, angular_speed, balance,
 };
@@ -143,9 +144,9 @@ fn strongest(engine: &Engine, cancel: &Cancel) -> Result<(f64, Part)> {
     let mut throws: f64 = 0.0;
     for load in &loads.list {
         let Origin::Cylinder(_) = load.place.origin else { continue };
-        let first = Order::whole(load.place.ratio.unsigned_abs())?;
+        let first = load.place.ratio.order()?;
         let force = loads.source(load).force(&[first], cancel)?[0].norm();
-        let size = force * load.weight.abs() * f64::from(load.place.speed_squared());
+        let size = force * load.weight.abs() * load.place.speed_squared();
         let largest = if load.is_turning() { &mut throws } else { &mut pistons };
         *largest = largest.max(size);
     }
@@ -225,13 +226,13 @@ fn roll_beside(engine: &Engine, rpm: f64, unit: f64, cancel: &Cancel) -> Result<
 /// The bob weight that removes what turns with a crank: half of the pistons'.
 fn bob_weights(engine: &Engine) -> Option<Finding> {
     let offset = engine.gears().iter().any(|gear| gear.pin_offset() != 0.0);
-    let is_of_crank = |ratio: i32| engine.cranks().iter().any(|crank| crank.ratio == ratio);
+    let is_of_crank = |ratio: SpeedRatio| engine.cranks().iter().any(|crank| crank.ratio == ratio);
     // Other cranks have their first order elsewhere.
-    let fast = engine.cranks().iter().any(|crank| crank.ratio.abs() != 1);
+    let fast = engine.cranks().iter().any(|crank| !crank.ratio.is_crank_speed());
     if offset || fast || engine.shafts().iter().any(|shaft| is_of_crank(shaft.ratio)) {
         return None;
     }
-    Some(Finding::BobWeights { one_sense: !is_of_crank(-1) })
+    Some(Finding::BobWeights { one_sense: !is_of_crank(SpeedRatio::whole(-1)) })
 }
 
 // --- torque and firing ---
@@ -269,7 +270,7 @@ fn firing(engine: &Arc<Engine>, cancel: &Cancel) -> Result<Vec<Finding>> {
     let (even, order) = (fires.evenly_at_a_time(), fires.fired().to_vec());
     let intervals_deg = fires.intervals().iter().map(|interval| interval.degrees()).collect();
     let mut found = vec![Finding::Fires { order: order.clone(), intervals_deg, even }];
-    if engine.cranks().iter().any(|crank| crank.ratio < 0) {
+    if engine.cranks().iter().any(|crank| !crank.ratio.is_forward()) {
         return Ok(found); // what cancels on the block is not what cancels on the crank
     }
     let in_two_turns = 4 * order.len() as u32 / engine.strokes().number();
@@ -304,9 +305,15 @@ fn given_loads(engine: &Engine, rpm: Option<f64>, cancel: &Cancel) -> Result<Vec
     let all = balance(engine, &request, &Orders::Auto { rtol: RTOL }, cancel)?;
     let of_name = |name: &str| {
         let own = all.of_part(quantity::Part::Of(name));
+        let others = all.names().iter().filter(|other| &***other != name);
+        let others: Vec<Balance> =
+            others.map(|other| all.of_part(quantity::Part::Of(other))).collect();
         let largest = |size: &dyn Fn(&Wrench) -> f64| {
-            let sizes = own.orders.iter().copied().zip(own.wrenches.iter().map(size));
-            sizes.filter(|(_, size)| *size > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))
+            let sizes = own.wrenches.iter().map(size).enumerate();
+            let (k, peak) =
+                sizes.filter(|(_, size)| *size > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))?;
+            let dominates = others.iter().all(|other| size(&other.wrenches[k]) < peak);
+            Some(LargestOrder { order: own.orders[k], peak, dominates })
         };
         let both =
             [largest(&|wrench| wrench.force.peak()), largest(&|wrench| wrench.torque.peak())];

@@ -1,13 +1,14 @@
 //! The words of an explanation: a sentence for each kind of finding.
 
 use super::Explanation;
-use super::finding::{Acting, Finding, Reason, Weights};
+use super::finding::{Acting, Finding, LargestOrder, Reason, Weights};
 use super::words::{ACROSS, listed, number, orders, sense};
 use crate::engine::Engine;
 use crate::engine::loads::dead_text;
 use crate::engine::loads::in_one_line;
 use crate::numbers::figure::{rounded, significant};
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 use crate::readings::balance::Vector;
 
 /// Most pairs of cylinders that a sentence lists.
@@ -287,7 +288,7 @@ impl Explanation {
         &self,
         what: &str,
         order: Order,
-        shafts: &[i32],
+        shafts: &[SpeedRatio],
         weights: Weights,
         least: &str,
         is_all: bool,
@@ -297,10 +298,15 @@ impl Explanation {
         if weights == Weights::OnCranks {
             other.push_str(" on the cranks");
         }
-        let speed = if order == Order::FIRST { "crank speed" } else { "twice crank speed" };
+        let speed = match order.halves() {
+            1 => "half crank speed".to_owned(),
+            2 => "crank speed".to_owned(),
+            4 => "twice crank speed".to_owned(),
+            _ => format!("{order} times crank speed"),
+        };
         let is_fitted = self.engine.shafts().iter().any(|shaft| shafts.contains(&shaft.ratio));
         let [one, two] = if is_fitted { ["another", "two more"] } else { ["a", "two"] };
-        let senses: Vec<&str> = shafts.iter().map(|&ratio| sense(ratio > 0)).collect();
+        let senses: Vec<&str> = shafts.iter().map(|ratio| sense(ratio.is_forward())).collect();
         let shaft = match &senses[..] {
             [] if is_all => return format!("{other} could remove all of {what}"),
             [] => {
@@ -476,17 +482,18 @@ fn gas_torque(mean: f64, largest: &[(Order, f64)], wording: &Wording) -> String 
 /// What a further load adds: its largest orders of force and of torque, where a speed was given.
 fn given_load(
     name: &str,
-    largest: Option<&[Option<(Order, f64)>; 2]>,
+    largest: Option<&[Option<LargestOrder>; 2]>,
     wording: &Wording,
 ) -> String {
     let name = in_one_line(name);
     let Some(both) = largest else {
         return format!("the load \"{name}\" acts too; give a speed for what it adds");
     };
-    let one = |(largest, (what, unit)): (&Option<(Order, f64)>, (&str, &str))| {
-        let (order, peak) = (*largest)?;
+    let one = |(largest, (what, unit)): (&Option<LargestOrder>, (&str, &str))| {
+        let LargestOrder { order, peak, dominates } = (*largest)?;
         let figure = wording.figure(peak, unit, false);
-        Some(format!("a {what} of {figure} at {}", orders(&[order])))
+        let most = if dominates { ", the largest part of it" } else { "" };
+        Some(format!("a {what} of {figure} at {}{most}", orders(&[order])))
     };
     let adds = both.iter().zip([("force", "N"), ("torque", "N·m")]).filter_map(one);
     let adds = adds.collect::<Vec<_>>().join(" and ");

@@ -5,6 +5,7 @@ use super::finding::{Acting, Finding, Reason, Weights};
 use crate::Complex64;
 use crate::engine::{CrankIndex, Engine, Origin};
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 use crate::readings::balance::{Balance, Vector};
 use crate::readings::exact::vanishing::Verdict;
 use crate::readings::turning::cranks_by_sense;
@@ -187,9 +188,10 @@ impl<'a> Sums<'a> {
 
     /// What would remove it.
     pub fn remedy(&self, k: usize) -> Option<Finding> {
-        let order = self.orders[k].as_whole().filter(|&order| order <= REMOVABLE)? as i32;
+        let order = Some(self.orders[k]).filter(|order| order.halves() <= 2 * REMOVABLE)?;
         let [forward, backward] = sizes(self.whole[k]);
-        let parts = [(order, forward), (-order, backward)];
+        let parts =
+            [(SpeedRatio::at(order, true), forward), (SpeedRatio::at(order, false), backward)];
         // A part that would not be mentioned alone is not worth hardware of its own; a weight on a crank
         // turns with it.
         let worth = parts.map(|(_, part)| part > MATTERS * self.size);
@@ -198,7 +200,8 @@ impl<'a> Sums<'a> {
         }
         // Weights on faster cranks have other orders.
         let cranks = cranks_by_sense(self.engine);
-        let weighed = [0, 1].map(|sense| worth[sense] && order == 1 && !cranks[sense].1.is_empty());
+        let weighed = [0, 1]
+            .map(|sense| worth[sense] && order == Order::FIRST && !cranks[sense].1.is_empty());
         let reached = if weighed == [false; 2] { worth } else { weighed };
         let kept = (0..2).filter(|&sense| !reached[sense]);
         let kept = kept.fold(0.0, |sum, sense| sum + parts[sense].1);
@@ -233,7 +236,7 @@ impl<'a> Sums<'a> {
         let [forward, backward] = self.cylinders[cylinder][k];
         let along = self.engine.stations()[cylinder].bank.cis(-1);
         // What rotates has no part that turns against its own crank.
-        if self.engine.cranks()[self.engine.crank_of(cylinder)].ratio > 0 {
+        if self.engine.cranks()[self.engine.crank_of(cylinder)].ratio.is_forward() {
             (backward * along).conj()
         } else {
             forward * along

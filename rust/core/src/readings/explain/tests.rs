@@ -98,7 +98,8 @@ fn hardware_is_named_by_what_it_does() {
     );
     // The shaft takes the rest.
     let unbalances = vec![Unbalance { pin: None, angle: angle(270.0), ..weight(0.25 * 0.043) }];
-    let shaft = Shaft { name: String::new(), ratio: -1, axis: [0.0; 2], unbalances };
+    let shaft =
+        Shaft { name: String::new(), ratio: SpeedRatio::whole(-1), axis: [0.0; 2], unbalances };
     let texts = sentences(half.with_shafts(vec![shaft]).unwrap(), Some(3000.0));
     assert_eq!(
         texts[0],
@@ -117,7 +118,7 @@ fn what_turns_against_a_second_crank_is_removed_on_it() {
         rotating_mass: 0.0,
     };
     let twins = Engine::new("", "", vec![station; 2]).unwrap();
-    let cranks = vec![Crank::MAIN, Crank { axis: [0.2, 0.0], ratio: -1 }];
+    let cranks = vec![Crank::MAIN, Crank { axis: [0.2, 0.0], ratio: SpeedRatio::whole(-1) }];
     let texts = sentences(twins.with_cranks(cranks, vec![0, 1]).unwrap(), Some(3000.0)).join("\n");
     assert!(
         texts.contains(

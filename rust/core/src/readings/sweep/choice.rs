@@ -324,10 +324,11 @@ mod tests {
     use crate::load::SourceIndex;
     use crate::numbers::angle::Angle;
     use crate::numbers::index::ListIndex;
+    use crate::numbers::ratio::SpeedRatio;
 
     /// Bounds of a gear's harmonics over the axes, and the largest of those at any point.
     fn bounds_and_largest(
-        ratio: i32,
+        ratio: SpeedRatio,
         [rod_ratio, pin_offset]: [Option<Vec<f64>>; 2],
         kind: usize,
     ) -> [Vec<[f64; 2]>; 2] {
@@ -401,8 +402,12 @@ mod tests {
             (5, usual, both_sides, [false; 3]),
         ] {
             for (kind, grows) in grows.into_iter().enumerate() {
-                for found in bounds_and_largest(ratio, [ratios.clone(), offsets.clone()], kind) {
-                    let own = ratio.unsigned_abs() as usize;
+                for found in bounds_and_largest(
+                    SpeedRatio::whole(ratio),
+                    [ratios.clone(), offsets.clone()],
+                    kind,
+                ) {
+                    let own = i32::unsigned_abs(ratio) as usize;
                     for (n, &[bound, largest]) in (1..).zip(&found) {
                         let context = format!("{ratio} {kind} {n}: {bound} {largest}");
                         assert!(largest <= bound * (1.0 + 1e-12), "{context}");

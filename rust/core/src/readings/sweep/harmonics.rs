@@ -98,7 +98,7 @@ impl Sweep {
         let [ratios, offsets] = [&self.axes.rod_ratio, &self.axes.pin_offset];
         if let (Some(ratios), None, Column::Force) = (ratios, offsets, column)
             && mechanism.is_centred()
-            && mechanism.ratio.abs() == 1
+            && mechanism.ratio.is_crank_speed()
         {
             let orders: Vec<u32> = self.orders.iter().filter_map(|n| n.as_whole()).collect();
             let table = table::centred_table(&ratios[points], &orders, cancel)?;

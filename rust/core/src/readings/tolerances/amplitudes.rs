@@ -7,6 +7,8 @@ use crate::mechanism::harmonics::{self, rod, table, torque};
 use crate::mechanism::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
+use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 
 /// Real and imaginary parts of harmonics by order and sample: of the force; of the torques of the masses on block and crank over
 /// m·r²·ω²; of the same of the rod's inertia over it and ω². Empty where there are none.
@@ -16,14 +18,14 @@ pub(super) type SampleAmplitudes = [Vec<[Vec<f64>; 2]>; 5];
 ///
 /// At orders that are no multiples of the speed of its crank they are any: no load has a part there.
 pub(super) fn amplitudes(
-    (cylinder, ratio): &(Cylinder, i32),
+    (cylinder, ratio): &(Cylinder, SpeedRatio),
     wants_torque: bool,
     (radii, rods): (&[f64], &[f64]),
-    orders: &[u32],
+    orders: &[Order],
     cancel: &Cancel,
 ) -> Result<SampleAmplitudes> {
     let mechanism = Mechanism::new(cylinder, *ratio);
-    let own: Vec<u32> = orders.iter().map(|&n| mechanism.own_highest(2 * n).max(1)).collect();
+    let own: Vec<u32> = orders.iter().map(|n| mechanism.own_highest(n.halves()).max(1)).collect();
     let numbers = &own[..];
     let [on_block, on_crank] = mechanism.senses();
     let offset = cylinder.pin_offset();

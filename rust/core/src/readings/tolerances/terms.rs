@@ -20,6 +20,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::index::{List, ListIndex, distinct, list_index};
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 use crate::numbers::simd::{sin_cos_degrees, vectorised};
 
 /// A number of each sample.
@@ -62,18 +63,16 @@ enum DeviatingKind {
 /// Loads of an engine whose figures deviate.
 pub(super) struct Terms {
     orders: Vec<Order>,
-    /// The same of the main crank, as whole numbers; of half orders any.
-    numbers: Vec<u32>,
     torque: bool,
     places: Vec<Station>,
     loads: LoadList,
     deviating: Vec<Deviating>,
     pin_of: Vec<usize>,
     /// Different cylinders with the speeds of their cranks, and which of them is in each place.
-    mechanisms: List<DrivenIndex, (Cylinder, i32)>,
+    mechanisms: List<DrivenIndex, (Cylinder, SpeedRatio)>,
     mechanism_of: Vec<DrivenIndex>,
     /// Speed of each pin's crank over that of the main one.
-    ratio_of: Vec<i32>,
+    ratio_of: Vec<SpeedRatio>,
 }
 
 impl Terms {
@@ -84,8 +83,6 @@ impl Terms {
         reference: f64,
         torque: bool,
     ) -> Result<Self> {
-        // Of half orders any: no load that deviates has them.
-        let numbers = orders.iter().map(|order| (order.halves() / 2).max(1)).collect();
         // Every pin carries mass: a tolerance of none is an unbalance too.
         let laden = engine.stations().iter().map(|p| Station { rotating_mass: 1.0, ..*p });
         let count = engine.stations().len();
@@ -96,7 +93,7 @@ impl Terms {
         let ratio = |i: usize| engine.cranks()[engine.crank_of(i)].ratio;
         let (mechanisms, mechanism_of) =
             distinct((0..count).map(|i| (engine.stations()[i].cylinder, ratio(i))));
-        let mut ratio_of = vec![1; pins(pin_of)];
+        let mut ratio_of = vec![SpeedRatio::ONE; pins(pin_of)];
         for (i, &pin) in pin_of.iter().enumerate() {
             ratio_of[pin] = ratio(i);
         }
@@ -116,7 +113,6 @@ impl Terms {
         loads.list.retain(|load| deviating(load).is_some());
         Ok(Self {
             orders: orders.to_vec(),
-            numbers,
             torque,
             places: engine.stations().to_vec(),
             deviating: loads.list.iter().filter_map(deviating).collect(),
@@ -162,12 +158,12 @@ impl Terms {
         cancel: &Cancel,
         mut write: impl FnMut(usize, &SampleSums),
     ) -> Result<()> {
-        let (orders, numbers) = (&self.orders[range.clone()], &self.numbers[range]);
+        let orders = &self.orders[range];
         let [masses, rotating, radii, angles, places, rods] = Parameter::ALL
             .map(|figure| columns(deviations[figure as usize], self.count(figure), first));
-        let nominal = |of: &(Cylinder, i32)| {
+        let nominal = |of: &(Cylinder, SpeedRatio)| {
             let lengths = (&[of.0.crank_radius()][..], &[of.0.rod_length()][..]);
-            amplitudes(of, self.torque, lengths, numbers, cancel)
+            amplitudes(of, self.torque, lengths, orders, cancel)
         };
         let nominal: List<DrivenIndex, SampleAmplitudes> =
             self.mechanisms.iter().map(nominal).collect::<Result<_>>()?;
@@ -179,7 +175,7 @@ impl Terms {
             let radius = around(cylinder.crank_radius(), &radii[self.pin_of[i]]);
             let rod = around(cylinder.rod_length(), &rods[i]);
             let of = &self.mechanisms[self.mechanism_of[i]];
-            amplitudes(of, self.torque, (&radius, &rod), numbers, cancel)
+            amplitudes(of, self.torque, (&radius, &rod), orders, cancel)
         };
         let changed: Vec<SampleAmplitudes> =
             if deviates(Parameter::CrankRadius) || deviates(Parameter::RodLength) {
@@ -188,7 +184,7 @@ impl Terms {
                 Vec::new()
             };
         let turns = if deviates(Parameter::Pin) {
-            turns(&angles, &self.ratio_of, numbers)
+            turns(&angles, &self.ratio_of, orders)
         } else {
             Vec::new()
         };
@@ -258,7 +254,7 @@ impl Terms {
 }
 
 /// Unit phasors by pin and order: of n times the angle of the main crank by which it is ahead.
-fn turns(angles: &[Reals], ratio_of: &[i32], numbers: &[u32]) -> Vec<Vec<Complexes>> {
+fn turns(angles: &[Reals], ratio_of: &[SpeedRatio], orders: &[Order]) -> Vec<Vec<Complexes>> {
     let turn = |angles: &Reals, multiple: f64| {
         vectorised(
             #[inline(always)]
@@ -270,8 +266,8 @@ fn turns(angles: &[Reals], ratio_of: &[i32], numbers: &[u32]) -> Vec<Vec<Complex
             },
         )
     };
-    let of_pin = |(angles, &ratio): (&Reals, &i32)| {
-        numbers.iter().map(|&n| turn(angles, f64::from(n) / f64::from(ratio))).collect()
+    let of_pin = |(angles, ratio): (&Reals, &SpeedRatio)| {
+        orders.iter().map(|n| turn(angles, n.number() / ratio.number())).collect()
     };
     angles.iter().zip(ratio_of).map(of_pin).collect()
 }

@@ -3,6 +3,7 @@ use ndarray::Array2;
 use super::*;
 use crate::Order;
 use crate::engine::{CrankIndex, Shaft, Station, Unbalance};
+use crate::numbers::ratio::SpeedRatio;
 use crate::quantity::Part;
 use crate::{Angle, Cylinder};
 
@@ -41,7 +42,7 @@ fn engine() -> Engine {
     };
     let shaft = Shaft {
         name: String::new(),
-        ratio: -2,
+        ratio: SpeedRatio::whole(-2),
         axis: [0.1, -0.05],
         unbalances: vec![weight(0.002, 20.0, 0.1, None)],
     };

@@ -15,7 +15,7 @@ use crate::numbers::error::Result;
 use crate::numbers::index::{List, distinct, list_index};
 use crate::numbers::order::Order;
 use crate::numbers::rational::{Multiples, Ratio, product};
-use crate::source::{Column, ExactFactor};
+use crate::source::{Column, ExactFactor, Repeats};
 
 list_index! {
     /// Index of a running gear with the speed of its crank, whichever its sense, among those that differ.
@@ -149,11 +149,11 @@ impl Proof {
         let arms = Multiples::new(&arms, cancel)?.of;
         let bores = loads.list.iter().map(|load| load.place.direction);
         let mirrored = motions.first_equal(|motion| {
-            (TypedProportions::of(motion.cylinder()).mirrored(), motion.ratio.unsigned_abs())
+            (TypedProportions::of(motion.cylinder()).mirrored(), motion.ratio.halves_of_speed())
         });
         let driven = |i: usize| {
             let crank = engine.cranks()[engine.crank_of(i)];
-            (engine.gears()[engine.gear_of(i)], crank.ratio.unsigned_abs())
+            (engine.gears()[engine.gear_of(i)], crank.ratio.halves_of_speed())
         };
         let (gears, of_cylinder) =
             distinct::<DrivenGearIndex, _>((0..engine.stations().len()).map(driven));
@@ -190,9 +190,14 @@ impl Proof {
         superpose(&self.roots, &self.loads.list, order, wanted)
     }
 
+    /// Whether some of its loads have half orders.
+    pub fn has_half_orders(&self) -> bool {
+        self.loads.list.iter().any(|load| load.parts.repeats == Repeats::EveryTwoTurns)
+    }
+
     /// Multiple of the speed of its own crank that an order is for a motion.
     pub fn own_order(&self, motion: MotionIndex, order: Order) -> u32 {
-        order.halves() / 2 / self.motions[motion].ratio.unsigned_abs()
+        self.motions[motion].own_highest(order.halves())
     }
 
     /// Channels of a piston's force and their signs; none where its harmonic is zero.
@@ -236,7 +241,7 @@ impl Proof {
         }
         let offset = cylinder.pin_offset();
         // A crank that turns the other way mirrors the torque on the block.
-        let sense = i128::from(self.loads.list[load].place.ratio.signum());
+        let sense = i128::from(self.loads.list[load].place.ratio.sense());
         // T(θ) of an offset is −T(−θ) of the opposite one: sines are even in it.
         match (view.parts, offset == 0.0) {
             (false, _) => vec![(whole(own), sense)],
@@ -298,7 +303,7 @@ impl Proof {
             Weight::ArmX => (SymbolWeights::Arm, self.arms[i][0]),
             Weight::ArmY => (SymbolWeights::Arm, self.arms[i][1]),
         };
-        let weight = product(weight, Ratio::from(i128::from(share.halves)));
+        let weight = product(weight, Ratio::from(i128::from(share.eighths)));
         let weight = weight.ok_or_else(too_long)?;
         if share.weight != Weight::Moment {
             return Ok(vec![((list, unit), 0, weight)]);
