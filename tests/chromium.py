@@ -66,7 +66,7 @@ def open_file(browser: Browser) -> Iterator[Open]:
     yield opened
     for context in contexts:
         context.close()
-        assert troubles == []
+    assert troubles == []
 
 
 @pytest.fixture
