@@ -66,6 +66,21 @@ def test_inline(seed: int) -> None:
         closed = abs(sum(complex(math.cos(lower * p), math.sin(lower * p)) for p in throws)) < CLOSE
         odd_and_silent = lower % 2 == 1 and lower > 1  # no offset: the piston has none of these
         assert (closed or odd_and_silent) == (lower < order)
+    # What the sheet prints is enough, to four digits.
+    harmonics = re.findall(r"a([₁₂₄₆]) = ([-\d.e]*\d)", sheet.question)
+    size = {"₁₂₄₆".index(n): abs(float(value)) for n, value in harmonics}[[1, 2, 4, 6].index(order)]
+    star = abs(sum(complex(math.cos(order * p), math.sin(order * p)) for p in throws))
+    force = size * figures(sheet)["F"] * star
+    assert sheet.answers["force"] == pytest.approx(force, rel=1e-3)
+    assert force > 0.1
+
+
+@pytest.mark.parametrize("topic", TOPICS)
+@sheets
+def test_sheets_speak_to_pupils(topic: str, seed: int) -> None:
+    sheet = cp.exercise(topic, seed)
+    for step in sheet.steps:
+        assert not re.search(r"\bcp\.|_deg\b", f"{step.text} {step.formula} {step.answer}")
 
 
 @sheets
@@ -92,7 +107,7 @@ def test_v_angle(seed: int) -> None:
     known = figures(sheet)
     there = sheet.engine.balance(1000.0, orders=(1,)).moment[1]
     assert there.backward == 0
-    elsewhere = sheet.engine.with_bank_angle(sheet.answers["bank_angle_deg"] + 1, hold="pins")
+    elsewhere = sheet.engine.with_bank_angle(sheet.answers["bank_angle"] + 1, hold="pins")
     assert elsewhere.balance(1000.0, orders=(1,)).moment[1].backward != 0
     spacing, split = re.findall(r"(\d+) mm apart|split by ([-+]\d+)", sheet.question)
     arm = math.sqrt(3) * float(spacing[0]) / 1000
@@ -138,9 +153,9 @@ def test_firing_order() -> None:
         sheet = cp.exercise("firing-order", seed)
         count = len(sheet.engine)
         if sheet.engine.fires_evenly:
-            assert sheet.answers == {"interval_deg": 720 / count, "order": lowest[count]}
+            assert sheet.answers == {"interval": 720 / count, "order": lowest[count]}
         else:
-            assert sheet.answers["interval_deg"] > 720 / count
+            assert sheet.answers["interval"] > 720 / count
             assert sheet.answers["order"] < lowest[count] or count == 2
 
 

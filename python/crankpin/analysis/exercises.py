@@ -24,8 +24,10 @@ from crankpin.model.engine import Engine
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-INLINES = ("i2-360", "i2-180", "i2-270", "i3", "i4", "i4-crossplane", "i5", "i6")
+INLINES = ("i2-360", "i2-180", "i2-270", "i3", "i4", "i4-crossplane", "i6")
+"""Those whose lowest shaking force can be measured: an inline-5 has one of order 10, some mN."""
 FIRING = ("i3", "i4", "i5", "i6", "v6-60", "v6-90-odd-fire", "v8-crossplane", "v12-60", "v-twin-45")
+SECOND = "With λ = r / l the second harmonic is a₂ ≈ λ + λ³/4."
 WIDTH = 88
 """Of a question in text, characters."""
 NEAR = 0.01
@@ -65,9 +67,9 @@ def exercise(topic: str, seed: int = 0) -> Exercise:
     458 g, the stroke is 96 mm, the rods are 154 mm long, the speed is 2500 rpm. At which
     bank angle does no part of the first-order rocking moment turn against the crank? How
     large is the moment there?
-    Answers: bank_angle_deg (°), moment (N·m)
-    >>> cp.exercise("v-angle", seed=7).check(bank_angle_deg=75, moment=300)
-    {'bank_angle_deg': True, 'moment': False}
+    Answers: bank_angle (°), moment (N·m)
+    >>> cp.exercise("v-angle", seed=7).check(bank_angle=75, moment=300)
+    {'bank_angle': True, 'moment': False}
     """
     name = inputs.one_of("topic", topic, TOPICS)
     number = inputs.whole("seed", seed, 0)
@@ -274,7 +276,7 @@ def _single(random: Random) -> Sheet:
         Step("first order", "F", first, "N", "first"),
         Step("second order", "a₂ F", second, "N", "second"),
     )
-    question = f"{figures} How large are the shaking forces of orders 1 and 2 of a single?"
+    question = f"{figures} {SECOND} How large are the shaking forces of orders 1 and 2 of a single?"
     return "A single shakes", question, engine, steps
 
 
@@ -296,9 +298,14 @@ def _inline(random: Random) -> Sheet:
         Step("force of that order", "aₙ F |Σ e^(i n φ)|", force, "N", "force"),
     )
     listed = "-".join(f"{angle:g}" for angle in engine.throws_deg)
+    evens = ", ".join(
+        f"a{n} = {value:.4g}"
+        for n, value in zip("₂₄₆", figures.cylinder.harmonics([2, 4, 6]).real, strict=True)
+    )
     question = (
-        f"An inline-{len(engine)} has the throws {listed}. {figures} Which is the lowest order "
-        "with a shaking force, and how large is it?"
+        f"An inline-{len(engine)} has the throws {listed}. {figures} The piston's harmonics are "
+        f"a₁ = 1, {evens}, and no others of odd order. Which is the lowest order with a shaking "
+        "force, and how large is it?"
     )
     return "What an inline engine leaves", question, engine, steps
 
@@ -350,7 +357,7 @@ def _v_angle(random: Random) -> Sheet:
             "2α − σ = 180°",
             angle,
             "°",
-            "bank_angle_deg",
+            "bank_angle",
         ),
         Step(
             "one bank's throws, at −s, 0, s",
@@ -448,8 +455,9 @@ def _balance_shafts(random: Random) -> Sheet:
         ),
     )
     question = (
-        f"{figures} Two shafts at twice crank speed, one with the crank and one against it, are to "
-        "remove the second-order force of an inline-4. How large is the unbalance of one of them?"
+        f"{figures} {SECOND} Two shafts at twice crank speed, one with the crank and one against "
+        "it, are to remove the second-order force of an inline-4. How large is the unbalance of "
+        "one of them?"
     )
     return "Balance shafts of an inline-4", question, engine, steps
 
@@ -464,11 +472,7 @@ def _firing_order(random: Random) -> Sheet:
     lowest = next(order for order in b.orders if b.crank_torque[order].gas.peak > 0)
     steps = (
         Step(
-            "longest firing interval",
-            "differences of the firing angles",
-            longest,
-            "°",
-            "interval_deg",
+            "longest firing interval", "differences of the firing angles", longest, "°", "interval"
         ),
         Step(
             "lowest order of gas torque: the arrows at n times the firing angles do not close",
@@ -505,7 +509,6 @@ def _flywheel(random: Random) -> Sheet:
             "kg·m²",
             "inertia",
         ),
-        Step("of the flywheel, beside the pistons'", "cp.flywheel", fit.inertia, "kg·m²"),
     )
     question = (
         f"Over a cycle the work of gas and inertia torque on a crankshaft at {figures.rpm} rpm "

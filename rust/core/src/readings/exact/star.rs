@@ -254,6 +254,27 @@ mod tests {
     }
 
     #[test]
+    fn gas_of_opposite_offsets_is_of_two_harmonics() {
+        let place = |offset: f64, tdc: f64| Station {
+            cylinder: crate::Cylinder::new(0.05, 0.15, 0.5, offset).unwrap(),
+            tdc: Angle::from_degrees(tdc).unwrap(),
+            bank: Angle::ZERO,
+            z: 0.0,
+            rotating_mass: 0.0,
+        };
+        let verdict = |offsets: [f64; 2]| {
+            let places = vec![place(offsets[0], 0.0), place(offsets[1], 180.0)];
+            let engine = Engine::new("", "", places).unwrap();
+            let stars = Stars::of_gas(&engine, None, &Cancel::new()).unwrap();
+            at(&stars, 2).verdict
+        };
+        // Half a turn apart at order 1: alike they cancel, mirrored their difference is left.
+        assert_eq!(verdict([0.01, 0.01]), Verdict::Vanishes);
+        assert_eq!(verdict([-0.01, -0.01]), Verdict::Vanishes);
+        assert_eq!(verdict([0.01, -0.01]), Verdict::Remains);
+    }
+
+    #[test]
     fn vectors_of_mirrored_gears_remain_where_they_have_one_size() {
         // A V of opposite offsets: the banks fire in turn, a third of the cycle within a bank.
         let fire: Vec<Angle> =

@@ -761,3 +761,78 @@ proptest! {
         }
     }
 }
+
+/// Torques of order 1 of unlike rods cancel at no angle that is known: only forces of one size do.
+#[test]
+fn torques_of_unlike_rods_are_not_proved_to_cancel() {
+    let mut stations =
+        engine(&[0.0, 90.0].map(|tdc| (tdc, 90.0, 0.0, 0.5, 0.0))).stations().to_vec();
+    stations[1].cylinder = Cylinder::new(0.05, 0.2, 0.5, 0.0).unwrap();
+    assert_eq!(verdicts(&Engine::new("", "", stations).unwrap(), 1)[8], U);
+}
+
+/// Wherever the engine stands: of the two banks one is at an angle that is no part of a turn, or both are.
+#[test]
+fn backward_moments_stay_proved_as_the_engine_is_turned() {
+    let cancel = crate::Cancel::new();
+    let phases = [0.0, 90.0, 180.0, 270.0].map(|degrees| Angle::from_degrees(degrees).unwrap());
+    let bank = Bank::with_phases(&phases).unwrap();
+    let search = Search::new(bank, Hold::Firing, &cancel).unwrap();
+    let angles = search.angles([1.0, 180.0], &cancel).unwrap();
+    let mut proved = 0;
+    for k in 0..angles.count() {
+        let found = search.solution(&angles, k, Criterion::SecondOrder, &cancel).unwrap().unwrap();
+        let engine = found.engine(Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap(), 0.1).unwrap();
+        let banks = engine.banks().unwrap();
+        if banks.angle().turns().is_some() {
+            continue;
+        }
+        let right = engine.stations().iter().map(|place| place.bank.degrees()).reduce(f64::min);
+        for to in [0.0, 50.0] {
+            let turned = engine.stations().iter().map(|place| {
+                let bank = if place.bank.degrees() == right.unwrap() {
+                    to
+                } else {
+                    to + banks.angle().degrees()
+                };
+                Station { bank: Angle::from_degrees(bank).unwrap(), ..*place }
+            });
+            let turned = Engine::new("", "", turned.collect()).unwrap();
+            assert_eq!(verdicts(&turned, 1)[7], V, "{} {to}", found.bank_angle);
+            proved += 1;
+        }
+    }
+    assert!(proved > 4, "{proved}");
+}
+
+/// Nothing says at which turn a cycle of a faster crank begins.
+#[test]
+fn gas_of_faster_cranks_is_undecided() {
+    let twin = engine(&[0.0, 90.0].map(|tdc| (tdc, 90.0, 0.0, 0.5, 0.0)));
+    let faster = Crank { axis: [0.0; 2], ratio: SpeedRatio::whole(2) };
+    let twin = twin.with_cranks(vec![Crank::MAIN, faster], vec![1, 1]).unwrap();
+    let found = vanishing(&twin, &[1, 2], None, &crate::Cancel::new()).unwrap();
+    for (verdicts, within) in found.verdicts.iter().zip(&found.within_rounding) {
+        assert_eq!((verdicts[9], within[9]), (U, false));
+    }
+    assert!(found.obstacles.iter().any(|text| text.starts_with("gas on cranks of other speeds")));
+}
+
+#[test]
+fn unbalances_at_angles_that_are_no_parts_of_a_turn_are_named() {
+    let weight = |degrees: f64| Unbalance {
+        amount: 0.02,
+        angle: Angle::from_degrees(degrees).unwrap(),
+        z: 0.0,
+        pin: None,
+        crank: CrankIndex::MAIN,
+    };
+    let named = |degrees: f64| {
+        let weights = vec![weight(degrees), weight(31.0)];
+        let single = engine(&[(0.0, 90.0, 0.0, 0.5, 0.0)]).with_counterweights(weights).unwrap();
+        let found = vanishing(&single, &[1], None, &crate::Cancel::new()).unwrap();
+        found.obstacles.iter().any(|text| text.starts_with("angles of unbalances"))
+    };
+    assert!(named(61.234_567_891_2_f64.sqrt()));
+    assert!(!named(61.0));
+}
