@@ -588,6 +588,55 @@ mod tests {
         });
     }
 
+    /// At a point, and where a mode is least pure, it is a powertrain on mounts as stiff as that.
+    #[test]
+    fn points_are_powertrains_on_stiffer_mounts() {
+        let mut number = draws(41);
+        for by_axis in [false, true] {
+            let on_mounts = random(&mut number, false);
+            let bodies = on_mounts.alone().unwrap();
+            let mut of = tolerances(on_mounts.mounts().len());
+            of.by_axis = by_axis;
+            of.stiffness.iter_mut().skip(3).for_each(|share| *share = 0.0);
+            let plain = |factors: &[[f64; 3]]| {
+                assert_eq!(factors.len(), on_mounts.mounts().len());
+                let scaled = on_mounts.mounts().iter().zip(factors).map(|(mount, factors)| {
+                    let mut figures = mount.figures().clone();
+                    let own = figures.stiffness;
+                    figures.stiffness = [0, 1, 2].map(|axis| own[axis] * factors[axis]);
+                    Mount::new(figures).unwrap()
+                });
+                modes(&Powertrain::new(*on_mounts.body(), scaled.collect()).unwrap(), None).unwrap()
+            };
+            searched(&bodies, &of, |search| {
+                let corners = 1 << search.parameters.len();
+                for k in [0, 1, corners - 1, corners, corners + 77] {
+                    let point = search.point(k);
+                    let mut factors = vec![[1.0; 3]; on_mounts.mounts().len()];
+                    for ((places, share), at) in search.parameters.iter().zip(&point) {
+                        for &(mount, axis) in places {
+                            factors[mount][axis] += share * at;
+                        }
+                    }
+                    let ((omega, purity), expected) = (search.at(&point), plain(&factors));
+                    for mode in 0..6 {
+                        // Roundings of squares of frequencies, of the highest.
+                        let size = 1e-9 * expected.frequency[5];
+                        assert!((omega[mode] / TAU - expected.frequency[mode]).abs() < size);
+                        assert!((purity[mode] - expected.purity[mode]).abs() < 1e-6);
+                    }
+                }
+                let (least, nominal) =
+                    (search.least_pure().unwrap(), plain(&vec![[1.0; 3]; of.stiffness.len()]));
+                assert_eq!(least.len(), 6);
+                for (mode, (purity, factors)) in least.iter().enumerate() {
+                    assert!((purity - plain(factors).purity[mode]).abs() < 1e-6);
+                    assert!(*purity <= nominal.purity[mode]);
+                }
+            });
+        }
+    }
+
     #[test]
     fn the_three_smallest_are_kept() {
         let mut number = draws(5);
