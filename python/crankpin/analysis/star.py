@@ -138,7 +138,7 @@ class StarDiagram(Keyed, Tabled):
     @property
     def loads_counted(self) -> str:
         """Gas pressure of a fired engine, in words; empty where no cycle is known."""
-        return self.engine.with_loads(()).loads_counted if self.engine.fired else ""
+        return self.engine._core.gas_counted if self.engine.fired else ""
 
     @overload
     def plot(

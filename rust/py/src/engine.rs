@@ -693,6 +693,12 @@ impl Engine {
         self.0.loads_counted()
     }
 
+    /// The gas pressure alone, in words.
+    #[getter]
+    fn gas_counted(&self) -> String {
+        self.0.gas_counted()
+    }
+
     /// The further loads alone, in words.
     #[getter]
     fn further_loads(&self) -> String {

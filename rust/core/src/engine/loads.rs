@@ -12,17 +12,17 @@ impl Engine {
     /// not fire, and the names of further loads.
     #[must_use]
     pub fn loads_counted(&self) -> String {
-        let gas = match self.gas() {
-            Some(gas) => {
-                let name =
-                    |cycle: &Option<usize>| cycle.map(|k| in_one_line(&gas.cycles[k].given().name));
-                let names: Vec<Option<String>> = gas.cycle_of.iter().map(name).collect();
-                gas_text(&names, self.cycles_in_use())
-            }
-            None => gas_text(&[], 0),
-        };
-        let further = self.further_loads();
+        let (gas, further) = (self.gas_counted(), self.further_loads());
         if further.is_empty() { gas } else { format!("{gas}; {further}") }
+    }
+
+    /// The gas pressure alone, in words.
+    #[must_use]
+    pub fn gas_counted(&self) -> String {
+        let Some(gas) = self.gas() else { return gas_text(&[], 0) };
+        let name = |cycle: &Option<usize>| cycle.map(|k| in_one_line(&gas.cycles[k].given().name));
+        let names: Vec<Option<String>> = gas.cycle_of.iter().map(name).collect();
+        gas_text(&names, self.cycles_in_use())
     }
 
     /// The further loads alone, in words; empty where there are none.

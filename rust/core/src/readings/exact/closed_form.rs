@@ -370,6 +370,44 @@ mod tests {
         coefficients.iter().enumerate().map(|(k, &c)| c as f64 * cosine(k)).sum()
     }
 
+    /// A form times its harmonic is the balance at 1 rad/s.
+    fn assert_balance(
+        form: &ClosedForm,
+        engine: &Engine,
+        order: u32,
+        moment: bool,
+        reference: Option<f64>,
+    ) {
+        let rpm = 60.0 / std::f64::consts::TAU;
+        let orders = crate::Orders::whole(&[order]).unwrap();
+        let request = Request { rpm, reference_z: reference, torque: false };
+        let found = balance(engine, &request, &orders, &Cancel::new()).unwrap();
+        let vector = if moment { Vector::Moment } else { Vector::Force };
+        let planar = found.planar(vector, 0);
+        let [x, y] = found.xy(vector, 0);
+        let cylinder = engine.stations()[form.unit].cylinder;
+        let proportions = cylinder.proportions();
+        let harmonic =
+            crate::mechanism::harmonics::coefficients(&proportions, &[order], &Cancel::new())
+                .unwrap()[0];
+        assert_eq!(form.no_harmonic, harmonic.norm() == 0.0);
+        let length = if moment { form.spacing } else { 1.0 };
+        let unit = harmonic * (cylinder.first_order() * length);
+        let denominator = form.denominator as f64;
+        let expected = [x, y, planar.forward, planar.backward()];
+        for (k, (phasor, expected)) in form.phasors.iter().zip(expected).enumerate() {
+            let of = |part: &[i128]| value(part, form.period) / denominator;
+            // A backward part is the conjugate of what the harmonic multiplies.
+            let unit = if k == 3 { unit.conj() } else { unit };
+            let sum = crate::Complex64::new(of(&phasor.real), of(&phasor.imaginary)) * unit;
+            // Eight cylinders of m·r = 0.025 kg·m and levers of half a metre, or levers of up to ten spacings
+            // of 0.0375 kg·m; a size that is zero is the root of what rounding leaves.
+            assert!((sum - expected).norm() < 1e-14, "{order} {moment} {k} {sum} {expected}");
+            let size = value(&phasor.square, form.period).max(0.0).sqrt() / denominator;
+            assert!((size * unit.norm() - expected.norm()).abs() < 1e-9, "{order} {moment} {k}");
+        }
+    }
+
     #[test]
     fn closed_forms_are_the_balance() {
         let turning = |engine: &Engine| {
@@ -387,35 +425,7 @@ mod tests {
             for (order, reference) in [(1, None), (2, Some(0.0)), (4, None), (1, Some(0.52))] {
                 for moment in [false, true] {
                     let form = of_order(&engine, order, moment, reference).unwrap();
-                    let rpm = 60.0 / std::f64::consts::TAU;
-                    let orders = crate::Orders::whole(&[order]).unwrap();
-                    let request = Request { rpm, reference_z: reference, torque: false };
-                    let found = balance(&engine, &request, &orders, &Cancel::new()).unwrap();
-                    let vector = if moment { Vector::Moment } else { Vector::Force };
-                    let planar = found.planar(vector, 0);
-                    let [x, y] = found.xy(vector, 0);
-                    let cylinder = engine.stations()[form.unit].cylinder;
-                    let harmonic = crate::mechanism::harmonics::coefficients(
-                        &cylinder.proportions(),
-                        &[order],
-                        &Cancel::new(),
-                    )
-                    .unwrap()[0];
-                    let length = if moment { form.spacing } else { 1.0 };
-                    let unit = harmonic.re * cylinder.first_order() * length;
-                    let expected = [x, y, planar.forward, planar.backward()];
-                    let denominator = form.denominator as f64;
-                    for (phasor, expected) in form.phasors.iter().zip(expected) {
-                        let real = value(&phasor.real, form.period) / denominator * unit;
-                        let imaginary = value(&phasor.imaginary, form.period) / denominator * unit;
-                        let size = value(&phasor.square, form.period).max(0.0).sqrt();
-                        let size = size / denominator * unit.abs();
-                        // Eight cylinders of m·r = 0.025 kg·m, levers of half a metre: 1e-16 each;
-                        // a size that is zero is the root of what rounding leaves.
-                        assert!((real - expected.re).abs() < 1e-14, "{order} {moment} {phasor:?}");
-                        assert!((imaginary - expected.im).abs() < 1e-14, "{order} {moment}");
-                        assert!((size - expected.norm()).abs() < 1e-9, "{order} {moment}");
-                    }
+                    assert_balance(&form, &engine, order, moment, reference);
                     assert!(!form.no_harmonic);
                 }
             }
@@ -582,35 +592,7 @@ mod tests {
                     return Err(TestCaseError::fail(format!("{expected:?} {found:?}")));
                 }
             };
-            let rpm = 60.0 / std::f64::consts::TAU;
-            let orders = crate::Orders::whole(&[order]).unwrap();
-            let request = Request { rpm, reference_z: reference, torque: false };
-            let found = balance(&engine, &request, &orders, &Cancel::new()).unwrap();
-            let vector = if moment { Vector::Moment } else { Vector::Force };
-            let planar = found.planar(vector, 0);
-            let [x, y] = found.xy(vector, 0);
-            let cylinder = engine.stations()[form.unit].cylinder;
-            let proportions = cylinder.proportions();
-            let harmonic = crate::mechanism::harmonics::coefficients(
-                &proportions,
-                &[order],
-                &Cancel::new(),
-            ).unwrap()[0];
-            prop_assert_eq!(form.no_harmonic, harmonic.norm() == 0.0);
-            let length = if moment { form.spacing } else { 1.0 };
-            let unit = harmonic * (cylinder.first_order() * length);
-            let denominator = form.denominator as f64;
-            let expected = [x, y, planar.forward, planar.backward()];
-            for (k, (phasor, expected)) in form.phasors.iter().zip(expected).enumerate() {
-                let of = |part: &[i128]| value(part, form.period) / denominator;
-                // A backward part is the conjugate of what the harmonic multiplies.
-                let unit = if k == 3 { unit.conj() } else { unit };
-                let sum = crate::Complex64::new(of(&phasor.real), of(&phasor.imaginary)) * unit;
-                // Levers of up to ten spacings of 0.0375 kg·m.
-                prop_assert!((sum - expected).norm() < 1e-14, "{k} {sum} {expected}");
-                let size = value(&phasor.square, form.period).max(0.0).sqrt() / denominator;
-                prop_assert!((size * unit.norm() - expected.norm()).abs() < 1e-9);
-            }
+            assert_balance(&form, &engine, order, moment, reference);
             for (part, load) in form.parts.iter().zip(engine.stations()) {
                 let angles = [load.bank, load.tdc].map(|angle| angle.turns().unwrap());
                 prop_assert_eq!([part.direction, part.phase], angles);
