@@ -1,1 +1,1 @@
-"""Inputs, tables and other tools that know nothing of engines."""
+"""Inputs, tables and other tools independent of engines."""

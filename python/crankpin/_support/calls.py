@@ -1,4 +1,4 @@
-"""Calls with arguments that a function does not take: errors that say which one was meant."""
+"""Errors for unknown arguments, with the argument that was probably meant."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Pictures: results draw themselves by what :mod:`crankpin.plot` registers for their classes."""
+"""Dispatch of ``plot`` to the pictures that :mod:`crankpin.plot` registers for each class."""
 
 from __future__ import annotations
 

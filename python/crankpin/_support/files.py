@@ -1,4 +1,4 @@
-"""Files that are written: the old one stays until the new one is whole."""
+"""Writing of files: the old file stays until the new one is complete."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Conversion and checks of arguments: from what people type to what the core takes."""
+"""Conversion and checks of arguments, from user input to the types of the core."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Modules and names of them that are imported once they are used."""
+"""Modules, and names in them, imported at first use."""
 
 from __future__ import annotations
 

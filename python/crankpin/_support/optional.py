@@ -1,4 +1,4 @@
-"""Optional libraries, imported when they are used."""
+"""Optional libraries, imported at first use."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Registry of quantities: names, symbols, units and scaling of what results hold."""
+"""Registry of quantities: names, symbols, units and scaling."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Kind(NamedTuple):
     unit: str
     """Unit, as read by people."""
     unit_over_square: str
-    """Unit over ω², of what scales with ω²; empty of what is given as it is."""
+    """Unit over ω² of quantities that scale with ω²; empty for the others."""
 
     @property
     def planar(self) -> bool:

@@ -1,7 +1,7 @@
-"""Units that people write: what they are read as, and what is shown in their place.
+"""Units of input and display: parsing, and conversion of shown values.
 
-Numbers of the library are SI. A setting names the units in which tables, texts and pictures show
-them; it changes no number of a result.
+Numbers of the library are SI. A setting selects the units in which tables, texts and pictures show
+them, and changes no number of a result.
 """
 
 from __future__ import annotations
@@ -102,22 +102,22 @@ class Shown:
 def units(text: str = "") -> Shown:
     """Set the units in which tables, texts and pictures are shown.
 
-    Numbers that results hold remain in SI units. The setting lasts until another one; as a context
-    manager, until its block ends. It is that of its own thread, or asyncio task.
+    Numbers of results remain in SI units. The setting lasts until the next call; as a context
+    manager, until its block ends. It belongs to the current thread or asyncio task.
 
     Parameters
     ----------
     text : str, default ""
         Units of mass (``kg``, ``g``, ``lb``, ``oz``), length (``m``, ``mm``, ``in``, ``ft``), force
         (``N``, ``kN``, ``lbf``, ``kgf``) and pressure (``Pa``, ``bar``, ``psi``), and products such
-        as ``oz·in`` or ``lbf·ft``, separated by commas. A kind that is not named stays as it is;
-        with ``lbf`` torques are in lbf·ft and energies in ft·lbf, unless a product is named. Empty
-        for what results have.
+        as ``oz·in`` or ``lbf·ft``, separated by commas. Quantities not listed keep SI units; with
+        ``lbf`` torques are in lbf·ft and energies in ft·lbf, unless a product is named. An empty
+        string restores SI units.
 
     Returns
     -------
     Shown
-        The setting, as a context manager that ends it with its block.
+        The setting, as a context manager.
 
     Raises
     ------

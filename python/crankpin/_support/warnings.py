@@ -1,4 +1,4 @@
-"""Warnings that point at the caller of crankpin."""
+"""Warnings reported at the line that calls crankpin."""
 
 from __future__ import annotations
 

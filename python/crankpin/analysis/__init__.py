@@ -1,1 +1,1 @@
-"""Analyses of engines: one question, one function, one result a file."""
+"""Analyses of engines: one question, one function and one result per file."""

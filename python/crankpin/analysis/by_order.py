@@ -1,4 +1,4 @@
-"""Results order by order: arrays computed when they are read, an order as a key, totals, tables."""
+"""Results by order: arrays computed when read, orders as keys, totals, tables."""
 
 from __future__ import annotations
 

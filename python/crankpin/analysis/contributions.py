@@ -1,4 +1,4 @@
-"""What each cylinder, counterweight and balance shaft adds to a balance."""
+"""Contribution of each cylinder, counterweight and balance shaft to a balance."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Exercises: a sheet for a pupil, with figures of its own, and its solution."""
+"""Exercises: a sheet with random figures, and its solution."""
 
 from __future__ import annotations
 

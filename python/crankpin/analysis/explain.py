@@ -1,4 +1,4 @@
-"""How an engine shakes, as findings: the residual, what cancels and why, and what would help."""
+"""Findings on how an engine shakes: the residual, cancellations and their causes, advice."""
 
 from __future__ import annotations
 

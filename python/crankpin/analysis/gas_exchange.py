@@ -1,4 +1,4 @@
-"""Valves and ports: when they open and close."""
+"""Timing of valves and ports."""
 
 from __future__ import annotations
 

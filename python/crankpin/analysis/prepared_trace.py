@@ -1,4 +1,4 @@
-"""Measured pressure made ready: top dead centre, reference of the sensor, and noise."""
+"""Preparation of measured pressure: top dead centre, reference of the sensor, noise."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ DEGREE_BY_EXPONENT = 16
 STEEPNESS = 4
 """Order of the Butterworth filter."""
 NOISY = 0.005
-"""Noise over peak pressure from which it is warned of."""
+"""Noise over peak pressure above which a warning is raised."""
 ROUNDING = 1e-12
 """Work below zero, over that of the peak pressure, that rounding makes."""
 NAMED = 5

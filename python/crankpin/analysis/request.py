@@ -144,7 +144,7 @@ class Request(NamedTuple):
 
 
 def check_request(request: object, maker: str) -> Request:
-    """Return a request, or raise an InputError that names the function that makes such results."""
+    """Return a request, or raise an InputError that names functions returning such results."""
     if not isinstance(request, Request):
         raise inputs.rejected("request", request, f"use {maker}")
     return request

@@ -1,4 +1,4 @@
-"""Torque of each cylinder on the crank per order: what programs for torsional vibration take."""
+"""Torque of each cylinder on the crank per order: input of programs for torsional vibration."""
 
 from __future__ import annotations
 

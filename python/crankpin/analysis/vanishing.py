@@ -1,4 +1,4 @@
-"""Which orders of force, moment and torque vanish, with proof."""
+"""Proofs of which orders of force, moment and torque vanish."""
 
 from __future__ import annotations
 

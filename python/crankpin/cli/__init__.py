@@ -1,4 +1,4 @@
-"""The command line: tables and pictures of what the library computes, and pages."""
+"""The command line: tables, pictures and pages of results."""
 
 from __future__ import annotations
 

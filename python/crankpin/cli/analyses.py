@@ -1,4 +1,4 @@
-"""Commands on engines beside each other, their stars, formulas, flywheels and harmonics."""
+"""Commands: comparison, star diagrams, closed forms, flywheels and harmonics."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is typed: parsers, the options that commands share, and their values with units."""
+"""Arguments of commands: parsers, shared options, and values with units."""
 
 from __future__ import annotations
 

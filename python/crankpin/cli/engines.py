@@ -1,4 +1,4 @@
-"""Commands on engines as they are: presets, firing orders, and pages that turn."""
+"""Commands: presets, firing orders, and turning pages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Commands on what balances an engine: counterweights, bob weights, balance shafts."""
+"""Commands: counterweights, bob weights, balance shafts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Commands on loads inside an engine: torque with gas pressure, and what bearings carry."""
+"""Commands: torque with gas pressure, and bearing loads."""
 
 from __future__ import annotations
 

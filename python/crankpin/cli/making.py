@@ -1,4 +1,4 @@
-"""Commands on engines to be made: designs, and what deviating parts leave."""
+"""Commands: inverse design and tolerances."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Commands on an engine on its mounts: modes, axes, forces, a page; and design."""
+"""Commands on an engine on its mounts: modes, axes, forces, a page, design."""
 
 from __future__ import annotations
 

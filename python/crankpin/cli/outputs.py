@@ -1,4 +1,4 @@
-"""What is printed and written; streams may be closed, full, or pipes that break."""
+"""Output of commands, also to closed or full streams and broken pipes."""
 
 from __future__ import annotations
 

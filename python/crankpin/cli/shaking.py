@@ -1,4 +1,4 @@
-"""Commands on how engines shake: balance, explain, sweep, rank."""
+"""Commands: balance, explain, sweep, rank."""
 
 from __future__ import annotations
 

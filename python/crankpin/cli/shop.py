@@ -1,4 +1,4 @@
-"""Commands of a balancing shop: the card with weighed parts, two planes, matched parts."""
+"""Commands of a balancing shop: card of weighed parts, two planes, matched parts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Engines from what people know of them: lists, throws, firing orders, names of presets."""
+"""Builders of engines from lists, throws, firing orders and names of presets."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Warnings of figures that no engine has: wrong units, and pins split to the wrong side.
+"""Warnings of implausible figures: wrong units, and pins split to the wrong side.
 
 Each check names the argument, its value and the likely mistake. The caller is warned
 once per call, however many cylinders are alike.

@@ -1,4 +1,4 @@
-"""Crankpins, and the webs and main bearings beside them, read off an engine's lists."""
+"""Crankpins, webs and main bearings derived from an engine's lists."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Cylinder pressure over a cycle, and the torque that it exerts."""
+"""Cylinder pressure over a cycle, and its torque."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The data of an engine: lists, names, hardware; changed copies; files; and a table of it all."""
+"""Data of an engine: lists, names, hardware, changed copies, files and a table."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Engines: cylinders at their places on one crankshaft."""
+"""Engines: cylinders on one or several crankshafts, with hardware, gas pressure and loads."""
 
 from __future__ import annotations
 

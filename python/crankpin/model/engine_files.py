@@ -1,7 +1,7 @@
-"""Engine files: their names, their text and their schema, which says what each entry means.
+"""Engine files: names, text and schema.
 
-``engine.schema.json`` beside this file is the one place for the words: comments in files that are
-written and the tables of the manual are made of it.
+``engine.schema.json`` beside this file describes each entry; comments in written files and the
+tables of the manual are generated from it.
 """
 
 from __future__ import annotations

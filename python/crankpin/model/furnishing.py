@@ -1,4 +1,4 @@
-"""What builders of layouts take beyond one cylinder: parts of each."""
+"""Parts of each cylinder, crankpin and bank in the builders of layouts."""
 
 from __future__ import annotations
 

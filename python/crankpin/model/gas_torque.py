@@ -1,4 +1,4 @@
-"""Bundled table of the harmonics of gas torque of stated cycles.
+"""Bundled table of gas-torque harmonics of stated cycles.
 
 ``gas_torque.csv`` beside this file has it; ``python benchmarks/gas_torque.py`` makes it.
 """

@@ -1,4 +1,4 @@
-"""Periodic loads besides pistons, pressure and unbalances: what is driven, and what drives."""
+"""Periodic loads besides pistons, pressure and unbalances, such as driven machines."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Spikes and odd cycles among measured ones: found beside the median over cycles."""
+"""Detection of spikes and odd cycles by comparison with the median over cycles."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from crankpin._core import InputError
 
 MISTYPED = 0.9
-"""Likeness, of 1 for the same, from which a name is a preset's with a slip of the finger."""
+"""Similarity (1 for equal names) above which a name counts as a misspelt preset."""
 NUMBERS = {
     "two": "2", "three": "3", "four": "4", "five": "5", "six": "6", "seven": "7", "eight": "8",
     "nine": "9", "ten": "10", "twelve": "12",

@@ -1,4 +1,4 @@
-"""What rotates besides the throws: counterweights on the crankshaft, and balance shafts."""
+"""Rotating parts besides the throws: counterweights and balance shafts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What carries mounts and gives way: a second rigid body on mounts, or a measured receptance."""
+"""Flexible supports of mounts: a second rigid body on mounts, or a measured receptance."""
 
 from __future__ import annotations
 

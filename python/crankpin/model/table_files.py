@@ -1,4 +1,4 @@
-"""Columns of numbers in text files and spreadsheets, and the line in which each stands."""
+"""Columns of numbers in text files and spreadsheets, with their line numbers."""
 
 from __future__ import annotations
 

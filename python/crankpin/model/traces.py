@@ -149,10 +149,10 @@ class Traces(Tabled, Input):
         unless columns are separated by commas too. Lines before the numbers, and lines that begin
         with ``#``, ``%`` or ``!``, are comments; the last before the numbers is the header, with
         the one above it if that has as many cells. Text is UTF-8, UTF-16 or Latin-1; long files
-        are read piece by piece. Of spreadsheets the rows of a sheet are read alike. What is no
-        number is an error that names line and column; missing lines, repeated ones and angles that
-        stand twice are warned of. ``origin`` says what was read, and what of it is stated by the
-        header or by arguments, or assumed.
+        are read piece by piece. Rows of spreadsheets are read in the same way. A cell that is not a
+        number is an error that names line and column; missing lines, repeated lines and repeated
+        angles raise a warning. ``origin`` reports what was read, and whether the header or an
+        argument states it or it is assumed.
 
         Parameters
         ----------

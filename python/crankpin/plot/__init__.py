@@ -1,4 +1,4 @@
-"""Pictures of results: one module for each kind, which registers what draws it.
+"""Pictures of results: one module per kind, which registers its drawing function.
 
 Pictures are drawn on given axes, or on a new pyplot figure, which notebooks show. This package is
 imported when a picture is drawn, and matplotlib with it.

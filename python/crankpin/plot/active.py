@@ -1,4 +1,4 @@
-"""What actuators leave: rms values with and without them, at places or over speed."""
+"""Residual with actuators: rms values with and without them, at places or over speed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Balances: spectra, ellipses of each order, and the kinds of picture."""
+"""Balances: spectra, ellipses of each order, and the choice of the kind of picture."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Counterweights: where they are, which way they point, and the residual."""
+"""Counterweights: places, directions, and the residual."""
 
 from __future__ import annotations
 

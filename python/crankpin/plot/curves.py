@@ -1,4 +1,4 @@
-"""Curves of a sweep over one swept dimension, with what vanishes and what is best marked."""
+"""Curves of a sweep over one swept dimension, with zeros and minima marked."""
 
 from __future__ import annotations
 

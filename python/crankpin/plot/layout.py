@@ -1,4 +1,4 @@
-"""Axes and figures, given or new; titles, labels and legends fitted to the room that they get."""
+"""Axes and figures, given or new; titles, labels and legends fitted to the available space."""
 
 from __future__ import annotations
 

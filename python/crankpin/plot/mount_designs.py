@@ -1,4 +1,4 @@
-"""Mounts that were designed, many designs of them, their tolerances, and where axes of roll are."""
+"""Designs of mounts, one or many, their tolerances, and axes of roll."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""An engine on its mounts: where the energy of its modes is, and forces over order and speed."""
+"""An engine on its mounts: energy of its modes, and forces over order and speed."""
 
 from __future__ import annotations
 

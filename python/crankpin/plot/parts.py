@@ -1,6 +1,6 @@
-"""Sweeps by what turns with the crank and what turns against it, order by order.
+"""Sweeps by forward and backward parts, order by order.
 
-Counterweights take away what turns with the crank at order 1; all else takes balance shafts.
+Counterweights remove the forward part of order 1; all other parts need balance shafts.
 """
 
 from __future__ import annotations

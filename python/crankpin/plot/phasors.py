@@ -1,4 +1,4 @@
-"""Phasors of the cylinders: what they add to a balance, head to tail, and star diagrams."""
+"""Phasors of the cylinders: contributions to a balance, head to tail, and star diagrams."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Curves in the cross-section plane: what force and moment trace."""
+"""Curves of force and moment in the cross-section plane."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Ticks: as many as there is room for, at round values, written plainly."""
+"""Ticks: as many as fit, at round values, in plain notation."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tolerances: the distribution of what remains, and the shares of the tolerances."""
+"""Tolerances: distribution of the residual, and shares of the tolerances."""
 
 from __future__ import annotations
 

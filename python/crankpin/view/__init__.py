@@ -1,1 +1,1 @@
-"""Engines that turn: a page that needs a browser alone, and a widget for notebooks."""
+"""Turning engines: a self-contained page for browsers, and a widget for notebooks."""

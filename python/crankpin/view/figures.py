@@ -1,4 +1,4 @@
-"""Data of a page: an engine's figures, what its reader may set, and the core's numbers of it."""
+"""Data of a page: an engine's figures, the settings of its controls, and the core's results."""
 
 from __future__ import annotations
 

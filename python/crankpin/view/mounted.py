@@ -1,4 +1,4 @@
-"""Data of the page of a powertrain on its mounts: coefficients of the library's own numbers."""
+"""Data of the page of a powertrain on its mounts: coefficients of the library's results."""
 
 from __future__ import annotations
 
@@ -41,8 +41,8 @@ def figures(
     Raises
     ------
     InputError
-        If an argument is out of range, stiffness depends on frequency and none is given, or what
-        carries the mounts gives way.
+        If an argument is out of range, stiffness depends on frequency and none is given, or the
+        powertrain has a flexible support.
     """
     at = speed(rpm)
     powertrain._core.require_ground()

@@ -1,4 +1,4 @@
-"""Pages that need a browser alone, of an engine: modules, style and figures."""
+"""Self-contained pages of an engine: modules, style and figures."""
 
 from __future__ import annotations
 

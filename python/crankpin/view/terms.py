@@ -1,4 +1,4 @@
-"""Numbers of a page: the library's terms of each order, as polynomials in the rod ratio."""
+"""Numbers of a page: terms of each order, as polynomials in the rod ratio."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Hardware that makes an engine shake less, and the residual: counterweights and balance shafts.
+"""Balancing hardware and the residual: counterweights, bob weights and balance shafts.
 
 ``planes`` where weights can be, and parts that turn → ``fitting``, ``fitted_shafts`` weights that
 remove the most → ``counterweights``, ``bob_weight``, ``two_plane``, ``balance_shafts`` one question

@@ -1,4 +1,4 @@
-"""Hardware that an engine can be balanced with, against the residual of each set."""
+"""Sets of balancing hardware for an engine, with the residual of each."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Counterweights that remove the most of what turns with the crankshaft at order 1."""
+"""Counterweights that minimise the forward part of order 1."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Bob weights, and counterweights fitted to what turns with the crankshaft, of engines and bays.
+"""Bob weights, and counterweights fitted to the forward part of order 1 of engines and bays.
 
 Forces and moments of order 1 over ω², in kg·m and kg·m²: one fit serves every speed.
 """

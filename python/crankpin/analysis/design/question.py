@@ -1,4 +1,4 @@
-"""Request of an inverse design: what is given, what is to be chosen, and within which limits."""
+"""Request of an inverse design: fixed values, free choices and their limits."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Actuators against an engine's orders: phasors under limits, and what they do elsewhere."""
+"""Actuators against an engine's orders: phasors within limits, and their effect elsewhere."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ POWER = 8.0
 NEAREST = 1e-5
 """Weight of changes of stiffness beside equations: of equal solutions the nearest is taken."""
 NOTHING = 1e-10
-"""Sum of objectives, of decoupling a square, below which nothing better is looked for."""
+"""Sum of objectives, with decoupling squared, at which the search stops."""
 WINDOW = 1e-6
 """Share of a limit by which rounding of the optimiser may miss it."""
 EQUAL = 1e-3

@@ -1,4 +1,4 @@
-"""Modes of a powertrain on its mounts, where their energy is, and its axes of rotation."""
+"""Modes of a powertrain on its mounts, their shares of energy, and its axes of rotation."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ COORDINATES = ("fore-aft", "lateral", "bounce", "roll", "pitch", "yaw")
 PLACES = (2, 0, 1, 5, 3, 4)
 """Their places in (displacement along x, y, z, rotation about x, y, z)."""
 OF_SUBFRAME = "subframe"
-"""What carries the mounts, as a column."""
+"""Flexible support, as a column."""
 
 
 class MountModes(Tabled):

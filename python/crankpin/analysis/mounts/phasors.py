@@ -1,4 +1,4 @@
-"""Phasors of actuators that leave the least at receivers, each within a bound.
+"""Phasors of actuators that minimise the motion at receivers, each within a bound.
 
 min ‖d + S c‖² + ρ‖c‖², |cⱼ| ≤ bⱼ, point by point: a convex question. Without bounds it is least
 squares. Points whose bounds are met follow the central path of −μ Σ log(bⱼ² − |cⱼ|²), whose steps

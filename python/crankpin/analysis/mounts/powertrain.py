@@ -52,8 +52,8 @@ class Powertrain(Input):
     mounts : sequence of Mount
         One mount or more, of distinct names.
     support : Subframe or Receptance, optional
-        What carries the mounts where it gives way. A subframe counts in every reading, but for
-        :meth:`designs` and pages, which are rejected; of a receptance there is a response, and no
+        Flexible support of the mounts; by default firm ground. A subframe counts in every result
+        except :meth:`designs` and pages, which reject it; a receptance gives a response, but no
         modes, axes, state at rest or tolerances.
 
     Raises
@@ -132,7 +132,7 @@ class Powertrain(Input):
 
     @property
     def _carried(self) -> str:
-        """What carries the mounts where it gives way, in titles."""
+        """Flexible support of the mounts, in titles."""
         return "" if self.support is None else f" and a {type(self.support).__name__.lower()}"
 
     # --- questions --------------------------------------------------------------------------------
@@ -371,7 +371,7 @@ class Powertrain(Input):
         ------
         InputError
             If a design has figures that no mount has (its index is named), an order meets a mode
-            without damping, or the powertrain has a support that gives way.
+            without damping, or the powertrain has a flexible support.
 
         Warns
         -----
@@ -481,7 +481,7 @@ class Powertrain(Input):
         )
 
     def on(self, support: Support | None) -> Self:
-        """Return the same powertrain on something that gives way.
+        """Return the same powertrain on a flexible support.
 
         Parameters
         ----------
@@ -585,7 +585,7 @@ class Powertrain(Input):
         ------
         InputError
             If an argument is out of range, stiffness depends on frequency and none is given, or
-            the powertrain has a support that gives way.
+            the powertrain has a flexible support.
         ImportError
             If anywidget is not installed.
         """
@@ -621,7 +621,7 @@ class Powertrain(Input):
         ------
         InputError
             If an argument is out of range, the name ends otherwise, stiffness depends on frequency
-            and none is given, or the powertrain has a support that gives way.
+            and none is given, or the powertrain has a flexible support.
         OSError
             If the file cannot be written.
         """

@@ -1,4 +1,4 @@
-"""How far natural frequencies and the purity of modes go within tolerances."""
+"""Ranges of natural frequencies and purity of modes within tolerances."""
 
 from __future__ import annotations
 

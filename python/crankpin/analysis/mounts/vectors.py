@@ -1,4 +1,4 @@
-"""Vectors in space by order: forces of mounts, motion of points."""
+"""Spatial vectors by order: forces of mounts, motion of points."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Engines in order of what they shake: objectives, local optima between bank angles, ties."""
+"""Ranking of engines: objectives, local optima between bank angles, ties."""

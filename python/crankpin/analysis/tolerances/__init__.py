@@ -1,4 +1,4 @@
-"""What spreads of parts do to an engine, and which parts to put together.
+"""Effect of tolerances on an engine, and matching of measured parts.
 
 ``spreads`` how parts vary → ``arrays`` their influences → ``samples`` the result of
 ``tolerances``; ``matching`` measured parts to cylinders → ``match_parts``.

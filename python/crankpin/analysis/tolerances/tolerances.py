@@ -1,4 +1,4 @@
-"""What remains of an engine's balance when its parts deviate from their figures."""
+"""Residual of an engine's balance when its parts deviate from their figures."""
 
 from __future__ import annotations
 
