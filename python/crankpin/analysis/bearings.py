@@ -39,7 +39,7 @@ PARTS = ("crank", "crankcase")
 
 
 def bearing_loads(engine: Engine, rpm: float, theta_deg: ArrayLike | None = None) -> BearingLoads:
-    """Compute what crankpins, wrist pins, cylinder walls and main bearings carry.
+    """Compute the loads of crankpins, wrist pins, cylinder walls and main bearings.
 
     Every cylinder is taken apart into piston, rod and crank; the rod's moment of inertia counts
     where the cylinder has one, and gas pressure where the engine has it

@@ -49,8 +49,8 @@ def compare(
         The engine before a change, or any.
     after : Engine or "lumped"
         The engine after it, or any other. ``"lumped"`` is ``before`` as textbooks lump it, the
-        e-book among them: what rotates with a crankpin moves along the bore, with the piston. Their
-        tables are reproduced so, beside the engine that is built.
+        e-book among them: what rotates with a crankpin moves along the bore, with the piston, which
+        reproduces their tables.
     rpm : float
         Crank speed, rpm.
     orders : number, sequence of numbers or "auto", default "auto"

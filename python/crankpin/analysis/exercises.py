@@ -35,7 +35,7 @@ NEAR = 0.01
 
 
 def exercise(topic: str, seed: int = 0) -> Exercise:
-    """Return an exercise on a topic, with figures of its own, and its solution.
+    """Return an exercise on a topic, with random figures, and its solution.
 
     The same seed gives the same sheet everywhere, another one other figures.
 

@@ -70,10 +70,10 @@ def prepare_trace(
     leave_out: Literal["odd"] | Iterable[int] | None = None,
     spikes: Literal["replace"] | None = None,
 ) -> PreparedTrace:
-    """Return measured pressure with the top dead centre found, noise filtered and offset removed.
+    """Return measured pressure with top dead centre, noise and offset corrected.
 
-    Only what arguments ask for is done, in this order; each step is reported with the change that
-    it makes in mean effective pressure and in orders of the torque.
+    The steps that arguments name are applied, in this order; each is reported with its change of
+    mean effective pressure and of orders of the torque.
 
     Parameters
     ----------
@@ -109,8 +109,8 @@ def prepare_trace(
         Cycles to leave out before all else, by index from 0, or those that ``traces.anomalies``
         names, spikes excepted.
     spikes : "replace", optional
-        Replaces spikes by what the median over cycles has there, and the cycle beside it. Those
-        that stay are in imep and orders; offsets are computed without them.
+        Replaces spikes by the median over cycles plus the cycle's deviation from it, interpolated.
+        Spikes that are kept count in imep and orders; offsets are computed without them.
 
     Returns
     -------

@@ -631,9 +631,9 @@ def slider_crank_harmonics(
         Pin offset / crank radius, ``|e/r| < 1/λ − 1``; broadcast with ``rod_ratio``. Without it the
         pin runs through the crank's axis, odd orders above 1 vanish, and the result is real.
     rtol : float, optional
-        What every order may be off by, relative to itself: 1e-15 to below 1. By default all digits
-        come. Fewer save little: at 1e-3 a tenth of the time for many rod ratios about 0.3, a third
-        for 0.6 to 0.99, nothing for a single one. With ``pin_offset_ratio`` all digits come anyway.
+        Relative tolerance of every order, 1e-15 to below 1; by default full double precision. A
+        tolerance saves little: at 1e-3 a tenth of the time for many rod ratios about 0.3, a third
+        for 0.6 to 0.99, nothing for a single one. With ``pin_offset_ratio`` it has no effect.
 
     Returns
     -------

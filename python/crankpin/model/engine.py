@@ -38,7 +38,7 @@ __all__ = ["Engine", "Hold"]
 
 
 class Engine(Builders):
-    """Cylinders at their places on one crankshaft.
+    """Cylinders on one or several crankshafts, with hardware, gas pressure and loads.
 
     Three lists describe it: the crank angle of each cylinder's top dead centre, the direction of
     its bore and its place along the crank. Made by :meth:`from_lists` from these; by
@@ -265,7 +265,7 @@ class Engine(Builders):
     def firing(
         self, firing_order: str | Iterable[int] | None = None, *, strokes: int | None = None
     ) -> Firing:
-        """Return angles and intervals of firing in an order; of several ways the most even.
+        """Return angles and intervals of firing in an order; the most even of several schedules.
 
         Of an engine with cycles, without arguments, it is the way in which these fire.
 
@@ -300,7 +300,7 @@ class Engine(Builders):
     def firings(
         self, firing_order: str | Iterable[int] | None = None, *, strokes: int | None = None
     ) -> tuple[Firing, ...]:
-        """Return every way for the engine to fire in this order, the most even first.
+        """Return every schedule of firing in this order, the most even first.
 
         Empty if the crank does not allow the order. There are several where the order follows the
         top dead centres of one turn, so that the next turn may begin after any cylinder.
@@ -333,7 +333,7 @@ class Engine(Builders):
         return firing.firings(self, firing_order, strokes)
 
     def firing_orders(self, *, strokes: int | None = None) -> tuple[Firing, ...]:
-        """Return every way for the engine to fire, the most even first.
+        """Return every schedule of firing, the most even first.
 
         In a four-stroke each cylinder but the first fires in either of two turns: 2ⁿ⁻¹ ways, for up
         to 16 cylinders. Cylinders at top dead centre together may fire together.
@@ -473,7 +473,7 @@ class Engine(Builders):
         compact: bool = False,
         controls: str | Sequence[str] | None = None,
     ) -> EngineWidget:
-        """Return the engine turning, as a widget for notebooks (needs anywidget).
+        """Return the turning engine as a widget for notebooks (needs anywidget).
 
         Its traits ``angle_deg``, ``rpm``, ``bank_angle_deg``, ``rod_ratio`` and ``hold`` move the
         page when they are set, and follow its reader.
@@ -526,7 +526,7 @@ class Engine(Builders):
         compact: bool = False,
         controls: str | Sequence[str] | None = None,
     ) -> None:
-        """Write the engine turning, as a page that needs a browser alone and loads nothing.
+        """Write the turning engine as a self-contained page for browsers.
 
         Parameters
         ----------

@@ -72,7 +72,7 @@ class Subframe(Input):
 
 
 class Receptance(Input):
-    """Measured displacement over force of what carries the mounts, over frequency.
+    """Measured receptance of the support of the mounts: displacement over force, by frequency.
 
     Parameters
     ----------

@@ -211,7 +211,7 @@ class Traces(Tabled, Input):
         tdc_deg: ArrayLike,
         **options: Unpack[CylinderFileOptions],
     ) -> tuple[Self, ...]:
-        """Return the cycles of several cylinders that stand in one file.
+        """Return the cycles of several cylinders from one file.
 
         Parameters
         ----------
@@ -307,7 +307,7 @@ class Traces(Tabled, Input):
 
     @property
     def anomalies(self) -> Table:
-        """Spikes and odd cycles, by index, found beside the median over eight cycles and more.
+        """Spikes and odd cycles by index, detected by comparison with the median of the cycles.
 
         Kinds: ``spike``, of few samples; ``oscillation``, many of them, as knock makes;
         ``misfire``, whose expansion lacks pressure; ``shifted``, whose compression is earlier or

@@ -134,9 +134,9 @@ def search_arrangements(
 
     With every top dead centre held and Z = Σ s exp(i·phase) over a bank's throws, s the distance
     from the middle, first-order moment is all forward at α = arg(−Z₂/Z₁), which exists where
-    ``|Z₁| = |Z₂|`` (Ito and Hattori, V-14). Equality is decided in whole numbers: ``|Z|²`` is a
-    whole combination of roots of unity. Angles are distinguished exactly too. Of the pairs with one
-    bank angle the one that shakes least, once a counterweight is fitted, is listed.
+    ``|Z₁| = |Z₂|`` (Ito and Hattori, V-14). Equality is decided in whole numbers: ``|Z|²`` is a whole
+    combination of roots of unity. Angles are distinguished exactly too. Of the pairs with one bank
+    angle the one with the smallest moments, once a counterweight is fitted, is listed.
 
     Parameters
     ----------
@@ -150,12 +150,12 @@ def search_arrangements(
         even-firing four-stroke: an odd number of throws n has n phases, an even one n/2, each
         twice.
     hold : {"pins", "firing"}, default "firing"
-        What phases are of as the bank angle changes: ``"firing"``, the top dead centres (Ito and
+        Meaning of the phases as the bank angle changes: ``"firing"``, the top dead centres (Ito and
         Hattori), or ``"pins"``, the crankpins, where 2α takes the place of α.
     shared_pins : bool, default False
         Only arrangements whose banks share their crankpins, with ``hold="pins"``: all are balanced
-        at 90°. Of those that are mirror images one is listed, so that the same bank angle is listed
-        for each; at most 2²⁰, a V-22's 907 200 among them.
+        at 90°. One of each two mirror images is listed, so that the same bank angle is listed for
+        each; at most 2²⁰, a V-22's 907 200 among them.
     progress : bool or callable, default False
         True for a tqdm bar (needs tqdm), or a function that is called with the steps done and the
         steps in all, some 50 times a second, while a long search runs.

@@ -71,7 +71,7 @@ def balancer_options(
       same. Where a part has a force and a moment, a shaft may also remove the force alone (by an
       unbalance in the reference plane) or the moment alone (by a couple).
 
-    What finds nothing to remove is left out. A counterweight or shaft that removes a share of its
+    Hardware with nothing to remove is omitted. A counterweight or shaft that removes a share of its
     part, and several shafts of one ratio, are not compared.
 
     Parameters
@@ -81,13 +81,13 @@ def balancer_options(
     rpm : float
         Crank speed, rpm.
     by : str, callable or sequence of these, optional
-        What is left, to be small: objectives as in :func:`crankpin.rank`, one or several; by
-        default the peaks of total force and total moment.
+        Residuals to minimise: objectives as in :func:`crankpin.rank`, one or several; by default
+        the peaks of total force and total moment.
     target : float or mapping of str to float, optional
-        Value that what is left must not exceed, in N or N·m: objective → value, or one for all
-        of ``by``. Objectives that ``by`` does not have are added to it.
+        Largest admissible residual, in N or N·m: objective → value, or one for all of ``by``.
+        Objectives missing in ``by`` are added to it.
     relative : bool, default False
-        True if the target is a part of what the engine has as it is.
+        True if the target is relative to the value of the unchanged engine.
     shaft_orders : int or sequence of int, optional
         Orders for which shafts are compared; by default 1 and 2.
     most_shafts : int, default 4

@@ -59,7 +59,7 @@ def bob_weight(
     A crankshaft is balanced with ``rotating + factor · reciprocating`` mass clamped to each pin,
     that of all rods on the pin together. Its counterweights then cancel these masses. Half of the
     reciprocating mass leaves no part of force and moment that turns with a pin's own crank, in any
-    engine without pin offset; what turns against it stays whatever the factor.
+    engine without pin offset; the part that turns against it does not depend on the factor.
 
     Parameters
     ----------

@@ -53,7 +53,7 @@ def counterweights(
     angles_deg: Angles | Mapping[str, Angles] | None = None,
     length: float | None = None,
 ) -> Counterweights:
-    """Return the counterweights that remove the most force and moment of order 1 with their cranks.
+    """Return the counterweights that minimise the parts of order 1 that turn with their cranks.
 
     Parameters
     ----------

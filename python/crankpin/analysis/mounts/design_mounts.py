@@ -188,18 +188,18 @@ def design_mounts(
     """Return mounts that decouple roll, place frequencies and lower forces, within bounds.
 
     Where stiffness alone varies, and decoupling is the only objective, the equations are linear and
-    the answer is the only best one. Other questions are optimised from several starts (SciPy).
+    the solution is the global optimum. Other questions are optimised from several starts (SciPy).
 
     Parameters
     ----------
     powertrain : Powertrain
         The powertrain to start from.
     by : str or sequence of str, default "decoupling"
-        What is minimised: ``"decoupling"``, the part of the mounts' reaction to a roll about the
-        torque roll axis that is no torque of the crank, 0 to 1, of mounts on what does not move;
+        Objectives to minimise: ``"decoupling"``, the part of the mounts' reaction to a roll about
+        the torque roll axis that is no torque of the crank, 0 to 1, of mounts on firm ground;
         ``"mount_force[2]"`` or ``"body_force[0.5]"``, the largest force of an order at the speeds
-        ``rpm``; and ``"purity"``, of the least pure mode what lacks to 100 %. Of several the sum
-        counts, each force over that of the powertrain as it was.
+        ``rpm``; and ``"purity"``, 100 % less the purity of the least pure mode. The sum of several
+        counts, each force over that of the given powertrain.
     vary : mapping of str to sequence of str, sequence of str or str
         Name of a mount → what varies of it, among ``"stiffness"``, ``"tilt_deg"``, ``"x"``,
         ``"y"`` and ``"z"``; without names of every mount.
@@ -227,7 +227,7 @@ def design_mounts(
     Returns
     -------
     MountDesign
-        The design, what it reaches and what not. Static stiffness changes as dynamic stiffness.
+        The design, and which requirements it meets. Static stiffness changes as dynamic stiffness.
 
     Raises
     ------

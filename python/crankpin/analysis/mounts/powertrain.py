@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 
 class Powertrain(Input):
-    """An engine on its mounts: the engine, the rigid body that moves, and what carries it.
+    """An engine on its mounts: the engine, the rigid body that moves with it, and the mounts.
 
     Every load of the engine counts: pistons, rods, counterweights, balance shafts, and gas pressure
     where it has cycles. What carries the mounts does not move, unless it is given.
@@ -300,7 +300,7 @@ class Powertrain(Input):
     def velocity_feedback(
         self, actuator: Actuator, *, gain: float | None = None
     ) -> VelocityFeedback:
-        """Return how far velocity can be fed back through an inertial actuator, and what it does.
+        """Return the largest stable gain of velocity feedback through an inertial actuator.
 
         The motor pushes with −gain times the velocity of its place on the powertrain, and with the
         opposite force on its mass. Below the resonance of that mass it pushes the wrong way: it is
@@ -415,7 +415,7 @@ class Powertrain(Input):
         corners: Literal["axes", "mounts"] = "axes",
         frequency: float | None = None,
     ) -> MountRobustness:
-        """Return how far natural frequencies and purity go within tolerances.
+        """Return the ranges of natural frequencies and purity within tolerances.
 
         Bounds of frequencies by stiffness, mass and inertia are exact: each frequency is monotone
         in each of them. Purity is not, and searched: at every corner of the stiffnesses, at random
@@ -557,7 +557,7 @@ class Powertrain(Input):
         frequency: float | None = None,
         controls: str | Sequence[str] | None = None,
     ) -> PowertrainWidget:
-        """Return the engine turning on its mounts, as a widget for notebooks (needs anywidget).
+        """Return the engine turning on its mounts as a widget for notebooks (needs anywidget).
 
         Mounts can be dragged; modes and response follow. Its traits ``angle_deg``, ``rpm``,
         ``order``, ``mode`` and ``mounts`` move the page when they are set, and follow its reader;
@@ -601,7 +601,7 @@ class Powertrain(Input):
         frequency: float | None = None,
         controls: str | Sequence[str] | None = None,
     ) -> None:
-        """Write the engine turning on its mounts, as a page that needs a browser alone.
+        """Write the engine turning on its mounts as a self-contained page for browsers.
 
         The page evaluates the library's coefficients: mounts can be dragged in it, and modes and
         response follow.

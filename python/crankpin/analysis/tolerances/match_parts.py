@@ -166,7 +166,7 @@ def match_parts(
     seed: int = 0,
     progress: Progress = False,
 ) -> Match:
-    """Return which measured piston and rod goes into which cylinder.
+    """Return the best assignment of measured pistons and rods to cylinders.
 
     The engine's own masses stand for the mean of the measured ones: a piston of mass p adds
     p − mean(pistons) to the reciprocating mass of its cylinder, a rod adds what its small end has
@@ -175,8 +175,8 @@ def match_parts(
     Parameters
     ----------
     engine : Engine
-        The engine, with its counterweights and balance shafts: what they would remove hides what
-        the parts make (see :func:`crankpin.counterweights`).
+        The engine, with its counterweights and balance shafts: without them the parts that these
+        remove dominate (see :func:`crankpin.counterweights`).
     pistons : array_like, shape (n_pistons,)
         Measured masses of pistons with pins and rings, kg, at least one for each cylinder of
         each engine.

@@ -48,11 +48,11 @@ def tolerances(
     torque: bool = True,
     progress: Progress = False,
 ) -> Tolerances:
-    """Return what remains of force, moment and torque when parts deviate from their figures.
+    """Return the residual force, moment and torque when parts deviate from their figures.
 
     Monte Carlo: each sample is an engine whose figures are drawn independently around the nominal
     ones, and whose balance is evaluated without linearisation. Sums that the layout cancels, such
-    as all first and second orders of an inline-6, are what its tolerances leave of them.
+    as all first and second orders of an inline-6, are due to tolerances alone.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def tolerances(
         samples, of threads, and of other figures that spread. Normal deviations are those of
         :class:`numpy.random.Generator`, at most 12.3 spreads.
     by : str or sequence of str, optional
-        What tables, pictures and shares show: names as in :func:`crankpin.rank`, such as
+        Quantities of tables, pictures and shares: names as in :func:`crankpin.rank`, such as
         ``"total.moment.peak"`` or ``"[1].force.backward"``. By default the total peaks and the
         forward and backward parts of order 1.
     orders : float, sequence of float or "auto", default "auto"
