@@ -134,9 +134,9 @@ def search_arrangements(
 
     With every top dead centre held and Z = Σ s exp(i·phase) over a bank's throws, s the distance
     from the middle, first-order moment is all forward at α = arg(−Z₂/Z₁), which exists where
-    ``|Z₁| = |Z₂|`` (Ito and Hattori, V-14). Equality is decided in whole numbers: ``|Z|²`` is a whole
-    combination of roots of unity. Angles are distinguished exactly too. Of the pairs with one bank
-    angle the one with the smallest moments, once a counterweight is fitted, is listed.
+    ``|Z₁| = |Z₂|`` (Ito and Hattori, V-14). Equality is decided in whole numbers: ``|Z|²`` is a
+    whole combination of roots of unity. Angles are distinguished exactly too. Of the pairs with one
+    bank angle the one with the smallest moments, once a counterweight is fitted, is listed.
 
     Parameters
     ----------
