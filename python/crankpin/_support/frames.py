@@ -66,7 +66,7 @@ class Frames(Mapping[str, "Table"]):
         return self[name] if head is None else head
 
     def _shown(self, rows: int | None) -> Iterator[Table]:
-        """Yield the tables; of neighbours that count the same loads the last one says so."""
+        """Yield the tables; of successive tables that count the same loads the last states them."""
         tables = [self._first(name, rows) for name in self]
         for table, below in zip(tables, [*tables[1:], None], strict=True):
             once = below is not None and below.loads == table.loads

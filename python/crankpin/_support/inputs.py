@@ -69,7 +69,7 @@ MOST_ITEMS = 10_000
 
 
 BUFFER = 2**26
-"""Memory that is wanted before OpenBLAS takes its own, 32 MiB: without it, it ends the process."""
+"""Memory reserved for OpenBLAS, which ends the process if it cannot allocate its own 32 MiB."""
 
 
 def _take_buffer() -> None:
@@ -263,7 +263,7 @@ def optional_number(name: str, value: object) -> float | None:
 
 
 def is_listed(value: object) -> bool:
-    """Return whether a value is several, whatever they are: a list, or an array with an axis."""
+    """Return whether a value is a collection: a list, or an array with an axis."""
     try:
         return isinstance(value, (list, tuple)) or np.ndim(value) > 0  # type: ignore[arg-type]
     except ValueError:  # of another ragged sequence
@@ -652,7 +652,7 @@ def faulty(argument: str, fault: str, hint: str, kind: type[InputError] = InputE
 
 
 def only_one_of(**values: object) -> None:
-    """Reject two arguments of which none is given, or both."""
+    """Reject two arguments unless exactly one of them is given."""
     if sum(value is not None for value in values.values()) != 1:
         name, value = values.popitem()
         one = ", ".join(f"{each}=…" for each in [*values, name])
@@ -660,7 +660,7 @@ def only_one_of(**values: object) -> None:
 
 
 def only_with(partner: str, **values: object) -> None:
-    """Reject arguments other than None without the one beside which they act."""
+    """Reject arguments other than None without the argument that they need."""
     for name, value in values.items():
         if value is not None:
             hint = f"acts only beside {partner}; give {partner}=…, or leave it out"

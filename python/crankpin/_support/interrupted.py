@@ -18,7 +18,7 @@ def is_command() -> bool:
 
 
 def leave(*_: object) -> None:
-    """End the process at once: nothing was begun, or all is written."""
+    """End the process at once: nothing has begun, or everything is written."""
     os._exit(STATUS)
 
 

@@ -91,11 +91,11 @@ def at_speed(rpm: float) -> str:
 
 
 class Titled(Protocol):
-    """What tables and pictures name: an engine."""
+    """Engine named in tables and pictures."""
 
     @property
     def title(self) -> str:
-        """Name, or what stands for it."""
+        """Name, or its substitute."""
 
     @property
     def loads_counted(self) -> str:

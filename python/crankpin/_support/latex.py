@@ -20,7 +20,7 @@ SPECIAL = {
     **{character: f"\\{character}" for character in "&%$#_{}"},
     "<": r"\textless{}", ">": r"\textgreater{}", "|": r"\textbar{}",
 }  # fmt: skip
-"""What LaTeX takes for commands, or sets as other characters."""
+"""Characters that are commands in LaTeX, or are typeset differently."""
 GREEK = (
     "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda",
     "mu", "nu", "xi", "pi", "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi", "omega",

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from types import ModuleType
 
 NO_MEMORY = re.compile("failed to map segment|cannot allocate|paging file", re.IGNORECASE)
-"""What loaders of compiled modules say where there is no memory for one."""
+"""Messages of loaders of compiled modules where memory is lacking."""
 
 
 def imported(name: str) -> ModuleType:

@@ -49,7 +49,7 @@ class FieldsDocumented:
         (re.compile(r"Mapping\[(\w+), ([^\[\]]+)\]"), r"mapping of \1 to \2"),
         (re.compile(r" \| "), " or "),
     )
-    """What annotations have, and what docstrings write for it."""
+    """Text of an annotation → its text in docstrings."""
 
     def __init__(self, text: str) -> None:
         self.text = inspect.cleandoc(text)

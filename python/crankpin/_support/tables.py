@@ -29,9 +29,9 @@ COUNTED = (
 BYTES = 64
 """Memory of a number or a short text as an object of Python."""
 IN_PARTS = "read the arrays, select some of the rows, or write CSV to a file"
-"""How to read what is too long for text."""
+"""Hint for tables too long for text."""
 TINY = "~0"
-"""What stands for a number that is not zero, but too small to matter."""
+"""Text of a number that is not zero, but negligible."""
 
 
 class Column(Record):
@@ -412,7 +412,7 @@ class Item(Tabled):
 
 
 def _times(value: Any, factor: float | NDArray[np.float64]) -> Any:  # noqa: ANN401 - a cell, or several
-    """Return a number times a factor; what is no number as it is."""
+    """Return a number times a factor; other values unchanged."""
     if isinstance(value, tuple):
         return tuple(_times(each, factor) for each in value)
     if isinstance(value, np.ndarray):

@@ -38,7 +38,7 @@ MASSES, LENGTHS, FORCES, PRESSURES = KINDS
 SYMBOLS = {name: (kind, factor) for kind, of in enumerate(KINDS) for name, factor in of.items()}
 """Unit → its kind, a place in :data:`KINDS`, and its factor to SI."""
 ALIASES = dict(_aliases)
-"""What people write → the unit."""
+"""Spelling of a unit → the unit."""
 HINT = 'give units of mass, length, force or pressure, such as "g, mm, lbf" or "oz·in"'
 LEAST_DIGITS = 3
 """Significant digits of a converted number in a text, at least."""
@@ -60,7 +60,7 @@ class Converted(NamedTuple):
     unit: str
     """Unit, as read by people."""
     factor: float
-    """What numbers are multiplied by."""
+    """Factor of the numbers."""
 
 
 class Shown:
@@ -166,12 +166,12 @@ def current() -> Setting:
 
 
 def symbol(word: str) -> str | None:
-    """Return the unit that a word stands for, whatever its case; None if there is none."""
+    """Return the unit of a word in any case, or None."""
     return _core.unit_symbol(word)
 
 
 def exact(unit: str, dimension: Dimension | None = None) -> Decimal | None:
-    """Return what a unit stands for in SI units; None where it is unknown, or of another kind."""
+    """Return the value of a unit in SI units; None if it is unknown or of another kind."""
     wanted = None if dimension is None else (*dimension, 0, 0)[:6]
     if (factor := _core.unit_factor(unit, wanted)) is None:
         return None

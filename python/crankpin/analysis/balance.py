@@ -127,7 +127,7 @@ class Balance(ByOrder[float]):
 
     @property
     def causes(self) -> tuple[str, ...]:
-        """Names of what makes the quantities: ``inertia``, ``gas`` and those of further loads."""
+        """Causes of the quantities by name: ``inertia``, ``gas`` and those of further loads."""
         return super().causes if self.within is None else self.within[0].causes
 
     @property

@@ -53,7 +53,7 @@ class ByOrder(Keyed, Quantities["NDArray[np.float64]", Value], Labelled, Generic
 
     @property
     def causes(self) -> tuple[str, ...]:
-        """Names of what makes the quantities: ``inertia``, ``gas`` and those of further loads."""
+        """Causes of the quantities by name: ``inertia``, ``gas`` and those of further loads."""
         return tuple(getattr(self.__dict__.get("_core"), "names", ("inertia",)))
 
     @property

@@ -375,7 +375,7 @@ class ClosedForm(Tabled):
 
     @property
     def units_text(self) -> str:
-        """What F and a stand for: their figures of this engine."""
+        """Values of the symbols F and a for this engine."""
         cylinder = self.engine.cylinders[self.unit_cylinder - 1]
         scale = cylinder.reciprocating_mass * cylinder.crank_radius
         factor = scale * complex(cylinder.harmonics(self.order)[0])

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Contribution(NamedTuple):
-    """What one part of an engine adds to a quantity, order by order."""
+    """Contribution of one part of an engine to a quantity, order by order."""
 
     part: str
     """``"1"``, ``"2"``, … for cylinders, ``"W1"``, … for counterweights, ``"S1"``, … for shafts,

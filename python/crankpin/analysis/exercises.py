@@ -25,11 +25,11 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
 INLINES = ("i2-360", "i2-180", "i2-270", "i3", "i4", "i4-crossplane", "i6")
-"""Those whose lowest shaking force can be measured: an inline-5 has one of order 10, some mN."""
+"""Inline engines with a measurable shaking force: that of an inline-5 is order 10, some mN."""
 FIRING = ("i3", "i4", "i5", "i6", "v6-60", "v6-90-odd-fire", "v8-crossplane", "v12-60", "v-twin-45")
 SECOND = "With λ = r / l the second harmonic is a₂ ≈ λ + λ³/4."
 WIDTH = 88
-"""Of a question in text, characters."""
+"""Width of a question in text, characters."""
 NEAR = 0.01
 """Answers within one per cent are right: slide rules and three digits are welcome."""
 
@@ -80,9 +80,9 @@ class Step(Record):
     """Step of a solution."""
 
     text: str
-    """What is computed."""
+    """Quantity computed in this step."""
     formula: str
-    """How."""
+    """Formula of the step."""
     value: float
     """Value."""
     unit: str
@@ -109,7 +109,7 @@ class Exercise(Tabled):
     """
 
     topic: str
-    """What it is about, as :func:`crankpin.exercise` takes it."""
+    """Topic, an argument of :func:`crankpin.exercise`."""
     seed: int
     """Number of the sheet."""
     title: str

@@ -123,7 +123,7 @@ class Explanation(Tabled):
 
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
-        """What the sentences say, as data."""
+        """Facts behind the sentences, as data."""
         return tuple(
             Finding(kind, quantity, tuple(orders), tuple(values), reason,
                     tuple(map(tuple, groups)), proved)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.request import Request
 
 SMALLER = "sweep one axis in parts, or use to_dask"
-"""How to have what is too large for memory."""
+"""Hint for results too large for memory."""
 Variable: TypeAlias = "tuple[tuple[str, ...], Any, dict[str, str]]"
 """Dimensions, values and attributes of a variable of a dataset."""
 TRAILING: dict[str, tuple[str, ...]] = {
@@ -89,7 +89,7 @@ class Labelled(Tabled):
 
     @property
     def causes(self) -> tuple[str, ...]:
-        """Names of what makes the quantities."""
+        """Names of the causes of the quantities."""
         return ("inertia",)
 
     @property

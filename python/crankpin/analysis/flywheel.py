@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 Curve: TypeAlias = "Callable[[NDArray[np.float64]], ArrayLike] | tuple[ArrayLike, ArrayLike]"
 """Torque over crank angle: a function of degrees, or angles and torques."""
 TWO_TURNS = 720.0
-"""Period, degrees, of functions: whole and half orders come round in it."""
+"""Period of functions, degrees: that of whole and half orders."""
 MOST_KNOTS = 100_000
 """Largest number of angles of a table, and of a load over the period of the drive."""
 MOST_BENDS = 7201
@@ -235,7 +235,7 @@ class Flywheel(TwoPanels, Tabled):
     speed_rpm: NDArray[np.float64]
     """Speed there, rpm."""
     torque: NDArray[np.float64]
-    """Torque of the drive there, N·m; of an engine all but that of inertia."""
+    """Torque of the drive there, N·m; of an engine without that of inertia."""
     load: NDArray[np.float64]
     """Torque of the load there, N·m."""
     inertia_torque: NDArray[np.float64]

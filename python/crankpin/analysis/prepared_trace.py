@@ -50,7 +50,7 @@ NOISY = 0.005
 ROUNDING = 1e-12
 """Work below zero, over that of the peak pressure, that rounding makes."""
 NAMED = 5
-"""Cycles left out that a step names; of more it says how many."""
+"""Number of omitted cycles that a step names; of more it gives the count."""
 FARTHEST_TDC = 5.0
 """Degrees by which encoders are off at most; more is another event or another cylinder's trace."""
 
@@ -261,7 +261,7 @@ class PreparedTrace(TwoPanels, Tabled):
     cylinder: Cylinder
     """The cylinder."""
     names: tuple[str, ...]
-    """What was done, by step; the first is the trace as measured."""
+    """Names of the steps; the first is the trace as measured."""
     stages: tuple[Traces, ...]
     """Cycles after each step."""
     tdc_deg: float
@@ -391,7 +391,7 @@ def _count_of_spikes(traces: Traces) -> str:
 def _top_dead_centre(
     motored: Traces | Cycle | None, loss_angle_deg: float | None, tdc_deg: float | None
 ) -> tuple[float, str]:
-    """Return the angle of the top dead centre, and who says so."""
+    """Return the angle of the top dead centre, and its source."""
     if motored is None:
         return inputs.finite("tdc_deg", tdc_deg), "given"
     if not isinstance(motored, (Traces, Cycle)):

@@ -31,9 +31,9 @@ else:
     from typing import TypeVar
 
     Values = TypeVar("Values")
-    """What ``peak`` of a quantity is: an array of all orders, a number of one of a balance."""
+    """Type of ``peak`` of a quantity: an array of all orders, a number of one of a balance."""
     Value = TypeVar("Value")
-    """What ``peak`` of one of its orders is: a number of a balance, an array of a sweep."""
+    """Type of ``peak`` of one of its orders: a number of a balance, an array of a sweep."""
 
 ALL: Literal["all"] = "all"
 """Key of all orders together."""
@@ -230,7 +230,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
 
     @property
     def parts(self) -> tuple[str, ...]:
-        """Names of what makes the quantity: ``inertia``, ``gas`` and those of further loads."""
+        """Causes of the quantity by name: ``inertia``, ``gas`` and those of further loads."""
         return tuple(name.partition(".")[-1] for name in parts_of(self.name, self.result.causes))
 
     def part(self, name: str) -> Self:

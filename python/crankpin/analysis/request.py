@@ -24,7 +24,7 @@ class Caused(Protocol):
 
     @property
     def causes(self) -> tuple[str, ...]:
-        """Names of what makes the quantities."""
+        """Names of the causes of the quantities."""
 
 
 class Request(NamedTuple):
@@ -94,7 +94,7 @@ class Request(NamedTuple):
 
     @property
     def quantities(self) -> tuple[str, ...]:
-        """Names of the quantities that there are."""
+        """Names of the available quantities."""
         return tuple(QUANTITIES) if self._has_torque else PLANE_VECTORS
 
     @property
@@ -109,7 +109,7 @@ class Request(NamedTuple):
         return MappingProxyType({name: bounds[name] for name in self.quantities})
 
     def named(self, quantities: tuple[str, ...], names: tuple[str, ...]) -> tuple[str, ...]:
-        """Return the quantities named, all that there are and their parts if none is."""
+        """Return the named quantities; if none is named, all with their parts."""
         known = self.quantities
         parts = [part for each in known for part in parts_of(each, names)]
         return check_quantities(quantities, (*known, *parts))
@@ -151,7 +151,7 @@ def check_request(request: object, maker: str) -> Request:
 
 
 def engine_core(engine: object, name: str = "engine") -> _core.Engine:
-    """Return the compiled counterpart of an engine, or say that it is none."""
+    """Return the compiled counterpart of an engine; an InputError for other values."""
     core = getattr(engine, "_core", None)
     if not isinstance(core, _core.Engine):
         hint = "give its .fitted, an engine" if hasattr(engine, "fitted") else ENGINE_HINT

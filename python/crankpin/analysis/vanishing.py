@@ -89,22 +89,22 @@ class Verdicts(Keyed, Tabled):
 
     @property
     def x(self) -> Verdicts:
-        """Of the component along (about) x."""
+        """Verdicts of the component along (about) x."""
         return self._part("x")
 
     @property
     def y(self) -> Verdicts:
-        """Of the component along (about) y."""
+        """Verdicts of the component along (about) y."""
         return self._part("y")
 
     @property
     def forward(self) -> Verdicts:
-        """Of the part that turns with the crank."""
+        """Verdicts of the forward part."""
         return self._part("forward")
 
     @property
     def backward(self) -> Verdicts:
-        """Of the part that turns against the crank."""
+        """Verdicts of the backward part."""
         return self._part("backward")
 
     def _part(self, name: str) -> Verdicts:

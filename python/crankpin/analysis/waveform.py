@@ -200,7 +200,7 @@ class Waveform(OverAngle):
 
     @property
     def causes(self) -> tuple[str, ...]:
-        """Names of what makes the quantities: ``inertia``, ``gas`` and those of further loads."""
+        """Causes of the quantities by name: ``inertia``, ``gas`` and those of further loads."""
         return self.__dict__["_names"]  # type: ignore[no-any-return]
 
     @property

@@ -108,7 +108,7 @@ def _text(argv: Sequence[str] | None) -> str:
 
 
 class _Warnings:
-    """What shows warnings, in place of ``warnings.showwarning``: of wrong units the first."""
+    """Replaces ``warnings.showwarning``: shows warnings, of those of units the first only."""
 
     def __init__(self, options: Mapping[str, object]) -> None:
         self._options, self._of_units = options, False

@@ -86,7 +86,7 @@ class Parser(argparse.ArgumentParser):
 
 
 Commands: TypeAlias = "argparse._SubParsersAction[Parser]"
-"""What a command adds its parser to."""
+"""Subparsers, to which a command adds its own."""
 Run: TypeAlias = "Callable[[Given], str | Shown]"
 """Computes what a command prints."""
 
@@ -228,7 +228,7 @@ LOAD_FIELDS = {
 
 
 OPPOSITES = {"gauge": "absolute"}
-"""Argument of the library that may be False → the option that says so."""
+"""Argument of the library that may be False → the option that sets it."""
 RENAMED = {
     "path": "out", "to_crankpin": "rod_centre", "cylinder": "misfire", "amount_g_mm": "amounts",
     "angle_deg": "angles", "measured_z": "measured", "correction_z": "correct", "point": "at",
@@ -358,7 +358,7 @@ def error_in_options(error: InputError, typed: Mapping[str, object]) -> InputErr
 
 
 def warning_in_options(message: str, typed: Mapping[str, object]) -> str:
-    """Return a warning of the library with arguments named, and units asked for, as in a shell."""
+    """Return a warning of the library with the names of arguments and units of the shell."""
     # What a new engine is made of is an option or its default; of others it may be in the file.
     known = _options(typed, left_out="kind" in typed)
     if typed.get("piston_mass") is not None:  # Of which the reciprocating mass is computed.
@@ -421,7 +421,7 @@ class Given:
             if isinstance(text, str) and "\0" in text:
                 raise rejected(name, labels.printable(text), "has a NUL byte")
         self.said = list[str]()
-        """What was read in another way than it was typed, for the user to see."""
+        """Notices of values that were read differently from their spelling."""
         self._setting = units.read(self._typed.get("units") or "", "--units")
         self.written: units.Setting = {}
         """Units that numbers were typed with, the first of each kind."""

@@ -49,7 +49,7 @@ OF_A_FILE = tuple(
 WITHOUT = "none"
 """Value of ``--cycle`` for no gas pressure."""
 ON = {"crank": "crank_torque", "block": "torque"}
-"""What a torque acts on → its quantity."""
+"""Body on which a torque acts → its quantity."""
 
 
 @command(
@@ -293,7 +293,7 @@ Read = TypeVar("Read", Cycle, Traces, tuple[Traces, ...])
 
 
 def _loaded(load: Callable[..., Read], option: str, path: str, read_as: FileOptions) -> Read:
-    """Return what is in a file, read as options say; of several files errors name theirs."""
+    """Return the content of a file, read by options; of several files errors name theirs."""
     try:
         return load(path, **read_as)
     except InputError as error:

@@ -148,7 +148,7 @@ METAVARS = {
     "angles": "A,B,…", "metres": "Z,…", "whole": "N", "wholes": "N,…", "text": "TEXT", "m": "M",
     "spacing": "M,…", "cranks": "X:Y:N,…",
 }  # fmt: skip
-"""How an option is read → what stands for its value; others are one angle."""
+"""Parser of an option → name of its value; others are one angle."""
 
 
 @command(

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 class Shown(NamedTuple):
-    """What a command found."""
+    """Result of a command."""
 
     frames: Frames
     drawn: Any = None
@@ -36,7 +36,7 @@ class Shown(NamedTuple):
     options: Mapping[str, str] = MappingProxyType({})
     """Options of its plot."""
     engine: Engine | Powertrain | None = None
-    """What ``--save`` writes."""
+    """Engine written by ``--save``."""
     note: str = ""
     """Text below the tables, of which CSV has none."""
 

@@ -114,7 +114,7 @@ def _card(given: Given) -> Shown:
 
 
 def _each(numbers: list[float]) -> Any:  # noqa: ANN401 - a number or a list
-    """Return one number as it is: that of all."""
+    """Return a single number, which counts for all, unchanged."""
     return numbers if len(numbers) > 1 else numbers[0]
 
 

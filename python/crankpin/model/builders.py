@@ -840,7 +840,7 @@ def _along_crank(
     rotating_mass: ArrayLike | None,
     first_tdc_deg: Angle,
 ) -> dict[str, Any]:
-    """Return what stands along a crank, as the core takes it."""
+    """Return the arguments of places along a crank in the form of the core."""
     return {
         "throws": inputs.angles("throws_deg", throws_deg),
         "spacing": (

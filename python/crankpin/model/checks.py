@@ -70,12 +70,12 @@ def engine(core: _core.Engine) -> None:
 
 
 def units(core: _core.Engine) -> None:
-    """Warn of an engine's places in millimetres and masses in grams; cylinders are asked alone."""
+    """Warn of an engine's places in millimetres and masses in grams; not of its cylinders."""
     _report(_core.unit_warnings(core))
 
 
 def unbalance(amount: float) -> None:
-    """Warn of an unbalance that no engine has, kg·m; of smaller ones beside an engine."""
+    """Warn of an implausible unbalance, kg·m, by itself or relative to an engine."""
     _report(_core.unbalance_warnings(amount))
 
 

@@ -74,7 +74,7 @@ RECORDED_SPEEDS = (15.0, 40_000.0)
 """Speeds, rpm, of ship's engines at their slowest and of models: others are of times in other
 units."""
 NAMED = 3
-"""Places that a warning names; of more it says how many."""
+"""Number of places that a warning names; of more it gives the count."""
 
 
 class Recorded(NamedTuple):
@@ -86,7 +86,7 @@ class Recorded(NamedTuple):
     strokes: int
     name: str
     origin: str
-    """What was read, in words."""
+    """Description of what was read."""
     degree: int | None
 
 
@@ -563,7 +563,7 @@ def _fact(facts: dict[str, str], name: str) -> int | None:
 
 
 def _angle_unit(stated: str | None, head: str) -> tuple[str, str]:
-    """Return the unit of angles or times, and who says so."""
+    """Return the unit of angles or times, and its source."""
     if stated is not None:
         return inputs.one_of("angle_unit", stated, ANGLE_UNITS), "given"
     if _RADIANS.search(head):
@@ -575,7 +575,7 @@ def _angle_unit(stated: str | None, head: str) -> tuple[str, str]:
 
 
 def _pressure_unit(stated: str | None, head: str) -> tuple[str, str]:
-    """Return the unit of pressures, and who says so."""
+    """Return the unit of pressures, and its source."""
     if stated is not None:
         return inputs.one_of("pressure_unit", stated, PRESSURE_UNITS), "given"
     found = _unit_of(head)
@@ -598,7 +598,7 @@ def _unit_of(head: str) -> str | None:
 
 
 def _is_gauge(stated: bool | None, head: str) -> tuple[bool, str]:
-    """Return whether pressures are above that of the atmosphere, and who says so."""
+    """Return whether pressures are above that of the atmosphere, and the source of that."""
     if stated is not None:
         return inputs.flag("gauge", stated), "given"
     if (said := _says_gauge(head)) is None:

@@ -258,7 +258,7 @@ class Cylinder:
 
     @property
     def _details(self) -> _Details:
-        """What the core keeps and does not compute with."""
+        """Data that the core stores without computing with them."""
         rod = self.rod
         figures = None if rod is None else (rod.mass, rod.inertia, rod.to_crankpin)
         return self.bore, self.piston_mass, figures, self.dummy

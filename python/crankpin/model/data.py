@@ -38,7 +38,7 @@ KEPT: Final = "kept"
 
 
 class EngineData:
-    """What an engine is made of; :class:`Engine` adds builders and analyses."""
+    """Data of an engine; :class:`Engine` adds builders and analyses."""
 
     _core: _CoreEngine
 

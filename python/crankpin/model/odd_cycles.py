@@ -59,9 +59,9 @@ LEAST_MATCH = 0.5
 UNLIKE = 0.05
 """Deviation from the median, over its range, from which a cycle is odd."""
 BEGINNING = "measured pressure: "
-"""Of the warning of spikes and odd cycles."""
+"""Beginning of the warning of spikes and odd cycles."""
 NAMED = 3
-"""Cycles that a warning names; of more it says how many."""
+"""Number of cycles that a warning names; of more it gives the count."""
 
 
 class Odd(NamedTuple):
@@ -93,14 +93,14 @@ class Odd(NamedTuple):
 
 
 class Oddities(NamedTuple):
-    """What is odd in cycles, and the pressure of all without their spikes."""
+    """Odd cycles and spikes, and the pressure without spikes."""
 
     listed: tuple[Odd, ...]
     """Odd cycles and spikes, by cycle."""
     spikes: NDArray[np.intp]
     """Index of cycle and angle of each sample of a spike: (n_samples, 2)."""
     replaced: NDArray[np.float64]
-    """What stands in place of these samples, Pa: (n_samples,)."""
+    """Replacement of these samples, Pa: (n_samples,)."""
 
     @property
     def cycles(self) -> tuple[int, ...]:

@@ -284,7 +284,7 @@ RECIPES = (
     (r"radial", "new radial --cylinders {0}", "radial(…, {0})"),
     (r"(vr|w|x)[- ]?\d", "new lists --tdc … --banks … --z …", "from_lists(…)"),
 )
-"""How the names of layouts begin, and what builds them."""
+"""Beginnings of names of layouts, and their builders."""
 
 
 def _recipe(name: str, *, typed: bool) -> str:

@@ -176,7 +176,7 @@ def with_counterweights(core: _core.Engine, weights: Iterable[Unbalance]) -> _co
 def with_more(
     core: _core.Engine, weights: Iterable[Unbalance] = (), shafts: Iterable[Shaft] = ()
 ) -> _core.Engine:
-    """Return an engine with these in addition to what it has, of which nothing is warned."""
+    """Return an engine with these in addition to its own, without warnings."""
     core = core.with_counterweights([*core.counterweights, *map(_weight, weights)])
     return core.with_shafts([*core.shafts, *map(_shaft, shafts)])
 

@@ -153,7 +153,7 @@ class Receptance(Input):
 
 
 def _named(receivers: Any) -> Iterator[tuple[str, Any]]:  # noqa: ANN401 - checked here
-    """Yield names and displacements of what was given."""
+    """Yield names and displacements of the given entries."""
     hint = "give a mapping of names to receptances"
     pairs = receivers.items() if isinstance(receivers, Mapping) else receivers
     for pair in () if pairs is None else inputs.items("receivers", pairs, hint):

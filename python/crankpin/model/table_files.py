@@ -35,7 +35,7 @@ _NUMBER = re.compile(r"[+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eEdD][+-]?\d+)?", re.ASCI
 _ABSENT = re.compile(
     r"([+-]?(nan|inf(inity)?)|na|n/a|n\.a\.|null|none|-+|#\S*|\?+|\*+)?", re.IGNORECASE
 )
-"""What programs write where there is no number."""
+"""Spellings of a missing number."""
 _UNIT = re.compile(
     r"\s*[\[(/|,].*|\s+(deg(rees?)?|°|rad|s|ms|[hkm]?pa\w?|m?bar\w?|psi\w?|abs\w*|gauge)(\s.*)?$",
     re.IGNORECASE,

@@ -96,7 +96,7 @@ class Traces(Tabled, Input):
     name: str
     """Name; may be empty."""
     origin: str = dataclasses.field(default="", compare=False)
-    """How they were measured or read, in words; may be empty."""
+    """Description of the measurement or file; may be empty."""
 
     def __init__(
         self,

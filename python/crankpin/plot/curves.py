@@ -49,7 +49,7 @@ THIN: dict[str, Any] = {"linewidth": 0.8, "linestyle": "-"}
 
 
 class Curve(NamedTuple):
-    """How one combination of swept values is drawn."""
+    """Style of the curve of one combination of swept values."""
 
     place: tuple[Any, ...]
     """Picks it from an array without the dimension along x."""

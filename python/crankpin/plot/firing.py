@@ -38,7 +38,7 @@ STROKES = (-0.44, 0.5)
 INLETS = (0.1, 0.15)
 EXHAUSTS = (0.28, 0.15)
 SMALL_LEGEND: dict[str, Any] = {"fontsize": "x-small", "handlelength": 1.2}
-"""Of charts whose rows have no room for letters: the legend must not take theirs."""
+"""Legend of charts with rows too low for letters."""
 ROW = 0.24
 """Inches of a row that suffice for letters."""
 

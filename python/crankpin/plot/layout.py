@@ -42,7 +42,7 @@ HANDLE, BETWEEN = 2.2, 1.2
 
 
 Drawn: TypeAlias = "Axes | NDArray[Any]"
-"""What a picture returns: axes, or an array of axes."""
+"""Return type of a picture: axes, or an array of axes."""
 Kinds: TypeAlias = "dict[str, Callable[..., Drawn]]"
 """Kind of a picture → the function that draws it."""
 
@@ -58,7 +58,7 @@ class Panels(NamedTuple):
 
     @property
     def drawn(self) -> Axes | NDArray[Any]:
-        """What a picture returns."""
+        """Return value of a picture."""
         return self.axes[0, 0] if self.single else self.axes
 
     def set_title(self, *lines: str) -> None:

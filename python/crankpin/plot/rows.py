@@ -102,15 +102,15 @@ def rows_of(sweep: Sweep, quantity: str, orders: object = None, *, single: bool 
 
 
 class Words(NamedTuple):
-    """What a sweep's picture says."""
+    """Texts of a sweep's picture."""
 
     names: list[str]
     """Engines, without what they have in common."""
     common: str
-    """What the names are: the end of their common words, such as ``firing order``."""
+    """End of the common words of the names, such as ``firing order``."""
     title: str
     parts: list[str]
-    """What was fixed or held."""
+    """Fixed or held quantities."""
     loads_counted: str
     """Loads that the sweep counts."""
 
@@ -160,7 +160,7 @@ def at(dim: str, value: float) -> str:
 
 
 def along_x(sweep: Sweep, x: str | None, among: Sequence[str] | None = None) -> str:
-    """Return the dimension along the horizontal axis: the one asked for, or the longest."""
+    """Return the dimension along the horizontal axis: the requested one, or the longest."""
     if x is not None:
         return x
     swept: dict[str, Any] = {dim: len(sweep.coords[dim]) for dim in among or sweep.coords}

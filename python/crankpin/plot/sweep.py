@@ -75,7 +75,7 @@ def bars(
 
 
 def _orders(sweep: Sweep, names: Sequence[str], orders: object) -> list[Order]:
-    """Return the orders asked for, by default those of the summary, or else the largest."""
+    """Return the requested orders, by default those of the summary, or the largest."""
     if orders is not None:
         return given_orders(orders)
     low = [order for order in sweep.orders if order <= SUMMARY]

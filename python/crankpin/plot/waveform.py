@@ -173,7 +173,7 @@ def dress(ax: Axes, theta_deg: NDArray[np.float64]) -> None:
 
 
 def _limit(ax: Axes, values: NDArray[np.float64]) -> None:
-    """Give axes that show nothing but zeros no scale: it would mislead."""
+    """Remove the scale of axes with zeros only, which would mislead."""
     if not values.any():
         ax.set_ylim(-1.0, 1.0)
         ax.set_yticks([0.0])

@@ -89,7 +89,7 @@ def nonzero_in(*results: object) -> Callable[[str], bool]:
 def drawn_quantity(
     quantity: object, exists: Callable[[str], bool], among: Collection[str] = QUANTITIES
 ) -> str:
-    """Return the quantity asked for; by default the moment, or else the first that exists."""
+    """Return the requested quantity; by default the moment, or the first that exists."""
     if quantity is not None:
         return inputs.one_of("quantity", quantity, among)
     names = [name for name in ("moment", "force", "torque") if name in among]

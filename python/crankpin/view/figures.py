@@ -52,7 +52,7 @@ class Settings:
     rod_ratio: float | None
     """Crank radius over rod length of all cylinders; None while they differ."""
     hold: Hold = "pins"
-    """What is held as the bank angle changes: ``"pins"`` or ``"firing"``."""
+    """Quantity held as the bank angle changes: ``"pins"`` or ``"firing"``."""
 
     @classmethod
     def of(cls, engine: Engine, rpm: float) -> Settings:

@@ -35,7 +35,7 @@ FEWEST_POINTS, MOST_POINTS = 16, 512
 DIGITS = 13
 """Decimals of values of parts that stand still."""
 SIZES = ("force", "moment", "torque", "gas")
-"""What the cylinders make one by one: inertia over the square of speed, and gas."""
+"""Contributions of single cylinders: inertia over the square of speed, and gas."""
 
 Complex: TypeAlias = "NDArray[np.complex128]"
 Real: TypeAlias = "NDArray[np.float64]"

@@ -48,7 +48,7 @@ class EngineWidget(anywidget.AnyWidget):
     rod_ratio = traitlets.Float(None, allow_none=True).tag(sync=True)
     """Crank radius over rod length of all cylinders; None while they differ."""
     hold = traitlets.Enum(["pins", "firing"], "pins").tag(sync=True)
-    """What is held as the bank angle changes: ``"pins"`` or ``"firing"``."""
+    """Quantity held as the bank angle changes: ``"pins"`` or ``"firing"``."""
 
     def __init__(
         self,

@@ -102,7 +102,7 @@ class Crank:
 
     @property
     def splits_text(self) -> str:
-        """Pin splits as text: one if all are alike; empty for shared pins."""
+        """Pin splits as text: one if all are equal; empty for shared pins."""
         if not any(self.splits):
             return ""
         listed = [f"{float(split):.6g}" for split in self.splits]
@@ -120,7 +120,7 @@ class Symmetries:
     offset: bool = False
     """True if piston pins are offset."""
     staggered: bool = False
-    """True if one bank stands behind the other."""
+    """True if one bank is behind the other."""
 
     def images(self, crank: Crank, *, exchange: bool = True) -> Iterator[tuple[str, Crank]]:
         """Yield the names of the changes, and the crank that each makes of this one.

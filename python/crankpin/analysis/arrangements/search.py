@@ -234,7 +234,7 @@ class ArrangementSearch(Tabled):
     phases: tuple[str, ...] | None
     """Phases of a bank's throws where they were given, degrees."""
     hold: Hold
-    """What is held as the bank angle changes: top dead centres or crankpins."""
+    """Quantity held as the bank angle changes: top dead centres or crankpins."""
     shared_pins: bool = False
     """True if both banks share their crankpins."""
     window_deg: tuple[float, float] = _WHOLE

@@ -175,7 +175,7 @@ class ShaftRequest:
     bearings: tuple[float, float] | None
     """Places of its two bearings, front first, m."""
     remove: Remove
-    """What it has to remove."""
+    """Part that the shaft removes."""
 
 
 def _shaft_requests(

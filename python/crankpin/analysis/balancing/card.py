@@ -175,7 +175,7 @@ class Card(Tabled):
     rpm: float
     """Crank speed of the residuals."""
     sides: tuple[str, str]
-    """What is on the right and on the left of the engine, seen from the flywheel."""
+    """Words for right and left of the engine, seen from the flywheel."""
     planes: tuple[tuple[str, float, float | None, int], ...]
     """Planes of the correction: name, place along the crank, m, radius, m, or None, and crank."""
     balanced_to: tuple[float, ...] | None

@@ -174,14 +174,14 @@ class Counterweights(Tabled):
     places: tuple[tuple[str, float], ...]
     """Planes in which weights could be: names and places, m."""
     fit: Fit
-    """What was wanted, checked."""
+    """Checked request."""
     by_plane: tuple[tuple[str, Unbalance], ...]
     """The weights, each with the name of its plane; planes without are left out."""
     exact: bool
     """True if the weights are proved to remove all that was wanted: by the rank of the equations of
     those with room within bounds and angles, not by the size of the residual."""
     missing: float
-    """Part of what was wanted that they do not remove; 0 where they are exact."""
+    """Share of the target that they do not remove; 0 if they are exact."""
     cranks: tuple[int, ...] = ()
     """Index of the crank of each place; 0 is the main one."""
 
@@ -262,7 +262,7 @@ class Counterweights(Tabled):
         return self.fit.target != "external" and (keep is None or name in keep)
 
     def _meets(self, name: str) -> bool:
-        """Return whether what the weights change is exactly what was wanted."""
+        """Return whether the weights remove exactly the target."""
         parts = dict(self.fit.parts)
         if not self.exact or name not in parts:
             return False

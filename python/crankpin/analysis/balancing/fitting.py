@@ -36,14 +36,14 @@ Minimise: TypeAlias = Literal["squares", "largest"]
 
 @dataclasses.dataclass(frozen=True)
 class Fit:
-    """What counterweights are to do, checked."""
+    """Checked request of a fit of counterweights."""
 
     target: Target
     """Whether the whole engine's force and moment are to go, or those of each bay."""
     parts: tuple[tuple[str, float | None], ...]
     """Quantities that matter, with the share of the reciprocating mass to balance; None for all."""
     minimise: Minimise
-    """What is least of weights that do the same."""
+    """Quantity minimised among equivalent weights."""
     length: float | None
     """Length by which moments compare with forces, m; None for the longest lever."""
     keep: tuple[str, ...] | None = None
@@ -102,9 +102,9 @@ class Fitted(NamedTuple):
 
     unbalances: tuple[tuple[str, Unbalance], ...]
     exact: bool
-    """True if they are proved to do all that was wanted."""
+    """True if they are proved to reach the whole target."""
     missing: float
-    """Part of what was wanted that they do not do, but for rounding."""
+    """Share of the target that they miss, apart from rounding."""
 
 
 # --- bob weights ----------------------------------------------------------------------------------

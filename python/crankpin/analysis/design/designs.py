@@ -229,6 +229,6 @@ class Designs(ByObjectives, Listed[Design], Tabled):
 
 
 def bank_angle_range(designs: Designs) -> tuple[float, float]:
-    """Return the bank angles that were allowed; of a single one all that there are."""
+    """Return the allowed bank angles."""
     low, high = map(float, designs.question.bank_angle)
     return (low, high) if low < high else (0.0, float(HALF))

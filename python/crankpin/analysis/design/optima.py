@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     Told: TypeAlias = Callable[[int, int], object]
 
 GRID = 1.0
-"""Degrees between the values at which dips of a single angle are looked for."""
+"""Step of the grid on which dips of a single angle are searched, degrees."""
 SMOOTHING = (1e-4, 1e-6, 1e-9)
 """Successive values of μ, relative to the largest value that an objective could have."""
 FEWEST_STARTS, STARTS_EACH, MOST_STARTS = 24, 8, 1000

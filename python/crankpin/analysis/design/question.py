@@ -97,7 +97,7 @@ class Question:
 
     @property
     def hold(self) -> Hold:
-        """What does not change with the bank angle."""
+        """Quantity held as the bank angle changes."""
         return "firing" if self.intervals is not None and not self.fixed_split else "pins"
 
     @property

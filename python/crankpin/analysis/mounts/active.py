@@ -34,7 +34,7 @@ Place: TypeAlias = "tuple[str, Source, Direction]"
 """Name, what moves or pushes there, and the direction that counts, or None for all three."""
 
 FORCES = ("body_force", "mount_force")
-"""What can be minimised besides the motion of points."""
+"""Quantities that can be minimised besides the motion of points."""
 LEVEL = 1e-9
 """Share of a limit, or of an amplitude, by which rounding may exceed it."""
 
@@ -86,15 +86,15 @@ class Cancellation(Tabled):
     actuators: tuple[Actuator, ...]
     """The actuators."""
     receivers: tuple[Any, ...]
-    """What is minimised: names, what moves or pushes there, directions."""
+    """Minimised motions or forces: name, source, direction."""
     watched: tuple[Any, ...]
     """Other points that are reported."""
     orders: tuple[Order, ...]
     """Orders that are cancelled."""
     effort: float = 0.0
-    """Weight of the forces beside what is left."""
+    """Weight of the forces relative to the residual."""
     norm: Literal["rms", "largest"] = "rms"
-    """What of the receivers is minimised: the sum of squares, or the largest of them."""
+    """Minimised norm over the receivers: the sum of squares, or the largest."""
     amplitude_error: float = 0.0
     """Share by which all forces are too large."""
     phase_error_deg: float = 0.0
@@ -160,7 +160,7 @@ class Cancellation(Tabled):
 
     @property
     def residual(self) -> NDArray[np.float64]:
-        """What is left at all receivers, over what there was: (…, n_orders).
+        """Residual at all receivers over the value without actuators: (…, n_orders).
 
         Of each order that is cancelled; NaN where there was nothing. Of the norm ``"largest"`` the
         largest of the receivers over the largest.

@@ -32,13 +32,13 @@ TENTH = 20.0
 
 
 class AdaptiveLaw(Tabled):
-    """How weights that adapt converge at each speed and order, or why not.
+    """Convergence of adaptive weights at each speed and order.
 
     Made by :meth:`Cancellation.adaptive`.
     """
 
     cancellation: Cancellation
-    """The cancellation that it comes to."""
+    """The cancellation to which it converges."""
     step: float
     """μ times the largest singular value squared of what actuators do at the receivers."""
     delay: float

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     Objective: TypeAlias = tuple[str, Order | None]
 
 KINDS = ("stiffness", "tilt_deg", "x", "y", "z")
-"""What may vary of a mount."""
+"""Properties of a mount that may vary."""
 PAIRS = "give lowest and highest, or three such pairs, one for each axis"
 FORCE = re.compile(r"(mount_force|body_force)\[(\d+(?:\.[05])?)\]")
 """Objective of an order."""
@@ -49,7 +49,7 @@ NOTHING = 1e-10
 WINDOW = 1e-6
 """Share of a limit by which rounding of the optimiser may miss it."""
 EQUAL = 1e-3
-"""Share of the best within which another start has come to as good a design."""
+"""Relative difference from the best within which another start counts as equally good."""
 MOST_STARTS = 1000
 
 
@@ -74,7 +74,7 @@ class MountDesign(Tabled):
     wanted: tuple[str, ...]
     """``"least"`` or ``"most"`` of an objective; empty of what is required or reported alone."""
     method: str
-    """How it was computed, in words."""
+    """Method, in words."""
     starts: int
     """Number of starts of the optimiser."""
     equally_good: int
@@ -262,7 +262,7 @@ def design_mounts(
 
 
 class Question:
-    """What varies within which bounds, objectives and requirements."""
+    """Variables with their bounds, objectives and requirements."""
 
     def __init__(
         self,

@@ -38,7 +38,7 @@ HALVINGS = 60
 ROUNDING = 1e-12
 """Share by which the ends of a table are left, for rounding of angular speeds."""
 UNDAMPED = 1e-12
-"""Loss factor below which rounding makes it, and nothing damps a mode."""
+"""Loss factor below which it is rounding, and the mode is undamped."""
 UNMOVED = 1e-9
 """Motion of the actuator's place in a mode, over that of the free body, below which it is none."""
 
@@ -104,7 +104,7 @@ class VelocityFeedback(Tabled):
         return inputs.faulty("tables of stiffness", f"have {low:g} to {high:g} Hz in common", hint)
 
     def _require_damping(self, frequency: float) -> None:
-        """Reject a mode of powertrain and actuator that the motor drives and nothing damps."""
+        """Reject an undamped mode of powertrain and actuator that the motor drives."""
         one, powertrain = self.actuator, self.powertrain
         mass, stiffness = powertrain._core.matrices(frequency)
         count = len(mass)

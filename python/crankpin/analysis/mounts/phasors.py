@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 RANK = 1e-12
 """Singular value over the largest below which actuators do the same as others."""
 FLOOR = 1e-14
-"""What is added to the normal equations, over their largest: they may be singular."""
+"""Regularisation of the normal equations, over their largest entry: they may be singular."""
 LEAST = 1e-12
 """μ at the end, over the largest that one actuator can do."""
 NARROWER = 0.1

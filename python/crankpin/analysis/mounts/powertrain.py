@@ -127,7 +127,7 @@ class Powertrain(Input):
 
     @property
     def _title(self) -> str:
-        """What it is, in titles."""
+        """Name in titles."""
         return f"{labels.name_of(self.engine)} on its mounts{self._carried}"
 
     @property

@@ -42,14 +42,14 @@ MOTIONS = {"displacement": "m", "velocity": "m/s", "acceleration": "m/s²"}
 READ = {"displacement": ("µm", 1e6), "velocity": ("mm/s", 1e3), "acceleration": ("m/s²", 1.0)}
 """Motion of a point → the unit in which it is read, and how many of it the unit of the array is."""
 HIGHEST = "> 180"
-"""What stands for an infinite grade."""
+"""Text of an infinite grade."""
 SUPPORT = "support"
-"""What carries the mounts, as a place's companion."""
+"""Name of the support, beside a place on it."""
 SCOPE = (
     "ISO 10816-6:1995: reciprocating machines above 100 kW, not in road vehicles; rms of 2 Hz to "
     "1000 Hz."
 )
-"""What severity grades are for."""
+"""Scope of severity grades."""
 
 
 def response(
@@ -105,7 +105,7 @@ class PointMotion(Tabled):
 
     @property
     def _words(self) -> str:
-        """What it is of, in words."""
+        """Place, in words."""
         if isinstance(self.point, str):
             return f"{self.point!r}"
         on = " on the support" if self.on == SUPPORT else ""

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.mounts.response import MountResponse
 
 Source: TypeAlias = tuple[Any, ...]
-"""What a vector is of: ``("support",)``, ``("mount", index)``, ``("at", point, on, name)``."""
+"""Origin of a vector: ``("support",)``, ``("mount", index)``, ``("at", point, on, name)``."""
 
 
 def of_order(order: Key) -> str:
@@ -43,7 +43,7 @@ class VectorQuantity(Keyed, Tabled):
     result: MountResponse
     """The response that it belongs to."""
     source: Source
-    """What it is of."""
+    """Origin of the vector."""
     words: str
     """Name in texts."""
     unit: str

@@ -27,7 +27,7 @@ MOST_CYLINDERS = 8
 
 
 LEFT = " (what the best counterweight leaves)"
-"""Of the backward part of order 1, where no crank turns against the main one."""
+"""Note on the backward part of order 1, if no crank turns against the main one."""
 
 
 class Objective(NamedTuple):
@@ -43,7 +43,7 @@ class Objective(NamedTuple):
     of_sweep: Callable[[Sweep], NDArray[np.float64]] | None = None
     """Computes it from a sweep of several engines at one speed: (n_engines, …)."""
     of_balance: Measure | None = None
-    """Where ``of_sweep`` is None: computes it from one engine at one bank angle."""
+    """Computation for one engine at one bank angle, if ``of_sweep`` is None."""
     order: Order | None = None
     """The order that it reads."""
     quantity: str = ""

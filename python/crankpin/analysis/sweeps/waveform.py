@@ -77,7 +77,7 @@ class SweepWaveform(OverAngle):
 
     @property
     def causes(self) -> tuple[str, ...]:
-        """Names of what makes the quantities: ``inertia``, ``gas`` and those of further loads."""
+        """Causes of the quantities by name: ``inertia``, ``gas`` and those of further loads."""
         return self.sweep.causes
 
     @property

@@ -43,7 +43,7 @@ MOST_PARTS = 1000
 STARTS = 24
 """Random starts of the search by exchanges."""
 SPREAD_STARTS = 4000
-"""Of that for the least spread, over the number of pistons: few parts are searched thoroughly."""
+"""Starts of the search for the least spread, over the number of pistons."""
 MOST_EXCHANGED = 64
 """Cylinders of an engine up to which parts are exchanged for the least spread."""
 
@@ -54,7 +54,7 @@ class Kind(NamedTuple):
     parts: NDArray[np.float64]
     """Deviations of each part: (n_parts, n_figures)."""
     influences: NDArray[np.float64]
-    """What a unit of each figure adds in each place: (n_places, n_figures, n_dimensions)."""
+    """Effect of a unit of each figure in each place: (n_places, n_figures, n_dimensions)."""
 
 
 class Assignment(NamedTuple):
@@ -80,7 +80,7 @@ class MeasuredParts(Record):
 
     @cached_property
     def start(self) -> NDArray[np.float64]:
-        """What remains of the engine with its own masses, over ω², as real numbers."""
+        """Residual of the engine with its own masses, over ω², as real numbers."""
         balance = over_square(self.engine, self.orders)
         return self._vector(*(phasors(balance, name) for name in PLANE_VECTORS))
 
@@ -456,7 +456,7 @@ def windows(masses: NDArray[np.float64], size: int, sets: int) -> list[NDArray[n
 
 
 class Match(Tabled):
-    """Which piston and rod goes into which cylinder.
+    """Assignment of pistons and rods to cylinders.
 
     Made by :func:`crankpin.match_parts`.
     """
@@ -468,7 +468,7 @@ class Match(Tabled):
     assignment: tuple[Assignment, ...]
     """For each engine the numbers of its pistons and rods, cylinder by cylinder."""
     bound: float
-    """Value below which no assignment comes, in the unit of ``value``; equal to it if exact."""
+    """Lower bound of all assignments, in the unit of ``value``; equal to it if exact."""
     exact: bool
     """True if no assignment is better: all were compared, or it is proved."""
 

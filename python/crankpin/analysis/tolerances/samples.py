@@ -102,7 +102,7 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
     rpm: float
     """Crank speed, rpm."""
     figures: Spreads
-    """What deviates, checked."""
+    """Deviating figures, checked."""
     samples: int
     """Number of samples."""
     seed: int
@@ -183,7 +183,7 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
 
     @property
     def causes(self) -> tuple[str, ...]:
-        """None: samples are of all that makes a quantity together."""
+        """None: samples do not separate the causes of a quantity."""
         return ()
 
     @property

@@ -25,14 +25,14 @@ Distribution: TypeAlias = Literal["normal", "uniform"]
 FIGURES = tuple(labels.TOLERANCES)
 """Figures that may spread, in the order of the core."""
 OF_PINS = ("crank_radius", "pin_deg")
-"""Those that belong to a crankpin; others belong to a cylinder."""
+"""Figures of a crankpin; the others are of a cylinder."""
 SPREADS = {"normal": "standard deviations", "uniform": "half widths"}
 """Distribution → what its spreads are."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Spreads:
-    """How far each figure of an engine spreads; checked."""
+    """Spread of each figure of an engine, checked."""
 
     values: tuple[tuple[float, ...], ...]
     """For each of :data:`FIGURES` one of each cylinder or crankpin; empty where none was given."""
