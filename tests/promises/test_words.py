@@ -156,3 +156,37 @@ def test_code_is_not_prose(suffix: str, source: str) -> None:
 def test_no_hint_has_a_word_of_the_list(pattern: str) -> None:
     assert WORDS[pattern]
     assert found(WORDS[pattern], ".md") == []
+
+
+PYTHON = re.compile(
+    r"\w=(?:…|True|False|None|\\\")|\borders=|\bcp\.|\bto_dask\b|\.on\(|\bwith_\w+\("
+    r"|\b(?:Engine|Firing|Cylinder)\.[a-z]|\b(?:Port|Valve)Timing\b"
+)
+"""Calls and names that Python alone has."""
+LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"', re.DOTALL)
+
+
+def literals(source: str) -> list[str]:
+    """Return the strings of a Rust file, without comments and tests, each on one line."""
+    code = re.sub(r"^\s*//.*$", "", source.partition("#[cfg(test)]")[0], flags=re.MULTILINE)
+    code = code.replace(r"'\"'", "").replace("'\"'", "")
+    return [re.sub(r"\\\n\s*", "", text) for text in LITERAL.findall(code)]
+
+
+def test_the_core_says_no_names_of_python_and_its_binding_adds_them() -> None:
+    paths = (ROOT / "rust/core/src").rglob("*.rs")
+    said = [text for path in paths for text in literals(path.read_text("utf-8"))]
+    assert not [text for text in said if " " in text and PYTHON.search(text)]
+    binding = (ROOT / "rust/py/src/convert.rs").read_text("utf-8")
+    (table,) = re.findall(r"const NAMES: .*?= \[\n(.*?)\n\];", binding, re.DOTALL)
+    names = re.findall(r'\("(.*?)", "(.*?)"\),\n', table + "\n")
+    assert len(names) == table.count("\n") + 1
+    for rust, python in names:
+        assert any(rust in text for text in said), rust
+        assert PYTHON.search(python) or python == "Engine.flat", python
+
+
+@pytest.mark.parametrize("text", ["give bore=… to it", "torque=False was given", "p.on(…)"])
+def test_names_of_python_are_known(text: str) -> None:
+    (literal,) = literals(f'error("{text}")')
+    assert PYTHON.search(literal)

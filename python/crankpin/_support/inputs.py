@@ -51,8 +51,6 @@ LARGEST_BINARY = 2**44
 MOST_EXACT = 10**18
 """Fractions are exact up to this value and this denominator; others become floats."""
 
-LARGEST_SPEED_RATIO = 2**30 - 1
-"""Above it the core counts no speeds in halves; engines take far less, and say what."""
 LARGEST_WHOLE = 10**100
 """Largest whole number taken: Python refuses to write those of thousands of digits."""
 
@@ -303,7 +301,7 @@ def speed_ratio(name: str, value: object) -> Order:
         ratio = order(Fraction(value) if isinstance(value, str) else value)
     except (TypeError, ValueError, ZeroDivisionError, OverflowError):
         raise rejected(name, value, hint) from None
-    if ratio == 0 or abs(ratio) > LARGEST_SPEED_RATIO:
+    if ratio == 0 or abs(ratio) > _core.LARGEST_SPEED_RATIO:
         raise rejected(name, value, hint)
     return ratio
 

@@ -778,12 +778,12 @@ def _cranks(cranks: object, crank: object, bank_deg: Angles) -> Cranks | None:
     """Return the crankshafts and that of each cylinder; None for the main one alone."""
     hint = "give x and y in metres and a ratio, such as [(0.2, 0.0, -1)]"
     further = []
-    for each in inputs.items("cranks", cranks, hint):
+    for k, each in enumerate(inputs.items("cranks", cranks, hint), 1):
         figures = inputs.items("cranks", each, hint)
         if len(figures) != 3:
             raise inputs.rejected("cranks", each, hint)
         x, y = (inputs.finite("cranks", figure) for figure in figures[:2])
-        further.append((x, y, inputs.speed_ratio("cranks", figures[2])))
+        further.append((x, y, inputs.speed_ratio(f"cranks[{k}].ratio", figures[2])))
     if crank is None:
         if further:
             raise inputs.rejected("crank", None, "give the crankshaft of each cylinder, from 0")

@@ -30,14 +30,40 @@ pub fn python_error(error: core::Error) -> PyErr {
     })
 }
 
+/// What hints and warnings of the core call by Rust's names, and how Python says it.
+const NAMES: [(&str, &str); 13] = [
+    ("`Engine::new`", "Engine.from_lists"),
+    ("`Engine::without_gas`", "engine.with_cycle(None)"),
+    ("`Powertrain::on`", "p.on(…)"),
+    ("`Timing::Ports`", "Firing.ports, PortTiming"),
+    ("`Timing::Valves`", "Firing.valves, ValveTiming"),
+    ("a `Vee` with `absent: [", "Engine.vee(throws_deg=…, absent=["),
+    ("]` and this firing order", "], firing_order=…)"),
+    ("a `Vee` of 180°", "Engine.flat"),
+    ("`by_axis: false`", "corners=\"mounts\""),
+    ("`torque: false`", "torque=False"),
+    ("at which it has that centre", "at which it has that centre: tdc_deg=…"),
+    ("needs the bore of each cylinder", "needs the bore; give bore=… to each Cylinder"),
+    ("sweep one axis in parts", "sweep one axis in parts, or use to_dask"),
+];
+
+/// A hint or warning of the core in Python's names.
+pub fn python_names(text: &str) -> String {
+    NAMES.iter().fold(text.to_owned(), |text, (rust, python)| text.replace(rust, python))
+}
+
 fn input_error(error: &core::Error) -> PyErr {
-    let raised = InputError::new_err(error.to_string());
-    let Some((argument, value, hint)) = error.fields() else { return raised };
+    let message = error.to_string();
+    let Some((argument, value, hint)) = error.fields() else { return InputError::new_err(message) };
+    let spoken = python_names(&hint);
+    // Messages end with the hint.
+    let rest = message.strip_suffix(&*hint).unwrap_or(&message);
+    let raised = InputError::new_err(format!("{rest}{spoken}"));
     let set = |py: Python<'_>| {
         let exception = raised.value(py);
         exception.setattr("argument", argument)?;
         exception.setattr("value", value)?;
-        exception.setattr("hint", hint)
+        exception.setattr("hint", &spoken)
     };
     boundary::unpanicked(|| Python::attach(set)).map_or_else(|failed| failed, |()| raised)
 }

@@ -8,12 +8,12 @@ use crankpin_macros::guarded;
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 
-use crate::convert::OrRaise;
+use crate::convert::{OrRaise, python_names};
 use crate::engine::Engine;
 use crate::pressure::Cycle;
 
 fn texts(found: impl IntoIterator<Item = Warning>) -> Vec<String> {
-    found.into_iter().map(|warning| warning.text).collect()
+    found.into_iter().map(|warning| python_names(&warning.text)).collect()
 }
 
 /// Of a cylinder's crank radius, rod length and bore.

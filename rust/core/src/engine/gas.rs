@@ -160,7 +160,7 @@ impl Engine {
                 return Err(Error::value(format!("cycle[{i}]"), "a cycle", hint));
             }
             if self.details[i].bore.is_none() {
-                let hint = "gas pressure needs the bore; give bore=… to each Cylinder, m";
+                let hint = "gas pressure needs the bore of each cylinder, m";
                 return Err(Error::value(format!("cylinder[{i}].bore"), "None", hint));
             }
             self.check_cycle_is_of_main_crank(i, "gas pressure counts")?;
@@ -185,7 +185,7 @@ impl Engine {
             return Ok(());
         }
         let hint = format!(
-            "the engine's strokes are {}: give a cycle of as many, or the engine strokes={}",
+            "the engine's strokes are {}: give a cycle of as many, or an engine of {} strokes",
             self.strokes.number(),
             cycle.strokes().number()
         );

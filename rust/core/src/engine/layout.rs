@@ -329,9 +329,9 @@ impl FiringOrder {
         let count = self.cylinders().len();
         if count % 2 == 1 {
             let hint = format!(
-                "has {count} cylinders and a vee an even number; leave out bank_angle_deg for an \
+                "has {count} cylinders and a vee an even number; leave out the bank angle for an \
                  inline engine, or build one of {} by its throws and leave a cylinder out: \
-                 Engine.vee(throws_deg=…, absent=[{}], firing_order=…)",
+                 a `Vee` with `absent: [{}]` and this firing order",
                 count + 1,
                 count + 1
             );

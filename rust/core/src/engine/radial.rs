@@ -68,13 +68,13 @@ impl Radial {
     fn check(&self) -> Result<()> {
         let Self { cylinders, rows, ref spacing, .. } = *self;
         if !(1..=MOST_ROWS).contains(&rows) {
-            let hint = format!("give 1 to {MOST_ROWS}; Engine.from_lists takes any layout");
+            let hint = format!("give 1 to {MOST_ROWS}; `Engine::new` takes any layout");
             return Err(Error::value("rows", rows, hint));
         }
         let hint = if !cylinders.is_multiple_of(rows) {
             format!("give a multiple of rows, {rows}: all rows have as many cylinders")
         } else if cylinders < 3 * rows {
-            "give three or more to each row; two opposed cylinders are Engine.flat".to_owned()
+            "give three or more to each row; two opposed cylinders are a `Vee` of 180°".to_owned()
         } else if cylinders > limits::MOST_CYLINDERS {
             format!("an engine has 1 to {}", limits::MOST_CYLINDERS)
         } else if spacing.is_none() && rows > 1 {

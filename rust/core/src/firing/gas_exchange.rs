@@ -144,12 +144,12 @@ impl Firing {
                     .map(|half| self.period(firing + downwards - half, half + half)),
                 (Timing::Valves { .. }, Strokes::Two) => {
                     let hint = "valves are those of a four-stroke; a two-stroke breathes through \
-                                ports: Firing.ports, PortTiming";
+                                ports: `Timing::Ports`";
                     return Err(Error::value("strokes", 2, hint));
                 }
                 (Timing::Ports { .. }, Strokes::Four) => {
                     let hint = "ports are those of a two-stroke; a four-stroke breathes through \
-                                valves: Firing.valves, ValveTiming";
+                                valves: `Timing::Valves`";
                     return Err(Error::value("strokes", 4, hint));
                 }
             };

@@ -124,7 +124,7 @@ impl Mount {
             let frequency = omega / std::f64::consts::TAU;
             let argument = format!("table of mount {:?}", self.figures.name);
             let hint = format!(
-                "{}, is outside: it has {low} to {high} Hz; extend the table, or give orders= and speeds within it",
+                "{}, is outside: it has {low} to {high} Hz; extend the table, or give orders and speeds within it",
                 point()
             );
             Error::value(argument, format!("{frequency:.6} Hz"), hint)

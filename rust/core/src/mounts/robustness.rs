@@ -200,7 +200,7 @@ impl<'a, const N: usize> Search<'a, N> {
         let count = parameters.len();
         if count > MOST_PARAMETERS {
             let (argument, hint) = if tolerances.by_axis {
-                ("corners", "give corners=\"mounts\", where the axes of a mount go together")
+                ("corners", "give `by_axis: false`, where the axes of a mount go together")
             } else {
                 ("stiffness", "give tolerances of fewer mounts")
             };
@@ -537,7 +537,8 @@ mod tests {
         let error = |by_axis, some| parameters(20, by_axis, some).unwrap_err().to_string();
         assert!(error(false, 19).contains("give tolerances of fewer mounts"));
         assert!(
-            error(true, 10).contains("2 to the power of 20 corners: are too many: give corners=")
+            error(true, 10)
+                .contains("2 to the power of 20 corners: are too many: give `by_axis: false`")
         );
     }
 

@@ -166,7 +166,7 @@ impl Receptance {
         limits::between(&self.frequency, frequency).ok_or_else(|| {
             let [low, high] = [self.frequency[0], self.frequency[self.frequency.len() - 1]];
             let hint = format!(
-                "{}, is outside: it has {low} to {high} Hz; extend the table, or give orders= and speeds within it",
+                "{}, is outside: it has {low} to {high} Hz; extend the table, or give orders and speeds within it",
                 point()
             );
             Error::value("table of the support", format!("{frequency:.6} Hz"), hint)

@@ -97,8 +97,7 @@ pub fn peak(theta_deg: &[f64], values: &[f64], period_deg: f64) -> Option<Warnin
     let far = far_peak(theta_deg, values, period_deg)?;
     let text = format!(
         "theta_deg: pressure peaks at {}°, far from the firing top dead centre, from which angles are \
-         counted here; load a file that counts from elsewhere with tdc_deg=…, the angle at which it has \
-         that centre",
+         counted here; for a file that counts from elsewhere, give the angle at which it has that centre",
         significant(far, 4)
     );
     Some(Warning::new("theta_deg", text))

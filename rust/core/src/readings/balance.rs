@@ -376,7 +376,7 @@ impl Balance {
 pub fn angular_speed(rpm: f64) -> Result<f64> {
     if rpm < 0.0 {
         let hint = "give zero or more; the crank turns counter-clockwise seen from the flywheel: \
-                    mirror an engine that turns the other way, bank_deg = 180 - bank_deg";
+                    mirror an engine that turns the other way, bank = 180° - bank";
         return Err(Error::figure("rpm", rpm, hint));
     }
     Ok(limits::not_negative("rpm", rpm)? * std::f64::consts::TAU / 60.0)

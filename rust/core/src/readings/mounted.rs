@@ -547,7 +547,11 @@ impl Response {
     fn subframe(&self) -> Result<&Powertrain> {
         match self.powertrain.support() {
             Some(Support::Subframe(subframe)) => Ok(subframe),
-            _ => Err(Error::value("support", "no subframe", "give the powertrain one: p.on(…)")),
+            _ => Err(Error::value(
+                "support",
+                "no subframe",
+                "give the powertrain one: `Powertrain::on`",
+            )),
         }
     }
 

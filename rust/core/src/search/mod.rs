@@ -269,7 +269,7 @@ pub fn bank(cylinders: usize, alternating: bool, phases: Option<&[Angle]>) -> Re
     if alternating {
         let hint =
             "the alternation rule is that of the even-firing crank: leave out one of the two";
-        return Err(Error::value("alternating", "True with phases_deg", hint));
+        return Err(Error::value("alternating", "given with phases_deg", hint));
     }
     Bank::with_phases(phases)
 }

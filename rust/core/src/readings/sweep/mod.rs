@@ -243,7 +243,7 @@ impl Sweep {
 
     /// Rejects a result of numbers of this many bytes that is too large for one call.
     pub fn check_size(&self, quantity: Quantity, figure: Statistic, bytes: usize) -> Result<()> {
-        let hint = "sweep one axis in parts, or use to_dask";
+        let hint = "sweep one axis in parts";
         limits::result_size("sweep", &self.result_shape(quantity, figure), bytes, hint)
     }
 
@@ -422,7 +422,7 @@ impl Sweep {
         let reason = if self.engines.iter().any(|engine| engine.spectrum().is_some()) {
             "a force spectrum does not determine it; compute without `spectrum`"
         } else {
-            "torque=False was given; leave it out"
+            "`torque: false` was given; leave it out"
         };
         Err(Error::NoTorque(reason))
     }

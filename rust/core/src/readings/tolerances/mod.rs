@@ -158,7 +158,7 @@ impl Tolerances {
     ) -> Result<Self> {
         if request.torque && engine.gas().is_some() {
             return Err(Error::NoTorque(
-                "tolerances do not count gas pressure; give torque=False, or engine.with_cycle(None)",
+                "tolerances do not count gas pressure; give `torque: false`, or `Engine::without_gas`",
             ));
         }
         check_pins(engine, pin_of)?;
