@@ -372,7 +372,7 @@ fn golden(mut low: f64, mut high: f64, mut value: impl FnMut(f64) -> f64) {
 mod tests {
     use super::*;
     use crate::mounts::tests::{four_mounts, mount, powertrain, random};
-    use crate::mounts::{Mount, MountFigures, Orientation, RigidBody, Support, modes};
+    use crate::mounts::{Mount, MountFigures, RigidBody, Support, modes};
     use crate::numbers::draws;
 
     /// Of each mount its own, none of the first.
@@ -677,10 +677,8 @@ mod tests {
     fn crossing(turn: f64, share: f64) -> (Powertrain, MountTolerances) {
         let moments = [[900.0, 0.0, 0.0], [0.0, 1000.0, 0.0], [0.0, 0.0, 1100.0]];
         let body = RigidBody::new(100.0, [0.0; 3], moments, None).unwrap();
-        let turned = MountFigures {
-            orientation: Orientation::Tilt(turn),
-            ..mount("turned", [0.0; 3], [1e5, 1.53e5, 4e5])
-        };
+        let turned =
+            MountFigures { tilt_deg: turn, ..mount("turned", [0.0; 3], [1e5, 1.53e5, 4e5]) };
         let holds = [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0]];
         let holding = holds.into_iter().enumerate().map(|(k, at)| {
             let stiffness = [0, 1, 2].map(|axis| if at[axis] == 0.0 { 1e5 } else { 0.0 });

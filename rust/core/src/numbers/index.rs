@@ -28,6 +28,27 @@ impl ListIndex for usize {
     }
 }
 
+/// Indices as people number cylinders.
+pub(crate) mod number_from_one {
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    #[expect(clippy::ref_option, reason = "as serde calls it")]
+    pub fn serialize<S: Serializer>(index: &Option<usize>, to: S) -> Result<S::Ok, S::Error> {
+        index.map(|index| index + 1).serialize(to)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<usize>, D::Error> {
+        let number = Option::<usize>::deserialize(from)?;
+        let index = number.map(|number| {
+            number
+                .checked_sub(1)
+                .ok_or_else(|| D::Error::custom("give a cylinder's number, from 1"))
+        });
+        index.transpose()
+    }
+}
+
 /// Declares an index.
 macro_rules! list_index {
     ($(#[$doc:meta])* $visibility:vis $name:ident) => {
