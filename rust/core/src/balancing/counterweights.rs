@@ -143,10 +143,7 @@ impl Fit<'_> {
 
     /// The length over which a moment counts as much as a force, m.
     fn compared(&self, engine: &Engine) -> Result<f64> {
-        let reference = engine.reference(None)?;
-        let planes = self.planes.iter().map(|plane| plane.z);
-        let places = planes.chain(engine.stations().iter().map(|station| station.z));
-        let longest = places.map(|z| (z - reference).abs()).fold(0.0, f64::max);
+        let longest = engine.longest_lever(self.planes.iter().map(|plane| plane.z))?;
         Ok(self.length.unwrap_or(if longest > 0.0 { longest } else { 1.0 }))
     }
 
