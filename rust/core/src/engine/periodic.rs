@@ -234,7 +234,7 @@ impl PeriodicLoad {
         }
         if let Some(cylinder) = self.cylinder.filter(|&i| i >= engine.stations().len()) {
             let hint = format!("give the number of a cylinder, 1 to {}", engine.stations().len());
-            return Err(Error::value(format!("{place}cylinder"), cylinder.saturating_add(1), hint));
+            return Err(Error::value(format!("{place}cylinder"), cylinder.wrapping_add(1), hint));
         }
         Ok(())
     }

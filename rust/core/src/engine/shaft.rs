@@ -124,7 +124,7 @@ impl Unbalance {
             && pin >= cylinders
         {
             let hint = format!("give a cylinder's number, 1 to {cylinders}");
-            return Err(Error::value(format!("{place}.pin"), pin + 1, hint));
+            return Err(Error::value(format!("{place}.pin"), pin.wrapping_add(1), hint));
         }
         self.angle = self.angle.reduced();
         Ok(self)
@@ -141,7 +141,7 @@ impl Shaft {
             let place = format!("{place}.unbalances[{i}]");
             if let Some(pin) = unbalance.pin {
                 let hint = "leave it out: only the crankshaft has crankpins";
-                return Err(Error::value(format!("{place}.pin"), pin + 1, hint));
+                return Err(Error::value(format!("{place}.pin"), pin.wrapping_add(1), hint));
             }
             if unbalance.crank != CrankIndex::MAIN {
                 let hint = "leave it out: the shaft carries it";

@@ -28,24 +28,18 @@ impl ListIndex for usize {
     }
 }
 
-/// Indices as people number cylinders.
+/// Indices as people number cylinders. 0 becomes an index that no engine has, and engines say where it stands.
 pub(crate) mod number_from_one {
-    use serde::de::Error;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
     #[expect(clippy::ref_option, reason = "as serde calls it")]
     pub fn serialize<S: Serializer>(index: &Option<usize>, to: S) -> Result<S::Ok, S::Error> {
-        index.map(|index| index + 1).serialize(to)
+        index.map(|index| index.wrapping_add(1)).serialize(to)
     }
 
     pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<usize>, D::Error> {
         let number = Option::<usize>::deserialize(from)?;
-        let index = number.map(|number| {
-            number
-                .checked_sub(1)
-                .ok_or_else(|| D::Error::custom("give a cylinder's number, from 1"))
-        });
-        index.transpose()
+        Ok(number.map(|number| number.wrapping_sub(1)))
     }
 }
 
