@@ -1,7 +1,5 @@
 //! Bob weights: masses that a crankshaft is balanced against, and what order 1 keeps by balance factor.
 
-use std::f64::consts::FRAC_PI_2;
-
 use super::TurningPart;
 use crate::Complex64;
 use crate::engine::{CrankIndex, Engine, Unbalance};
@@ -15,6 +13,7 @@ use crate::numbers::ratio::SpeedRatio;
 use crate::readings::balance::Vector;
 use crate::readings::explain::words::{across, turns};
 use crate::readings::turning::over_square;
+use crate::wrench::tilt_deg;
 
 /// Largest share of the reciprocating mass that is balanced.
 pub const LARGEST_FACTOR: f64 = 10.0;
@@ -227,13 +226,8 @@ impl FirstOrder {
     #[must_use]
     pub fn direction_deg(&self, vector: Vector, factor: f64) -> Option<f64> {
         let [forward, backward] = self.parts(vector).map(|part| part.at(factor));
-        let [f, b] = [forward, backward].map(Complex64::norm);
-        if f.min(b) <= ALIKE * f.max(b) {
-            return None;
-        }
-        let half = (forward * backward).arg() / 2.0;
-        let tilt = rounded(half.to_degrees(), 9);
-        Some(if half <= -FRAC_PI_2 || tilt <= -90.0 { 90.0 } else { tilt + 0.0 }) // no −0
+        let tilt = rounded(tilt_deg(forward, backward)?, 9);
+        Some(if tilt <= -90.0 { 90.0 } else { tilt + 0.0 }) // no −0
     }
 
     /// Which way the longest half axis points, in words, and of a moment which way the ends go; `sides` is
