@@ -9,7 +9,7 @@ use super::bob_weight::with_bob_weights;
 use super::least_squares::least_squares;
 use super::shafts::unbalance;
 use super::weights::{Minimise, REACHED, WeightRequest, complex, least, vectors};
-use super::{NEGLIGIBLE, TurningPart, turning, without_rounding};
+use super::{TurningPart, VALUE_ROUNDING, turning, without_rounding};
 use crate::Complex64;
 use crate::engine::crankpins::Bay;
 use crate::engine::{CrankIndex, Engine, Unbalance};
@@ -504,7 +504,7 @@ fn keep_sums(
     let across = DMatrix::identity(planes.len(), planes.len()) - changing.transpose() * changing;
     let target = vectors(&target);
     let mut seen = &rows * &across;
-    if seen.amax() <= NEGLIGIBLE * rows.amax() {
+    if seen.amax() <= VALUE_ROUNDING * rows.amax() {
         seen.fill(0.0); // no weights change a bay and no sum
     }
     let found = least_squares(&seen, &target, target.nrows());

@@ -15,7 +15,7 @@ use crate::numbers::error::{Error, Result, shorten};
 use crate::numbers::index::ListIndex;
 use crate::numbers::is_default;
 use crate::numbers::ratio::SpeedRatio;
-use crate::pressure::example::{Kind, full_load};
+use crate::pressure::example::{ExampleKind, full_load};
 use crate::pressure::{ATMOSPHERE, Cycle, Given};
 
 /// Version of the schema that this file reads and writes.
@@ -179,7 +179,7 @@ impl CycleEntry {
 
     /// By name, of an example at full load.
     fn of_example(cycle: &Cycle) -> Result<Option<Self>> {
-        for kind in Kind::ALL {
+        for kind in ExampleKind::ALL {
             let has_name = cycle.given().name == kind.name_at_full_load();
             if has_name && *full_load(kind, cycle.strokes())? == *cycle {
                 let strokes = Some(cycle.strokes().number()).filter(|&strokes| strokes != 4);
@@ -201,9 +201,10 @@ impl CycleEntry {
             let pressure = pressure.ok_or_else(|| missing("pressure"))?;
             return Cycle::new(Given { name, strokes, theta_deg, pressure, degree }).map(Arc::new);
         };
-        let kind = Kind::ALL.into_iter().find(|kind| kind.name() == example);
+        let kind = ExampleKind::ALL.into_iter().find(|kind| kind.name() == example);
         let kind = kind.ok_or_else(|| {
-            let hint = format!("give one of {}", Kind::ALL.map(Kind::name).join(", "));
+            let hint =
+                format!("give one of {}", ExampleKind::ALL.map(ExampleKind::name).join(", "));
             Error::value("example", shorten(&example), hint)
         })?;
         for (name, beside) in [
@@ -575,7 +576,7 @@ fn of_checked_json(text: &str) -> Result<EngineFile> {
 
 /// A message of serde's with JSON's words for types, and not too long.
 fn plain(message: &str) -> String {
-    const WORDS: [(&str, &str); 7] = [
+    const TYPE_WORDS: [(&str, &str); 7] = [
         ("expected f64", "expected a number"),
         ("expected i32", "expected a whole number"),
         ("expected u32", "expected a whole number"),
@@ -594,7 +595,7 @@ fn plain(message: &str) -> String {
             format!("{before}expected a table{rest}")
         }
     };
-    shorten(&WORDS.iter().fold(message, all))
+    shorten(&TYPE_WORDS.iter().fold(message, all))
 }
 
 /// What is wrong with a value that begins as a number does: 0,1485 or 86mm.
@@ -915,7 +916,7 @@ mod tests {
             bare.firing_as("", strokes).unwrap().with_gas(gas).unwrap()
         };
         let all = |kind| [Strokes::Four, Strokes::Two].map(|strokes| (kind, strokes));
-        for (kind, strokes) in Kind::ALL.into_iter().flat_map(all) {
+        for (kind, strokes) in ExampleKind::ALL.into_iter().flat_map(all) {
             let example = Cycle::clone(&full_load(kind, strokes).unwrap());
             let mut points = example.given().clone();
             points.pressure[3] = points.pressure[3].next_up();
@@ -932,7 +933,7 @@ mod tests {
                 assert_eq!(from_state(&to_state(&engine).unwrap()).unwrap(), engine);
             }
         }
-        let example = Cycle::clone(&full_load(Kind::Diesel, Strokes::Four).unwrap());
+        let example = Cycle::clone(&full_load(ExampleKind::Diesel, Strokes::Four).unwrap());
         let text = to_toml(&fired(example)).unwrap();
         let error =
             |from: &str, to: &str| from_toml(&text.replacen(from, to, 1)).unwrap_err().to_string();

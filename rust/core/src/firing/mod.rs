@@ -21,7 +21,7 @@ pub mod schedule;
 #[cfg(test)]
 mod tests;
 
-pub use choices::MOST_LISTED;
+pub use choices::MOST_CYLINDERS_LISTED;
 pub use gas_exchange::{Overlap, Period, Periods, Timing};
 pub use intervals::Gap;
 pub use pins::{Throws, inline_throws, vee_throws};

@@ -46,17 +46,17 @@ pub const LARGEST_ANGLE: f64 = 1e12;
 /// # Ok::<(), crankpin_core::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Angle(Kind);
+pub struct Angle(AngleForm);
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Kind {
+enum AngleForm {
     /// `numerator / denominator` turns, reduced, 0 < denominator ≤ [`LARGEST_DENOMINATOR`].
     Turns(i64, i64),
     /// Degrees that stand for no fraction: [`Angle::of_double`] gives the same value again.
     Degrees(f64),
 }
 
-use Kind::{Degrees, Turns};
+use AngleForm::{Degrees, Turns};
 
 impl Default for Angle {
     fn default() -> Self {
