@@ -210,12 +210,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
         0 for a circle.
         """
         forward, backward = (self._planar(part, "tilt_deg") for part in labels.TURNING)
-        f, b = np.abs(forward), np.abs(backward)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            # Half the sum of the phases; of the two directions of the axis the upper one.
-            tilt = np.angle(np.sqrt(forward / f * (backward / b)), deg=True)
-        directed = (f != 0.0) & (b != 0.0)
-        return self._of_one_order(np.where(tilt <= -90.0, 90.0, np.where(directed, tilt, 0.0)))
+        return self._of_one_order(_core.tilts_deg(np.asarray(forward), np.asarray(backward)))
 
     def _of_one_order(self, values: Any) -> Values:  # noqa: ANN401 - an array
         """Return an array read-only, the value of one order of a balance as a number."""

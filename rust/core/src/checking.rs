@@ -19,7 +19,7 @@ use crate::numbers::order::Order;
 use crate::numbers::ratio::SpeedRatio;
 use crate::pressure::{Cycle, Given};
 use crate::readings::balance::{Balance, Orders, Request, Vector, balance};
-use crate::readings::bearing_loads::{BearingLoadsModel, Part as Section};
+use crate::readings::bearing_loads::{BearingLoadsModel, CutPart};
 use crate::readings::exact::vanishing::{Vanishing, Verdict, vanishing};
 use crate::readings::explain::finding::Finding;
 use crate::readings::explain::{Subject, explain};
@@ -36,13 +36,13 @@ use crate::source::{ForcePart, Repeats, Scaling, Source};
 pub type Measured<'a> = &'a dyn Fn(f64, f64) -> [f64; 3];
 
 /// Highest order that is summed.
-const HIGHEST: u32 = 96;
+const HIGHEST_SUMMED: u32 = 96;
 /// Part of the sizes of terms that a reading may differ by: rounding of a hundred orders, and of angles times them.
-const ROUNDING: f64 = 1e-10;
+const READING_ROUNDING: f64 = 1e-10;
 /// Speeds at which readings are compared, rpm.
 const SPEEDS: [f64; 2] = [1000.0, 3000.0];
 /// Tolerance of default orders.
-const RTOL: f64 = 1e-6;
+const DEFAULT_RTOL: f64 = 1e-6;
 
 /// Checks that a source says of itself what holds, and that every reading of engines that have its load counts
 /// it, under its name: balances about any point, default orders and their bounds, waveforms, sweeps, terms,
@@ -54,7 +54,7 @@ pub fn check_source(load: &PeriodicLoad, measured: Option<Measured>) -> Result<(
     let Some(source) = &load.source else {
         return Err(Error::value("load", format!("{:?}", load.name), "give a load of a source"));
     };
-    let amplitudes = Amplitudes::new(&**source)?;
+    let amplitudes = StatedAmplitudes::new(&**source)?;
     if let Some(measured) = measured {
         amplitudes.check_measured(&**source, measured)?;
     }
@@ -98,8 +98,8 @@ fn wrong(of: &str, found: impl std::fmt::Display, hint: &str) -> Error {
 }
 
 /// What a source says, by order.
-struct Amplitudes {
-    /// Up to [`HIGHEST`].
+struct StatedAmplitudes {
+    /// Up to [`HIGHEST_SUMMED`].
     orders: Vec<Order>,
     /// Of the force, and of the torques on the block and on the main crank.
     values: Vec<[Complex64; 3]>,
@@ -108,14 +108,16 @@ struct Amplitudes {
     tail: [f64; 2],
 }
 
-impl Amplitudes {
+impl StatedAmplitudes {
     /// Checks what a source says of its orders and of its tail.
     fn new(source: &dyn Source) -> Result<Self> {
         let (cancel, parts) = (Cancel::new(), source.parts());
-        let orders = source.orders(Order::whole(HIGHEST)?);
+        let orders = source.orders(Order::whole(HIGHEST_SUMMED)?);
         let is_ascending = orders.is_sorted_by(|before, after| before < after);
         if !is_ascending
-            || orders.last().is_some_and(|last| *last > Order::whole(HIGHEST).unwrap_or(*last))
+            || orders
+                .last()
+                .is_some_and(|last| *last > Order::whole(HIGHEST_SUMMED).unwrap_or(*last))
         {
             return Err(wrong(
                 "orders",
@@ -136,7 +138,7 @@ impl Amplitudes {
         let at = |orders: &[Order]| -> Result<(Vec<[Complex64; 3]>, [f64; 2])> {
             let forces = match parts.force {
                 Some(_) => source.force(orders, &cancel)?,
-                None => vec![Complex64::ZERO; orders.len()], // bounded: by HIGHEST
+                None => vec![Complex64::ZERO; orders.len()], // bounded: by HIGHEST_SUMMED
             };
             if !parts.roll {
                 return Ok((
@@ -169,10 +171,10 @@ impl Amplitudes {
             let own = orders.binary_search(order).map_or([Complex64::ZERO; 3], |k| values[k]);
             for (found, expected) in of_order.into_iter().zip(own) {
                 let reading = format!("Source::force or torque at order {order}");
-                same(&reading, found, expected, ROUNDING * largest)?;
+                same(&reading, found, expected, READING_ROUNDING * largest)?;
             }
         }
-        let tails = source.up_to(Order::whole(HIGHEST)?, &cancel)?.map(|(_, tails)| tails);
+        let tails = source.up_to(Order::whole(HIGHEST_SUMMED)?, &cancel)?.map(|(_, tails)| tails);
         let tail = |halves: u32| match &tails {
             Some(tails) if halves == 0 => [0.0, f64::INFINITY],
             Some(tails) => [0.0, tails.get(halves as usize - 1).copied().unwrap_or(f64::INFINITY)],
@@ -181,14 +183,14 @@ impl Amplitudes {
                 [tail.force, tail.torque]
             }
         };
-        let checked = Self { orders, values, mean, tail: tail(2 * HIGHEST) };
+        let checked = Self { orders, values, mean, tail: tail(2 * HIGHEST_SUMMED) };
         for halves in [0, 1, 2, 3, 4, 5, 8, 12, 24, 48] {
             let bound = tail(halves);
             for theta in (0..1440).map(|k| 0.5 * f64::from(k)) {
                 let [force, roll, crank] = checked.over_angle(theta, halves);
                 let largest = [force.abs(), roll.abs().max(crank.abs())];
                 for (largest, bound) in largest.into_iter().zip(bound) {
-                    if largest > bound * (1.0 + ROUNDING) + f64::MIN_POSITIVE {
+                    if largest > bound * (1.0 + READING_ROUNDING) + f64::MIN_POSITIVE {
                         let hint =
                             format!("orders above {} make {largest:?}", 0.5 * f64::from(halves));
                         return Err(wrong("beyond", bound, &hint));
@@ -251,7 +253,7 @@ fn factor(scaling: Scaling, rpm: f64) -> f64 {
 /// A load at a place of an engine.
 struct Case<'a> {
     load: &'a PeriodicLoad,
-    amplitudes: &'a Amplitudes,
+    amplitudes: &'a StatedAmplitudes,
     scaling: Scaling,
     force: Option<ForcePart>,
     bare: Arc<Engine>,
@@ -265,7 +267,7 @@ struct Case<'a> {
 type Six = [Complex64; 6];
 
 impl<'a> Case<'a> {
-    fn new(load: &'a PeriodicLoad, amplitudes: &'a Amplitudes, fired: bool) -> Result<Self> {
+    fn new(load: &'a PeriodicLoad, amplitudes: &'a StatedAmplitudes, fired: bool) -> Result<Self> {
         let [radius, mass] = [0.045, 0.5];
         let cylinder = Cylinder::new(radius, 0.15, mass, 0.002)?;
         let station = |[tdc, bank, z]: [f64; 3]| -> Result<Station> {
@@ -379,7 +381,7 @@ impl<'a> Case<'a> {
         let [over_square, any] = self.rounding;
         let omega = rpm * TAU / 60.0;
         let others = if of_engine { over_square * omega * omega + any } else { 0.0 };
-        ROUNDING * (force + torque + others) + 1e-15
+        READING_ROUNDING * (force + torque + others) + 1e-15
     }
 
     /// Sums of sizes of force and torque, with their arms.
@@ -496,9 +498,10 @@ impl<'a> Case<'a> {
         let point = [0.0, 0.0, 0.05];
         for rpm in SPEEDS {
             let request = Self::request(rpm, point);
-            let found = balance(&self.with, &request, &Orders::Auto { rtol: RTOL }, &self.cancel)?;
+            let found =
+                balance(&self.with, &request, &Orders::Auto { rtol: DEFAULT_RTOL }, &self.cancel)?;
             let sweep = Sweep::within(
-                RTOL,
+                DEFAULT_RTOL,
                 vec![Arc::clone(&self.with)],
                 Self::axes(None, vec![rpm]),
                 Some(point[2]),
@@ -546,7 +549,7 @@ impl<'a> Case<'a> {
         let tail: f64 = self.amplitudes.tail.iter().map(|tail| tail * self.factor(rpm)).sum();
         let [slack, mean] = [self.slack(rpm, false), self.factor(rpm)];
         for (reading, found, highest, slack) in [
-            ("exact waveform", &exact, 2 * HIGHEST, slack + tail),
+            ("exact waveform", &exact, 2 * HIGHEST_SUMMED, slack + tail),
             ("waveform by orders", &by_orders, 48, slack),
         ] {
             let part = found.parts.iter().find(|part| *part.name == *self.load.name);
@@ -600,7 +603,7 @@ impl<'a> Case<'a> {
                 let quantity = Quantity { kind, part: Part::Of(&self.load.name) };
                 let width = quantity.components();
                 let rows = turns.len() * SPEEDS.len();
-                let mut phasors = vec![Complex64::ZERO; rows * orders.len() * width]; // bounded: by HIGHEST
+                let mut phasors = vec![Complex64::ZERO; rows * orders.len() * width]; // bounded: by HIGHEST_SUMMED
                 sweep.write_phasors(quantity, Statistic::Amplitude, &mut phasors, &self.cancel)?;
                 let mut means = vec![0.0; rows]; // bounded: by speeds and angles
                 sweep.write_peaks(quantity, Statistic::Mean, &mut means, &self.cancel)?;
@@ -697,7 +700,7 @@ impl<'a> Case<'a> {
             let model = BearingLoadsModel::new(engine, rpm)?;
             let mains = model.loads(&thetas, &self.cancel)?.main;
             let places: Vec<f64> = model.mains().iter().map(|main| main.z).collect();
-            let shear = model.sections(Section::Crankcase, &thetas, &self.cancel)?.shear;
+            let shear = model.sections(CutPart::Crankcase, &thetas, &self.cancel)?.shear;
             let last = shear.shape()[0] - 1;
             Ok((mains, places, shear.index_axis_move(ndarray::Axis(0), last)))
         };

@@ -45,7 +45,7 @@ pub enum ObjectiveQuantity {
 
 /// Figure of a quantity that is minimised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Reading {
+pub enum ObjectiveFigure {
     /// Longest vector, or largest torque.
     Peak,
     /// Larger of the peaks along (about) x and y.
@@ -62,7 +62,7 @@ pub struct Objective {
     /// Quantity.
     pub quantity: ObjectiveQuantity,
     /// Figure of it; peaks alone of torques and of all orders together.
-    pub reading: Reading,
+    pub reading: ObjectiveFigure,
     /// None for the total.
     pub order: Option<Order>,
 }
@@ -189,9 +189,9 @@ impl Objectives {
                 parts.extend_from_slice(&found[objective.quantity as usize]);
             }
             match objective.reading {
-                Reading::Forward => parts.truncate(1),
-                Reading::Backward => parts = parts.split_off(parts.len().min(1)),
-                Reading::Peak | Reading::PeakXy => {}
+                ObjectiveFigure::Forward => parts.truncate(1),
+                ObjectiveFigure::Backward => parts = parts.split_off(parts.len().min(1)),
+                ObjectiveFigure::Peak | ObjectiveFigure::PeakXy => {}
             }
             ObjectiveFunction::new(*objective, parts)
         };
@@ -296,7 +296,7 @@ mod tests {
         let objective = |halves| {
             let order = Some(Order::from_halves(halves).unwrap());
             let quantity = ObjectiveQuantity::Roll;
-            Objective { quantity, reading: Reading::Peak, order }
+            Objective { quantity, reading: ObjectiveFigure::Peak, order }
         };
         let made = |engine: &Engine, halves| {
             let variable = Variable { bores: vec![0.0; 3], pins: vec![1.0, 0.0, 0.0] };

@@ -18,7 +18,7 @@ use crate::numbers::memory;
 /// Exchanges that are tried before no further start is made: some seconds.
 const MOST_EXCHANGES: usize = 100_000_000;
 /// Kinds of parts: pistons and rods.
-const KINDS: usize = 2;
+const KINDS_OF_PARTS: usize = 2;
 /// An exchange counts as better if it lessens the remainders by more than this part of them.
 const BETTER: f64 = 1e-12;
 /// Exchanges that are worse by more than this part are not computed to rounding.
@@ -186,7 +186,8 @@ impl Matching {
             let enough = sets.checked_mul(places).is_some_and(|used| used <= kind.parts);
             shape(&kind.influences) == (places, start.len()) && enough
         };
-        if sets == 0 || kinds.is_empty() || kinds.len() > KINDS || !kinds.iter().all(fits) {
+        if sets == 0 || kinds.is_empty() || kinds.len() > KINDS_OF_PARTS || !kinds.iter().all(fits)
+        {
             let found = format!("{} kinds for {sets} sets of {places}", kinds.len());
             let hint = "give one or two kinds, with parts for every place of all sets";
             return Err(Error::value("parts", found, hint));

@@ -35,6 +35,22 @@ pub struct Wrench {
     pub torque: Torque,
 }
 
+/// Part of the larger of two parts of a vector up to which the smaller is rounding: the vector traces a circle.
+const CIRCLE: f64 = 1e-12;
+
+/// Direction of the longest half axis of the ellipse that a forward and a backward part trace, degrees from +x
+/// in (−90, 90]; none of a circle, which has no longest.
+#[must_use]
+pub fn tilt_deg(forward: Complex64, backward: Complex64) -> Option<f64> {
+    let (f, b) = (forward.norm(), backward.norm());
+    if f.min(b) <= CIRCLE * f.max(b) {
+        return None;
+    }
+    // Half the sum of the phases; of the two directions of the axis the upper one.
+    let tilt = ((forward / f) * (backward / b)).arg().to_degrees() / 2.0;
+    Some(if tilt <= -90.0 { 90.0 } else { tilt + 0.0 }) // no −0
+}
+
 /// Bound of the rounding error of a sum of `count` loads at order n, per unit of Σ|terms|.
 ///
 /// Each angle comes with three roundings of half a unit of 360° (2.2 ε rad each), turned n-fold
@@ -214,6 +230,30 @@ impl Wrench {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_longest_half_axis_is_where_the_vector_is_longest() {
+        let mut draw = crate::numbers::draws(7);
+        for _ in 0..100 {
+            let mut part = || Complex64::new(draw(), draw());
+            let (forward, backward) = (part(), part());
+            let tilt = Complex64::cis(tilt_deg(forward, backward).unwrap().to_radians());
+            let turned = |theta: f64| {
+                let turn = Complex64::cis(theta);
+                (forward * turn + backward * turn.conj()) * tilt.conj()
+            };
+            let along = (0..3600).map(|k| turned(f64::from(k).to_radians() / 10.0).re);
+            let peak = along.fold(0.0, f64::max);
+            assert!((peak - (forward.norm() + backward.norm())).abs() < 3e-6);
+        }
+        let unit = Complex64::new(0.6, 0.8);
+        for (forward, backward) in
+            [(unit, Complex64::default()), (1e-13 * unit, unit), (0.0 * unit, 0.0 * unit)]
+        {
+            assert_eq!(tilt_deg(forward, backward), None);
+        }
+        assert_eq!(tilt_deg(-unit, unit.conj()), Some(90.0));
+    }
 
     #[test]
     fn sums_longer_than_the_bound_are_kept_though_their_parts_are_not() {

@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use common::{angle, mixed, weighted};
-use crankpin_core::bearing_loads::{Bearing, BearingLoadsModel, Part, TurningAxes};
+use crankpin_core::bearing_loads::{Bearing, BearingLoadsModel, CutPart, TurningAxes};
 use crankpin_core::engine::crankpins::Bay;
 use crankpin_core::engine::{CrankIndex, Details, Gas};
 use crankpin_core::pressure::{Cycle, Given};
@@ -159,7 +159,7 @@ fn cancellation_stops_every_reading() {
     let turned = model.turned(Bearing::Main, TurningAxes::Crank, &thetas, &cancel);
     assert_eq!(turned, Err(Error::Cancelled));
     assert_eq!(
-        model.sections(Part::Crank(CrankIndex::MAIN), &thetas, &cancel),
+        model.sections(CutPart::Crank(CrankIndex::MAIN), &thetas, &cancel),
         Err(Error::Cancelled)
     );
     assert_eq!(model.tension(720, &cancel), Err(Error::Cancelled));

@@ -9,7 +9,7 @@ use common::{InArrays, angle};
 use crankpin_core::balance::{Balance, Request, Vector};
 use crankpin_core::engine::{CrankIndex, Details, Gas, Origin};
 use crankpin_core::exact::vanishing::{QUANTITIES, Verdict, vanishing};
-use crankpin_core::flywheel::{CycleGrid, Drive, Evenness};
+use crankpin_core::flywheel::{CrankDrive, CycleGrid, Evenness};
 use crankpin_core::index::ListIndex;
 use crankpin_core::pressure::Given;
 use crankpin_core::quantity::{Part, Quantity};
@@ -222,7 +222,7 @@ proptest! {
     fn inertia_torque_is_the_slope_of_the_moving_inertia(engine in engines()) {
         let (grid, cancel) = (CycleGrid::new(360.0, &[], &Cancel::new()).unwrap(), Cancel::new());
         let none = vec![0.0; grid.nodes_deg.len()];
-        let drive = Drive {
+        let drive = CrankDrive {
             grid: &grid, torque: &none, load: &none, engine: Some(&engine), rpm: REQUEST.rpm,
         };
         let run = drive.speed(Evenness::Inertia(1e6), &cancel).unwrap();

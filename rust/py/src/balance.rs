@@ -2,15 +2,16 @@
 
 use std::borrow::Cow;
 
-use crate::array::frozen;
+use crate::array::{frozen, writeable};
 use crankpin_core as core;
 use crankpin_core::balance::{ErrorBounds, Orders, Request, Vector};
 use crankpin_core::engine::Origin;
 use crankpin_core::quantity::{Kind, Part, Quantity};
-use crankpin_core::{Complex64, Error};
+use crankpin_core::wrench::tilt_deg;
+use crankpin_core::{Complex64, Error, memory};
 use crankpin_macros::guarded;
 use ndarray::{Array1, Array2};
-use numpy::{PyArray1, PyArrayDyn};
+use numpy::{PyArray1, PyArrayDyn, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 
 use crate::convert::{self, OrRaise, OrderNumber, numbers, python_error};
@@ -20,6 +21,21 @@ use crate::interrupt;
 /// Which orders: a list, or a tolerance to choose them by.
 pub fn orders(orders: Option<Vec<OrderNumber>>, rtol: f64) -> PyResult<Orders> {
     orders.map_or(Ok(Orders::Auto { rtol }), |given| convert::orders(&given).map(Orders::Given))
+}
+
+/// Directions of the longest half axes of what forward and backward parts trace, degrees; 0 for a circle.
+#[guarded]
+#[pyfunction]
+pub fn tilts_deg<'py>(
+    py: Python<'py>,
+    forward: PyReadonlyArrayDyn<'py, Complex64>,
+    backward: PyReadonlyArrayDyn<'py, Complex64>,
+) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    let (forward, backward) = (forward.as_array(), backward.as_array());
+    let pairs = forward.iter().zip(backward.iter());
+    let tilts = pairs.map(|(&forward, &backward)| tilt_deg(forward, backward).unwrap_or(0.0));
+    let tilts = memory::collected(tilts).or_raise()?;
+    writeable(py, memory::array("backward", forward.shape(), tilts).or_raise()?)
 }
 
 /// How an engine shakes at one speed.

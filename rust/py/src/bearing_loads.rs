@@ -2,7 +2,7 @@
 
 use crate::array::frozen;
 use crankpin_core::bearing_loads::{
-    self, Bearing, BearingLoads, Extremes, Part, Sections, TurningAxes,
+    self, Bearing, BearingLoads, CutPart, Extremes, Sections, TurningAxes,
 };
 use crankpin_core::engine::CrankIndex;
 use crankpin_core::index::ListIndex;
@@ -101,8 +101,8 @@ impl BearingLoadsModel {
         crank: usize,
         theta_deg: PyReadonlyArray1<'py, f64>,
     ) -> PyResult<(Bound<'py, PyArray3<f64>>, Bound<'py, PyArray3<f64>>)> {
-        let crank = Part::Crank(CrankIndex::new(crank));
-        let part = choice("part", part, &[("crank", crank), ("crankcase", Part::Crankcase)])?;
+        let crank = CutPart::Crank(CrankIndex::new(crank));
+        let part = choice("part", part, &[("crank", crank), ("crankcase", CutPart::Crankcase)])?;
         let thetas = theta_deg.as_slice()?;
         let found = interrupt::run(py, |cancel| self.0.sections(part, thetas, cancel))?;
         let Sections { shear, bending } = found;

@@ -31,7 +31,7 @@ pub fn python_error(error: core::Error) -> PyErr {
 }
 
 /// What hints and warnings of the core call by Rust's names, and how Python says it.
-const NAMES: [(&str, &str); 13] = [
+const NAMES: [(&str, &str); 14] = [
     ("`Engine::new`", "Engine.from_lists"),
     ("`Engine::without_gas`", "engine.with_cycle(None)"),
     ("`Powertrain::on`", "p.on(…)"),
@@ -43,6 +43,7 @@ const NAMES: [(&str, &str); 13] = [
     ("`by_axis: false`", "corners=\"mounts\""),
     ("`torque: false`", "torque=False"),
     ("at which it has that centre", "at which it has that centre: tdc_deg=…"),
+    ("give orders and speeds within", "give orders= and speeds within"),
     ("needs the bore of each cylinder", "needs the bore; give bore=… to each Cylinder"),
     ("sweep one axis in parts", "sweep one axis in parts, or use to_dask"),
 ];

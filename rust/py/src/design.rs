@@ -2,7 +2,7 @@
 
 use crate::array::frozen;
 use crankpin_core as core;
-use crankpin_core::design::{Objective, ObjectiveQuantity, Reading, Variable};
+use crankpin_core::design::{Objective, ObjectiveFigure, ObjectiveQuantity, Variable};
 use crankpin_core::{Order, SpeedRatio, memory};
 use crankpin_macros::guarded;
 use numpy::{PyArray2, PyArray3, PyReadonlyArray2};
@@ -45,10 +45,10 @@ impl Objectives {
                     ("crank_torque", ObjectiveQuantity::Crank),
                 ];
                 let readings = [
-                    ("peak", Reading::Peak),
-                    ("peak_xy", Reading::PeakXy),
-                    ("forward", Reading::Forward),
-                    ("backward", Reading::Backward),
+                    ("peak", ObjectiveFigure::Peak),
+                    ("peak_xy", ObjectiveFigure::PeakXy),
+                    ("forward", ObjectiveFigure::Forward),
+                    ("backward", ObjectiveFigure::Backward),
                 ];
                 Ok(Objective {
                     quantity: choice("quantity", quantity, &quantities)?,

@@ -1,7 +1,7 @@
 //! Speed of a crank over a cycle.
 
 use crate::array::frozen;
-use crankpin_core::flywheel::{self, Drive, Evenness};
+use crankpin_core::flywheel::{self, CrankDrive, Evenness};
 use crankpin_macros::guarded;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -67,7 +67,7 @@ impl CycleGrid {
         let engine = engine.map(|engine| &*engine.get().0);
         let (torque, load) = (torque.as_slice()?, load.as_slice()?);
         let found = interrupt::run(py, |cancel| {
-            let drive = Drive { grid: &self.0, torque, load, engine, rpm };
+            let drive = CrankDrive { grid: &self.0, torque, load, engine, rpm };
             drive.speed(evenness, cancel)
         })?;
         let [lowest, highest] = found.extremes;

@@ -45,7 +45,7 @@ mod _core {
 
     #[pymodule_export]
     use crate::{
-        balance::{Balance, angular_speed, balance, bounds_about, terms},
+        balance::{Balance, angular_speed, balance, bounds_about, terms, tilts_deg},
         balancing::{
             FirstOrder, appearing, bay_loads, corrections, fit_shafts, fit_weights, masses_on_pins,
             pair_heights, roll_torque, shared, turning, with_bob_weights,

@@ -145,10 +145,7 @@ fn body_figures(powertrain: &mounts::Powertrain) -> Body {
 fn mount_figures(powertrain: &mounts::Powertrain) -> Vec<Figures> {
     let figures = |mount: &Mount| {
         let each = mount.figures().clone();
-        let orientation = match each.orientation {
-            mounts::Orientation::Tilt(degrees) => Orientation::Tilt(degrees),
-            mounts::Orientation::Axes(axes) => Orientation::Axes(axes),
-        };
+        let orientation = each.axes.map_or(Orientation::Tilt(each.tilt_deg), Orientation::Axes);
         let track = each.track.map(|t| (t.stiffness, t.frequency, t.damping_ratio));
         (
             each.name,
@@ -187,13 +184,15 @@ fn mount(figures: Figures) -> core::Result<Mount> {
         frequency,
         damping_ratio,
     });
+    let (tilt_deg, axes) = match orientation {
+        Orientation::Tilt(degrees) => (degrees, None),
+        Orientation::Axes(axes) => (0.0, Some(axes)),
+    };
     Mount::new(MountFigures {
         name,
         at,
-        orientation: match orientation {
-            Orientation::Tilt(degrees) => mounts::Orientation::Tilt(degrees),
-            Orientation::Axes(axes) => mounts::Orientation::Axes(axes),
-        },
+        tilt_deg,
+        axes,
         stiffness,
         dynamic_stiffness,
         loss_factor,

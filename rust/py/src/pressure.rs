@@ -9,7 +9,7 @@ use crankpin_core::layout::Strokes;
 use crankpin_core::pressure::Given;
 use crankpin_core::pressure::burn::{Heat, WallLoss, Wiebe};
 use crankpin_core::pressure::chamber::{Chamber, Ideal};
-use crankpin_core::pressure::example::{Example, Kind};
+use crankpin_core::pressure::example::{Example, ExampleKind};
 use crankpin_core::pressure::map::between;
 use crankpin_core::{Complex64, order};
 use crankpin_macros::guarded;
@@ -204,7 +204,11 @@ impl Cycle {
         load: f64,
         strokes: u32,
     ) -> PyResult<(String, f64, Vec<(&'static str, f64)>)> {
-        let kind = choice("kind", kind, &[("petrol", Kind::Petrol), ("diesel", Kind::Diesel)])?;
+        let kind = choice(
+            "kind",
+            kind,
+            &[("petrol", ExampleKind::Petrol), ("diesel", ExampleKind::Diesel)],
+        )?;
         let strokes = Strokes::from_number(strokes).or_raise()?;
         let found = interrupt::run(py, |cancel| Example::new(kind, load, strokes, cancel))?;
         Ok((found.name, found.compression_ratio, found.wiebe.figures()))

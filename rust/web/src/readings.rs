@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crankpin_core::balance::Request;
 use crankpin_core::layout::Strokes;
-use crankpin_core::pressure::example::{Example, Kind};
+use crankpin_core::pressure::example::{Example, ExampleKind};
 use crankpin_core::quantity::Quantity;
 use crankpin_core::sweep::{Statistic, Sweep, SweepAxes};
 use crankpin_core::{Cancel, Error, Firing, Result, harmonics, memory, waveform as waveforms};
@@ -172,7 +172,8 @@ pub fn firing(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
 pub fn with_cycle(arguments: &mut Arguments, columns: &mut Columns) -> Result<Value> {
     let (engine, powertrain) = arguments.mounted()?;
     let engine = engine.without_gas();
-    let kind = arguments.word("kind", &[("petrol", Kind::Petrol), ("diesel", Kind::Diesel)])?;
+    let kind = arguments
+        .word("kind", &[("petrol", ExampleKind::Petrol), ("diesel", ExampleKind::Diesel)])?;
     let (load, cancel) = (arguments.or("load", 1.0)?, Cancel::new());
     let cycle = Arc::new(Example::new(kind, load, engine.strokes(), &cancel)?.cycle(&cancel)?);
     let given = cycle.given();

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::least_squares::{Minimum, PENALTIES, minimum, stack};
-use super::weights::{PlacedWeight, Problem, REACHED, ROUNDING, Vectors, complex, sums};
+use super::weights::{PlacedWeight, Problem, REACHED, SOLVER_ROUNDING, Vectors, complex, sums};
 use crate::Complex64;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
@@ -26,7 +26,7 @@ pub(super) fn nearest(
     let mut found = Minimum::start(start, room.len());
     for penalty in PENALTIES {
         found = minimum(rows, [&goal, &room], found, penalty, problem.cancel)?;
-        if found.missing <= ROUNDING {
+        if found.missing <= SOLVER_ROUNDING {
             return Ok(Some(columns.weights(&found.x)));
         }
     }
@@ -124,7 +124,7 @@ fn squares(
         let promised = lambda.dot(&problem.target) - spent.sum::<f64>();
         let squares = (&sums * &best.x).norm_squared() / 2.0;
         let is_least = squares - promised <= REACHED * squares.max(1.0);
-        if is_least && best.missing <= ROUNDING {
+        if is_least && best.missing <= SOLVER_ROUNDING {
             return Ok(Some(columns.weights(&best.x)));
         }
     }

@@ -1,7 +1,5 @@
 //! Bob weights: masses that a crankshaft is balanced against, and what order 1 keeps by balance factor.
 
-use std::f64::consts::FRAC_PI_2;
-
 use super::TurningPart;
 use crate::Complex64;
 use crate::engine::{CrankIndex, Engine, Unbalance};
@@ -15,6 +13,7 @@ use crate::numbers::ratio::SpeedRatio;
 use crate::readings::balance::Vector;
 use crate::readings::explain::words::{across, turns};
 use crate::readings::turning::over_square;
+use crate::wrench::tilt_deg;
 
 /// Largest share of the reciprocating mass that is balanced.
 pub const LARGEST_FACTOR: f64 = 10.0;
@@ -23,7 +22,7 @@ const ALIKE: f64 = 1e-12;
 /// Of an interval of factors, to the last digits of a double.
 const HALVINGS: u32 = 60;
 /// Part of a sum that its rounding is below.
-const ROUNDING: f64 = 1e-14;
+const SUM_ROUNDING: f64 = 1e-14;
 /// Part of the sum of all magnitudes of an engine that their rounding is below.
 const ROUNDING_OF_ALL: f64 = 1e-15;
 
@@ -66,15 +65,15 @@ pub(super) fn bob_weight([rotating, reciprocating]: [f64; 2], factor: f64) -> f6
 #[derive(Debug, Clone, PartialEq)]
 pub struct FirstOrder {
     /// Forward and backward part.
-    force: [Part; 2],
-    moment: [Part; 2],
+    force: [PartByFactor; 2],
+    moment: [PartByFactor; 2],
     /// Roll torque of inertia about the axis of the main crank, which weights change about other axes.
-    roll: Part,
+    roll: PartByFactor,
 }
 
 /// Part of a vector that turns in one sense, by balance factor.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct Part {
+struct PartByFactor {
     /// At factor 0.
     start: Complex64,
     /// To factor 1.
@@ -83,13 +82,13 @@ struct Part {
     size: f64,
 }
 
-impl Part {
+impl PartByFactor {
     /// By factor; rounding of one that vanishes is zero.
     fn at(&self, factor: f64) -> Complex64 {
         let added = self.change * factor;
         let part = self.start + added;
         // What is left of many figures that cancel is as large as the rounding of their sum.
-        let of_sum = ROUNDING * (self.start.norm() + added.norm());
+        let of_sum = SUM_ROUNDING * (self.start.norm() + added.norm());
         let least = of_sum.max(ROUNDING_OF_ALL * (1.0 + factor) * self.size);
         if part.norm() < least { Complex64::default() } else { part }
     }
@@ -142,14 +141,18 @@ impl FirstOrder {
         let arms: f64 = weights.iter().map(arm).sum();
         let change =
             if arms == 0.0 { Complex64::default() } else { end.torque.roll - start.torque.roll };
-        let roll = Part { start: start.torque.roll, change, size: arms };
-        let mut found = Self { force: [Part::default(); 2], moment: [Part::default(); 2], roll };
+        let roll = PartByFactor { start: start.torque.roll, change, size: arms };
+        let mut found = Self {
+            force: [PartByFactor::default(); 2],
+            moment: [PartByFactor::default(); 2],
+            roll,
+        };
         for (sense, ratio) in [1, -1].map(SpeedRatio::whole).into_iter().enumerate() {
             let changes = engine.cranks().iter().any(|crank| crank.ratio == ratio);
             let [one, other] = [&start, &end].map(|wrench| TurningPart::of(wrench, ratio));
             let part = |start: Complex64, end: Complex64, size: f64| {
                 let change = if changes { end - start } else { Complex64::default() };
-                Part { start, change, size }
+                PartByFactor { start, change, size }
             };
             found.force[sense] = part(one.force, other.force, of_force);
             found.moment[sense] = part(one.moment, other.moment, of_moment);
@@ -157,7 +160,7 @@ impl FirstOrder {
         Ok(found)
     }
 
-    fn parts(&self, vector: Vector) -> &[Part; 2] {
+    fn parts(&self, vector: Vector) -> &[PartByFactor; 2] {
         match vector {
             Vector::Force => &self.force,
             Vector::Moment => &self.moment,
@@ -167,7 +170,7 @@ impl FirstOrder {
     /// Whether there is a force or moment of order 1 at some factor.
     #[must_use]
     pub fn exists(&self, vector: Vector) -> bool {
-        self.parts(vector).iter().any(Part::exists)
+        self.parts(vector).iter().any(PartByFactor::exists)
     }
 
     /// Roll torque about the axis of the main crank, kg·m².
@@ -190,7 +193,7 @@ impl FirstOrder {
         let [forward, backward] = parts.map(|part| part.at(factor).norm());
         let (longest, shortest) = (forward + backward, forward - backward);
         let of_all = ROUNDING_OF_ALL * (1.0 + factor) * parts[0].size;
-        let least = of_all.max(ROUNDING * longest);
+        let least = of_all.max(SUM_ROUNDING * longest);
         [longest, if shortest.abs() < least { 0.0 } else { shortest }]
     }
 
@@ -199,8 +202,8 @@ impl FirstOrder {
     pub fn least(&self, vector: Vector) -> Option<f64> {
         let changing = || self.parts(vector).iter().filter(|part| part.changes());
         // The sum of two convex sizes is least between the factors at which either is.
-        let mut low = changing().map(Part::nearest).reduce(f64::min)?;
-        let mut high = changing().map(Part::nearest).reduce(f64::max)?;
+        let mut low = changing().map(PartByFactor::nearest).reduce(f64::min)?;
+        let mut high = changing().map(PartByFactor::nearest).reduce(f64::max)?;
         for _ in 0..if high - low > ALIKE { HALVINGS } else { 0 } {
             let middle = 0.5 * (low + high);
             if changing().map(|part| part.slope(middle)).sum::<f64>() > 0.0 {
@@ -227,13 +230,8 @@ impl FirstOrder {
     #[must_use]
     pub fn direction_deg(&self, vector: Vector, factor: f64) -> Option<f64> {
         let [forward, backward] = self.parts(vector).map(|part| part.at(factor));
-        let [f, b] = [forward, backward].map(Complex64::norm);
-        if f.min(b) <= ALIKE * f.max(b) {
-            return None;
-        }
-        let half = (forward * backward).arg() / 2.0;
-        let tilt = rounded(half.to_degrees(), 9);
-        Some(if half <= -FRAC_PI_2 || tilt <= -90.0 { 90.0 } else { tilt + 0.0 }) // no −0
+        let tilt = rounded(tilt_deg(forward, backward)?, 9);
+        Some(if tilt <= -90.0 { 90.0 } else { tilt + 0.0 }) // no −0
     }
 
     /// Which way the longest half axis points, in words, and of a moment which way the ends go; `sides` is
@@ -251,7 +249,7 @@ impl FirstOrder {
 }
 
 /// Factors at which two parts have one size, ascending; none where all have.
-fn of_one_size(forward: &Part, backward: &Part) -> Vec<f64> {
+fn of_one_size(forward: &PartByFactor, backward: &PartByFactor) -> Vec<f64> {
     if forward.changes() && backward.changes() {
         // |forward|² − |backward|² is quadratic in the factor.
         let unit = forward.change.norm().max(backward.change.norm()); // squares would underflow
@@ -327,7 +325,7 @@ mod tests {
 
     #[test]
     fn parts_of_one_size_and_the_least_of_their_sum() {
-        let part = |start: f64, change: f64| Part {
+        let part = |start: f64, change: f64| PartByFactor {
             start: Complex64::new(start, 0.0),
             change: Complex64::new(0.0, change),
             size: 0.0,
@@ -347,8 +345,8 @@ mod tests {
         assert!((found[1] - root).abs() < 4e-15 && (found[0] + root).abs() < 4e-15);
         let both = FirstOrder {
             force: [part(1.0, 2.0), part(3.0, 1.0)],
-            moment: [Part::default(); 2],
-            roll: Part::default(),
+            moment: [PartByFactor::default(); 2],
+            roll: PartByFactor::default(),
         };
         assert_eq!((both.least(Vector::Force), both.least(Vector::Moment)), (Some(0.0), None));
         assert!(both.exists(Vector::Force) && !both.exists(Vector::Moment));

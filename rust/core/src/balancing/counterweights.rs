@@ -9,7 +9,7 @@ use super::bob_weight::with_bob_weights;
 use super::least_squares::least_squares;
 use super::shafts::unbalance;
 use super::weights::{Minimise, REACHED, WeightRequest, complex, least, vectors};
-use super::{NEGLIGIBLE, TurningPart, turning, without_rounding};
+use super::{TurningPart, VALUE_ROUNDING, turning, without_rounding};
 use crate::Complex64;
 use crate::engine::crankpins::Bay;
 use crate::engine::{CrankIndex, Engine, Unbalance};
@@ -143,10 +143,7 @@ impl Fit<'_> {
 
     /// The length over which a moment counts as much as a force, m.
     fn compared(&self, engine: &Engine) -> Result<f64> {
-        let reference = engine.reference(None)?;
-        let planes = self.planes.iter().map(|plane| plane.z);
-        let places = planes.chain(engine.stations().iter().map(|station| station.z));
-        let longest = places.map(|z| (z - reference).abs()).fold(0.0, f64::max);
+        let longest = engine.longest_lever(self.planes.iter().map(|plane| plane.z))?;
         Ok(self.length.unwrap_or(if longest > 0.0 { longest } else { 1.0 }))
     }
 
@@ -507,7 +504,7 @@ fn keep_sums(
     let across = DMatrix::identity(planes.len(), planes.len()) - changing.transpose() * changing;
     let target = vectors(&target);
     let mut seen = &rows * &across;
-    if seen.amax() <= NEGLIGIBLE * rows.amax() {
+    if seen.amax() <= VALUE_ROUNDING * rows.amax() {
         seen.fill(0.0); // no weights change a bay and no sum
     }
     let found = least_squares(&seen, &target, target.nrows());

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::least_squares::RANK_TOLERANCE;
-use super::weights::{REACHED, ROUNDING, Vectors};
+use super::weights::{REACHED, SOLVER_ROUNDING, Vectors};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::singular_values::SingularValues;
@@ -99,7 +99,7 @@ impl Discs<'_> {
                 found.set_row(p, &(&rest * (here * rows[(0, p)].signum() / length)));
                 amount -= here;
             }
-            (amount <= ROUNDING).then_some(found)
+            (amount <= SOLVER_ROUNDING).then_some(found)
         })
     }
 

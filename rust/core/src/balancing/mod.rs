@@ -59,13 +59,13 @@ fn half_length(engine: &Engine) -> f64 {
 
 /// Part of the largest of several values below which another is rounding: some hundred units in the last
 /// place, as sums of the terms of an engine leave them.
-const NEGLIGIBLE: f64 = 1e-13;
+const VALUE_ROUNDING: f64 = 1e-13;
 
 /// Zero for values that are rounding beside the largest of them.
 fn without_rounding(values: &mut [Complex64]) {
     let largest = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
     for value in values {
-        if value.norm() <= NEGLIGIBLE * largest {
+        if value.norm() <= VALUE_ROUNDING * largest {
             *value = Complex64::default();
         }
     }

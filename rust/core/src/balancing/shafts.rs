@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use nalgebra::DMatrix;
 
 use super::least_squares::least_squares;
-use super::{NEGLIGIBLE, TurningPart, half_length, weights};
+use super::{TurningPart, VALUE_ROUNDING, half_length, weights};
 use crate::Complex64;
 use crate::engine::{CrankIndex, Engine, Shaft, Unbalance};
 use crate::mechanism::slider_crank::Cylinder;
@@ -133,7 +133,7 @@ fn place(
             beyond = beyond.or(Some(furthest));
             continue;
         }
-        let rounding = NEGLIGIBLE * furthest.max(size(engine));
+        let rounding = VALUE_ROUNDING * furthest.max(size(engine));
         for (&(k, j, _), &place) in free.iter().zip(&places) {
             axes[k][j] = if place.abs() <= rounding { 0.0 } else { place };
         }
@@ -151,7 +151,8 @@ pub fn pair_heights(forward: Complex64, backward: Complex64, torque: Complex64) 
     // With a = e^{i·up}(h − iw) the pair's torque is i·|F|·e^{iγ}·((h_B − h_A) − i(w_A + w_B)).
     let gamma = forward.arg() - up;
     let needed = -torque / Complex64::from_polar(forward.norm(), gamma);
-    let zeroed = |value: f64| if value.abs() <= NEGLIGIBLE * needed.norm() { 0.0 } else { value };
+    let zeroed =
+        |value: f64| if value.abs() <= VALUE_ROUNDING * needed.norm() { 0.0 } else { value };
     [zeroed(-needed.im), zeroed(needed.re), up]
 }
 
@@ -237,7 +238,7 @@ fn fitted(ratio: SpeedRatio, unbalances: Vec<Unbalance>, reference: f64) -> Fitt
             terms.iter().map(of).fold((Complex64::default(), 0.0), |(sum, size), term| {
                 (sum + term, size + term.norm())
             });
-        if sum.norm() <= NEGLIGIBLE * size { Complex64::default() } else { sum }
+        if sum.norm() <= VALUE_ROUNDING * size { Complex64::default() } else { sum }
     };
     let exerts = TurningPart { force: sum(|term| term.force), moment: sum(|term| term.moment) };
     let shaft = Shaft { name: String::new(), ratio, axis: [0.0; 2], unbalances };

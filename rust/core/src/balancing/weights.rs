@@ -11,7 +11,7 @@
 use nalgebra::{DMatrix, RowVector2};
 
 use super::least_squares::{RANK_TOLERANCE, least_squares};
-use super::{NEGLIGIBLE, TurningPart, angle_lists, discs, without_rounding};
+use super::{TurningPart, VALUE_ROUNDING, angle_lists, discs, without_rounding};
 use crate::Complex64;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -81,7 +81,7 @@ const EDGE: f64 = 1e-7;
 /// Room of such weights, relative to the target and to their bounds.
 const ROOM: f64 = 1e-6;
 /// What solvers may leave of their equations, in figures of order 1.
-pub(super) const ROUNDING: f64 = 1e-12;
+pub(super) const SOLVER_ROUNDING: f64 = 1e-12;
 /// Targets below this are none.
 const LEAST_TARGET: f64 = 1e-200;
 /// Bounds above this multiple of the target bind nowhere; those below its inverse leave nothing.
@@ -148,7 +148,7 @@ pub fn least(request: &WeightRequest, cancel: &Cancel) -> Result<FittedWeights> 
     let mut amounts = problem.least(request.minimise)?;
     let is_proved = problem.made_up(&mut amounts);
     let largest = amounts.iter().map(|weight| weight.vector.norm()).fold(0.0, f64::max);
-    amounts.retain(|weight| weight.vector.norm() > 10.0 * NEGLIGIBLE * largest);
+    amounts.retain(|weight| weight.vector.norm() > 10.0 * VALUE_ROUNDING * largest);
     // Of planes near each other the others make up for what was left out.
     problem.made_up(&mut amounts);
     let reached = is_proved && problem.is_rounding(&amounts);
@@ -423,7 +423,7 @@ impl Problem<'_> {
         (0..missing.nrows()).all(|k| {
             let terms = weights.iter().map(|each| self.rows[(k, each.plane)] * each.vector.norm());
             let size = terms.map(f64::abs).sum::<f64>() + self.target.row(k).norm();
-            missing.row(k).norm() <= NEGLIGIBLE * size
+            missing.row(k).norm() <= VALUE_ROUNDING * size
         })
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{Derived, Objective, ObjectiveQuantity, Reading};
+use super::{Derived, Objective, ObjectiveFigure, ObjectiveQuantity};
 use crate::Complex64;
 use crate::numbers::ratio::SpeedRatio;
 
@@ -138,7 +138,7 @@ impl ObjectiveFunction {
                 ObjectiveQuantity::Force | ObjectiveQuantity::Moment
             );
             let axes: &[Option<Complex64>] = match (planar, self.objective.reading) {
-                (true, Reading::PeakXy) => {
+                (true, ObjectiveFigure::PeakXy) => {
                     &[Some(Complex64::new(1.0, 0.0)), Some(Complex64::new(0.0, -1.0))]
                 }
                 (true, _) => &[None],
@@ -147,7 +147,7 @@ impl ObjectiveFunction {
             return axes.iter().flat_map(|axis| self.peaks(&phasors, *axis, x.len())).collect();
         }
         match (self.objective.reading, &phasors[..]) {
-            (Reading::PeakXy, [forward, backward]) => [1.0, -1.0]
+            (ObjectiveFigure::PeakXy, [forward, backward]) => [1.0, -1.0]
                 .map(|sign| {
                     let mut sum = forward.clone();
                     sum.add(backward, |part| sign * part.conj());

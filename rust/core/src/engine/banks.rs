@@ -3,6 +3,7 @@
 use super::{Engine, Station};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::index::distinct;
 
 /// What a change of bank angle leaves as it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,6 +44,13 @@ impl Engine {
         let mut banks = vec![Vec::new(); self.bank_directions().len()];
         self.bank_of.iter().enumerate().for_each(|(i, &bank)| banks[bank].push(i));
         banks
+    }
+
+    /// Whether directions alone say which cylinders are in which bank, but for some at 0° and 180°.
+    pub(super) fn has_banks_of_directions(&self) -> bool {
+        let keys = banks_of_directions(&self.stations);
+        right_bank(&self.stations, &keys) == self.right
+            && distinct::<usize, _>(keys.iter()).1 == self.bank_of
     }
 
     /// The two banks of a vee.
@@ -98,6 +106,19 @@ impl Engine {
         }
         Ok(turned)
     }
+}
+
+/// Keys of the banks of stations that their directions alone distinguish.
+pub(super) fn banks_of_directions(stations: &[Station]) -> Vec<usize> {
+    let (_, mut banks) = distinct::<usize, _>(stations.iter().map(|p| p.bank.reduced()));
+    // Of opposite bores those nearer to +x are the right bank: a flat engine's at 0°.
+    if let Some(first) = stations.first()
+        && stations.iter().any(|p| p.bank.reduced().degrees() < first.bank.reduced().degrees())
+    {
+        let last = banks.iter().copied().max().unwrap_or(0);
+        banks = banks.into_iter().map(|bank| last - bank).collect();
+    }
+    banks
 }
 
 /// The right one of two banks: the other is up to 180° ahead of it.

@@ -1,6 +1,5 @@
 //! Crankpins, throws and main bearings, read off an engine's stations.
 
-use super::layout::MOST_ROUNDING;
 use super::{Crank, CrankIndex, Engine, Unbalance};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result, shorten};
@@ -80,8 +79,7 @@ impl Engine {
                 && apart < radius(k)
         };
         let on_one_pin = |k: usize, other: usize| {
-            let turned = (pins[k].degrees() - pins[other].degrees() + 180.0).rem_euclid(360.0);
-            radius(k) == radius(other) && (turned - 180.0).abs() <= MOST_ROUNDING
+            radius(k) == radius(other) && pins[k].is_direction_of(pins[other])
         };
         let crankpin = |mut cylinders: Vec<usize>| {
             let (pin, z) = (pins[cylinders[0]], middle(cylinders.iter().map(|&k| stations[k].z)));

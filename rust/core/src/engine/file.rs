@@ -6,17 +6,16 @@ use std::sync::Arc;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::layout::Strokes;
-use super::{
-    Crank, CrankIndex, Details, Engine, Gas, PeriodicLoad, RodFigures, Shaft, Station, Unbalance,
-};
+use super::{Crank, Details, Engine, Gas, PeriodicLoad, RodFigures, Shaft, Station, Unbalance};
 use crate::mechanism::slider_crank::Cylinder;
 use crate::mounts::Powertrain;
 use crate::mounts::file::PowertrainEntry;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result, shorten};
 use crate::numbers::index::ListIndex;
+use crate::numbers::is_default;
 use crate::numbers::ratio::SpeedRatio;
-use crate::pressure::example::{Kind, full_load};
+use crate::pressure::example::{ExampleKind, full_load};
 use crate::pressure::{ATMOSPHERE, Cycle, Given};
 
 /// Version of the schema that this file reads and writes.
@@ -48,7 +47,7 @@ struct EngineFile {
     placements: Vec<StationEntry>,
     /// On the crankshaft, besides the rotating masses.
     #[serde(default, skip_serializing_if = "is_default")]
-    counterweights: Vec<WeightEntry>,
+    counterweights: Vec<Unbalance>,
     #[serde(default, skip_serializing_if = "is_default")]
     shafts: Vec<BalanceShaft>,
     /// Periodic loads besides.
@@ -62,7 +61,7 @@ struct EngineFile {
     crankcase: Option<f64>,
     /// Pressure in cylinders over a cycle.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    cycles: Vec<CycleOfFile>,
+    cycles: Vec<CycleEntry>,
     /// The engine's body and its mounts, which an engine alone does not have.
     #[serde(default, skip_serializing_if = "is_default")]
     powertrain: Option<PowertrainEntry>,
@@ -113,11 +112,6 @@ fn is_four(strokes: &u32) -> bool {
     *strokes == 4
 }
 
-/// True for what a file may leave out.
-fn is_default<T: Default + PartialEq>(value: &T) -> bool {
-    *value == T::default()
-}
-
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct StationEntry {
@@ -145,21 +139,6 @@ struct StationEntry {
 
 #[derive(Serialize, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
-struct WeightEntry {
-    /// kg·m.
-    amount: f64,
-    angle_deg: Degrees,
-    z: f64,
-    /// Number of the cylinder whose crankpin the angle is measured from.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pin: Option<usize>,
-    /// Number of the crank that carries it, as of a cylinder; that of the pin, where it has one.
-    #[serde(default, skip_serializing_if = "is_default")]
-    crank: usize,
-}
-
-#[derive(Serialize, Deserialize, PartialEq)]
-#[serde(deny_unknown_fields)]
 struct BalanceShaft {
     #[serde(default, skip_serializing_if = "is_default")]
     name: String,
@@ -168,18 +147,11 @@ struct BalanceShaft {
     x: f64,
     #[serde(default)]
     y: f64,
-    unbalances: Vec<WeightEntry>,
+    unbalances: Vec<Unbalance>,
 }
 
-/// A cycle, and the example by whose name it is written instead of its points.
-#[derive(Serialize, Deserialize, Clone)]
-#[serde(try_from = "CycleEntry", into = "CycleEntry")]
-struct CycleOfFile {
-    cycle: Arc<Cycle>,
-    example: Option<Kind>,
-}
-
-#[derive(Serialize, Deserialize)]
+/// A cycle, by the name of an example or by its points.
+#[derive(Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields)]
 struct CycleEntry {
     /// `petrol` or `diesel`: that example at full load, in place of points.
@@ -198,29 +170,28 @@ struct CycleEntry {
     degree: Option<usize>,
 }
 
-impl From<CycleOfFile> for CycleEntry {
-    fn from(of_file: CycleOfFile) -> Self {
-        let Given { name, strokes, theta_deg, pressure, degree } = of_file.cycle.given().clone();
-        if let Some(kind) = of_file.example {
-            return Self {
-                example: Some(kind.name().to_owned()),
-                strokes: (strokes != 4).then_some(strokes),
-                name: String::new(),
-                theta_deg: None,
-                pressure: None,
-                degree: None,
-            };
-        }
+impl CycleEntry {
+    fn of_points(cycle: &Cycle) -> Self {
+        let Given { name, strokes, theta_deg, pressure, degree } = cycle.given().clone();
         let (theta_deg, pressure) = (Some(theta_deg), Some(pressure));
         Self { example: None, name, strokes: Some(strokes), theta_deg, pressure, degree }
     }
-}
 
-impl TryFrom<CycleEntry> for CycleOfFile {
-    type Error = Error;
+    /// By name, of an example at full load.
+    fn of_example(cycle: &Cycle) -> Result<Option<Self>> {
+        for kind in ExampleKind::ALL {
+            let has_name = cycle.given().name == kind.name_at_full_load();
+            if has_name && *full_load(kind, cycle.strokes())? == *cycle {
+                let strokes = Some(cycle.strokes().number()).filter(|&strokes| strokes != 4);
+                let example = Some(kind.name().to_owned());
+                return Ok(Some(Self { example, strokes, ..Self::default() }));
+            }
+        }
+        Ok(None)
+    }
 
-    fn try_from(entry: CycleEntry) -> Result<Self> {
-        let CycleEntry { example, name, strokes, theta_deg, pressure, degree } = entry;
+    fn cycle(self) -> Result<Arc<Cycle>> {
+        let Self { example, name, strokes, theta_deg, pressure, degree } = self;
         let Some(example) = example else {
             let missing = |entry: &str| {
                 Error::value(entry, "None", "give strokes, theta_deg and pressure, or example")
@@ -228,12 +199,12 @@ impl TryFrom<CycleEntry> for CycleOfFile {
             let strokes = strokes.ok_or_else(|| missing("strokes"))?;
             let theta_deg = theta_deg.ok_or_else(|| missing("theta_deg"))?;
             let pressure = pressure.ok_or_else(|| missing("pressure"))?;
-            let cycle = Cycle::new(Given { name, strokes, theta_deg, pressure, degree })?;
-            return Ok(Self { cycle: Arc::new(cycle), example: None });
+            return Cycle::new(Given { name, strokes, theta_deg, pressure, degree }).map(Arc::new);
         };
-        let kind = Kind::ALL.into_iter().find(|kind| kind.name() == example);
+        let kind = ExampleKind::ALL.into_iter().find(|kind| kind.name() == example);
         let kind = kind.ok_or_else(|| {
-            let hint = format!("give one of {}", Kind::ALL.map(Kind::name).join(", "));
+            let hint =
+                format!("give one of {}", ExampleKind::ALL.map(ExampleKind::name).join(", "));
             Error::value("example", shorten(&example), hint)
         })?;
         for (name, beside) in [
@@ -247,67 +218,21 @@ impl TryFrom<CycleEntry> for CycleOfFile {
                 return Err(Error::value(name, "given", hint));
             }
         }
-        let strokes = Strokes::from_number(strokes.unwrap_or(4))?;
-        Ok(Self { cycle: full_load(kind, strokes)?, example: Some(kind) })
+        full_load(kind, Strokes::from_number(strokes.unwrap_or(4))?)
     }
 }
 
-impl CycleOfFile {
-    fn by_points(cycle: &Arc<Cycle>) -> Self {
-        Self { cycle: Arc::clone(cycle), example: None }
-    }
-
-    /// The same, by name if it is an example at full load.
-    fn by_name(self) -> Result<Self> {
-        let mut example = None;
-        for kind in Kind::ALL {
-            let has_name = self.cycle.given().name == kind.name_at_full_load();
-            if has_name && *full_load(kind, self.cycle.strokes())? == *self.cycle {
-                example = Some(kind);
-            }
-        }
-        Ok(Self { example, ..self })
+impl From<&Shaft> for BalanceShaft {
+    fn from(Shaft { name, ratio, axis: [x, y], unbalances }: &Shaft) -> Self {
+        let (name, unbalances) = (name.clone(), unbalances.clone());
+        Self { name, ratio: *ratio, x: *x, y: *y, unbalances }
     }
 }
 
-impl WeightEntry {
-    fn of(unbalance: &Unbalance) -> Self {
-        Self {
-            amount: unbalance.amount,
-            angle_deg: Degrees::of(unbalance.angle),
-            z: unbalance.z,
-            pin: unbalance.pin.map(|index| index + 1),
-            crank: unbalance.crank.position(),
-        }
+impl From<BalanceShaft> for Shaft {
+    fn from(BalanceShaft { name, ratio, x, y, unbalances }: BalanceShaft) -> Self {
+        Self { name, ratio, axis: [x, y], unbalances }
     }
-
-    fn unbalance(&self, place: &str) -> Result<Unbalance> {
-        let pin = self.pin.map(|number| {
-            let hint = "give a cylinder's number, from 1";
-            number.checked_sub(1).ok_or_else(|| Error::value(format!("{place}.pin"), 0, hint))
-        });
-        let angle = self.angle_deg.angle(&format!("{place}.angle_deg"))?;
-        let (amount, z, crank) = (self.amount, self.z, CrankIndex::new(self.crank));
-        Ok(Unbalance { amount, angle, z, pin: pin.transpose()?, crank })
-    }
-}
-
-impl BalanceShaft {
-    fn of(shaft: &Shaft) -> Self {
-        let ([x, y], name) = (shaft.axis, shaft.name.clone());
-        let unbalances = shaft.unbalances.iter().map(WeightEntry::of).collect();
-        Self { name, ratio: shaft.ratio, x, y, unbalances }
-    }
-
-    fn shaft(&self, place: &str) -> Result<Shaft> {
-        let unbalances = unbalances(&self.unbalances, &format!("{place}.unbalances"))?;
-        Ok(Shaft { name: self.name.clone(), ratio: self.ratio, axis: [self.x, self.y], unbalances })
-    }
-}
-
-fn unbalances(weights: &[WeightEntry], list: &str) -> Result<Vec<Unbalance>> {
-    let each = weights.iter().enumerate();
-    each.map(|(i, weight)| weight.unbalance(&format!("{list}[{i}]"))).collect()
 }
 
 /// Degrees as a number, or as a fraction in a string where no double is exact.
@@ -388,9 +313,7 @@ impl EngineFile {
         let parts: Vec<PartsEntry> =
             each.map(|(p, details)| PartsEntry::of(&p.cylinder, details)).collect();
         let shared = parts.iter().all(|each| *each == parts[0]);
-        // Directions distinguish banks but for some at 0° and 180°.
-        let guessed = Engine::new("", "", engine.stations().to_vec())?;
-        let numbered = (&guessed.bank_of, guessed.right) != (&engine.bank_of, engine.right);
+        let numbered = !engine.has_banks_of_directions();
         let number =
             |bank: usize| engine.right.map_or(bank, |right| usize::from(bank != right)) + 1;
         let place = |(i, p): (usize, &Station)| StationEntry {
@@ -418,8 +341,8 @@ impl EngineFile {
             mains: engine.mains().to_vec(),
             cylinder: shared.then_some(parts[0]),
             placements: engine.stations().iter().enumerate().map(place).collect(),
-            counterweights: engine.counterweights().iter().map(WeightEntry::of).collect(),
-            shafts: engine.shafts().iter().map(BalanceShaft::of).collect(),
+            counterweights: engine.counterweights().to_vec(),
+            shafts: engine.shafts().iter().map(BalanceShaft::from).collect(),
             loads: engine.loads().to_vec(),
             cranks: engine
                 .cranks()
@@ -429,7 +352,7 @@ impl EngineFile {
                 .collect(),
             crankcase: engine.gas().map(|gas| gas.crankcase),
             cycles: engine.gas().map_or_else(Vec::new, |gas| {
-                gas.cycles.iter().map(CycleOfFile::by_points).collect()
+                gas.cycles.iter().map(|cycle| CycleEntry::of_points(cycle)).collect()
             }),
             powertrain: None,
         })
@@ -437,21 +360,26 @@ impl EngineFile {
 
     /// The engine, and its body on mounts, if there is one.
     fn mounted(mut self) -> Result<(Engine, Option<Powertrain>)> {
-        let powertrain = self.powertrain.take().map(PowertrainEntry::powertrain).transpose()?;
+        let powertrain = self.powertrain.take();
+        let powertrain = powertrain.map(|entry| entry.powertrain("powertrain.")).transpose()?;
         Ok((self.engine()?, powertrain))
     }
 
     /// What is written of an engine for people, and its body on mounts: examples by name.
     fn mounted_of(engine: &Engine, powertrain: Option<&Powertrain>) -> Result<Self> {
         let mut file = Self::of(engine)?;
-        let cycles = mem::take(&mut file.cycles).into_iter();
-        file.cycles = cycles.map(CycleOfFile::by_name).collect::<Result<_>>()?;
+        let cycles = engine.gas().into_iter().flat_map(|gas| &gas.cycles);
+        for (entry, cycle) in file.cycles.iter_mut().zip(cycles) {
+            if let Some(example) = CycleEntry::of_example(cycle)? {
+                *entry = example;
+            }
+        }
         file.powertrain = powertrain.map(PowertrainEntry::of);
         Ok(file)
     }
 
     /// Pressure in the cylinders.
-    fn gas(&self) -> Result<Option<Gas>> {
+    fn gas(&mut self) -> Result<Option<Gas>> {
         if self.cycles.is_empty() {
             let numbered = self.placements.iter().position(|place| place.cycle.is_some());
             return match (numbered, self.crankcase) {
@@ -471,15 +399,18 @@ impl EngineFile {
             let index = place.cycle.map(|number| number.checked_sub(1).ok_or(number)).transpose();
             index.map_err(|number| Error::value(format!("placements[{i}].cycle"), number, hint))
         };
+        let cycles = mem::take(&mut self.cycles).into_iter().enumerate().map(|(k, entry)| {
+            entry.cycle().map_err(|error| error.within(&format!("cycles[{k}].")))
+        });
         Ok(Some(Gas {
-            cycles: self.cycles.iter().map(|of_file| Arc::clone(&of_file.cycle)).collect(),
+            cycles: cycles.collect::<Result<_>>()?,
             cycle_of: self.placements.iter().enumerate().map(cycle).collect::<Result<_>>()?,
             crankcase: self.crankcase.unwrap_or(ATMOSPHERE),
             later: self.placements.iter().map(|place| place.second_turn.unwrap_or(false)).collect(),
         }))
     }
 
-    fn engine(self) -> Result<Engine> {
+    fn engine(mut self) -> Result<Engine> {
         if self.schema != SCHEMA {
             let hint = format!("this version reads schema = {SCHEMA}");
             return Err(Error::value("schema", self.schema, hint));
@@ -530,8 +461,6 @@ impl EngineFile {
         let others = self.cranks.iter().map(|c| Crank { axis: [c.x, c.y], ratio: c.ratio });
         let cranks = std::iter::once(Crank::MAIN).chain(others).collect();
         let crank_of = self.placements.iter().map(|place| place.crank).collect();
-        let shafts = self.shafts.iter().enumerate();
-        let shafts = shafts.map(|(i, shaft)| shaft.shaft(&format!("shafts[{i}]")));
         let turns = self.placements.iter().map(|place| place.second_turn);
         let turns =
             turns.clone().any(|turn| turn.is_some()).then(|| turns.map(Option::unwrap_or_default));
@@ -542,8 +471,8 @@ impl EngineFile {
             .with_cranks(cranks, crank_of)?
             .with_mains(self.mains)?
             .with_reference(self.reference_z)?
-            .with_counterweights(unbalances(&self.counterweights, "counterweights")?)?
-            .with_shafts(shafts.collect::<Result<_>>()?)?
+            .with_counterweights(self.counterweights)?
+            .with_shafts(self.shafts.into_iter().map(Shaft::from).collect())?
             .with_loads(self.loads)
             .and_then(|engine| gas.map_or(Ok(engine.clone()), |gas| engine.with_gas(gas)))
     }
@@ -624,25 +553,30 @@ fn of_toml(text: &str) -> Result<EngineFile> {
 
 /// Engine from JSON, whether or not the file has a body on mounts too.
 pub fn from_json(text: &str) -> Result<Engine> {
-    of_json(objects_checked(text)?)?.engine()
+    of_checked_json(text)?.engine()
 }
 
 /// Engine from JSON, and its body on mounts, if there is one.
 pub fn mounted_from_json(text: &str) -> Result<(Engine, Option<Powertrain>)> {
-    of_json(objects_checked(text)?)?.mounted()
+    of_checked_json(text)?.mounted()
 }
 
-/// A text whose objects are objects.
-fn objects_checked(text: &str) -> Result<&str> {
+/// A file whose tables are objects.
+fn of_checked_json(text: &str) -> Result<EngineFile> {
     let text = readable("JSON", text)?;
-    let value = serde_json::from_str(text).map_err(|e| unreadable("JSON", &e))?;
-    check_tables(&value, "the file")?;
-    Ok(text)
+    let file = of_json(text)?;
+    let value = |found: serde_json::Result<_>| found.map_err(|e| unreadable("JSON", &e));
+    check_tables(
+        &value(serde_json::from_str(text))?,
+        &value(serde_json::to_value(&file))?,
+        "the file",
+    )?;
+    Ok(file)
 }
 
 /// A message of serde's with JSON's words for types, and not too long.
 fn plain(message: &str) -> String {
-    const WORDS: [(&str, &str); 7] = [
+    const TYPE_WORDS: [(&str, &str); 7] = [
         ("expected f64", "expected a number"),
         ("expected i32", "expected a whole number"),
         ("expected u32", "expected a whole number"),
@@ -652,7 +586,16 @@ fn plain(message: &str) -> String {
         ("type: map", "type: table"),
     ];
     let all = |text: String, (from, to): &(&str, &str)| text.replace(from, to);
-    shorten(&WORDS.iter().fold(message.to_owned(), all))
+    let message = match message.split_once("expected struct ") {
+        None => message.to_owned(),
+        // Names of types are no words of files: "struct EngineFile with 17 elements".
+        Some((before, rest)) => {
+            let rest = rest.trim_start_matches(char::is_alphabetic);
+            let rest = rest.split_once(" elements").map_or(rest, |(_, rest)| rest);
+            format!("{before}expected a table{rest}")
+        }
+    };
+    shorten(&TYPE_WORDS.iter().fold(message, all))
 }
 
 /// What is wrong with a value that begins as a number does: 0,1485 or 86mm.
@@ -680,61 +623,26 @@ fn readable<'t>(format: &'static str, text: &'t str) -> Result<&'t str> {
     Err(Error::File { format, reason })
 }
 
-/// Rejects arrays in place of objects, which serde would read by position.
-fn check_tables(value: &serde_json::Value, place: &str) -> Result<()> {
-    const LISTS: [&str; 9] = [
-        "cranks",
-        "placements",
-        "counterweights",
-        "shafts",
-        "unbalances",
-        "loads",
-        "cycles",
-        "mounts",
-        "receivers",
-    ];
-    const LISTS_OF_NUMBERS: [&str; 19] = [
-        "mains",
-        "theta_deg",
-        "pressure",
-        "cg",
-        "inertia",
-        "at",
-        "axes",
-        "stiffness",
-        "dynamic_stiffness",
-        "loss_factor",
-        "damping",
-        "frequency",
-        "real",
-        "imaginary",
-        "coordinates",
-        "force",
-        "torque",
-        "table",
-        "axis",
-    ];
-    let Some(table) = value.as_object() else {
-        let reason = format!("{place}: give an object, {{ }}");
-        return Err(Error::File { format: "JSON", reason });
-    };
-    for (key, value) in table {
-        if value.is_object() {
-            check_tables(value, key)?;
+/// Rejects arrays in place of objects, which serde reads by position: what is written again has objects there.
+fn check_tables(read: &serde_json::Value, written: &serde_json::Value, place: &str) -> Result<()> {
+    use serde_json::Value::{Array, Object};
+    match (read, written) {
+        (Object(read), Object(written)) => {
+            let both = read.iter().filter_map(|(key, value)| Some((key, value, written.get(key)?)));
+            both.into_iter().try_for_each(|(key, value, again)| check_tables(value, again, key))
         }
-        let Some(list) = value.as_array() else { continue };
-        if LISTS_OF_NUMBERS.contains(&key.as_str()) {
-            continue;
+        (Array(read), Array(written)) => {
+            let mut items = read.iter().zip(written).enumerate();
+            items.try_for_each(|(i, (value, again))| {
+                check_tables(value, again, &format!("{place}[{i}]"))
+            })
         }
-        if !LISTS.contains(&key.as_str()) {
-            let reason = format!("{}: an array is not allowed here", shorten(key));
-            return Err(Error::File { format: "JSON", reason });
+        (Array(_), Object(_)) => {
+            let reason = format!("{}: give an object, {{ }}", shorten(place));
+            Err(Error::File { format: "JSON", reason })
         }
-        for (i, item) in list.iter().enumerate() {
-            check_tables(item, &format!("{key}[{i}]"))?;
-        }
+        _ => Ok(()),
     }
-    Ok(())
 }
 
 fn unreadable(format: &'static str, error: &dyn std::error::Error) -> Error {
@@ -744,7 +652,7 @@ fn unreadable(format: &'static str, error: &dyn std::error::Error) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::Hold;
+    use crate::engine::{CrankIndex, Hold};
     use crate::numbers::limits;
     use proptest::prelude::*;
 
@@ -800,8 +708,7 @@ mod tests {
                 let other = Crank { axis: [0.25, -0.125], ratio: SpeedRatio::whole(-1) };
                 let crank_of = (0..engine.stations().len()).map(|i| i % 2).collect();
                 let engine = engine.with_cranks(vec![Crank::MAIN, other], crank_of).unwrap();
-                let engine =
-                    engine.with_mains(engine.bearings(crate::engine::CrankIndex::MAIN)).unwrap();
+                let engine = engine.with_mains(engine.bearings(CrankIndex::MAIN)).unwrap();
                 engine.with_counterweights(weights).unwrap().with_shafts(shafts).unwrap()
             },
         )
@@ -921,8 +828,8 @@ mod tests {
     fn bodies_on_mounts_read_back_as_equal_ones() {
         use crate::Complex64;
         use crate::mounts::{
-            InertiaTrack, Mount, MountFigures, Orientation, Products, Receiver, Receptance,
-            RigidBody, Support, Table,
+            InertiaTrack, Mount, MountFigures, Products, Receiver, Receptance, RigidBody, Support,
+            Table,
         };
         let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
         let (tdc, bank) = (Angle::ZERO, Angle::QUARTER_TURN);
@@ -939,7 +846,7 @@ mod tests {
             plain.clone(),
             MountFigures {
                 name: "b".into(),
-                orientation: Orientation::Axes(axes),
+                axes: Some(axes),
                 dynamic_stiffness: Some([2e5; 3]),
                 loss_factor: [0.1, 0.2, 0.3],
                 damping: [1.0; 3],
@@ -948,7 +855,7 @@ mod tests {
             },
             MountFigures {
                 name: "c".into(),
-                orientation: Orientation::Tilt(45.0),
+                tilt_deg: 45.0,
                 table: Some(Table { frequency: vec![0.0, 50.0], stiffness }),
                 ..plain
             },
@@ -1009,7 +916,7 @@ mod tests {
             bare.firing_as("", strokes).unwrap().with_gas(gas).unwrap()
         };
         let all = |kind| [Strokes::Four, Strokes::Two].map(|strokes| (kind, strokes));
-        for (kind, strokes) in Kind::ALL.into_iter().flat_map(all) {
+        for (kind, strokes) in ExampleKind::ALL.into_iter().flat_map(all) {
             let example = Cycle::clone(&full_load(kind, strokes).unwrap());
             let mut points = example.given().clone();
             points.pressure[3] = points.pressure[3].next_up();
@@ -1026,7 +933,7 @@ mod tests {
                 assert_eq!(from_state(&to_state(&engine).unwrap()).unwrap(), engine);
             }
         }
-        let example = Cycle::clone(&full_load(Kind::Diesel, Strokes::Four).unwrap());
+        let example = Cycle::clone(&full_load(ExampleKind::Diesel, Strokes::Four).unwrap());
         let text = to_toml(&fired(example)).unwrap();
         let error =
             |from: &str, to: &str| from_toml(&text.replacen(from, to, 1)).unwrap_err().to_string();
@@ -1086,6 +993,52 @@ mod tests {
             "7".to_owned(),
         ] {
             assert!(matches!(from_json(&bad), Err(Error::File { .. })), "{bad}");
+        }
+    }
+
+    #[test]
+    fn no_table_of_json_is_read_by_position() {
+        let weight = r#"{"amount": 0.1, "angle_deg": 0, "z": 0}"#;
+        let body = r#"{"mass": 90, "cg": [0, 0, 0], "inertia": [[3, 0, 0], [0, 2, 0], [0, 0, 2]]}"#;
+        let mounts = r#"[{"name": "a", "at": [0, 0, 0], "stiffness": [1e5, 1e5, 1e5],
+            "track": {"stiffness": 1e5, "frequency": 9, "damping_ratio": 0.2}}, {"name": "b",
+            "at": [0, 0, 1], "stiffness": [1e5, 1e5, 1e5], "table": {"frequency": [1, 2],
+            "real": [[1, 1, 1], [1, 1, 1]], "imaginary": [[0, 0, 0], [0, 0, 0]]}}]"#;
+        let receptance = r#"{"coordinates": [["a", "x"]], "frequency": [1, 2], "real": [[[1]], [[1]]],
+            "imaginary": [[[0]], [[0]]], "receivers": [{"name": "seat", "real": [[[1, 0, 0]], [[1, 0, 0]]],
+            "imaginary": [[[0, 0, 0]], [[0, 0, 0]]]}]}"#;
+        let subframe = format!(r#"{{"body": {body}, "mounts": {mounts}}}"#);
+        for (support, of) in [("subframe", subframe.as_str()), ("receptance", receptance)] {
+            let text = format!(
+                r#"{{"schema": 1, "cylinder": {{"crank_radius": 0.05, "rod_length": 0.15,
+                "reciprocating_mass": 0.5, "pin_offset": 0, "bore": 0.08, "piston_mass": 0.3, "rod":
+                {{"mass": 0.5, "inertia": 1e-3, "to_crankpin": 0.04}}}}, "placements": [{{"tdc_deg": 0,
+                "bank_deg": 90, "z": 0, "cycle": 1}}], "counterweights": [{weight}], "shafts":
+                [{{"ratio": -1, "x": 0, "y": 0, "unbalances": [{weight}]}}], "cranks": [{{"x": 0.1, "y": 0,
+                "ratio": -1}}], "loads": [{{"name": "pump", "on": "shaft", "torque": [[1, 2, 3]],
+                "over_speed": {{"speed_squared": 1000}}}}], "cycles": [{{"example": "petrol"}}],
+                "powertrain": {{"body": {body}, "mounts": {mounts}, "{support}": {of}}}}}"#
+            );
+            mounted_from_json(&text).unwrap();
+            let whole: serde_json::Value = serde_json::from_str(&text).unwrap();
+            let mut places = vec![String::new()];
+            while let Some(place) = places.pop() {
+                let mut changed = whole.clone();
+                let value = changed.pointer_mut(&place).unwrap();
+                let inside = match value {
+                    serde_json::Value::Object(table) => table.keys().cloned().collect(),
+                    serde_json::Value::Array(list) => {
+                        (0..list.len()).map(|k| k.to_string()).collect()
+                    }
+                    _ => Vec::new(),
+                };
+                places.extend(inside.iter().map(|key| format!("{place}/{key}")));
+                let Some(table) = value.as_object() else { continue };
+                *value = table.values().cloned().collect::<Vec<_>>().into();
+                let error = mounted_from_json(&changed.to_string());
+                assert!(matches!(error, Err(Error::File { .. })), "{place}: {error:?}");
+                assert!(!error.unwrap_err().to_string().contains("struct"));
+            }
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::layout::{MOST_ROUNDING, Strokes};
+use super::layout::Strokes;
 use super::{CrankIndex, Engine, check_each_cylinder};
 use crate::Complex64;
 use crate::mechanism::slider_crank::piston_area;
@@ -72,15 +72,14 @@ impl Engine {
     #[must_use]
     pub fn facing_pistons(&self) -> Vec<[usize; 2]> {
         /// Distances below this part of that between two axes are rounding.
-        const ROUNDING: f64 = 1e-9;
+        const PLACE_ROUNDING: f64 = 1e-9;
         let facing = |one: usize, other: usize| {
             let [a, b] = [one, other].map(|i| &self.stations[i]);
             let [from, to] = [one, other].map(|i| self.cranks[self.crank_of[i]].axis);
             let apart = Complex64::new(to[0] - from[0], to[1] - from[1]);
             let along = apart * a.bank.cis(-1);
-            let turned = (b.bank - a.bank - Angle::HALF_TURN).reduced().degrees();
-            let is_opposite = turned.min(360.0 - turned) <= MOST_ROUNDING;
-            let is_beside = (a.z - b.z).abs().max(along.im.abs()) > ROUNDING * apart.norm();
+            let is_opposite = b.bank.is_direction_of(a.bank + Angle::HALF_TURN);
+            let is_beside = (a.z - b.z).abs().max(along.im.abs()) > PLACE_ROUNDING * apart.norm();
             is_opposite && !is_beside && along.re > 0.0 && self.fires(one) && self.fires(other)
         };
         let cylinders = self.stations.len();

@@ -3,14 +3,10 @@
 pub use super::firing_order::FiringOrder;
 use super::{Engine, Station, bank_angle_in_range, check_each_cylinder, check_number};
 use crate::mechanism::slider_crank::Cylinder;
-use crate::numbers::angle::Angle;
+use crate::numbers::angle::{Angle, MOST_ROUNDING};
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 pub use crate::pressure::Strokes;
-
-/// What rounding may leave of a difference of angles that are no parts of a turn, degrees: up to a
-/// thousand additions below 1024°, each rounded to 1.1e-13 at most.
-pub const MOST_ROUNDING: f64 = 1e-9;
 
 /// A bank of a vee, seen from the flywheel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -18,8 +18,8 @@ pub mod warnings;
 
 use serde::{Deserialize, Serialize};
 
-use self::banks::right_bank;
 pub use self::banks::{Banks, Hold, bank_angle_in_range};
+use self::banks::{banks_of_directions, right_bank};
 pub use self::gas::Gas;
 use self::layout::Strokes;
 pub use self::periodic::{ActsOn, Amplitudes, OverSpeed, PeriodicLoad};
@@ -35,6 +35,7 @@ use crate::numbers::limits;
 
 list_index! {
     /// Index of a crank, the main one first.
+    #[derive(Serialize, Deserialize)]
     pub CrankIndex
 }
 
@@ -164,14 +165,7 @@ impl Engine {
         source: impl Into<String>,
         stations: Vec<Station>,
     ) -> Result<Self> {
-        let (_, mut banks) = distinct::<usize, _>(stations.iter().map(|p| p.bank.reduced()));
-        // Of opposite bores those nearer to +x are the right bank: a flat engine's at 0°.
-        if let Some(first) = stations.first()
-            && stations.iter().any(|p| p.bank.reduced().degrees() < first.bank.reduced().degrees())
-        {
-            let last = banks.iter().copied().max().unwrap_or(0);
-            banks = banks.into_iter().map(|bank| last - bank).collect();
-        }
+        let banks = banks_of_directions(&stations);
         Self::in_banks(name, source, stations, &banks)
     }
 
@@ -414,6 +408,12 @@ impl Engine {
     pub(crate) fn ends(&self) -> [f64; 2] {
         let z = || self.stations.iter().map(|place| place.z);
         [z().fold(f64::INFINITY, f64::min), z().fold(f64::NEG_INFINITY, f64::max)]
+    }
+
+    /// Largest distance of a cylinder or another place from the reference plane, m.
+    pub(crate) fn longest_lever(&self, others: impl Iterator<Item = f64>) -> Result<f64> {
+        let (reference, ends) = (self.reference(None)?, self.ends());
+        Ok(others.chain(ends).map(|z| (z - reference).abs()).fold(0.0, f64::max))
     }
 
     /// Reference plane of moments, where it is not the middle, m.

@@ -42,7 +42,7 @@ impl Engine {
             bank.sort_by(|&a, &b| self.stations[a].z.total_cmp(&self.stations[b].z));
         }
         let mut throws = banks[0].iter().zip(&banks[1]);
-        throws.any(|(&one, &other)| (self.pin(one) - self.pin(other)).reduced().degrees() != 0.0)
+        throws.any(|(&one, &other)| !self.pin(one).is_direction_of(self.pin(other)))
     }
 }
 

@@ -8,7 +8,8 @@ use super::{Crank, CrankIndex, Engine};
 use crate::Complex64;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
-use crate::numbers::index::ListIndex;
+use crate::numbers::index::{ListIndex, number_from_one};
+use crate::numbers::is_default;
 use crate::numbers::limits;
 use crate::numbers::ratio::SpeedRatio;
 use crate::numbers::typed::{Field, Form};
@@ -133,10 +134,10 @@ pub struct PeriodicLoad {
     #[serde(default, skip_serializing_if = "is_default")]
     pub over_speed: OverSpeed,
     /// Crank angle at which its own angle is 0, of the two turns of a cycle.
-    #[serde(default = "zero_angle", skip_serializing_if = "is_zero_angle")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub phase_deg: Angle,
     /// Direction of the force, from +x; of one that turns when the crank stands at the phase.
-    #[serde(default = "zero_angle", skip_serializing_if = "is_zero_angle")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub direction_deg: Angle,
     /// Whether the direction turns with its shaft.
     #[serde(default, skip_serializing_if = "is_default")]
@@ -157,39 +158,6 @@ pub struct PeriodicLoad {
     /// files its number, from 1.
     #[serde(default, skip_serializing_if = "is_default", with = "number_from_one")]
     pub cylinder: Option<usize>,
-}
-
-/// Indices as people number cylinders.
-mod number_from_one {
-    use serde::de::Error;
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    #[expect(clippy::ref_option, reason = "as serde calls it")]
-    pub fn serialize<S: Serializer>(index: &Option<usize>, to: S) -> Result<S::Ok, S::Error> {
-        index.map(|index| index + 1).serialize(to)
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<usize>, D::Error> {
-        let number = Option::<usize>::deserialize(from)?;
-        let index = number.map(|number| {
-            number
-                .checked_sub(1)
-                .ok_or_else(|| D::Error::custom("give a cylinder's number, from 1"))
-        });
-        index.transpose()
-    }
-}
-
-fn is_default<T: Default + PartialEq>(value: &T) -> bool {
-    *value == T::default()
-}
-
-fn zero_angle() -> Angle {
-    Angle::ZERO
-}
-
-fn is_zero_angle(angle: &Angle) -> bool {
-    *angle == Angle::ZERO
 }
 
 impl PeriodicLoad {
@@ -266,7 +234,7 @@ impl PeriodicLoad {
         }
         if let Some(cylinder) = self.cylinder.filter(|&i| i >= engine.stations().len()) {
             let hint = format!("give the number of a cylinder, 1 to {}", engine.stations().len());
-            return Err(Error::value(format!("{place}cylinder"), cylinder.saturating_add(1), hint));
+            return Err(Error::value(format!("{place}cylinder"), cylinder.wrapping_add(1), hint));
         }
         Ok(())
     }

@@ -1,26 +1,34 @@
 //! What rotates: shafts at a fixed ratio to the crankshaft, and the unbalances that they carry.
 
+use serde::{Deserialize, Serialize};
+
 use super::CrankIndex;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
-use crate::numbers::index::ListIndex;
+use crate::numbers::index::{ListIndex, number_from_one};
+use crate::numbers::is_default;
 use crate::numbers::limits;
 use crate::numbers::ratio::SpeedRatio;
 
 /// Mass times eccentricity on a shaft (unbalance, ISO 21940).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Unbalance {
     /// Mass × distance from the axis, kg·m.
     pub amount: f64,
     /// Direction at θ = 0: from +x, or with `pin` from the direction of that crankpin, in the
     /// direction in which the crank turns.
+    #[serde(rename = "angle_deg")]
     pub angle: Angle,
     /// Place along the crank, from the front, m.
     pub z: f64,
-    /// Index of the cylinder whose crankpin it follows where pins move (a bob weight on a pin).
+    /// Index of the cylinder whose crankpin it follows where pins move (a bob weight on a pin); in files its
+    /// number, from 1.
+    #[serde(default, skip_serializing_if = "is_default", with = "number_from_one")]
     pub pin: Option<usize>,
     /// Index of the crank that carries it, 0 for the main one; 0 with `pin`, whose crank it is on, and on
     /// balance shafts.
+    #[serde(default, skip_serializing_if = "is_default")]
     pub crank: CrankIndex,
 }
 
@@ -116,7 +124,7 @@ impl Unbalance {
             && pin >= cylinders
         {
             let hint = format!("give a cylinder's number, 1 to {cylinders}");
-            return Err(Error::value(format!("{place}.pin"), pin + 1, hint));
+            return Err(Error::value(format!("{place}.pin"), pin.wrapping_add(1), hint));
         }
         self.angle = self.angle.reduced();
         Ok(self)
@@ -133,7 +141,7 @@ impl Shaft {
             let place = format!("{place}.unbalances[{i}]");
             if let Some(pin) = unbalance.pin {
                 let hint = "leave it out: only the crankshaft has crankpins";
-                return Err(Error::value(format!("{place}.pin"), pin + 1, hint));
+                return Err(Error::value(format!("{place}.pin"), pin.wrapping_add(1), hint));
             }
             if unbalance.crank != CrankIndex::MAIN {
                 let hint = "leave it out: the shaft carries it";

@@ -13,7 +13,7 @@ use crate::numbers::error::{Error, Result, shorten};
 use crate::numbers::memory;
 
 /// Most cylinders of which all orders are listed: a V16 has 2¹⁵ choices of turns.
-pub const MOST_LISTED: usize = 16;
+pub const MOST_CYLINDERS_LISTED: usize = 16;
 /// Orders that an error lists.
 const EXAMPLES: usize = 3;
 
@@ -164,9 +164,9 @@ impl Firing {
         let count = others.len() + 1;
         if !can_list(count, strokes) {
             let hint = format!(
-                "all firing orders are listed for up to {MOST_LISTED} cylinders, 2 to the power of {}; \
+                "all firing orders are listed for up to {MOST_CYLINDERS_LISTED} cylinders, 2 to the power of {}; \
                  name an order in place of it",
-                MOST_LISTED - 1
+                MOST_CYLINDERS_LISTED - 1
             );
             return Err(Error::value("number of cylinders", count, hint));
         }
@@ -187,7 +187,7 @@ impl Firing {
 
 /// True if every schedule can be listed.
 fn can_list(cylinders: usize, strokes: Strokes) -> bool {
-    strokes == Strokes::Two || cylinders <= MOST_LISTED
+    strokes == Strokes::Two || cylinders <= MOST_CYLINDERS_LISTED
 }
 
 fn most_even_first(firings: &mut [Firing]) {
@@ -315,7 +315,7 @@ mod tests {
         assert!(Firing::with_later(&engine, Strokes::Four, &[true, false, false, false]).is_err());
         assert!(Firing::with_later(&engine, Strokes::Four, &[false; 3]).is_err());
         assert_eq!(Firing::all(&engine, Strokes::Two, &Cancel::new()).unwrap().len(), 1);
-        let many = placed(&vec![(cylinder(0.0), 0.0, 90.0); MOST_LISTED + 1]);
+        let many = placed(&vec![(cylinder(0.0), 0.0, 90.0); MOST_CYLINDERS_LISTED + 1]);
         assert!(Firing::all(&many, Strokes::Four, &Cancel::new()).is_err());
         assert!(Firing::all(&many, Strokes::Two, &Cancel::new()).is_ok());
     }

@@ -3,8 +3,8 @@
 use super::highest_points::{same, top_to_bottom};
 use super::schedule::Firing;
 use crate::engine::Station;
-use crate::layout::{MOST_ROUNDING, Strokes};
-use crate::numbers::angle::Angle;
+use crate::layout::Strokes;
+use crate::numbers::angle::{Angle, MOST_ROUNDING};
 use crate::numbers::error::{Error, Result};
 
 /// Two cylinders whose exhaust valves, or ports, are open at one time.

@@ -2,8 +2,7 @@
 
 use super::schedule::firing;
 use crate::engine::{Engine, Station};
-use crate::layout::MOST_ROUNDING;
-use crate::numbers::angle::Angle;
+use crate::numbers::angle::{Angle, MOST_ROUNDING};
 use crate::numbers::error::Result;
 
 /// Crank angles at which pistons are highest, after the first one's, within a turn.

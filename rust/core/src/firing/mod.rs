@@ -6,7 +6,7 @@
 //! counted from the first cylinder's firing, so that they do not depend on where θ is zero.
 //!
 //! Angles that are parts of a turn are exact, and so is what is reported as even or simultaneous;
-//! others are distinguished when they differ by more than [`crate::layout::MOST_ROUNDING`].
+//! others are distinguished when they differ by more than [`crate::numbers::angle::MOST_ROUNDING`].
 //!
 //! Imports run downwards: `highest_points` → [`schedule`] → [`choices`], [`intervals`],
 //! [`gas_exchange`]; [`pins`] is independent.
@@ -21,7 +21,7 @@ pub mod schedule;
 #[cfg(test)]
 mod tests;
 
-pub use choices::MOST_LISTED;
+pub use choices::MOST_CYLINDERS_LISTED;
 pub use gas_exchange::{Overlap, Period, Periods, Timing};
 pub use intervals::Gap;
 pub use pins::{Throws, inline_throws, vee_throws};

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use super::highest_points::{degrees, highest_after_tdc, highest_points, same};
 use crate::engine::{Engine, Station};
-use crate::layout::{MOST_ROUNDING, Strokes};
-use crate::numbers::angle::Angle;
+use crate::layout::Strokes;
+use crate::numbers::angle::{Angle, MOST_ROUNDING};
 use crate::numbers::error::{Error, Result};
 
 /// A schedule by which an engine fires: cylinders by index from 0.

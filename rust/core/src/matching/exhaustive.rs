@@ -6,7 +6,7 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::{KINDS, Matching, Partition};
+use super::{KINDS_OF_PARTS, Matching, Partition};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::{memory, pool};
@@ -158,7 +158,7 @@ impl Matching {
         {
             return Ok(None);
         }
-        let mut unused = [0; KINDS];
+        let mut unused = [0; KINDS_OF_PARTS];
         for (mask, kind) in unused.iter_mut().zip(&self.kinds) {
             *mask = (1 << kind.parts) - 1;
         }
@@ -235,7 +235,7 @@ impl Arrangements {
 }
 
 /// Parts of each kind as bits.
-type Masks = [u32; KINDS];
+type Masks = [u32; KINDS_OF_PARTS];
 
 /// Partitions of parts into sets, by dynamic programming over the parts that are left.
 struct Partitions<'a> {

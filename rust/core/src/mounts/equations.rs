@@ -43,7 +43,7 @@ pub(crate) struct Numbers<S: Simd> {
 /// that many roundings.
 const LARGEST_VECTORS: f64 = 12.0;
 /// Rounds of rotations for complex modes, each of which about squares what is left; two or three suffice.
-const MOST_ROUNDS: usize = 12;
+const MOST_ROTATIONS: usize = 12;
 /// Difference of a Schur form's product from the matrix, over that, that rounding makes.
 const RECOMPOSED: f64 = 1e-13;
 /// Steps of its iteration; a dozen suffice.
@@ -60,14 +60,14 @@ const ENTRIES: usize = 21;
 
 /// Equations of motion of a powertrain on mounts that stand on what does not move.
 pub(crate) struct Equations {
-    form: Form,
+    form: EquationForm,
     /// From a load about the CG to that of the form.
     pub to: ComplexMatrix6,
     /// From the form's solution to the motion.
     pub from: ComplexMatrix6,
 }
 
-enum Form {
+enum EquationForm {
     /// Complex eigenvalues, and the norm of them.
     Modes([[f64; 2]; 6], f64),
     /// Upper triangle of the Schur form.
@@ -136,7 +136,10 @@ impl Equations {
                 if is_near(matrix.norm(), least)
                     && let Some((values, vectors)) = complex_modes(&matrix)
                 {
-                    let form = Form::Modes(values.map(|value| [value.re, value.im]), matrix.norm());
+                    let form = EquationForm::Modes(
+                        values.map(|value| [value.re, value.im]),
+                        matrix.norm(),
+                    );
                     let from = natural.shapes.map(Complex64::from) * vectors;
                     return Ok(Self { form, to: from.transpose(), from });
                 }
@@ -145,7 +148,8 @@ impl Equations {
             if let Some((turn, triangle)) = schur(&matrix, least) {
                 let part = |i: usize, j: usize| [triangle[(i, j)].re, triangle[(i, j)].im];
                 let entries = from_fn(|i| from_fn(|j| part(i, j)));
-                let form = Form::Triangle(Box::new(Triangle { entries, size: matrix.norm() }));
+                let form =
+                    EquationForm::Triangle(Box::new(Triangle { entries, size: matrix.norm() }));
                 return Ok(Self {
                     form,
                     to: turn.adjoint() * complex.transpose(),
@@ -153,14 +157,14 @@ impl Equations {
                 });
             }
         }
-        let form = Form::Pencil(Box::new(Pencil::of(powertrain, &unit)));
+        let form = EquationForm::Pencil(Box::new(Pencil::of(powertrain, &unit)));
         Ok(Self { form, to: complex.transpose(), from: complex })
     }
 
     /// Whether they are in Schur form.
     #[cfg(test)]
     pub fn is_triangular(&self) -> bool {
-        matches!(self.form, Form::Triangle(_))
+        matches!(self.form, EquationForm::Triangle(_))
     }
 
     /// Replaces a load in the form's coordinates by the solution at the angular speeds of a vector; false where that
@@ -175,9 +179,9 @@ impl Equations {
         load: &mut [Numbers<S>; 6],
     ) -> S::m64s {
         match &self.form {
-            Form::Modes(values, size) => divided(simd, values, *size, rates, load),
-            Form::Triangle(triangle) => substituted(simd, triangle, rates, load),
-            Form::Pencil(pencil) => factored(simd, pencil, rates, (varying, at), load),
+            EquationForm::Modes(values, size) => divided(simd, values, *size, rates, load),
+            EquationForm::Triangle(triangle) => substituted(simd, triangle, rates, load),
+            EquationForm::Pencil(pencil) => factored(simd, pencil, rates, (varying, at), load),
         }
     }
 
@@ -330,7 +334,7 @@ fn complex_modes(matrix: &ComplexMatrix6) -> Option<([Complex64; 6], ComplexMatr
     let mut turned = *matrix;
     let mut vectors = ComplexMatrix6::identity();
     let negligible = f64::EPSILON * matrix.norm();
-    for _ in 0..MOST_ROUNDS {
+    for _ in 0..MOST_ROTATIONS {
         let mut is_done = true;
         for (q, p) in (0..6).flat_map(|q| (0..q).map(move |p| (q, p))) {
             let between = turned[(p, q)];

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    DIRECTIONS, InertiaTrack, Mount, MountFigures, Orientation, Powertrain, Products, Receiver,
-    Receptance, RigidBody, Support, Table,
+    DIRECTIONS, Mount, MountFigures, Powertrain, Products, Receiver, Receptance, RigidBody,
+    Support, Table,
 };
 use crate::Complex64;
 use crate::numbers::error::{Error, Result};
@@ -14,18 +14,11 @@ use crate::numbers::limits;
 #[serde(deny_unknown_fields)]
 pub(crate) struct PowertrainEntry {
     body: BodyEntry,
-    mounts: Vec<MountEntry>,
+    mounts: Vec<MountFigures>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    subframe: Option<SubframeEntry>,
+    subframe: Option<Box<PowertrainEntry>>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     receptance: Option<ReceptanceEntry>,
-}
-
-#[derive(Serialize, Deserialize, PartialEq)]
-#[serde(deny_unknown_fields)]
-struct SubframeEntry {
-    body: BodyEntry,
-    mounts: Vec<MountEntry>,
 }
 
 #[derive(Serialize, Deserialize, PartialEq)]
@@ -57,38 +50,13 @@ struct BodyEntry {
     products: Option<String>,
 }
 
-#[derive(Serialize, Deserialize, PartialEq)]
+/// Complex numbers as their parts.
+#[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct MountEntry {
-    name: String,
-    at: [f64; 3],
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    tilt_deg: Option<f64>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    axes: Option<[[f64; 3]; 3]>,
-    stiffness: [f64; 3],
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    dynamic_stiffness: Option<[f64; 3]>,
-    #[serde(default, skip_serializing_if = "is_zero")]
-    loss_factor: [f64; 3],
-    #[serde(default, skip_serializing_if = "is_zero")]
-    damping: [f64; 3],
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    track: Option<InertiaTrack>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    table: Option<TableEntry>,
-}
-
-#[derive(Serialize, Deserialize, PartialEq)]
-#[serde(deny_unknown_fields)]
-struct TableEntry {
+pub(super) struct TableEntry {
     frequency: Vec<f64>,
     real: Vec<[f64; 3]>,
     imaginary: Vec<[f64; 3]>,
-}
-
-fn is_zero(values: &[f64; 3]) -> bool {
-    *values == [0.0; 3]
 }
 
 impl Products {
@@ -110,52 +78,44 @@ impl PowertrainEntry {
     pub fn of(powertrain: &Powertrain) -> Self {
         let (subframe, receptance) = match powertrain.support() {
             None => (None, None),
-            Some(Support::Subframe(subframe)) => {
-                let (body, mounts) = (BodyEntry::of(subframe.body()), mount_entries(subframe));
-                (Some(SubframeEntry { body, mounts }), None)
-            }
+            Some(Support::Subframe(subframe)) => (Some(Box::new(Self::of(subframe))), None),
             Some(Support::Receptance(receptance)) => (None, Some(ReceptanceEntry::of(receptance))),
         };
-        let (body, mounts) = (BodyEntry::of(powertrain.body()), mount_entries(powertrain));
-        Self { body, mounts, subframe, receptance }
+        let mounts = powertrain.mounts().iter().map(|mount| mount.figures().clone()).collect();
+        Self { body: BodyEntry::of(powertrain.body()), mounts, subframe, receptance }
     }
 
-    pub fn powertrain(self) -> Result<Powertrain> {
-        let powertrain = on_mounts(self.body, self.mounts, "powertrain.")?;
+    /// The powertrain; `place` is its name in errors, and a point.
+    pub fn powertrain(self, place: &str) -> Result<Powertrain> {
+        let within = |part: &str| {
+            let name = format!("{place}{part}");
+            move |error: Error| error.within(&name)
+        };
+        let BodyEntry { mass, cg, inertia, products } = self.body;
+        let products = products.map(|name| Products::named(&name)).transpose();
+        let body = products.and_then(|products| RigidBody::new(mass, cg, inertia, products));
+        let mounts = self.mounts.into_iter().enumerate();
+        let mounts = mounts
+            .map(|(k, figures)| Mount::new(figures).map_err(within(&format!("mounts[{k}]."))));
+        let body = body.map_err(within("body."))?;
+        let powertrain =
+            Powertrain::new(body, mounts.collect::<Result<_>>()?).map_err(within(""))?;
         let support = match (self.subframe, self.receptance) {
             (None, None) => return Ok(powertrain),
             (Some(_), Some(_)) => {
                 let hint = "is given beside a receptance: leave out one of them";
-                return Err(Error::value("powertrain.subframe", "a table", hint));
+                return Err(Error::value(format!("{place}subframe"), "a table", hint));
             }
-            (Some(SubframeEntry { body, mounts }), None) => {
-                Support::Subframe(Box::new(on_mounts(body, mounts, "powertrain.subframe.")?))
+            (Some(subframe), None) => {
+                let subframe = subframe.powertrain(&format!("{place}subframe."))?;
+                Support::Subframe(Box::new(subframe))
             }
             (None, Some(receptance)) => {
-                let receptance = receptance.receptance();
-                let within = |error: Error| error.within("powertrain.receptance.");
-                Support::Receptance(receptance.map_err(within)?)
+                Support::Receptance(receptance.receptance().map_err(within("receptance."))?)
             }
         };
-        powertrain.on(support).map_err(|error| error.within("powertrain."))
+        powertrain.on(support).map_err(within(""))
     }
-}
-
-fn on_mounts(body: BodyEntry, mounts: Vec<MountEntry>, place: &str) -> Result<Powertrain> {
-    let BodyEntry { mass, cg, inertia, products } = body;
-    let products = products.map(|name| Products::named(&name)).transpose();
-    let body = products.and_then(|products| RigidBody::new(mass, cg, inertia, products));
-    let body = body.map_err(|error| error.within(&format!("{place}body.")))?;
-    let mount = |(k, entry): (usize, MountEntry)| {
-        let mount = entry.figures().and_then(Mount::new);
-        mount.map_err(|error| error.within(&format!("{place}mounts[{k}].")))
-    };
-    let mounts = mounts.into_iter().enumerate().map(mount).collect::<Result<_>>()?;
-    Powertrain::new(body, mounts).map_err(|error| error.within(place))
-}
-
-fn mount_entries(powertrain: &Powertrain) -> Vec<MountEntry> {
-    powertrain.mounts().iter().map(|mount| MountEntry::of(mount.figures())).collect()
 }
 
 impl BodyEntry {
@@ -259,64 +219,23 @@ fn joined_rows<T, U>(
     real.iter().zip(imaginary).map(row).collect()
 }
 
-impl MountEntry {
-    fn of(figures: &MountFigures) -> Self {
-        let (tilt_deg, axes) = match figures.orientation {
-            Orientation::Tilt(0.0) => (None, None),
-            Orientation::Tilt(degrees) => (Some(degrees), None),
-            Orientation::Axes(axes) => (None, Some(axes)),
+impl From<Table> for TableEntry {
+    fn from(Table { frequency, stiffness }: Table) -> Self {
+        let parts = |part: fn(&Complex64) -> f64| {
+            stiffness.iter().map(|along| along.each_ref().map(part)).collect()
         };
-        let table = figures.table.as_ref().map(|table| {
-            let parts = |part: fn(&Complex64) -> f64| {
-                table.stiffness.iter().map(|along| along.each_ref().map(part)).collect()
-            };
-            let frequency = table.frequency.clone();
-            TableEntry { frequency, real: parts(|k| k.re), imaginary: parts(|k| k.im) }
-        });
-        Self {
-            name: figures.name.clone(),
-            at: figures.at,
-            tilt_deg,
-            axes,
-            stiffness: figures.stiffness,
-            dynamic_stiffness: figures.dynamic_stiffness,
-            loss_factor: figures.loss_factor,
-            damping: figures.damping,
-            track: figures.track,
-            table,
-        }
+        Self { frequency, real: parts(|k| k.re), imaginary: parts(|k| k.im) }
     }
+}
 
-    fn figures(self) -> Result<MountFigures> {
-        let orientation = match (self.tilt_deg, self.axes) {
-            (Some(degrees), Some(_)) => {
-                let hint = "is given beside axes: leave out one of them";
-                return Err(Error::figure("tilt_deg", degrees, hint));
-            }
-            (degrees, None) => Orientation::Tilt(degrees.unwrap_or(0.0)),
-            (None, Some(axes)) => Orientation::Axes(axes),
+impl TryFrom<TableEntry> for Table {
+    type Error = Error;
+
+    fn try_from(TableEntry { frequency, real, imaginary }: TableEntry) -> Result<Self> {
+        limits::same_length("imaginary", imaginary.len(), "real", real.len(), "frequency")?;
+        let complex = |(re, im): ([f64; 3], [f64; 3])| {
+            [0, 1, 2].map(|axis| Complex64::new(re[axis], im[axis]))
         };
-        let table = |TableEntry { frequency, real, imaginary }: TableEntry| {
-            let (name, of) = ("table.imaginary", "table.real");
-            limits::same_length(name, imaginary.len(), of, real.len(), "frequency")?;
-            let complex = |(re, im): ([f64; 3], [f64; 3])| {
-                [0, 1, 2].map(|axis| Complex64::new(re[axis], im[axis]))
-            };
-            Ok(Table {
-                frequency,
-                stiffness: real.into_iter().zip(imaginary).map(complex).collect(),
-            })
-        };
-        Ok(MountFigures {
-            name: self.name,
-            at: self.at,
-            orientation,
-            stiffness: self.stiffness,
-            dynamic_stiffness: self.dynamic_stiffness,
-            loss_factor: self.loss_factor,
-            damping: self.damping,
-            track: self.track,
-            table: self.table.map(table).transpose()?,
-        })
+        Ok(Self { frequency, stiffness: real.into_iter().zip(imaginary).map(complex).collect() })
     }
 }

@@ -25,7 +25,7 @@ pub use self::body::{Products, RigidBody};
 pub use self::footprint::support_polygon;
 pub use self::modes::{FreeMotion, Modes, modes};
 pub(crate) use self::modes::{NaturalModes, natural_at};
-pub use self::mount::{Mount, MountFigures, Orientation, motion_of_point};
+pub use self::mount::{Mount, MountFigures, motion_of_point};
 pub use self::robustness::{MountTolerances, Robustness, robustness};
 pub use self::severity::{GRADES, Levels, grade};
 pub use self::static_state::{Static, at_rest};

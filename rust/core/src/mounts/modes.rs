@@ -19,7 +19,7 @@ const EQUAL_FREQUENCIES: f64 = 1e-9;
 /// Singular value over the largest, for each row and column, that rounding makes of zero.
 const RANK_ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Rows reduced at once: those of the triangle, and of some mounts.
-const ROWS: usize = 18;
+const ROWS_REDUCED: usize = 18;
 /// Steps of the complex eigenvalues' iteration; a dozen suffice.
 const MOST_STEPS: usize = 500;
 
@@ -115,9 +115,9 @@ fn triangle<const N: usize>(
     rows: impl Fn(usize) -> SMatrix<f64, 3, N>,
 ) -> SMatrix<f64, N, N> {
     let scale = scale_of((0..mounts).map(|mount| rows(mount).amax()).fold(0.0, f64::max));
-    let mut stacked = SMatrix::<f64, ROWS, N>::zeros();
-    for first in (0..mounts).step_by((ROWS - N) / 3) {
-        for (k, mount) in (first..mounts).take((ROWS - N) / 3).enumerate() {
+    let mut stacked = SMatrix::<f64, ROWS_REDUCED, N>::zeros();
+    for first in (0..mounts).step_by((ROWS_REDUCED - N) / 3) {
+        for (k, mount) in (first..mounts).take((ROWS_REDUCED - N) / 3).enumerate() {
             stacked.fixed_view_mut::<3, N>(N + 3 * k, 0).copy_from(&(rows(mount) / scale));
         }
         reflect(&mut stacked.data.0);
@@ -126,7 +126,7 @@ fn triangle<const N: usize>(
 }
 
 /// Makes columns those of a triangle, by a reflection for each: what is below the diagonal becomes zero.
-fn reflect<const N: usize>(columns: &mut [[f64; ROWS]; N]) {
+fn reflect<const N: usize>(columns: &mut [[f64; ROWS_REDUCED]; N]) {
     for k in 0..N {
         let (own, others) = columns[k..].split_first_mut().expect("one column at least");
         let norm = own[k..].iter().map(|x| x * x).sum::<f64>().sqrt();

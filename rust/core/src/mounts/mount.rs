@@ -1,47 +1,50 @@
 //! A mount: a place, three axes at right angles, stiffness along them at rest and in motion.
 
 use nalgebra::{Matrix3, Matrix3x6, Vector3};
+use serde::{Deserialize, Serialize};
 
 use super::stiffness::{Dynamic, InertiaTrack, Table};
 use crate::Complex64;
 use crate::numbers::angle::{Angle, cis_degrees};
 use crate::numbers::error::{Error, Result};
+use crate::numbers::is_default;
 use crate::numbers::limits;
 
 /// Largest scalar product of two directions at right angles, and error of a length of 1, that typed
 /// digits make; axes are made exact.
 const SKEW_BY_TYPING: f64 = 1e-3;
 
-/// How a mount's axes stand in the engine.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Orientation {
-    /// The first axis is turned from +x towards +y by degrees, the second is a quarter turn ahead of it, and
-    /// the third is along z.
-    Tilt(f64),
-    /// Directions of the first, second and third axis: a row each.
-    Axes([[f64; 3]; 3]),
-}
-
 /// Figures of a mount as they are given.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct MountFigures {
     /// Name.
     pub name: String,
     /// Place of its elastic centre, m.
     pub at: [f64; 3],
-    /// Directions of its axes.
-    pub orientation: Orientation,
+    /// Degrees by which its first axis is turned from +x towards +y; the second is a quarter turn ahead of it, and
+    /// the third is along z.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub tilt_deg: f64,
+    /// Directions of the first, second and third axis, a row each, in place of a tilt.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub axes: Option<[[f64; 3]; 3]>,
     /// Static stiffness along them, N/m.
     pub stiffness: [f64; 3],
     /// Dynamic stiffness; the static one where it is not given.
+    #[serde(default, skip_serializing_if = "is_default")]
     pub dynamic_stiffness: Option<[f64; 3]>,
     /// Imaginary over real part of the dynamic stiffness.
+    #[serde(default, skip_serializing_if = "is_default")]
     pub loss_factor: [f64; 3],
     /// Viscous damping, N·s/m.
+    #[serde(default, skip_serializing_if = "is_default")]
     pub damping: [f64; 3],
     /// Fluid of a hydraulic mount, along the first axis.
+    #[serde(default, skip_serializing_if = "is_default")]
     pub track: Option<InertiaTrack>,
     /// Measured dynamic stiffness, in place of the figures above.
+    #[serde(default, skip_serializing_if = "is_default")]
     pub table: Option<Table>,
 }
 
@@ -53,12 +56,6 @@ pub struct Mount {
     dynamic: Dynamic,
 }
 
-impl Default for Orientation {
-    fn default() -> Self {
-        Self::Tilt(0.0)
-    }
-}
-
 impl Mount {
     /// A mount of these figures.
     pub fn new(figures: MountFigures) -> Result<Self> {
@@ -66,7 +63,7 @@ impl Mount {
         for (name, place) in ["at[0]", "at[1]", "at[2]"].into_iter().zip(figures.at) {
             limits::finite(name, place)?;
         }
-        let axes = figures.orientation.axes()?;
+        let axes = figures.axes()?;
         let names = ["stiffness[0]", "stiffness[1]", "stiffness[2]"];
         for (name, stiffness) in names.into_iter().zip(figures.stiffness) {
             limits::not_negative(name, stiffness)?;
@@ -133,6 +130,20 @@ impl Mount {
 }
 
 impl MountFigures {
+    /// Directions of its axes, a row each.
+    fn axes(&self) -> Result<Matrix3<f64>> {
+        let Some(rows) = &self.axes else {
+            Angle::from_degrees(self.tilt_deg).map_err(|error| error.named("tilt_deg"))?;
+            let Complex64 { re: cos, im: sin } = cis_degrees(self.tilt_deg);
+            return Ok(Matrix3::new(cos, sin, 0.0, -sin, cos, 0.0, 0.0, 0.0, 1.0));
+        };
+        if self.tilt_deg != 0.0 {
+            let hint = "is given beside axes: leave out one of them";
+            return Err(Error::figure("tilt_deg", self.tilt_deg, hint));
+        }
+        orthonormal(rows)
+    }
+
     fn dynamic(&self) -> Result<Dynamic> {
         let Some(table) = &self.table else {
             return Ok(Dynamic::Constant {
@@ -154,20 +165,6 @@ impl MountFigures {
             return Err(Error::value(name, "given beside a table", hint));
         }
         Ok(Dynamic::Table(table.clone()))
-    }
-}
-
-impl Orientation {
-    /// The axes, a row each.
-    fn axes(self) -> Result<Matrix3<f64>> {
-        match self {
-            Self::Axes(rows) => orthonormal(&rows),
-            Self::Tilt(degrees) => {
-                Angle::from_degrees(degrees).map_err(|error| error.named("tilt_deg"))?;
-                let Complex64 { re: cos, im: sin } = cis_degrees(degrees);
-                Ok(Matrix3::new(cos, sin, 0.0, -sin, cos, 0.0, 0.0, 0.0, 1.0))
-            }
-        }
     }
 }
 
@@ -207,7 +204,7 @@ mod tests {
     }
 
     fn along(rows: [[f64; 3]; 3]) -> Result<Mount> {
-        Mount::new(MountFigures { orientation: Orientation::Axes(rows), ..figures() })
+        Mount::new(MountFigures { axes: Some(rows), ..figures() })
     }
 
     #[test]
@@ -221,11 +218,9 @@ mod tests {
         let error = along(axes).unwrap_err().to_string();
         assert!(error.starts_with("axes = ") && error.contains("at right angles"), "{error}");
         assert!(along([[f64::NAN; 3]; 3]).is_err());
-        let orientation = Orientation::Tilt(90.0);
-        let turned = Mount::new(MountFigures { orientation, ..figures() }).unwrap().axes();
+        let turned = Mount::new(MountFigures { tilt_deg: 90.0, ..figures() }).unwrap().axes();
         assert_eq!(turned.row(0).transpose(), Vector3::y());
-        let orientation = Orientation::Tilt(f64::NAN);
-        let error = Mount::new(MountFigures { orientation, ..figures() }).unwrap_err();
+        let error = Mount::new(MountFigures { tilt_deg: f64::NAN, ..figures() }).unwrap_err();
         assert!(error.to_string().starts_with("tilt_deg = NaN"));
     }
 

@@ -105,7 +105,7 @@ fn evaluated<const N: usize>(
 ) -> Result<Robustness> {
     let (_, stiffnesses) = dynamic(powertrain, frequency)?;
     let bodies = bodies_of(powertrain)?;
-    let search = Search::new(&bodies, tolerances, real(&stiffnesses), cancel)?;
+    let search = PuritySearch::new(&bodies, tolerances, real(&stiffnesses), cancel)?;
     let along = &search.along;
     let nominal = natural(&bodies, along);
     let scaled = |sign: f64| -> Vec<[f64; 3]> {
@@ -169,10 +169,10 @@ fn slopes<const N: usize>(powertrain: &Powertrain, modes: &NaturalModes<N>) -> [
 }
 
 /// A purity, and a point: places of the parameters from −1 to 1 between the ends of their tolerances.
-type Point = (f64, Vec<f64>);
+type PurityAt = (f64, Vec<f64>);
 
 /// The search for the least purity of each mode within tolerances of stiffness.
-struct Search<'a, const N: usize> {
+struct PuritySearch<'a, const N: usize> {
     bodies: &'a Bodies<'a, N>,
     /// Stiffness of all mounts.
     along: Vec<[f64; 3]>,
@@ -181,7 +181,7 @@ struct Search<'a, const N: usize> {
     cancel: &'a Cancel,
 }
 
-impl<'a, const N: usize> Search<'a, N> {
+impl<'a, const N: usize> PuritySearch<'a, N> {
     fn new(
         bodies: &'a Bodies<'a, N>,
         tolerances: &MountTolerances,
@@ -284,7 +284,7 @@ impl<'a, const N: usize> Search<'a, N> {
     }
 
     /// The end of searches along all parameters, and along what each round of them moved, from a point.
-    fn descended(&self, mode: usize, start: Point) -> Result<Point> {
+    fn descended(&self, mode: usize, start: PurityAt) -> Result<PurityAt> {
         let count = self.parameters.len();
         let mut best = start;
         for _ in 0..MOST_ROUNDS {
@@ -307,7 +307,7 @@ impl<'a, const N: usize> Search<'a, N> {
 
     /// The least purity found on a line through a point: on a grid, about its minimum there, and where the mode's
     /// frequency is nearest to another's, and modes mix.
-    fn along_line(&self, mode: usize, direction: &[f64], start: Point) -> Point {
+    fn along_line(&self, mode: usize, direction: &[f64], start: PurityAt) -> PurityAt {
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         for (at, along) in start.1.iter().zip(direction).filter(|one| *one.1 != 0.0) {
             let ends = [(-1.0 - at) / along, (1.0 - at) / along];
@@ -372,7 +372,7 @@ fn golden(mut low: f64, mut high: f64, mut value: impl FnMut(f64) -> f64) {
 mod tests {
     use super::*;
     use crate::mounts::tests::{four_mounts, mount, powertrain, random};
-    use crate::mounts::{Mount, MountFigures, Orientation, RigidBody, Support, modes};
+    use crate::mounts::{Mount, MountFigures, RigidBody, Support, modes};
     use crate::numbers::draws;
 
     /// Of each mount its own, none of the first.
@@ -527,7 +527,7 @@ mod tests {
             let mut of = MountTolerances { by_axis, ..none(count) };
             of.stiffness.iter_mut().take(some).for_each(|share| *share = 0.1);
             let along = on_mounts.mounts().iter().map(Mount::static_stiffness).collect();
-            Search::new(&bodies, &of, along, &cancel).map(|search| search.parameters)
+            PuritySearch::new(&bodies, &of, along, &cancel).map(|search| search.parameters)
         };
         assert_eq!(parameters(20, false, 18).unwrap().len(), 18);
         let by_axis = parameters(20, true, 9).unwrap();
@@ -545,11 +545,11 @@ mod tests {
     fn searched<const N: usize, R>(
         bodies: &Bodies<N>,
         tolerances: &MountTolerances,
-        of: impl FnOnce(&Search<N>) -> R,
+        of: impl FnOnce(&PuritySearch<N>) -> R,
     ) -> R {
         let along = bodies.static_stiffnesses();
         let cancel = Cancel::new();
-        of(&Search::new(bodies, tolerances, along, &cancel).unwrap())
+        of(&PuritySearch::new(bodies, tolerances, along, &cancel).unwrap())
     }
 
     /// The corners, and then numbers that are the same on any machine.
@@ -677,10 +677,8 @@ mod tests {
     fn crossing(turn: f64, share: f64) -> (Powertrain, MountTolerances) {
         let moments = [[900.0, 0.0, 0.0], [0.0, 1000.0, 0.0], [0.0, 0.0, 1100.0]];
         let body = RigidBody::new(100.0, [0.0; 3], moments, None).unwrap();
-        let turned = MountFigures {
-            orientation: Orientation::Tilt(turn),
-            ..mount("turned", [0.0; 3], [1e5, 1.53e5, 4e5])
-        };
+        let turned =
+            MountFigures { tilt_deg: turn, ..mount("turned", [0.0; 3], [1e5, 1.53e5, 4e5]) };
         let holds = [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0]];
         let holding = holds.into_iter().enumerate().map(|(k, at)| {
             let stiffness = [0, 1, 2].map(|axis| if at[axis] == 0.0 { 1e5 } else { 0.0 });

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
+use super::file::TableEntry;
 use crate::Complex64;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -21,7 +22,8 @@ pub struct InertiaTrack {
 }
 
 /// Measured stiffness over frequency.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(try_from = "TableEntry", into = "TableEntry")]
 pub struct Table {
     /// Hz, ascending.
     pub frequency: Vec<f64>,

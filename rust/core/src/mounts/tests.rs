@@ -59,7 +59,7 @@ fn four_equal_mounts_have_six_modes_in_closed_form() {
 fn inclined_mounts_have_an_elastic_centre_above_them() {
     let [stiff, soft] = [4e5, 8e4];
     let inclined = |name, x: f64, degrees| MountFigures {
-        orientation: Orientation::Tilt(degrees),
+        tilt_deg: degrees,
         ..mount(name, [x, -0.222_748_08, 0.0], [stiff, soft, soft])
     };
     let pair = [inclined("right", 0.3, 130.0), inclined("left", -0.3, 50.0)];
@@ -138,9 +138,9 @@ fn forces_that_symmetry_forbids_are_zero_and_small_ones_are_not() {
             let mounts = pairs.iter().enumerate().flat_map(|(k, &(at, stiffness, tilt))| {
                 [1.0, -1.0].map(|side| {
                     let place = [side * at[0] + if k == 0 { shift } else { 0.0 }, at[1], at[2]];
-                    let orientation = Orientation::Tilt(90.0 + side * (tilt - 90.0));
+                    let tilt_deg = 90.0 + side * (tilt - 90.0);
                     let name = format!("{k} {side}");
-                    MountFigures { orientation, ..mount(&name, place, stiffness) }
+                    MountFigures { tilt_deg, ..mount(&name, place, stiffness) }
                 })
             });
             powertrain(body, mounts)
@@ -246,9 +246,7 @@ pub fn random(number: &mut impl FnMut() -> f64, damping: bool) -> Powertrain {
         let axes = turn.matrix();
         let mut positive = |scale: f64| [0; 3].map(|_| scale * (1.0 + 0.9 * number()));
         figures.push(MountFigures {
-            orientation: Orientation::Axes(
-                [0, 1, 2].map(|row| [0, 1, 2].map(|column| axes[(row, column)])),
-            ),
+            axes: Some([0, 1, 2].map(|row| [0, 1, 2].map(|column| axes[(row, column)]))),
             loss_factor: if damping { positive(0.2) } else { [0.0; 3] },
             damping: if damping { positive(scale * 50.0) } else { [0.0; 3] },
             stiffness: positive(scale * 1e4),

@@ -29,6 +29,9 @@ const MOST_PARTS_RECOGNISED: f64 = 1000.0;
 const LARGEST_DENOMINATOR: i64 = 1_000_000_000_000_000_000;
 /// Distance in degrees up to which [`Angle::near_miss`] names a simple fraction of a turn.
 const NEAR_MISS: f64 = 1e-5;
+/// What rounding may leave of a difference of angles that are no parts of a turn, degrees: up to a
+/// thousand additions below 1024°, each rounded to 1.1e-13 at most.
+pub const MOST_ROUNDING: f64 = 1e-9;
 /// Largest angle, degrees; beyond it a double no longer resolves a thousandth of a degree.
 pub const LARGEST_ANGLE: f64 = 1e12;
 
@@ -43,17 +46,23 @@ pub const LARGEST_ANGLE: f64 = 1e12;
 /// # Ok::<(), crankpin_core::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Angle(Kind);
+pub struct Angle(AngleForm);
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Kind {
+enum AngleForm {
     /// `numerator / denominator` turns, reduced, 0 < denominator ≤ [`LARGEST_DENOMINATOR`].
     Turns(i64, i64),
     /// Degrees that stand for no fraction: [`Angle::of_double`] gives the same value again.
     Degrees(f64),
 }
 
-use Kind::{Degrees, Turns};
+use AngleForm::{Degrees, Turns};
+
+impl Default for Angle {
+    fn default() -> Self {
+        Self::ZERO
+    }
+}
 
 impl Angle {
     /// Zero.
@@ -130,6 +139,13 @@ impl Angle {
             }
             Degrees(degrees) => degrees,
         }
+    }
+
+    /// Whether two directions are one, but for rounding.
+    #[must_use]
+    pub fn is_direction_of(self, other: Self) -> bool {
+        let turned = (self - other).reduced().degrees();
+        turned.min(360.0 - turned) <= MOST_ROUNDING
     }
 
     /// Reduced modulo one turn, to [0°, 360°).

@@ -28,6 +28,21 @@ impl ListIndex for usize {
     }
 }
 
+/// Indices as people number cylinders. 0 becomes an index that no engine has, and engines say where it stands.
+pub(crate) mod number_from_one {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    #[expect(clippy::ref_option, reason = "as serde calls it")]
+    pub fn serialize<S: Serializer>(index: &Option<usize>, to: S) -> Result<S::Ok, S::Error> {
+        index.map(|index| index.wrapping_add(1)).serialize(to)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<usize>, D::Error> {
+        let number = Option::<usize>::deserialize(from)?;
+        Ok(number.map(|number| number.wrapping_sub(1)))
+    }
+}
+
 /// Declares an index.
 macro_rules! list_index {
     ($(#[$doc:meta])* $visibility:vis $name:ident) => {

@@ -26,6 +26,11 @@ pub mod units;
 /// Crank speed at which ω is 1 rad/s.
 pub const UNIT_RPM: f64 = 30.0 / std::f64::consts::PI;
 
+/// True for what a file may leave out.
+pub(crate) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
 /// Numbers between -1 and 1 that repeat after 2^31 (a linear congruential generator).
 #[cfg(test)]
 pub(crate) fn draws(mut seed: u64) -> impl FnMut() -> f64 {

@@ -7,7 +7,7 @@ use crate::numbers::error::{Error, Result};
 use crate::numbers::units;
 
 /// Digits behind a comma up to which two numbers are one: `88,9` is no list, `100,200` may be.
-const MOST_DECIMALS: usize = 2;
+const MOST_COMMA_DIGITS: usize = 2;
 /// Digits of a group of thousands.
 const GROUP: usize = 3;
 /// Most numbers in a range or list.
@@ -122,7 +122,7 @@ impl Field<'_> {
             return Ok(None);
         }
         let zeros = unsigned.trim_start_matches('0').is_empty();
-        if decimals.len() > MOST_DECIMALS && !zeros && !decimals.starts_with('0') {
+        if decimals.len() > MOST_COMMA_DIGITS && !zeros && !decimals.starts_with('0') {
             let hint = format!(
                 "is one number or two: write {whole}.{decimals}{behind}, or {whole}{behind} or {decimals}{behind}"
             );
@@ -171,7 +171,7 @@ impl Field<'_> {
         if is_zero || joined != text || !self.is_measure() {
             return Ok(None);
         }
-        if decimals.len() > MOST_DECIMALS {
+        if decimals.len() > MOST_COMMA_DIGITS {
             let gap = &last[decimals.len()..];
             let hint =
                 format!("write {first}.{last}, or the unit behind both: {first}{gap},{last}");

@@ -9,7 +9,7 @@ pub type Dimension = [i32; KINDS + 2];
 
 /// A unit with a symbol of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Symbol {
+pub struct UnitSymbol {
     /// What it is written as.
     pub name: &'static str,
     /// Place of its kind: 0 of mass, 1 of length, 2 of force, 3 of pressure.
@@ -24,12 +24,12 @@ const fn symbol_of(
     number: i128,
     power: i32,
     below: i128,
-) -> Symbol {
-    Symbol { name, kind, factor: Exact { number, power, below } }
+) -> UnitSymbol {
+    UnitSymbol { name, kind, factor: Exact { number, power, below } }
 }
 
 /// Every symbol; of equal letters in another case the first is meant.
-pub const SYMBOLS: [Symbol; 24] = [
+pub const SYMBOLS: [UnitSymbol; 24] = [
     symbol_of("kg", 0, 1, 0, 1),
     symbol_of("g", 0, 1, -3, 1),
     symbol_of("mg", 0, 1, -6, 1),
@@ -97,7 +97,7 @@ pub const ALIASES: [(&str, &str); 36] = [
 ];
 
 /// Units that are no product of symbols: of angles, of speed, of ratios (empty) and of counts.
-const OTHERS: [(&str, &[(&str, Exact)]); 4] = [
+const NAMED_UNITS: [(&str, &[(&str, Exact)]); 4] = [
     ("°", &[("°", Exact::ONE), ("deg", Exact::ONE), ("º", Exact::ONE), ("degrees", Exact::ONE)]),
     ("rpm", &[("rpm", Exact::ONE), ("/min", Exact::ONE), ("1/min", Exact::ONE)]),
     ("", &[("%", Exact { number: 1, power: -2, below: 1 })]),
@@ -119,7 +119,7 @@ const HINTS: [(&str, &str); 9] = [
 
 /// The symbol that a word stands for, whatever its case.
 #[must_use]
-pub fn symbol(word: &str) -> Option<&'static Symbol> {
+pub fn symbol(word: &str) -> Option<&'static UnitSymbol> {
     let named = |name: &str| SYMBOLS.iter().find(|symbol| symbol.name == name);
     let alias = |word: &str| ALIASES.iter().find(|(alias, _)| *alias == word).map(|pair| pair.1);
     let lower = word.to_ascii_lowercase();
@@ -204,7 +204,7 @@ pub fn factor_of(unit: &str, dimension: Dimension) -> Option<Exact> {
 /// among these; None if it is no unit of that kind.
 #[must_use]
 pub fn typed(word: &str, unit: &str) -> Option<Exact> {
-    if let Some((_, words)) = OTHERS.iter().find(|(name, _)| *name == unit) {
+    if let Some((_, words)) = NAMED_UNITS.iter().find(|(name, _)| *name == unit) {
         let lower = word.to_ascii_lowercase();
         return words.iter().find(|(name, _)| *name == lower).map(|(_, factor)| *factor);
     }
@@ -221,7 +221,7 @@ pub fn hint(unit: &str) -> Option<&'static str> {
 /// The unit that was meant by a word that is none of its kind; None where nothing is near.
 #[must_use]
 pub fn meant(word: &str, unit: &str) -> Option<String> {
-    if let Some((_, words)) = OTHERS.iter().find(|(name, _)| *name == unit) {
+    if let Some((_, words)) = NAMED_UNITS.iter().find(|(name, _)| *name == unit) {
         let words = words.iter().map(|(name, _)| *name);
         return near(word, words).into_iter().next().map(str::to_owned);
     }

@@ -21,14 +21,14 @@ const LEAST_CHARGE: f64 = 0.01;
 
 /// Which engine it is like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum ExampleKind {
     /// A naturally aspirated one, at full load and 3000 rpm.
     Petrol,
     /// A turbocharged one, at 2000 rpm.
     Diesel,
 }
 
-impl Kind {
+impl ExampleKind {
     /// All of them.
     pub const ALL: [Self; 2] = [Self::Petrol, Self::Diesel];
 
@@ -151,14 +151,14 @@ impl Example {
     /// ```
     /// use crankpin_core::Cancel;
     /// use crankpin_core::layout::Strokes;
-    /// use crankpin_core::pressure::example::{Example, Kind};
+    /// use crankpin_core::pressure::example::{Example, ExampleKind};
     ///
     /// let cancel = Cancel::new();
-    /// let petrol = Example::new(Kind::Petrol, 1.0, Strokes::Four, &cancel)?;
+    /// let petrol = Example::new(ExampleKind::Petrol, 1.0, Strokes::Four, &cancel)?;
     /// assert_eq!(petrol.cycle(&cancel)?.given().name, "example petrol, full load");
     /// # Ok::<(), crankpin_core::Error>(())
     /// ```
-    pub fn new(kind: Kind, load: f64, strokes: Strokes, cancel: &Cancel) -> Result<Self> {
+    pub fn new(kind: ExampleKind, load: f64, strokes: Strokes, cancel: &Cancel) -> Result<Self> {
         if !(0.0..=1.0).contains(&load) {
             let hint = "give a part of full load, 0 (idling) to 1";
             return Err(Error::figure("load", load, hint));
@@ -181,7 +181,7 @@ impl Example {
         let part = between(&kind.idling(&full.wiebe), &full.wiebe, load);
         // A throttle sets the charge of four-strokes with petrol. A two-stroke's cylinder is filled at
         // the pressure of the exhaust, with less of what burns.
-        let throttled = kind == Kind::Petrol && strokes == Strokes::Four;
+        let throttled = kind == ExampleKind::Petrol && strokes == Strokes::Four;
         let with_charge = |charge: f64| {
             let mut wiebe = part.clone();
             match &mut wiebe.heat {
@@ -226,7 +226,7 @@ impl Example {
 }
 
 /// The cycle of an example at full load, computed once.
-pub(crate) fn full_load(kind: Kind, strokes: Strokes) -> Result<Arc<Cycle>> {
+pub(crate) fn full_load(kind: ExampleKind, strokes: Strokes) -> Result<Arc<Cycle>> {
     static CYCLES: [[OnceLock<Arc<Cycle>>; 2]; 2] = [const { [const { OnceLock::new() }; 2] }; 2];
     let cycle = &CYCLES[kind as usize][usize::from(strokes == Strokes::Two)];
     if let Some(computed) = cycle.get() {

@@ -65,7 +65,7 @@ impl PartialEq for LastTorques {
 const NODES_AT_ONCE: usize = 512;
 /// Numbers that are summed side by side.
 const SUMMED_SIDE_BY_SIDE: usize = 8;
-type Lanes = [f64; SUMMED_SIDE_BY_SIDE];
+type PartialSums = [f64; SUMMED_SIDE_BY_SIDE];
 /// Orders after which powers are computed afresh: rounding grows with each multiplication.
 const FRESH: usize = 32;
 /// Part of the total within which the quadrature of a squared slope or bend is exact.
@@ -156,7 +156,7 @@ impl Abscissae {
     #[inline(always)]
     fn add<const SQUARES: bool>(
         &mut self,
-        (places, weights, count): (&Lanes, &Lanes, usize),
+        (places, weights, count): (&PartialSums, &PartialSums, usize),
         panel: &PressurePanel,
         proportions: &Proportions,
         crankcase: f64,
@@ -504,10 +504,10 @@ impl Powers {
         let waves = wave.cos.as_chunks_mut().0.iter_mut().zip(wave.sin.as_chunks_mut().0);
         let mut steps = step.cos.as_chunks().0.iter().zip(step.sin.as_chunks().0);
         for (weighted, (cos, sin)) in weighted.as_chunks().0.iter().zip(waves) {
-            let (cos, sin): (&mut Lanes, &mut Lanes) = (cos, sin);
-            let weighted: &Lanes = weighted;
+            let (cos, sin): (&mut PartialSums, &mut PartialSums) = (cos, sin);
+            let weighted: &PartialSums = weighted;
             if TURNED && let Some((c, s)) = steps.next() {
-                let (c, s): (&Lanes, &Lanes) = (c, s);
+                let (c, s): (&PartialSums, &PartialSums) = (c, s);
                 for k in 0..SUMMED_SIDE_BY_SIDE {
                     let before = cos[k];
                     cos[k] = before.multiply_add(c[k], -(sin[k] * s[k]));

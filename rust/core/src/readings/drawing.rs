@@ -17,7 +17,7 @@ use crate::numbers::ratio::SpeedRatio;
 use crate::pressure::Cycle;
 
 /// Mass of the block, which is not known, over that of the pistons: 90 kg for two litres.
-const BLOCK: f64 = 50.0;
+const BLOCK_MASS_RATIO: f64 = 50.0;
 /// Significant digits of a cycle's largest pressure to which all of its coefficients are.
 const PRESSURE_DIGITS: i32 = 13;
 
@@ -124,7 +124,7 @@ pub struct DrawnCycle {
 
 /// A bar that stands for the block.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Block {
+pub struct DrawnBlock {
     /// kg.
     pub mass: f64,
     /// Moment of inertia about an axis across the crank, kg·m².
@@ -271,14 +271,15 @@ pub fn drawn_rod(cylinder: &Cylinder) -> f64 {
 /// A bar that stands for the block: as tall as a crank with its rod, and half of that longer than the
 /// cylinders at either end; none where the pistons have no mass.
 #[must_use]
-pub fn block(engine: &Engine) -> Option<Block> {
+pub fn block(engine: &Engine) -> Option<DrawnBlock> {
     let cylinders = || engine.stations().iter().map(|station| station.cylinder);
-    let mass = BLOCK * cylinders().map(|c: Cylinder| c.reciprocating_mass()).sum::<f64>();
+    let mass =
+        BLOCK_MASS_RATIO * cylinders().map(|c: Cylinder| c.reciprocating_mass()).sum::<f64>();
     let height = cylinders().map(|c| 2.0 * c.crank_radius() + drawn_rod(&c)).fold(0.0, f64::max);
     let [first, last] = engine.ends();
     let length = last - first + height;
     let inertia = mass * (length * length + height * height) / 12.0;
-    (mass > 0.0).then_some(Block { mass, inertia })
+    (mass > 0.0).then_some(DrawnBlock { mass, inertia })
 }
 
 /// Angle before the lowest place of a piston at which exhausts open, degrees: an ordinary one.

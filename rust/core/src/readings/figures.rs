@@ -26,7 +26,7 @@ const MOST_ORDERS: u32 = 384;
 /// Orders of which a cylinder's terms are below this part of its largest are left out.
 const REST: f64 = 1e-12;
 /// Sums below this part of what was added are rounding.
-const ROUNDING: f64 = 1e-13;
+const FIGURE_ROUNDING: f64 = 1e-13;
 /// Speed, rpm, at which loads of inertia are those over ω².
 const ONE_RADIAN_PER_SECOND: f64 = 60.0 / std::f64::consts::TAU;
 /// Groups of parts: the right bank, the left one, and what stands still as the bank angle changes.
@@ -158,7 +158,7 @@ pub fn group_terms(
         }
         for (group, sizes) in sums.iter_mut().zip(&sizes) {
             for (sum, size) in group.values().zip(sizes) {
-                if sum.norm() <= ROUNDING * size {
+                if sum.norm() <= FIGURE_ROUNDING * size {
                     *sum = Complex64::default();
                 }
             }
@@ -190,12 +190,12 @@ pub struct LoadRows {
     speeds: Option<[f64; 2]>,
 }
 
-type LoadRow = (f64, u8, [u8; 1], Vec<Vec<f64>>, u8, OverSpeed);
+type LoadRow = (f64, u8, [u8; 1], Vec<Vec<f64>>, u8, SpeedFactor);
 
 /// Factor of amplitudes at a speed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(untagged)]
-enum OverSpeed {
+enum SpeedFactor {
     /// Power of the angular speed, rad/s.
     Power(u8),
     /// Height of a line that rises from 0 at the first of three crank speeds to 1 at the second, and falls
@@ -240,9 +240,9 @@ pub fn load_rows(engine: &Engine, rpm: f64, torque: bool, cancel: &Cancel) -> Re
     let group_of = grouping(&engine);
     for scaling in scalings {
         let (over, omega) = match scaling {
-            Scaling::SpeedSquared => (OverSpeed::Power(2), 1.0),
-            Scaling::Independent => (OverSpeed::Power(0), 1.0),
-            Scaling::Row(line) => (OverSpeed::Line(line), line[1] / UNIT_RPM),
+            Scaling::SpeedSquared => (SpeedFactor::Power(2), 1.0),
+            Scaling::Independent => (SpeedFactor::Power(0), 1.0),
+            Scaling::Row(line) => (SpeedFactor::Line(line), line[1] / UNIT_RPM),
         };
         let sum = |group: usize| {
             let is_own =

@@ -108,7 +108,7 @@ pub enum Evenness {
 
 /// What drives a crank, and what it drives.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Drive<'a> {
+pub struct CrankDrive<'a> {
     /// Crank angles of one period.
     pub grid: &'a CycleGrid,
     /// Torque of the gas at the nodes of the grid, N·m.
@@ -147,7 +147,7 @@ pub struct SpeedFluctuation {
     pub approximations: [f64; 2],
 }
 
-impl Drive<'_> {
+impl CrankDrive<'_> {
     /// Speed over the cycle.
     pub fn speed(&self, evenness: Evenness, cancel: &Cancel) -> Result<SpeedFluctuation> {
         let omega = angular_speed(self.rpm)?;
@@ -348,7 +348,7 @@ struct Run {
 }
 
 impl WorkCurve {
-    fn new(drive: &Drive, omega: f64, cancel: &Cancel) -> Result<Self> {
+    fn new(drive: &CrankDrive, omega: f64, cancel: &Cancel) -> Result<Self> {
         let edges = &drive.grid.edges_deg;
         for (argument, values) in [("torque", drive.torque), ("load", drive.load)] {
             limits::same_length(
@@ -564,7 +564,7 @@ mod tests {
         how: Evenness,
     ) -> SpeedFluctuation {
         let load = vec![0.0; torque.len()];
-        let drive = Drive { grid, torque, load: &load, engine, rpm: 300.0 };
+        let drive = CrankDrive { grid, torque, load: &load, engine, rpm: 300.0 };
         drive.speed(how, &Cancel::new()).unwrap()
     }
 
@@ -660,7 +660,8 @@ mod tests {
         let grid = grid(&[]);
         let torque = at(&grid, |theta| 1e4 * theta.sin());
         let load = vec![0.0; torque.len()];
-        let drive = Drive { grid: &grid, torque: &torque, load: &load, engine: None, rpm: 300.0 };
+        let drive =
+            CrankDrive { grid: &grid, torque: &torque, load: &load, engine: None, rpm: 300.0 };
         for how in [Evenness::Inertia(0.1), Evenness::Inertia(0.0), Evenness::Irregularity(0.9)] {
             assert!(drive.speed(how, &Cancel::new()).is_err());
         }

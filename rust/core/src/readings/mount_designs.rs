@@ -13,9 +13,7 @@ use crate::mounts::equations::{
     Equations, LANES, Lane, Lanes6, Numbers, damped_product, flags, product, read, real_product,
     write,
 };
-use crate::mounts::{
-    ComplexVector6, Mount, NaturalModes, Orientation, Powertrain, motion_of_point, natural_at,
-};
+use crate::mounts::{ComplexVector6, Mount, NaturalModes, Powertrain, motion_of_point, natural_at};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -183,7 +181,7 @@ fn varied(base: &Powertrain, variations: &[Variation], design: usize) -> Result<
         let value = variation.values[design];
         match variation.figure {
             MountFigure::At => figures.at = value,
-            MountFigure::Tilt => figures.orientation = Orientation::Tilt(value[0]),
+            MountFigure::Tilt => (figures.tilt_deg, figures.axes) = (value[0], None),
             MountFigure::Stiffness => figures.stiffness = value,
             MountFigure::DynamicStiffness => figures.dynamic_stiffness = Some(value),
             MountFigure::LossFactor => figures.loss_factor = value,

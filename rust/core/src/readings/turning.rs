@@ -137,7 +137,7 @@ pub(crate) struct RollOfAxes {
 /// The roll torque that cranks on several axes make.
 pub(crate) fn roll_of_axes(engine: &Engine, cancel: &Cancel) -> Result<RollOfAxes> {
     /// Part of the terms of a sum that its rounding is below.
-    const ROUNDING: f64 = 1e-12;
+    const TERMS_ROUNDING: f64 = 1e-12;
     let engine = &engine.of_speed_squared();
     let axis = |crank: CrankIndex| {
         let [x, y] = engine.cranks()[crank].axis;
@@ -173,7 +173,7 @@ pub(crate) fn roll_of_axes(engine: &Engine, cancel: &Cancel) -> Result<RollOfAxe
         }
     }
     let or_zero = |torque: Complex64| {
-        if torque.norm() <= ROUNDING * (size + whole.norm()) { 0.0 } else { torque.norm() }
+        if torque.norm() <= TERMS_ROUNDING * (size + whole.norm()) { 0.0 } else { torque.norm() }
     };
     Ok(RollOfAxes { whole: whole.norm(), beside: or_zero(beside), kept: or_zero(kept) })
 }

@@ -16,7 +16,7 @@ use ndarray::{Array2, Array3, ArrayViewMut, Axis, Dimension};
 pub use self::extremes::Extremes;
 pub use self::rod::TurningAxes;
 use self::rod::{DrivenRod, RodColumns};
-pub use self::sections::{Part, Sections};
+pub use self::sections::{CutPart, Sections};
 use crate::Complex64;
 use crate::engine::{CrankIndex, Engine};
 use crate::load::find_or_push;

@@ -11,7 +11,7 @@ use crate::source::over_angle::BLOCK;
 
 /// What is cut at some z.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Part {
+pub enum CutPart {
     /// A crankshaft, which rods and unbalances load and main bearings support.
     Crank(CrankIndex),
     /// The crankcase, which main bearings, walls, heads and balance shafts load.
@@ -30,26 +30,26 @@ pub struct Sections {
 
 impl BearingLoadsModel {
     /// Shear and bending of a part at [`Self::places`].
-    pub fn sections(&self, part: Part, theta_deg: &[f64], cancel: &Cancel) -> Result<Sections> {
+    pub fn sections(&self, part: CutPart, theta_deg: &[f64], cancel: &Cancel) -> Result<Sections> {
         let (z, count) = (self.places(), theta_deg.len());
         check_angles(theta_deg, 4 * z.len(), cancel)?;
         let loads = self.loads(theta_deg, cancel)?;
         let (mut shear, mut bending) = (vectors(z.len(), count)?, vectors(z.len(), count)?);
         let at = |place: f64| z.partition_point(|&other| other < place);
         let (sign, turning) = match part {
-            Part::Crank(crank) => (-1.0, &self.on_cranks[crank]),
-            Part::Crankcase => (1.0, &self.on_crankcase),
+            CutPart::Crank(crank) => (-1.0, &self.on_cranks[crank]),
+            CutPart::Crankcase => (1.0, &self.on_crankcase),
         };
-        let is_cut = |crank: CrankIndex| matches!(part, Part::Crank(cut) if cut == crank);
+        let is_cut = |crank: CrankIndex| matches!(part, CutPart::Crank(cut) if cut == crank);
         for (main, row) in self.mains.iter().zip(loads.main.outer_iter()) {
-            if part == Part::Crankcase || is_cut(main.crank) {
+            if part == CutPart::Crankcase || is_cut(main.crank) {
                 shear.index_axis_mut(Axis(0), at(main.z)).scaled_add(sign, &row);
             }
         }
         for (i, rod) in self.rods.iter().enumerate() {
             cancel.check()?;
             let mut sum = shear.index_axis_mut(Axis(0), at(rod.z));
-            if part != Part::Crankcase {
+            if part != CutPart::Crankcase {
                 if is_cut(rod.crank) {
                     sum += &loads.crankpin.index_axis(Axis(0), i);
                 }

@@ -154,12 +154,9 @@ fn strongest(engine: &Engine, cancel: &Cancel) -> Result<(f64, Part)> {
 }
 
 fn longest_lever(engine: &Engine) -> Result<f64> {
-    let reference = engine.reference(None)?;
     let on_shafts = engine.shafts().iter().flat_map(|shaft| &shaft.unbalances);
     let unbalances = engine.counterweights().iter().chain(on_shafts);
-    let places = engine.stations().iter().map(|station| station.z);
-    let places = places.chain(unbalances.map(|unbalance: &Unbalance| unbalance.z));
-    Ok(places.map(|z| (z - reference).abs()).fold(0.0, f64::max))
+    engine.longest_lever(unbalances.map(|unbalance: &Unbalance| unbalance.z))
 }
 
 // --- force and moment ---

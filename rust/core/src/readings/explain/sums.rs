@@ -9,7 +9,7 @@ use crate::numbers::ratio::SpeedRatio;
 use crate::readings::balance::{Balance, Vector};
 use crate::readings::exact::vanishing::Verdict;
 use crate::readings::turning::cranks_by_sense;
-use crate::wrench::Planar;
+use crate::wrench::{Planar, tilt_deg};
 
 /// Phasors that differ by less of the largest are taken for equal.
 const ROUNDING: f64 = 1e-9;
@@ -60,17 +60,6 @@ fn plus(a: Parts, b: Parts) -> Parts {
     [a[0] + b[0], a[1] + b[1]]
 }
 
-/// Direction of the longest half axis of an ellipse, degrees in (−90, 90]; 0 for a circle.
-fn tilt_deg([forward, backward]: Parts) -> f64 {
-    let (f, b) = (forward.norm(), backward.norm());
-    if f == 0.0 || b == 0.0 {
-        return 0.0;
-    }
-    // Half the sum of the phases; of the two directions of the axis the upper one.
-    let tilt = ((forward / f) * (backward / b)).arg() / 2.0;
-    if tilt <= -std::f64::consts::FRAC_PI_2 { 90.0 } else { tilt.to_degrees() }
-}
-
 impl<'a> Sums<'a> {
     /// Of a balance, what each part adds to it, and the proofs of its orders.
     pub fn new(
@@ -103,7 +92,7 @@ impl<'a> Sums<'a> {
         }
         let whole = of(balance);
         let peaks = (0..count).map(|k| balance.planar(vector, k).peak()).collect();
-        let tilts_deg = whole.iter().map(|&parts| tilt_deg(parts)).collect();
+        let tilts_deg = whole.iter().map(|&[f, b]| tilt_deg(f, b).unwrap_or(0.0)).collect();
         let orders = &balance.orders;
         Self {
             engine,

@@ -139,7 +139,7 @@ fn modes_that_merge_lose_no_digits() {
     // along an axis.
     let along = |name: &str, degrees: f64, stiffness: f64, loss: f64| MountFigures {
         name: name.into(),
-        orientation: Orientation::Tilt(degrees),
+        tilt_deg: degrees,
         stiffness: [stiffness, 0.0, 0.0],
         loss_factor: [loss, 0.0, 0.0],
         ..MountFigures::default()
