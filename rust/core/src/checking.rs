@@ -9,7 +9,7 @@ use std::sync::Arc;
 use crate::Complex64;
 use crate::balancing::roll_torque;
 use crate::engine::{ActsOn, Details, Engine, Gas, Hold, Origin, PeriodicLoad, Station, file};
-use crate::mechanism::slider_crank::Cylinder;
+use crate::mechanism::cylinder::Cylinder;
 use crate::mounts::{Mount, MountFigures, Powertrain, RigidBody};
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;

@@ -285,10 +285,7 @@ fn check(solution: &Solution, engine: &Engine, unit: f64, second_order: f64) {
 fn a_solution_is_the_balance_of_its_engine() {
     let (cylinder, spacing) = (Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap(), 0.1);
     let omega = 3000.0 * TAU / 60.0;
-    let second_order =
-        crankpin_core::harmonics::coefficients(&cylinder.proportions(), &[2], &Cancel::new())
-            .unwrap()[0]
-            .norm();
+    let second_order = cylinder.mechanism().force(&[2], &Cancel::new()).unwrap()[0].norm();
     for bank in banks() {
         for hold in [Hold::Firing, Hold::Pins] {
             let search = search(&bank, hold);

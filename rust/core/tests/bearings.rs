@@ -10,6 +10,7 @@ use common::{angle, mixed, weighted};
 use crankpin_core::bearing_loads::{Bearing, BearingLoadsModel, CutPart, TurningAxes};
 use crankpin_core::engine::crankpins::Bay;
 use crankpin_core::engine::{CrankIndex, Details, Gas};
+use crankpin_core::motion::CrankPosition;
 use crankpin_core::pressure::{Cycle, Given};
 use crankpin_core::waveform::exact;
 use crankpin_core::{
@@ -68,7 +69,7 @@ fn block(engine: &Engine, thetas: &[f64]) -> Vec<[Complex64; 3]> {
             sums[0] += force;
             sums[1] += i * place.z * force;
             let unit = (angle(thetas[k]) - place.tdc).cis(1);
-            let motion = place.cylinder.proportions().motion(unit.im, unit.re);
+            let motion = place.cylinder.mechanism().motion(&CrankPosition::new(unit.im, unit.re));
             let height = motion.position * place.cylinder.crank_radius();
             let arm = place.bank.cis(1) * Complex64::new(height, place.cylinder.pin_offset());
             sums[2] += (arm.conj() * force).im;
@@ -96,7 +97,10 @@ fn gas_shakes_nothing_and_turns_the_block_against_its_own_crank_torque() {
             let expected = if j == 2 { 0.0 } else { AREA * (pressure(after) - 1.2e5) };
             // Cubics of steps of 2° of a peak some 30° wide: (2/30)⁴/384 of 2·10⁴ N.
             assert!((loads.gas[[j, k]] - expected).abs() < 0.01, "gas of {j} at {k}");
-            let motion = place.cylinder.proportions().motion(local.cis(1).im, local.cis(1).re);
+            let motion = place
+                .cylinder
+                .mechanism()
+                .motion(&CrankPosition::new(local.cis(1).im, local.cis(1).re));
             on_crank -= loads.gas[[j, k]] * place.cylinder.crank_radius() * motion.velocity;
         }
         assert!((with_gas[2].re - without[2].re + on_crank).abs() < 1e-9, "roll torque at {k}");

@@ -12,9 +12,7 @@ use common::{angle, by_orders};
 use crankpin_core::balance::{Orders, Request, Vector};
 use crankpin_core::engine::CrankIndex;
 use crankpin_core::engine::Unbalance;
-use crankpin_core::{
-    Cancel, Complex64, Crank, Cylinder, Engine, SpeedRatio, Station, harmonics, waveform,
-};
+use crankpin_core::{Cancel, Complex64, Crank, Cylinder, Engine, SpeedRatio, Station, waveform};
 
 const RADIUS: f64 = 0.04;
 const ROD: f64 = 0.13;
@@ -176,8 +174,8 @@ fn contra_rotating_twins_have_no_force_of_order_one() {
     assert_eq!(balance.xy(Vector::Force, 0), [Complex64::default(); 2]);
     // Order 2 adds up: 2·m·r·a₂. Each crank's own torque is the other's, the other way round; forces
     // beside the main axis make what is left.
-    let proportions = Cylinder::new(RADIUS, ROD, MASS, 0.0).unwrap().proportions();
-    let second = harmonics::coefficients(&proportions, &[2], &Cancel::new()).unwrap()[0];
+    let mechanism = Cylinder::new(RADIUS, ROD, MASS, 0.0).unwrap().mechanism();
+    let second = mechanism.force(&[2], &Cancel::new()).unwrap()[0];
     let [x, y] = balance.xy(Vector::Force, 1);
     assert!(x == Complex64::default() && (y - second * (2.0 * MASS * RADIUS)).norm() < 1e-16);
     let arm = second * (MASS * RADIUS * 0.12);

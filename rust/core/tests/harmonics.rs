@@ -3,8 +3,11 @@
 //! The tables are those of `tests/rederivation/harmonics_mp.py`, which integrates the motion itself.
 
 use crankpin_core::Cancel;
+use crankpin_core::Cylinder;
 use crankpin_core::harmonics::{self, coefficients, rod, table, torque};
-use crankpin_core::slider_crank::{Cylinder, Proportions};
+use crankpin_core::mechanism::with_ratios;
+use crankpin_core::motion::CrankPosition;
+use crankpin_core::slider_crank::Proportions;
 
 const USUAL: &str = include_str!("../../../tests/data/harmonics_50_digits.csv");
 const HARD: &str = include_str!("../../../tests/data/harmonics_where_methods_fail.csv");
@@ -125,8 +128,8 @@ fn bounds_of_tails_are_their_sums() {
 fn torques_of_a_cylinder_are_over_its_second_moment() {
     let cylinder = Cylinder::new(0.05, 0.16, 0.5, 0.01).unwrap();
     let orders = [1, 2, 3, 4, 6];
-    let of_masses = torque::torque(&cylinder.proportions(), &orders, &Cancel::new()).unwrap();
-    let of_rod = rod::torque(&cylinder.proportions(), &orders, &Cancel::new()).unwrap();
+    let of_masses = cylinder.mechanism().torque(&orders, &Cancel::new()).unwrap();
+    let of_rod = cylinder.mechanism().swing_torque(&orders, &Cancel::new()).unwrap();
     assert_eq!(torque::over_second_moment(&cylinder, &orders, &Cancel::new()).unwrap(), of_masses);
     let swinging = cylinder.with_rod_inertia_excess(-4e-4).unwrap();
     let both = torque::over_second_moment(&swinging, &orders, &Cancel::new()).unwrap();
@@ -258,12 +261,12 @@ fn odd_torque_orders_with_an_offset_keep_their_digits() {
 fn an_infinite_rod_is_the_limit_of_long_ones() {
     let orders: Vec<u32> = (1..=24).collect();
     let cancel = Cancel::new();
-    let proportions = |ratio| Proportions::new(ratio, 0.0).unwrap();
+    let mechanism = |ratio| with_ratios(ratio, 0.0).unwrap();
     let of = |ratio: f64| {
-        let proportions = proportions(ratio);
-        let masses = torque::torque(&proportions, &orders, &cancel).unwrap();
-        let rods = rod::torque(&proportions, &orders, &cancel).unwrap();
-        let force = coefficients(&proportions, &orders, &cancel).unwrap();
+        let mechanism = mechanism(ratio);
+        let masses = mechanism.torque(&orders, &cancel).unwrap();
+        let rods = mechanism.swing_torque(&orders, &cancel).unwrap();
+        let force = mechanism.force(&orders, &cancel).unwrap();
         [force, masses.roll, masses.crank, rods.roll, rods.crank].concat()
     };
     for ratio in [1e-9, 1e-12, 1e-30] {
@@ -272,7 +275,7 @@ fn an_infinite_rod_is_the_limit_of_long_ones() {
             assert!((long - infinite).norm() <= 2.0 * ratio + 1e-15, "{ratio}: {long} {infinite}");
         }
         for crank in [(0.6, 0.8), (-0.8, 0.6), (1.0, 0.0)] {
-            let motion = |ratio| proportions(ratio).motion(crank.0, crank.1);
+            let motion = |ratio| mechanism(ratio).motion(&CrankPosition::new(crank.0, crank.1));
             let (long, infinite) = (motion(ratio), motion(0.0));
             assert!((long.velocity - infinite.velocity).abs() <= ratio);
             assert!((long.acceleration - infinite.acceleration).abs() <= ratio);
@@ -300,10 +303,10 @@ fn an_infinite_rod_is_the_limit_of_long_ones() {
     let pair = table::centred_table(&ratios[1..2], &orders, &cancel).unwrap();
     assert_eq!(table.row(1), pair.row(0));
     // And bounds of the orders left out.
-    let infinite = proportions(0.0);
+    let infinite = mechanism(0.0);
     for (highest, force, masses) in [(0, 1.0, 0.5), (1, 0.0, 0.5), (2, 0.0, 0.0), (9, 0.0, 0.0)] {
-        assert_eq!(harmonics::tail_bound(&infinite, highest), Some(force));
-        assert_eq!(torque::tail_bound(&infinite, highest), Some(masses));
-        assert_eq!(rod::tail_bound(&infinite, highest), Some(0.0));
+        assert_eq!(infinite.force_beyond(highest), Some(force));
+        assert_eq!(infinite.torque_beyond(highest), Some(masses));
+        assert_eq!(infinite.swing_torque_beyond(highest), Some(0.0));
     }
 }

@@ -59,8 +59,7 @@ const HOMES: [&str; 5] = ["engine", "load", "mechanism", "pressure", "source"];
 /// Files and folders besides that name gas, pistons, rods or [`Origin`]s, and why.
 ///
 /// [`Origin`]: crankpin_core::engine::Origin
-const NAMING: [(&str, &str); 16] = [
-    ("balancing/shafts.rs", "shafts stand beyond the reach of rods"),
+const NAMING: [(&str, &str); 15] = [
     ("checking.rs", "its engines have gas, and its load is an origin"),
     ("firing/", "a word of errors and a module: pistons fire, gas is exchanged"),
     ("lib.rs", "exports"),

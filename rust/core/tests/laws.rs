@@ -8,7 +8,7 @@ use common::random::{angles, cylinders, engines, vees};
 use common::{InArrays, by_orders, changed, turning, whole, xy};
 use crankpin_core::angle::cis_degrees;
 use crankpin_core::balance::{Vector, balance};
-use crankpin_core::harmonics::{self, torque::TorqueHarmonics};
+use crankpin_core::harmonics::torque::TorqueHarmonics;
 use crankpin_core::quantity::{Part, Quantity};
 use crankpin_core::sweep::{Statistic, SweepAxes};
 use crankpin_core::{
@@ -201,8 +201,8 @@ proptest! {
             let mut terms = [0.0; 4];
             for p in engine.stations() {
                 let (c, radius) = (p.cylinder, p.cylinder.crank_radius());
-                let proportions = c.proportions();
-                let alone = harmonics::coefficients(&proportions, &[n], &Cancel::new()).unwrap()[0];
+                let mechanism = c.mechanism();
+                let alone = mechanism.force(&[n], &Cancel::new()).unwrap()[0];
                 let phase = p.tdc.cis(-i64::from(n)) * square;
                 let along = alone * phase * c.first_order();
                 let turning = if n == 1 {
@@ -221,7 +221,7 @@ proptest! {
                 }
                 moment[0] -= here[1] * lever;
                 moment[1] += here[0] * lever;
-                let torques = harmonics::torque::torque(&proportions, &[n], &Cancel::new()).unwrap();
+                let torques = mechanism.torque(&[n], &Cancel::new()).unwrap();
                 let weight = c.first_order() * radius;
                 roll += torques.roll[0] * phase * weight;
                 crank += torques.crank[0] * phase * weight;
@@ -232,7 +232,7 @@ proptest! {
                     *sum += size * weight * square;
                 }
                 let inertia = c.rod_inertia_excess();
-                let swing = harmonics::rod::torque(&proportions, &[n], &Cancel::new()).unwrap();
+                let swing = mechanism.swing_torque(&[n], &Cancel::new()).unwrap();
                 roll += swing.roll[0] * phase * inertia;
                 crank += swing.crank[0] * phase * inertia;
                 for (sum, size) in terms[2..].iter_mut().zip(sizes(&swing)) {
@@ -356,13 +356,13 @@ proptest! {
 
     #[test]
     fn the_tail_bound_holds(cylinder in cylinders(true), highest in 1_u32..12) {
-        let proportions = cylinder.proportions();
+        let mechanism = cylinder.mechanism();
         let orders: Vec<u32> = (highest + 1..=200).collect();
         let tail: f64 =
-            harmonics::coefficients(&proportions, &orders, &Cancel::new()).unwrap().iter().map(|a| a.norm()).sum();
-        prop_assert!(tail <= harmonics::tail_bound(&proportions, highest).unwrap());
-        let of_rod = harmonics::rod::torque(&proportions, &orders, &Cancel::new()).unwrap();
-        let bound = harmonics::rod::tail_bound(&proportions, highest).unwrap();
+            mechanism.force(&orders, &Cancel::new()).unwrap().iter().map(|a| a.norm()).sum();
+        prop_assert!(tail <= mechanism.force_beyond(highest).unwrap());
+        let of_rod = mechanism.swing_torque(&orders, &Cancel::new()).unwrap();
+        let bound = mechanism.swing_torque_beyond(highest).unwrap();
         for harmonics in [of_rod.roll, of_rod.crank] {
             prop_assert!(harmonics.iter().map(|a| a.norm()).sum::<f64>() <= bound);
         }
@@ -467,10 +467,10 @@ fn in_phase(cylinder: Cylinder, tdc: f64) -> Engine {
 #[test]
 fn bounds_of_what_is_left_out_are_the_sums_of_its_sizes() {
     let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.01).unwrap();
-    let proportions = cylinder.proportions();
+    let mechanism = cylinder.mechanism();
     let above: Vec<u32> = (1..=200).collect();
-    let sizes = harmonics::coefficients(&proportions, &above, &Cancel::new()).unwrap();
-    let torques = harmonics::torque::torque(&proportions, &above, &Cancel::new()).unwrap();
+    let sizes = mechanism.force(&above, &Cancel::new()).unwrap();
+    let torques = mechanism.torque(&above, &Cancel::new()).unwrap();
     let square = (3000.0 * TAU / 60.0).powi(2);
     // A part of a turn, and none.
     for tdc in [0.0, 90.0, 17.123_456_789] {

@@ -9,7 +9,6 @@ use common::{InArrays, angle, by_orders, changed, kinematics, scales, turning, w
 use crankpin_core::balance::{Vector, balance};
 use crankpin_core::engine::CrankIndex;
 use crankpin_core::exact::vanishing::{ProofQuantity as Sum, QUANTITIES, Verdict, vanishing};
-use crankpin_core::harmonics;
 use crankpin_core::quantity::Quantity;
 use crankpin_core::sweep::{Statistic, SweepAxes};
 use crankpin_core::wrench::{Torque, Wrench};
@@ -328,7 +327,7 @@ proptest! {
         let [before, after] = [&plain, &balanced].map(of);
         let (mut force, mut moment) = (Complex64::default(), Complex64::default());
         for p in plain.stations() {
-            let a1 = harmonics::coefficients(&p.cylinder.proportions(), &[1], &Cancel::new());
+            let a1 = p.cylinder.mechanism().force(&[1], &Cancel::new());
             let left = (a1.unwrap()[0] - 1.0) * (0.5 * p.cylinder.first_order() * square());
             force += left * Crank::MAIN.pin(p.bank, p.tdc).cis(1);
             moment += Complex64::i() * p.z * left * Crank::MAIN.pin(p.bank, p.tdc).cis(1);
@@ -469,7 +468,7 @@ fn inline_four() -> (Engine, Cylinder) {
 /// Two shafts at twice the speed of the crank, A turning with it, that remove order 2 of the force.
 fn lanchester(a: [f64; 2], b: [f64; 2]) -> (Engine, Balance) {
     let (i4, cylinder) = inline_four();
-    let a2 = harmonics::coefficients(&cylinder.proportions(), &[2], &Cancel::new()).unwrap()[0];
+    let a2 = cylinder.mechanism().force(&[2], &Cancel::new()).unwrap()[0];
     let amount = cylinder.first_order() * a2.re / 2.0;
     // The force points up at the first top dead centre, the weights down.
     let down =
@@ -487,10 +486,10 @@ fn lanchester(a: [f64; 2], b: [f64; 2]) -> (Engine, Balance) {
 /// that shafts remove.
 fn second_order() -> (f64, f64, f64) {
     let (i4, cylinder) = inline_four();
-    let proportions = cylinder.proportions();
-    let torque = harmonics::torque::torque(&proportions, &[2], &Cancel::new()).unwrap().roll[0];
+    let mechanism = cylinder.mechanism();
+    let torque = mechanism.torque(&[2], &Cancel::new()).unwrap().roll[0];
     let b2 = -torque.im;
-    let a2 = harmonics::coefficients(&proportions, &[2], &Cancel::new()).unwrap()[0].re;
+    let a2 = mechanism.force(&[2], &Cancel::new()).unwrap()[0].re;
     let found = by_orders(&i4, &REQUEST, &[2]);
     let expected = Complex64::new(0.0, -4.0 * cylinder.second_moment() * b2 * square());
     same(found.wrenches[0].torque.roll, expected, expected.norm());

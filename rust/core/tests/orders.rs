@@ -6,7 +6,8 @@
 use std::f64::consts::TAU;
 
 use crankpin_core::harmonics::{self, torque};
-use crankpin_core::slider_crank::{Motion, Proportions};
+use crankpin_core::motion::Motion;
+use crankpin_core::slider_crank::Proportions;
 use crankpin_core::{
     Angle, Cancel, Complex64, Cylinder, Engine, Error, Orders, Request, Spectrum, Station, balance,
 };
@@ -109,12 +110,12 @@ fn who_stops_waiting_is_told_at_once() {
     stopped.raise();
     let cylinders = [0.0, 1e-3].map(|offset| Cylinder::new(0.05, 0.15, 1.0, offset).unwrap());
     for cylinder in cylinders {
-        let proportions = cylinder.proportions();
-        let found = harmonics::coefficients(&proportions, &[2], &stopped);
+        let mechanism = cylinder.mechanism();
+        let found = mechanism.force(&[2], &stopped);
         assert_eq!(found.unwrap_err(), Error::Cancelled);
-        let found = torque::torque(&proportions, &[2], &stopped);
+        let found = mechanism.torque(&[2], &stopped);
         assert_eq!(found.unwrap_err(), Error::Cancelled);
-        let found = harmonics::rod::torque(&proportions, &[2], &stopped);
+        let found = mechanism.swing_torque(&[2], &stopped);
         assert_eq!(found.unwrap_err(), Error::Cancelled);
     }
     // A spectrum stands in for all of that.

@@ -756,10 +756,10 @@ impl Worst {
             }
             let mut here = [0.0; 4];
             for p in there.stations() {
-                let (c, proportions) = (p.cylinder, p.cylinder.proportions());
-                let force = c.first_order() * harmonics::tail_bound(&proportions, last).unwrap();
-                let torque = harmonics::torque::tail_bound(&proportions, last).unwrap();
-                let swing = harmonics::rod::tail_bound(&proportions, last).unwrap();
+                let (c, mechanism) = (p.cylinder, p.cylinder.mechanism());
+                let force = c.first_order() * mechanism.force_beyond(last).unwrap();
+                let torque = mechanism.torque_beyond(last).unwrap();
+                let swing = mechanism.swing_torque_beyond(last).unwrap();
                 let torque = c.second_moment() * torque + c.rod_inertia_excess().abs() * swing;
                 let added = [force, force * (p.z - REFERENCE).abs(), torque, torque];
                 here.iter_mut().zip(added).for_each(|(here, added)| *here += added);
@@ -797,12 +797,12 @@ fn last(engines: &[Arc<Engine>], axes: &SweepAxes, rtol: f64, torque: bool) -> u
             let [masses, rod] =
                 [c.second_moment(), c.rod_inertia_excess().abs()].map(|weight| weight / of_torque);
             let part = 0.01 * rtol / loads(engine, torque) as f64;
-            let proportions = c.proportions();
+            let mechanism = c.mechanism();
             let enough = |n: &u32| {
                 let within = |bound: Option<f64>, share: f64| bound.unwrap() * share <= part;
-                within(harmonics::tail_bound(&proportions, *n), force)
-                    && (!torque || within(harmonics::torque::tail_bound(&proportions, *n), masses))
-                    && (!torque || within(harmonics::rod::tail_bound(&proportions, *n), rod))
+                within(mechanism.force_beyond(*n), force)
+                    && (!torque || within(mechanism.torque_beyond(*n), masses))
+                    && (!torque || within(mechanism.swing_torque_beyond(*n), rod))
             };
             last = last.max((1..=crankpin_core::limits::HIGHEST_ORDER).find(enough).unwrap());
         }

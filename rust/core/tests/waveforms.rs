@@ -440,7 +440,7 @@ fn waveforms_of_a_sweep_have_their_refusals() {
         assert_eq!(told(&with(None), Quantity::FORCE, exact, 36), "");
         assert_eq!(told(&with(None), TORQUE, exact, 18), "");
         let told = told(&with(None).without_torque(), TORQUE, exact, 18);
-        assert!(told.starts_with("torque is not available: torque=False"), "{told}");
+        assert!(told.starts_with("torque is not available: `torque: false`"), "{told}");
     }
     let spectrum = Spectrum::new([(1, Complex64::new(1.0, 0.0))]).unwrap();
     assert_eq!(told(&with(Some(spectrum.clone())), Quantity::FORCE, false, 36), "");

@@ -264,15 +264,14 @@ impl Cycle {
         crankcase: f64,
         halves: Vec<u32>,
     ) -> PyResult<(f64, Bound<'py, PyArray1<Complex64>>)> {
-        let proportions = cylinder(parts)?.proportions();
+        let mechanism = cylinder(parts)?.mechanism();
         let crankcase = core::limits::finite("crankcase", crankcase).or_raise()?;
         let orders = orders_of_halves(halves)?;
         if !orders.is_empty() {
             order::check_list(&orders).or_raise()?;
         }
-        let torque = interrupt::run(py, |cancel| {
-            self.0.torque_of(&proportions, crankcase, &orders, cancel)
-        })?;
+        let torque =
+            interrupt::run(py, |cancel| self.0.torque_of(&mechanism, crankcase, &orders, cancel))?;
         Ok((torque.mean, writeable(py, torque.phasors.into())?))
     }
 }

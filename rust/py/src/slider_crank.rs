@@ -1,7 +1,8 @@
 //! One cylinder: motion and harmonics.
 
 use crate::array::writeable;
-use crankpin_core::harmonics::{self, table, torque};
+use crankpin_core::harmonics::{table, torque};
+use crankpin_core::motion::CrankPosition;
 use crankpin_core::{Complex64, Cylinder, Order, angle, crank_angles, limits, memory, order, rod};
 use crankpin_macros::guarded;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
@@ -77,14 +78,14 @@ pub fn motion<'py>(
     limits::result_size("theta_deg", &[thetas.len(), 3], size_of::<f64>(), hint).or_raise()?;
     let rows = interrupt::run(py, |cancel| {
         crank_angles::check(thetas, cancel)?;
-        let (proportions, radius) = (cylinder.proportions(), cylinder.crank_radius());
+        let (mechanism, radius) = (cylinder.mechanism(), cylinder.crank_radius());
         let mut rows: Vec<f64> = memory::zeros(3 * thetas.len())?;
         for (i, (&theta, row)) in thetas.iter().zip(rows.chunks_exact_mut(3)).enumerate() {
             if i % 4096 == 0 {
                 cancel.check()?;
             }
             let unit = angle::cis_degrees(theta);
-            let motion = proportions.motion(unit.im, unit.re);
+            let motion = mechanism.motion(&CrankPosition::new(unit.im, unit.re));
             row[0] = motion.position * radius;
             row[1] = motion.velocity * radius;
             row[2] = motion.acceleration * radius;
@@ -104,9 +105,7 @@ pub fn cylinder_harmonics(
 ) -> PyResult<Bound<'_, PyArray1<Complex64>>> {
     check_orders(&orders)?;
     let cylinder = cylinder(parts)?;
-    let values = interrupt::run(py, |cancel| {
-        harmonics::coefficients(&cylinder.proportions(), &orders, cancel)
-    })?;
+    let values = interrupt::run(py, |cancel| cylinder.mechanism().force(&orders, cancel))?;
     writeable(py, values.into())
 }
 

@@ -7,7 +7,7 @@ use crankpin_core::layout::Strokes;
 use crankpin_core::pressure::example::{Example, ExampleKind};
 use crankpin_core::quantity::Quantity;
 use crankpin_core::sweep::{Statistic, Sweep, SweepAxes};
-use crankpin_core::{Cancel, Error, Firing, Result, harmonics, memory, waveform as waveforms};
+use crankpin_core::{Cancel, Error, Firing, Result, memory, waveform as waveforms};
 use serde_json::{Map, Value, json};
 
 use crate::answer::{Columns, degrees, orders as numbers};
@@ -55,11 +55,10 @@ pub fn waveform(arguments: &mut Arguments, columns: &mut Columns) -> Result<Valu
 pub fn piston_harmonics(arguments: &mut Arguments, columns: &mut Columns) -> Result<Value> {
     let ratio: f64 = arguments.required("rod_ratio")?;
     // A crank of one metre: its rod is as many as the ratio goes into one.
-    let proportions =
-        crankpin_core::slider_crank::Proportions::new(ratio, arguments.or("offset", 0.0)?)?;
+    let mechanism = crankpin_core::mechanism::with_ratios(ratio, arguments.or("offset", 0.0)?)?;
     let count: u32 = arguments.required("count")?;
     let orders: Vec<u32> = (1..=count).collect();
-    let found = harmonics::coefficients(&proportions, &orders, &Cancel::new())?;
+    let found = mechanism.force(&orders, &Cancel::new())?;
     let (re, im) = (found.iter().map(|a| a.re), found.iter().map(|a| a.im));
     Ok(json!({ "re": columns.column(re), "im": columns.column(im) }))
 }

@@ -137,7 +137,7 @@ fn as_it_is(engine: &Engine, request: &CorrectionRequest) -> Result<Engine> {
 mod tests {
     use super::*;
     use crate::layout::{Numbering, Side, Spacing, Vee};
-    use crate::mechanism::slider_crank::Cylinder;
+    use crate::mechanism::cylinder::Cylinder;
 
     fn v8() -> Engine {
         let angle = |degrees: f64| Angle::from_degrees(degrees).unwrap();

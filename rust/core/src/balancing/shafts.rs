@@ -8,7 +8,7 @@ use super::least_squares::least_squares;
 use super::{TurningPart, VALUE_ROUNDING, half_length, weights};
 use crate::Complex64;
 use crate::engine::{CrankIndex, Engine, Shaft, Unbalance};
-use crate::mechanism::slider_crank::Cylinder;
+use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -249,9 +249,7 @@ fn fitted(ratio: SpeedRatio, unbalances: Vec<Unbalance>, reference: f64) -> Fitt
 /// infinite rod the crank alone counts.
 fn size(engine: &Engine) -> f64 {
     let [first, last] = engine.ends();
-    let rod = |gear: &Cylinder| if gear.has_infinite_rod() { 0.0 } else { gear.rod_length() };
-    let reach = engine.gears().iter().map(|gear| gear.crank_radius() + rod(gear));
-    reach.fold(last - first, f64::max)
+    engine.gears().iter().map(Cylinder::reach).fold(last - first, f64::max)
 }
 
 #[cfg(test)]

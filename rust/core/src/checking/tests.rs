@@ -1,7 +1,7 @@
 use super::*;
 use crate::load::LoadList;
 use crate::load::tests::fired;
-use crate::mechanism::Mechanism;
+use crate::mechanism::DrivenMechanism;
 use crate::source::over_angle::{AngleBlock, Columns, LoadSum, Quantities};
 use crate::source::{Column, ExactFactor, Parts, Point, Scale, SourceUpTo, Tail, TorqueAmplitudes};
 
@@ -18,7 +18,7 @@ impl Source for Renamed {
         self.0.parts()
     }
 
-    fn mechanism(&self) -> Option<&Mechanism> {
+    fn mechanism(&self) -> Option<&DrivenMechanism> {
         self.0.mechanism()
     }
 
@@ -59,8 +59,8 @@ impl Source for Renamed {
         self.0.scale()
     }
 
-    fn grows_up_to(&self, column: Column) -> f64 {
-        self.0.grows_up_to(column)
+    fn grows_with_rod_ratio(&self, column: Column) -> bool {
+        self.0.grows_with_rod_ratio(column)
     }
 
     fn at_point(&self, point: &Point) -> Result<Option<Arc<dyn Source>>> {

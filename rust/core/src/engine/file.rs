@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::layout::Strokes;
 use super::{Crank, Details, Engine, Gas, PeriodicLoad, RodFigures, Shaft, Station, Unbalance};
-use crate::mechanism::slider_crank::Cylinder;
+use crate::mechanism::cylinder::Cylinder;
 use crate::mounts::Powertrain;
 use crate::mounts::file::PowertrainEntry;
 use crate::numbers::angle::Angle;

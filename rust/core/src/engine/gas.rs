@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::layout::Strokes;
 use super::{CrankIndex, Engine, check_each_cylinder};
 use crate::Complex64;
-use crate::mechanism::slider_crank::piston_area;
+use crate::mechanism::cylinder::piston_area;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::ListIndex;

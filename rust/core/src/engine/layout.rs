@@ -2,7 +2,7 @@
 
 pub use super::firing_order::FiringOrder;
 use super::{Engine, Station, bank_angle_in_range, check_each_cylinder, check_number};
-use crate::mechanism::slider_crank::Cylinder;
+use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::angle::{Angle, MOST_ROUNDING};
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;

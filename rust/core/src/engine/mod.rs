@@ -16,6 +16,8 @@ pub mod radial;
 mod shaft;
 pub mod warnings;
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
 pub use self::banks::{Banks, Hold, bank_angle_in_range};
@@ -24,8 +26,9 @@ pub use self::gas::Gas;
 use self::layout::Strokes;
 pub use self::periodic::{ActsOn, Amplitudes, OverSpeed, PeriodicLoad};
 pub use self::shaft::{Crank, Origin, Shaft, Unbalance};
+use crate::mechanism::Mechanism;
+use crate::mechanism::cylinder::Cylinder;
 use crate::mechanism::rod::Rod;
-use crate::mechanism::slider_crank::Cylinder;
 use crate::mechanism::spectrum::Spectrum;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
@@ -259,6 +262,12 @@ impl Engine {
     #[must_use]
     pub fn gear_of(&self, cylinder: usize) -> GearIndex {
         self.gear_of[cylinder]
+    }
+
+    /// How a cylinder's piston moves.
+    #[must_use]
+    pub fn mechanism(&self, cylinder: usize) -> Arc<dyn Mechanism> {
+        self.stations[cylinder].cylinder.mechanism()
     }
 
     /// Force given for every cylinder in place of that of its slider-crank.

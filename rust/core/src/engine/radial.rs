@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::layout::{Spacing, Strokes, per_cylinder};
 use super::{Engine, Station};
-use crate::mechanism::slider_crank::Cylinder;
+use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;

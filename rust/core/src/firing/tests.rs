@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::Firing;
 use crate::engine::{Engine, Station};
 use crate::layout::{Numbering, Side, Spacing, Vee};
-use crate::mechanism::slider_crank::Cylinder;
+use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::angle::Angle;
 
 pub fn vee(bank_angle: f64, pin_split: f64, throws: &[f64], first_bank: Side) -> Vee {

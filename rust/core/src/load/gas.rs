@@ -3,14 +3,15 @@
 use std::sync::Arc;
 
 use crate::engine::layout::Strokes;
-use crate::mechanism::Mechanism;
+use crate::mechanism::DrivenMechanism;
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
+use crate::mechanism::motion::{CrankPosition, MotionColumns};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 use crate::numbers::ratio::SpeedRatio;
 use crate::pressure::{Cycle, GasTorque};
-use crate::source::over_angle::{AngleBlock, Columns, LoadSum, Quantities};
+use crate::source::over_angle::{AngleBlock, BLOCK, Columns, LoadSum, Quantities};
 use crate::source::{
     ExactFactor, GAS, Parts, Point, Repeats, Scale, Scaling, Source, SourceUpTo, Tail,
     TorqueAmplitudes, is_equal,
@@ -21,7 +22,7 @@ use crate::source::{
 #[derive(Debug, Clone)]
 pub(super) struct GasPressure {
     /// On a crank as fast as the main one, whose cycles these are.
-    pub mechanism: Mechanism,
+    pub mechanism: DrivenMechanism,
     pub cycle: Arc<Cycle>,
     /// Its place among the cycles of the engine: those of a map may be equal at some speed and load alone.
     pub place: usize,
@@ -58,14 +59,14 @@ impl Source for GasPressure {
         is_equal(self, other)
     }
 
-    fn mechanism(&self) -> Option<&Mechanism> {
+    fn mechanism(&self) -> Option<&DrivenMechanism> {
         Some(&self.mechanism)
     }
 
     fn is_integrated(&self, orders: &[Order]) -> bool {
         let Self { mechanism, cycle, crankcase, known, .. } = self;
         known.as_ref().and_then(|known| known.at(orders)).is_none()
-            && !cycle.keeps_torque_of(&mechanism.proportions, *crankcase, orders)
+            && !cycle.keeps_torque_of(&mechanism.mechanism, *crankcase, orders)
     }
 
     /// The forces are internal, so that either torque balances the other.
@@ -74,7 +75,7 @@ impl Source for GasPressure {
         let known = self.known.as_ref().and_then(|known| known.at(orders));
         let evaluate = || {
             let Self { mechanism, cycle, crankcase, .. } = self;
-            cycle.torque_of(&mechanism.proportions, *crankcase, orders, cancel)
+            cycle.torque_of(&mechanism.mechanism, *crankcase, orders, cancel)
         };
         let GasTorque { mean, phasors } = known.map_or_else(evaluate, Ok)?;
         let roll = phasors.iter().map(|phasor| phasor * -on_block).collect();
@@ -100,7 +101,7 @@ impl Source for GasPressure {
     fn up_to(&self, highest: Order, cancel: &Cancel) -> Result<Option<SourceUpTo>> {
         let Self { mechanism, cycle, crankcase, .. } = self;
         let (known, tails) =
-            cycle.torque_up_to(&mechanism.proportions, *crankcase, highest, cancel)?;
+            cycle.torque_up_to(&mechanism.mechanism, *crankcase, highest, cancel)?;
         Ok(Some((Arc::new(Self { known: Some(known), ..self.clone() }), tails)))
     }
 
@@ -108,7 +109,8 @@ impl Source for GasPressure {
         let torque = |degrees: u32| {
             let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
             let pressure = self.cycle.pressure_deg(f64::from(degrees)) - self.crankcase;
-            (pressure * self.mechanism.proportions.motion(sin, cos).velocity).abs()
+            (pressure * self.mechanism.mechanism.motion(&CrankPosition::new(sin, cos)).velocity)
+                .abs()
         };
         (0..720).map(torque).fold(0.0, f64::max)
     }
@@ -140,10 +142,16 @@ impl Source for GasPressure {
             return Ok(());
         }
         let [on_block, on_crank] = self.mechanism.senses();
-        let units = &*block.units(SpeedRatio::ONE);
-        for (i, θ) in block.degrees().iter().enumerate() {
-            let velocity =
-                self.mechanism.proportions.motion_at(&units.crank(sum.turned, i)).velocity;
+        let (units, [mut velocity, mut acceleration]) =
+            (block.units(SpeedRatio::ONE), [[0.0; BLOCK]; 2]);
+        let motion = MotionColumns {
+            velocity: &mut velocity,
+            acceleration: &mut acceleration,
+            jerk: None,
+            lean: None,
+        };
+        self.mechanism.mechanism.motions(&units.cranks(sum.turned), motion);
+        for (i, (θ, velocity)) in block.degrees().iter().zip(velocity).enumerate() {
             let gauge = self.cycle.pressure_deg(θ - sum.phase_deg) - self.crankcase;
             // The piston's way down is minus its distance from the crank.
             let torque = -gauge * velocity * sum.roll;

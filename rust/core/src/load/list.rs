@@ -12,7 +12,8 @@ use super::{
 };
 use crate::Complex64;
 use crate::engine::{Crank, Engine, Origin, Unbalance};
-use crate::mechanism::Mechanism;
+use crate::mechanism::DrivenMechanism;
+use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::error::Result;
 use crate::numbers::index::List;
 use crate::numbers::order::Order;
@@ -80,7 +81,11 @@ impl LoadList {
         let (list, sources, group_of) = (List::default(), List::default(), List::default());
         let mut loads = Self { list, sources, groups, group_of, reference };
         let ratio = |i: usize| engine.cranks()[engine.crank_of(i)].ratio;
-        let mechanism = |i: usize| Mechanism::new(&engine.stations()[i].cylinder, ratio(i));
+        let mechanisms = engine.gears().map_to(Cylinder::mechanism);
+        let mechanism = |i: usize| {
+            let mechanism = Arc::clone(&mechanisms[engine.gear_of(i)]);
+            DrivenMechanism { mechanism, ratio: ratio(i) }
+        };
         let along_bore = |i: usize| Place::along_bore(engine, i);
         let cylinders = 0..engine.stations().len();
         for i in cylinders.clone() {

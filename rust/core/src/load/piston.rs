@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use crate::Complex64;
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
-use crate::mechanism::slider_crank::Proportions;
-use crate::mechanism::{Mechanism, at_own_orders, harmonics};
+use crate::mechanism::motion::MotionColumns;
+use crate::mechanism::{DrivenMechanism, HarmonicsOf, at_own_orders};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::error::Result;
@@ -20,7 +20,7 @@ use crate::source::{
 
 /// Force over m·r·ω², torque over m·r²·ω².
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct PistonInertia(pub Mechanism);
+pub(super) struct PistonInertia(pub DrivenMechanism);
 
 impl Source for PistonInertia {
     fn name(&self) -> &'static str {
@@ -35,20 +35,16 @@ impl Source for PistonInertia {
         is_equal(self, other)
     }
 
-    fn mechanism(&self) -> Option<&Mechanism> {
+    fn mechanism(&self) -> Option<&DrivenMechanism> {
         Some(&self.0)
     }
 
     fn force(&self, orders: &[Order], cancel: &Cancel) -> Result<Vec<Complex64>> {
-        at_own_orders(self.0.ratio, orders, |own| {
-            harmonics::coefficients(&self.0.proportions, own, cancel)
-        })
+        at_own_orders(self.0.ratio, orders, |own| self.0.mechanism.force(own, cancel))
     }
 
     fn torque(&self, orders: &[Order], cancel: &Cancel) -> Result<TorqueAmplitudes> {
-        torque_by(&self.0, orders, |own| {
-            harmonics::torque::torque(&self.0.proportions, own, cancel)
-        })
+        torque_by(&self.0, orders, |own| self.0.mechanism.torque(own, cancel))
     }
 
     fn orders(&self, highest: Order) -> Vec<Order> {
@@ -56,10 +52,11 @@ impl Source for PistonInertia {
     }
 
     fn beyond(&self, halves: u32, torque: bool) -> Tail {
-        let (own, proportions) = (self.0.own_highest(halves), &self.0.proportions);
+        let (own, mechanism) = (self.0.own_highest(halves), &self.0.mechanism);
+        let of_torque = || torque_beyond(&self.0, mechanism.torque_beyond(own));
         Tail {
-            force: harmonics::tail_bound(proportions, own).unwrap_or(f64::INFINITY),
-            torque: torque_beyond(&self.0, torque, harmonics::torque::tail_bound, own),
+            force: mechanism.force_beyond(own).unwrap_or(f64::INFINITY),
+            torque: if torque { of_torque() } else { 0.0 },
         }
     }
 
@@ -67,13 +64,11 @@ impl Source for PistonInertia {
         Scale { force: 1.0, torque: Some(1.0) }
     }
 
-    /// Without offset √(1 − λ² sin²θ) is a power series in λ² whose terms give each order one sign. Of the
-    /// torque order 4 falls from λ = 0.96 on: see the sweep's choice of orders.
-    fn grows_up_to(&self, column: Column) -> f64 {
-        match column {
-            Column::Force => 1.0,
-            Column::Roll => 0.95,
-        }
+    fn grows_with_rod_ratio(&self, column: Column) -> bool {
+        self.0.mechanism.grows_with_rod_ratio(match column {
+            Column::Force => HarmonicsOf::Force,
+            Column::Roll => HarmonicsOf::Torque,
+        })
     }
 
     fn at_point(&self, point: &Point) -> Result<Option<Arc<dyn Source>>> {
@@ -92,28 +87,37 @@ impl Source for PistonInertia {
         square: f64,
         columns: &mut Columns,
     ) -> Result<()> {
-        let yoke = self.0.proportions.has_infinite_rod();
-        let (mechanism, columns) = (&self.0, columns);
+        let (units, [mut velocity, mut acceleration]) = (block.units(sum.ratio), [[0.0; BLOCK]; 2]);
+        let motion = MotionColumns {
+            velocity: &mut velocity,
+            acceleration: &mut acceleration,
+            jerk: None,
+            lean: None,
+        };
+        self.0.mechanism.motions(&units.cranks(sum.turned), motion);
+        let Columns { force: [force_x, force_y], moment: [moment_x, moment_y], .. } = columns;
+        let [roll, crank] = &mut columns.torque;
+        // The force is against the acceleration of the piston away from the crank.
+        let [force, moment, arm] = [sum.force, sum.moment, sum.arm].map(|sum| sum * -square);
+        let [on_block, on_crank] = self.0.senses().map(|sense| sense * square * sum.roll);
+        let offset = self.0.mechanism.offset();
         vectorised(
             #[inline(always)]
-            || match (wanted.planar, wanted.torque, yoke) {
-                (true, true, false) => {
-                    add::<true, true, false>(mechanism, sum, block, square, columns);
+            || {
+                if wanted.planar {
+                    for i in 0..BLOCK {
+                        force_x[i] += force.re * acceleration[i];
+                        force_y[i] += force.im * acceleration[i];
+                        moment_x[i] += moment.re * acceleration[i];
+                        moment_y[i] += moment.im * acceleration[i];
+                    }
                 }
-                (true, true, true) => {
-                    add::<true, true, true>(mechanism, sum, block, square, columns);
-                }
-                (true, false, false) => {
-                    add::<true, false, false>(mechanism, sum, block, square, columns);
-                }
-                (true, false, true) => {
-                    add::<true, false, true>(mechanism, sum, block, square, columns);
-                }
-                (false, _, false) => {
-                    add::<false, true, false>(mechanism, sum, block, square, columns);
-                }
-                (false, _, true) => {
-                    add::<false, true, true>(mechanism, sum, block, square, columns);
+                if wanted.torque {
+                    for i in 0..BLOCK {
+                        let along = velocity[i] + offset;
+                        roll[i] += (on_block * along + arm.im) * acceleration[i];
+                        crank[i] -= on_crank * velocity[i] * acceleration[i];
+                    }
                 }
             },
         );
@@ -121,67 +125,28 @@ impl Source for PistonInertia {
     }
 
     fn add_inertia(&self, sum: &LoadSum, angles: &CrankAngles, into: [&mut [f64]; 2]) {
-        add_inertia(&self.0, sum, angles, into, |crank| {
-            let motion = self.0.proportions.motion_at(crank);
-            [motion.velocity, motion.acceleration]
+        add_inertia(&self.0, sum, angles, into, |cranks, [velocity, acceleration]| {
+            let motion = MotionColumns { velocity, acceleration, jerk: None, lean: None };
+            self.0.mechanism.motions(cranks, motion);
         });
     }
 }
 
-#[inline(always)]
-fn add<const PLANAR: bool, const TORQUE: bool, const YOKE: bool>(
-    mechanism: &Mechanism,
-    sum: &LoadSum,
-    block: &AngleBlock,
-    square: f64,
-    columns: &mut Columns,
-) {
-    let (units, proportions) = (&*block.units(sum.ratio), &mechanism.proportions);
-    let Columns { force: [force_x, force_y], moment: [moment_x, moment_y], .. } = columns;
-    let [roll, crank] = &mut columns.torque;
-    // The force is against the acceleration of the piston away from the crank.
-    let [force, moment, arm] = [sum.force, sum.moment, sum.arm].map(|sum| sum * -square);
-    let [on_block, on_crank] = mechanism.senses().map(|sense| sense * square * sum.roll);
-    for i in 0..BLOCK {
-        let motion = proportions.motion_of::<YOKE>(&units.crank(sum.turned, i));
-        if PLANAR {
-            force_x[i] += force.re * motion.acceleration;
-            force_y[i] += force.im * motion.acceleration;
-            moment_x[i] += moment.re * motion.acceleration;
-            moment_y[i] += moment.im * motion.acceleration;
-        }
-        if TORQUE {
-            let along = motion.velocity + proportions.offset;
-            roll[i] += (on_block * along + arm.im) * motion.acceleration;
-            crank[i] -= on_crank * motion.velocity * motion.acceleration;
-        }
-    }
-}
-
 /// Multiples of the speed of a mechanism's crank up to an order of the main one.
-pub(super) fn multiples(mechanism: &Mechanism, highest: Order) -> Vec<Order> {
+pub(super) fn multiples(mechanism: &DrivenMechanism, highest: Order) -> Vec<Order> {
     let halves = mechanism.ratio.halves_of_speed();
     let own = 1..=mechanism.own_highest(highest.halves());
     own.filter_map(|own| Order::from_halves(own * halves).ok()).collect()
 }
 
-/// Bound of what own orders above one add to either torque on the main crank and the block, if wanted.
-pub(super) fn torque_beyond(
-    mechanism: &Mechanism,
-    wanted: bool,
-    bound: fn(&Proportions, u32) -> Option<f64>,
-    own: u32,
-) -> f64 {
-    if !wanted {
-        return 0.0;
-    }
-    let bound = bound(&mechanism.proportions, own).unwrap_or(f64::INFINITY);
-    bound * mechanism.ratio.size()
+/// Bound of what own orders add to either torque on the main crank and the block from that on their own crank.
+pub(super) fn torque_beyond(mechanism: &DrivenMechanism, bound: Option<f64>) -> f64 {
+    bound.unwrap_or(f64::INFINITY) * mechanism.ratio.size()
 }
 
 /// Torques of a mechanism on the block and on the main crank from those on its own crank.
 pub(super) fn torque_by(
-    mechanism: &Mechanism,
+    mechanism: &DrivenMechanism,
     orders: &[Order],
     of: impl FnOnce(&[u32]) -> Result<TorqueHarmonics>,
 ) -> Result<TorqueAmplitudes> {

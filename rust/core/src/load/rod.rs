@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::piston::{multiples, torque_beyond, torque_by};
-use crate::mechanism::rod::Swing;
-use crate::mechanism::{Mechanism, harmonics};
+use crate::mechanism::motion::Swing;
+use crate::mechanism::{DrivenMechanism, HarmonicsOf};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::error::Result;
@@ -17,7 +17,7 @@ use crate::source::{
 
 /// Torque over the rod's inertia and ω².
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct RodInertia(pub Mechanism);
+pub(super) struct RodInertia(pub DrivenMechanism);
 
 impl Source for RodInertia {
     fn name(&self) -> &'static str {
@@ -32,12 +32,12 @@ impl Source for RodInertia {
         is_equal(self, other)
     }
 
-    fn mechanism(&self) -> Option<&Mechanism> {
+    fn mechanism(&self) -> Option<&DrivenMechanism> {
         Some(&self.0)
     }
 
     fn torque(&self, orders: &[Order], cancel: &Cancel) -> Result<TorqueAmplitudes> {
-        torque_by(&self.0, orders, |own| harmonics::rod::torque(&self.0.proportions, own, cancel))
+        torque_by(&self.0, orders, |own| self.0.mechanism.swing_torque(own, cancel))
     }
 
     fn orders(&self, highest: Order) -> Vec<Order> {
@@ -46,18 +46,17 @@ impl Source for RodInertia {
 
     fn beyond(&self, halves: u32, torque: bool) -> Tail {
         let own = self.0.own_highest(halves);
-        let torque = torque_beyond(&self.0, torque, harmonics::rod::tail_bound, own);
-        Tail { force: 0.0, torque }
+        let bound = || torque_beyond(&self.0, self.0.mechanism.swing_torque_beyond(own));
+        Tail { force: 0.0, torque: if torque { bound() } else { 0.0 } }
     }
 
     /// Of order 1 it makes about J·r/l.
     fn scale(&self) -> Scale {
-        Scale { force: 0.0, torque: Some(1.0 / self.0.proportions.rod) }
+        Scale { force: 0.0, torque: Some(self.0.mechanism.rod_ratio()) }
     }
 
-    /// Order 2 falls from λ = 0.91 on: see the sweep's choice of orders.
-    fn grows_up_to(&self, _: Column) -> f64 {
-        0.9
+    fn grows_with_rod_ratio(&self, _: Column) -> bool {
+        self.0.mechanism.grows_with_rod_ratio(HarmonicsOf::SwingTorque)
     }
 
     fn at_point(&self, point: &Point) -> Result<Option<Arc<dyn Source>>> {
@@ -79,14 +78,16 @@ impl Source for RodInertia {
         if !wanted.torque {
             return Ok(());
         }
-        let units = &*block.units(sum.ratio);
+        let [mut velocity, mut acceleration] = [[0.0; BLOCK]; 2];
+        let units = block.units(sum.ratio);
+        self.0.mechanism.swings(&units.cranks(sum.turned), [&mut velocity, &mut acceleration]);
         let [on_block, on_crank] = self.0.senses().map(|sense| sense * square * sum.roll);
         let [roll, crank] = &mut columns.torque;
         vectorised(
             #[inline(always)]
             || {
                 for i in 0..BLOCK {
-                    let swing = Swing::new(&self.0.proportions, &units.crank(sum.turned, i));
+                    let swing = Swing { velocity: velocity[i], acceleration: acceleration[i] };
                     roll[i] += on_block * swing.roll();
                     crank[i] += on_crank * swing.crank();
                 }
@@ -96,9 +97,8 @@ impl Source for RodInertia {
     }
 
     fn add_inertia(&self, sum: &LoadSum, angles: &CrankAngles, into: [&mut [f64]; 2]) {
-        add_inertia(&self.0, sum, angles, into, |crank| {
-            let swing = Swing::new(&self.0.proportions, crank);
-            [swing.velocity, swing.acceleration]
+        add_inertia(&self.0, sum, angles, into, |cranks, swing| {
+            self.0.mechanism.swings(cranks, swing);
         });
     }
 }

@@ -6,7 +6,7 @@ use super::kinematics::Kinematics;
 use super::*;
 use crate::Spectrum;
 use crate::engine::{CrankIndex, Details, Engine, Gas, Shaft, Station, Unbalance};
-use crate::mechanism::slider_crank::Cylinder;
+use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::CrankAngles;
@@ -209,7 +209,7 @@ fn pressure_under_a_piston_is_a_load_of_the_other_sign() {
     let is_gas = |load: &&Load| loads.source(load).name() == GAS_NAME;
     let above: Vec<Load> = loads.list.iter().filter(is_gas).copied().collect();
     for load in &above {
-        let mechanism = *loads.source(load).mechanism().unwrap();
+        let mechanism = loads.source(load).mechanism().unwrap().clone();
         let gas = GasPressure {
             mechanism,
             cycle: Arc::clone(&cycle),

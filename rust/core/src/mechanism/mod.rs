@@ -1,50 +1,210 @@
 //! One cylinder: its moving parts, their motion, and the harmonics of the forces and torques of
 //! their inertia.
 //!
-//! Imports run downwards: [`slider_crank`] → [`rod`] → [`harmonics`], [`spectrum`] → `Mechanism`.
+//! A piston moves as its [`Mechanism`] says, of which a [`Cylinder`] has one. Imports run downwards: [`motion`],
+//! [`cylinder`], [`exact`] → `Mechanism` → [`slider_crank`] → [`rod`], [`harmonics`], [`spectrum`].
 
+pub mod cylinder;
+pub mod exact;
 pub mod harmonics;
+pub mod motion;
 pub mod rod;
+mod scotch_yoke;
 pub mod slider_crank;
 pub mod spectrum;
+#[cfg(test)]
+mod tests;
 
-use self::slider_crank::{Cylinder, Proportions};
+use std::any::Any;
+use std::fmt::Debug;
+use std::ptr;
+use std::sync::Arc;
+
+use ndarray::Array2;
+
+use self::cylinder::{Cylinder, NEVER_LEANS};
+use self::exact::{ExactHarmonic, MotionKey};
+use self::harmonics::rod::TorqueHarmonics;
+use self::motion::{CrankPosition, Cranks, Motion, MotionColumns, Swing};
+use self::scotch_yoke::ScotchYoke;
+use self::slider_crank::SliderCrank;
 use crate::Complex64;
-use crate::numbers::error::Result;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::{Error, Result};
 use crate::numbers::order::Order;
 use crate::numbers::ratio::SpeedRatio;
 
-/// How a piston moves: a slider-crank whose crank turns at some speed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Mechanism {
-    /// Its lengths; what moves has no mass here.
-    cylinder: Cylinder,
-    /// Proportions of its motion: its own, or those of a point of a sweep.
-    pub proportions: Proportions,
+/// How a piston and its rod move as their crank turns, in crank radii and per crank angle.
+///
+/// Whatever asks a motion asks this, and none asks which one it is. Orders are multiples of the speed of its own
+/// crank, θ is zero where the crankpin points along the bore, and amplitudes are peak phasors.
+pub trait Mechanism: Debug + Send + Sync + Any {
+    /// Whether another is the same.
+    fn equals(&self, other: &dyn Mechanism) -> bool;
+
+    /// Motion of the piston where the crank stands so.
+    fn motion(&self, crank: &CrankPosition) -> Motion;
+
+    /// How the rod turns there.
+    fn swing(&self, crank: &CrankPosition) -> Swing;
+
+    /// Motion of the piston at some positions.
+    fn motions(&self, cranks: &Cranks, into: MotionColumns) {
+        into.fill(cranks, |crank| self.motion(crank));
+    }
+
+    /// Velocity and acceleration of the rod's angle at some positions.
+    fn swings(&self, cranks: &Cranks, into: [&mut [f64]; 2]) {
+        motion::fill(cranks, into, |crank| {
+            let Swing { velocity, acceleration } = self.swing(crank);
+            [velocity, acceleration]
+        });
+    }
+
+    /// How far above θ = 90° and −90° the motion is singular in the complex plane, radians.
+    fn singularities(&self) -> [f64; 2];
+
+    /// Amplitudes of the force along the bore over m·r·ω².
+    fn force(&self, orders: &[u32], cancel: &Cancel) -> Result<Vec<Complex64>>;
+
+    /// Bound of the sum of their sizes at orders above one; none where it overflows.
+    fn force_beyond(&self, highest: u32) -> Option<f64>;
+
+    /// Amplitudes of the torques of that force over m·r²·ω².
+    fn torque(&self, orders: &[u32], cancel: &Cancel) -> Result<TorqueHarmonics>;
+
+    /// Bound of what either adds above an order.
+    fn torque_beyond(&self, highest: u32) -> Option<f64>;
+
+    /// Amplitudes of the torques of a rod's inertia beyond that of two masses, over it and ω².
+    fn swing_torque(&self, orders: &[u32], cancel: &Cancel) -> Result<TorqueHarmonics>;
+
+    /// Bound of what either adds above an order.
+    fn swing_torque_beyond(&self, highest: u32) -> Option<f64>;
+
+    /// Distance of the piston's line from the axis of the crank, over the crank radius: on the side to which the
+    /// crankpin swings after θ = 0.
+    fn offset(&self) -> f64 {
+        0.0
+    }
+
+    /// Crank radius over rod length.
+    fn rod_ratio(&self) -> f64;
+
+    /// The same with rod ratio, and pin offset (m), replaced.
+    fn with_proportions(
+        &self,
+        rod_ratio: Option<f64>,
+        pin_offset: Option<f64>,
+    ) -> Result<Arc<dyn Mechanism>>;
+
+    /// Real amplitudes of the force at many rod ratios (rows), where they are evaluated side by side.
+    fn force_at_ratios(
+        &self,
+        rod_ratios: &[f64],
+        orders: &[u32],
+        cancel: &Cancel,
+    ) -> Option<Result<Array2<f64>>> {
+        let _ = (rod_ratios, orders, cancel);
+        None
+    }
+
+    /// Whether every order grows with the rod ratio from 0 to its own.
+    fn grows_with_rod_ratio(&self, of: HarmonicsOf) -> bool {
+        let _ = of;
+        false
+    }
+
+    /// The figures on which it depends.
+    fn key(&self) -> MotionKey;
+
+    /// What is known of an order of the force.
+    fn exact_force(&self, order: u32) -> ExactHarmonic;
+
+    /// What is known of an order of the torques.
+    fn exact_torque(&self, order: u32) -> ExactHarmonic;
+
+    /// The ratio of successive orders, high ones, is at most this.
+    fn decay(&self) -> f64;
+}
+
+impl PartialEq for dyn Mechanism {
+    fn eq(&self, other: &Self) -> bool {
+        ptr::addr_eq(self, other) || self.equals(other)
+    }
+}
+
+/// Whether another mechanism is of the same kind, and equal.
+fn is_equal<M: Mechanism + PartialEq>(mechanism: &M, other: &dyn Mechanism) -> bool {
+    (other as &dyn Any).downcast_ref::<M>().is_some_and(|other| mechanism == other)
+}
+
+/// Amplitudes of a mechanism.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum HarmonicsOf {
+    /// Those of [`Mechanism::force`].
+    Force,
+    /// Those of [`Mechanism::torque`].
+    Torque,
+    /// Those of [`Mechanism::swing_torque`].
+    SwingTorque,
+}
+
+impl Cylinder {
+    /// How its piston moves.
+    #[must_use]
+    pub fn mechanism(&self) -> Arc<dyn Mechanism> {
+        if self.has_infinite_rod() {
+            return Arc::new(ScotchYoke::new(self));
+        }
+        Arc::new(SliderCrank::new(self))
+    }
+
+    /// The same with the ratio of crank radius to rod length, and pin offset (m), replaced.
+    pub fn mechanism_with(
+        &self,
+        rod_ratio: Option<f64>,
+        pin_offset: Option<f64>,
+    ) -> Result<Arc<dyn Mechanism>> {
+        let (radius, offset) = (self.crank_radius(), pin_offset.unwrap_or(self.pin_offset()));
+        let Some(ratio) = rod_ratio else {
+            return Ok(Self::new(radius, self.rod_length(), 0.0, offset)?.mechanism());
+        };
+        if ratio != 0.0 {
+            return Ok(Arc::new(SliderCrank::with_ratios(self, ratio, offset / radius)?));
+        }
+        if offset != 0.0 {
+            return Err(Error::figure("pin_offset_ratio", offset / radius, NEVER_LEANS));
+        }
+        Ok(Arc::new(ScotchYoke::new(self)))
+    }
+}
+
+/// How a piston moves whose crank radius is 1, with this ratio of it to the rod's length and this offset.
+pub fn with_ratios(rod_ratio: f64, offset: f64) -> Result<Arc<dyn Mechanism>> {
+    Cylinder::new(1.0, f64::INFINITY, 0.0, 0.0)?.mechanism_with(Some(rod_ratio), Some(offset))
+}
+
+/// A mechanism on a crank of some speed.
+#[derive(Debug, Clone)]
+pub struct DrivenMechanism {
+    /// What moves.
+    pub mechanism: Arc<dyn Mechanism>,
     /// Speed of its crank.
     pub ratio: SpeedRatio,
 }
 
-impl Mechanism {
-    /// Of a cylinder on a crank of this speed.
-    pub(crate) fn new(cylinder: &Cylinder, ratio: SpeedRatio) -> Self {
-        let cylinder = cylinder.without_masses();
-        Self { cylinder, proportions: cylinder.proportions(), ratio }
+impl PartialEq for DrivenMechanism {
+    fn eq(&self, other: &Self) -> bool {
+        self.ratio == other.ratio && *self.mechanism == *other.mechanism
     }
+}
 
-    /// Its lengths.
-    pub(crate) fn cylinder(&self) -> &Cylinder {
-        &self.cylinder
-    }
-
-    /// Whether it has no pin offset.
-    pub(crate) fn is_centred(&self) -> bool {
-        self.proportions.offset == 0.0
-    }
-
+impl DrivenMechanism {
     /// With rod ratio and pin offset (m) replaced.
     pub(crate) fn replaced(&self, rod_ratio: Option<f64>, pin_offset: Option<f64>) -> Result<Self> {
-        Ok(Self { proportions: self.cylinder.proportions_with(rod_ratio, pin_offset)?, ..*self })
+        let mechanism = self.mechanism.with_proportions(rod_ratio, pin_offset)?;
+        Ok(Self { mechanism, ratio: self.ratio })
     }
 
     /// Factors of the torques on the block and on the main crank: turning the other way mirrors the

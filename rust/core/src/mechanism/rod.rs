@@ -5,7 +5,6 @@
 //! of two forces across the bore, at the crankpin and at the piston pin: none on the engine as a
 //! whole, a torque −J ω² φ''φ' on the crank, and J ω² φ''(1 + φ') on the block.
 
-use crate::mechanism::slider_crank::{CrankPosition, Proportions};
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 
@@ -82,63 +81,10 @@ impl Rod {
     }
 }
 
-/// φ and its derivatives by crank angle.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Swing {
-    /// dφ/dθ.
-    pub velocity: f64,
-    /// d²φ/dθ².
-    pub acceleration: f64,
-}
-
-impl Swing {
-    /// Where the crank stands so.
-    #[inline(always)]
-    pub fn new(proportions: &Proportions, crank: &CrankPosition) -> Self {
-        if proportions.has_infinite_rod() {
-            return Self { velocity: 0.0, acceleration: 0.0 };
-        }
-        let (above, below) = (proportions.above.high, proportions.below.high);
-        let CrankPosition { sin, cos, to_above, to_below, .. } = *crank;
-        let height_squared = (above + to_above) * (below + to_below);
-        let inverse = 1.0 / height_squared.sqrt();
-        // h³φ'' = cos²θ(sin θ − e/r) − h² sin θ, in which 1 cancels out of l/r ± e/r.
-        let bend =
-            0.5 * (below * to_above * to_above - above * to_below * to_below) - above * below * sin;
-        Self { velocity: cos * inverse, acceleration: bend * inverse * inverse * inverse }
-    }
-
-    /// Torque on the block over J·ω².
-    #[inline(always)]
-    pub fn roll(&self) -> f64 {
-        self.acceleration * (1.0 + self.velocity)
-    }
-
-    /// Torque on the crank over J·ω².
-    #[inline(always)]
-    pub fn crank(&self) -> f64 {
-        -self.acceleration * self.velocity
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
-
-    #[test]
-    fn a_rod_as_long_as_the_crank_turns_evenly() {
-        // Up to the reach: φ = θ between the points where it turns back.
-        let swing = |θ: f64| {
-            let proportions = Proportions::new(1.0 - 1e-12, 0.0).unwrap();
-            Swing::new(&proportions, &CrankPosition::new(θ.sin(), θ.cos()))
-        };
-        assert_relative_eq!(swing(0.7).velocity, 1.0, max_relative = 1e-11);
-        assert_relative_eq!(swing(4.0).velocity, -1.0, max_relative = 1e-11);
-        // −sin θ (l²/r² − 1)/h³ with 2·10⁻¹² of a bracket.
-        let expected = -2e-12 * 0.7_f64.tan() / 0.7_f64.cos().powi(2);
-        assert_relative_eq!(swing(0.7).acceleration, expected, max_relative = 1e-4);
-    }
 
     #[test]
     fn two_masses_stand_in_for_the_rod() {
@@ -203,17 +149,5 @@ mod tests {
         assert_relative_eq!(rod.reciprocating_mass(), -0.02, max_relative = 1e-14);
         assert!(Rod::new(0.3, 0.001, 0.15, 0.16).is_err());
         assert!(Rod::new(0.0, 0.0, 0.15, 0.15).is_ok());
-    }
-
-    #[test]
-    fn swing_changes_as_it_moves() {
-        let proportions = Proportions::new(0.4, -0.6).unwrap();
-        let swing = |θ: f64| Swing::new(&proportions, &CrankPosition::new(θ.sin(), θ.cos()));
-        for k in 0..24 {
-            let θ = 0.25 * f64::from(k);
-            let slope = (swing(θ + 1e-5).velocity - swing(θ - 1e-5).velocity) / 2e-5;
-            // A central difference of step 1e-5.
-            assert_relative_eq!(swing(θ).acceleration, slope, epsilon = 1e-9);
-        }
     }
 }

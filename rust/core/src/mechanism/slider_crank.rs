@@ -1,248 +1,35 @@
-//! One cylinder's moving parts and their exact motion at any crank angle.
+//! The motion of a piston that a rod joins to its crankpin.
 //!
 //! The piston stands at `x(θ) = r cos θ + √(l² − (r sin θ − e)²)` along its bore, θ measured from
 //! the angle at which the crankpin points along the bore; e > 0 lies on the side to which the
 //! crankpin swings after that.
-//!
-//! A rod may be infinite, as that of a Scotch yoke: λ = r/l is zero, and the piston moves by r cos θ
-//! about the middle of its stroke.
 
+use std::sync::Arc;
+
+use ndarray::Array2;
+use num_traits::CheckedDiv;
+
+use super::exact::{ExactHarmonic, FigureKey, MotionKey, Rest};
+use super::harmonics::rod::TorqueHarmonics;
+use super::harmonics::{self, table};
+use super::motion::{CrankPosition, Cranks, Motion, MotionColumns, Swing, fill};
+use super::{Cylinder, HarmonicsOf, Mechanism, is_equal};
+use crate::Complex64;
+use crate::numbers::cancel::Cancel;
 use crate::numbers::double::Double;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
+use crate::numbers::rational::decimal;
+use crate::numbers::simd::vectorised;
 
-/// Why an infinite rod takes neither offset nor inertia.
-const NEVER_LEANS: &str = "leave it out: an infinite rod never leans";
-
-/// The moving parts of one cylinder. Rotating mass belongs to the throw: see [`crate::engine`].
-///
-/// ```
-/// use crankpin_core::Cylinder;
-///
-/// let (crank_radius, rod_length, reciprocating_mass, pin_offset) = (0.043, 0.145, 0.66, 0.0);
-/// let cylinder = Cylinder::new(crank_radius, rod_length, reciprocating_mass, pin_offset)?;
-/// assert_eq!(cylinder.rod_ratio(), 0.043 / 0.145);
-/// // At the top the piston is a crank and a rod away, and accelerates by 1 + λ of r·ω².
-/// let top = cylinder.proportions().motion(0.0, 1.0);
-/// assert!((top.acceleration + 1.0 + cylinder.rod_ratio()).abs() < 1e-15);
-/// # Ok::<(), crankpin_core::Error>(())
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Cylinder {
-    crank_radius: f64,
-    rod_length: f64,
-    reciprocating_mass: f64,
-    pin_offset: f64,
-    rod_inertia_excess: f64,
-}
-
-impl Cylinder {
-    /// Crank radius, rod length and pin offset in m, reciprocating mass in kg.
-    ///
-    /// An infinite rod never leans: it has no pin offset.
-    pub fn new(
-        crank_radius: f64,
-        rod_length: f64,
-        reciprocating_mass: f64,
-        pin_offset: f64,
-    ) -> Result<Self> {
-        limits::length("crank_radius", crank_radius)?;
-        if rod_length != f64::INFINITY {
-            limits::length("rod_length", rod_length)?;
-        }
-        limits::not_negative("reciprocating_mass", reciprocating_mass)?;
-        limits::finite("pin_offset", pin_offset)?;
-        let cylinder = Self {
-            crank_radius,
-            rod_length,
-            reciprocating_mass,
-            pin_offset,
-            rod_inertia_excess: 0.0,
-        };
-        if cylinder.has_infinite_rod() && pin_offset != 0.0 {
-            return Err(Error::figure("pin_offset", pin_offset, NEVER_LEANS));
-        }
-        let reach = rod_length - pin_offset.abs();
-        if crank_radius >= reach {
-            let value = format!(
-                "{crank_radius:?}, rod_length = {rod_length:?}, pin_offset = {pin_offset:?}"
-            );
-            let hint = format!(
-                "the crank cannot turn; make crank_radius less than rod_length - |pin_offset| = \
-                 {reach:?}"
-            );
-            return Err(Error::value("crank_radius", value, hint));
-        }
-        Ok(cylinder)
-    }
-
-    /// From bore and stroke in place of the crank radius, m. The motion does not depend on the bore,
-    /// which is checked and not kept.
-    pub fn from_bore_stroke(
-        bore: f64,
-        stroke: f64,
-        rod_length: f64,
-        reciprocating_mass: f64,
-        pin_offset: f64,
-    ) -> Result<Self> {
-        limits::length("bore", bore)?;
-        Self::from_stroke(stroke, rod_length, reciprocating_mass, pin_offset)
-    }
-
-    /// From the stroke in place of the crank radius, m.
-    pub fn from_stroke(
-        stroke: f64,
-        rod_length: f64,
-        reciprocating_mass: f64,
-        pin_offset: f64,
-    ) -> Result<Self> {
-        limits::length("stroke", stroke)?;
-        Self::new(0.5 * stroke, rod_length, reciprocating_mass, pin_offset)
-    }
-
-    /// With a rod whose moment of inertia about its centre of mass, I, is not that of two masses at
-    /// its ends: I − m·a·b in kg·m², a and b the distances of the rod's m from them. Mostly below 0.
-    pub fn with_rod_inertia_excess(self, excess: f64) -> Result<Self> {
-        limits::inertia("rod_inertia_excess", excess)?;
-        if self.has_infinite_rod() && excess != 0.0 {
-            return Err(Error::figure("rod_inertia_excess", excess, NEVER_LEANS));
-        }
-        Ok(Self { rod_inertia_excess: excess, ..self })
-    }
-
-    /// The same lengths without masses: the motion depends on no more.
-    #[must_use]
-    pub(crate) fn without_masses(self) -> Self {
-        Self { reciprocating_mass: 0.0, rod_inertia_excess: 0.0, ..self }
-    }
-
-    /// Crank radius r, half the stroke, m.
-    #[must_use]
-    pub fn crank_radius(&self) -> f64 {
-        self.crank_radius
-    }
-
-    /// Rod length l between its centres, m.
-    #[must_use]
-    pub fn rod_length(&self) -> f64 {
-        self.rod_length
-    }
-
-    /// Mass that moves with the piston, kg.
-    #[must_use]
-    pub fn reciprocating_mass(&self) -> f64 {
-        self.reciprocating_mass
-    }
-
-    /// Pin offset e (désaxé), m.
-    #[must_use]
-    pub fn pin_offset(&self) -> f64 {
-        self.pin_offset
-    }
-
-    /// The rod's moment of inertia beyond that of its two masses, kg·m²; torque alone depends on it.
-    #[must_use]
-    pub fn rod_inertia_excess(&self) -> f64 {
-        self.rod_inertia_excess
-    }
-
-    /// Whether it is other than zero.
-    #[must_use]
-    pub fn has_rod_inertia(&self) -> bool {
-        self.rod_inertia_excess != 0.0
-    }
-
-    /// Whether its rod is infinite, as that of a Scotch yoke.
-    #[must_use]
-    pub fn has_infinite_rod(&self) -> bool {
-        self.rod_length == f64::INFINITY
-    }
-
-    /// λ = r/l, zero of an infinite rod.
-    #[must_use]
-    pub fn rod_ratio(&self) -> f64 {
-        self.crank_radius / self.rod_length
-    }
-
-    /// Crank angles at which the piston is highest and lowest, where rod and crank are in line, degrees.
-    #[must_use]
-    pub fn turning_points_deg(&self) -> [f64; 2] {
-        let past = |length: f64| (self.pin_offset / length).asin().to_degrees();
-        [
-            past(self.rod_length + self.crank_radius),
-            180.0 + past(self.rod_length - self.crank_radius),
-        ]
-    }
-
-    /// Distance between the ends of the piston's travel, m: twice the crank radius without pin offset.
-    #[must_use]
-    pub fn travel(&self) -> f64 {
-        if self.pin_offset == 0.0 {
-            return 2.0 * self.crank_radius;
-        }
-        let (radius, rod, offset) = (self.crank_radius, self.rod_length, self.pin_offset);
-        // √((l + r)² − e²) − √((l − r)² − e²), whose digits would cancel, by the difference of the squares.
-        let [highest, lowest] =
-            [rod + radius, rod - radius].map(|l| ((l - offset) * (l + offset)).sqrt());
-        4.0 * radius * rod / (highest + lowest)
-    }
-
-    /// m·r, the size of the first-order force over ω², kg·m.
-    #[must_use]
-    pub fn first_order(&self) -> f64 {
-        self.reciprocating_mass * self.crank_radius
-    }
-
-    /// m·r², the size of the torques over ω², kg·m².
-    #[must_use]
-    pub fn second_moment(&self) -> f64 {
-        self.first_order() * self.crank_radius
-    }
-
-    /// The proportions that fix the motion, with rod ratio and pin offset (m) replaced.
-    pub fn proportions_with(
-        &self,
-        rod_ratio: Option<f64>,
-        pin_offset: Option<f64>,
-    ) -> Result<Proportions> {
-        let (radius, offset) = (self.crank_radius, pin_offset.unwrap_or(self.pin_offset));
-        match rod_ratio {
-            Some(ratio) => Proportions::new(ratio, offset / radius),
-            None => Self::new(radius, self.rod_length, 0.0, offset).map(|c| c.proportions()),
-        }
-    }
-
-    /// The proportions that fix the motion.
-    #[must_use]
-    pub fn proportions(&self) -> Proportions {
-        let Self { crank_radius: r, rod_length: l, pin_offset: e, .. } = *self;
-        if self.has_infinite_rod() {
-            return Proportions::INFINITE_ROD;
-        }
-        let reach = Double::sum(l, -r);
-        Proportions {
-            rod: l / r,
-            offset: e / r,
-            above: reach.plus(e).over(r),
-            below: reach.plus(-e).over(r),
-        }
-    }
-}
-
-/// Area of a piston of this bore, m, in m².
-#[must_use]
-pub fn piston_area(bore: f64) -> f64 {
-    0.25 * std::f64::consts::PI * bore * bore
-}
-
-/// A slider-crank in units of its crank radius.
+/// Lengths of a slider-crank in units of its crank radius.
 ///
 /// The rod's reach beyond the crank on either side is kept by itself: near the crank that cannot
 /// turn, everything depends on it, and `l/r ± e/r − 1` would lose it to rounding. It is kept to twice
 /// the digits, since order n goes with its n-th power.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Proportions {
-    /// l/r, which may be infinite.
+    /// l/r.
     pub rod: f64,
     /// e/r.
     pub offset: f64,
@@ -253,23 +40,25 @@ pub struct Proportions {
 }
 
 impl Proportions {
-    /// Those of a Scotch yoke.
-    const INFINITE_ROD: Self = Self {
-        rod: f64::INFINITY,
-        offset: 0.0,
-        above: Double { high: f64::INFINITY, low: 0.0 },
-        below: Double { high: f64::INFINITY, low: 0.0 },
-    };
+    /// Of a cylinder whose rod is finite.
+    fn of(cylinder: &Cylinder) -> Self {
+        let (r, l, e) = (cylinder.crank_radius(), cylinder.rod_length(), cylinder.pin_offset());
+        let reach = Double::sum(l, -r);
+        Self {
+            rod: l / r,
+            offset: e / r,
+            above: reach.plus(e).over(r),
+            below: reach.plus(-e).over(r),
+        }
+    }
 
-    /// From λ = r/l, zero of an infinite rod, and e/r.
+    /// From λ = r/l > 0 and e/r.
     pub fn new(rod_ratio: f64, offset: f64) -> Result<Self> {
         Self::check_rod_ratio(rod_ratio)?;
         limits::finite("pin_offset_ratio", offset)?;
         if rod_ratio == 0.0 {
-            return match offset {
-                0.0 => Ok(Self::INFINITE_ROD),
-                _ => Err(Error::figure("pin_offset_ratio", offset, NEVER_LEANS)),
-            };
+            let hint = "an infinite rod has no proportions: it is that of a Scotch yoke";
+            return Err(Error::figure("rod_ratio", rod_ratio, hint));
         }
         let reach = Double::sum(1.0, -rod_ratio);
         let shift = Double::product(offset, rod_ratio);
@@ -284,13 +73,6 @@ impl Proportions {
             return Err(Error::figure("pin_offset_ratio", offset, hint));
         }
         Ok(Self { rod: 1.0 / rod_ratio, offset, above, below })
-    }
-
-    /// Whether the rod is infinite, as that of a Scotch yoke.
-    #[must_use]
-    #[inline(always)]
-    pub fn has_infinite_rod(&self) -> bool {
-        self.rod == f64::INFINITY
     }
 
     /// Check that λ = r/l is in range: 0 ≤ λ < 1, zero of an infinite rod.
@@ -322,114 +104,218 @@ impl Proportions {
 
     /// [`Self::motion`], where the crank stands so.
     #[inline(always)]
-    pub(crate) fn motion_at(&self, crank: &CrankPosition) -> Motion {
-        if self.has_infinite_rod() {
-            self.motion_of::<true>(crank)
-        } else {
-            self.motion_of::<false>(crank)
-        }
-    }
-
-    /// [`Self::motion_at`] of a Scotch yoke, or of a finite rod: chosen once, before a loop.
-    #[inline(always)]
-    pub(crate) fn motion_of<const YOKE: bool>(&self, crank: &CrankPosition) -> Motion {
+    fn motion_at(&self, crank: &CrankPosition) -> Motion {
         let CrankPosition { sin, cos, squared, to_above, to_below } = *crank;
-        if YOKE {
-            let [position, velocity, acceleration] = [cos, -sin, -cos];
-            return Motion { position, velocity, acceleration, slope: 0.0, secant: 1.0 };
-        }
         let height_squared = (self.above.high + to_above) * (self.below.high + to_below);
         let height = height_squared.sqrt();
         let lateral = sin - self.offset;
         // h = √(l² − u²) with u = r sin θ − e: h' = −u u'/h, h'' = −(u u'' + l² u'²/h²)/h.
         let inverse = 1.0 / height;
-        let steepness = self.rod * inverse;
+        let secant = self.rod * inverse;
         let slope = lateral * inverse;
-        let velocity = -lateral * cos * inverse;
-        let acceleration = (lateral * sin - steepness * steepness * squared) * inverse;
-        Motion {
-            position: cos + height,
-            velocity: velocity - sin,
-            acceleration: acceleration - cos,
-            slope,
-            secant: steepness,
-        }
+        let rising = -lateral * cos * inverse;
+        let bending = (lateral * sin - secant * secant * squared) * inverse;
+        let [velocity, acceleration] = [rising - sin, bending - cos];
+        // h·h‴ = 3 sin θ cos θ + u cos θ − 3h′h″.
+        let (rise, bend) = (velocity + sin, acceleration + cos);
+        let of_height = cos * (4.0 * sin - self.offset) - 3.0 * rise * bend;
+        let jerk = sin + of_height / (self.rod / secant);
+        Motion { position: cos + height, velocity, acceleration, jerk, slope, secant }
     }
-}
 
-/// Where a crank stands, as far as nothing of the rod enters.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct CrankPosition {
-    pub sin: f64,
-    pub cos: f64,
-    /// cos²θ.
-    pub squared: f64,
-    /// 1 − sin θ.
-    pub to_above: f64,
-    /// 1 + sin θ.
-    pub to_below: f64,
-}
-
-impl CrankPosition {
+    /// How the rod turns, where the crank stands so.
     #[inline(always)]
-    pub fn new(sin: f64, cos: f64) -> Self {
-        // (l + e − r sin θ)(l − e + r sin θ): with 1 ∓ sin θ = cos²θ/(1 ± sin θ) neither factor
-        // loses digits where it is small.
-        let squared = cos * cos;
-        let (near, far) = (squared / (1.0 + sin.abs()), 1.0 + sin.abs());
-        let (to_above, to_below) = if sin >= 0.0 { (near, far) } else { (far, near) };
-        Self { sin, cos, squared, to_above, to_below }
+    fn swing_at(&self, crank: &CrankPosition) -> Swing {
+        let (above, below) = (self.above.high, self.below.high);
+        let CrankPosition { sin, cos, to_above, to_below, .. } = *crank;
+        let height_squared = (above + to_above) * (below + to_below);
+        let inverse = 1.0 / height_squared.sqrt();
+        // h³φ'' = cos²θ(sin θ − e/r) − h² sin θ, in which 1 cancels out of l/r ± e/r.
+        let bend =
+            0.5 * (below * to_above * to_above - above * to_below * to_below) - above * below * sin;
+        Swing { velocity: cos * inverse, acceleration: bend * inverse * inverse * inverse }
     }
 }
 
-/// Where the piston is and how it moves, in crank radii; derivatives by crank angle.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Motion {
-    /// x/r, of an infinite rod from the middle of the stroke.
-    pub position: f64,
-    /// (dx/dθ)/r.
-    pub velocity: f64,
-    /// (d²x/dθ²)/r.
-    pub acceleration: f64,
-    /// tan φ of the rod's angle to the bore: above zero where its crankpin end lies on the side to
-    /// which the crankpin swings after top dead centre.
-    pub slope: f64,
-    /// 1/cos φ.
-    pub secant: f64,
+/// The mechanism of most engines: a rod between crankpin and piston.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct SliderCrank {
+    /// What it was made of; it has no masses here.
+    lengths: Cylinder,
+    /// Those of its motion: its own, or those of a point of a sweep.
+    proportions: Proportions,
+}
+
+impl SliderCrank {
+    /// Of a cylinder whose rod is finite.
+    pub fn new(cylinder: &Cylinder) -> Self {
+        Self { lengths: cylinder.without_masses(), proportions: Proportions::of(cylinder) }
+    }
+
+    /// Of a cylinder at a ratio of crank radius to rod length and an offset over the crank radius.
+    pub fn with_ratios(cylinder: &Cylinder, rod_ratio: f64, offset: f64) -> Result<Self> {
+        let proportions = Proportions::new(rod_ratio, offset)?;
+        Ok(Self { lengths: cylinder.without_masses(), proportions })
+    }
+
+    fn is_centred(&self) -> bool {
+        self.offset() == 0.0
+    }
+}
+
+impl Mechanism for SliderCrank {
+    fn equals(&self, other: &dyn Mechanism) -> bool {
+        is_equal(self, other)
+    }
+
+    fn motion(&self, crank: &CrankPosition) -> Motion {
+        self.proportions.motion_at(crank)
+    }
+
+    fn swing(&self, crank: &CrankPosition) -> Swing {
+        self.proportions.swing_at(crank)
+    }
+
+    fn motions(&self, cranks: &Cranks, into: MotionColumns) {
+        vectorised(
+            #[inline(always)]
+            || {
+                into.fill(
+                    cranks,
+                    #[inline(always)]
+                    |crank| self.proportions.motion_at(crank),
+                );
+            },
+        );
+    }
+
+    fn swings(&self, cranks: &Cranks, into: [&mut [f64]; 2]) {
+        vectorised(
+            #[inline(always)]
+            || {
+                fill(
+                    cranks,
+                    into,
+                    #[inline(always)]
+                    |crank| {
+                        let Swing { velocity, acceleration } = self.proportions.swing_at(crank);
+                        [velocity, acceleration]
+                    },
+                );
+            },
+        );
+    }
+
+    /// The rod would stand across the bore at sin θ = e/r ± l/r.
+    fn singularities(&self) -> [f64; 2] {
+        let Proportions { above, below, .. } = self.proportions;
+        // acosh(1 + x) without loss of a small x.
+        [above.high, below.high].map(|beyond| (beyond + (beyond * (beyond + 2.0)).sqrt()).ln_1p())
+    }
+
+    fn force(&self, orders: &[u32], cancel: &Cancel) -> Result<Vec<Complex64>> {
+        harmonics::coefficients(&self.proportions, orders, cancel)
+    }
+
+    fn force_beyond(&self, highest: u32) -> Option<f64> {
+        harmonics::tail_bound(&self.proportions, highest)
+    }
+
+    fn torque(&self, orders: &[u32], cancel: &Cancel) -> Result<TorqueHarmonics> {
+        harmonics::torque::torque(&self.proportions, orders, cancel)
+    }
+
+    fn torque_beyond(&self, highest: u32) -> Option<f64> {
+        harmonics::torque::tail_bound(&self.proportions, highest)
+    }
+
+    fn swing_torque(&self, orders: &[u32], cancel: &Cancel) -> Result<TorqueHarmonics> {
+        harmonics::rod::torque(&self.proportions, orders, cancel)
+    }
+
+    fn swing_torque_beyond(&self, highest: u32) -> Option<f64> {
+        harmonics::rod::tail_bound(&self.proportions, highest)
+    }
+
+    fn offset(&self) -> f64 {
+        self.proportions.offset
+    }
+
+    fn rod_ratio(&self) -> f64 {
+        1.0 / self.proportions.rod
+    }
+
+    fn with_proportions(
+        &self,
+        rod_ratio: Option<f64>,
+        pin_offset: Option<f64>,
+    ) -> Result<Arc<dyn Mechanism>> {
+        self.lengths.mechanism_with(rod_ratio, pin_offset)
+    }
+
+    fn force_at_ratios(
+        &self,
+        rod_ratios: &[f64],
+        orders: &[u32],
+        cancel: &Cancel,
+    ) -> Option<Result<Array2<f64>>> {
+        self.is_centred().then(|| table::centred_table(rod_ratios, orders, cancel))
+    }
+
+    /// Without offset √(1 − λ² sin²θ) is a power series in λ² whose terms give each order one sign. Of the
+    /// torque order 4 falls from λ = 0.96 on, of the rod's order 2 from 0.91.
+    fn grows_with_rod_ratio(&self, of: HarmonicsOf) -> bool {
+        let up_to = match of {
+            HarmonicsOf::Force => 1.0,
+            HarmonicsOf::Torque => 0.95,
+            HarmonicsOf::SwingTorque => 0.9,
+        };
+        self.is_centred() && self.rod_ratio() <= up_to
+    }
+
+    /// Quotients of lengths as they were typed; those of a point of a sweep are doubles.
+    fn key(&self) -> MotionKey {
+        let Proportions { rod, offset, .. } = self.proportions;
+        let is_mirrored = offset < 0.0;
+        let over_radius =
+            |length: f64| decimal(length)?.checked_div(&decimal(self.lengths.crank_radius())?);
+        let typed = [self.lengths.rod_length(), self.lengths.pin_offset().abs()].map(over_radius);
+        let figures = match typed {
+            [Some(rod), Some(offset)] if self.proportions == Proportions::of(&self.lengths) => {
+                [rod, offset].map(FigureKey::Exact)
+            }
+            _ => [rod, offset.abs()].map(|figure| FigureKey::Nearest(figure.to_bits())),
+        };
+        MotionKey { figures: figures.into(), is_mirrored }
+    }
+
+    fn exact_force(&self, order: u32) -> ExactHarmonic {
+        let (centred, is_odd) = (self.is_centred(), order % 2 == 1);
+        let rest = match (is_odd, centred) {
+            (false, _) => Rest::Even,
+            (true, true) => Rest::None,
+            (true, false) => Rest::Odd,
+        };
+        ExactHarmonic { crank: order == 1, rest, is_certain: centred }
+    }
+
+    fn exact_torque(&self, _: u32) -> ExactHarmonic {
+        let centred = self.is_centred();
+        let rest = if centred { Rest::Even } else { Rest::Both };
+        ExactHarmonic { crank: false, rest, is_certain: centred }
+    }
+
+    /// p₂ of l/r and e/r.
+    fn decay(&self) -> f64 {
+        let reach = self.proportions.rod - self.proportions.offset.abs();
+        1.0 / (reach + (reach * reach - 1.0).max(0.0).sqrt())
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
-
-    #[test]
-    fn a_long_rod_moves_its_piston_like_a_scotch_yoke() {
-        let proportions = Proportions::new(1e-12, 0.0).unwrap();
-        let motion = proportions.motion(0.6, 0.8);
-        assert_relative_eq!(motion.velocity, -0.6, max_relative = 1e-11);
-        assert_relative_eq!(motion.acceleration, -0.8, max_relative = 1e-11);
-    }
-
-    #[test]
-    fn an_infinite_rod_moves_its_piston_as_a_scotch_yoke_does() {
-        let cylinder = Cylinder::new(0.05, f64::INFINITY, 0.5, 0.0).unwrap();
-        assert_eq!((cylinder.rod_ratio(), cylinder.has_infinite_rod()), (0.0, true));
-        let proportions = cylinder.proportions();
-        assert_eq!(proportions, Proportions::new(0.0, 0.0).unwrap());
-        let known =
-            Motion { position: 0.8, velocity: -0.6, acceleration: -0.8, slope: 0.0, secant: 1.0 };
-        assert_eq!(proportions.motion(0.6, 0.8), known);
-        for (cylinder, name) in [
-            (Cylinder::new(0.05, f64::INFINITY, 0.5, 0.01), "pin_offset = 0.01"),
-            (cylinder.with_rod_inertia_excess(-2e-3), "rod_inertia_excess = -0.002"),
-            (Cylinder::new(0.05, f64::NEG_INFINITY, 0.5, 0.0), "rod_length = -inf"),
-            (Cylinder::new(f64::INFINITY, f64::INFINITY, 0.5, 0.0), "crank_radius = inf"),
-        ] {
-            assert!(cylinder.unwrap_err().to_string().starts_with(name), "{name}");
-        }
-        assert!(Proportions::new(0.0, 0.01).is_err());
-    }
 
     #[test]
     fn stroke_is_twice_the_radius_without_offset() {
@@ -444,7 +330,7 @@ mod tests {
     fn motion_is_that_of_the_rod() {
         for offset in [0.0, 0.4, -0.4] {
             let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.05 * offset).unwrap();
-            let proportions = cylinder.proportions();
+            let proportions = Proportions::of(&cylinder);
             assert_relative_eq!(cylinder.rod_ratio(), 1.0 / 3.0, max_relative = 1e-15);
             let position = |θ: f64| θ.cos() + (9.0 - (θ.sin() - offset).powi(2)).sqrt();
             for k in 0..24 {
@@ -468,7 +354,7 @@ mod tests {
             let cylinder = Cylinder::new(0.05, rod, 1.0, offset).unwrap();
             let ends = cylinder.turning_points_deg().map(|angle| {
                 let (sin, cos) = angle.to_radians().sin_cos();
-                cylinder.proportions().motion(sin, cos)
+                Proportions::of(&cylinder).motion(sin, cos)
             });
             // Roundings of some ten operations.
             assert!(ends.iter().all(|end| end.velocity.abs() < 1e-14), "{ends:?}");
@@ -490,7 +376,7 @@ mod tests {
     fn the_lesser_reach_is_what_the_rod_has_beyond_crank_and_offset() {
         for (rod, offset) in [(0.15, 0.0), (0.06, 0.004), (0.06, -0.004), (0.051, 1e-4)] {
             let cylinder = Cylinder::new(0.05, rod, 1.0, offset).unwrap();
-            let Proportions { above, below, .. } = cylinder.proportions();
+            let Proportions { above, below, .. } = Proportions::of(&cylinder);
             let left = (rod - f64::abs(offset)) / 0.05 - 1.0;
             // a unit in the last place of l/r, thrice
             assert!((left - above.high.min(below.high)).abs() < 2e-15);
@@ -520,5 +406,33 @@ mod tests {
             assert!(Proportions::check_rod_ratio(ratio).is_err(), "{ratio}");
         }
         assert!(Proportions::check_rod_ratio(0.3).is_ok());
+        // An infinite rod may be asked for, and has no proportions.
+        assert!(Proportions::check_rod_ratio(0.0).is_ok() && Proportions::new(0.0, 0.0).is_err());
+    }
+
+    #[test]
+    fn a_rod_as_long_as_the_crank_turns_evenly() {
+        // Up to the reach: φ = θ between the points where it turns back.
+        let swing = |θ: f64| {
+            let proportions = Proportions::new(1.0 - 1e-12, 0.0).unwrap();
+            proportions.swing_at(&CrankPosition::new(θ.sin(), θ.cos()))
+        };
+        assert_relative_eq!(swing(0.7).velocity, 1.0, max_relative = 1e-11);
+        assert_relative_eq!(swing(4.0).velocity, -1.0, max_relative = 1e-11);
+        // −sin θ (l²/r² − 1)/h³ with 2·10⁻¹² of a bracket.
+        let expected = -2e-12 * 0.7_f64.tan() / 0.7_f64.cos().powi(2);
+        assert_relative_eq!(swing(0.7).acceleration, expected, max_relative = 1e-4);
+    }
+
+    #[test]
+    fn swing_changes_as_it_moves() {
+        let proportions = Proportions::new(0.4, -0.6).unwrap();
+        let swing = |θ: f64| proportions.swing_at(&CrankPosition::new(θ.sin(), θ.cos()));
+        for k in 0..24 {
+            let θ = 0.25 * f64::from(k);
+            let slope = (swing(θ + 1e-5).velocity - swing(θ - 1e-5).velocity) / 2e-5;
+            // A central difference of step 1e-5.
+            assert_relative_eq!(swing(θ).acceleration, slope, epsilon = 1e-9);
+        }
     }
 }

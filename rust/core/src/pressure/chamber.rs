@@ -2,7 +2,11 @@
 
 use super::Strokes;
 use super::{Cycle, Given, MOST_POINTS, period_deg};
-use crate::mechanism::slider_crank::{Cylinder, Proportions, piston_area};
+use std::sync::Arc;
+
+use crate::mechanism::Mechanism;
+use crate::mechanism::cylinder::{Cylinder, piston_area};
+use crate::mechanism::motion::CrankPosition;
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::chebyshev::{largest_of_last, points};
 use crate::numbers::error::{Error, Result};
@@ -18,7 +22,7 @@ pub(crate) const NARROWEST: f64 = 1e-4;
 /// Combustion chamber over a piston.
 #[derive(Debug, Clone)]
 pub struct Chamber {
-    proportions: Proportions,
+    mechanism: Arc<dyn Mechanism>,
     /// Travel of the piston, m.
     pub(super) stroke: f64,
     /// The same, and the position of the piston at its highest point, crank radii.
@@ -44,13 +48,13 @@ impl Chamber {
     ) -> Result<Self> {
         limits::length("bore", bore)?;
         within("compression_ratio", compression_ratio, 1.001, 1000.0)?;
-        let (proportions, stroke) = (cylinder.proportions(), cylinder.travel());
+        let (mechanism, stroke) = (cylinder.mechanism(), cylinder.travel());
         let [top, bottom] = cylinder.turning_points_deg();
         Ok(Self {
-            proportions,
             stroke,
             travel: stroke / cylinder.crank_radius(),
-            highest: position(&proportions, top),
+            highest: position(&*mechanism, top),
+            mechanism,
             bore,
             compression_ratio,
             top,
@@ -72,7 +76,7 @@ impl Chamber {
     /// Volume at a crank angle, degrees, over the clearance volume.
     #[must_use]
     pub fn ratio(&self, angle: f64) -> f64 {
-        let down = self.highest - position(&self.proportions, angle);
+        let down = self.highest - position(&*self.mechanism, angle);
         1.0 + (self.compression_ratio - 1.0) * down / self.travel
     }
 
@@ -93,9 +97,9 @@ impl Chamber {
 }
 
 /// Position of a piston at a crank angle, crank radii.
-fn position(proportions: &Proportions, angle: f64) -> f64 {
+fn position(mechanism: &dyn Mechanism, angle: f64) -> f64 {
     let unit = cis_degrees(angle);
-    proportions.motion(unit.im, unit.re).position
+    mechanism.motion(&CrankPosition::new(unit.im, unit.re)).position
 }
 
 /// Points of a cycle as they are put together, panel by panel.

@@ -6,7 +6,7 @@ use super::Cycle;
 use super::Strokes;
 use super::burn::{Heat, WallLoss, Wiebe};
 use super::chamber::Chamber;
-use crate::mechanism::slider_crank::Cylinder;
+use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::figure::significant;
@@ -219,8 +219,8 @@ impl Example {
 
     /// Indicated mean effective pressure, Pa.
     fn imep(&self, cancel: &Cancel) -> Result<f64> {
-        let proportions = self.cylinder.proportions();
-        let torque = self.cycle(cancel)?.torque_of(&proportions, ATMOSPHERE, &[], cancel)?;
+        let mechanism = self.cylinder.mechanism();
+        let torque = self.cycle(cancel)?.torque_of(&mechanism, ATMOSPHERE, &[], cancel)?;
         Ok(self.chamber()?.imep(torque.mean))
     }
 }

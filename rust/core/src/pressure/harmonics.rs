@@ -1,11 +1,12 @@
 //! Harmonics of the torque of gas pressure, and a bound of those left out.
 
-use std::sync::{LazyLock, Mutex};
+use std::sync::{Arc, LazyLock, Mutex};
 
 use super::Strokes;
 use super::{Cycle, period_deg};
 use crate::Complex64;
-use crate::mechanism::slider_crank::{Motion, Proportions};
+use crate::mechanism::Mechanism;
+use crate::mechanism::motion::{CrankPosition, Cranks, MotionColumns};
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::chebyshev::{jet, jets, values};
@@ -41,7 +42,7 @@ pub(super) struct LastTorques([Mutex<Option<Integrated>>; 2]);
 /// A torque, and the figures on which it depends.
 #[derive(Debug)]
 struct Integrated {
-    proportions: Proportions,
+    mechanism: Arc<dyn Mechanism>,
     crankcase: f64,
     orders: Vec<Order>,
     torque: GasTorque,
@@ -125,19 +126,14 @@ struct PressurePanel<'a> {
 
 /// Motion of a piston, and where it is singular.
 struct PistonMotion<'a> {
-    proportions: &'a Proportions,
+    mechanism: &'a dyn Mechanism,
     /// Distances of the singularities above ±90° from the real axis.
     heights: [f64; 2],
 }
 
 impl<'a> PistonMotion<'a> {
-    /// The rod would stand across the bore at sin θ = e/r ± l/r.
-    fn new(proportions: &'a Proportions) -> Self {
-        let heights = [proportions.above.high, proportions.below.high].map(|beyond| {
-            // acosh(1 + x) without loss of a small x.
-            (beyond + (beyond * (beyond + 2.0)).sqrt()).ln_1p()
-        });
-        Self { proportions, heights }
+    fn new(mechanism: &'a dyn Mechanism) -> Self {
+        Self { mechanism, heights: mechanism.singularities() }
     }
 
     /// Distance of a crank angle from the nearest singularity in the complex plane.
@@ -158,7 +154,7 @@ impl Abscissae {
         &mut self,
         (places, weights, count): (&PartialSums, &PartialSums, usize),
         panel: &PressurePanel,
-        proportions: &Proportions,
+        mechanism: &dyn Mechanism,
         crankcase: f64,
     ) {
         let (half, half_deg) = (panel.half, panel.half.to_degrees());
@@ -176,17 +172,23 @@ impl Abscissae {
                 [0.0; SUMMED_SIDE_BY_SIDE],
             ]
         };
+        let [mut velocity, mut acceleration, mut jerk] = [[0.0; SUMMED_SIDE_BY_SIDE]; 3];
+        let motion = MotionColumns {
+            velocity: &mut velocity,
+            acceleration: &mut acceleration,
+            jerk: if SQUARES { Some(&mut jerk) } else { None },
+            lean: None,
+        };
+        mechanism.motions(&Cranks::new(&cos, &sin, Complex64::ONE), motion);
         for k in 0..SUMMED_SIDE_BY_SIDE {
-            let motion = proportions.motion(sin[k], cos[k]);
             let gauge = pressure[k] - crankcase;
             // The piston's way down is minus its distance from the crank.
-            weighted[k] = weights[k] * (-gauge * motion.velocity);
+            weighted[k] = weights[k] * (-gauge * velocity[k]);
             if SQUARES {
                 let (of_slope, of_bend) = (slope[k] / half, bend[k] / (half * half));
-                slope[k] = of_slope * motion.velocity + gauge * motion.acceleration;
-                bend[k] = of_bend * motion.velocity
-                    + 2.0 * of_slope * motion.acceleration
-                    + gauge * jerk(proportions, &motion, sin[k], cos[k]);
+                slope[k] = of_slope * velocity[k] + gauge * acceleration[k];
+                bend[k] =
+                    of_bend * velocity[k] + 2.0 * of_slope * acceleration[k] + gauge * jerk[k];
             }
         }
         self.theta_deg.extend_from_slice(&degrees[..count]);
@@ -205,12 +207,12 @@ impl Cycle {
     /// Torque on a crank over piston area and crank radius, of the pressure above the crankcase's.
     pub fn torque_of(
         &self,
-        proportions: &Proportions,
+        mechanism: &Arc<dyn Mechanism>,
         crankcase: f64,
         orders: &[Order],
         cancel: &Cancel,
     ) -> Result<GasTorque> {
-        self.integrate::<false>(proportions, crankcase, orders, cancel).map(|(torque, _)| torque)
+        self.integrate::<false>(mechanism, crankcase, orders, cancel).map(|(torque, _)| torque)
     }
 
     /// Torque at orders ½, 1, 1½ … up to one, and bounds of the sum of the magnitudes of all phasors above
@@ -221,13 +223,13 @@ impl Cycle {
     /// slope and bend whichever is less, the bend where the slope does not jump.
     pub fn torque_up_to(
         &self,
-        proportions: &Proportions,
+        mechanism: &Arc<dyn Mechanism>,
         crankcase: f64,
         highest: Order,
         cancel: &Cancel,
     ) -> Result<(GasTorque, Vec<f64>)> {
         let orders = (1..=highest.halves()).map(Order::from_halves).collect::<Result<Vec<_>>>()?;
-        let (torque, squares) = self.integrate::<true>(proportions, crankcase, &orders, cancel)?;
+        let (torque, squares) = self.integrate::<true>(mechanism, crankcase, &orders, cancel)?;
         let step = if self.strokes == Strokes::Four { 0.5 } else { 1.0 };
         let mut left = squares;
         let tail = |(order, phasor): (&Order, &Complex64)| {
@@ -248,17 +250,17 @@ impl Cycle {
     /// Whether [`Self::torque_of`] has been integrated, and is kept.
     pub(crate) fn keeps_torque_of(
         &self,
-        proportions: &Proportions,
+        mechanism: &Arc<dyn Mechanism>,
         crankcase: f64,
         orders: &[Order],
     ) -> bool {
-        self.kept::<false, _>(proportions, crankcase, orders, |_| ()).is_some()
+        self.kept::<false, _>(mechanism, crankcase, orders, |_| ()).is_some()
     }
 
     /// Something of the torque that was integrated last, if it is this one.
     fn kept<const SQUARES: bool, T>(
         &self,
-        proportions: &Proportions,
+        mechanism: &Arc<dyn Mechanism>,
         crankcase: f64,
         orders: &[Order],
         something: impl FnOnce(&Integrated) -> T,
@@ -266,7 +268,7 @@ impl Cycle {
         // None waits for a lock: a forked child has no thread that would release it.
         let last = self.last_torques.0[usize::from(SQUARES)].try_lock().ok()?;
         let is_it = |kept: &&Integrated| {
-            kept.proportions == *proportions && kept.crankcase == crankcase && kept.orders == orders
+            *kept.mechanism == **mechanism && kept.crankcase == crankcase && kept.orders == orders
         };
         last.as_ref().filter(is_it).map(something)
     }
@@ -275,27 +277,27 @@ impl Cycle {
     /// slope; of what is kept, if it is.
     fn integrate<const SQUARES: bool>(
         &self,
-        proportions: &Proportions,
+        mechanism: &Arc<dyn Mechanism>,
         crankcase: f64,
         orders: &[Order],
         cancel: &Cancel,
     ) -> Result<(GasTorque, [f64; 2])> {
         let copied = |kept: &Integrated| (kept.torque.clone(), kept.squares);
-        if let Some(kept) = self.kept::<SQUARES, _>(proportions, crankcase, orders, copied) {
+        if let Some(kept) = self.kept::<SQUARES, _>(mechanism, crankcase, orders, copied) {
             return Ok(kept);
         }
-        let (torque, squares) =
-            self.integrated::<SQUARES>(proportions, crankcase, orders, cancel)?;
+        let (torque, squares) = self.integrated::<SQUARES>(mechanism, crankcase, orders, cancel)?;
         if let Ok(mut last) = self.last_torques.0[usize::from(SQUARES)].try_lock() {
-            let (proportions, orders, torque) = (*proportions, orders.to_vec(), torque.clone());
-            *last = Some(Integrated { proportions, crankcase, orders, torque, squares });
+            let (mechanism, orders) = (Arc::clone(mechanism), orders.to_vec());
+            let torque = torque.clone();
+            *last = Some(Integrated { mechanism, crankcase, orders, torque, squares });
         }
         Ok((torque, squares))
     }
 
     fn integrated<const SQUARES: bool>(
         &self,
-        proportions: &Proportions,
+        mechanism: &Arc<dyn Mechanism>,
         crankcase: f64,
         orders: &[Order],
         cancel: &Cancel,
@@ -309,7 +311,7 @@ impl Cycle {
         let highest = halves.last().map_or(0.0, |&halves| 0.5 * f64::from(halves));
         let mut sums: Vec<Complex64> = memory::zeros(sorted.len())?;
         let (mut mean, mut points) = (0.0, Abscissae::default());
-        let motion = PistonMotion::new(proportions);
+        let motion = PistonMotion::new(&**mechanism);
         let mut powers = Powers::default();
         let mut finish = |points: &mut Abscissae| -> Result<()> {
             mean += points.weighted.iter().sum::<f64>();
@@ -330,7 +332,7 @@ impl Cycle {
         for (&k, sum) in sorted.iter().zip(&sums) {
             phasors[k] = sum * (2.0 / period);
         }
-        let jumps = if SQUARES { self.jumps(proportions, crankcase) } else { [false; 2] };
+        let jumps = if SQUARES { self.jumps(mechanism, crankcase) } else { [false; 2] };
         let squares = [0, 1].map(|j| {
             if jumps[..=j].contains(&true) {
                 f64::INFINITY
@@ -381,7 +383,7 @@ impl Cycle {
                         points.add::<SQUARES>(
                             (&places, &weights, rule.len()),
                             &panel,
-                            motion.proportions,
+                            motion.mechanism,
                             crankcase,
                         );
                     }
@@ -396,7 +398,7 @@ impl Cycle {
 
     /// Whether torque jumps at an edge, where pressure does and the piston moves; and whether its slope
     /// does, with that of pressure or where the piston stands.
-    fn jumps(&self, proportions: &Proportions, crankcase: f64) -> [bool; 2] {
+    fn jumps(&self, mechanism: &Arc<dyn Mechanism>, crankcase: f64) -> [bool; 2] {
         let panels = &self.panels;
         let count = panels.edges.len() - 1;
         // Pressure and its slope per radian.
@@ -415,7 +417,7 @@ impl Cycle {
         for k in 0..count {
             let ([after, _], [_, before]) = (ends((k + 1) % count), ends(k));
             let unit = cis_degrees(panels.edges[k + 1]);
-            let motion = proportions.motion(unit.im, unit.re);
+            let motion = mechanism.motion(&CrankPosition::new(unit.im, unit.re));
             let [gauge, slope] = [0, 1].map(|j| after[j] - before[j]);
             jumps[0] |= (gauge * motion.velocity).abs() > JUMP_OF_ROUNDING * largest[0];
             let of_slope = slope * motion.velocity + gauge * motion.acceleration;
@@ -423,15 +425,6 @@ impl Cycle {
         }
         jumps
     }
-}
-
-/// Third derivative of the piston's position by the crank angle, over the crank radius: of the rod's
-/// height h = √(l² − u²) with u = sin θ − e, h·h‴ = 3 sin θ cos θ + u cos θ − 3h′h″.
-#[inline(always)]
-fn jerk(proportions: &Proportions, motion: &Motion, sin: f64, cos: f64) -> f64 {
-    let height = proportions.rod / motion.secant;
-    let [slope, bend] = [motion.velocity + sin, motion.acceleration + cos];
-    sin + (cos * (4.0 * sin - proportions.offset) - 3.0 * slope * bend) / height
 }
 
 /// Sums over nodes of torque times `e^{−ikθ}` for ascending orders, by powers of `e^{iθ/2}`.

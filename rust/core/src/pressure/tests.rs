@@ -1,11 +1,13 @@
 use super::*;
 use crate::Complex64;
+use crate::mechanism::motion::CrankPosition;
+use crate::mechanism::{Mechanism, with_ratios};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::chebyshev::node;
 use crate::numbers::order::Order;
-use crate::slider_crank::Proportions;
 use approx::assert_relative_eq;
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 fn table(
     angles: impl Iterator<Item = f64>,
@@ -46,12 +48,13 @@ fn panels(of: impl Fn(f64) -> f64, edges: &[f64], degree: usize) -> Cycle {
 }
 
 /// ∫ p·dv·e^{−ikθ} by the trapezoidal rule, which converges exponentially for smooth functions.
-fn phasor(of: impl Fn(f64) -> f64, p: &Proportions, k: f64, turns: f64) -> Complex64 {
+fn phasor(of: impl Fn(f64) -> f64, p: &Arc<dyn Mechanism>, k: f64, turns: f64) -> Complex64 {
     const COUNT: usize = 3000;
     let sum: Complex64 = (0..COUNT)
         .map(|j| {
             let theta = TAU * turns * j as f64 / COUNT as f64;
-            let torque = -of(theta.to_degrees()) * p.motion(theta.sin(), theta.cos()).velocity;
+            let torque = -of(theta.to_degrees())
+                * p.motion(&CrankPosition::new(theta.sin(), theta.cos())).velocity;
             torque * Complex64::cis(-k * theta)
         })
         .sum();
@@ -63,7 +66,7 @@ fn harmonics_of_smooth_panels_are_those_of_their_function() {
     let edges: Vec<f64> = (0..=48).map(|k| 15.0 * f64::from(k)).collect();
     let cycle = panels(smooth, &edges, 15);
     for (ratio, offset) in [(0.3, 0.0), (0.3, 0.4), (0.9, -0.05)] {
-        let p = Proportions::new(ratio, offset).unwrap();
+        let p = with_ratios(ratio, offset).unwrap();
         let orders: Vec<Order> =
             [30, 1, 2, 3, 7, 80].map(|h| Order::from_halves(h).unwrap()).into();
         let torque = cycle.torque_of(&p, ATMOSPHERE, &orders, &Cancel::new()).unwrap();
@@ -80,7 +83,7 @@ fn harmonics_of_smooth_panels_are_those_of_their_function() {
 #[test]
 fn a_long_rod_and_a_constant_pressure_have_closed_forms() {
     // −velocity = sin θ: torque p·sin θ; pressure (1 + cos θ/2)·p gives orders ½, 1, 3/2.
-    let p = Proportions::new(1e-9, 0.0).unwrap();
+    let p = with_ratios(1e-9, 0.0).unwrap();
     let edges = [0.0, 180.0, 360.0, 540.0, 720.0];
     let cycle = panels(|theta| 1e6 * (1.0 + (0.5 * theta).to_radians().cos()), &edges, 20);
     let orders: Vec<Order> = (1..=4).map(|h| Order::from_halves(h).unwrap()).collect();
@@ -94,7 +97,7 @@ fn a_long_rod_and_a_constant_pressure_have_closed_forms() {
 
 #[test]
 fn a_table_converges_to_its_function_in_the_fourth_order() {
-    let p = Proportions::new(0.3, 0.1).unwrap();
+    let p = with_ratios(0.3, 0.1).unwrap();
     let orders: Vec<Order> = (1..=24).map(|h| Order::from_halves(h).unwrap()).collect();
     let error = |count: usize| {
         let cycle = table(even(count, 720.0), smooth, 4).unwrap();
@@ -206,7 +209,7 @@ fn grids_that_are_no_period_are_rejected_with_a_hint() {
 
 #[test]
 fn tails_bound_what_is_left_out_and_are_close() {
-    let p = Proportions::new(0.3, 0.0).unwrap();
+    let p = with_ratios(0.3, 0.0).unwrap();
     let cycle = table(even(360, 720.0), smooth, 4).unwrap();
     let highest = Order::whole(40).unwrap();
     let tails = cycle.torque_up_to(&p, ATMOSPHERE, highest, &Cancel::new()).unwrap().1;
@@ -237,12 +240,13 @@ fn a_torque_that_is_kept_is_that_of_its_own_question() {
     for offset in [0.0, 0.1] {
         for crankcase in [0.0, ATMOSPHERE] {
             for halves in [&[1, 2, 3][..], &[2], &[3, 2, 1]] {
-                let p = Proportions::new(0.3, offset).unwrap();
+                let p = with_ratios(0.3, offset).unwrap();
                 questions.push((p, crankcase, orders(halves)));
             }
         }
     }
-    let answers = |(p, crankcase, orders): &(Proportions, f64, Vec<Order>), cycle: &Cycle| {
+    let answers = |(p, crankcase, orders): &(Arc<dyn Mechanism>, f64, Vec<Order>),
+                   cycle: &Cycle| {
         let torque = cycle.torque_of(p, *crankcase, orders, &Cancel::new()).unwrap();
         (torque, cycle.torque_up_to(p, *crankcase, orders[0], &Cancel::new()).unwrap())
     };
@@ -257,7 +261,7 @@ fn a_torque_that_is_kept_is_that_of_its_own_question() {
 
 #[test]
 fn a_two_stroke_has_whole_orders_alone() {
-    let p = Proportions::new(0.3, 0.0).unwrap();
+    let p = with_ratios(0.3, 0.0).unwrap();
     let of = |theta: f64| 1e5 / (1.1 - theta.to_radians().cos());
     let cycle = panels(of, &(0..=24).map(|k| 15.0 * f64::from(k)).collect::<Vec<_>>(), 15);
     let orders: Vec<Order> = (1..=6).map(|h| Order::from_halves(h).unwrap()).collect();

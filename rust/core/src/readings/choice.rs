@@ -349,7 +349,7 @@ fn candidates(
             // A rest that is not negligible still is within the tolerance.
             None if within(limits::HIGHEST_ORDER, needed) => limits::HIGHEST_ORDER,
             None => {
-                let ratio = source.mechanism().map_or(0.0, |of| 1.0 / of.proportions.rod);
+                let ratio = source.mechanism().map_or(0.0, |of| of.mechanism.rod_ratio());
                 let hint = format!(
                     "too many orders would be needed at a rod ratio of {ratio:?}; ask for exact \
                      kinematics or a larger rtol"
@@ -546,7 +546,7 @@ mod tests {
     use super::*;
     use crate::engine::{Crank, Station};
     use crate::load::SourceIndex;
-    use crate::mechanism::slider_crank::Cylinder;
+    use crate::mechanism::cylinder::Cylinder;
     use crate::numbers::angle::Angle;
     use crate::numbers::index::ListIndex;
     use crate::numbers::ratio::SpeedRatio;
@@ -770,7 +770,7 @@ mod tests {
         let engine = Engine::new("", "", vec![place]).unwrap();
         let loads = LoadList::new(&engine, 0.0);
         let error = within(1e-9, &engine, &loads, true, &Cancel::new()).err().unwrap();
-        let ratio = format!("at a rod ratio of {:?};", 1.0 / cylinder.proportions().rod);
+        let ratio = format!("at a rod ratio of {:?};", cylinder.mechanism().rod_ratio());
         assert!(error.to_string().contains(&ratio), "{error}");
     }
 

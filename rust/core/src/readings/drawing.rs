@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::engine::layout::Strokes;
 use crate::engine::{Engine, Unbalance};
 use crate::firing::Firing;
-use crate::mechanism::slider_crank::Cylinder;
+use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;

@@ -12,7 +12,6 @@ use super::terms::{Sums, terms};
 use crate::Complex64;
 use crate::engine::{Engine, Origin};
 use crate::load::{Load, LoadList};
-use crate::mechanism::harmonics;
 use crate::numbers::UNIT_RPM;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -291,8 +290,7 @@ pub fn swept(
     cancel: &Cancel,
 ) -> Result<Vec<Complex64>> {
     let area_by_radius = engine.swept_by_radius(cylinder).unwrap_or(0.0);
-    let proportions = engine.stations()[cylinder].cylinder.proportions();
-    let harmonics = harmonics::coefficients(&proportions, orders, cancel)?;
+    let harmonics = engine.mechanism(cylinder).force(orders, cancel)?;
     // The volume added per radian is the integral of the piston's acceleration.
     let each = orders.iter().zip(harmonics);
     Ok(each.map(|(&n, a)| Complex64::i() * a * area_by_radius / f64::from(n)).collect())

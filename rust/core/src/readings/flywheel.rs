@@ -546,7 +546,7 @@ mod tests {
 
     use super::*;
     use crate::engine::Station;
-    use crate::mechanism::slider_crank::Cylinder;
+    use crate::mechanism::cylinder::Cylinder;
     use crate::numbers::angle::Angle;
 
     fn grid(knots: &[f64]) -> CycleGrid {

@@ -35,7 +35,7 @@ pub use self::throws::{Arrangement, Bank};
 use self::window::WindowTarget;
 use crate::Complex64;
 use crate::engine::{Engine, Hold, Station};
-use crate::mechanism::slider_crank::Cylinder;
+use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};

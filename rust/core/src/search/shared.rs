@@ -71,7 +71,7 @@ impl Search {
 mod tests {
     use super::*;
     use crate::balance::Vector;
-    use crate::mechanism::slider_crank::Cylinder;
+    use crate::mechanism::cylinder::Cylinder;
     use crate::search::Bank;
     use crate::{Complex64, Orders, Request, Spectrum, balance};
 

@@ -55,7 +55,7 @@ use std::sync::Arc;
 
 use self::over_angle::{AngleBlock, Columns, LoadSum, Quantities};
 use crate::Complex64;
-use crate::mechanism::Mechanism;
+use crate::mechanism::DrivenMechanism;
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::UNIT_RPM;
 use crate::numbers::cancel::Cancel;
@@ -255,7 +255,7 @@ pub trait Source: Debug + Send + Sync + Any {
 
     /// The motion that it depends on.
     #[doc(hidden)]
-    fn mechanism(&self) -> Option<&Mechanism> {
+    fn mechanism(&self) -> Option<&DrivenMechanism> {
         None
     }
 
@@ -311,11 +311,11 @@ pub trait Source: Debug + Send + Sync + Any {
         Scale { force, torque: (torque > 0.0).then_some(torque) }
     }
 
-    /// Rod ratio up to which every order of a mechanism without offset grows with it.
+    /// Whether every order of its mechanism grows with the rod ratio up to its own.
     #[doc(hidden)]
-    fn grows_up_to(&self, column: Column) -> f64 {
+    fn grows_with_rod_ratio(&self, column: Column) -> bool {
         let _ = column;
-        0.0
+        false
     }
 
     /// The source at a point of a sweep, where it is another there.

@@ -4,8 +4,8 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use crate::Complex64;
-use crate::mechanism::Mechanism;
-use crate::mechanism::slider_crank::CrankPosition;
+use crate::mechanism::DrivenMechanism;
+use crate::mechanism::motion::{CrankPosition, Cranks};
 use crate::numbers::angle::Angle;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::order::Order;
@@ -66,18 +66,20 @@ impl LoadSum {
 }
 
 /// Adds the moment of inertia of loads whose velocity and acceleration per unit of crank speed a function
-/// gives, and its slope: with I the kinetic energy is ½I·ω², and inertia torque −½I′·ω².
+/// fills in, and its slope: with I the kinetic energy is ½I·ω², and inertia torque −½I′·ω².
 pub(crate) fn add_inertia(
-    mechanism: &Mechanism,
+    mechanism: &DrivenMechanism,
     sum: &LoadSum,
     angles: &CrankAngles,
     [inertia, slope]: [&mut [f64]; 2],
-    motion: impl Fn(&CrankPosition) -> [f64; 2],
+    motions: impl Fn(&Cranks, [&mut [f64]; 2]),
 ) {
     let units = Units::at_speed(angles, 0..angles.len(), mechanism.ratio);
     let [_, speed] = mechanism.senses();
+    let [mut velocities, mut accelerations] = [[0.0; BLOCK]; 2];
+    motions(&units.cranks(sum.turned), [&mut velocities, &mut accelerations]);
     for i in 0..angles.len() {
-        let [velocity, acceleration] = motion(&units.crank(sum.turned, i));
+        let [velocity, acceleration] = [velocities[i], accelerations[i]];
         inertia[i] += sum.roll * velocity * velocity;
         slope[i] += 2.0 * speed * sum.roll * velocity * acceleration;
     }
@@ -163,11 +165,16 @@ impl Units {
         Self::new(angles, range, order)
     }
 
-    /// Position of a crank that is `phase` ahead.
+    /// Positions of a crank that is `phase` ahead.
+    #[inline(always)]
+    pub(crate) fn cranks(&self, phase: Complex64) -> Cranks<'_> {
+        Cranks::new(&self.cos, &self.sin, phase)
+    }
+
+    /// One of them.
     #[inline(always)]
     pub(crate) fn crank(&self, phase: Complex64, i: usize) -> CrankPosition {
-        let (cos, sin) = (self.cos[i], self.sin[i]);
-        CrankPosition::new(sin * phase.re + cos * phase.im, cos * phase.re - sin * phase.im)
+        self.cranks(phase).at(i)
     }
 
     /// Adds real and imaginary part of a vector that turns from here at ±1 times these angles.

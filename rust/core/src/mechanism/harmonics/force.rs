@@ -25,10 +25,6 @@ pub(super) fn unchecked(
     orders: &[u32],
     cancel: &Cancel,
 ) -> Result<Vec<Complex64>> {
-    if proportions.has_infinite_rod() {
-        let value = |&n: &u32| Complex64::new(if n == 1 { 1.0 } else { 0.0 }, 0.0);
-        return Ok(orders.iter().map(value).collect());
-    }
     if proportions.offset != 0.0 {
         return offset::coefficients(&Sides::new(proportions), orders, cancel);
     }
@@ -48,9 +44,6 @@ pub(super) fn unchecked(
 /// derivative of a geometric series. `None` where p₂ is so near 1 that it overflows.
 #[must_use]
 pub fn tail_bound(proportions: &Proportions, highest: u32) -> Option<f64> {
-    if proportions.has_infinite_rod() {
-        return Some(if highest == 0 { 1.0 } else { 0.0 });
-    }
     let Roots { second, product, .. } = Roots::new(&Sides::new(proportions));
     let p = second.p;
     let first = f64::from(highest + 1);

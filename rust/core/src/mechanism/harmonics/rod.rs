@@ -31,10 +31,6 @@ pub fn torque(
     cancel: &Cancel,
 ) -> Result<TorqueHarmonics> {
     orders.iter().try_for_each(|&n| Order::whole(n).map(drop))?;
-    if proportions.has_infinite_rod() {
-        let none = vec![Complex64::default(); orders.len()];
-        return Ok(TorqueHarmonics { roll: none.clone(), crank: none });
-    }
     let swing = SwingHarmonics::new(proportions);
     let velocities = swing.velocities(orders, cancel)?;
     let fractions = Fractions::new(proportions);
@@ -56,9 +52,6 @@ pub fn torque(
 /// is at most `2p₂ⁿ/(1 − p₂²)`; that of φ'² at most `p₂ⁿ⁻¹ r/l`. Each counts n times, the square half.
 #[must_use]
 pub fn tail_bound(proportions: &Proportions, highest: u32) -> Option<f64> {
-    if proportions.has_infinite_rod() {
-        return Some(0.0);
-    }
     let Root { p, .. } = Root::new(Sides::new(proportions).below);
     let (first, gap) = (f64::from(highest + 1), 1.0 - p);
     // Σ_{n ≥ N} n pⁿ⁻¹ = p^{N−1}(N/g + p/g²)

@@ -10,6 +10,7 @@ use super::near_one;
 use super::roots::{NEGLIGIBLE_LOG, Root};
 use crate::Complex64;
 use crate::mechanism::slider_crank::Proportions;
+use crate::mechanism::with_ratios;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::double::fused;
 use crate::numbers::error::Result;
@@ -60,8 +61,12 @@ pub fn write_offset(
     fill(pairs, orders.len(), out, cancel, |range, rows| {
         let pairs = rod_ratios[range.clone()].iter().zip(&offsets[range]);
         for ((&rod_ratio, &offset), row) in pairs.zip(rows.chunks_exact_mut(orders.len())) {
-            let proportions = Proportions::new(rod_ratio, offset)?;
-            row.copy_from_slice(&coefficients(&proportions, orders, cancel)?);
+            let values = if rod_ratio == 0.0 {
+                with_ratios(rod_ratio, offset)?.force(orders, cancel)?
+            } else {
+                coefficients(&Proportions::new(rod_ratio, offset)?, orders, cancel)?
+            };
+            row.copy_from_slice(&values);
         }
         Ok(())
     })
@@ -132,13 +137,12 @@ fn centred_rows(
                     if !is_alone(λ) {
                         continue;
                     }
-                    let proportions = Proportions::new(λ, 0.0)?;
-                    if proportions.has_infinite_rod() {
-                        let values = coefficients(&proportions, orders, cancel)?;
-                        row.iter_mut().zip(values).for_each(|(value, known)| *value = known.re);
+                    if λ == 0.0 {
+                        let only = |n: u32| if n == 1 { 1.0 } else { 0.0 };
+                        row.iter_mut().zip(orders).for_each(|(value, &n)| *value = only(n));
                         continue;
                     }
-                    let centred = Centred::new(&proportions);
+                    let centred = Centred::new(&Proportions::new(λ, 0.0)?);
                     for (&n, value) in orders.iter().zip(row) {
                         // Near λ = 1 an order takes up to a tenth of a millisecond.
                         cancel.check()?;
@@ -332,16 +336,14 @@ pub fn write_centred_roll(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mechanism::harmonics::torque::torque;
 
-    /// The rows agree with [`torque`], one slider-crank at a time.
+    /// The rows agree with the torques of [`with_ratios`], one slider-crank at a time.
     fn check(orders: &[u32]) {
         let ratios = [0.0, 1e-3, 0.1, 0.285, 0.3, 0.5, 0.9, 0.999];
         let mut rows = vec![0.0; ratios.len() * orders.len()];
         write_centred_roll(&ratios, orders, &mut rows, &Cancel::new()).unwrap();
         for (&λ, row) in ratios.iter().zip(rows.chunks(orders.len())) {
-            let of_one = Proportions::new(λ, 0.0).unwrap();
-            let known = torque(&of_one, orders, &Cancel::new()).unwrap();
+            let known = with_ratios(λ, 0.0).unwrap().torque(orders, &Cancel::new()).unwrap();
             let largest = known.roll.iter().map(|z| z.norm()).fold(0.0, f64::max);
             for (value, known) in row.iter().zip(&known.roll) {
                 // Some ten roundings, of differences that halve the larger term.

@@ -1,10 +1,11 @@
 //! Harmonics of the torques that one cylinder's inertia force makes, in closed form.
 
+use super::force;
 use super::fractions::Fractions;
 use super::roots::{Root, Sides};
-use super::{force, rod};
 use crate::Complex64;
-use crate::mechanism::slider_crank::{Cylinder, Proportions};
+use crate::mechanism::cylinder::Cylinder;
+use crate::mechanism::slider_crank::Proportions;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::order::Order;
@@ -21,13 +22,6 @@ pub fn torque(
     cancel: &Cancel,
 ) -> Result<TorqueHarmonics> {
     orders.iter().try_for_each(|&n| Order::whole(n).map(drop))?;
-    if proportions.has_infinite_rod() {
-        // x'² = sin²θ = ½ − ½ cos 2θ.
-        let roll = |&n: &u32| Complex64::new(0.0, if n == 2 { -0.5 } else { 0.0 });
-        let roll: Vec<_> = orders.iter().map(roll).collect();
-        let crank = roll.iter().map(|value| -value).collect();
-        return Ok(TorqueHarmonics { roll, crank });
-    }
     // Orders n − 1, n and n + 1 of the force, side by side.
     let around: Vec<u32> = orders.iter().flat_map(|&n| [n - 1, n, n + 1]).collect();
     let forces = once_each(&around.iter().map(|&n| n.max(1)).collect::<Vec<_>>(), |orders| {
@@ -75,42 +69,29 @@ fn once_each(
     Ok(orders.iter().map(|n| values[distinct.partition_point(|other| other < n)]).collect())
 }
 
-/// Both torques of a cylinder over ω², rod inertia included, with these proportions in place of its
-/// own.
-pub fn of_cylinder(
-    cylinder: &Cylinder,
-    proportions: &Proportions,
-    orders: &[u32],
-    cancel: &Cancel,
-) -> Result<TorqueHarmonics> {
-    let mut sum = torque(proportions, orders, cancel)?;
-    let of_rod = rod::torque(proportions, orders, cancel)?;
-    let (masses, inertia) = (cylinder.second_moment(), cylinder.rod_inertia_excess());
-    for (sum, of_rod) in [(&mut sum.roll, of_rod.roll), (&mut sum.crank, of_rod.crank)] {
-        for (value, of_rod) in sum.iter_mut().zip(of_rod) {
-            *value = *value * masses + of_rod * inertia;
-        }
-    }
-    Ok(sum)
-}
-
 /// Both torques of a cylinder over m·r²·ω², rod inertia included.
 pub fn over_second_moment(
     cylinder: &Cylinder,
     orders: &[u32],
     cancel: &Cancel,
 ) -> Result<TorqueHarmonics> {
-    let (proportions, masses) = (cylinder.proportions(), cylinder.second_moment());
+    let (mechanism, masses) = (cylinder.mechanism(), cylinder.second_moment());
+    let mut sum = mechanism.torque(orders, cancel)?;
     if !cylinder.has_rod_inertia() {
-        return torque(&proportions, orders, cancel);
+        return Ok(sum);
     }
     if masses == 0.0 {
         let hint = "torques of rod inertia are over m·r² of a mass above zero";
         return Err(Error::figure("reciprocating_mass", 0.0, hint));
     }
-    let TorqueHarmonics { roll, crank } = of_cylinder(cylinder, &proportions, orders, cancel)?;
-    let over = |values: Vec<Complex64>| values.into_iter().map(|value| value / masses).collect();
-    Ok(TorqueHarmonics { roll: over(roll), crank: over(crank) })
+    let (of_rod, inertia) =
+        (mechanism.swing_torque(orders, cancel)?, cylinder.rod_inertia_excess());
+    for (sum, of_rod) in [(&mut sum.roll, of_rod.roll), (&mut sum.crank, of_rod.crank)] {
+        for (value, of_rod) in sum.iter_mut().zip(of_rod) {
+            *value = (*value * masses + of_rod * inertia) / masses;
+        }
+    }
+    Ok(sum)
 }
 
 /// Bound of what orders above `highest` can add to either torque over m·r²·ω².
@@ -119,9 +100,6 @@ pub fn over_second_moment(
 /// |Cₙ| ≤ l p₂ⁿ⁻¹: the forces' tail, once for each neighbour, and a geometric sum.
 #[must_use]
 pub fn tail_bound(proportions: &Proportions, highest: u32) -> Option<f64> {
-    if proportions.has_infinite_rod() {
-        return Some(if highest < 2 { 0.5 } else { 0.0 });
-    }
     let force = force::tail_bound(proportions, highest.saturating_sub(1))?;
     let Root { p, .. } = Root::new(Sides::new(proportions).below);
     let first = f64::from(highest + 1);

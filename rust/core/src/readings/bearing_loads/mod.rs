@@ -27,7 +27,6 @@ use crate::numbers::error::{Error, Result};
 use crate::numbers::index::{List, ListIndex};
 use crate::numbers::order::Order;
 use crate::numbers::ratio::SpeedRatio;
-use crate::numbers::simd::vectorised;
 use crate::numbers::{limits, memory, pool};
 use crate::readings::balance::angular_speed;
 use crate::source::over_angle::{AngleColumn, BLOCK, Units};
@@ -264,10 +263,7 @@ impl BearingLoadsModel {
             for (range, units) in blocks_at(&blocks, self.rods[i].ratio) {
                 cancel.check()?;
                 columns.set_gas(&self.rods[i], &theta_deg[range.clone()]);
-                vectorised(
-                    #[inline(always)]
-                    || columns.fill(&self.rods[i], units),
-                );
+                columns.fill(&self.rods[i], units);
                 let pairs = [&columns.crankpin, &columns.wrist_pin];
                 for (row, [x, y]) in vectors.iter_mut().zip(pairs) {
                     let row = row[2 * range.start..2 * range.end].chunks_exact_mut(2);

@@ -19,11 +19,12 @@ use crate::Complex64;
 use crate::engine::CrankIndex;
 use crate::engine::Engine;
 use crate::load::Place;
-use crate::mechanism::rod::Swing;
-use crate::mechanism::slider_crank::{CrankPosition, Proportions};
+use crate::mechanism::Mechanism;
+use crate::mechanism::motion::{CrankPosition, Motion, MotionColumns};
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::error::Result;
 use crate::numbers::ratio::SpeedRatio;
+use crate::numbers::simd::vectorised;
 use crate::pressure::Cycle;
 use crate::source::over_angle::{AngleColumn, BLOCK, Units};
 
@@ -38,7 +39,7 @@ pub enum TurningAxes {
 
 /// A cylinder's piston and rod at a speed.
 pub(super) struct DrivenRod {
-    proportions: Proportions,
+    mechanism: Arc<dyn Mechanism>,
     pub crank: CrankIndex,
     pub ratio: SpeedRatio,
     /// `e^{−iφ}` of the angle φ of its own crank at top dead centre.
@@ -121,7 +122,7 @@ impl DrivenRod {
         let square = square * place.speed_squared();
         let ahead = Complex64::new(0.0, f64::from(place.ratio.sense()));
         Ok(Self {
-            proportions: cylinder.proportions(),
+            mechanism: engine.mechanism(i),
             crank: engine.crank_of(i),
             ratio: place.ratio,
             phase: place.ratio.cis(place.phase, -place.ratio.sense()),
@@ -139,7 +140,10 @@ impl DrivenRod {
     pub fn forces_beside(&self, theta_deg: f64, at: f64) -> RodForces {
         let unit = cis_degrees(theta_deg * self.ratio.size()) * self.phase;
         let gas = self.gas.as_ref().map_or(0.0, |gas| gas.force(theta_deg, at));
-        self.forces(&CrankPosition::new(unit.im, unit.re), gas)
+        let crank = CrankPosition::new(unit.im, unit.re);
+        let Motion { acceleration, slope, secant, .. } = self.mechanism.motion(&crank);
+        let swing = self.mechanism.swing(&crank).acceleration;
+        self.forces(&crank, &[acceleration, slope, secant, swing], gas)
     }
 
     /// A vector along u and w, x + iy.
@@ -176,16 +180,20 @@ impl DrivenRod {
         self.size() + on_crankpin + self.gas.as_ref().map_or(0.0, pressure)
     }
 
+    /// At an acceleration of the piston, slope and secant of its rod, and an acceleration of the rod's angle.
     #[inline(always)]
-    fn forces(&self, crank: &CrankPosition, gas: f64) -> RodForces {
-        let motion = self.proportions.motion_at(crank);
-        let towards_crank = gas + self.reciprocating * motion.acceleration;
-        let mut across = motion.slope * towards_crank;
+    fn forces(
+        &self,
+        crank: &CrankPosition,
+        &[acceleration, slope, secant, swing]: &[f64; 4],
+        gas: f64,
+    ) -> RodForces {
+        let towards_crank = gas + self.reciprocating * acceleration;
+        let mut across = slope * towards_crank;
         if self.couple != 0.0 {
-            let swing = Swing::new(&self.proportions, crank);
-            across -= self.couple * motion.secant * swing.acceleration;
+            across -= self.couple * secant * swing;
         }
-        let on_wrist_pin = gas + self.piston * motion.acceleration;
+        let on_wrist_pin = gas + self.piston * acceleration;
         RodForces {
             crankpin: [
                 self.rotating * crank.cos - towards_crank,
@@ -193,7 +201,7 @@ impl DrivenRod {
             ],
             wrist_pin: [on_wrist_pin, -across],
             across,
-            compression: (on_wrist_pin + motion.slope * across) / motion.secant,
+            compression: (on_wrist_pin + slope * across) / secant,
             gas,
         }
     }
@@ -205,8 +213,8 @@ impl DrivenRod {
         let along = match axes {
             TurningAxes::Crank => Complex64::new(crank.cos, crank.sin),
             TurningAxes::Rod => {
-                let motion = self.proportions.motion_at(crank);
-                Complex64::new(1.0, -motion.slope) / motion.secant
+                let Motion { slope, secant, .. } = self.mechanism.motion(crank);
+                Complex64::new(1.0, -slope) / secant
             }
         };
         let [u, w] = self.axes.map(|axis| (axis.conj() * vector).re);
@@ -235,10 +243,31 @@ impl RodColumns {
     }
 
     /// Overwrite all but the gas, which is read.
-    #[inline(always)]
     pub fn fill(&mut self, rod: &DrivenRod, units: &Units) {
+        let [mut velocity, mut acceleration, mut slope, mut secant, mut swing] = [[0.0; BLOCK]; 5];
+        let cranks = units.cranks(rod.phase);
+        if rod.couple != 0.0 {
+            rod.mechanism.swings(&cranks, [&mut velocity, &mut swing]);
+        }
+        let motion = MotionColumns {
+            velocity: &mut velocity,
+            acceleration: &mut acceleration,
+            jerk: None,
+            lean: Some([&mut slope, &mut secant]),
+        };
+        rod.mechanism.motions(&cranks, motion);
+        let motions = [&acceleration, &slope, &secant, &swing];
+        vectorised(
+            #[inline(always)]
+            || self.add(rod, units, motions),
+        );
+    }
+
+    #[inline(always)]
+    fn add(&mut self, rod: &DrivenRod, units: &Units, motions: [&AngleColumn; 4]) {
         for k in 0..BLOCK {
-            let forces = rod.forces(&units.crank(rod.phase, k), self.gas[k]);
+            let motion = motions.map(|column| column[k]);
+            let forces = rod.forces(&units.crank(rod.phase, k), &motion, self.gas[k]);
             let pairs =
                 [(&mut self.crankpin, forces.crankpin), (&mut self.wrist_pin, forces.wrist_pin)];
             for ([x, y], vector) in pairs {

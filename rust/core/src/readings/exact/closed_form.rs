@@ -17,6 +17,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::List;
 use crate::numbers::order::Order;
+use crate::numbers::ratio::SpeedRatio;
 use crate::numbers::rational::{Multiples, Ratio, common_measure, nearest};
 use crate::numbers::ring::{LARGEST_REDUCED, RootSum};
 
@@ -156,7 +157,7 @@ pub fn closed_form(
         return Err(refused("order", order, "a whole order: pistons have no others"));
     }
     let ExactLoads { mut loads, motions, .. } = ExactLoads::new(engine, reference_z)?;
-    if motions.iter().any(|motion| !motion.ratio.is_crank_speed()) {
+    if motions.iter().any(|motion| motion.speed != SpeedRatio::ONE.halves_of_speed()) {
         let hint = "cylinders on cranks as fast as the main one";
         return Err(refused("cranks", "of different speeds", hint));
     }
@@ -164,7 +165,6 @@ pub fn closed_form(
         return Err(refused("cylinders", "of different proportions", "rods and offsets alike"));
     };
     loads.list.retain(|load| load.parts.force.is_some() && load.acts_at(order));
-    let offset = motion.cylinder().pin_offset();
     let (unit, weights) = weights(&loads.list, cancel)?;
     if loads.list.len() > engine.stations().len() {
         if order > Order::FIRST {
@@ -172,7 +172,8 @@ pub fn closed_form(
                 "no unbalance at an order above 1, to whose harmonic it has no rational ratio";
             return Err(refused("shafts", format!("of order {order}"), hint));
         }
-        if offset != 0.0 {
+        if motion.mechanism.exact_force(1).rest.exists() {
+            let offset = engine.stations()[0].cylinder.pin_offset();
             let hint = "no rotating mass at order 1, whose phase is another, or no offset";
             return Err(refused("pin_offset", offset, hint));
         }
@@ -205,8 +206,8 @@ pub fn closed_form(
             phase: part_of_turn("tdc_deg", place.phase)?,
         });
     }
-    let has_none = motion.cylinder().has_infinite_rod() || (offset == 0.0 && order.is_odd());
-    let no_harmonic = order > Order::FIRST && has_none;
+    let known = motion.mechanism.exact_force(motion.own_order(order));
+    let no_harmonic = !known.crank && !known.rest.exists();
     let (denominator, [forward, backward_conj]) = sums(&loads, order, &products, moment, cancel)?;
     // x = f + b*, y = −i(f − b*), b* conjugate.
     let x = forward.plus(&backward_conj, 1)?;
@@ -299,7 +300,7 @@ mod tests {
 
     use super::*;
     use crate::engine::{CrankIndex, Shaft, Station, Unbalance};
-    use crate::mechanism::slider_crank::Cylinder;
+    use crate::mechanism::cylinder::Cylinder;
     use crate::numbers::ratio::SpeedRatio;
     use crate::readings::balance::{Request, Vector, balance};
 
@@ -386,10 +387,7 @@ mod tests {
         let planar = found.planar(vector, 0);
         let [x, y] = found.xy(vector, 0);
         let cylinder = engine.stations()[form.unit].cylinder;
-        let proportions = cylinder.proportions();
-        let harmonic =
-            crate::mechanism::harmonics::coefficients(&proportions, &[order], &Cancel::new())
-                .unwrap()[0];
+        let harmonic = cylinder.mechanism().force(&[order], &Cancel::new()).unwrap()[0];
         assert_eq!(form.no_harmonic, harmonic.norm() == 0.0);
         let length = if moment { form.spacing } else { 1.0 };
         let unit = harmonic * (cylinder.first_order() * length);

@@ -8,13 +8,15 @@ mod roots;
 pub mod star;
 pub mod vanishing;
 
-use num_traits::{CheckedAdd, CheckedDiv, CheckedMul, Signed};
+use std::sync::Arc;
+
+use num_traits::{CheckedAdd, CheckedMul};
 
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::load::{Load, LoadIndex, LoadList, SourceIndex};
 use crate::mechanism::Mechanism;
-use crate::mechanism::slider_crank::Cylinder;
+use crate::mechanism::exact::MotionKey;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::{List, list_index};
@@ -39,29 +41,19 @@ fn whole(weights: &[Ratio]) -> Result<(Vec<i128>, Ratio)> {
     Ok((whole.collect::<Option<_>>().ok_or_else(too_long)?, measure))
 }
 
-/// Exact l/r and e/r where the lengths are decimals, else their doubles.
-#[derive(PartialEq)]
-enum TypedProportions {
-    Exact([Ratio; 2]),
-    Nearest([f64; 2]),
+/// A motion of pistons on cranks of one speed.
+#[derive(Debug, Clone)]
+pub(crate) struct ExactMotion {
+    pub mechanism: Arc<dyn Mechanism>,
+    pub key: MotionKey,
+    /// Of the crank, in halves of the main crank's.
+    pub speed: u32,
 }
 
-impl TypedProportions {
-    fn of(gear: &Cylinder) -> Self {
-        let over_radius =
-            |length: f64| decimal(length)?.checked_div(&decimal(gear.crank_radius())?);
-        match (over_radius(gear.rod_length()), over_radius(gear.pin_offset())) {
-            (Some(rod), Some(offset)) => Self::Exact([rod, offset]),
-            _ => Self::Nearest([gear.proportions().rod, gear.proportions().offset]),
-        }
-    }
-
-    /// The same with the offset on the side to which the crankpin swings.
-    fn mirrored(self) -> Self {
-        match self {
-            Self::Exact([rod, offset]) => Self::Exact([rod, offset.abs()]),
-            Self::Nearest([rod, offset]) => Self::Nearest([rod, offset.abs()]),
-        }
+impl ExactMotion {
+    /// Multiple of the speed of its own crank that an order is.
+    pub fn own_order(&self, order: Order) -> u32 {
+        order.halves() / self.speed
     }
 }
 
@@ -75,7 +67,7 @@ struct ExactLoads {
     loads: LoadList,
     /// Motions that differ as typed, or in the speed of their cranks, whichever the sense: offsets are on
     /// the side to which the crankpin swings.
-    motions: List<MotionIndex, Mechanism>,
+    motions: List<MotionIndex, ExactMotion>,
     /// Motion of each source that has one.
     motion_of: List<SourceIndex, Option<MotionIndex>>,
 }
@@ -92,15 +84,15 @@ impl ExactLoads {
         let mechanism = |source| Some((source, loads.sources[source].mechanism()?));
         let mechanisms = loads.sources.indices().filter(acts).filter_map(mechanism);
         let mut motion_of = loads.sources.map_to(|_| None);
-        let mut motions: List<MotionIndex, ((TypedProportions, u32), Mechanism)> = List::default();
-        for (source, mechanism) in mechanisms {
-            // Quotients of doubles may differ where proportions are equal as typed.
-            let proportions = TypedProportions::of(mechanism.cylinder());
-            let typed = (proportions, mechanism.ratio.halves_of_speed());
-            let known = motions.indices().find(|&known| motions[known].0 == typed);
-            motion_of[source] = Some(known.unwrap_or_else(|| motions.push((typed, *mechanism))));
+        let mut motions: List<MotionIndex, ExactMotion> = List::default();
+        for (source, driven) in mechanisms {
+            let (key, speed) = (driven.mechanism.key(), driven.ratio.halves_of_speed());
+            let is_known = |known: &ExactMotion| (&known.key, known.speed) == (&key, speed);
+            let known = motions.indices().find(|&known| is_known(&motions[known]));
+            motion_of[source] = Some(known.unwrap_or_else(|| {
+                motions.push(ExactMotion { mechanism: Arc::clone(&driven.mechanism), key, speed })
+            }));
         }
-        let motions = motions.map_to(|(_, mechanism)| *mechanism);
         Ok(Self { loads, motions, motion_of })
     }
 }

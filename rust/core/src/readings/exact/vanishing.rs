@@ -34,18 +34,17 @@
 mod terms;
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use self::terms::{Channel, Proof, Symbol, SymbolSums, SymbolTerm, View};
 use super::roots::{PartOfTurn, SymbolEntry};
 use super::star::Stars;
-use super::{MotionIndex, NumberedLoads, whole};
+use super::{ExactMotion, MotionIndex, NumberedLoads, whole};
 use crate::Complex64;
 use crate::engine::{Engine, Origin};
 use crate::firing::Firing;
 use crate::layout::Strokes;
 use crate::load::{Load, LoadIndex, LoadList};
-use crate::mechanism::Mechanism;
-use crate::mechanism::harmonics;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -242,31 +241,31 @@ impl Proof {
         cancel: &Cancel,
     ) -> Result<bool> {
         use Channel::{Force, Gear, Masses, OddOfGear, OddOfMasses, OddOfRod, One, Rod};
-        let of_motion =
-            |motion: MotionIndex| (*self.motions[motion].cylinder(), self.own_order(motion, order));
-        let ((cylinder, own), [masses, inertia]) = match channel {
+        let of_motion = |motion: MotionIndex| {
+            let motion = &self.motions[motion];
+            (Arc::clone(&motion.mechanism), motion.own_order(order))
+        };
+        let ((mechanism, own), [masses, inertia]) = match channel {
             One => return Ok(true),
             Force(motion) | Masses(motion) | OddOfMasses(motion) => (of_motion(motion), [1.0, 0.0]),
             Rod(motion) | OddOfRod(motion) => (of_motion(motion), [0.0, 1.0]),
             Gear(gear) | OddOfGear(gear) => {
                 let (gear, speed) = self.gears[gear];
                 let weights = [gear.second_moment(), gear.rod_inertia_excess()];
-                ((gear, order.halves() / speed), weights)
+                ((gear.mechanism(), order.halves() / speed), weights)
             }
         };
         let torque = !matches!(channel, Force(_));
-        let centred = cylinder.pin_offset() == 0.0;
-        if (centred && inertia == 0.0 && masses != 0.0) || (!torque && own == 1 && !view.parts) {
+        let known = if torque { mechanism.exact_torque(own) } else { mechanism.exact_force(own) };
+        if (known.is_certain && inertia == 0.0 && masses != 0.0) || (known.crank && !view.parts) {
             return Ok(true);
         }
-        let proportions = cylinder.proportions();
         let terms = if torque {
-            let of_masses = harmonics::torque::torque(&proportions, &[own], cancel)?.roll[0];
-            let of_rod = harmonics::rod::torque(&proportions, &[own], cancel)?.roll[0];
+            let of_masses = mechanism.torque(&[own], cancel)?.roll[0];
+            let of_rod = mechanism.swing_torque(&[own], cancel)?.roll[0];
             [of_masses * masses, of_rod * inertia]
         } else {
-            let force = harmonics::coefficients(&proportions, &[own], cancel)?[0];
-            [force, Complex64::default()]
+            [mechanism.force(&[own], cancel)?[0], Complex64::default()]
         };
         let value = terms[0] + terms[1];
         let value = match (view.parts, channel) {
@@ -275,11 +274,8 @@ impl Proof {
             (true, _) if torque || own % 2 == 1 => value.im.abs(),
             (true, _) => value.re.abs(),
         };
-        // p₂ of l/r and e/r.
-        let reach = proportions.rod - proportions.offset.abs();
-        let root = 1.0 / (reach + (reach * reach - 1.0).max(0.0).sqrt());
         let n = f64::from(own);
-        let made_of = n * n * root.powf(n - 2.0) * (masses + inertia.abs());
+        let made_of = n * n * mechanism.decay().powf(n - 2.0) * (masses + inertia.abs());
         Ok(value > 1e-12 * made_of && value > 1e-9 * (terms[0].norm() + terms[1].norm()))
     }
 
@@ -310,7 +306,7 @@ impl Proof {
         if directions.into_iter().any(|(load, of)| load.is_turning() && of.symbol > 0) {
             found.push("angles of unbalances that are no simple part of a turn".to_owned());
         }
-        let speeds = || self.motions.iter().map(|motion| motion.ratio.halves_of_speed());
+        let speeds = || self.motions.iter().map(|motion| motion.speed);
         if speeds().any(|speed| Some(speed) != speeds().next()) {
             found.push("cranks of different speeds".to_owned());
         } else if self.motions.len() > 1 {
@@ -342,7 +338,7 @@ impl Proof {
         if units.len() > 1 {
             found.push("places that are no rational multiples of each other".to_owned());
         }
-        let has_offset = |motion: &Mechanism| !motion.is_centred();
+        let has_offset = |motion: &ExactMotion| motion.mechanism.exact_force(1).rest.exists();
         if found.is_empty() && self.motions.iter().any(has_offset) {
             found.push(
                 "pin offsets: harmonics with no rational relation to what rotates".to_owned(),

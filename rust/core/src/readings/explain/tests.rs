@@ -3,7 +3,7 @@
 use super::*;
 use crate::engine::layout::{FiringOrder, Inline, Numbering, Side, Spacing, Strokes, Vee};
 use crate::engine::{Crank, CrankIndex, Shaft, Station};
-use crate::mechanism::slider_crank::Cylinder;
+use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::draws;
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::*;
 use crate::engine::Station;
-use crate::mechanism::slider_crank::Cylinder;
+use crate::mechanism::cylinder::Cylinder;
 use crate::mounts::equations::{lanes, rows};
 use crate::mounts::tests::random;
 use crate::mounts::{InertiaTrack, MountFigures};

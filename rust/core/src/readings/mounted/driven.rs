@@ -64,7 +64,7 @@ impl Response {
 mod tests {
     use super::*;
     use crate::engine::Station;
-    use crate::mechanism::slider_crank::Cylinder;
+    use crate::mechanism::cylinder::Cylinder;
     use crate::mounts::tests::random;
     use crate::numbers::angle::Angle;
     use crate::numbers::draws;

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::*;
 use crate::engine::Station;
-use crate::mechanism::slider_crank::Cylinder;
+use crate::mechanism::cylinder::Cylinder;
 use crate::mounts::tests::{four_mounts, random};
 use crate::numbers::angle::Angle;
 use crate::numbers::draws;

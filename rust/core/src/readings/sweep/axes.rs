@@ -91,7 +91,7 @@ impl SweepAxes {
         let (ratios, offsets) = (self.rod_ratio.as_deref(), self.pin_offset.as_deref());
         let (extreme_ratios, extreme_offsets) = (ends(ratios, cancel)?, ends(offsets, cancel)?);
         for cylinder in engines.iter().flat_map(|engine| engine.gears()) {
-            let at = |ratio, offset| cylinder.proportions_with(ratio, offset).map(drop);
+            let at = |ratio, offset| cylinder.mechanism_with(ratio, offset).map(drop);
             let at_extreme_offsets =
                 |ratio| extreme_offsets.iter().try_for_each(|&offset| at(ratio, offset));
             let Err(error) = extreme_ratios.into_iter().try_for_each(at_extreme_offsets) else {

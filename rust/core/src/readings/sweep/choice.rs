@@ -262,8 +262,7 @@ impl Sweep {
             }
             return Ok(sizes.map(|sizes| sizes.into_iter().map(SizeFactor::AtMost).collect()));
         }
-        let rod_ratio = 1.0 / mechanism.proportions.rod;
-        if mechanism.is_centred() && rod_ratio <= source.grows_up_to(column) {
+        if source.grows_with_rod_ratio(column) {
             return values(|value| SizeFactor::AtMost(value.norm()));
         }
         let bound = |&order: &Order| {

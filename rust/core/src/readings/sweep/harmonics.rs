@@ -8,7 +8,6 @@ use super::{Selection, Sweep};
 use crate::Complex64;
 use crate::load::{Harmonic, Sources};
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
-use crate::mechanism::harmonics::table;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
@@ -96,12 +95,13 @@ impl Sweep {
             return Ok(columns);
         };
         let [ratios, offsets] = [&self.axes.rod_ratio, &self.axes.pin_offset];
+        let whole: Vec<u32> = self.orders.iter().filter_map(|n| n.as_whole()).collect();
         if let (Some(ratios), None, Column::Force) = (ratios, offsets, column)
-            && mechanism.is_centred()
             && mechanism.ratio.is_crank_speed()
+            && let Some(table) =
+                mechanism.mechanism.force_at_ratios(&ratios[points.clone()], &whole, cancel)
         {
-            let orders: Vec<u32> = self.orders.iter().filter_map(|n| n.as_whole()).collect();
-            let table = table::centred_table(&ratios[points], &orders, cancel)?;
+            let table = table?;
             let whole =
                 self.orders.iter().zip(&mut columns).filter(|(n, _)| n.as_whole().is_some());
             for ((_, [re, _]), values) in whole.zip(table.columns()) {

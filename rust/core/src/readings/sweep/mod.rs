@@ -25,7 +25,7 @@ use self::operating::Nodes;
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::load::{Group, LoadList, find_or_push};
-use crate::mechanism::slider_crank::Cylinder;
+use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;

@@ -1,10 +1,10 @@
 //! Harmonics of one cylinder whose crank radius and rod length deviate.
 
 use crate::Complex64;
-use crate::mechanism::Mechanism;
+use crate::mechanism::DrivenMechanism;
+use crate::mechanism::cylinder::Cylinder;
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
-use crate::mechanism::harmonics::{self, rod, table, torque};
-use crate::mechanism::slider_crank::Cylinder;
+use crate::mechanism::harmonics::table;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
@@ -24,10 +24,10 @@ pub(super) fn amplitudes(
     orders: &[Order],
     cancel: &Cancel,
 ) -> Result<SampleAmplitudes> {
-    let mechanism = Mechanism::new(cylinder, *ratio);
-    let own: Vec<u32> = orders.iter().map(|n| mechanism.own_highest(n.halves()).max(1)).collect();
+    let driven = DrivenMechanism { mechanism: cylinder.mechanism(), ratio: *ratio };
+    let own: Vec<u32> = orders.iter().map(|n| driven.own_highest(n.halves()).max(1)).collect();
     let numbers = &own[..];
-    let [on_block, on_crank] = mechanism.senses();
+    let [on_block, on_crank] = driven.senses();
     let offset = cylinder.pin_offset();
     let [centred, has_rod] = [offset == 0.0, wants_torque && cylinder.has_rod_inertia()];
     let mut found = SampleAmplitudes::default();
@@ -49,7 +49,7 @@ pub(super) fn amplitudes(
         }
     }
     for (&radius, &length) in radii.iter().zip(rods).filter(|_| !centred || has_rod) {
-        let proportions = Cylinder::new(radius, length, 0.0, offset)?.proportions();
+        let mechanism = Cylinder::new(radius, length, 0.0, offset)?.mechanism();
         let mut push = |list: usize, harmonics: Vec<Complex64>| {
             found[list].resize_with(numbers.len(), Default::default);
             for ([re, im], value) in found[list].iter_mut().zip(harmonics) {
@@ -62,13 +62,13 @@ pub(super) fn amplitudes(
             push(list + 1, crank.iter().map(|crank| crank * on_crank).collect());
         };
         if has_rod {
-            push_torque(3, rod::torque(&proportions, numbers, cancel)?);
+            push_torque(3, mechanism.swing_torque(numbers, cancel)?);
         }
         if !centred && wants_torque {
-            push_torque(1, torque::torque(&proportions, numbers, cancel)?);
+            push_torque(1, mechanism.torque(numbers, cancel)?);
         }
         if !centred {
-            push(0, harmonics::coefficients(&proportions, numbers, cancel)?);
+            push(0, mechanism.force(numbers, cancel)?);
         }
     }
     Ok(found)

@@ -15,7 +15,7 @@ use crate::engine::{Engine, Origin, Station};
 use crate::load::{
     Arithmetic, Factor, Load, LoadIndex, LoadList, Phasors, Wanted, Weight, superpose,
 };
-use crate::mechanism::slider_crank::Cylinder;
+use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::index::{List, ListIndex, distinct, list_index};

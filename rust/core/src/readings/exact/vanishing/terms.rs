@@ -4,12 +4,11 @@
 use std::sync::Arc;
 
 use super::super::roots::{FormalSum, PartOfTurn, Share, SymbolEntry, parts_of_turn};
-use super::super::{ExactLoads, Levers, MotionIndex, TypedProportions, too_long};
+use super::super::{ExactLoads, ExactMotion, Levers, MotionIndex, too_long};
 use super::ProofQuantity;
 use crate::engine::{Engine, Origin};
 use crate::load::{self, Harmonic, Load, LoadIndex, LoadList, SourceIndex, Wanted, superpose};
-use crate::mechanism::Mechanism;
-use crate::mechanism::slider_crank::Cylinder;
+use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::index::{List, distinct, list_index};
@@ -99,7 +98,7 @@ pub(super) type SymbolSums = Vec<load::Term<Vec<Share>>>;
 pub(super) struct Proof {
     pub loads: LoadList,
     /// Motions, of proportions and speed of a crank.
-    pub motions: List<MotionIndex, Mechanism>,
+    pub motions: List<MotionIndex, ExactMotion>,
     /// Motion of each source that has one.
     motion_of: List<SourceIndex, Option<MotionIndex>>,
     pub roots: FormalSum,
@@ -148,9 +147,7 @@ impl Proof {
         let arms: Vec<f64> = loads.list.iter().flat_map(arm).collect();
         let arms = Multiples::new(&arms, cancel)?.of;
         let bores = loads.list.iter().map(|load| load.place.direction);
-        let mirrored = motions.first_equal(|motion| {
-            (TypedProportions::of(motion.cylinder()).mirrored(), motion.ratio.halves_of_speed())
-        });
+        let mirrored = motions.first_equal(|motion| (motion.key.figures.clone(), motion.speed));
         let driven = |i: usize| {
             let crank = engine.cranks()[engine.crank_of(i)];
             (engine.gears()[engine.gear_of(i)], crank.ratio.halves_of_speed())
@@ -195,11 +192,6 @@ impl Proof {
         self.loads.list.iter().any(|load| load.parts.repeats == Repeats::EveryTwoTurns)
     }
 
-    /// Multiple of the speed of its own crank that an order is for a motion.
-    pub fn own_order(&self, motion: MotionIndex, order: Order) -> u32 {
-        self.motions[motion].own_highest(order.halves())
-    }
-
     /// Channels of a piston's force and their signs; none where its harmonic is zero.
     fn force_channels(
         &self,
@@ -208,21 +200,21 @@ impl Proof {
         view: View,
     ) -> Vec<(Channel, i128)> {
         use Channel::{Force, One};
-        let own = self.own_order(motion, order);
-        let (mirrored, odd) = (self.mirrored[motion], own % 2 == 1);
-        let cylinder = self.motions[motion].cylinder();
-        if cylinder.has_infinite_rod() {
-            return if own == 1 { vec![(One, 1)] } else { vec![] };
+        let (of, mirrored) = (&self.motions[motion], self.mirrored[motion]);
+        let known = of.mechanism.exact_force(of.own_order(order));
+        if known.rest.exists() && !view.parts {
+            return vec![(Force(motion), 1)];
         }
-        let offset = cylinder.pin_offset();
-        let sign = offset.signum() as i128;
-        match (offset == 0.0, own == 1, view.parts) {
-            (true, true, _) => vec![(One, 1)],
-            (true, _, _) if odd => vec![],
-            (_, true, true) => vec![(One, 1), (Force(mirrored), sign)],
-            (_, _, false) => vec![(Force(motion), 1)],
-            (_, _, true) => vec![(Force(mirrored), if odd { sign } else { 1 })],
-        }
+        let [whole, rest] = [(One, 1), (Force(mirrored), 1)];
+        let odd = (Force(mirrored), self.sign(motion));
+        let [has_even, has_odd] = known.rest.parts();
+        let parts = [(known.crank, whole), (has_even, rest), (has_odd, odd)];
+        parts.into_iter().filter_map(|(has, part)| has.then_some(part)).collect()
+    }
+
+    /// Sign of parts that are odd in the side of an offset.
+    fn sign(&self, motion: MotionIndex) -> i128 {
+        if self.motions[motion].key.is_mirrored { -1 } else { 1 }
     }
 
     /// Channels of a torque and their signs: of a motion or of a running gear, `own` or the first of
@@ -235,22 +227,16 @@ impl Proof {
         [whole, odd]: [fn(I) -> Channel; 2],
         [own, mirrored]: [I; 2],
     ) -> Vec<(Channel, i128)> {
-        let cylinder = self.motions[motion].cylinder();
-        if cylinder.has_infinite_rod() && self.own_order(motion, order) != 2 {
-            return vec![];
-        }
-        let offset = cylinder.pin_offset();
+        let of = &self.motions[motion];
+        let known = of.mechanism.exact_torque(of.own_order(order));
         // A crank that turns the other way mirrors the torque on the block.
         let sense = i128::from(self.loads.list[load].place.ratio.sense());
         // T(θ) of an offset is −T(−θ) of the opposite one: sines are even in it.
-        match (view.parts, offset == 0.0) {
-            (false, _) => vec![(whole(own), sense)],
-            (true, true) => vec![(whole(mirrored), sense)],
-            (true, false) => {
-                let sign = offset.signum() as i128;
-                vec![(whole(mirrored), sense), (odd(mirrored), sense * sign)]
-            }
-        }
+        let [has_even, has_odd] = known.rest.parts();
+        let even = (has_even, (whole(mirrored), sense));
+        let odd = (has_odd, (odd(mirrored), sense * self.sign(motion)));
+        let parts = [even, odd].into_iter().filter_map(|(has, part)| has.then_some(part));
+        if view.parts || !known.rest.exists() { parts.collect() } else { vec![(whole(own), sense)] }
     }
 
     /// Channels and their signs of one load's share of a sum.

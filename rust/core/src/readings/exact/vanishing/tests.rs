@@ -96,11 +96,7 @@ fn gas_of_unlike_cylinders_remains_where_it_is_evaluated() {
 #[test]
 fn harmonics_that_underflow_remain() {
     let single = engine(&[(0.0, 90.0, 0.0, 0.45, 0.0)]);
-    let force = harmonics::coefficients(
-        &single.stations()[0].cylinder.proportions(),
-        &[1000],
-        &crate::Cancel::new(),
-    );
+    let force = single.mechanism(0).force(&[1000], &crate::Cancel::new());
     assert_eq!(force.unwrap()[0].norm(), 0.0);
     assert_eq!(verdicts(&single, 1000)[1], R);
 }
@@ -469,10 +465,10 @@ fn rod_inertia_that_nearly_cancels_torque_is_never_a_false_proof() {
         let found = vanishing(&single(inertia), &[1], None, &crate::Cancel::new()).unwrap();
         (found.verdicts[0][8], found.within_rounding[0][8], !found.obstacles.is_empty())
     };
-    let proportions = single(0.0).stations()[0].cylinder.proportions();
+    let mechanism = single(0.0).mechanism(0);
     let cancel = crate::Cancel::new();
-    let [masses, rod] = [harmonics::torque::torque, harmonics::rod::torque]
-        .map(|torque| torque(&proportions, &[1], &cancel).unwrap().roll[0]);
+    let [masses, rod] = [mechanism.torque(&[1], &cancel), mechanism.swing_torque(&[1], &cancel)]
+        .map(|torque| torque.unwrap().roll[0]);
     let cancelling = -(masses / rod).re * single(0.0).stations()[0].cylinder.second_moment();
     // To four digits it is that of the rod at hand.
     assert!((cancelling / -2.558e-4 - 1.0).abs() < 1e-3, "{cancelling}");
