@@ -21,7 +21,7 @@ use crate::numbers::limits;
 use crate::numbers::order::{self, Order};
 use crate::numbers::pool;
 use crate::numbers::ratio::SpeedRatio;
-use crate::readings::amplitude::{Amplitude, Amplitudes};
+use crate::readings::amplitude::{Amplitude, SourceAmplitudes};
 use crate::source::{Repeats, Scaling};
 
 /// Weight of each objective relative to the one before it. A length that can vanish stays at zero under
@@ -171,7 +171,7 @@ impl Objectives {
             let reason = "it has loads that do not scale with the square of the speed".to_owned();
             return Err(Error::Undefined { argument: "objectives", reason });
         }
-        let amplitudes = Amplitudes::new(&loads.sources, true, &all, cancel)?;
+        let amplitudes = SourceAmplitudes::new(&loads.sources, true, &all, cancel)?;
         let wanted = Wanted { planar: true, roll: true, by_bank: false };
         let by_order: Vec<[Vec<TurningPhasor>; 4]> = all
             .iter()

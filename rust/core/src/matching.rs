@@ -155,14 +155,14 @@ fn shifted(
     remainder: &[f64],
     changes: &(impl Iterator<Item = f64> + Clone),
     here: &[f64],
-    there: Option<&[f64]>,
+    other: Option<&[f64]>,
 ) -> f64 {
     let figures = here.len() / remainder.len();
     let mut square = 0.0;
     for (k, &x) in remainder.iter().enumerate() {
         let mut sum = x;
         for (figure, change) in (k * figures..).zip(changes.clone()) {
-            sum += change * (here[figure] - there.map_or(0.0, |there| there[figure]));
+            sum += change * (here[figure] - other.map_or(0.0, |other| other[figure]));
         }
         square += sum * sum;
     }
@@ -197,9 +197,9 @@ impl Matching {
 
     /// Whether these are sequences of all parts, one for each kind.
     fn has(&self, sequences: &[Vec<usize>]) -> bool {
-        let each = sequences.iter().zip(&self.kinds);
+        let mut pairs = sequences.iter().zip(&self.kinds);
         sequences.len() == self.kinds.len()
-            && each.into_iter().all(|(sequence, kind)| {
+            && pairs.all(|(sequence, kind)| {
                 let mut parts = sequence.clone();
                 parts.sort_unstable();
                 parts.into_iter().eq(0..kind.parts)
@@ -323,16 +323,16 @@ impl Matching {
         }
         let (kind, used) = (&self.kinds[kind], self.sets * self.places);
         let [set, other] = slots.map(|slot| slot / self.places);
-        let [here, there] = slots.map(|slot| kind.units(slot % self.places));
+        let [here, units] = slots.map(|slot| kind.units(slot % self.places));
         let more = kind.shifts(parts);
         if slots[1] >= used {
             shifted(&remainders[set], &more, here, None)
         } else if set == other {
-            shifted(&remainders[set], &more, here, Some(there))
+            shifted(&remainders[set], &more, here, Some(units))
         } else {
             let less = kind.shifts([parts[1], parts[0]]);
             shifted(&remainders[set], &more, here, None)
-                + shifted(&remainders[other], &less, there, None)
+                + shifted(&remainders[other], &less, units, None)
         }
     }
 

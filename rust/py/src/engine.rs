@@ -492,6 +492,12 @@ impl Engine {
         self.0.throws().into_iter().map(throw).collect()
     }
 
+    /// Whether the crankpins of some cylinders, by number, point the same way but for rounding.
+    fn pins_agree(&self, cylinders: Vec<usize>) -> bool {
+        let mut pins = cylinders.iter().map(|number| self.0.pin(number - 1));
+        pins.next().is_some_and(|first| pins.all(|pin| pin.is_direction_of(first)))
+    }
+
     /// The crankpins from front to flywheel.
     fn crankpins(&self) -> Vec<Pin> {
         self.0.crankpins().iter().map(pin).collect()

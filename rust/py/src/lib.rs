@@ -104,7 +104,7 @@ mod _core {
         module.add("MOST_CYLINDERS", limits::MOST_CYLINDERS)?;
         module.add("LARGEST_RESULT", limits::LARGEST_RESULT)?;
         module.add("LARGEST", limits::LARGEST)?;
-        module.add("LARGEST_SPEED_RATIO", crankpin_core::SpeedRatio::LARGEST)?;
+        module.add("LARGEST_SPEED_RATIO", crankpin_core::SpeedRatio::LARGEST_COUNTED)?;
         module.add("LONGEST_AXIS", limits::LONGEST_AXIS)?;
         module.add("SMALLEST", limits::SMALLEST)?;
         module.add("LONGEST_FILE", file::LONGEST_TEXT)?;

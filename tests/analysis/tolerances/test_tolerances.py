@@ -271,6 +271,21 @@ def test_pins_that_cylinders_share_deviate_together() -> None:
     assert t.draws("pin_deg").shape == (4, 8)
 
 
+def test_pins_that_only_rounding_parts_may_be_named_together() -> None:
+    def vee(second_tdc: float) -> cp.Engine:
+        return cp.Engine.from_lists(
+            V6.cylinders[0], tdc_deg=[0.1, second_tdc], bank_deg=[45.7, 135.7], z=[0, 0.02]
+        )
+
+    turned, elsewhere = vee(90.1 + 3e-10), vee(0.1)
+    given: dict[str, Any] = {"rpm": RPM, "samples": 1, "pin_deg": 0.1}
+    (shared,) = cp.tolerances(turned, **given).pins
+    assert turned.pin_deg[0] != turned.pin_deg[1]
+    assert cp.tolerances(turned, **given, pins=[shared]).pins == (shared,)
+    with pytest.raises(cp.InputError, match="do not point the same way"):
+        cp.tolerances(elsewhere, **given, pins=[[1, 2]])
+
+
 def test_spreads_may_differ_between_cylinders_and_pins() -> None:
     t = cp.tolerances(
         V6, rpm=RPM, reciprocating_mass=[0, 0.01, 0, 0, 0, 0], pin_deg=[0.1] * 5 + [0], samples=50

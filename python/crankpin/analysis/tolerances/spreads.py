@@ -135,10 +135,8 @@ def _pins(engine: Engine, groups: Iterable[Iterable[int]]) -> tuple[tuple[int, .
     )
     if sorted(number for pin in pins for number in pin) != [*range(1, len(engine) + 1)]:
         raise inputs.rejected("pins", pins, f"name each cylinder once; {hint}")
-    directions = engine.pin_deg
     for pin in pins:
-        angles = np.array([directions[number - 1] for number in pin])
-        if not pin or (angles != angles[0]).any():
+        if not engine_core(engine).pins_agree(pin):
             raise inputs.rejected(
                 "pins",
                 pins,

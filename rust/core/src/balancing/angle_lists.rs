@@ -22,7 +22,7 @@ pub(super) fn nearest(
     let room = DVector::from_vec(columns.bounded.iter().map(|&p| bounds[p]).collect());
     let start = columns.variables(&[]);
     let goal = DVector::from_column_slice(target.as_slice());
-    let rows = [&columns.made, &columns.filled];
+    let rows = [&columns.exerted, &columns.filled];
     let mut found = Minimum::start(start, room.len());
     for penalty in PENALTIES {
         found = minimum(rows, [&goal, &room], found, penalty, problem.cancel)?;
@@ -96,12 +96,12 @@ fn squares(
 ) -> Result<Option<Vec<PlacedWeight>>> {
     let (bounds, equations) = (&problem.bounds, problem.target.len());
     let columns = AngleColumns::new(problem, directions, bounds, is_full)?;
-    let mut sums = DMatrix::zeros(bounds.len(), columns.made.ncols());
+    let mut sums = DMatrix::zeros(bounds.len(), columns.exerted.ncols());
     for (j, &(plane, _)) in columns.places.iter().enumerate() {
         sums[(plane, j)] = f64::from(u8::from(!is_full[plane]));
     }
     let start = columns.variables(found);
-    let held = stack(&columns.made, &columns.filled);
+    let held = stack(&columns.exerted, &columns.filled);
     let value = &held * &start;
     let full = self::sums(found, bounds.len());
     let none = DVector::zeros(bounds.len());
@@ -151,7 +151,7 @@ struct AngleColumns<'a> {
     /// Plane and direction of each amount.
     units: Vec<(usize, Complex64)>,
     /// What the variables exert.
-    made: DMatrix<f64>,
+    exerted: DMatrix<f64>,
     /// Amounts and room of each plane with a bound.
     filled: DMatrix<f64>,
 }
@@ -175,12 +175,12 @@ impl<'a> AngleColumns<'a> {
         // As much as these matrices, sums by plane and stacks of them take: nalgebra would abort.
         let rows = 2 * problem.rows.nrows() + bounded.len() + bounds.len();
         memory::with_capacity::<f64>(4 * rows * all)?;
-        let made = made_by(&problem.rows, &units).resize_horizontally(all, 0.0);
+        let exerted = made_by(&problem.rows, &units).resize_horizontally(all, 0.0);
         let filled = DMatrix::from_fn(bounded.len(), all, |row, j| {
             let plane = if j < amounts { places[j].0 } else { roomy[j - amounts] };
             f64::from(u8::from(plane == bounded[row]))
         });
-        Ok(Self { bounds, bounded, roomy, places, units, made, filled })
+        Ok(Self { bounds, bounded, roomy, places, units, exerted, filled })
     }
 
     fn weights(&self, x: &DVector<f64>) -> Vec<PlacedWeight> {
@@ -195,7 +195,7 @@ impl<'a> AngleColumns<'a> {
     }
 
     fn variables(&self, weights: &[PlacedWeight]) -> DVector<f64> {
-        let mut x = DVector::zeros(self.made.ncols());
+        let mut x = DVector::zeros(self.exerted.ncols());
         for weight in weights {
             let here = |place: &(usize, usize)| *place == (weight.plane, weight.angle);
             if let Some(j) = self.places.iter().position(here) {

@@ -118,7 +118,7 @@ impl Fit<'_> {
         cranks: &[CrankIndex],
         cancel: &Cancel,
     ) -> Result<Vec<[Option<Complex64>; 2]>> {
-        let there = on_cranks(engine, ratio, cranks, cancel)?;
+        let exerted = on_cranks(engine, ratio, cranks, cancel)?;
         let change = |target, part: fn(&TurningPart) -> Complex64| -> Result<Vec<_>> {
             let left = match target {
                 Target::Ignored => return Ok(vec![None; cranks.len()]),
@@ -127,14 +127,14 @@ impl Fit<'_> {
                     on_cranks(&left_by(engine, factor)?, ratio, cranks, cancel)?
                 }
             };
-            let change = |(left, there): (&TurningPart, &TurningPart)| {
-                let [left, there] = [left, there].map(part);
-                let change = left - there;
+            let change = |(left, exerted): (&TurningPart, &TurningPart)| {
+                let [left, exerted] = [left, exerted].map(part);
+                let change = left - exerted;
                 // Two figures that agree leave their rounding, not a weight.
-                let is_none = change.norm() <= NOTHING * (left.norm() + there.norm());
+                let is_none = change.norm() <= NOTHING * (left.norm() + exerted.norm());
                 Some(if is_none { Complex64::default() } else { change })
             };
-            Ok(left.iter().zip(&there).map(change).collect())
+            Ok(left.iter().zip(&exerted).map(change).collect())
         };
         let force = change(self.force, |part| part.force)?;
         let moment = change(self.moment, |part| part.moment)?;

@@ -74,14 +74,14 @@ pub fn fit(
     let orders: BTreeSet<Order> =
         wanted.iter().map(|each| each.ratio.order()).collect::<Result<_>>()?;
     for order in orders {
-        let there = over_square(engine, order, true, rpm, cancel)?;
-        let torque = there.torque.roll;
+        let exerted = over_square(engine, order, true, rpm, cancel)?;
+        let torque = exerted.torque.roll;
         let mut free = Vec::new();
         for ratio in [true, false].map(|forward| SpeedRatio::at(order, forward)) {
             let same: Vec<usize> =
                 (0..wanted.len()).filter(|&k| wanted[k].ratio == ratio).collect();
             let shafts: Vec<&ShaftRequest> = same.iter().map(|&k| &wanted[k]).collect();
-            let part = TurningPart::of(&there, ratio);
+            let part = TurningPart::of(&exerted, ratio);
             for (k, unbalances) in
                 same.into_iter().zip(unbalances(engine, &part, &shafts, reference)?)
             {
@@ -168,7 +168,7 @@ fn roll_per_metre(ratio: SpeedRatio, force: Complex64) -> [Complex64; 2] {
 /// Unbalances of each of the shafts of one ratio, which share their task.
 fn unbalances(
     engine: &Engine,
-    there: &TurningPart,
+    exerted: &TurningPart,
     wanted: &[&ShaftRequest],
     reference: f64,
 ) -> Result<Vec<Vec<Unbalance>>> {
@@ -176,8 +176,8 @@ fn unbalances(
     let of_shaft = |of_engine: Complex64| -of_engine / (ratio.number() * ratio.number());
     let none = Complex64::default();
     let target = TurningPart {
-        force: if *remove == Remove::Moment { none } else { of_shaft(there.force) },
-        moment: if *remove == Remove::Force { none } else { of_shaft(there.moment) },
+        force: if *remove == Remove::Moment { none } else { of_shaft(exerted.force) },
+        moment: if *remove == Remove::Force { none } else { of_shaft(exerted.moment) },
     };
     let free = free_planes(engine, &target, reference);
     let planes: Vec<&[f64]> =

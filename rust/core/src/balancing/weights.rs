@@ -215,8 +215,8 @@ impl Problem<'_> {
                 Some(same) => (same, &same.target),
                 None => (self, &self.target),
             };
-            let made = problem.made(&found);
-            bounds = problem.least_bounds(&made)?;
+            let exerted = problem.exerted(&found);
+            bounds = problem.least_bounds(&exerted)?;
             found = problem.nearest(target, &bounds)?;
         }
         match &self.directions {
@@ -239,12 +239,12 @@ impl Problem<'_> {
         let rows = values.right.rows(0, values.rank(RANK_TOLERANCE)).into_owned();
         let (bounds, directions) = (self.bounds.clone(), self.directions.clone());
         let mut same = Problem { target: self.target.clone(), rows, bounds, directions, ..*self };
-        same.target = same.made(weights);
+        same.target = same.exerted(weights);
         same
     }
 
     /// Force and moment that weights exert.
-    pub fn made(&self, weights: &[PlacedWeight]) -> Vectors {
+    pub fn exerted(&self, weights: &[PlacedWeight]) -> Vectors {
         let mut sums = Vectors::zeros(self.bounds.len(), 2);
         for weight in weights {
             sums.set_row(weight.plane, &(sums.row(weight.plane) + row(weight.vector)));
@@ -254,7 +254,7 @@ impl Problem<'_> {
 
     /// What weights do not exert of the target.
     pub fn missing(&self, weights: &[PlacedWeight]) -> Vectors {
-        &self.target - self.made(weights)
+        &self.target - self.exerted(weights)
     }
 
     /// Largest projection of a unit weight of each plane onto a vector: |c|, or along its angles.
@@ -281,13 +281,13 @@ impl Problem<'_> {
 
     /// Whether no weights within bounds come nearer to a target: they would go further along the residual.
     fn is_nearest(&self, weights: &[PlacedWeight], target: &Vectors, bounds: &[f64]) -> bool {
-        let made = self.made(weights);
-        let residual = target - &made;
+        let exerted = self.exerted(weights);
+        let residual = target - &exerted;
         let further = self.support(&residual).into_iter().zip(bounds).map(|(support, bound)| {
             let is_rounding = bound.is_infinite() && support <= REACHED;
             if is_rounding { 0.0 } else { support * bound }
         });
-        residual.norm() <= REACHED || further.sum::<f64>() - made.dot(&residual) <= REACHED
+        residual.norm() <= REACHED || further.sum::<f64>() - exerted.dot(&residual) <= REACHED
     }
 
     pub fn not_found(&self, which: &str) -> Error {
@@ -308,7 +308,7 @@ impl Problem<'_> {
         let mut cap = 0.0;
         for _ in 0..MOST {
             let bounds = self.capped(cap);
-            let residual = wanted - self.made(&self.nearest(wanted, &bounds)?);
+            let residual = wanted - self.exerted(&self.nearest(wanted, &bounds)?);
             let size = residual.norm();
             if size <= 1e-3 * REACHED {
                 return Ok(bounds);
@@ -334,7 +334,7 @@ impl Problem<'_> {
     fn relaxed(&self, wanted: &Vectors, cap: f64, missed: f64) -> Result<Vec<f64>> {
         let serves = |cap: f64| -> Result<bool> {
             let found = self.nearest(wanted, &self.capped(cap))?;
-            Ok((wanted - self.made(&found)).norm() <= 1e-3 * REACHED)
+            Ok((wanted - self.exerted(&found)).norm() <= 1e-3 * REACHED)
         };
         let mut low = cap;
         // The cap is proved to be no more than the least: bounds further above it might not be it.

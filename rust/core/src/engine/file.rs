@@ -309,10 +309,10 @@ impl EngineFile {
         if engine.spectrum().is_some() {
             return Err(Error::value("spectrum", "given", hint));
         }
-        let each = engine.stations().iter().zip(engine.details());
+        let places = engine.stations().iter().zip(engine.details());
         let parts: Vec<PartsEntry> =
-            each.map(|(p, details)| PartsEntry::of(&p.cylinder, details)).collect();
-        let shared = parts.iter().all(|each| *each == parts[0]);
+            places.map(|(p, details)| PartsEntry::of(&p.cylinder, details)).collect();
+        let shared = parts.iter().all(|entry| *entry == parts[0]);
         let numbered = !engine.has_banks_of_directions();
         let number =
             |bank: usize| engine.right.map_or(bank, |right| usize::from(bank != right)) + 1;

@@ -23,13 +23,13 @@ impl Firing {
     }
 
     /// The groups given by cylinder number, or the banks, by index.
-    pub fn groups(&self, given: Option<&[Vec<usize>]>) -> Result<Vec<Vec<usize>>> {
-        let Some(given) = given else {
+    pub fn groups(&self, numbers: Option<&[Vec<usize>]>) -> Result<Vec<Vec<usize>>> {
+        let Some(numbers) = numbers else {
             return Ok(self.banks());
         };
         let count = self.engine().stations().len();
         let mut seen = vec![false; count];
-        for (k, group) in given.iter().enumerate() {
+        for (k, group) in numbers.iter().enumerate() {
             if group.is_empty() {
                 let hint = "name at least one cylinder in each group";
                 return Err(Error::value(format!("groups[{k}]"), "[]", hint));
@@ -44,7 +44,7 @@ impl Firing {
                 }
             }
         }
-        Ok(given.iter().map(|group| group.iter().map(|number| number - 1).collect()).collect())
+        Ok(numbers.iter().map(|group| group.iter().map(|number| number - 1).collect()).collect())
     }
 
     /// Crank angles between firings within groups of cylinders, each in firing order.
@@ -82,8 +82,8 @@ mod tests {
         let firing = Firing::named(&v8, &order, Strokes::Four, &Cancel::new()).unwrap();
         assert_eq!(firing.groups(None).unwrap(), firing.banks());
         assert_eq!(firing.banks(), [[0, 2, 4, 6], [1, 3, 5, 7]]);
-        let given = [vec![1, 8], vec![4]];
-        assert_eq!(firing.groups(Some(&given)).unwrap(), [vec![0, 7], vec![3]]);
+        let numbers = [vec![1, 8], vec![4]];
+        assert_eq!(firing.groups(Some(&numbers)).unwrap(), [vec![0, 7], vec![3]]);
         for bad in [vec![vec![]], vec![vec![0]], vec![vec![9]], vec![vec![1], vec![1]]] {
             assert!(firing.groups(Some(&bad)).is_err(), "{bad:?}");
         }

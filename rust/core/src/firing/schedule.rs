@@ -163,8 +163,8 @@ impl Firing {
     /// Crank angle of each cylinder's firing top dead centre, by number, within a cycle.
     #[must_use]
     pub fn phases(&self) -> Vec<Angle> {
-        let each = self.engine.stations().iter().zip(self.in_second_turn());
-        each.map(|(place, second)| place.tdc.reduced() + turn_if(second)).collect()
+        let places = self.engine.stations().iter().zip(self.in_second_turn());
+        places.map(|(place, second)| place.tdc.reduced() + turn_if(second)).collect()
     }
 
     /// True if all intervals are equal.

@@ -153,13 +153,13 @@ impl MountFigures {
                 track: self.track,
             });
         };
-        let given = [
+        let figures = [
             ("dynamic_stiffness", self.dynamic_stiffness.is_some()),
             ("loss_factor", self.loss_factor != [0.0; 3]),
             ("damping", self.damping != [0.0; 3]),
             ("track", self.track.is_some()),
         ];
-        if let Some((name, _)) = given.into_iter().find(|(_, given)| *given) {
+        if let Some((name, _)) = figures.into_iter().find(|(_, is_given)| *is_given) {
             let hint =
                 "the table has the whole dynamic stiffness and its loss: leave out one of them";
             return Err(Error::value(name, "given beside a table", hint));

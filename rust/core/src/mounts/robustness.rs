@@ -110,8 +110,11 @@ fn evaluated<const N: usize>(
     let nominal = natural(&bodies, along);
     let scaled = |sign: f64| -> Vec<[f64; 3]> {
         let shares = tolerances.stiffness.iter().copied().chain(std::iter::repeat(0.0));
-        let each = along.iter().zip(shares);
-        each.map(|(along, share)| along.map(|k| k * (1.0 + sign * share))).collect()
+        along
+            .iter()
+            .zip(shares)
+            .map(|(along, share)| along.map(|k| k * (1.0 + sign * share)))
+            .collect()
     };
     let by_stiffness = [-1.0, 1.0].map(|sign| natural(&bodies, &scaled(sign)).frequency().to_vec());
     let body = powertrain.body();

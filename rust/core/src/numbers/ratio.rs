@@ -27,7 +27,7 @@ impl SpeedRatio {
     /// That of the main crank itself.
     pub const ONE: Self = Self(2);
     /// Largest whole ratio that is counted in halves; engines take far less, and say what.
-    pub const LARGEST: i32 = i32::MAX / 2;
+    pub const LARGEST_COUNTED: i32 = i32::MAX / 2;
 
     /// A whole ratio.
     #[must_use]

@@ -69,8 +69,11 @@ mod tests {
     fn nothing_is_extrapolated() {
         for value in [0.9, 4.1, f64::NAN] {
             let refused = between("load", &[1.0, 4.0], &[2.0, value], &Cancel::new());
-            let told = refused.map(drop).unwrap_err().to_string();
-            assert!(told.starts_with("load = ") && told.ends_with("the map has 1 to 4"), "{told}");
+            let error = refused.map(drop).unwrap_err().to_string();
+            assert!(
+                error.starts_with("load = ") && error.ends_with("the map has 1 to 4"),
+                "{error}"
+            );
         }
         assert!(between("load", &[], &[1.0], &Cancel::new()).is_err());
     }

@@ -32,9 +32,9 @@ fn figure(value: f64) -> String {
 /// Of a cycle: its pressures, and where they peak.
 #[must_use]
 pub fn of_cycle(cycle: &Cycle) -> Vec<Warning> {
-    let given = cycle.given();
-    let peak = peak(&given.theta_deg, &given.pressure, period_deg(cycle.strokes()));
-    pressures(&given.pressure).into_iter().chain(peak).collect()
+    let points = cycle.given();
+    let peak = peak(&points.theta_deg, &points.pressure, period_deg(cycle.strokes()));
+    pressures(&points.pressure).into_iter().chain(peak).collect()
 }
 
 /// Of cylinder pressures in bar or kPa, or against the atmosphere, Pa.

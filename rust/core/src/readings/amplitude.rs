@@ -29,13 +29,13 @@ pub(crate) fn wrenches(
     orders: &[Order],
     cancel: &Cancel,
 ) -> Result<(Vec<Wrench>, Means)> {
-    let amplitudes = Amplitudes::new(sources, torque, orders, cancel)?;
+    let amplitudes = SourceAmplitudes::new(sources, torque, orders, cancel)?;
     let wrenches = amplitudes.wrenches(loads, &loads.list, torque, orders, cancel)?;
     Ok((wrenches, amplitudes.means(loads, &loads.list)))
 }
 
 /// Amplitudes of some sources at some orders.
-pub(crate) struct Amplitudes {
+pub(crate) struct SourceAmplitudes {
     /// Empty of those without a force.
     force: List<SourceIndex, Vec<Complex64>>,
     /// None without a torque, or where none is wanted.
@@ -53,7 +53,7 @@ pub(crate) struct Amplitude {
     pub crank: Complex64,
 }
 
-impl Amplitudes {
+impl SourceAmplitudes {
     pub fn new(sources: &Sources, torque: bool, orders: &[Order], cancel: &Cancel) -> Result<Self> {
         let force = |source: &Arc<dyn Source>| {
             if source.parts().force.is_some() { source.force(orders, cancel) } else { Ok(vec![]) }

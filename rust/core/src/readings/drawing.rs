@@ -173,8 +173,8 @@ fn firing(engine: &Arc<Engine>, cancel: &Cancel) -> Result<Option<Vec<Option<f64
         return Ok(None);
     }
     let angles = Firing::own(engine, cancel)?.angles().into_iter().map(Angle::degrees);
-    let each = angles.zip(engine.details());
-    Ok(Some(each.map(|(angle, of)| (!of.dummy).then_some(angle)).collect()))
+    let fired = angles.zip(engine.details());
+    Ok(Some(fired.map(|(angle, of)| (!of.dummy).then_some(angle)).collect()))
 }
 
 fn cylinders(engine: &Engine) -> Vec<DrawnCylinder> {

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::balance::{Balance, Request, Vector};
 use super::flywheel::mean_inertias;
 use super::quantity::Part;
-use super::terms::{Sums, terms};
+use super::terms::{LoadSums, terms};
 use crate::Complex64;
 use crate::engine::{Engine, Origin};
 use crate::load::{Load, LoadList};
@@ -228,7 +228,7 @@ pub fn load_rows(engine: &Engine, rpm: f64, torque: bool, cancel: &Cancel) -> Re
         return Ok(rows);
     }
     let engine = engine.without_gas();
-    let sums = Sums::new(&engine, None, torque, &orders, cancel)?;
+    let sums = LoadSums::new(&engine, None, torque, &orders, cancel)?;
     let given = || sums.loads.list.iter().filter(|load| is_given(load));
     let mut scalings: Vec<Scaling> = Vec::new();
     for load in given() {
@@ -292,8 +292,8 @@ pub fn swept(
     let area_by_radius = engine.swept_by_radius(cylinder).unwrap_or(0.0);
     let harmonics = engine.mechanism(cylinder).force(orders, cancel)?;
     // The volume added per radian is the integral of the piston's acceleration.
-    let each = orders.iter().zip(harmonics);
-    Ok(each.map(|(&n, a)| Complex64::i() * a * area_by_radius / f64::from(n)).collect())
+    let pairs = orders.iter().zip(harmonics);
+    Ok(pairs.map(|(&n, a)| Complex64::i() * a * area_by_radius / f64::from(n)).collect())
 }
 
 /// Mean moment of inertia of pistons and rods as seen from the crank, kg·m².

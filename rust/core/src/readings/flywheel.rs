@@ -157,11 +157,11 @@ impl CrankDrive<'_> {
         let motion = WorkCurve::new(self, omega, cancel)?;
         let (inertia, run) = match evenness {
             Evenness::Inertia(inertia) => {
-                let given = limits::inertia("inertia", inertia)?;
-                if given < 0.0 {
-                    return Err(Error::figure("inertia", given, "give zero or more"));
+                limits::inertia("inertia", inertia)?;
+                if inertia < 0.0 {
+                    return Err(Error::figure("inertia", inertia, "give zero or more"));
                 }
-                (given, motion.run(given, cancel)?)
+                (inertia, motion.run(inertia, cancel)?)
             }
             Evenness::Irregularity(wanted) => motion.inertia_for(wanted, cancel)?,
         };

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use super::amplitude::Amplitudes;
+use super::amplitude::SourceAmplitudes;
 use super::balance::{Balance, Request, angular_speed};
 use crate::engine::{Engine, Origin};
 use crate::load::{Load, LoadList};
@@ -81,7 +81,7 @@ pub(super) fn sums_by(
 ) -> Result<Vec<Balance>> {
     let omega = angular_speed(request.rpm)?;
     engine.check_speeds(&[request.rpm])?;
-    let sums = Sums::new(engine, request.reference_z, request.torque, orders, cancel)?;
+    let sums = LoadSums::new(engine, request.reference_z, request.torque, orders, cancel)?;
     let mut own: Vec<Vec<Load>> = vec![Vec::new(); groups]; // bounded: by the parts of an engine
     for load in &sums.loads.list {
         own[group_of(load.place.origin)].push(*load);
@@ -90,14 +90,14 @@ pub(super) fn sums_by(
 }
 
 /// Sums of some of an engine's loads at some orders.
-pub(super) struct Sums<'a> {
+pub(super) struct LoadSums<'a> {
     pub loads: Arc<LoadList>,
-    amplitudes: Amplitudes,
+    amplitudes: SourceAmplitudes,
     orders: &'a [Order],
     torque: bool,
 }
 
-impl<'a> Sums<'a> {
+impl<'a> LoadSums<'a> {
     /// Those about a plane; with torques, unless none follow from the engine's spectrum.
     pub(super) fn new(
         engine: &Engine,
@@ -108,7 +108,7 @@ impl<'a> Sums<'a> {
     ) -> Result<Self> {
         let torque = torque && engine.spectrum().is_none();
         let loads = LoadList::of(engine, engine.reference(reference_z)?)?;
-        let amplitudes = Amplitudes::new(&loads.sources, torque, orders, cancel)?;
+        let amplitudes = SourceAmplitudes::new(&loads.sources, torque, orders, cancel)?;
         Ok(Self { loads, amplitudes, orders, torque })
     }
 

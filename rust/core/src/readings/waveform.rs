@@ -177,9 +177,9 @@ impl Columns {
                 (&mut self.moment, balance.xy(Vector::Moment, k)),
                 (&mut self.torque, [torque.roll, torque.crank]),
             ];
-            let each =
+            let columns =
                 pairs.into_iter().flat_map(|(columns, phasors)| columns.iter_mut().zip(phasors));
-            for (column, phasor) in each {
+            for (column, phasor) in columns {
                 if phasor == Complex64::default() {
                     continue;
                 }

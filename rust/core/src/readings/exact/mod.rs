@@ -22,7 +22,7 @@ use crate::numbers::error::{Error, Result};
 use crate::numbers::index::{List, list_index};
 use crate::numbers::order::Order;
 use crate::numbers::rational::{Multiples, Ratio, common_measure, decimal, product};
-use crate::readings::amplitude::Amplitudes;
+use crate::readings::amplitude::SourceAmplitudes;
 use crate::source::ExactFactor;
 use crate::wrench::Wrench;
 
@@ -166,7 +166,7 @@ impl NumberedLoads {
         }
         let loads = LoadList::of(engine, engine.reference(reference)?)?;
         let is_numbered = |load: &&Load| loads.source(load).exact() == ExactFactor::Unknown;
-        let amplitudes = Amplitudes::new(&loads.sources, true, orders, cancel)?;
+        let amplitudes = SourceAmplitudes::new(&loads.sources, true, orders, cancel)?;
         for load in loads.list.iter().filter(is_numbered) {
             let wrenches = amplitudes.wrenches(&loads, &[*load], true, orders, cancel)?;
             for (acts, of_order) in acts.iter_mut().zip(wrenches.chunks(loads.groups.len())) {
