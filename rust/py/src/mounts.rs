@@ -365,8 +365,8 @@ impl Powertrain {
     }
 
     fn free_motions(&self, frequency: Option<f64>) -> PyResult<Vec<String>> {
-        let found = mounts::free_motions(&self.0, frequency).or_raise()?;
-        Ok(found.iter().map(mounts::FreeMotion::in_words).collect())
+        let motions = mounts::free_motions(&self.0, frequency).or_raise()?;
+        Ok(motions.iter().map(mounts::FreeMotion::in_words).collect())
     }
 
     fn axes<'py>(&self, py: Python<'py>, frequency: Option<f64>) -> PyResult<RollAxes<'py>> {
