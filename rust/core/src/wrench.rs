@@ -65,9 +65,10 @@ pub fn rounding(count: usize, order: f64) -> f64 {
 #[inline]
 #[must_use]
 pub fn snapped(sum: Complex64, bound: f64) -> Complex64 {
-    // Mostly one part is larger, and no root is taken.
+    // Mostly one part is larger, or both are zero, and no root is taken.
     let larger = sum.re.abs().max(sum.im.abs());
-    if larger <= bound && sum.norm() <= bound { Complex64::default() } else { sum }
+    let is_within = larger <= bound && (larger == 0.0 || sum.norm() <= bound);
+    if is_within { Complex64::default() } else { sum }
 }
 
 impl Planar {
@@ -171,7 +172,9 @@ impl Wrench {
     /// Whether it is none at all.
     #[must_use]
     pub fn is_zero(&self) -> bool {
-        [self.force.peak(), self.moment.peak(), self.torque.peak()] == [0.0; 3]
+        let Self { force, moment, torque } = self;
+        let planar = [force.forward, force.backward_conj, moment.forward, moment.backward_conj];
+        planar == [Complex64::ZERO; 4] && [torque.roll, torque.crank] == [Complex64::ZERO; 2]
     }
 
     /// Sum of two.

@@ -4,6 +4,7 @@ use crankpin_core as core;
 use crankpin_macros::guarded;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyMemoryError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyFloat;
 
 use crate::{boundary, reserve};
 
@@ -130,12 +131,24 @@ pub fn cylinder((radius, rod, mass, offset, rod_inertia): Parts) -> PyResult<cor
 }
 
 /// An order as Python has it: a whole number, or a half as a float.
-#[derive(FromPyObject, IntoPyObject, Clone, Copy)]
+#[derive(IntoPyObject, Clone, Copy)]
 pub enum OrderNumber {
     /// Whole.
     Whole(u32),
     /// A half.
     Half(f64),
+}
+
+impl<'py> FromPyObject<'_, 'py> for OrderNumber {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        // A failed attempt at a whole number takes longer than all else.
+        if value.is_exact_instance_of::<PyFloat>() {
+            return value.extract().map(Self::Half);
+        }
+        value.extract().map(Self::Whole).or_else(|_| value.extract().map(Self::Half))
+    }
 }
 
 /// A speed ratio as Python has it: a whole number, or a half as a float.

@@ -364,6 +364,11 @@ impl Powertrain {
         ))
     }
 
+    fn free_motions(&self, frequency: Option<f64>) -> PyResult<Vec<String>> {
+        let motions = mounts::free_motions(&self.0, frequency).or_raise()?;
+        Ok(motions.iter().map(mounts::FreeMotion::in_words).collect())
+    }
+
     fn axes<'py>(&self, py: Python<'py>, frequency: Option<f64>) -> PyResult<RollAxes<'py>> {
         let found = mounts::axes(&self.0, frequency).or_raise()?;
         let elastic = [found.elastic, found.dynamic].map(|one| {

@@ -77,7 +77,7 @@ def _warn_of_free_motion(found: MountResponse) -> None:
         if frequency == np.inf:
             return
     try:
-        free = powertrain.modes(frequency).free
+        free = powertrain._core.free_motions(frequency)
     except InputError:  # where a hydraulic mount has no modes
         return
     if free:

@@ -45,7 +45,7 @@ class GasMap(Record):
             raise inputs.rejected("cycle", cycle, "has no map; leave it out")
         for axis in ("rpm", "load"):
             if any(
-                not np.array_equal(getattr(m, axis), getattr(present[0], axis)) for m in present
+                not np.array_equal(getattr(m, axis), getattr(present[0], axis)) for m in present[1:]
             ):
                 raise inputs.faulty(
                     "cycle", f"has maps that differ in {axis}", f"give the same {axis}"

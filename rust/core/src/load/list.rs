@@ -180,9 +180,9 @@ impl LoadList {
         self.push(place, TurningUnbalance { ratio: place.ratio }, amount, 0.0);
     }
 
-    /// Complex sums of one order, by harmonic and, if wanted, by bank.
-    pub fn sums(&self, order: Order, wanted: Wanted) -> Vec<Term<PhasorSum>> {
-        superpose(&Phasors { reference: self.reference }, &self.list, order, wanted)
+    /// Complex sums of some of its loads at one order, by harmonic and, if wanted, by bank.
+    pub fn sums(&self, some: &[Load], order: Order, wanted: Wanted) -> Vec<Term<PhasorSum>> {
+        superpose(&Phasors { reference: self.reference }, some, order, wanted)
     }
 
     /// Source of a load.

@@ -40,7 +40,7 @@ use crate::Complex64;
 use crate::engine::Hold;
 use crate::numbers::index::{ListIndex, list_index};
 use crate::numbers::order::Order;
-use crate::source::{Column, ForcePart, Parts, Repeats, Scaling};
+use crate::source::{Column, ForcePart, Parts, Repeats};
 use crate::wrench::Planar;
 
 list_index! {
@@ -129,7 +129,6 @@ pub(crate) trait Arithmetic {
 #[derive(Debug, Clone)]
 pub(crate) struct Term<S> {
     pub harmonic: Harmonic,
-    pub scaling: Scaling,
     pub bank: Option<usize>,
     /// Forward part, and conjugate of the backward part.
     pub force: [S; 2],
@@ -159,13 +158,18 @@ pub(crate) fn superpose<A: Arithmetic>(
     let acting = loads.iter().enumerate().filter(|(_, load)| load.acts_at(order));
     for at @ (_, load) in acting.map(|(i, load)| (LoadIndex::new(i), load)) {
         let (parts, place) = (load.parts, &load.place);
+        let arm = wanted.roll && place.axis != Complex64::default();
+        let force = parts.force.filter(|_| wanted.planar || arm);
+        let roll = parts.roll && wanted.roll;
+        if force.is_none() && !roll {
+            continue;
+        }
         let halves_squared = place.ratio.halves() * place.ratio.halves();
         let phase = arithmetic.phase(at, -load.phase_multiple(order));
-        let arm = wanted.roll && place.axis != Complex64::default();
         let bank = place.bank.filter(|_| wanted.by_bank);
         let harmonic = |column| Harmonic { source: load.source, column };
-        if let Some(force) = parts.force.filter(|_| wanted.planar || arm) {
-            let term = term_of(&mut terms, harmonic(Column::Force), parts.scaling, bank);
+        if let Some(force) = force {
+            let term = term_of(&mut terms, harmonic(Column::Force), bank);
             // What moves along a line is half forward, half backward.
             let eighths =
                 if force == ForcePart::Along { halves_squared } else { 2 * halves_squared };
@@ -188,9 +192,9 @@ pub(crate) fn superpose<A: Arithmetic>(
                 }
             }
         }
-        if parts.roll && wanted.roll {
+        if roll {
             let times = Factor { eighths: 2 * halves_squared, quarters: 0 };
-            let term = term_of(&mut terms, harmonic(Column::Roll), parts.scaling, bank);
+            let term = term_of(&mut terms, harmonic(Column::Roll), bank);
             arithmetic.add(&mut term.roll, at, Weight::Roll, &phase, times);
         }
     }
@@ -201,13 +205,12 @@ pub(crate) fn superpose<A: Arithmetic>(
 fn term_of<S: Default>(
     terms: &mut Vec<Term<S>>,
     harmonic: Harmonic,
-    scaling: Scaling,
     bank: Option<usize>,
 ) -> &mut Term<S> {
     let same = |term: &Term<S>| (term.harmonic, term.bank) == (harmonic, bank);
     find_or_push(terms, same, || {
         let [force, moment] = [(); 2].map(|()| [(); 2].map(|()| S::default()));
-        Term { harmonic, scaling, bank, force, moment, roll: S::default() }
+        Term { harmonic, bank, force, moment, roll: S::default() }
     })
 }
 

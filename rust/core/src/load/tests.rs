@@ -84,7 +84,7 @@ fn whole(order: u32) -> Order {
 
 /// Sums of one order.
 fn sums(loads: &LoadList, order: u32, by_bank: bool) -> Vec<Term<PhasorSum>> {
-    loads.sums(whole(order), Wanted { planar: true, roll: true, by_bank })
+    loads.sums(&loads.list, whole(order), Wanted { planar: true, roll: true, by_bank })
 }
 
 /// Forward part and conjugate of the backward part of force and moment, and roll torque.
@@ -299,7 +299,8 @@ fn pressure_turns_with_the_crank_angle_of_firing() {
     let firing = [10.0, 130.0 + 360.0, 255.0];
     for halves in 1..=5 {
         let wanted = Wanted { planar: false, roll: true, by_bank: false };
-        let terms = loads(&engine).sums(Order::from_halves(halves).unwrap(), wanted);
+        let loads = loads(&engine);
+        let terms = loads.sums(&loads.list, Order::from_halves(halves).unwrap(), wanted);
         let of = |i: usize| cis(-0.5 * f64::from(halves) * firing[i]) * swept[i];
         for (gear, expected) in [of(0) + of(2), of(1)].into_iter().enumerate() {
             let gas = roll(GAS.start + gear);
@@ -413,6 +414,7 @@ fn sums_are_those_of_loads_written_out() {
     assert!(
         loads
             .sums(
+                &loads.list,
                 Order::from_halves(3).unwrap(),
                 Wanted { planar: true, roll: true, by_bank: true }
             )

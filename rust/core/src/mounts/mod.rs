@@ -23,7 +23,7 @@ pub use self::axes::{ElasticAxis, RollAxes, axes};
 pub use self::bodies::matrices;
 pub use self::body::{Products, RigidBody};
 pub use self::footprint::support_polygon;
-pub use self::modes::{FreeMotion, Modes, modes};
+pub use self::modes::{FreeMotion, Modes, free_motions, modes};
 pub(crate) use self::modes::{NaturalModes, natural_at};
 pub use self::mount::{Mount, MountFigures, motion_of_point};
 pub use self::robustness::{MountTolerances, Robustness, robustness};

@@ -271,6 +271,18 @@ pub fn modes(powertrain: &Powertrain, frequency: Option<f64>) -> Result<Modes> {
     }
 }
 
+/// Motions that no mount resists, with the stiffness at a frequency, Hz; as of [`modes`].
+pub fn free_motions(powertrain: &Powertrain, frequency: Option<f64>) -> Result<Vec<FreeMotion>> {
+    fn of<const N: usize>(bodies: &Bodies<N>, frequency: Option<f64>) -> Result<Vec<FreeMotion>> {
+        let (_, stiffnesses) = dynamic(bodies.powertrain, frequency)?;
+        Ok(natural(bodies, &real(&stiffnesses)).free_motions(bodies))
+    }
+    match powertrain.subframe()? {
+        None => of(&powertrain.alone()?, frequency),
+        Some(_) => of(&powertrain.with_subframe()?, frequency),
+    }
+}
+
 fn modes_of<const N: usize>(bodies: &Bodies<N>, frequency: Option<f64>) -> Result<Modes> {
     let (omega, stiffnesses) = dynamic(bodies.powertrain, frequency)?;
     let along = real(&stiffnesses);

@@ -325,7 +325,7 @@ mod tests {
                 let banks = [phases(k), phases((7 * k + 3) % entries.len())];
                 let engine = vee(hold, 70.0, &banks, cylinder, 0.1).unwrap();
                 let loads = LoadList::new(&engine, engine.middle());
-                let terms = loads.sums(Order::FIRST, wanted);
+                let terms = loads.sums(&loads.list, Order::FIRST, wanted);
                 let right = terms.iter().find(|term| term.bank == Some(engine.bank_of(0))).unwrap();
                 // Half of m·r·Z times the spacing turns either way.
                 let [forward, backward] = [0, 1].map(|k| right.moment[k].value.norm());

@@ -78,7 +78,7 @@ impl ExactLoads {
             let reason = "its forces are a spectrum that was given".to_owned();
             return Err(Error::Undefined { argument: "an exact sum", reason });
         }
-        let mut loads = LoadList::new(engine, engine.reference(reference)?);
+        let mut loads = LoadList::clone(&*LoadList::of(engine, engine.reference(reference)?)?);
         loads.retain_exact();
         let acts = |source: &SourceIndex| loads.list.iter().any(|load| load.source == *source);
         let mechanism = |source| Some((source, loads.sources[source].mechanism()?));

@@ -492,6 +492,37 @@ pub(crate) fn vanishing_of(
     Ok(Vanishing { orders: orders.to_vec(), verdicts, within_rounding, obstacles })
 }
 
+/// Proofs of an engine's sums, about the plane midway between its first and last cylinder, one by one as they
+/// are wanted.
+pub(crate) struct ZeroProofs<'a> {
+    engine: &'a Engine,
+    proof: Arc<Proof>,
+    cancel: &'a Cancel,
+}
+
+impl<'a> ZeroProofs<'a> {
+    /// Of an engine.
+    pub fn new(engine: &'a Engine, cancel: &'a Cancel) -> Result<Self> {
+        Ok(Self { engine, proof: Proof::of(engine, None, cancel)?, cancel })
+    }
+
+    /// Whether these sums of forces, moments and torques of inertia are proved to vanish at an order.
+    pub fn vanish(
+        &self,
+        mut quantities: impl Iterator<Item = ProofQuantity>,
+        order: Order,
+    ) -> Result<bool> {
+        let numbered = NumberedLoads::new(self.engine, None, &[order], self.cancel)?;
+        let sums = self.proof.sums(order);
+        let vanishes = |quantity| {
+            let (verdict, _) = self.proof.verdict(&sums, quantity, order, self.cancel);
+            !numbered.0[0][quantity as usize] && verdict == Verdict::Vanishes
+        };
+        self.cancel.check()?;
+        Ok(quantities.all(vanishes))
+    }
+}
+
 /// What is zero within rounding, at no speed in particular; and at which orders the torque of gas is
 /// beyond any error.
 fn evaluated(

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 pub use self::finding::{Finding, LargestOrder, Row};
 pub use self::sentences::Wording;
-use self::sums::{Sums, proofs_of};
+use self::sums::Sums;
 use crate::engine::{CrankIndex, Engine, Origin, Unbalance};
 use crate::firing::Firing;
 use crate::load::LoadList;
@@ -24,7 +24,9 @@ use crate::numbers::ratio::SpeedRatio;
 use crate::readings::balance::{
     Balance, Orders, Request, UNIT_RPM, Vector, angular_speed, balance,
 };
-use crate::readings::exact::vanishing::{ProofQuantity, QUANTITIES, Verdict, vanishing_of};
+use crate::readings::exact::vanishing::{
+    ProofQuantity, QUANTITIES, Verdict, ZeroProofs, vanishing_of,
+};
 use crate::readings::quantity;
 use crate::readings::terms::terms;
 use crate::readings::turning::{RollOfAxes, roll_of_axes};
@@ -139,7 +141,7 @@ pub fn explain(
 
 /// First-order force over ω² of the strongest piston, or of a throw: the order of its own crank.
 fn strongest(engine: &Engine, cancel: &Cancel) -> Result<(f64, Part)> {
-    let loads = LoadList::new(engine, engine.reference(None)?);
+    let loads = LoadList::of(engine, engine.reference(None)?)?;
     let mut pistons: f64 = 0.0;
     let mut throws: f64 = 0.0;
     for load in &loads.list {
@@ -171,16 +173,15 @@ fn of_vectors(engine: &Engine, rpm: f64, units: [f64; 2], cancel: &Cancel) -> Re
     orders.dedup();
     let whole = balance(engine, &request, &Orders::Given(orders.clone()), cancel)?;
     let parts = terms(engine, &request, [0.0; 2], &orders, cancel)?;
-    let proofs = vanishing_of(&QUANTITIES[..8], engine, &orders, None, None, cancel)?.verdicts;
     let reference = engine.reference(None)?;
     let levers: Vec<f64> = engine.stations().iter().map(|place| place.z - reference).collect();
+    let proofs = ZeroProofs::new(engine, cancel)?;
     let sums = |vector: Vector, unit: f64| {
-        let proofs = proofs.iter().map(|verdicts| proofs_of(verdicts, vector)).collect();
-        Sums::new(engine, &levers, (vector, unit), &whole, &parts, proofs)
+        Sums::new((engine, &proofs), &levers, (vector, unit), &whole, &parts)
     };
     let both = [sums(Vector::Force, units[0]), sums(Vector::Moment, units[1])];
 
-    let mut found: Vec<Finding> = both.iter().flat_map(Sums::of_hardware).collect();
+    let mut found = [both[0].of_hardware()?, both[1].of_hardware()?].concat();
     let mut shaking: Vec<(&Sums, usize)> =
         both.iter().flat_map(|sums| sums.shaking().map(move |k| (sums, k))).collect();
     // Of equals forces first, and lower orders.
@@ -197,7 +198,9 @@ fn of_vectors(engine: &Engine, rpm: f64, units: [f64; 2], cancel: &Cancel) -> Re
     found.extend(roll_beside(engine, rpm, units[0], cancel)?);
     let made: Vec<bool> = (0..orders.len()).map(|k| both[0].is_made(k)).collect();
     let banks = engine.cylinders_of_banks();
-    found.extend(both.iter().flat_map(|sums| sums.cancelling(&made, &banks)));
+    for sums in &both {
+        found.extend(sums.cancelling(&made, &banks)?);
+    }
     let [force, moment, _] = chosen.error_bound.values();
     found.push(Finding::Rest {
         mentioned: shaking.iter().map(|&(_, k)| orders[k]).collect(),

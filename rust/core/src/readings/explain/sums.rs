@@ -4,10 +4,11 @@ use super::MATTERS;
 use super::finding::{Acting, Finding, Reason, Weights};
 use crate::Complex64;
 use crate::engine::{CrankIndex, Engine, Origin};
+use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 use crate::numbers::ratio::SpeedRatio;
 use crate::readings::balance::{Balance, Vector};
-use crate::readings::exact::vanishing::Verdict;
+use crate::readings::exact::vanishing::{QUANTITIES, ZeroProofs};
 use crate::readings::turning::cranks_by_sense;
 use crate::wrench::{Planar, tilt_deg};
 
@@ -21,19 +22,16 @@ const SAME_PULLS: f64 = 1e-6;
 /// Forward and backward part.
 type Parts = [Complex64; 2];
 
-/// Verdicts on the sums of a vector: along x, along y, forward, backward.
-pub(super) type Proofs = [Verdict; 4];
-
 /// Force or moment of an engine: its orders, and what each part adds to them.
 pub(super) struct Sums<'a> {
     engine: &'a Engine,
+    proofs: &'a ZeroProofs<'a>,
     /// Places of the cylinders from the reference plane, m.
     levers: &'a [f64],
     vector: Vector,
     /// One piston's first-order force, or that at the longest lever.
     size: f64,
     orders: &'a [Order],
-    proofs: Vec<Proofs>,
     whole: Vec<Parts>,
     tilts_deg: Vec<f64>,
     peaks: Vec<f64>,
@@ -61,14 +59,13 @@ fn plus(a: Parts, b: Parts) -> Parts {
 }
 
 impl<'a> Sums<'a> {
-    /// Of a balance, what each part adds to it, and the proofs of its orders.
+    /// Of a balance, and what each part adds to it.
     pub fn new(
-        engine: &'a Engine,
+        (engine, proofs): (&'a Engine, &'a ZeroProofs<'a>),
         levers: &'a [f64],
         (vector, size): (Vector, f64),
         balance: &'a Balance,
         terms: &[(Origin, Balance)],
-        proofs: Vec<Proofs>,
     ) -> Self {
         let count = balance.orders.len();
         let of = |balance: &Balance| -> Vec<Parts> {
@@ -96,11 +93,11 @@ impl<'a> Sums<'a> {
         let orders = &balance.orders;
         Self {
             engine,
+            proofs,
             levers,
             vector,
             size,
             orders,
-            proofs,
             whole,
             tilts_deg,
             peaks,
@@ -135,18 +132,25 @@ impl<'a> Sums<'a> {
         made > MATTERS * self.size
     }
 
-    /// What counterweights and shafts do.
-    pub fn of_hardware(&self) -> impl Iterator<Item = Finding> {
-        (0..self.orders.len()).filter_map(|k| self.hardware_of(k))
+    /// Whether the sums of an order at these places, of those along x, along y, forward and backward, are proved
+    /// to vanish.
+    fn vanish(&self, k: usize, places: impl Iterator<Item = usize>) -> Result<bool> {
+        let first = if self.vector == Vector::Force { 0 } else { 4 };
+        self.proofs.vanish(places.map(|place| QUANTITIES[first + place]), self.orders[k])
     }
 
-    fn hardware_of(&self, k: usize) -> Option<Finding> {
+    /// What counterweights and shafts do.
+    pub fn of_hardware(&self) -> Result<Vec<Finding>> {
+        (0..self.orders.len()).filter_map(|k| self.hardware_of(k).transpose()).collect()
+    }
+
+    fn hardware_of(&self, k: usize) -> Result<Option<Finding>> {
         let acts = |added: &Option<Vec<Parts>>| {
             let added = added.as_ref()?[k];
             (sizes(added).iter().sum::<f64>() > MATTERS * self.size).then_some(added)
         };
         let (acting, added) = match self.hardware.each_ref().map(acts) {
-            [None, None] => return None,
+            [None, None] => return Ok(None),
             [Some(weights), None] => (Acting::Counterweights, vec![weights]),
             [None, Some(shafts)] => (Acting::Shafts, vec![shafts]),
             [Some(weights), Some(shafts)] => (Acting::Both, vec![weights, shafts]),
@@ -156,12 +160,11 @@ impl<'a> Sums<'a> {
         let without = [0, 1].map(|sense| self.whole[k][sense] - all[sense]);
         let before = sizes(without).map(|part| if part <= least { 0.0 } else { part });
         let after = sizes(self.whole[k]);
-        let mut gone =
-            (0..2).filter(|&sense| before[sense] != 0.0 && after[sense] == 0.0).peekable();
-        let proved = gone.peek().is_some()
-            && gone.all(|sense| self.proofs[k][2 + sense] == Verdict::Vanishes);
+        let gone = (0..2).filter(|&sense| before[sense] != 0.0 && after[sense] == 0.0);
+        let proved =
+            gone.clone().next().is_some() && self.vanish(k, gone.map(|sense| 2 + sense))?;
         let (vector, order) = (self.vector, self.orders[k]);
-        Some(Finding::Hardware { vector, order, before, after, acting, proved })
+        Ok(Some(Finding::Hardware { vector, order, before, after, acting, proved }))
     }
 
     /// What an order leaves.
@@ -235,7 +238,7 @@ impl<'a> Sums<'a> {
     // --- why orders cancel ---
 
     /// Why orders are zero that pistons make, those of one reason together.
-    pub fn cancelling(&self, made: &[bool], banks: &[Vec<usize>]) -> Vec<Finding> {
+    pub fn cancelling(&self, made: &[bool], banks: &[Vec<usize>]) -> Result<Vec<Finding>> {
         let mut found: Vec<Finding> = Vec::new();
         let all: Vec<usize> = (0..self.cylinders.len()).collect();
         for (k, &is_made) in made.iter().enumerate() {
@@ -243,7 +246,7 @@ impl<'a> Sums<'a> {
                 continue;
             }
             let (why, groups) = self.reason(k, banks);
-            let is_proved = self.proofs[k][..2] == [Verdict::Vanishes; 2];
+            let is_proved = self.vanish(k, 0..2)?;
             let same = found.iter_mut().find_map(|finding| match finding {
                 Finding::Cancels { orders, reason, pairs, proved, .. } => {
                     (*reason == why && *pairs == groups && *proved == is_proved).then_some(orders)
@@ -261,7 +264,7 @@ impl<'a> Sums<'a> {
                 }),
             }
         }
-        found
+        Ok(found)
     }
 
     fn largest(&self, k: usize) -> f64 {
@@ -341,10 +344,4 @@ impl<'a> Sums<'a> {
         }
         Some(pairs)
     }
-}
-
-/// The verdicts on the sums of a vector, of those of an order.
-pub(super) fn proofs_of(verdicts: &[Verdict; 10], vector: Vector) -> Proofs {
-    let first = if vector == Vector::Force { 0 } else { 4 };
-    std::array::from_fn(|k| verdicts[first + k])
 }

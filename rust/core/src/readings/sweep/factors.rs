@@ -65,16 +65,20 @@ impl Waves {
                 }
                 let mut wave = Padded::zeros(degrees.len())?;
                 let (cos, sin) = wave.values.split_at_mut(wave.length);
-                let quarter = 0.25 * multiple as f64;
-                vectorised(
-                    #[inline(always)]
-                    || {
-                        for (out, angle) in degrees.iter_mut().zip(bank_angles) {
-                            *out = quarter * angle;
-                        }
-                        sin_cos_degrees(&degrees, sin, cos);
-                    },
-                );
+                if multiple == 0 {
+                    cos.fill(1.0);
+                } else {
+                    let quarter = 0.25 * multiple as f64;
+                    vectorised(
+                        #[inline(always)]
+                        || {
+                            for (out, angle) in degrees.iter_mut().zip(bank_angles) {
+                                *out = quarter * angle;
+                            }
+                            sin_cos_degrees(&degrees, sin, cos);
+                        },
+                    );
+                }
                 memory::push(&mut columns, wave)?;
             }
             of_order.push(place);

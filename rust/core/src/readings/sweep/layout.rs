@@ -3,7 +3,9 @@
 use super::{Selection, Sweep};
 use crate::Complex64;
 use crate::engine::{Engine, Hold};
-use crate::load::{BankPhase, Harmonic, LoadList, PhasorSum, Term, Wanted, count, find_or_push};
+use crate::load::{
+    BankPhase, Harmonic, Load, LoadList, PhasorSum, SourceIndex, Term, Wanted, count, find_or_push,
+};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
@@ -60,9 +62,11 @@ impl Sweep {
             roll: !selections.iter().all(planar),
             by_bank: vee.is_some(),
         };
+        let counts = |load: &&Load| selections.iter().any(|one| one.counts(loads, load.source));
+        let counted: Vec<Load> = loads.list.iter().filter(counts).copied().collect();
         let mut layouts = vec![Layout::new(); selections.len()];
         for &order in &self.orders {
-            let terms = loads.sums(order, wanted);
+            let terms = loads.sums(&counted, order, wanted);
             for (selection, layout) in selections.iter().zip(&mut layouts) {
                 let quantity = selection.quantity;
                 let count = count(&loads.list, !quantity.is_planar());
@@ -101,14 +105,18 @@ impl Sweep {
 }
 
 impl Selection<'_> {
+    /// Whether it counts the loads of a source.
+    fn counts(&self, loads: &LoadList, source: SourceIndex) -> bool {
+        let group = loads.group(source);
+        self.scaling.is_none_or(|scaling| scaling == group.scaling)
+            && self.quantity.part.has(&group.name)
+    }
+
     /// The sums of a term that make it: forward part and conjugate of the backward part, or torque.
     fn parts(&self, loads: &LoadList, term: &Term<PhasorSum>) -> Option<[PhasorSum; 2]> {
-        let Quantity { kind, part } = self.quantity;
         let own = term.harmonic.column == Column::Roll;
-        let counts = self.scaling.is_none_or(|scaling| scaling == term.scaling)
-            && part.has(&loads.group(term.harmonic.source).name);
-        match kind {
-            _ if !counts => None,
+        match self.quantity.kind {
+            _ if !self.counts(loads, term.harmonic.source) => None,
             Kind::Force | Kind::Moment if own => None,
             Kind::Force => Some(term.force),
             Kind::Moment => Some(term.moment),
