@@ -87,14 +87,14 @@ impl Source for PistonInertia {
         square: f64,
         columns: &mut Columns,
     ) -> Result<()> {
-        let (units, [mut velocity, mut acceleration]) = (block.units(sum.ratio), [[0.0; BLOCK]; 2]);
+        let [mut velocity, mut acceleration] = [[0.0; BLOCK]; 2];
         let motion = MotionColumns {
             velocity: &mut velocity,
             acceleration: &mut acceleration,
             jerk: None,
             lean: None,
         };
-        self.0.mechanism.motions(&units.cranks(sum.turned), motion);
+        block.with_cranks(sum.ratio, sum.turned, |cranks| self.0.mechanism.motions(cranks, motion));
         let Columns { force: [force_x, force_y], moment: [moment_x, moment_y], .. } = columns;
         let [roll, crank] = &mut columns.torque;
         // The force is against the acceleration of the piston away from the crank.

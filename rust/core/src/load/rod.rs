@@ -79,8 +79,8 @@ impl Source for RodInertia {
             return Ok(());
         }
         let [mut velocity, mut acceleration] = [[0.0; BLOCK]; 2];
-        let units = block.units(sum.ratio);
-        self.0.mechanism.swings(&units.cranks(sum.turned), [&mut velocity, &mut acceleration]);
+        let swing = [&mut velocity[..], &mut acceleration[..]];
+        block.with_cranks(sum.ratio, sum.turned, |cranks| self.0.mechanism.swings(cranks, swing));
         let [on_block, on_crank] = self.0.senses().map(|sense| sense * square * sum.roll);
         let [roll, crank] = &mut columns.torque;
         vectorised(

@@ -84,13 +84,21 @@ pub struct Cranks<'a> {
     cos: &'a [f64],
     sin: &'a [f64],
     phase: Complex64,
+    /// 1 − sin θ and 1 + sin θ where they are known: of units that are turned by the phase.
+    reach: Option<[&'a [f64]; 2]>,
 }
 
 impl<'a> Cranks<'a> {
     /// At angles of which these are cosines and sines, as many of both, and `e^{iφ}` of a phase that is added.
     #[inline(always)]
     pub(crate) fn new(cos: &'a [f64], sin: &'a [f64], phase: Complex64) -> Self {
-        Self { cos, sin, phase }
+        Self { cos, sin, phase, reach: None }
+    }
+
+    /// With cosines, sines, and 1 ∓ sin θ of the positions themselves.
+    #[inline(always)]
+    pub(crate) fn known([cos, sin, to_above, to_below]: [&'a [f64]; 4]) -> Self {
+        Self { cos, sin, phase: Complex64::ONE, reach: Some([to_above, to_below]) }
     }
 
     /// How many.
@@ -133,24 +141,44 @@ impl MotionColumns<'_> {
     pub fn fill(self, cranks: &Cranks, motion: impl Fn(&CrankPosition) -> Motion) {
         match self {
             Self { velocity, acceleration, jerk: None, lean: None } => {
-                fill(cranks, [velocity, acceleration], |crank| {
-                    let Motion { velocity, acceleration, .. } = motion(crank);
-                    [velocity, acceleration]
-                });
+                fill(
+                    cranks,
+                    [velocity, acceleration],
+                    #[inline(always)]
+                    |crank| {
+                        let Motion { velocity, acceleration, .. } = motion(crank);
+                        [velocity, acceleration]
+                    },
+                );
             }
             Self { velocity, acceleration, jerk: Some(jerk), lean: None } => {
-                fill(cranks, [velocity, acceleration, jerk], |crank| {
-                    let Motion { velocity, acceleration, jerk, .. } = motion(crank);
-                    [velocity, acceleration, jerk]
-                });
+                fill(
+                    cranks,
+                    [velocity, acceleration, jerk],
+                    #[inline(always)]
+                    |crank| {
+                        let Motion { velocity, acceleration, jerk, .. } = motion(crank);
+                        [velocity, acceleration, jerk]
+                    },
+                );
             }
             Self { velocity, acceleration, jerk, lean: Some([slope, secant]) } => {
-                fill(cranks, [velocity, acceleration, slope, secant], |crank| {
-                    let Motion { velocity, acceleration, slope, secant, .. } = motion(crank);
-                    [velocity, acceleration, slope, secant]
-                });
+                fill(
+                    cranks,
+                    [velocity, acceleration, slope, secant],
+                    #[inline(always)]
+                    |crank| {
+                        let Motion { velocity, acceleration, slope, secant, .. } = motion(crank);
+                        [velocity, acceleration, slope, secant]
+                    },
+                );
                 if let Some(jerk) = jerk {
-                    fill(cranks, [jerk], |crank| [motion(crank).jerk]);
+                    fill(
+                        cranks,
+                        [jerk],
+                        #[inline(always)]
+                        |crank| [motion(crank).jerk],
+                    );
                 }
             }
         }
@@ -161,16 +189,41 @@ impl MotionColumns<'_> {
 #[inline(always)]
 pub(crate) fn fill<const N: usize>(
     cranks: &Cranks,
-    mut columns: [&mut [f64]; N],
+    columns: [&mut [f64]; N],
     values: impl Fn(&CrankPosition) -> [f64; N],
 ) {
     let count = cranks.len();
     // Of one length, so that the loop is free of checks.
     let (cos, sin) = (&cranks.cos[..count], &cranks.sin[..count]);
+    let Some(reach) = cranks.reach else {
+        return fill_at(
+            count,
+            columns,
+            #[inline(always)]
+            |i| values(&CrankPosition::turned(cos[i], sin[i], cranks.phase)),
+        );
+    };
+    let [to_above, to_below] = reach.map(|column| &column[..count]);
+    fill_at(
+        count,
+        columns,
+        #[inline(always)]
+        |i| {
+            let (sin, cos, to_above, to_below) = (sin[i], cos[i], to_above[i], to_below[i]);
+            values(&CrankPosition { sin, cos, squared: cos * cos, to_above, to_below })
+        },
+    );
+}
+
+#[inline(always)]
+fn fill_at<const N: usize>(
+    count: usize,
+    mut columns: [&mut [f64]; N],
+    values: impl Fn(usize) -> [f64; N],
+) {
     let mut columns = columns.each_mut().map(|column| &mut column[..count]);
     for i in 0..count {
-        let values = values(&CrankPosition::turned(cos[i], sin[i], cranks.phase));
-        for (column, value) in columns.iter_mut().zip(values) {
+        for (column, value) in columns.iter_mut().zip(values(i)) {
             column[i] = value;
         }
     }

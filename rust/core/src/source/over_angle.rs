@@ -1,7 +1,9 @@
 //! A block of crank angles, the values of loads there, and what of the loads of a source acts together.
 
 use std::borrow::Cow;
+use std::cell::RefCell;
 use std::ops::Range;
+use std::rc::Rc;
 
 use crate::Complex64;
 use crate::mechanism::DrivenMechanism;
@@ -10,6 +12,7 @@ use crate::numbers::angle::Angle;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::order::Order;
 use crate::numbers::ratio::SpeedRatio;
+use crate::numbers::simd::vectorised;
 
 /// Crank angles evaluated side by side.
 pub(crate) const BLOCK: usize = 256;
@@ -116,13 +119,40 @@ pub struct AngleBlock<'a> {
     angles: &'a CrankAngles,
     range: Range<usize>,
     main: Units,
+    /// Positions of cranks, if they are kept.
+    kept: Option<RefCell<Vec<Rc<CrankPositions>>>>,
 }
 
 impl<'a> AngleBlock<'a> {
     /// These of the angles, at most [`BLOCK`].
     pub(crate) fn new(angles: &'a CrankAngles, range: Range<usize>) -> Self {
         let main = Units::new(angles, range.clone(), Order::FIRST);
-        Self { angles, range, main }
+        Self { angles, range, main, kept: None }
+    }
+
+    /// The same block, which keeps positions of cranks for many rods.
+    pub(crate) fn shared(self) -> Self {
+        Self { kept: Some(RefCell::default()), ..self }
+    }
+
+    /// Hands on the positions of a crank at some multiple of the angles that is `phase` ahead.
+    pub(crate) fn with_cranks(
+        &self,
+        ratio: SpeedRatio,
+        phase: Complex64,
+        work: impl FnOnce(&Cranks),
+    ) {
+        let Some(kept) = &self.kept else {
+            return work(&self.units(ratio).cranks(phase));
+        };
+        let is_such = |one: &&Rc<CrankPositions>| (one.ratio, one.phase) == (ratio, phase);
+        let known = kept.borrow().iter().find(is_such).cloned();
+        let positions = known.unwrap_or_else(|| {
+            let positions = Rc::new(CrankPositions::new(&self.units(ratio), ratio, phase));
+            kept.borrow_mut().push(Rc::clone(&positions));
+            positions
+        });
+        work(&positions.cranks());
     }
 
     /// `e^{iθ}` at some multiple of the angles, either way round.
@@ -140,6 +170,41 @@ impl<'a> AngleBlock<'a> {
 
     pub(crate) fn degrees(&self) -> &[f64] {
         &self.angles.degrees()[self.range.clone()]
+    }
+}
+
+/// [`CrankPosition`] at a block of crank angles; whole lines of the cache.
+#[repr(align(64))]
+struct CrankPositions {
+    ratio: SpeedRatio,
+    phase: Complex64,
+    cos: AngleColumn,
+    sin: AngleColumn,
+    to_above: AngleColumn,
+    to_below: AngleColumn,
+}
+
+impl CrankPositions {
+    /// Of a crank of this speed, from units at its multiple of the angles.
+    fn new(units: &Units, ratio: SpeedRatio, phase: Complex64) -> Self {
+        let [cos, sin, to_above, to_below] = [[0.0; BLOCK]; 4];
+        let mut positions = Self { ratio, phase, cos, sin, to_above, to_below };
+        vectorised(
+            #[inline(always)]
+            || {
+                for i in 0..BLOCK {
+                    let crank = units.crank(phase, i);
+                    (positions.cos[i], positions.sin[i]) = (crank.cos, crank.sin);
+                    positions.to_above[i] = crank.to_above;
+                    positions.to_below[i] = crank.to_below;
+                }
+            },
+        );
+        positions
+    }
+
+    fn cranks(&self) -> Cranks<'_> {
+        Cranks::known([&self.cos, &self.sin, &self.to_above, &self.to_below])
     }
 }
 

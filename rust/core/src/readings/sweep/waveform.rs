@@ -158,7 +158,7 @@ impl Sweep {
                             let size = BLOCK * rows.components;
                             let mut outs =
                                 outs.iter_mut().filter_map(|out| out.chunks_mut(size).nth(k));
-                            let block = AngleBlock::new(rows.angles, part);
+                            let block = AngleBlock::new(rows.angles, part).shared();
                             for here in placed {
                                 here.write(selection, factor, &block, &mut outs)?;
                             }
