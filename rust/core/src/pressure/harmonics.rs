@@ -3,9 +3,10 @@
 use std::sync::{Arc, LazyLock, Mutex};
 
 use super::Strokes;
-use super::{Cycle, period_deg};
+use super::{ATMOSPHERE, Cycle, period_deg};
 use crate::Complex64;
 use crate::mechanism::Mechanism;
+use crate::mechanism::cylinder::Cylinder;
 use crate::mechanism::motion::{CrankPosition, Cranks, MotionColumns};
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::cancel::Cancel;
@@ -213,6 +214,13 @@ impl Cycle {
         cancel: &Cancel,
     ) -> Result<GasTorque> {
         self.integrate::<false>(mechanism, crankcase, orders, cancel).map(|(torque, _)| torque)
+    }
+
+    /// Indicated mean effective pressure over the piston of a cylinder, Pa: work over displacement.
+    pub fn imep(&self, cylinder: &Cylinder, cancel: &Cancel) -> Result<f64> {
+        let torque = self.torque_of(&cylinder.mechanism(), ATMOSPHERE, &[], cancel)?;
+        let travel = cylinder.travel() / cylinder.crank_radius();
+        Ok(torque.mean * period_deg(self.strokes).to_radians() / travel)
     }
 
     /// Torque at orders ½, 1, 1½ … up to one, and bounds of the sum of the magnitudes of all phasors above
