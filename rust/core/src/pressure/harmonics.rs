@@ -174,12 +174,8 @@ impl Abscissae {
             ]
         };
         let [mut velocity, mut acceleration, mut jerk] = [[0.0; SUMMED_SIDE_BY_SIDE]; 3];
-        let motion = MotionColumns {
-            velocity: &mut velocity,
-            acceleration: &mut acceleration,
-            jerk: if SQUARES { Some(&mut jerk) } else { None },
-            lean: None,
-        };
+        let mut motion = MotionColumns::of_both([&mut velocity, &mut acceleration]);
+        motion.jerk = if SQUARES { Some(&mut jerk) } else { None };
         mechanism.motions(&Cranks::new(&cos, &sin, Complex64::ONE), motion);
         for k in 0..SUMMED_SIDE_BY_SIDE {
             let gauge = pressure[k] - crankcase;
