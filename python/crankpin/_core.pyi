@@ -43,6 +43,7 @@ __all__ = [
     "arrangement",
     "balance",
     "bay_loads",
+    "body_warnings",
     "bounds_about",
     "centred_table",
     "check_cylinder",
@@ -71,9 +72,9 @@ __all__ = [
     "fit_shafts",
     "fit_weights",
     "gas_text",
+    "gas_warnings",
     "group_terms",
     "hardware_warnings",
-    "imep_warnings",
     "inline_throws",
     "listed_orders",
     "load_rows",
@@ -82,6 +83,7 @@ __all__ = [
     "mean_inertias",
     "motion",
     "mount_stiffness",
+    "mount_warnings",
     "near_miss",
     "offset_table",
     "orders_of_samples",
@@ -94,6 +96,7 @@ __all__ = [
     "piston_speed_warnings",
     "piston_travel",
     "places_on_axis",
+    "point_warnings",
     "pressure_warnings",
     "radians",
     "read_amplitudes",
@@ -105,7 +108,9 @@ __all__ = [
     "shared",
     "sizes",
     "star",
+    "stiffness_warnings",
     "swept",
+    "tensor_warnings",
     "terms",
     "tilts_deg",
     "turning",
@@ -121,6 +126,7 @@ __all__ = [
     "volume_ratios",
     "waveform",
     "with_bob_weights",
+    "work_warnings",
 ]
 
 __version__: str
@@ -188,6 +194,7 @@ class Cycle:
     def is_closed(self) -> bool: ...
     def thinned(self, from_second: bool) -> Cycle | None: ...
     def pressure(self, theta_deg: _Real) -> _Real: ...
+    def imep(self, parts: _Parts) -> float: ...
     def torque(
         self, parts: _Parts, crankcase: float, halves: Sequence[int]
     ) -> tuple[float, _Complex]: ...
@@ -272,7 +279,6 @@ class Engine:
     @property
     def largest_crank_radius(self) -> float: ...
     def mean_piston_speed(self, rpm: float) -> float: ...
-    def facing_pistons(self) -> list[list[int]]: ...
     @property
     def middle(self) -> float: ...
     @property
@@ -647,7 +653,13 @@ def peak_warnings(
     theta_deg: NDArray[np.float64], values: NDArray[np.float64], period_deg: float
 ) -> list[str]: ...
 def cycle_warnings(cycle: Cycle) -> list[str]: ...
-def imep_warnings(mean_effective: float) -> list[str]: ...
+def work_warnings(cycle: Cycle, mean_effective: float) -> list[str]: ...
+def gas_warnings(engine: Engine) -> list[str]: ...
+def tensor_warnings(figures: _Body) -> list[str]: ...
+def body_warnings(figures: _Body) -> list[str]: ...
+def mount_warnings(figures: tuple[Any, ...]) -> list[str]: ...
+def stiffness_warnings(argument: str, mount: str, values: Sequence[float]) -> list[str]: ...
+def point_warnings(argument: str, at: _Vector) -> list[str]: ...
 def absolute_warnings(argument: str, value: float) -> list[str]: ...
 def angular_speed(rpm: float) -> float: ...
 def check_cylinder(parts: _Parts) -> None: ...
@@ -747,7 +759,7 @@ _Body: TypeAlias = tuple[float, _Vector, Any]
 
 def rigid_body(
     mass: float, cg: Sequence[float], inertia: Sequence[Sequence[float]], products: str | None
-) -> tuple[list[list[float]], list[float], float]: ...
+) -> tuple[list[list[float]], list[float]]: ...
 def check_mount(figures: tuple[Any, ...]) -> None: ...
 def check_support(support: tuple[Any, ...]) -> None: ...
 def mount_stiffness(figures: tuple[Any, ...], frequency: float) -> _Complex: ...

@@ -625,6 +625,15 @@ def test_warnings_stand_beside_what_was_typed(open_workbench: Open, tmp_path: Pa
     page.wait_for_timeout(600)
     whole = page.locator(".fault.whole.note")
     assert "was it given in g·mm or g·m?" in whole.inner_text()
+    with pytest.warns(UserWarning, match="given in grams"):
+        body = cp.RigidBody(150e3, (0, 0.1, 0.2), (7, 8, 4.5))
+    with pytest.warns(UserWarning, match="given in N/mm"):
+        soft = [cp.Mount(f"{x}", (x, 0, 0), stiffness=200) for x in (-0.3, 0.3)]
+    cp.Powertrain(cp.Engine.preset("i4"), body, soft).save(tmp_path / "soft.toml")
+    take_file(page, tmp_path / "soft.toml")
+    page.wait_for_timeout(600)
+    for sentence in ("given in grams?", "stiffness of mount '0.3' = 200 N/m: was it given in N/mm"):
+        assert sentence in whole.inner_text()
 
 
 @pytest.mark.parametrize(

@@ -25,32 +25,7 @@ if TYPE_CHECKING:
 ROUNDING = 1e-6
 """Degrees by which rounding alone does not part two firing intervals."""
 
-MOST_MISSING = 1e-9
-"""Part of the largest principal moment that rounding lets the sum of the others lack."""
-
-FARTHEST_CG = 5.0
-"""Distance of a centre of gravity or a mount from the crank, m, above which it is not in metres."""
-
-GYRATION = (1e-3, 5.0)
-"""Radii of gyration, m, of bodies from a model engine to a ship's; others are in other units."""
-
-MOUNT_STIFFNESS = (1e3, 1e9)
-"""Stiffness of a mount, N/m, below and above which it is likely not in N/m."""
-
-DENSEST = 4e5
-"""Mass of a body over the product of its radii of gyration, kg/m³, that none of osmium reaches.
-
-Of all bodies of one density a ball has the most: 16.7 times the density.
-"""
-
-LEAST_DAMPING = 1e-5
-"""Damping of a mount over its stiffness, s: less is a loss of 1 % at 160 Hz, below any spring's."""
-
-LARGEST_LOSS = 3.0
-"""Loss factor of a mount above which it is likely in per cent: rubber reaches about 1."""
-
 UNITS = "Lengths are metres here, masses kilograms"
-MILLIMETRES = ": was it given in millimetres?"
 
 LARGEST_OIL = 0.5
 """Oil of a crankpin over the masses beside it above which it is in grams: a pin holds 2 to 10 g."""
@@ -146,9 +121,14 @@ def cycle(core: _core.Cycle) -> None:
     _warn_each(_core.cycle_warnings(core))
 
 
-def imep(mean_pressure: float) -> None:
+def work(core: _core.Cycle, mean_pressure: float) -> None:
     """Warn of pressure that takes more work from the crank than an engine does."""
-    _warn_each(_core.imep_warnings(mean_pressure))
+    _warn_each(_core.work_warnings(core, mean_pressure))
+
+
+def gas(core: _core.Engine) -> None:
+    """Warn of the pressure in an engine's cylinders, whose cycles are asked alone."""
+    _warn_each(_core.gas_warnings(core))
 
 
 def absolute(name: str, pressure: float) -> None:
@@ -156,63 +136,25 @@ def absolute(name: str, pressure: float) -> None:
     _warn_each(_core.absolute_warnings(name, pressure))
 
 
-def body(mass: float, cg: Sequence[float], moments: Sequence[float], missing: float) -> None:
+def body(figures: tuple[float, Any, Any]) -> None:
     """Warn of a tensor that no body has, and of figures in other units."""
-    if missing > MOST_MISSING:
-        listed = ", ".join(f"{moment:.6g}" for moment in moments)
-        warn(
-            f"inertia has principal moments of {listed} kg·m²: the largest is more than the sum of "
-            f"the others, which lacks {100 * missing:.3g} % of it; no body has such a tensor. Is "
-            "it about the centre of gravity, with the right sign of its products?"
-        )
-    found = []
-    radii = [math.sqrt(moment / mass) for moment in moments]
-    smallest, largest = radii[0], radii[2]
-    if smallest < GYRATION[0] or largest > GYRATION[1]:
-        found.append(
-            f"inertia has radii of gyration from {smallest:.3g} to {largest:.3g} m: are mass and "
-            "inertia in kg and kg·m²?"
-        )
-    elif mass > DENSEST * math.prod(radii):
-        found.append(
-            f"mass = {mass:g} kg has radii of gyration from {smallest:.3g} to {largest:.3g} m, so "
-            "dense is no metal: was it given in grams?"
-        )
-    _report(found + _outside("cg", cg))
+    _warn_each(_core.tensor_warnings(figures))
+    _report(_core.body_warnings(figures))
 
 
-def mount(
-    name: str,
-    at: Sequence[float],
-    loss_factor: Sequence[float] = (),
-    damping: Sequence[float] = (),
-    **stiffness: Iterable[float],
-) -> None:
-    """Warn of a mount whose figures seem to be in other units: its place, stiffness by argument."""
-    found = []
-    if wrong := [each for each in loss_factor if each > LARGEST_LOSS]:
-        words = f"loss_factor of mount {name!r} = {wrong[0]:g}"
-        found.append(f"{words}: was it given in per cent?")
-    least_damping = LEAST_DAMPING * min(filter(None, stiffness.get("stiffness", ())), default=0.0)
-    if 0.0 < (largest := max(damping, default=0.0)) < least_damping:
-        words = f"damping of mount {name!r} = {largest:g} N·s/m"
-        found.append(f"{words}: was it given in N·s/mm?")
-    least, most = MOUNT_STIFFNESS
-    for argument, values in stiffness.items():
-        if wrong := [k for k in values if k and not least <= k <= most]:
-            words = f"{argument} of mount {name!r} = {wrong[0]:g} N/m"
-            found.append(f"{words}: was it given in N/mm?")
-    _report(found + _outside(f"at of mount {name!r}", at))
+def mount(figures: tuple[Any, ...]) -> None:
+    """Warn of a mount whose figures seem to be in other units."""
+    _report(_core.mount_warnings(figures))
 
 
-def point(name: str, at: Sequence[float]) -> None:
+def stiffness(argument: str, mount: str, values: Sequence[float]) -> None:
+    """Warn of stiffness of a mount that is in N/mm."""
+    _report(_core.stiffness_warnings(argument, mount, values))
+
+
+def point(name: str, at: tuple[float, float, float]) -> None:
     """Warn of a place on a powertrain that is in millimetres."""
-    _report(_outside(name, at))
-
-
-def _outside(name: str, at: Sequence[float]) -> list[str]:
-    is_outside = max(map(abs, at)) > FARTHEST_CG
-    return [f"{name} = {tuple(at)} m{MILLIMETRES}"] if is_outside else []
+    _report(_core.point_warnings(name, at))
 
 
 def _report(found: list[str]) -> None:

@@ -273,9 +273,9 @@ class Cycle(Tabled, Input, ComputedCycles):
         InputError
             If the cylinder has no bore.
         """
-        mean_pressure = self.work(cylinder) / (area(cylinder) * cylinder.travel)
-        if checks.far_peak(self.theta_deg, self.pressure, self.period_deg) is None:
-            checks.imep(mean_pressure)  # warned of where it was made
+        area(cylinder)  # an error without a bore, on which it does not depend
+        mean_pressure = self._core.imep(cylinder._parts)
+        checks.work(self._core, mean_pressure)
         return mean_pressure
 
     def mean_torque(self, cylinder: Cylinder) -> float:

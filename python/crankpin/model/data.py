@@ -12,7 +12,7 @@ from crankpin import _core
 from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import files, inputs, labels
 from crankpin._support.record import AbsentError, read_only
-from crankpin._support.warnings import suppressed, warn
+from crankpin._support.warnings import suppressed
 from crankpin.model import checks, engine_files
 from crankpin.model import loads as periodic
 from crankpin.model import shafts as rotating
@@ -658,9 +658,7 @@ class EngineData:
         distinct = [core for core in dict.fromkeys(cores) if core is not None]
         cycle_of = [None if core is None else distinct.index(core) for core in cores]
         fired = self._core.with_cycles(distinct, cycle_of, below)
-        checks.absolute("crankcase", below)
-        _warn_of_work(each, self.cylinders)
-        _warn_of_facing(fired)
+        checks.gas(fired)
         return type(self)(fired)
 
     def with_bank_angle(self, bank_angle_deg: Angle, *, hold: Hold) -> Self:
@@ -800,13 +798,9 @@ class EngineData:
         with suppressed():
             read.cylinders  # noqa: B018 - rods that contradict their cylinders raise
         checks.engine(core)
-        if core.cycles is not None and core.crankcase is not None:
-            checks.absolute("crankcase", core.crankcase)
-            distinct = {each for each in core.cycles if each is not None}
-            of_core = {each: Cycle._of(each) for each in distinct}
-            pressures = [None if each is None else of_core[each] for each in core.cycles]
-            _warn_of_work(pressures, read.cylinders)
-            _warn_of_facing(core)
+        for cycle in filter(None, dict.fromkeys(core.cycles or ())):
+            checks.cycle(cycle)
+        checks.gas(core)
         for name in ("tdc_deg", "bank_deg"):
             angles = getattr(core, name).tolist()
             checks.radians(name, angles, angles)
@@ -948,25 +942,6 @@ def allowed(core: _CoreEngine, firing_order: str, strokes: int) -> str:
     except _core.InputError:  # it lacks a piston that was a dummy
         return ""
     return order if possible else ""
-
-
-def _warn_of_work(cycles: Sequence[Cycle | None], cylinders: Sequence[Cylinder]) -> None:
-    """Warn of pressure that takes much work from the crank."""
-    for cycle, cylinder in dict.fromkeys(zip(cycles, cylinders, strict=True)):
-        if cycle is not None:
-            cycle.imep(cylinder)  # which warns
-
-
-def _warn_of_facing(core: _CoreEngine) -> None:
-    """Warn of pistons that share a chamber, each of which has a cycle of its own."""
-    pairs = core.facing_pistons()
-    if pairs:
-        named = ", ".join(f"{one} and {other}" for one, other in pairs[:4])
-        more = ", …" if len(pairs) > 4 else ""
-        warn(
-            f"pistons {named}{more} face each other in one bore: they share one chamber, which "
-            "fires once, and each is computed with a chamber and a cycle of its own"
-        )
 
 
 def _is_kept(value: object) -> bool:

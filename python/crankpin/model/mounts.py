@@ -13,8 +13,6 @@ from crankpin._support.warnings import suppressed
 from crankpin.model import checks
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from numpy.typing import ArrayLike, NDArray
 
 Products: TypeAlias = Literal["tensor", "positive-integrals"]
@@ -81,7 +79,7 @@ class RigidBody(Input):
         given = np.diag(given) if given.ndim == 1 else given
         if products is not None:
             inputs.one_of("products", products, ("tensor", "positive-integrals"))
-        tensor, moments, missing = _core.rigid_body(mass, center, given.tolist(), products)
+        tensor, moments = _core.rigid_body(mass, center, given.tolist(), products)
         has_products = any(tensor[i][j] for i in range(3) for j in range(i))
         fields = {
             "mass": mass,
@@ -91,7 +89,7 @@ class RigidBody(Input):
             "_moments": tuple(moments),
         }
         self.__dict__.update(fields)
-        checks.body(mass, center, moments, missing)
+        checks.body(self._figures)
 
     @property
     def principal_moments(self) -> Vector:
@@ -241,7 +239,7 @@ class Mount(Input):
         fields["table"] = None if table is None else _table(table)
         self.__dict__.update(fields)
         _core.check_mount(self._figures)
-        checks.mount(self.name, fields["at"], self.loss_factor, self.damping, **self._stiffnesses)
+        self._warn()
 
     @property
     def _figures(self) -> Any:  # noqa: ANN401 - as the core takes them
@@ -259,16 +257,9 @@ class Mount(Input):
             self.table,
         )
 
-    @property
-    def _stiffnesses(self) -> dict[str, Iterable[float]]:
-        """Stiffness by argument, N/m; of a table the largest along each axis."""
-        table = np.abs(self.table[1]).max(axis=0).tolist() if self.table is not None else ()
-        along = {"stiffness": self.stiffness, "dynamic_stiffness": self.dynamic_stiffness or ()}
-        return {**along, "table": table}
-
     def _warn(self) -> None:
         """Warn of figures in other units."""
-        checks.mount(self.name, self.at, self.loss_factor, self.damping, **self._stiffnesses)
+        checks.mount(self._figures)
 
     @classmethod
     def _of(cls, figures: Any) -> Mount:  # noqa: ANN401 - as the core gives them

@@ -458,11 +458,6 @@ impl Engine {
         self.0.mean_piston_speed(rpm)
     }
 
-    /// Numbers of pistons that face each other in one bore, and both fire.
-    fn facing_pistons(&self) -> Vec<[usize; 2]> {
-        self.0.facing_pistons().into_iter().map(|pair| pair.map(|k| k + 1)).collect()
-    }
-
     #[getter]
     fn middle(&self) -> f64 {
         self.0.middle()

@@ -81,10 +81,11 @@ mod _core {
         },
         vanishing::{star, vanishing},
         warnings::{
-            absolute_warnings, cycle_warnings, cylinder_warnings, engine_warnings, far_peak,
-            figure_warnings, hardware_warnings, imep_warnings, near_miss, peak_warnings,
-            pin_split_warnings, piston_speed_warnings, pressure_warnings, radians,
-            unbalance_warnings, unit_warnings,
+            absolute_warnings, body_warnings, cycle_warnings, cylinder_warnings, engine_warnings,
+            far_peak, figure_warnings, gas_warnings, hardware_warnings, mount_warnings, near_miss,
+            peak_warnings, pin_split_warnings, piston_speed_warnings, point_warnings,
+            pressure_warnings, radians, stiffness_warnings, tensor_warnings, unbalance_warnings,
+            unit_warnings, work_warnings,
         },
         waveform::{CrankAngles, waveform},
     };

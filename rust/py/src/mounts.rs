@@ -25,11 +25,11 @@ use crate::engine::{Engine, choice};
 use crate::interrupt;
 
 /// Mass, centre of gravity, tensor of inertia.
-type Body = (f64, [f64; 3], [[f64; 3]; 3]);
+pub type Body = (f64, [f64; 3], [[f64; 3]; 3]);
 /// Frequencies, and complex stiffnesses along the three axes at them.
-type StiffnessTable = (Vec<f64>, Vec<[Complex64; 3]>);
+pub type StiffnessTable = (Vec<f64>, Vec<[Complex64; 3]>);
 /// Name, place, orientation, static and dynamic stiffness, loss factor, damping, track, table.
-type Figures = (
+pub type Figures = (
     String,
     [f64; 3],
     Orientation,
@@ -172,11 +172,11 @@ pub enum MotionPoint {
 }
 
 /// Body of a tensor that was checked.
-fn body((mass, cg, inertia): Body) -> core::Result<RigidBody> {
+pub fn body((mass, cg, inertia): Body) -> core::Result<RigidBody> {
     RigidBody::new(mass, cg, inertia, Some(Products::Tensor))
 }
 
-fn mount(figures: Figures) -> core::Result<Mount> {
+pub fn mount(figures: Figures) -> core::Result<Mount> {
     let (name, at, orientation, stiffness, dynamic_stiffness, loss_factor, damping, track, table) =
         figures;
     let track = track.map(|(stiffness, frequency, damping_ratio)| InertiaTrack {
@@ -202,7 +202,7 @@ fn mount(figures: Figures) -> core::Result<Mount> {
     })
 }
 
-/// The tensor of a body's inertia, its principal moments, and what the smaller ones lack to the largest.
+/// The tensor of a body's inertia and its principal moments.
 #[guarded]
 #[pyfunction]
 pub fn rigid_body(
@@ -210,12 +210,12 @@ pub fn rigid_body(
     cg: [f64; 3],
     inertia: [[f64; 3]; 3],
     products: Option<&str>,
-) -> PyResult<([[f64; 3]; 3], [f64; 3], f64)> {
+) -> PyResult<([[f64; 3]; 3], [f64; 3])> {
     let products = products.map(Products::named).transpose().or_raise()?;
     let body = RigidBody::new(mass, cg, inertia, products).or_raise()?;
     let tensor = body.inertia();
     let rows = [0, 1, 2].map(|row| [0, 1, 2].map(|column| tensor[(row, column)]));
-    Ok((rows, body.principal_moments(), body.missing_inertia()))
+    Ok((rows, body.principal_moments()))
 }
 
 /// Checks the figures of a mount.

@@ -255,6 +255,12 @@ impl Cycle {
         })
     }
 
+    /// Indicated mean effective pressure over a cylinder's piston, Pa.
+    fn imep(&self, py: Python<'_>, parts: Parts) -> PyResult<f64> {
+        let cylinder = cylinder(parts)?;
+        interrupt::run(py, |cancel| self.0.imep(&cylinder, cancel))
+    }
+
     /// Torque over piston area and crank radius above a crankcase pressure: mean, phasors at orders
     /// given in halves.
     fn torque<'py>(

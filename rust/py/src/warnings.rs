@@ -3,6 +3,7 @@
 use crankpin_core as core;
 use crankpin_core::Warning;
 use crankpin_core::engine::warnings;
+use crankpin_core::mounts::warnings as mounts;
 use crankpin_core::pressure::warnings as pressure;
 use crankpin_macros::guarded;
 use numpy::PyReadonlyArray1;
@@ -10,6 +11,8 @@ use pyo3::prelude::*;
 
 use crate::convert::{OrRaise, python_names};
 use crate::engine::Engine;
+use crate::interrupt;
+use crate::mounts::{Body, Figures, body, mount};
 use crate::pressure::Cycle;
 
 fn texts(found: impl IntoIterator<Item = Warning>) -> Vec<String> {
@@ -90,11 +93,53 @@ pub fn peak_warnings(
     texts(pressure::peak(&theta, &values, period_deg))
 }
 
-/// Of a mean effective pressure, Pa.
+/// Of a cycle whose mean effective pressure, Pa, takes work from the crank.
 #[guarded]
 #[pyfunction]
-pub fn imep_warnings(mean_effective: f64) -> Vec<String> {
-    texts(pressure::mean_effective(mean_effective))
+pub fn work_warnings(cycle: &Cycle, mean_effective: f64) -> Vec<String> {
+    texts(pressure::work(&cycle.0, mean_effective))
+}
+
+/// Of the pressure in an engine's cylinders, beside its cycles alone.
+#[guarded]
+#[pyfunction]
+pub fn gas_warnings(py: Python<'_>, engine: &Engine) -> PyResult<Vec<String>> {
+    interrupt::run(py, |cancel| warnings::of_gas(&engine.0, cancel)).map(texts)
+}
+
+/// Of a tensor of inertia that no body has.
+#[guarded]
+#[pyfunction]
+pub fn tensor_warnings(figures: Body) -> PyResult<Vec<String>> {
+    Ok(texts(mounts::tensor(&body(figures).or_raise()?)))
+}
+
+/// Of a body.
+#[guarded]
+#[pyfunction]
+pub fn body_warnings(figures: Body) -> PyResult<Vec<String>> {
+    Ok(texts(mounts::body(&body(figures).or_raise()?)))
+}
+
+/// Of a mount.
+#[guarded]
+#[pyfunction]
+pub fn mount_warnings(figures: Figures) -> PyResult<Vec<String>> {
+    Ok(texts(mounts::mount(mount(figures).or_raise()?.figures())))
+}
+
+/// Of stiffness of a mount, N/m, by the name of its argument.
+#[guarded]
+#[pyfunction]
+pub fn stiffness_warnings(argument: &str, mount: &str, values: Vec<f64>) -> Vec<String> {
+    texts(mounts::stiffness(argument, mount, &values))
+}
+
+/// Of a place on a body, m.
+#[guarded]
+#[pyfunction]
+pub fn point_warnings(argument: &str, at: [f64; 3]) -> Vec<String> {
+    texts(mounts::place(argument, at))
 }
 
 /// Of the pressure of a crankcase or intake, Pa.

@@ -1,23 +1,26 @@
 //! Figures of an engine that were hardly meant: in other units, or to the wrong side.
 
 use crankpin_core::engine::warnings::{
-    flywheel, near_miss, of_engine, pin_split, piston_speed, radians,
+    flywheel, near_miss, of_engine, of_gas, pin_split, piston_speed, radians,
 };
-use crankpin_core::pressure::warnings::{absolute, of_cycle};
-use crankpin_core::{Result, Warning};
+use crankpin_core::mounts::warnings::of_powertrain;
+use crankpin_core::pressure::warnings::of_cycle;
+use crankpin_core::{Cancel, Result, Warning};
 use serde_json::{Map, Value, json};
 
 use crate::answer::Columns;
 use crate::arguments::Arguments;
 
-/// Warnings of an engine, at a speed and with a flywheel, and of angles as they were typed.
+/// Warnings of an engine and of its body on mounts, at a speed and with a flywheel, and of angles as they were
+/// typed.
 pub fn warnings(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
-    let engine = arguments.engine()?;
+    let (engine, powertrain) = arguments.mounted()?;
     let mut found = of_engine(&engine);
     if let Some(gas) = engine.gas() {
         found.extend(gas.cycles.iter().flat_map(|cycle| of_cycle(cycle)));
-        found.extend(absolute("crankcase", gas.crankcase));
     }
+    found.extend(of_gas(&engine, &Cancel::new())?);
+    found.extend(powertrain.iter().flat_map(of_powertrain));
     if let Some(rpm) = arguments.optional("rpm")? {
         found.extend(piston_speed(engine.mean_piston_speed(rpm)));
     }

@@ -297,8 +297,7 @@ def _values(mount: Mount, figure: str, given: ArrayLike) -> NDArray[np.float64]:
         hint = f"give an array of shape {shape}{also}"
         raise inputs.faulty(name, f"has shape {values.shape}", hint)
     if "stiffness" in figure:
-        ends = (float(values.min()), float(values.max()))
-        checks.mount(mount.name, mount.at, **{figure: ends})
+        checks.stiffness(figure, mount.name, (float(values.min()), float(values.max())))
     elif figure == "at":
-        checks.point(name, np.abs(values).max(axis=0).tolist())
+        checks.point(name, tuple(np.abs(values).max(axis=0).tolist()))
     return read_only(np.array(values, order="C"))

@@ -687,8 +687,9 @@ class Powertrain(Input):
         mass, cg, inertia = core.body
         body = RigidBody(mass, cg, inertia, products="tensor")
         mounts = [Mount._of(figures) for figures in core.mounts]
-        for mount in mounts:
+        support = supports.of_core(core.support)
+        for mount in (*mounts, *getattr(support, "mounts", ())):
             mount._warn()
         engine = Engine._read(core_engine)
         with suppressed():
-            return cls(engine, body, mounts, supports.of_core(core.support))
+            return cls(engine, body, mounts, support)

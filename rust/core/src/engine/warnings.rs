@@ -4,9 +4,11 @@ use std::f64::consts::TAU;
 
 use super::{Engine, Shaft, Unbalance};
 use crate::numbers::angle::Angle;
-use crate::numbers::error::Warning;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::{Result, Warning};
 use crate::numbers::figure::significant;
 use crate::numbers::rational::Ratio;
+use crate::pressure::warnings::{absolute, work};
 
 /// Crank radius, m, above which lengths are not in metres.
 ///
@@ -87,6 +89,38 @@ pub fn of_engine(engine: &Engine) -> Vec<Warning> {
     found.extend(carried.filter_map(|each| unbalance(each.amount)));
     found.extend(hardware(engine, engine.counterweights(), engine.shafts()));
     distinct(found)
+}
+
+/// Of the pressure in an engine's cylinders, beside its cycles alone: the crankcase's, work taken from the
+/// crank, and pistons that share a chamber.
+pub fn of_gas(engine: &Engine, cancel: &Cancel) -> Result<Vec<Warning>> {
+    let Some(gas) = engine.gas() else { return Ok(Vec::new()) };
+    let mut found: Vec<Warning> = absolute("crankcase", gas.crankcase).into_iter().collect();
+    let mut worked = Vec::new();
+    for (station, cycle) in engine.stations().iter().zip(&gas.cycle_of) {
+        let Some(cycle) = cycle.filter(|&k| !worked.contains(&(k, &station.cylinder))) else {
+            continue;
+        };
+        worked.push((cycle, &station.cylinder));
+        let cycle = &gas.cycles[cycle];
+        found.extend(work(cycle, cycle.imep(&station.cylinder, cancel)?));
+    }
+    found.extend(facing(engine));
+    Ok(distinct(found))
+}
+
+/// Of pistons that share a chamber, each of which has a cycle of its own.
+fn facing(engine: &Engine) -> Option<Warning> {
+    let pairs = engine.facing_pistons();
+    let named: Vec<String> =
+        pairs.iter().take(MOST_NAMED).map(|[i, k]| format!("{} and {}", i + 1, k + 1)).collect();
+    let more = if pairs.len() > MOST_NAMED { ", …" } else { "" };
+    let text = format!(
+        "pistons {}{more} face each other in one bore: they share one chamber, which fires once, and each is \
+         computed with a chamber and a cycle of its own",
+        named.join(", ")
+    );
+    (!pairs.is_empty()).then(|| Warning::new("cycles", text))
 }
 
 fn distinct(found: Vec<Warning>) -> Vec<Warning> {

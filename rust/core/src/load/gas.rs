@@ -11,7 +11,7 @@ use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 use crate::numbers::ratio::SpeedRatio;
 use crate::pressure::{Cycle, GasTorque};
-use crate::source::over_angle::{AngleBlock, BLOCK, Columns, LoadSum, Quantities};
+use crate::source::over_angle::{AngleBlock, Columns, LoadSum, Quantities};
 use crate::source::{
     ExactFactor, GAS, Parts, Point, Repeats, Scale, Scaling, Source, SourceUpTo, Tail,
     TorqueAmplitudes, is_equal,
@@ -142,16 +142,12 @@ impl Source for GasPressure {
             return Ok(());
         }
         let [on_block, on_crank] = self.mechanism.senses();
-        let (units, [mut velocity, mut acceleration]) =
-            (block.units(SpeedRatio::ONE), [[0.0; BLOCK]; 2]);
-        let motion = MotionColumns {
-            velocity: &mut velocity,
-            acceleration: &mut acceleration,
-            jerk: None,
-            lean: None,
-        };
-        self.mechanism.mechanism.motions(&units.cranks(sum.turned), motion);
-        for (i, (θ, velocity)) in block.degrees().iter().zip(velocity).enumerate() {
+        let mut scratch = block.scratch();
+        let [velocity, acceleration] = &mut *scratch;
+        let motion = MotionColumns::of_both([velocity, acceleration]);
+        let mechanism = &self.mechanism.mechanism;
+        block.with_cranks(SpeedRatio::ONE, sum.turned, |cranks| mechanism.motions(cranks, motion));
+        for (i, (θ, velocity)) in block.degrees().iter().zip(&velocity[..]).enumerate() {
             let gauge = self.cycle.pressure_deg(θ - sum.phase_deg) - self.crankcase;
             // The piston's way down is minus its distance from the crank.
             let torque = -gauge * velocity * sum.roll;

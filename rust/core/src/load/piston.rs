@@ -87,13 +87,10 @@ impl Source for PistonInertia {
         square: f64,
         columns: &mut Columns,
     ) -> Result<()> {
-        let [mut velocity, mut acceleration] = [[0.0; BLOCK]; 2];
-        let motion = MotionColumns {
-            velocity: &mut velocity,
-            acceleration: &mut acceleration,
-            jerk: None,
-            lean: None,
-        };
+        let mut scratch = block.scratch();
+        let [velocity, acceleration] = &mut *scratch;
+        let mut motion = MotionColumns::of(acceleration);
+        motion.velocity = wanted.torque.then_some(&mut velocity[..]);
         block.with_cranks(sum.ratio, sum.turned, |cranks| self.0.mechanism.motions(cranks, motion));
         let Columns { force: [force_x, force_y], moment: [moment_x, moment_y], .. } = columns;
         let [roll, crank] = &mut columns.torque;
@@ -104,10 +101,14 @@ impl Source for PistonInertia {
         vectorised(
             #[inline(always)]
             || {
-                if wanted.planar {
+                if wanted.force {
                     for i in 0..BLOCK {
                         force_x[i] += force.re * acceleration[i];
                         force_y[i] += force.im * acceleration[i];
+                    }
+                }
+                if wanted.moment {
+                    for i in 0..BLOCK {
                         moment_x[i] += moment.re * acceleration[i];
                         moment_y[i] += moment.im * acceleration[i];
                     }
@@ -125,9 +126,8 @@ impl Source for PistonInertia {
     }
 
     fn add_inertia(&self, sum: &LoadSum, angles: &CrankAngles, into: [&mut [f64]; 2]) {
-        add_inertia(&self.0, sum, angles, into, |cranks, [velocity, acceleration]| {
-            let motion = MotionColumns { velocity, acceleration, jerk: None, lean: None };
-            self.0.mechanism.motions(cranks, motion);
+        add_inertia(&self.0, sum, angles, into, |cranks, both| {
+            self.0.mechanism.motions(cranks, MotionColumns::of_both(both));
         });
     }
 }

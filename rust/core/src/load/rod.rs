@@ -78,9 +78,11 @@ impl Source for RodInertia {
         if !wanted.torque {
             return Ok(());
         }
-        let [mut velocity, mut acceleration] = [[0.0; BLOCK]; 2];
-        let swing = [&mut velocity[..], &mut acceleration[..]];
-        block.with_cranks(sum.ratio, sum.turned, |cranks| self.0.mechanism.swings(cranks, swing));
+        let mut scratch = block.scratch();
+        let [velocity, acceleration] = &mut *scratch;
+        block.with_cranks(sum.ratio, sum.turned, |cranks| {
+            self.0.mechanism.swings(cranks, [&mut velocity[..], &mut acceleration[..]]);
+        });
         let [on_block, on_crank] = self.0.senses().map(|sense| sense * square * sum.roll);
         let [roll, crank] = &mut columns.torque;
         vectorised(

@@ -222,7 +222,8 @@ fn pressure_under_a_piston_is_a_load_of_the_other_sign() {
     let degrees: Vec<f64> = (0..200).map(|k| 3.7 * f64::from(k)).collect();
     let angles = CrankAngles::new(&degrees).unwrap();
     let block = AngleBlock::new(&angles, 0..degrees.len());
-    let (mut columns, wanted) = (Columns::ZERO, Quantities { planar: false, torque: true });
+    let (mut columns, wanted) =
+        (Columns::ZERO, Quantities { force: false, moment: false, torque: true });
     for sum in &Kinematics::new(&loads).sums {
         let factor = f64::from(u8::from(sum.group != GroupIndex::default()));
         sum.source.over_angle(&sum.loads, &block, wanted, factor, &mut columns).unwrap();

@@ -77,8 +77,10 @@ impl Source for TurningUnbalance {
         vectorised(
             #[inline(always)]
             || {
-                if wanted.planar {
+                if wanted.force {
                     units.add_turning(force, sum.ratio.sense(), [force_x, force_y]);
+                }
+                if wanted.moment {
                     units.add_turning(moment, sum.ratio.sense(), [moment_x, moment_y]);
                 }
                 // A shaft that turns evenly takes no torque of the crank.

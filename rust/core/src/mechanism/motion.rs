@@ -30,7 +30,7 @@ impl CrankPosition {
         Self { sin, cos, squared, to_above, to_below }
     }
 
-    /// Behind one of these cosine and sine by an angle of which `e^{iφ}` is the conjugate.
+    /// Where an angle has this cosine and sine, turned by one of which `e^{iφ}` is this.
     #[inline(always)]
     fn turned(cos: f64, sin: f64, phase: Complex64) -> Self {
         Self::new(sin * phase.re + cos * phase.im, cos * phase.re - sin * phase.im)
@@ -78,107 +78,157 @@ impl Swing {
     }
 }
 
-/// Positions of a crank, side by side: units `e^{iθ}`, times one of a phase.
+/// Positions of a crank, side by side.
 #[derive(Debug, Clone, Copy)]
-pub struct Cranks<'a> {
-    cos: &'a [f64],
+pub struct Cranks<'a>(Positions<'a>);
+
+#[derive(Debug, Clone, Copy)]
+enum Positions<'a> {
+    /// Cosines and sines, and `e^{iφ}` of an angle by which all of them are turned.
+    Turned([&'a [f64]; 2], Complex64),
+    /// The parts of positions that are kept.
+    Kept(KeptCranks<'a>),
+}
+
+#[derive(Debug, Clone, Copy)]
+struct KeptCranks<'a> {
     sin: &'a [f64],
-    phase: Complex64,
-    /// 1 − sin θ and 1 + sin θ where they are known: of units that are turned by the phase.
-    reach: Option<[&'a [f64]; 2]>,
+    cos: &'a [f64],
+    to_above: &'a [f64],
+    to_below: &'a [f64],
 }
 
 impl<'a> Cranks<'a> {
-    /// At angles of which these are cosines and sines, as many of both, and `e^{iφ}` of a phase that is added.
-    #[inline(always)]
+    /// Where angles have these cosines and sines; all of them are turned by an angle of which this is `e^{iφ}`.
     pub(crate) fn new(cos: &'a [f64], sin: &'a [f64], phase: Complex64) -> Self {
-        Self { cos, sin, phase, reach: None }
+        Self(Positions::Turned([cos, sin], phase))
     }
 
-    /// With cosines, sines, and 1 ∓ sin θ of the positions themselves.
-    #[inline(always)]
-    pub(crate) fn known([cos, sin, to_above, to_below]: [&'a [f64]; 4]) -> Self {
-        Self { cos, sin, phase: Complex64::ONE, reach: Some([to_above, to_below]) }
-    }
-
-    /// How many.
+    /// Number of them.
     #[must_use]
-    #[inline(always)]
     pub fn len(&self) -> usize {
-        self.cos.len()
+        match self.0 {
+            Positions::Turned([cos, _], _) => cos.len(),
+            Positions::Kept(kept) => kept.sin.len(),
+        }
     }
 
     /// Whether there are none.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.cos.is_empty()
+        self.len() == 0
     }
 
     /// One of them.
     #[must_use]
     #[inline(always)]
     pub fn at(&self, i: usize) -> CrankPosition {
-        CrankPosition::turned(self.cos[i], self.sin[i], self.phase)
+        match self.0 {
+            Positions::Turned([cos, sin], phase) => CrankPosition::turned(cos[i], sin[i], phase),
+            Positions::Kept(kept) => kept.at(i),
+        }
     }
 }
 
-/// Motion of a piston at some positions of its crank, as in [`Motion`]; columns as long as there are positions.
+impl KeptCranks<'_> {
+    #[inline(always)]
+    fn at(&self, i: usize) -> CrankPosition {
+        let (sin, cos) = (self.sin[i], self.cos[i]);
+        let (to_above, to_below) = (self.to_above[i], self.to_below[i]);
+        CrankPosition { sin, cos, squared: cos * cos, to_above, to_below }
+    }
+}
+
+/// Columns of [`Cranks`]; whole lines of the cache.
+#[derive(Debug, Clone)]
+#[repr(align(64))]
+pub(crate) struct CrankColumns<const N: usize> {
+    sin: [f64; N],
+    cos: [f64; N],
+    to_above: [f64; N],
+    to_below: [f64; N],
+}
+
+impl<const N: usize> CrankColumns<N> {
+    pub const ZERO: Self =
+        Self { sin: [0.0; N], cos: [0.0; N], to_above: [0.0; N], to_below: [0.0; N] };
+
+    /// Keeps positions, as [`Cranks::new`] has them.
+    #[inline(always)]
+    pub fn set(&mut self, cos: &[f64; N], sin: &[f64; N], phase: Complex64) {
+        for i in 0..N {
+            let crank = CrankPosition::turned(cos[i], sin[i], phase);
+            (self.sin[i], self.cos[i]) = (crank.sin, crank.cos);
+            (self.to_above[i], self.to_below[i]) = (crank.to_above, crank.to_below);
+        }
+    }
+
+    #[inline(always)]
+    pub fn cranks(&self) -> Cranks<'_> {
+        let Self { sin, cos, to_above, to_below } = self;
+        Cranks(Positions::Kept(KeptCranks { sin, cos, to_above, to_below }))
+    }
+}
+
+/// Motion of a piston at some positions of its crank, as in [`Motion`]: columns that are wanted, as long as there
+/// are positions.
 #[derive(Debug)]
 pub struct MotionColumns<'a> {
-    /// (dx/dθ)/r.
-    pub velocity: &'a mut [f64],
     /// (d²x/dθ²)/r.
     pub acceleration: &'a mut [f64],
-    /// (d³x/dθ³)/r, if wanted.
+    /// (dx/dθ)/r.
+    pub velocity: Option<&'a mut [f64]>,
+    /// (d³x/dθ³)/r.
     pub jerk: Option<&'a mut [f64]>,
-    /// Slope and secant of the rod's angle to the bore, if wanted.
+    /// Slope and secant of the rod's angle to the bore.
     pub lean: Option<[&'a mut [f64]; 2]>,
 }
 
-impl MotionColumns<'_> {
+impl<'a> MotionColumns<'a> {
+    /// Of the acceleration alone.
+    pub(crate) fn of(acceleration: &'a mut [f64]) -> Self {
+        Self { acceleration, velocity: None, jerk: None, lean: None }
+    }
+
+    /// Of velocity and acceleration.
+    pub(crate) fn of_both([velocity, acceleration]: [&'a mut [f64]; 2]) -> Self {
+        Self { velocity: Some(velocity), ..Self::of(acceleration) }
+    }
+
     /// Fills them one by one.
     #[inline(always)]
     pub fn fill(self, cranks: &Cranks, motion: impl Fn(&CrankPosition) -> Motion) {
-        match self {
-            Self { velocity, acceleration, jerk: None, lean: None } => {
-                fill(
-                    cranks,
-                    [velocity, acceleration],
-                    #[inline(always)]
-                    |crank| {
-                        let Motion { velocity, acceleration, .. } = motion(crank);
-                        [velocity, acceleration]
-                    },
-                );
+        let Self { acceleration, velocity, jerk, lean } = self;
+        // In one loop, since each takes a root and a quotient.
+        match (velocity, jerk, lean) {
+            (None, None, None) => {
+                fill(cranks, [acceleration], |crank| [motion(crank).acceleration]);
             }
-            Self { velocity, acceleration, jerk: Some(jerk), lean: None } => {
-                fill(
-                    cranks,
-                    [velocity, acceleration, jerk],
-                    #[inline(always)]
-                    |crank| {
-                        let Motion { velocity, acceleration, jerk, .. } = motion(crank);
-                        [velocity, acceleration, jerk]
-                    },
-                );
+            (Some(velocity), None, None) => fill(cranks, [velocity, acceleration], |crank| {
+                let Motion { velocity, acceleration, .. } = motion(crank);
+                [velocity, acceleration]
+            }),
+            (Some(velocity), Some(jerk), None) => {
+                fill(cranks, [velocity, acceleration, jerk], |crank| {
+                    let Motion { velocity, acceleration, jerk, .. } = motion(crank);
+                    [velocity, acceleration, jerk]
+                });
             }
-            Self { velocity, acceleration, jerk, lean: Some([slope, secant]) } => {
-                fill(
-                    cranks,
-                    [velocity, acceleration, slope, secant],
-                    #[inline(always)]
-                    |crank| {
-                        let Motion { velocity, acceleration, slope, secant, .. } = motion(crank);
-                        [velocity, acceleration, slope, secant]
-                    },
-                );
+            (velocity, jerk, lean) => {
+                let [slope, secant] = lean.unwrap_or_default();
+                if slope.is_empty() {
+                    fill(cranks, [acceleration], |crank| [motion(crank).acceleration]);
+                } else {
+                    fill(cranks, [acceleration, slope, secant], |crank| {
+                        let Motion { acceleration, slope, secant, .. } = motion(crank);
+                        [acceleration, slope, secant]
+                    });
+                }
+                if let Some(velocity) = velocity {
+                    fill(cranks, [velocity], |crank| [motion(crank).velocity]);
+                }
                 if let Some(jerk) = jerk {
-                    fill(
-                        cranks,
-                        [jerk],
-                        #[inline(always)]
-                        |crank| [motion(crank).jerk],
-                    );
+                    fill(cranks, [jerk], |crank| [motion(crank).jerk]);
                 }
             }
         }
@@ -192,38 +242,34 @@ pub(crate) fn fill<const N: usize>(
     columns: [&mut [f64]; N],
     values: impl Fn(&CrankPosition) -> [f64; N],
 ) {
+    // Of one length, so that loops are free of checks.
     let count = cranks.len();
-    // Of one length, so that the loop is free of checks.
-    let (cos, sin) = (&cranks.cos[..count], &cranks.sin[..count]);
-    let Some(reach) = cranks.reach else {
-        return fill_at(
-            count,
-            columns,
-            #[inline(always)]
-            |i| values(&CrankPosition::turned(cos[i], sin[i], cranks.phase)),
-        );
-    };
-    let [to_above, to_below] = reach.map(|column| &column[..count]);
-    fill_at(
-        count,
-        columns,
-        #[inline(always)]
-        |i| {
-            let (sin, cos, to_above, to_below) = (sin[i], cos[i], to_above[i], to_below[i]);
-            values(&CrankPosition { sin, cos, squared: cos * cos, to_above, to_below })
-        },
-    );
+    match cranks.0 {
+        Positions::Turned(units, phase) => {
+            let [cos, sin] = units.map(|column| &column[..count]);
+            let at = |i: usize| CrankPosition::turned(cos[i], sin[i], phase);
+            fill_by(count, columns, at, values);
+        }
+        Positions::Kept(KeptCranks { sin, cos, to_above, to_below }) => {
+            let [sin, cos, to_above, to_below] =
+                [sin, cos, to_above, to_below].map(|column| &column[..count]);
+            let kept = KeptCranks { sin, cos, to_above, to_below };
+            fill_by(count, columns, |i| kept.at(i), values);
+        }
+    }
 }
 
 #[inline(always)]
-fn fill_at<const N: usize>(
+fn fill_by<const N: usize>(
     count: usize,
     mut columns: [&mut [f64]; N],
-    values: impl Fn(usize) -> [f64; N],
+    at: impl Fn(usize) -> CrankPosition,
+    values: impl Fn(&CrankPosition) -> [f64; N],
 ) {
     let mut columns = columns.each_mut().map(|column| &mut column[..count]);
     for i in 0..count {
-        for (column, value) in columns.iter_mut().zip(values(i)) {
+        let values = values(&at(i));
+        for (column, value) in columns.iter_mut().zip(values) {
             column[i] = value;
         }
     }

@@ -1,5 +1,6 @@
 //! Every mechanism keeps what [`Mechanism`] promises: what it says of orders is what its motion has.
 
+use super::motion::CrankColumns;
 use super::*;
 use std::f64::consts::TAU;
 
@@ -39,14 +40,17 @@ fn check(mechanism: &dyn Mechanism) {
     let at = |crank: &CrankPosition| mechanism.motion(crank);
     let swing = |crank: &CrankPosition| mechanism.swing(crank);
     // Columns are positions one by one.
-    let ([cos, sin], phase) = (cranks(), Complex64::cis(0.3));
-    let cranks = Cranks::new(&cos, &sin, phase);
+    let ([cos, sin], mut columns) = (cranks(), CrankColumns::<SAMPLES>::ZERO);
+    let [cos, sin] = [cos, sin].map(|values| values.try_into().unwrap());
+    columns.set(&cos, &sin, Complex64::cis(0.3));
+    let cranks = columns.cranks();
     let mut columns = vec![vec![0.0; SAMPLES]; 7];
     let [velocity, acceleration, jerk, slope, secant, turning, bending] = &mut columns[..] else {
         unreachable!("seven of them")
     };
     let lean = Some([&mut slope[..], &mut secant[..]]);
-    mechanism.motions(&cranks, MotionColumns { velocity, acceleration, jerk: Some(jerk), lean });
+    let (velocity, jerk) = (Some(&mut velocity[..]), Some(&mut jerk[..]));
+    mechanism.motions(&cranks, MotionColumns { acceleration, velocity, jerk, lean });
     mechanism.swings(&cranks, [turning, bending]);
     for i in 0..cranks.len() {
         let (motion, swing) = (at(&cranks.at(i)), swing(&cranks.at(i)));

@@ -16,6 +16,7 @@ mod severity;
 mod static_state;
 mod stiffness;
 mod support;
+pub mod warnings;
 
 use nalgebra::{Cholesky, Matrix3x6, SMatrix, Vector3};
 

@@ -68,11 +68,6 @@ impl Chamber {
         piston_area(self.bore)
     }
 
-    /// Indicated mean effective pressure, Pa, of a mean torque over piston area and crank radius.
-    pub(super) fn imep(&self, mean: f64) -> f64 {
-        mean * self.strokes.cycle().degrees().to_radians() / self.travel
-    }
-
     /// Volume at a crank angle, degrees, over the clearance volume.
     #[must_use]
     pub fn ratio(&self, angle: f64) -> f64 {

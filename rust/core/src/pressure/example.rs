@@ -10,7 +10,6 @@ use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::figure::significant;
-use crate::pressure::ATMOSPHERE;
 
 /// Indicated mean effective pressure of the examples that idle, Pa: that of friction.
 const IDLING_IMEP: f64 = 1.2e5;
@@ -219,9 +218,7 @@ impl Example {
 
     /// Indicated mean effective pressure, Pa.
     fn imep(&self, cancel: &Cancel) -> Result<f64> {
-        let mechanism = self.cylinder.mechanism();
-        let torque = self.cycle(cancel)?.torque_of(&mechanism, ATMOSPHERE, &[], cancel)?;
-        Ok(self.chamber()?.imep(torque.mean))
+        self.cycle(cancel)?.imep(&self.cylinder, cancel)
     }
 }
 

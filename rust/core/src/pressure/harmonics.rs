@@ -3,9 +3,10 @@
 use std::sync::{Arc, LazyLock, Mutex};
 
 use super::Strokes;
-use super::{Cycle, period_deg};
+use super::{ATMOSPHERE, Cycle, period_deg};
 use crate::Complex64;
 use crate::mechanism::Mechanism;
+use crate::mechanism::cylinder::Cylinder;
 use crate::mechanism::motion::{CrankPosition, Cranks, MotionColumns};
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::cancel::Cancel;
@@ -173,12 +174,8 @@ impl Abscissae {
             ]
         };
         let [mut velocity, mut acceleration, mut jerk] = [[0.0; SUMMED_SIDE_BY_SIDE]; 3];
-        let motion = MotionColumns {
-            velocity: &mut velocity,
-            acceleration: &mut acceleration,
-            jerk: if SQUARES { Some(&mut jerk) } else { None },
-            lean: None,
-        };
+        let mut motion = MotionColumns::of_both([&mut velocity, &mut acceleration]);
+        motion.jerk = if SQUARES { Some(&mut jerk) } else { None };
         mechanism.motions(&Cranks::new(&cos, &sin, Complex64::ONE), motion);
         for k in 0..SUMMED_SIDE_BY_SIDE {
             let gauge = pressure[k] - crankcase;
@@ -213,6 +210,13 @@ impl Cycle {
         cancel: &Cancel,
     ) -> Result<GasTorque> {
         self.integrate::<false>(mechanism, crankcase, orders, cancel).map(|(torque, _)| torque)
+    }
+
+    /// Indicated mean effective pressure over the piston of a cylinder, Pa: work over displacement.
+    pub fn imep(&self, cylinder: &Cylinder, cancel: &Cancel) -> Result<f64> {
+        let torque = self.torque_of(&cylinder.mechanism(), ATMOSPHERE, &[], cancel)?;
+        let travel = cylinder.travel() / cylinder.crank_radius();
+        Ok(torque.mean * period_deg(self.strokes).to_radians() / travel)
     }
 
     /// Torque at orders ½, 1, 1½ … up to one, and bounds of the sum of the magnitudes of all phasors above

@@ -118,15 +118,19 @@ pub fn far_peak(theta_deg: &[f64], values: &[f64], period_deg: f64) -> Option<f6
     (nearest.abs() > FARTHEST_PEAK).then_some(nearest)
 }
 
-/// Of pressure that takes more work from the crank than an engine does, by its mean effective pressure, Pa.
+/// Of a cycle that takes more work from the crank than an engine does, by its mean effective pressure, Pa; none
+/// where it peaks elsewhere, of which [`peak`] is.
 #[must_use]
-pub fn mean_effective(pressure: f64) -> Option<Warning> {
+pub fn work(cycle: &Cycle, mean_effective: f64) -> Option<Warning> {
+    let given = cycle.given();
+    let strong = mean_effective < STRONGEST_BRAKE
+        && far_peak(&given.theta_deg, &given.pressure, period_deg(cycle.strokes())).is_none();
     let text = format!(
         "imep = {} bar: pressure brakes the crank. Are angles counted in the direction of rotation, from \
          the firing top dead centre?",
-        significant(pressure / 1e5, 3)
+        significant(mean_effective / 1e5, 3)
     );
-    (pressure < STRONGEST_BRAKE).then(|| Warning::new("imep", text))
+    strong.then(|| Warning::new("imep", text))
 }
 
 /// Of the pressure of crankcase or intake in other units, Pa; 0 is a vacuum.

@@ -86,7 +86,7 @@ pub fn exact(
     let factors = kinematics.factors(omega);
     let mut shape = Shape::new(&loads, request.torque);
     shape.zero_bounds = kinematics.zero_bounds(&factors);
-    let wanted = Quantities { planar: true, torque: request.torque };
+    let wanted = Quantities { force: true, moment: true, torque: request.torque };
     let part_of = loads.groups.map_to(|group| shape.part(&group.name).map_or(0, |part| part + 1));
     in_blocks(theta_deg, &shape, cancel, |angles, columns| {
         let block = AngleBlock::new(angles, 0..angles.len());

@@ -353,9 +353,11 @@ pub trait Source: Debug + Send + Sync + Any {
             let (units, amplitude) = (block.orders(order), amplitude * sum.lag(order));
             for (i, (cos, sin)) in units.cos.iter().zip(&units.sin).enumerate() {
                 let value = amplitude.re * cos - amplitude.im * sin;
-                if wanted.planar {
+                if wanted.force {
                     force_x[i] += force.re * value;
                     force_y[i] += force.im * value;
+                }
+                if wanted.moment {
                     moment_x[i] += moment.re * value;
                     moment_y[i] += moment.im * value;
                 }

@@ -1,13 +1,12 @@
 //! A block of crank angles, the values of loads there, and what of the loads of a source acts together.
 
 use std::borrow::Cow;
-use std::cell::RefCell;
+use std::cell::{RefCell, RefMut};
 use std::ops::Range;
-use std::rc::Rc;
 
 use crate::Complex64;
 use crate::mechanism::DrivenMechanism;
-use crate::mechanism::motion::{CrankPosition, Cranks};
+use crate::mechanism::motion::{CrankColumns, CrankPosition, Cranks};
 use crate::numbers::angle::Angle;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::order::Order;
@@ -34,8 +33,8 @@ pub struct Columns {
 /// Quantities to evaluate.
 #[derive(Debug, Clone, Copy)]
 pub struct Quantities {
-    /// Force and moment.
-    pub(crate) planar: bool,
+    pub(crate) force: bool,
+    pub(crate) moment: bool,
     /// Torques.
     pub(crate) torque: bool,
 }
@@ -94,18 +93,20 @@ impl Columns {
 
     /// Adds the wanted ones of other columns.
     pub(crate) fn add(&mut self, other: &Self, wanted: Quantities) {
-        let planar = self.force.iter_mut().chain(&mut self.moment);
-        let planar = planar.zip(other.force.iter().chain(&other.moment)).filter(|_| wanted.planar);
+        let force = self.force.iter_mut().zip(&other.force).filter(|_| wanted.force);
+        let moment = self.moment.iter_mut().zip(&other.moment).filter(|_| wanted.moment);
         let torque = self.torque.iter_mut().zip(&other.torque).filter(|_| wanted.torque);
-        for (into, from) in planar.chain(torque) {
+        for (into, from) in force.chain(moment).chain(torque) {
             into.iter_mut().zip(from).for_each(|(into, from)| *into += from);
         }
     }
 
     /// The wanted ones of other columns in place of these.
     pub(crate) fn copy(&mut self, from: &Self, wanted: Quantities) {
-        if wanted.planar {
+        if wanted.force {
             self.force.clone_from_slice(&from.force);
+        }
+        if wanted.moment {
             self.moment.clone_from_slice(&from.moment);
         }
         if wanted.torque {
@@ -114,45 +115,57 @@ impl Columns {
     }
 }
 
+/// Positions of a crank of some speed and phase.
+type KeptCranks = (SpeedRatio, Complex64, Box<CrankColumns<BLOCK>>);
+
 /// A block of crank angles.
 pub struct AngleBlock<'a> {
     angles: &'a CrankAngles,
     range: Range<usize>,
     main: Units,
-    /// Positions of cranks, if they are kept.
-    kept: Option<RefCell<Vec<Rc<CrankPositions>>>>,
+    /// Positions of cranks by speed and phase, if they are kept.
+    kept: Option<RefCell<Vec<KeptCranks>>>,
+    scratch: RefCell<[AngleColumn; 2]>,
 }
 
 impl<'a> AngleBlock<'a> {
     /// These of the angles, at most [`BLOCK`].
     pub(crate) fn new(angles: &'a CrankAngles, range: Range<usize>) -> Self {
         let main = Units::new(angles, range.clone(), Order::FIRST);
-        Self { angles, range, main, kept: None }
+        let scratch = RefCell::new([[0.0; BLOCK]; 2]);
+        Self { angles, range, main, kept: None, scratch }
     }
 
-    /// The same block, which keeps positions of cranks for many rods.
+    /// The same block, which keeps positions of cranks: for many rods.
     pub(crate) fn shared(self) -> Self {
         Self { kept: Some(RefCell::default()), ..self }
     }
 
-    /// Hands on the positions of a crank at some multiple of the angles that is `phase` ahead.
+    /// Columns for what is overwritten.
+    pub(crate) fn scratch(&self) -> RefMut<'_, [AngleColumn; 2]> {
+        self.scratch.borrow_mut()
+    }
+
+    /// Hands positions of a crank at some multiple of the angles that is `phase` ahead to a function.
     pub(crate) fn with_cranks(
         &self,
         ratio: SpeedRatio,
         phase: Complex64,
         work: impl FnOnce(&Cranks),
     ) {
-        let Some(kept) = &self.kept else {
-            return work(&self.units(ratio).cranks(phase));
-        };
-        let is_such = |one: &&Rc<CrankPositions>| (one.ratio, one.phase) == (ratio, phase);
-        let known = kept.borrow().iter().find(is_such).cloned();
-        let positions = known.unwrap_or_else(|| {
-            let positions = Rc::new(CrankPositions::new(&self.units(ratio), ratio, phase));
-            kept.borrow_mut().push(Rc::clone(&positions));
-            positions
+        let Some(kept) = &self.kept else { return work(&self.units(ratio).cranks(phase)) };
+        let is_such = |(own, turned, _): &KeptCranks| (*own, *turned) == (ratio, phase);
+        let mut kept = kept.borrow_mut();
+        let place = kept.iter().position(is_such).unwrap_or_else(|| {
+            let (units, mut cranks) = (self.units(ratio), CrankColumns::ZERO);
+            vectorised(
+                #[inline(always)]
+                || cranks.set(&units.cos, &units.sin, phase),
+            );
+            kept.push((ratio, phase, cranks.into()));
+            kept.len() - 1
         });
-        work(&positions.cranks());
+        work(&kept[place].2.cranks());
     }
 
     /// `e^{iθ}` at some multiple of the angles, either way round.
@@ -170,41 +183,6 @@ impl<'a> AngleBlock<'a> {
 
     pub(crate) fn degrees(&self) -> &[f64] {
         &self.angles.degrees()[self.range.clone()]
-    }
-}
-
-/// [`CrankPosition`] at a block of crank angles; whole lines of the cache.
-#[repr(align(64))]
-struct CrankPositions {
-    ratio: SpeedRatio,
-    phase: Complex64,
-    cos: AngleColumn,
-    sin: AngleColumn,
-    to_above: AngleColumn,
-    to_below: AngleColumn,
-}
-
-impl CrankPositions {
-    /// Of a crank of this speed, from units at its multiple of the angles.
-    fn new(units: &Units, ratio: SpeedRatio, phase: Complex64) -> Self {
-        let [cos, sin, to_above, to_below] = [[0.0; BLOCK]; 4];
-        let mut positions = Self { ratio, phase, cos, sin, to_above, to_below };
-        vectorised(
-            #[inline(always)]
-            || {
-                for i in 0..BLOCK {
-                    let crank = units.crank(phase, i);
-                    (positions.cos[i], positions.sin[i]) = (crank.cos, crank.sin);
-                    positions.to_above[i] = crank.to_above;
-                    positions.to_below[i] = crank.to_below;
-                }
-            },
-        );
-        positions
-    }
-
-    fn cranks(&self) -> Cranks<'_> {
-        Cranks::known([&self.cos, &self.sin, &self.to_above, &self.to_below])
     }
 }
 
@@ -231,7 +209,6 @@ impl Units {
     }
 
     /// Positions of a crank that is `phase` ahead.
-    #[inline(always)]
     pub(crate) fn cranks(&self, phase: Complex64) -> Cranks<'_> {
         Cranks::new(&self.cos, &self.sin, phase)
     }

@@ -249,12 +249,8 @@ impl RodColumns {
         if rod.couple != 0.0 {
             rod.mechanism.swings(&cranks, [&mut velocity, &mut swing]);
         }
-        let motion = MotionColumns {
-            velocity: &mut velocity,
-            acceleration: &mut acceleration,
-            jerk: None,
-            lean: Some([&mut slope, &mut secant]),
-        };
+        let mut motion = MotionColumns::of(&mut acceleration);
+        motion.lean = Some([&mut slope, &mut secant]);
         rod.mechanism.motions(&cranks, motion);
         let motions = [&acceleration, &slope, &secant, &swing];
         vectorised(

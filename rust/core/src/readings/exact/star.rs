@@ -253,6 +253,50 @@ mod tests {
         }
     }
 
+    /// Of 14 decimals, a part of a turn with too many for a root; small parts of a turn beyond it, rounded.
+    #[test]
+    fn typed_angles_beside_rounded_ones_are_steps_of_one_symbol() {
+        let typed: Angle = "236.37001175040001".parse().unwrap();
+        for parts in [3_u32, 997] {
+            let step = 360.0 / f64::from(parts);
+            let rounded = Angle::from_degrees(typed.degrees() + step).unwrap();
+            assert!(typed.turns().is_some() && rounded.turns().is_none());
+            for fire in [[typed, rounded], [rounded, typed]] {
+                let (groups, fires) = (vec![(0, false); 2], vec![true; 2]);
+                let stars =
+                    Stars::new(fire.to_vec(), vec![1.0, -1.0], groups, fires, &Cancel::new());
+                let star = at(&stars.unwrap(), 2 * parts);
+                assert_eq!((star.verdict, star.is_major), (Verdict::Vanishes, true), "{parts}");
+            }
+        }
+    }
+
+    /// What is undecided and within rounding is zero, whatever the weights.
+    #[test]
+    fn roundings_of_undecided_sums_scale_with_the_weights() {
+        let fire: Vec<Angle> = (0..7).map(|k| format!("{}/7", 360 * k).parse().unwrap()).collect();
+        for size in [1e-6, 1.0, 1e6] {
+            let groups = (0..7).map(|k| (k, false)).collect();
+            let stars =
+                Stars::new(fire.clone(), vec![size; 7], groups, vec![true; 7], &Cancel::new())
+                    .unwrap();
+            let star = at(&stars, 2);
+            let rounded: Complex64 = star.vectors.iter().sum();
+            assert!(rounded != Complex64::ZERO && star.verdict == Verdict::Undecided);
+            assert_eq!(star.sum, Complex64::ZERO, "{rounded} at {size}");
+            // Beyond it, it is what it is.
+            let one = Stars::new(
+                fire[..2].to_vec(),
+                vec![size; 2],
+                vec![(0, false), (1, false)],
+                vec![true; 2],
+                &Cancel::new(),
+            );
+            let star = at(&one.unwrap(), 2);
+            assert!(star.sum.norm() > 0.5 * size && star.verdict == Verdict::Undecided);
+        }
+    }
+
     #[test]
     fn gas_of_opposite_offsets_is_of_two_harmonics() {
         let place = |offset: f64, tdc: f64| Station {

@@ -61,7 +61,8 @@ impl Placed {
         outs: &mut impl Iterator<Item = &'o mut [f64]>,
     ) -> Result<()> {
         let torque = !quantity.is_planar();
-        let wanted = Quantities { planar: !torque, torque };
+        let [force, moment] = [Kind::Force, Kind::Moment].map(|kind| quantity.kind == kind);
+        let wanted = Quantities { force, moment, torque };
         let counts = |sum: &SourceSum| {
             scaling.is_none_or(|scaling| sum.source.parts().scaling == scaling)
                 && quantity.part.has(&self.names[sum.group])

@@ -4,7 +4,10 @@ use proptest::sample::select;
 use std::sync::Arc;
 
 use super::*;
-use crate::engine::{Crank, CrankIndex, Details, Gas, Hold, Shaft, Station, Unbalance};
+use crate::engine::{
+    ActsOn, Amplitudes, Crank, CrankIndex, Details, Gas, Hold, PeriodicLoad, Shaft, Station,
+    Unbalance,
+};
 use crate::numbers::ratio::SpeedRatio;
 use crate::pressure::{Cycle, Given};
 use crate::search::{Bank, Criterion, Search};
@@ -66,30 +69,75 @@ fn gas_has_half_orders_in_a_four_stroke_alone() {
     assert!(found(None).unwrap_err().to_string().contains("need a firing order"));
 }
 
-/// Cylinders of unlike dimensions have no ratio that is known, but torques that are evaluated.
+/// Cylinders of unlike dimensions have no ratio that is known, but torques that are evaluated, of whatever size.
 #[test]
 fn gas_of_unlike_cylinders_remains_where_it_is_evaluated() {
-    let mut stations =
-        engine(&[0.0, 180.0].map(|tdc| (tdc, 90.0, 0.0, 0.4, 0.0))).stations().to_vec();
-    stations[1].cylinder = Cylinder::new(0.04, 0.15, 0.4, 0.0).unwrap();
-    let theta_deg: Vec<f64> = (0..72).map(|k| 10.0 * f64::from(k)).collect();
-    let pressure = theta_deg.iter().map(|&theta| 1e5 * (2.0 - (0.01 * theta).cos())).collect();
-    let given = Given { name: String::new(), strokes: 4, theta_deg, pressure, degree: None };
-    let gas = Gas {
-        cycles: vec![Arc::new(Cycle::new(given).unwrap())],
-        cycle_of: vec![Some(0); 2],
-        crankcase: 1e5,
-        later: vec![false; 2],
-    };
-    let bored = Details { bore: Some(0.08), ..Details::default() };
-    let plain = Engine::new("", "", stations).unwrap().with_details(vec![bored; 2]).unwrap();
-    let fired = plain.with_gas(gas).unwrap();
-    let order = [Order::from_halves(1).unwrap()];
-    let firing = Firing::with_later(&Arc::new(plain.clone()), Strokes::Four, &[false; 2]).unwrap();
-    for (engine, firing, verdict) in [(&fired, None, R), (&plain, Some(&firing), U)] {
-        let found = super::vanishing(engine, &order, None, firing, &crate::Cancel::new()).unwrap();
-        assert_eq!((found.verdicts[0][9], found.within_rounding[0][9]), (verdict, false));
+    for size in [1e-3, 1.0, 50.0] {
+        let mut stations =
+            engine(&[0.0, 180.0].map(|tdc| (tdc, 90.0, 0.0, 0.4, 0.0))).stations().to_vec();
+        for (station, radius) in stations.iter_mut().zip([0.05, 0.04]) {
+            station.cylinder = Cylinder::new(size * radius, size * 0.15, 0.4, 0.0).unwrap();
+        }
+        let theta_deg: Vec<f64> = (0..72).map(|k| 10.0 * f64::from(k)).collect();
+        let pressure = theta_deg.iter().map(|&theta| 1e5 * (2.0 - (0.01 * theta).cos())).collect();
+        let given = Given { name: String::new(), strokes: 4, theta_deg, pressure, degree: None };
+        let gas = Gas {
+            cycles: vec![Arc::new(Cycle::new(given).unwrap())],
+            cycle_of: vec![Some(0); 2],
+            crankcase: 1e5,
+            later: vec![false; 2],
+        };
+        let bored = Details { bore: Some(size * 0.08), ..Details::default() };
+        let plain = Engine::new("", "", stations).unwrap().with_details(vec![bored; 2]).unwrap();
+        let fired = plain.with_gas(gas).unwrap();
+        let order = [Order::from_halves(1).unwrap()];
+        let firing = Firing::with_later(&Arc::new(plain.clone()), Strokes::Four, &[false; 2]);
+        let firing = firing.unwrap();
+        for (engine, firing, verdict) in [(&fired, None, R), (&plain, Some(&firing), U)] {
+            let found =
+                super::vanishing(engine, &order, None, firing, &crate::Cancel::new()).unwrap();
+            assert_eq!((found.verdicts[0][9], found.within_rounding[0][9]), (verdict, false));
+        }
     }
+}
+
+/// Loads that are numbers cancel with nothing for certain, and leave what they do not act on.
+#[test]
+fn what_is_given_by_numbers_is_undecided() {
+    let pair = engine(&[0.0, 180.0].map(|tdc| (tdc, 90.0, 0.0, 0.4, 0.0)));
+    assert_eq!(verdicts(&pair, 1)[..2], [V, V]);
+    let upward = PeriodicLoad {
+        force: Amplitudes(vec![(2, vec![Complex64::new(30.0, 0.0)])]),
+        direction_deg: Angle::QUARTER_TURN,
+        ..PeriodicLoad::new("pump", ActsOn::Block)
+    };
+    let loaded = pair.with_loads(vec![upward]).unwrap();
+    let found = vanishing(&loaded, &[1, 3], None, &crate::Cancel::new()).unwrap();
+    assert_eq!(found.verdicts[0][..4], [V, U, U, U]);
+    assert_eq!(found.within_rounding[0][..4], [true, false, false, false]);
+    assert_eq!(found.verdicts[1][..4], [V; 4]);
+    assert!(
+        found.obstacles.iter().any(|text| text.starts_with("loads that were given by numbers"))
+    );
+}
+
+/// A rod without a piston's mass has a torque all the same.
+#[test]
+fn rods_alone_have_torques() {
+    let place = |tdc: f64| Station {
+        cylinder: Cylinder::new(0.05, 0.15, 0.0, 0.0)
+            .and_then(|cylinder| cylinder.with_rod_inertia_excess(0.01))
+            .unwrap(),
+        tdc: Angle::from_degrees(tdc).unwrap(),
+        bank: Angle::QUARTER_TURN,
+        z: 0.0,
+        rotating_mass: 0.0,
+    };
+    let torque = |places: &[f64]| {
+        let places = places.iter().map(|&tdc| place(tdc)).collect();
+        verdicts(&Engine::new("", "", places).unwrap(), 2)[8]
+    };
+    assert_eq!([torque(&[0.0]), torque(&[0.0, 180.0]), torque(&[0.0, 90.0])], [R, R, V]);
 }
 
 /// The harmonic is below the smallest double, and known not to be zero by its sign.

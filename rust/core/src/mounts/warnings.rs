@@ -1,0 +1,142 @@
+//! Warnings of figures that no body and no mount has: impossible tensors, and other units.
+
+use super::{MountFigures, Powertrain, RigidBody, Support};
+use crate::numbers::error::Warning;
+use crate::numbers::figure::significant;
+
+/// Part of the largest principal moment that rounding lets the sum of the others lack.
+const MOST_MISSING: f64 = 1e-9;
+/// Distance of a centre of gravity or a mount from the crank, m, above which it is not in metres.
+const FARTHEST: f64 = 5.0;
+/// Radii of gyration, m, of bodies from a model engine to a ship's; others are in other units.
+const GYRATION: [f64; 2] = [1e-3, 5.0];
+/// Stiffness of a mount, N/m, below and above which it is likely not in N/m.
+const STIFFNESS: [f64; 2] = [1e3, 1e9];
+/// Mass of a body over the product of its radii of gyration, kg/m³, that none of osmium reaches.
+///
+/// Of all bodies of one density a ball has the most: 16.7 times the density.
+const DENSEST: f64 = 4e5;
+/// Damping of a mount over its stiffness, s: less is a loss of 1 % at 160 Hz, below any spring's.
+const LEAST_DAMPING: f64 = 1e-5;
+/// Loss factor of a mount above which it is likely in per cent: rubber reaches about 1.
+const LARGEST_LOSS: f64 = 3.0;
+
+fn figure(value: f64) -> String {
+    significant(value, 6)
+}
+
+/// Of a body on its mounts, and of a subframe below them; arguments are named as in a file.
+#[must_use]
+pub fn of_powertrain(powertrain: &Powertrain) -> Vec<Warning> {
+    within("powertrain", powertrain)
+}
+
+fn within(place: &str, powertrain: &Powertrain) -> Vec<Warning> {
+    let named = |of: String, found: Vec<Warning>| {
+        let name = move |each: Warning| Warning::new(&format!("{of}.{}", each.argument), each.text);
+        found.into_iter().map(name)
+    };
+    let mut found: Vec<Warning> = tensor(powertrain.body()).into_iter().collect();
+    found.extend(body(powertrain.body()));
+    let mut found: Vec<Warning> = named(format!("{place}.body"), found).collect();
+    for (k, each) in powertrain.mounts().iter().enumerate() {
+        found.extend(named(format!("{place}.mounts[{k}]"), mount(each.figures())));
+    }
+    if let Some(Support::Subframe(subframe)) = powertrain.support() {
+        found.extend(within(&format!("{place}.subframe"), subframe));
+    }
+    found
+}
+
+/// Of a tensor of inertia that no body has.
+#[must_use]
+pub fn tensor(body: &RigidBody) -> Option<Warning> {
+    let missing = body.missing_inertia();
+    let text = || {
+        format!(
+            "inertia has principal moments of {} kg·m²: the largest is more than the sum of the others, \
+             which lacks {} % of it; no body has such a tensor. Is it about the centre of gravity, with the \
+             right sign of its products?",
+            body.principal_moments().map(figure).join(", "),
+            significant(100.0 * missing, 3)
+        )
+    };
+    (missing > MOST_MISSING).then(|| Warning::new("inertia", text()))
+}
+
+/// Of a body whose figures are in other units.
+#[must_use]
+pub fn body(body: &RigidBody) -> Vec<Warning> {
+    let radii = body.principal_moments().map(|moment| (moment / body.mass()).sqrt());
+    let [smallest, _, largest] = radii;
+    let between = [smallest, largest].map(|radius| significant(radius, 3)).join(" to ");
+    let units = if smallest < GYRATION[0] || largest > GYRATION[1] {
+        let text = format!(
+            "inertia has radii of gyration from {between} m: are mass and inertia in kg and kg·m²?"
+        );
+        Some(Warning::new("inertia", text))
+    } else if body.mass() > DENSEST * radii.iter().product::<f64>() {
+        let text = format!(
+            "mass = {} kg has radii of gyration from {between} m, so dense is no metal: was it given in \
+             grams?",
+            figure(body.mass())
+        );
+        Some(Warning::new("mass", text))
+    } else {
+        None
+    };
+    units.into_iter().chain(place("cg", body.cg().into())).collect()
+}
+
+/// Of a mount whose figures are in other units.
+#[must_use]
+pub fn mount(figures: &MountFigures) -> Vec<Warning> {
+    let MountFigures { name, loss_factor, damping, .. } = figures;
+    let mut found = Vec::new();
+    let mut report = |argument, value: f64, unit, hint| {
+        let text = format!("{argument} of mount '{name}' = {}{unit}: {hint}", figure(value));
+        found.push(Warning::new(argument, text));
+    };
+    if let Some(&loss) = loss_factor.iter().find(|&&loss| loss > LARGEST_LOSS) {
+        report("loss_factor", loss, "", "was it given in per cent?");
+    }
+    let along = figures.stiffness.into_iter().filter(|&stiffness| stiffness != 0.0);
+    let least = along.reduce(f64::min).map_or(0.0, |stiffness| LEAST_DAMPING * stiffness);
+    let largest = damping.iter().copied().fold(0.0, f64::max);
+    if 0.0 < largest && largest < least {
+        report("damping", largest, " N·s/m", "was it given in N·s/mm?");
+    }
+    found.extend(stiffness("stiffness", name, &figures.stiffness));
+    found.extend(stiffness(
+        "dynamic_stiffness",
+        name,
+        figures.dynamic_stiffness.as_slice().as_flattened(),
+    ));
+    let table = figures.table.iter().flat_map(|table| &table.stiffness);
+    let largest = table.fold([0.0; 3], |most: [f64; 3], row| {
+        [0, 1, 2].map(|axis| most[axis].max(row[axis].norm()))
+    });
+    found.extend(stiffness("table", name, &largest));
+    let at = place(&format!("at of mount '{name}'"), figures.at);
+    found.extend(at.map(|of_it| Warning::new("at", of_it.text)));
+    found
+}
+
+/// Of stiffness of a mount in other units, by the name of its argument, N/m; 0 is none.
+#[must_use]
+pub fn stiffness(argument: &str, mount: &str, values: &[f64]) -> Option<Warning> {
+    let [least, most] = STIFFNESS;
+    let wrong = values.iter().find(|&&value| value != 0.0 && !(least..=most).contains(&value))?;
+    let value = figure(*wrong);
+    let text = format!("{argument} of mount '{mount}' = {value} N/m: was it given in N/mm?");
+    Some(Warning::new(argument, text))
+}
+
+/// Of a place on a body that is in millimetres, m.
+#[must_use]
+pub fn place(argument: &str, at: [f64; 3]) -> Option<Warning> {
+    let is_far = at.iter().any(|along| along.abs() > FARTHEST);
+    let places = at.map(figure).join(", ");
+    let text = || format!("{argument} = ({places}) m: was it given in millimetres?");
+    is_far.then(|| Warning::new(argument, text()))
+}
