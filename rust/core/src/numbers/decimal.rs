@@ -7,7 +7,7 @@
 //! digits too, up to `MOST_DECIMALS` behind the point, unless it is written as doubles are, with an
 //! exponent.
 
-use crate::numbers::rational::nearest;
+use crate::numbers::rational::{Ratio, nearest};
 
 /// Every double keeps 15 digits; three of them leave room for the rounding of products and sums.
 const MOST_DIGITS: usize = 12;
@@ -23,6 +23,33 @@ pub(crate) fn meant(x: f64) -> Option<(i128, i128)> {
     let (numerator, denominator) = parse(&format!("{x:.*e}", MOST_DIGITS - 1))?;
     let off = (nearest(numerator, denominator) - x).abs();
     (off <= WITHIN_ULP * ulp(x)).then_some((numerator, denominator))
+}
+
+/// The product of two numbers as they are meant, rounded once: 3 · 0.1 is 0.3.
+#[must_use]
+pub fn product(x: f64, y: f64) -> f64 {
+    let exact = || {
+        let [(a, b), (c, d)] = [meant(x)?, meant(y)?];
+        let exact = Ratio::new(a.checked_mul(c)?, b.checked_mul(d)?);
+        Some(nearest(*exact.numer(), *exact.denom()))
+    };
+    exact().unwrap_or(x * y)
+}
+
+/// The sum of two numbers as they are meant, rounded once: 0.1 + 0.2 is 0.3.
+pub(crate) fn sum(x: f64, y: f64) -> f64 {
+    let exact = || {
+        let [(a, b), (c, d)] = [meant(x)?, meant(y)?];
+        let below = b.max(d); // Powers of ten: the larger is a multiple of the other.
+        let above = a.checked_mul(below / b)?.checked_add(c.checked_mul(below / d)?)?;
+        Some(nearest(above, below))
+    };
+    exact().unwrap_or(x + y)
+}
+
+/// Midway between two numbers as they are meant: of 0.1 and 0.2 it is 0.15.
+pub(crate) fn midpoint(x: f64, y: f64) -> f64 {
+    product(0.5, sum(x, y))
 }
 
 /// Decimal text as a fraction: numerator and denominator, a power of ten; None if it has more digits
@@ -158,6 +185,26 @@ mod tests {
         for none in [1.0 / 3.0, 2.0_f64.sqrt(), 70.243_902_439_024_4, beyond, 1e30, 1e-30] {
             assert_eq!(meant(none), None, "{none}");
         }
+    }
+
+    #[test]
+    fn products_and_sums_are_those_of_the_decimals() {
+        let typed =
+            |number: u32, power: i32| -> f64 { format!("{number}e{power}").parse().unwrap() };
+        for hundredths in 1..2000 {
+            let x = typed(hundredths, -2);
+            for count in 0..=10 {
+                let [whole, part] = [typed(count, 0), typed(count, -3)];
+                assert_eq!(product(whole, x), typed(hundredths * count, -2), "{count} · {x}");
+                assert_eq!(product(-x, part), -typed(hundredths * count, -5), "{x} · {part}");
+                assert_eq!(sum(x, -part), typed(10 * hundredths - count, -3), "{x} - {part}");
+            }
+        }
+        assert_eq!(midpoint(0.1, 0.2), 0.15);
+        let (third, large) = (1.0 / 3.0, 1e25);
+        assert_eq!((product(3.0, third), sum(third, 0.1)), (3.0 * third, third + 0.1));
+        assert_eq!((product(large, large), sum(large, 1e-12)), (large * large, large));
+        assert!(product(2.0, f64::INFINITY).is_infinite() && sum(f64::NAN, 1.0).is_nan());
     }
 
     /// A number has one meaning as text and as a double.
