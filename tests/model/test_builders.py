@@ -109,12 +109,15 @@ def test_places_are_the_decimals_that_a_person_would_write() -> None:
         spacing = float(gap) if even else [float(each) for each in distances]
         at = [sum(distances[:k], Decimal(0)) for k in range(throws)]
         along: dict[str, Any] = {"throws_deg": [0] * throws, "spacing": spacing}
-        vee = {"bank_angle_deg": 60, "numbering": "by-bank", "bank_stagger": float(stagger)}
+        along_vee = {**along, "bank_angle_deg": 60, "numbering": "by-bank"}
         banks = [60, 75, 105, 130]
-        rows = {"rows": throws, "spacing": spacing, "firing_order": ""}
+        rows: dict[str, Any] = {"rows": throws, "spacing": spacing, "firing_order": ""}
         for engine, z in [
             (cp.Engine.inline(PARTS, **along), at),
-            (cp.Engine.vee(PARTS, **along, **vee), [*(a + stagger for a in at), *at]),
+            (
+                cp.Engine.vee(PARTS, **along_vee, bank_stagger=float(stagger)),
+                [*(a + stagger for a in at), *at],
+            ),
             (
                 cp.Engine.from_banks(PARTS, banks, **along, bank_stagger=float(stagger)),
                 [a + k * stagger for k in range(4) for a in at],
