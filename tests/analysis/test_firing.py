@@ -588,7 +588,7 @@ def test_a_crank_made_for_an_order_fires_in_it(
     }
     if 0 < bank_angle < 180:
         for k, split in enumerate(splits):
-            left, right = (pins[90 + sign * bank_angle / 2, k * 0.1] for sign in (1, -1))
+            left, right = (pins[90 + sign * bank_angle / 2, k / 10] for sign in (1, -1))
             assert (left - right - split) % 360 == 0
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
@@ -94,6 +96,38 @@ def test_random_vees_with_spacings_are_lists_with_these_places() -> None:
             one, other = (each.balance(3000, orders=[order])[order] for each in (engine, lists))
             np.testing.assert_allclose(one.force.peak, other.force.peak, rtol=1e-9, atol=1e-9)
             np.testing.assert_allclose(one.moment.peak, other.moment.peak, rtol=1e-9, atol=1e-9)
+
+
+def test_places_are_the_decimals_that_a_person_would_write() -> None:
+    rng = np.random.default_rng(36)
+    for _ in range(200):
+        throws, digits = int(rng.integers(2, 7)), int(rng.integers(1, 4))
+        gaps = [Decimal(int(each)).scaleb(-digits) for each in rng.integers(1, 10**digits, throws)]
+        gap, stagger = gaps[0], Decimal(int(rng.integers(-9, 10))).scaleb(-3)
+        even = rng.random() < 0.5
+        distances = [gap] * (throws - 1) if even else gaps[1:]
+        spacing = float(gap) if even else [float(each) for each in distances]
+        at = [sum(distances[:k], Decimal(0)) for k in range(throws)]
+        along: dict[str, Any] = {"throws_deg": [0] * throws, "spacing": spacing}
+        along_vee = {**along, "bank_angle_deg": 60, "numbering": "by-bank"}
+        banks = [60, 75, 105, 130]
+        rows: dict[str, Any] = {"rows": throws, "spacing": spacing, "firing_order": ""}
+        for engine, z in [
+            (cp.Engine.inline(PARTS, **along), at),
+            (
+                cp.Engine.vee(PARTS, **along_vee, bank_stagger=float(stagger)),
+                [*(a + stagger for a in at), *at],
+            ),
+            (
+                cp.Engine.from_banks(PARTS, banks, **along, bank_stagger=float(stagger)),
+                [a + k * stagger for k in range(4) for a in at],
+            ),
+            (cp.Engine.radial(PARTS, 3 * throws, **rows), sorted(at * 3)),
+        ]:
+            assert sorted(engine.z.tolist()) == sorted(map(float, z))
+    for name in cp.presets():
+        written = re.findall(r"\bz = (\S+)", cp.Engine.preset(name, spacing=0.098).to_toml())
+        assert max(map(len, written)) <= len("-1.234"), (name, written)
 
 
 # --- odd vees, radials, fans ----------------------------------------------------------------------

@@ -87,6 +87,20 @@ def test_a_v12_in_a_column_is_not_crowded() -> None:
     assert "not all named" in axes[0, 0].get_figure(root=True).get_suptitle()
 
 
+def test_rounding_does_not_choose_the_names() -> None:
+    """Of arrows that are equally long the first are named, however their lengths are rounded."""
+    names = []
+    with plt.rc_context({"figure.figsize": (3.5, 2.625), "font.size": 8}):
+        for changed in ([], [0, 2, 4, 6], [1, 3, 5, 7], [4, 5], [2, 3]):
+            engine = V8.replace(
+                z=[np.nextafter(z, 1) if k in changed else z for k, z in enumerate(V8.z)]
+            )
+            axes = engine.balance(5000).plot(kind="phasors", quantity="moment")
+            assert "not all named" in axes[0, 0].get_figure(root=True).get_suptitle()
+            names.append([texts(ax) for ax in axes.flat])
+    assert names[1:] == names[:-1]
+
+
 def test_arrows_are_named_by_cylinder() -> None:
     (forward,), (backward,) = V8.balance(6000).plot(kind="phasors", orders=[2])
     for ax in (forward, backward):

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._support import inputs, labels, tables
 from crankpin._support.record import AbsentItemError
 from crankpin.model.cylinder import Cylinder
@@ -172,7 +173,8 @@ class Layout(NamedTuple):
                 part.replace(pin_offset=part.pin_offset + more)
                 for part, more in zip(parts, offsets, strict=True)
             ]
-            return Engine.from_lists(each, z=[spacing * place for place in places], **arguments)
+            z = [_core.product(spacing, place) for place in places]
+            return Engine.from_lists(each, z=z, **arguments)
         if self.builder != "from_lists":
             arguments["spacing"] = spacing
         engine: Engine = getattr(Engine, self.builder)(cylinder, **arguments)

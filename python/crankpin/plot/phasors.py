@@ -61,6 +61,8 @@ MOST_NAMES = 2.0
 """Sides of a panel that all names may take one behind the other."""
 NOTHING = 1e-9
 """Phasors and vectors below this part of the longest are not drawn."""
+DIGITS = 9
+"""Decimals to which vectors of one direction agree, and arrows of one length over the longest."""
 
 
 def phasors(
@@ -172,8 +174,9 @@ def _polygon(
         arrow(ax, 0j, total, 0j, color=muted(ax, 0.5), linewidth=SUM, zorder=0.9)
     ax.plot([0.0], [0.0], marker="o", markersize=4.0, color=foreground(ax), zorder=4)
     if not whole:
-        by_length = sorted(range(len(drawn)), key=lambda n: -lengths[drawn[n]])
-        names = [names[n] for n in by_length]
+        # Of arrows of one length the first; rounding does not choose.
+        sizes = np.round(lengths[drawn] / longest, DIGITS)
+        names = [names[n] for n in np.argsort(-sizes, kind="stable")]
     return lane * max(lanes), names, whole
 
 
@@ -297,10 +300,6 @@ def _axis_label(kind: str, axis: int) -> str:
 
 # --- star diagrams --------------------------------------------------------------------------------
 
-DIRECTIONS = 9
-"""Decimals to which vectors of one direction agree."""
-
-
 NUMBERED = 1.4
 """Limit of a panel's axes, in radii of its star: numbers of cylinders stand within."""
 MOST_STARS = 12
@@ -349,7 +348,7 @@ def _distinct(result: StarDiagram) -> list[list[Order]]:
     """Return the orders that have the same vectors, as even firing makes them every few orders."""
     alike: dict[bytes, list[Order]] = {}
     for order, vectors in zip(result.orders, result.vectors, strict=True):
-        alike.setdefault((np.round(vectors, DIRECTIONS) + 0.0).tobytes(), []).append(order)
+        alike.setdefault((np.round(vectors, DIGITS) + 0.0).tobytes(), []).append(order)
     return list(alike.values())
 
 
@@ -367,9 +366,7 @@ def _vectors(ax: Axes, result: StarDiagram, order: Order, style: dict[str, Any])
     rays: dict[complex, list[int]] = {}
     for cylinder, vector in enumerate(vectors.tolist(), start=1):
         if abs(vector) > NOTHING * longest:
-            rays.setdefault(complex(np.round(vector / abs(vector), DIRECTIONS)), []).append(
-                cylinder
-            )
+            rays.setdefault(complex(np.round(vector / abs(vector), DIGITS)), []).append(cylinder)
     for numbers in rays.values():
         # Of vectors of one direction the longest covers the others, whose tips are marked.
         tips = [complex(vectors[cylinder - 1]) / longest for cylinder in numbers]

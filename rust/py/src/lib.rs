@@ -77,7 +77,8 @@ mod _core {
         sweep::Sweep,
         tolerances::{Tolerances, orders_of_samples, peaks_of_sums},
         typed::{
-            read_amplitudes, read_numbers, unit_factor, unit_symbol, unit_symbols, unit_terms,
+            product, read_amplitudes, read_numbers, unit_factor, unit_symbol, unit_symbols,
+            unit_terms,
         },
         vanishing::{star, vanishing},
         warnings::{

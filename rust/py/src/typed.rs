@@ -1,7 +1,7 @@
 //! Numbers and units as people type them.
 
 use crankpin_core::engine::Amplitudes;
-use crankpin_core::numbers::decimal::Exact;
+use crankpin_core::numbers::decimal::{self, Exact};
 use crankpin_core::numbers::typed::{Field, Form};
 use crankpin_core::numbers::units::{self, Dimension};
 use crankpin_macros::guarded;
@@ -42,6 +42,13 @@ pub fn read_amplitudes(
 ) -> PyResult<Vec<Vec<f64>>> {
     let field = Field { argument, unit, plain, what: "an amplitude", infinite: false };
     Ok(Amplitudes::typed(text, &field).or_raise()?.into())
+}
+
+/// The product of two numbers as they are meant, rounded once: 3 · 0.1 is 0.3.
+#[guarded]
+#[pyfunction]
+pub fn product(x: f64, y: f64) -> f64 {
+    decimal::product(x, y)
 }
 
 type Symbols = Vec<(&'static str, usize, Parts)>;

@@ -388,8 +388,13 @@ def test_the_result_is_a_table() -> None:
     assert again == found
     assert hash(again) == hash(found)
     assert again[1].engine == found[1].engine
-    np.testing.assert_array_equal(
-        again.over_bank_angle(np.array([60.0, 90.0]), 2)[:, 1], [each.value for each in found]
+    # A sweep over bank angles turns the sum of each bank, designs sum their cylinders: either has
+    # some eight roundings of eight moments, which make 8 in phase.
+    np.testing.assert_allclose(
+        again.over_bank_angle(np.array([60.0, 90.0]), 2)[:, 1],
+        [each.value for each in found],
+        rtol=0,
+        atol=8 * np.finfo(float).eps * (8 * UNIT * SPACING),
     )
 
 

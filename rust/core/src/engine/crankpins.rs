@@ -2,6 +2,7 @@
 
 use super::{Crank, CrankIndex, Engine, Unbalance};
 use crate::numbers::angle::Angle;
+use crate::numbers::decimal;
 use crate::numbers::error::{Error, Result, shorten};
 use crate::numbers::index::{List, ListIndex};
 
@@ -50,7 +51,7 @@ impl Bay {
         let [front, rear] = self.bearings;
         let places: Vec<f64> =
             [front].into_iter().chain(self.throws.iter().copied()).chain([rear]).collect();
-        places.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])).collect()
+        places.windows(2).map(|pair| decimal::midpoint(pair[0], pair[1])).collect()
     }
 
     /// Place midway between the first throw and the last, m.
@@ -133,13 +134,14 @@ impl Engine {
         let [Some(&first), Some(&last)] = [places.first(), places.last()] else {
             return Vec::new();
         };
-        let between = places.windows(2).map(|pair| f64::midpoint(pair[0], pair[1]));
+        let between = places.windows(2).map(|pair| decimal::midpoint(pair[0], pair[1]));
         let between: Vec<f64> = between.collect();
         let (Some(front), Some(rear)) = (between.first(), between.last()) else {
             let radius = self.largest_crank_radius();
-            return vec![first - radius, first + radius];
+            return [-radius, radius].map(|beside| decimal::sum(first, beside)).to_vec();
         };
-        [&[2.0 * first - front][..], &between, &[2.0 * last - rear]].concat()
+        let beyond = |throw: f64, next: f64| decimal::sum(decimal::product(2.0, throw), -next);
+        [&[beyond(first, *front)][..], &between, &[beyond(last, *rear)]].concat()
     }
 
     /// The bays of all cranks that have throws, crank by crank from front to flywheel.
@@ -228,5 +230,5 @@ fn grouped(cylinders: &[usize], is_same: impl Fn(usize, usize) -> bool) -> Vec<V
 /// Midway between the first and the last place.
 fn middle(places: impl Iterator<Item = f64> + Clone) -> f64 {
     let (low, high) = (places.clone().reduce(f64::min), places.reduce(f64::max));
-    f64::midpoint(low.unwrap_or_default(), high.unwrap_or_default())
+    decimal::midpoint(low.unwrap_or_default(), high.unwrap_or_default())
 }

@@ -4,6 +4,7 @@ pub use super::firing_order::FiringOrder;
 use super::{Engine, Station, bank_angle_in_range, check_each_cylinder, check_number};
 use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::angle::{Angle, MOST_ROUNDING};
+use crate::numbers::decimal;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 pub use crate::pressure::Strokes;
@@ -41,7 +42,9 @@ impl Spacing {
         let distances = match self {
             Self::Even(distance) => {
                 limits::distance("spacing", *distance)?;
-                return Ok((0..throws).map(|throw| throw as f64 * distance).collect());
+                return Ok((0..throws)
+                    .map(|throw| decimal::product(throw as f64, *distance))
+                    .collect());
             }
             Self::Each(distances) => distances,
         };
@@ -53,7 +56,7 @@ impl Spacing {
         let gaps = throws.saturating_sub(1);
         limits::same_length("spacing", distances.len(), "the crank", gaps, "gap between throws")?;
         let place = |at: &mut f64, distance: &f64| {
-            *at += distance;
+            *at = decimal::sum(*at, *distance);
             Some(*at)
         };
         Ok([0.0].into_iter().chain(distances.iter().scan(0.0, place)).collect())
@@ -180,7 +183,7 @@ impl Vee {
                 Side::Right => (upright - half, 0.0),
                 Side::Left => (upright + half, self.bank_stagger),
             };
-            Seat { throw, side, bank, z: places[throw] + stagger }
+            Seat { throw, side, bank, z: decimal::sum(places[throw], stagger) }
         };
         Ok((0..cylinders).map(seat).collect())
     }
@@ -210,7 +213,7 @@ impl Fan {
         let (mut stations, mut keys) = (Vec::new(), Vec::new());
         for (key, &bank) in self.banks.iter().enumerate() {
             for (&throw, place) in throws.iter().zip(&places) {
-                let z = place + self.bank_stagger * key as f64;
+                let z = decimal::sum(*place, decimal::product(key as f64, self.bank_stagger));
                 let rotating_mass = masses.next().unwrap_or_default();
                 stations.push(Station { cylinder, tdc: bank - throw, bank, z, rotating_mass });
                 keys.push(key);

@@ -7,12 +7,16 @@
 //! digits too, up to `MOST_DECIMALS` behind the point, unless it is written as doubles are, with an
 //! exponent.
 
-use crate::numbers::rational::nearest;
+use crate::numbers::rational::{Ratio, nearest};
 
 /// Every double keeps 15 digits; three of them leave room for the rounding of products and sums.
 const MOST_DIGITS: usize = 12;
 /// Most digits behind the point of longer text: as many as doubles from 64 to 1000 print.
 const MOST_DECIMALS: usize = 14;
+/// The least whole number with more than `MOST_DIGITS`.
+const MOST_WHOLE: f64 = 1e12;
+/// Places behind the point, and 1, that are tried before text is written.
+const SHORT_PLACES: usize = 7;
 /// Most digits before or behind the point.
 const MOST_PLACES: u32 = 18;
 /// Units in its last place within which a double is right.
@@ -20,9 +24,63 @@ pub const WITHIN_ULP: f64 = 4.0;
 
 /// The decimal that a double stands for, if there is one: numerator and denominator.
 pub(crate) fn meant(x: f64) -> Option<(i128, i128)> {
+    // Most typed numbers have few places, and digits take longer to write and read.
+    short(x).or_else(|| by_text(x))
+}
+
+/// The decimal that a double stands for, if it has few places behind the point.
+fn short(x: f64) -> Option<(i128, i128)> {
+    let mut power = 1.0;
+    for _ in 0..SHORT_PLACES {
+        let whole = (x * power).round();
+        if whole.abs() >= MOST_WHOLE {
+            return None;
+        }
+        // Whole numbers and powers of ten are exact: the quotient is rounded once.
+        if (whole != 0.0 || x == 0.0) && (whole / power - x).abs() <= WITHIN_ULP * ulp(x) {
+            return Some((whole as i128, power as i128));
+        }
+        power *= 10.0;
+    }
+    None
+}
+
+/// The same by the digits of the double.
+fn by_text(x: f64) -> Option<(i128, i128)> {
     let (numerator, denominator) = parse(&format!("{x:.*e}", MOST_DIGITS - 1))?;
     let off = (nearest(numerator, denominator) - x).abs();
     (off <= WITHIN_ULP * ulp(x)).then_some((numerator, denominator))
+}
+
+/// The product of two numbers as they are meant, rounded once: 3 · 0.1 is 0.3.
+#[must_use]
+pub fn product(x: f64, y: f64) -> f64 {
+    let exact = || {
+        let [(a, b), (c, d)] = [meant(x)?, meant(y)?];
+        let (above, below) = (a.checked_mul(c)?, b.checked_mul(d)?);
+        if below < 1 << 72 {
+            return Some(nearest(above, below));
+        }
+        let exact = Ratio::new(above, below);
+        Some(nearest(*exact.numer(), *exact.denom()))
+    };
+    exact().unwrap_or(x * y)
+}
+
+/// The sum of two numbers as they are meant, rounded once: 0.1 + 0.2 is 0.3.
+pub(crate) fn sum(x: f64, y: f64) -> f64 {
+    let exact = || {
+        let [(a, b), (c, d)] = [meant(x)?, meant(y)?];
+        let below = b.max(d); // Powers of ten: the larger is a multiple of the other.
+        let above = a.checked_mul(below / b)?.checked_add(c.checked_mul(below / d)?)?;
+        Some(nearest(above, below))
+    };
+    exact().unwrap_or(x + y)
+}
+
+/// Midway between two numbers as they are meant: of 0.1 and 0.2 it is 0.15.
+pub(crate) fn midpoint(x: f64, y: f64) -> f64 {
+    product(0.5, sum(x, y))
 }
 
 /// Decimal text as a fraction: numerator and denominator, a power of ten; None if it has more digits
@@ -157,6 +215,49 @@ mod tests {
         let beyond = (0..5).fold(0.3_f64, |x, _| x.next_up());
         for none in [1.0 / 3.0, 2.0_f64.sqrt(), 70.243_902_439_024_4, beyond, 1e30, 1e-30] {
             assert_eq!(meant(none), None, "{none}");
+        }
+    }
+
+    #[test]
+    fn products_and_sums_are_those_of_the_decimals() {
+        let typed =
+            |number: u32, power: i32| -> f64 { format!("{number}e{power}").parse().unwrap() };
+        for hundredths in 1..2000 {
+            let x = typed(hundredths, -2);
+            for count in 0..=10 {
+                let [whole, part] = [typed(count, 0), typed(count, -3)];
+                assert_eq!(product(whole, x), typed(hundredths * count, -2), "{count} · {x}");
+                assert_eq!(product(-x, part), -typed(hundredths * count, -5), "{x} · {part}");
+                assert_eq!(sum(x, -part), typed(10 * hundredths - count, -3), "{x} - {part}");
+            }
+        }
+        assert_eq!(midpoint(0.1, 0.2), 0.15);
+        let (third, large) = (1.0 / 3.0, 1e25);
+        assert_eq!((product(3.0, third), sum(third, 0.1)), (3.0 * third, third + 0.1));
+        assert_eq!((product(large, large), sum(large, 1e-12)), (large * large, large));
+        assert!(product(2.0, f64::INFINITY).is_infinite() && sum(f64::NAN, 1.0).is_nan());
+    }
+
+    #[test]
+    fn numbers_of_few_places_mean_the_same_without_text() {
+        let mut tried = 0;
+        for digits in 0..12 {
+            for lead in 1..200_u64 {
+                let number = (lead * 6_700_417 + 1) % 10_u64.pow(digits + 1);
+                for places in 0..12 {
+                    let mut x: f64 = format!("-{number}e-{places}").parse().unwrap();
+                    x = (0..lead % 7).fold(x, |x, _| x.next_down());
+                    for x in [x, -x] {
+                        tried += i32::from(short(x).is_some());
+                        assert!(short(x).is_none_or(|it| Some(it) == by_text(x)), "{x}");
+                    }
+                }
+            }
+        }
+        assert!(tried > 10_000, "{tried}");
+        assert_eq!(short(-0.0), by_text(-0.0));
+        for x in [5e-324, 1e-30, 1.0 / 3.0, 1e12, 1e300, f64::INFINITY, f64::NAN] {
+            assert!(short(x).is_none(), "{x}");
         }
     }
 
