@@ -270,7 +270,7 @@ def million_broadcast(sums: NDArray[Any]) -> NDArray[Any]:
 
 
 def million_sweep() -> cp.types.Sweep:
-    """Return the sweep, nothing of it worked out."""
+    """Return the sweep, nothing of it computed."""
     return cp.sweep(
         V6,
         rpm=MANY_RPM,

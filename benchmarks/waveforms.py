@@ -162,7 +162,7 @@ def set_up() -> list[Row]:
     small = swept(one, 1e-12).waveform(one.theta_deg)
     runs: dict[str, Callable[[], object]] = {
         "sweep of 1000 engines, orders chosen": lambda: swept(many, 1e-12),
-        "Sweep.waveform, nothing worked out yet": lambda: sweep.waveform(many.theta_deg),
+        "Sweep.waveform, nothing computed yet": lambda: sweep.waveform(many.theta_deg),
         "force of one engine at one angle": lambda: small.values("force"),
         "Engine.waveform at one angle": lambda: V8.waveform(
             6000.0, theta_deg=one.theta_deg, torque=False

@@ -58,8 +58,8 @@ export const LOAD_FIELDS = {
   force: { label: "Force by order", unit: "N", amplitudes: true, optional: true, said: BY_ORDER },
   torque: { label: "Torque by order", unit: "N·m", amplitudes: true, optional: true, said: BY_ORDER },
   rpm: {
-    label: "Grows from", unit: "rpm", speeds: true, optional: true,
-    said: "with the square of the speed from this one on; 1000/2000 with sizes 8/9 is a table; empty: the same at any speed",
+    label: "Reference speed", unit: "rpm", speeds: true, optional: true,
+    said: "at which the load has these sizes: it scales with the square of the speed; 1000/2000 with sizes 8/9 is a table; empty: the same at any speed",
   },
   ratio: { label: "Speed of its shaft", ratio: true, optional: true, said: "over the crank’s, in halves: 1/2 of a camshaft; empty: on the crank’s" },
   z: { label: "Place along the crank", unit: "m", optional: true, said: "from the front to the flywheel" },

@@ -131,4 +131,4 @@ def test_bore_and_crankcase_count_in_commands_or_are_rejected(
     assert len(set(shown)) == 3
     for options in (["--crankcase", "9e4"], ["--bore", "90mm"]):
         assert main(["bearings", "i4", "--cycle", "none", *options]) != 0
-        assert f"{options[0]} = {options[1]}: acts only beside" in capsys.readouterr().err
+        assert f"{options[0]} = {options[1]}: needs" in capsys.readouterr().err

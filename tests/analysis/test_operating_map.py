@@ -51,7 +51,7 @@ def test_an_engine_has_its_own_pressure_or_none() -> None:
 
 
 def test_wrong_arguments_are_named() -> None:
-    with pytest.raises(cp.InputError, match="load = 1: acts only beside cycle"):
+    with pytest.raises(cp.InputError, match="load = 1: needs cycle"):
         cp.operating_map(I4, 3000, load=1)
     with pytest.raises(cp.InputError, match="load = None: give loads from 0 to 1"):
         cp.operating_map(I4, 3000, cycle=MAP)

@@ -264,7 +264,7 @@ def test_an_intake_in_bar_is_warned_of() -> None:
     ("options", "message"),
     [
         ({"tdc_deg": 1, "motored": cp.Cycle.example()}, "tdc_deg = 1: motored gives it"),
-        ({"loss_angle_deg": 1}, "loss_angle_deg = 1: acts only beside motored"),
+        ({"loss_angle_deg": 1}, "loss_angle_deg = 1: needs motored"),
         ({"exponent": 1.3}, "compression_ratio = None: a polytropic compression needs it"),
         (
             {"exponent": 1.3, "compression_ratio": 0.5},
@@ -274,7 +274,7 @@ def test_an_intake_in_bar_is_warned_of() -> None:
         ({"exponent": "best", "compression_ratio": 9}, "exponent = 'best': give"),
         ({"exponent": 1.3, "intake_pressure": 1e5}, r"exponent = 1\.3: intake_pressure gives"),
         ({"intake_pressure": -1}, r"intake_pressure = -1\.0: give absolute pressure"),
-        ({"window_deg": (0, 9)}, r"window_deg = \(0, 9\): acts only beside"),
+        ({"window_deg": (0, 9)}, r"window_deg = \(0, 9\): needs"),
         ({"intake_pressure": 1e5, "window_deg": (9, 0)}, "window_deg = .*: give two angles"),
         ({"intake_pressure": 1e5, "window_deg": (0.1, 0.2)}, "window_deg has 0 points"),
         ({"lowpass_order": 1e4}, r"lowpass_order = 10000\.0: give an order above 0 and below 360"),

@@ -784,7 +784,7 @@ def test_errors_name_what_a_shell_user_typed(capsys: CAPTURE) -> None:
     assert refused(capsys, "mounts-fit", "i4", "--x", "1mm").startswith("FILE = 'i4': ")
     line = ["new", "firing-order", "--firing-order", "1-3-4-2"]
     said = refused(capsys, *line, "--odd-bank", "left")
-    assert said.startswith("--odd-bank = 'left': acts only beside --bank-angle; give --bank-angle")
+    assert said.startswith("--odd-bank = 'left': needs --bank-angle; give --bank-angle")
     assert refused(capsys, *line, "--shared-pins").endswith("needs --bank-angle")
 
 

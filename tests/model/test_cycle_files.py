@@ -201,7 +201,7 @@ def test_the_speed_of_a_short_record_over_time_is_asked_for(tmp_path: Path) -> N
     np.savetxt(path, many, delimiter=",", header="t [s],abs Pa")
     with pytest.warns(UserWarning, match="recorded_rpm = 3000: compressions .* 1500 rpm"):
         cp.Cycle.load(path, recorded_rpm=3000)
-    with pytest.raises(cp.InputError, match="recorded_rpm = 3000: acts only beside a record"):
+    with pytest.raises(cp.InputError, match="recorded_rpm = 3000: needs a record"):
         cp.Cycle.load(written(tmp_path, "angle,abs Pa"), recorded_rpm=3000)
 
 

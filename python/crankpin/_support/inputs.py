@@ -661,7 +661,7 @@ def only_with(partner: str, **values: object) -> None:
     """Reject arguments other than None without the argument that they need."""
     for name, value in values.items():
         if value is not None:
-            hint = f"acts only beside {partner}; give {partner}=…, or leave it out"
+            hint = f"needs {partner}; give {partner}=…, or leave it out"
             raise rejected(name, value, hint)
 
 

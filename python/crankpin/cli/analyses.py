@@ -124,7 +124,7 @@ def _closed_form(given: Given) -> str:
 
 @command(
     "exercise",
-    "a sheet for a pupil, with figures of its own, and its solution",
+    "an exercise sheet with figures of its own, and its solution",
     option("topic", metavar="TOPIC", help=f"{', '.join(TOPICS)}"),
     "--seed",
     option("--solution", action="store_true", help="print the solution too"),

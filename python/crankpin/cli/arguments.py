@@ -205,7 +205,7 @@ OPTIONS: dict[str, dict[str, Any]] = {
         "metavar": "FILE",
         "help": "write the engine with what was found, an engine file (.toml, .json)",
     },
-    "--force": {"action": "store_true", "help": "replace an engine file that is there"},
+    "--force": {"action": "store_true", "help": "replace an existing engine file"},
 }
 """Options of several commands."""
 

@@ -143,7 +143,7 @@ def fired(given: Given, name: str) -> tuple[Engine, str]:
     if typed == WITHOUT:
         for flag, figure in (("--bore", bore), ("--crankcase", crankcase)):
             if figure is not None:
-                hint = "acts only beside gas pressure; give --cycle"
+                hint = "needs gas pressure; give --cycle"
                 raise rejected(flag, given.text(flag), hint)
         return engine.with_cycle(None), ""
     if not named and not Path(typed).suffix:

@@ -155,7 +155,7 @@ def _at_rest(given: Given, powertrain: Powertrain) -> Shown:
     option(
         "--by",
         default="decoupling",
-        help="what is minimised: decoupling, purity (what lacks of it), mount_force[N] or "
+        help="objective to minimise: decoupling, purity (its complement to 1), mount_force[N] or "
         "body_force[N] of an order N "
         "(default: %(default)s)",
     ),

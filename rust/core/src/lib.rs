@@ -1,4 +1,4 @@
-//! How a reciprocating engine shakes, and which engine does not.
+//! Shaking forces, rocking moments and torque of reciprocating engines, and searches for engines without them.
 //!
 //! A file is one idea, and a module imports only those above it:
 //! - [`numbers`]: errors, limits, cancellation, threads, memory; angles, orders, fractions, sums of

@@ -1,4 +1,4 @@
-//! Gas pressure in engines: what a second crank makes of it, phases of firing in files, and refusals.
+//! Gas pressure in engines: with a second crank, phases of firing in files, and errors.
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! What an engine is drawn from, and a picture of it turning computed of.
+//! Data for drawings of an engine, and for pictures of it turning.
 
 use crankpin_core::Complex64;
 use crankpin_core::drawing::{self, Drawing};

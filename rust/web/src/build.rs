@@ -1,4 +1,4 @@
-//! Engines by their kind, from the few figures by which people know them.
+//! Common layouts of engines from a few figures, by their kind.
 
 use std::sync::Arc;
 

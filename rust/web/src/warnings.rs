@@ -1,4 +1,4 @@
-//! Figures of an engine that were hardly meant: in other units, or to the wrong side.
+//! Warnings of implausible figures: in other units, or to the wrong side.
 
 use crankpin_core::engine::warnings::{
     flywheel, near_miss, of_engine, of_gas, pin_split, piston_speed, radians,

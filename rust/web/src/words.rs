@@ -1,4 +1,4 @@
-//! What there is to say of an engine, in sentences.
+//! Sentences about an engine.
 
 use std::sync::Arc;
 

@@ -174,7 +174,7 @@ def test_a_crankcase_that_nothing_reads_is_refused() -> None:
         lambda: fired.replace(cycle=None, crankcase=9e4),
     ]
     for call in calls:
-        with pytest.raises(cp.InputError, match=r"crankcase = 90000.*acts only beside cycle"):
+        with pytest.raises(cp.InputError, match=r"crankcase = 90000.*needs cycle"):
             call()
     assert fired.with_cycle(CYCLE).crankcase == CRANKCASE
     assert fired.replace(crankcase=9e4).crankcase == 9e4

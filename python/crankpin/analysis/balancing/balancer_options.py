@@ -139,9 +139,9 @@ def balancer_options(
     objectives, limits = _objectives(by, target, one_unit=not is_relative)
     with_weights = inputs.flag("counterweights", counterweights)
     if is_relative and target is None:
-        raise inputs.rejected("relative", relative, "acts only beside target; give target=…")
+        raise inputs.rejected("relative", relative, "needs target; give target=…")
     if not (with_weights or (isinstance(planes, str) and planes == "ends")):
-        raise inputs.rejected("planes", planes, "acts only beside counterweights=True")
+        raise inputs.rejected("planes", planes, "needs counterweights=True")
     speed, most = inputs.number("rpm", rpm), inputs.whole("most_shafts", most_shafts)
     if most < 0:
         raise inputs.rejected("most_shafts", most, "give 0 or more")

@@ -258,14 +258,14 @@ class Search:
         results = [optima.Optimum(each.base, isolated=True, values=()) for each in fixed]
         with progress_bar.shown(progress, "designs") as shown:
 
-            def told(done: int, total: int) -> None:
+            def report(done: int, total: int) -> None:
                 if shown is not None:
                     shown(done, total)
 
             if single:
-                results += optima.of_one_angle(single, self._merit, symmetries, count, told)
+                results += optima.of_one_angle(single, self._merit, symmetries, count, report)
             if several:
-                results += optima.of_several_angles(several, self._merit, symmetries, seed, told)
+                results += optima.of_several_angles(several, self._merit, symmetries, seed, report)
         return results
 
     def best(

@@ -171,7 +171,7 @@ class Cancellation(Tabled):
         return read_only(_ratio(self._size(left), self._size(target))[..., places])
 
     def _size(self, values: NDArray[np.complex128]) -> NDArray[np.float64]:
-        """Return what is minimised of phasors of the receivers side by side: (…, n_orders)."""
+        """Return the objective of phasors of the receivers side by side: (…, n_orders)."""
         if self.norm == "rms":
             return np.asarray(np.linalg.norm(values, axis=-1))
         ends = np.cumsum([1 if direction else 3 for *_, direction in self.receivers])

@@ -250,7 +250,7 @@ def match_parts(
             f"{parts_text} suffice for {several} of {count} cylinders; give 1 to {several}",
         )
     if by == "spread" and orders is not None:
-        raise inputs.rejected("orders", orders, 'acts only beside by="balance"; leave it out')
+        raise inputs.rejected("orders", orders, 'needs by="balance"; leave it out')
     listed = inputs.explicit_orders((1, 2) if orders is None else orders)
     start = inputs.whole("seed", seed, 0)
     shown = progress_bar.checked(progress)

@@ -1,4 +1,4 @@
-//! Bob weights: masses that a crankshaft is balanced against, and what order 1 keeps by balance factor.
+//! Bob weights: masses that a crankshaft is balanced against, and the residual of order 1 by balance factor.
 
 use super::TurningPart;
 use crate::Complex64;

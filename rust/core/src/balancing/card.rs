@@ -1,4 +1,4 @@
-//! What a balancing shop works from: the bob weight of each crankpin, and the correction of a crankshaft.
+//! Card of a balancing shop: the bob weight of each crankpin, and the correction of a crankshaft.
 
 use super::bob_weight::bob_weight;
 use super::counterweights::{Fit, FittedWeight, Plane, Target, external};

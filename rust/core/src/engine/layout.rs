@@ -1,4 +1,4 @@
-//! Engines from the few figures by which people know them: throws, bank angle, firing order.
+//! Common layouts of engines from a few figures: throws, bank angle, firing order.
 
 pub use super::firing_order::FiringOrder;
 use super::{Engine, Station, bank_angle_in_range, check_each_cylinder, check_number};

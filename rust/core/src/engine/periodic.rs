@@ -1,4 +1,4 @@
-//! Periodic loads that are given: what a valve train, a pump, a belt, a propeller or a machine makes.
+//! Periodic loads of a valve train, a pump, a belt, a propeller or a machine, by order or as samples.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! What rotates: shafts at a fixed ratio to the crankshaft, and the unbalances that they carry.
+//! Shafts at a fixed ratio to the crankshaft, and the unbalances that they carry.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! Warnings of figures that no engine has: wrong units, and pins split to the wrong side.
+//! Warnings of implausible figures of engines: wrong units, and pins split to the wrong side.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! A periodic load that is given order by order: a force along a direction, torques, or both.
+//! A periodic load of known amplitudes by order: a force along a direction, torques, or both.
 
 use std::any::Any;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! Where a load acts, and which way: the geometry of an engine, once.
+//! Places and directions of loads: the geometry of an engine, once.
 
 use crate::Complex64;
 use crate::engine::{Crank, Engine, Origin};

@@ -50,15 +50,16 @@ pub trait Mechanism: Debug + Send + Sync + Any {
 
     /// Motion of the piston at some positions.
     fn motions(&self, cranks: &Cranks, into: MotionColumns) {
-        into.fill(cranks, |crank| self.motion(crank));
+        into.fill_one_by_one(cranks, &|crank| self.motion(crank));
     }
 
     /// Velocity and acceleration of the rod's angle at some positions.
     fn swings(&self, cranks: &Cranks, into: [&mut [f64]; 2]) {
-        motion::fill(cranks, into, |crank| {
-            let Swing { velocity, acceleration } = self.swing(crank);
-            [velocity, acceleration]
-        });
+        let [velocities, accelerations] = into;
+        for i in 0..cranks.len() {
+            let Swing { velocity, acceleration } = self.swing(&cranks.at(i));
+            (velocities[i], accelerations[i]) = (velocity, acceleration);
+        }
     }
 
     /// How far above θ = 90° and −90° the motion is singular in the complex plane, radians.

@@ -195,41 +195,58 @@ impl<'a> MotionColumns<'a> {
         Self { velocity: Some(velocity), ..Self::of(acceleration) }
     }
 
-    /// Fills them one by one.
+    /// Fills them in one loop, since each takes a root and a quotient.
     #[inline(always)]
-    pub fn fill(self, cranks: &Cranks, motion: impl Fn(&CrankPosition) -> Motion) {
-        let Self { acceleration, velocity, jerk, lean } = self;
-        // In one loop, since each takes a root and a quotient.
-        match (velocity, jerk, lean) {
-            (None, None, None) => {
+    pub(crate) fn fill(self, cranks: &Cranks, motion: impl Fn(&CrankPosition) -> Motion) {
+        match (self, cranks.0) {
+            (Self { acceleration, velocity: None, jerk: None, lean: None }, _) => {
                 fill(cranks, [acceleration], |crank| [motion(crank).acceleration]);
             }
-            (Some(velocity), None, None) => fill(cranks, [velocity, acceleration], |crank| {
-                let Motion { velocity, acceleration, .. } = motion(crank);
-                [velocity, acceleration]
-            }),
-            (Some(velocity), Some(jerk), None) => {
-                fill(cranks, [velocity, acceleration, jerk], |crank| {
+            (Self { acceleration, velocity: Some(velocity), jerk: None, lean: None }, _) => {
+                fill(cranks, [velocity, acceleration], |crank| {
+                    let Motion { velocity, acceleration, .. } = motion(crank);
+                    [velocity, acceleration]
+                });
+            }
+            (
+                Self { acceleration, velocity: Some(velocity), jerk: Some(jerk), lean: None },
+                Positions::Turned(units, phase),
+            ) => {
+                fill_turned((units, phase), [velocity, acceleration, jerk], |crank| {
                     let Motion { velocity, acceleration, jerk, .. } = motion(crank);
                     [velocity, acceleration, jerk]
                 });
             }
-            (velocity, jerk, lean) => {
-                let [slope, secant] = lean.unwrap_or_default();
-                if slope.is_empty() {
-                    fill(cranks, [acceleration], |crank| [motion(crank).acceleration]);
-                } else {
-                    fill(cranks, [acceleration, slope, secant], |crank| {
-                        let Motion { acceleration, slope, secant, .. } = motion(crank);
-                        [acceleration, slope, secant]
-                    });
-                }
-                if let Some(velocity) = velocity {
-                    fill(cranks, [velocity], |crank| [motion(crank).velocity]);
-                }
-                if let Some(jerk) = jerk {
-                    fill(cranks, [jerk], |crank| [motion(crank).jerk]);
-                }
+            (
+                Self { acceleration, velocity: None, jerk: None, lean: Some([slope, secant]) },
+                Positions::Turned(units, phase),
+            ) => {
+                fill_turned((units, phase), [acceleration, slope, secant], |crank| {
+                    let Motion { acceleration, slope, secant, .. } = motion(crank);
+                    [acceleration, slope, secant]
+                });
+            }
+            (columns, _) => columns.fill_one_by_one(cranks, &motion),
+        }
+    }
+
+    /// Fills them one by one.
+    pub(crate) fn fill_one_by_one(
+        mut self,
+        cranks: &Cranks,
+        motion: &dyn Fn(&CrankPosition) -> Motion,
+    ) {
+        for i in 0..cranks.len() {
+            let motion = motion(&cranks.at(i));
+            self.acceleration[i] = motion.acceleration;
+            if let Some(velocity) = &mut self.velocity {
+                velocity[i] = motion.velocity;
+            }
+            if let Some(jerk) = &mut self.jerk {
+                jerk[i] = motion.jerk;
+            }
+            if let Some([slope, secant]) = &mut self.lean {
+                (slope[i], secant[i]) = (motion.slope, motion.secant);
             }
         }
     }
@@ -245,11 +262,7 @@ pub(crate) fn fill<const N: usize>(
     // Of one length, so that loops are free of checks.
     let count = cranks.len();
     match cranks.0 {
-        Positions::Turned(units, phase) => {
-            let [cos, sin] = units.map(|column| &column[..count]);
-            let at = |i: usize| CrankPosition::turned(cos[i], sin[i], phase);
-            fill_by(count, columns, at, values);
-        }
+        Positions::Turned(units, phase) => fill_turned((units, phase), columns, values),
         Positions::Kept(KeptCranks { sin, cos, to_above, to_below }) => {
             let [sin, cos, to_above, to_below] =
                 [sin, cos, to_above, to_below].map(|column| &column[..count]);
@@ -257,6 +270,17 @@ pub(crate) fn fill<const N: usize>(
             fill_by(count, columns, |i| kept.at(i), values);
         }
     }
+}
+
+#[inline(always)]
+fn fill_turned<const N: usize>(
+    (units, phase): ([&[f64]; 2], Complex64),
+    columns: [&mut [f64]; N],
+    values: impl Fn(&CrankPosition) -> [f64; N],
+) {
+    let count = units[0].len();
+    let [cos, sin] = units.map(|column| &column[..count]);
+    fill_by(count, columns, |i| CrankPosition::turned(cos[i], sin[i], phase), values);
 }
 
 #[inline(always)]

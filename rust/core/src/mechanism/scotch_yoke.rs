@@ -8,12 +8,11 @@ use ndarray::Array2;
 use super::exact::{ExactHarmonic, MotionKey, Rest};
 use super::harmonics::rod::TorqueHarmonics;
 use super::harmonics::table;
-use super::motion::{CrankPosition, Cranks, Motion, MotionColumns, Swing};
+use super::motion::{CrankPosition, Motion, Swing};
 use super::{Cylinder, HarmonicsOf, Mechanism, is_equal};
 use crate::Complex64;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
-use crate::numbers::simd::vectorised;
 
 /// A Scotch yoke.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,31 +33,19 @@ fn only(own: u32, value: Complex64, orders: &[u32]) -> Vec<Complex64> {
     orders.iter().map(|&n| if n == own { value } else { Complex64::ZERO }).collect()
 }
 
-#[inline(always)]
-fn motion(crank: &CrankPosition) -> Motion {
-    let CrankPosition { sin, cos, .. } = *crank;
-    let [position, velocity, acceleration, jerk] = [cos, -sin, -cos, sin];
-    Motion { position, velocity, acceleration, jerk, slope: 0.0, secant: 1.0 }
-}
-
 impl Mechanism for ScotchYoke {
     fn equals(&self, other: &dyn Mechanism) -> bool {
         is_equal(self, other)
     }
 
     fn motion(&self, crank: &CrankPosition) -> Motion {
-        motion(crank)
+        let CrankPosition { sin, cos, .. } = *crank;
+        let [position, velocity, acceleration, jerk] = [cos, -sin, -cos, sin];
+        Motion { position, velocity, acceleration, jerk, slope: 0.0, secant: 1.0 }
     }
 
     fn swing(&self, _: &CrankPosition) -> Swing {
         Swing { velocity: 0.0, acceleration: 0.0 }
-    }
-
-    fn motions(&self, cranks: &Cranks, into: MotionColumns) {
-        vectorised(
-            #[inline(always)]
-            || into.fill(cranks, motion),
-        );
     }
 
     fn singularities(&self) -> [f64; 2] {

@@ -1,4 +1,4 @@
-//! Natural modes: frequencies, shapes, and where their energy is.
+//! Natural modes: frequencies, shapes, and shares of energy.
 //!
 //! `K = AᵀA`, with a row of A for each axis of each mount: the singular values of `A·L⁻ᵀ`, with `L·Lᵀ` the mass
 //! matrix, are the angular frequencies. Eigenvalues of K would lose half of the digits of low ones.

@@ -1,4 +1,4 @@
-//! How far natural frequencies and the purity of modes go within tolerances.
+//! Ranges of natural frequencies and of the purity of modes within tolerances.
 //!
 //! K grows by a positive semidefinite matrix with each stiffness, and M with mass and inertia, so that by
 //! Courant and Fischer's theorem every frequency is monotone in each of them: its bounds are at the two ends,

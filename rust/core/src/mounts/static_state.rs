@@ -1,4 +1,4 @@
-//! At rest: sag and preload under gravity, wind-up under a mean torque, and what a thrust does.
+//! At rest: sag and preload under gravity, wind-up under a mean torque, and displacement by a thrust.
 
 use nalgebra::{SVector, Vector3, Vector6};
 

@@ -1,4 +1,4 @@
-//! What carries the mounts and gives way: a second rigid body on mounts of its own, or a measured
+//! Elastic supports of the mounts: a second rigid body on mounts of its own, or a measured
 //! receptance.
 //!
 //! With w the displacement of what carries the mounts, their force on it is F = Z(Bq − w). A body on mounts

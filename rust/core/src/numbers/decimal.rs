@@ -1,4 +1,4 @@
-//! What a typed number stands for.
+//! The decimal that a typed number stands for.
 //!
 //! 0.3 is typed, 0.299999999999999989 is what a double of it holds, and 3·0.1 is one unit in its last
 //! place off. There is one reading of both, for angles, masses and lengths: a number of up to

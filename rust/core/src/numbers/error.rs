@@ -1,4 +1,4 @@
-//! What can be wrong with an input: the argument, its value, and what would be right.
+//! Errors of inputs: the argument, its value, and a hint.
 
 use std::borrow::Cow;
 

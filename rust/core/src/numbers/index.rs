@@ -1,4 +1,4 @@
-//! Indices of which those into different lists are different types.
+//! Indices: those into different lists are different types.
 //!
 //! Cylinders are counted by plain numbers, which are their users'; so are orders in their lists. An index
 //! into another list looks up nothing but that list, and no plain number does.

@@ -1,4 +1,4 @@
-//! Results that are kept with what they are of.
+//! A cache of results in the object from which they follow.
 
 use std::any::Any;
 use std::fmt;

@@ -1,4 +1,4 @@
-//! Which figures are taken: wide enough for any engine in any unit by mistake, narrow enough that
+//! Ranges of accepted figures: wide enough for any engine in any unit by mistake, narrow enough that
 //! no sum or square of them overflows.
 
 use crate::numbers::error::{Error, Result};

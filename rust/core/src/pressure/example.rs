@@ -1,4 +1,4 @@
-//! Cycles to begin with: computed, of no engine in particular.
+//! Example cycles, computed for no engine in particular.
 
 use std::sync::{Arc, OnceLock};
 

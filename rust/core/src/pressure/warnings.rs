@@ -1,4 +1,4 @@
-//! Warnings of pressures that no engine has: other units, or angles counted from elsewhere.
+//! Warnings of implausible pressures: other units, or another origin of angles.
 
 use super::{Cycle, period_deg};
 use crate::numbers::error::Warning;

@@ -1,4 +1,4 @@
-//! What an engine is drawn from: the places and sizes of its parts, when it fires, and pressures.
+//! Data for drawings of an engine: the places and sizes of its parts, when it fires, and pressures.
 
 use std::sync::Arc;
 

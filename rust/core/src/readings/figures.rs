@@ -1,4 +1,4 @@
-//! What a picture of a turning engine is computed of: terms of each order over ω², summed over the parts
+//! Data for pictures of a turning engine: terms of each order over ω², summed over the parts
 //! that move together, and what the cylinders make one by one.
 
 use std::collections::BTreeSet;

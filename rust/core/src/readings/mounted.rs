@@ -1,4 +1,4 @@
-//! An engine on its mounts: motion, forces on what carries it, and power, order by order.
+//! An engine on its mounts: motion, forces on the support, and power, order by order.
 //!
 //! (K(nω) − (nω)²·M)·q = f, with f the engine's own wrench of order n about the CG: of inertia times ω², of
 //! gas as it is.

@@ -1,4 +1,4 @@
-//! What is read of an engine: force, moment or a torque, whole or the part of it that one name makes.
+//! Quantities of an engine: force, moment or a torque, whole or the part of one name.
 
 use crate::numbers::error::{Error, Result};
 use crate::source::{GAS, INERTIA};

@@ -1,4 +1,4 @@
-//! What each part of an engine adds to an order: forward, backward, roll and the bound of its rounding.
+//! Contributions of each part of an engine to an order: forward, backward, roll and the bound of its rounding.
 //!
 //! A balance is the sum of these: both superpose the one list of loads, this reading the loads of each
 //! part apart.

@@ -1,4 +1,4 @@
-//! What turns with a crank or shaft: the parts of force and moment that weights on it can remove.
+//! Parts of force and moment that turn with a crank or shaft: weights on it can remove them.
 
 use crate::Complex64;
 use crate::engine::{CrankIndex, Engine, Origin};

@@ -1,4 +1,4 @@
-//! Which of the pairs that have a bank angle is listed: the one with the smallest moments.
+//! The pair listed for a bank angle: the one with the smallest moments.
 //!
 //! At a bank angle α the counterweight's moment is |Z| sin α, the same for a class. Second-order moments
 //! follow from z = Σ s e^{2i·phase} of both banks. If the parts of a turn are odd in number, squaring

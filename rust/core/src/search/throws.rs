@@ -1,4 +1,4 @@
-//! Which throw sits where: the arrangements of one bank, up to turning the crank.
+//! Arrangements of the throws of one bank, up to turning the crank.
 
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};

@@ -1,4 +1,4 @@
-//! Which folded angles unfold to bank angles within a window.
+//! Folded angles that unfold to bank angles within a window.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! What acts at a place of an engine: amplitudes by order, and a bound of the rest.
+//! Sources of loads: amplitudes by order, and a bound of the rest.
 //!
 //! The loads of an engine are sources at places. Its own are the inertia of pistons and rods, unbalances,
 //! pressure and loads that are given by numbers; any other implements [`Source`] and joins them by

@@ -1,4 +1,4 @@
-//! How an engine shakes, as findings and in sentences: what is left, what cancels and why, what would help.
+//! How an engine shakes, as findings and in sentences: residual, cancelled orders with the reason, and hints.
 //!
 //! Imports run downwards: [`finding`] is data, `sums` has the findings on force and moment, `words`
 //! are small texts, `sentences` a sentence for each kind of finding.

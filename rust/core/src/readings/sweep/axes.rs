@@ -1,4 +1,4 @@
-//! What a sweep varies, and the checks of its values.
+//! Axes of a sweep, and the checks of their values.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! What remains of an engine's balance when its parts deviate from their figures, sample by sample.
+//! Residual forces and moments of an engine whose parts deviate from their figures, sample by sample.
 //!
 //! Imports run downwards: `amplitudes` → `terms` → here.
 
