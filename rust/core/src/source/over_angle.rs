@@ -116,7 +116,7 @@ impl Columns {
 }
 
 /// Positions of a crank of some speed and phase.
-type KeptCranks = (SpeedRatio, Complex64, Box<CrankColumns<BLOCK>>);
+type CranksOfPhase = (SpeedRatio, Complex64, Box<CrankColumns<BLOCK>>);
 
 /// A block of crank angles.
 pub struct AngleBlock<'a> {
@@ -124,7 +124,7 @@ pub struct AngleBlock<'a> {
     range: Range<usize>,
     main: Units,
     /// Positions of cranks by speed and phase, if they are kept.
-    kept: Option<RefCell<Vec<KeptCranks>>>,
+    kept: Option<RefCell<Vec<CranksOfPhase>>>,
     scratch: RefCell<[AngleColumn; 2]>,
 }
 
@@ -154,7 +154,7 @@ impl<'a> AngleBlock<'a> {
         work: impl FnOnce(&Cranks),
     ) {
         let Some(kept) = &self.kept else { return work(&self.units(ratio).cranks(phase)) };
-        let is_such = |(own, turned, _): &KeptCranks| (*own, *turned) == (ratio, phase);
+        let is_such = |(own, turned, _): &CranksOfPhase| (*own, *turned) == (ratio, phase);
         let mut kept = kept.borrow_mut();
         let place = kept.iter().position(is_such).unwrap_or_else(|| {
             let (units, mut cranks) = (self.units(ratio), CrankColumns::ZERO);
