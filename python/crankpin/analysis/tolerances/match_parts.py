@@ -222,7 +222,7 @@ def match_parts(
     >>> i4 = cp.Engine.preset("i4")
     >>> match = cp.match_parts(i4, [0.402, 0.398, 0.405, 0.401], orders=[1])
     >>> match.exact, match.assignment[0].pistons
-    (True, (1, 3, 2, 4))
+    (True, (4, 2, 3, 1))
     >>> bool(match.value <= match.as_given)
     True
     >>> float(match.engines[0].balance(rpm=6000)[1].force.peak)  # 402 + 401 - 405 - 398 g
