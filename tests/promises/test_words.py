@@ -159,7 +159,7 @@ def test_no_hint_has_a_word_of_the_list(pattern: str) -> None:
 
 
 PYTHON = re.compile(
-    r"\w=(?:…|True|False|None|\\\")|\borders=|\bcp\.|\bto_dask\b|\.on\(|\bwith_\w+\("
+    r"\w=(?:…|True|False|None|\\\")|\borders=|\bstrokes=|\bcp\.|\bto_dask\b|\.on\(|\bwith_\w+\("
     r"|\b(?:Engine|Firing|Cylinder)\.[a-z]|\b(?:Port|Valve)Timing\b"
 )
 """Calls and names that Python alone has."""
@@ -186,7 +186,9 @@ def test_the_core_says_no_names_of_python_and_its_binding_adds_them() -> None:
         assert PYTHON.search(python) or python == "Engine.flat", python
 
 
-@pytest.mark.parametrize("text", ["give bore=… to it", "torque=False was given", "p.on(…)"])
+@pytest.mark.parametrize(
+    "text", ["give bore=… to it", "or strokes=4", "torque=False was given", "p.on(…)"]
+)
 def test_names_of_python_are_known(text: str) -> None:
     (literal,) = literals(f'error("{text}")')
     assert PYTHON.search(literal)

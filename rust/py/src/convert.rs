@@ -32,7 +32,7 @@ pub fn python_error(error: core::Error) -> PyErr {
 }
 
 /// What hints and warnings of the core call by Rust's names, and how Python says it.
-const NAMES: [(&str, &str); 14] = [
+const NAMES: [(&str, &str); 15] = [
     ("`Engine::new`", "Engine.from_lists"),
     ("`Engine::without_gas`", "engine.with_cycle(None)"),
     ("`Powertrain::on`", "p.on(…)"),
@@ -43,6 +43,7 @@ const NAMES: [(&str, &str); 14] = [
     ("a `Vee` of 180°", "Engine.flat"),
     ("`by_axis: false`", "corners=\"mounts\""),
     ("`torque: false`", "torque=False"),
+    ("or an engine with strokes ", "or an engine with strokes="),
     ("at which it has that centre", "at which it has that centre: tdc_deg=…"),
     ("give orders and speeds within", "give orders= and speeds within"),
     ("needs the bore of each cylinder", "needs the bore; give bore=… to each Cylinder"),

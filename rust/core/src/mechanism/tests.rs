@@ -35,37 +35,53 @@ fn assert_same(found: &[Complex64], sampled: &[Complex64], scale: f64) {
     }
 }
 
+/// Columns have the values of these single positions: velocity, jerk and lean if wanted.
+fn check_columns(mechanism: &dyn Mechanism, [cranks, single]: [&Cranks; 2], wanted: [bool; 3]) {
+    let mut columns = vec![vec![f64::NAN; cranks.len()]; 7];
+    let [acceleration, velocity, jerk, slope, secant, turning, bending] = &mut columns[..] else {
+        unreachable!("seven of them")
+    };
+    let motion = MotionColumns {
+        acceleration,
+        velocity: wanted[0].then_some(velocity),
+        jerk: wanted[1].then_some(jerk),
+        lean: wanted[2].then_some([slope, secant]),
+    };
+    mechanism.motions(cranks, motion);
+    mechanism.swings(cranks, [turning, bending]);
+    for i in 0..cranks.len() {
+        let (motion, swing) = (mechanism.motion(&single.at(i)), mechanism.swing(&single.at(i)));
+        let lean = [motion.slope, motion.secant].map(|value| wanted[2].then_some(value));
+        let one_by_one = [
+            Some(motion.acceleration),
+            wanted[0].then_some(motion.velocity),
+            wanted[1].then_some(motion.jerk),
+            lean[0],
+            lean[1],
+            Some(swing.velocity),
+            Some(swing.acceleration),
+        ];
+        for (column, value) in columns.iter().zip(one_by_one) {
+            // Products and sums may be rounded once there.
+            let is_it = |value: f64| (column[i] - value).abs() <= 1e-13 * (1.0 + value.abs());
+            assert!(value.map_or(column[i].is_nan(), is_it), "{wanted:?} {i}: {value:?}");
+        }
+    }
+}
+
 fn check(mechanism: &dyn Mechanism) {
     let (orders, cancel): (Vec<u32>, _) = ((1..=HIGHEST).collect(), Cancel::new());
     let at = |crank: &CrankPosition| mechanism.motion(crank);
     let swing = |crank: &CrankPosition| mechanism.swing(crank);
-    // Columns are positions one by one.
-    let ([cos, sin], mut columns) = (cranks(), CrankColumns::<SAMPLES>::ZERO);
-    let [cos, sin] = [cos, sin].map(|values| values.try_into().unwrap());
-    columns.set(&cos, &sin, Complex64::cis(0.3));
-    let cranks = columns.cranks();
-    let mut columns = vec![vec![0.0; SAMPLES]; 7];
-    let [velocity, acceleration, jerk, slope, secant, turning, bending] = &mut columns[..] else {
-        unreachable!("seven of them")
-    };
-    let lean = Some([&mut slope[..], &mut secant[..]]);
-    let (velocity, jerk) = (Some(&mut velocity[..]), Some(&mut jerk[..]));
-    mechanism.motions(&cranks, MotionColumns { acceleration, velocity, jerk, lean });
-    mechanism.swings(&cranks, [turning, bending]);
-    for i in 0..cranks.len() {
-        let (motion, swing) = (at(&cranks.at(i)), swing(&cranks.at(i)));
-        let one_by_one = [
-            motion.velocity,
-            motion.acceleration,
-            motion.jerk,
-            motion.slope,
-            motion.secant,
-            swing.velocity,
-            swing.acceleration,
-        ];
-        for (column, value) in columns.iter().zip(one_by_one) {
-            // Products and sums may be rounded once there.
-            assert!((column[i] - value).abs() <= 1e-13 * (1.0 + value.abs()), "{i}: {value}");
+    // Columns are positions one by one, whichever are wanted, of positions that are kept or not.
+    let ([cos, sin], phase) =
+        (cranks().map(|c| <[f64; SAMPLES]>::try_from(c).unwrap()), Complex64::cis(0.3));
+    let mut kept = CrankColumns::ZERO;
+    kept.set(&cos, &sin, phase);
+    let turned = Cranks::new(&cos, &sin, phase);
+    for cranks in [turned, kept.cranks()] {
+        for wanted in 0..8 {
+            check_columns(mechanism, [&cranks, &turned], [1, 2, 4].map(|bit| wanted & bit != 0));
         }
     }
     // Derivatives: order n of each is i·n times that of the one before.

@@ -25,7 +25,7 @@ impl Sweep {
     /// Lengths of the axes of [`Self::waveforms`], if there is room for so much.
     pub fn waveform_shape(&self, quantity: Quantity, angles: usize) -> Result<Vec<usize>> {
         let shape = [&self.shape()[..], &[angles], quantity.shape()].concat();
-        let hint = "give theta_deg, or an axis of the sweep, in parts";
+        let hint = "split theta_deg, or give an axis of the sweep in parts";
         limits::result_size("sweep", &shape, size_of::<f64>(), hint)?;
         Ok(shape)
     }
