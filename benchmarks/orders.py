@@ -87,7 +87,7 @@ def time_waveforms(name: str, rod_ratio: float, rtol: float) -> Row:
     fewest = engine.balance(RPM, orders="auto", rtol=rtol, torque=False).orders or (1,)
     all_of_them = without_layout(engine, rtol)
 
-    def run(orders: object, rtol: float | None = None) -> cp.types.Waveform:
+    def run(orders: object, rtol: float | None = None) -> cp.results.Waveform:
         return engine.waveform(RPM, theta_deg=THETA, orders=orders, rtol=rtol, torque=False)  # type: ignore[arg-type]
 
     best = interleaved(

@@ -42,7 +42,7 @@ class Case(NamedTuple):
     set_up: float
     """Seconds that NumPy took to list them."""
 
-    def crankpin(self) -> cp.types.ArrangementSearch:
+    def crankpin(self) -> cp.results.ArrangementSearch:
         """Ask crankpin."""
         return cp.search_arrangements(2 * self.throws, alternating=self.alternating)
 

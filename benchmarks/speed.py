@@ -269,7 +269,7 @@ def million_broadcast(sums: NDArray[Any]) -> NDArray[Any]:
     return rows.reshape(10_000, 100, 8)
 
 
-def million_sweep() -> cp.types.Sweep:
+def million_sweep() -> cp.results.Sweep:
     """Return the sweep, nothing of it computed."""
     return cp.sweep(
         V6,

@@ -53,7 +53,7 @@ def in_numpy(engine: cp.Engine, samples: int) -> rederived.Remains:
     return rederived.remains(lists, draws, RPM, ORDERS, engine.reference_z)
 
 
-def by_crankpin(engine: cp.Engine, samples: int) -> cp.types.Tolerances:
+def by_crankpin(engine: cp.Engine, samples: int) -> cp.results.Tolerances:
     """Draw and evaluate all samples."""
     spreads: dict[str, Any] = {**SPREADS}
     return cp.tolerances(engine, rpm=RPM, orders=ORDERS, samples=samples, **spreads)

@@ -58,7 +58,7 @@ def scene(engines: int = 1000, angles: int = 720) -> Scene:
     return Scene(V8, ratios, np.arange(angles) * (720.0 / angles), 6000.0)
 
 
-def swept(of: Scene, rtol: float) -> cp.types.Sweep:
+def swept(of: Scene, rtol: float) -> cp.results.Sweep:
     """Return crankpin's sweep, with orders chosen for the tolerance."""
     return cp.sweep(
         of.engine, rpm=of.rpm, rod_ratio=of.ratios, orders="auto", rtol=rtol, torque=False

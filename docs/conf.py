@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from crankpin import __version__, types
+from crankpin import __version__, results
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -38,7 +38,7 @@ napoleon_google_docstring = False
 napoleon_use_ivar = True
 napoleon_use_rtype = False
 napoleon_preprocess_types = True
-napoleon_type_aliases = {name: f"crankpin.types.{name}" for name in types.__all__}
+napoleon_type_aliases = {name: f"crankpin.results.{name}" for name in results.__all__}
 
 nitpicky = True
 # Names of other packages, and types in annotations that are not public.

@@ -344,7 +344,7 @@ def hide_constructor(
     app: Sphinx, what: str, name: str, of: object, options: object, signature: str, returned: str
 ) -> tuple[str, str] | None:
     """Return no signature for classes that builders and functions make."""
-    made = name == "crankpin.Engine" or name.startswith("crankpin.types.")
+    made = name == "crankpin.Engine" or name.startswith("crankpin.results.")
     return ("", "") if what == "class" and made else None
 
 

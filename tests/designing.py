@@ -16,7 +16,7 @@ UNIT = 0.5 * 0.045 * (RPM * 2.0 * np.pi / 60.0) ** 2
 A2 = float(CYLINDER.harmonics([2])[0].real)
 
 
-def design(cylinders: int, layout: str = "vee", **given: Any) -> cp.types.Designs:  # noqa: ANN401
+def design(cylinders: int, layout: str = "vee", **given: Any) -> cp.results.Designs:  # noqa: ANN401
     given = {"cylinder": CYLINDER, "spacing": SPACING, "rpm": RPM} | given
     return cp.design(cylinders, layout=layout, **given)  # type: ignore[arg-type]
 

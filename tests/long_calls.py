@@ -32,7 +32,7 @@ ON_MOUNTS = cp.Powertrain(
 SPEEDS = np.linspace(600, 6000, 1001)
 
 
-def over_bank_angles() -> cp.types.Sweep:
+def over_bank_angles() -> cp.results.Sweep:
     """Return a sweep whose bank angles go side by side."""
     angles = np.linspace(0, 180, 3001)
     return cp.sweep(
@@ -45,7 +45,7 @@ def over_bank_angles() -> cp.types.Sweep:
     )
 
 
-def over_rod_ratios() -> cp.types.Sweep:
+def over_rod_ratios() -> cp.results.Sweep:
     """Return a sweep whose rod ratios go side by side."""
     angles = np.linspace(0, 180, 3)
     return cp.sweep(
@@ -59,7 +59,7 @@ def over_rod_ratios() -> cp.types.Sweep:
     )
 
 
-def over_speeds() -> cp.types.Sweep:
+def over_speeds() -> cp.results.Sweep:
     """Return a sweep of few points at many speeds."""
     return cp.sweep(
         V8, rpm=np.linspace(500, 9000, 20_001), rod_ratio=RATIOS[:3], orders=[1, 2, 4, 6]

@@ -6,7 +6,7 @@ ratio, pin offset and speed.
 
 SI units; angles in degrees in arguments whose names end in ``_deg``, speeds in rpm. Seen from the
 flywheel x points right, y up, z from the front to the flywheel, and the crank turns
-counter-clockwise. Classes of results are in :mod:`crankpin.types`.
+counter-clockwise. Classes of results are in :mod:`crankpin.results`.
 """
 
 import crankpin._support.interrupted  # noqa: F401 - Ctrl-C, before anything takes time
@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 from crankpin._support import lazy
 
 if TYPE_CHECKING:
-    from crankpin import types
+    from crankpin import results
     from crankpin._core import InputError, __version__
     from crankpin._support.units import units
     from crankpin.analysis.arrangements.search import search_arrangements
@@ -93,6 +93,7 @@ __all__ = [
     "prepare_trace",
     "presets",
     "rank",
+    "results",
     "search_arrangements",
     "slider_crank_harmonics",
     "star_diagram",
@@ -101,7 +102,6 @@ __all__ = [
     "tolerances",
     "torsional_excitation",
     "two_plane_correction",
-    "types",
     "units",
 ]
 
@@ -143,7 +143,7 @@ _HOMES = {
     "crankpin.model.shafts": ("Shaft", "Unbalance"),
     "crankpin.model.supports": ("Receptance", "Subframe"),
     "crankpin.model.traces": ("Traces",),
-    "crankpin.types": ("types",),
+    "crankpin.results": ("results",),
 }
 """Module → the public names that it has; it is imported once one of them is read."""
 

@@ -293,7 +293,7 @@ def sizes(engine: cp.Engine, rpm: float, orders: tuple[float, ...]) -> dict[str,
 
 
 def check(
-    b: cp.types.Balance,
+    b: cp.results.Balance,
     bounds: dict[str, float],
     allowed: dict[str, float],
     orders: tuple[float, ...],

@@ -176,7 +176,7 @@ ENGINES = {
 }
 
 
-def wrench(engine: cp.Engine, loads: cp.types.BearingLoads) -> tuple[np.ndarray, ...]:
+def wrench(engine: cp.Engine, loads: cp.results.BearingLoads) -> tuple[np.ndarray, ...]:
     """Force, moment about z = 0, and roll torque of all that pushes the engine block."""
     mains, z_mains = as_complex(loads.main), np.array(engine.mains)
     bore = np.exp(1j * np.deg2rad(engine.bank_deg))[:, np.newaxis]

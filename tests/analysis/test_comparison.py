@@ -80,7 +80,7 @@ def test_the_table_has_what_matters_before_and_after() -> None:
 def test_it_is_made_of_two_like_balances() -> None:
     found = cp.compare(I4, FITTED, rpm=5000)
     assert pickle.loads(pickle.dumps(found)) == found  # noqa: S301 - our own
-    kind = cp.types.Comparison
+    kind = cp.results.Comparison
     with pytest.raises(cp.InputError, match=r"use crankpin\.compare"):
         kind(I4, FITTED)  # type: ignore[arg-type]
     with pytest.raises(cp.InputError, match="different orders or speeds"):

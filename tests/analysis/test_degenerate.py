@@ -11,7 +11,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from crankpin.cli import main
-from crankpin.types import OrderBalance, Quantity, Table
+from crankpin.results import OrderBalance, Quantity, Table
 from fuzzing.calls import finite
 from fuzzing.surface import plain_call
 from matplotlib import pyplot as plt

@@ -45,7 +45,7 @@ IRRATIONAL = {
 ROUNDING = 1e-13
 
 
-def zeros(b: cp.types.Balance) -> dict[str, np.ndarray]:
+def zeros(b: cp.results.Balance) -> dict[str, np.ndarray]:
     """Which of a balance's sums are given as zero, by the names of the proofs."""
     return {
         "force_x": b.force.xy[:, 0] == 0,
@@ -61,7 +61,7 @@ def zeros(b: cp.types.Balance) -> dict[str, np.ndarray]:
     }
 
 
-def _any_order(b: cp.types.Balance) -> str:
+def _any_order(b: cp.results.Balance) -> str:
     """At whole orders gas does not depend on the firing order."""
     return b.engine.firing_order or b.engine.firing_orders()[0].firing_order
 
@@ -323,7 +323,7 @@ def test_no_proof_about_unlike_cylinders_is_refuted(engine: cp.Engine) -> None:
 # --- closed forms -------------------------------------------------------------------------------
 
 
-def in_units(form: cp.types.ClosedForm, what: str = "peak") -> Any:
+def in_units(form: cp.results.ClosedForm, what: str = "peak") -> Any:
     """A magnitude over F, or a·F."""
     return getattr(form, what) / (form.F if form.quantity == "force" else form.a * form.F)
 

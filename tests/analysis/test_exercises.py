@@ -15,7 +15,7 @@ CLOSE = 1e-9
 """Formulae and library differ by rounding alone; a₂ by the terms that a series leaves out."""
 
 
-def figures(sheet: cp.types.Exercise) -> dict[str, float]:
+def figures(sheet: cp.results.Exercise) -> dict[str, float]:
     """Figures of a cylinder as the sheet prints them, in SI units."""
     text = (
         r"has (?P<m>\d+) g, the stroke is (?P<stroke>\d+) mm, the rods are (?P<l>\d+) mm long, "

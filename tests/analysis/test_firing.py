@@ -51,7 +51,7 @@ def inline(tdc: Sequence[Any], **options: Any) -> cp.Engine:  # noqa: ANN401 - o
     )
 
 
-def intervals(ways: Sequence[cp.types.Firing]) -> list[tuple[float, ...]]:
+def intervals(ways: Sequence[cp.results.Firing]) -> list[tuple[float, ...]]:
     """Intervals of each, in a fixed order."""
     return sorted(tuple(way.intervals_deg.tolist()) for way in ways)
 

@@ -58,7 +58,7 @@ def same(found: ArrayLike, expected: ArrayLike, scale: float) -> None:
     assert np.abs(np.asarray(found) - np.asarray(expected)).max() <= 2e-13 * scale
 
 
-def of(engine: cp.Engine, reference_z: float = 0.0) -> cp.types.Balance:
+def of(engine: cp.Engine, reference_z: float = 0.0) -> cp.results.Balance:
     return engine.replace(reference_z=reference_z).balance(RPM, orders=ORDERS)
 
 
@@ -197,7 +197,7 @@ def test_peaks_are_those_of_the_waveform(engine: cp.Engine) -> None:
         assert longest <= length + 1e-4 * size(engine)
 
 
-QUESTIONS: dict[str, Callable[[cp.Engine], cp.types.Balance]] = {
+QUESTIONS: dict[str, Callable[[cp.Engine], cp.results.Balance]] = {
     "balance": lambda e: e.balance(RPM, orders=(1, 2)),
     "another speed": lambda e: e.balance(2 * RPM, orders=(1, 2)),
     "other orders": lambda e: e.balance(RPM, orders=(2, 1)),
@@ -211,7 +211,7 @@ QUESTIONS: dict[str, Callable[[cp.Engine], cp.types.Balance]] = {
 }
 
 
-def answer(balance: cp.types.Balance) -> tuple[Any, ...]:
+def answer(balance: cp.results.Balance) -> tuple[Any, ...]:
     """Return all that a balance says of its engine, as bits."""
     names = balance.request.quantities
     arrays = [balance.read(name, what) for name in names for what in ("phasors", "zero_bound")]

@@ -99,7 +99,7 @@ NOTHING_OF_GAS = {
 
 def test_every_result_is_tested() -> None:
     """A class with a table says which loads it counts, or is one that gas does not change."""
-    kinds = {name: getattr(cp.types, name) for name in dir(cp.types)}
+    kinds = {name: getattr(cp.results, name) for name in dir(cp.results)}
     shown = {name for name, kind in kinds.items() if inspect.isclass(kind) and "table" in dir(kind)}
     saying = {name for name in shown if "loads_counted" in dir(kinds[name])}
     assert shown - saying == NOTHING_OF_GAS

@@ -193,7 +193,7 @@ def test_a_point_of_a_sweep_is_a_balance_to_the_last_bit() -> None:
     }
     s = cp.sweep(engines, **axes, hold="firing", rtol=1e-5)
     b = s.sel(engine="b", bank_angle_deg=75.3, rod_ratio=0.2848101, rpm=5000)
-    assert isinstance(b, cp.types.Balance)
+    assert isinstance(b, cp.results.Balance)
     assert (b.orders, b.omitted, b.error_bound) == (s.orders, s.omitted, s.error_bound)
     at = (1, 1, 1, 1)
     for name in ("force", "moment", "torque", "crank_torque"):
@@ -212,7 +212,7 @@ def test_a_point_of_a_sweep_is_a_balance_to_the_last_bit() -> None:
 def test_a_part_of_a_sweep_is_a_sweep() -> None:
     s = cp.sweep({"a": V6, "b": V6}, **SWEPT, orders=[1, 2])
     part = s.sel(engine="b", bank_angle_deg=75)
-    assert isinstance(part, cp.types.Sweep)
+    assert isinstance(part, cp.results.Sweep)
     assert part.dims == ("rpm",)
     np.testing.assert_array_equal(part.moment, np.asarray(s.moment)[1, 1])
     assert s.sel() == s

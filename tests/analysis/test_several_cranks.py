@@ -28,7 +28,7 @@ ROUNDING = 1e-12
 """Of terms of unlike sizes, at phases known to 1e-13: far above what sums of a dozen leave."""
 
 
-def same(found: cp.types.Balance, expected: cp.types.Balance, names: tuple[str, ...]) -> None:
+def same(found: cp.results.Balance, expected: cp.results.Balance, names: tuple[str, ...]) -> None:
     allowed = ROUNDING * size(expected.engine, RPM)
     for name in names:
         apart = np.abs(np.asarray(getattr(found, name)) - np.asarray(getattr(expected, name)))

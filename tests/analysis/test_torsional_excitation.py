@@ -189,7 +189,7 @@ INERTIAS = [0.004, 0.006, 0.006, 0.006, 0.006, 0.15]
 STIFFNESSES = [2e5, 5e5, 5e5, 5e5, 9e5]
 
 
-def responses(excitation: cp.types.TorsionalExcitation) -> NDArray[np.complex128]:
+def responses(excitation: cp.results.TorsionalExcitation) -> NDArray[np.complex128]:
     """Angles of the disks of the chain, cylinders at disks 1 to 4: (K − ω²J + iωC)q = T."""
     count = len(INERTIAS)
     stiffness = np.zeros((count, count))

@@ -39,11 +39,11 @@ def vee(**changes: Any) -> cp.Engine:
     return cp.Engine.vee(CYLINDER, **given_ | changes)
 
 
-def fires(**changes: Any) -> cp.types.Firing:
+def fires(**changes: Any) -> cp.results.Firing:
     return V6.firing(**{"firing_order": "1-2-5-6-3-4"} | changes)
 
 
-def two_stroke() -> cp.types.Firing:
+def two_stroke() -> cp.results.Firing:
     return I4.firing("1+4-2+3", strokes=2)
 
 
@@ -62,37 +62,37 @@ def inline(**changes: Any) -> cp.Engine:
     return cp.Engine.inline(CYLINDER, **given_ | changes)
 
 
-def balance(**changes: Any) -> cp.types.Balance:
+def balance(**changes: Any) -> cp.results.Balance:
     given_: dict[str, Any] = {"rpm": 1000}
     return V6.balance(**given_ | changes)
 
 
-def waveform(**changes: Any) -> cp.types.Waveform:
+def waveform(**changes: Any) -> cp.results.Waveform:
     given_: dict[str, Any] = {"rpm": 1000, "theta_deg": [0.0, 1.0]}
     return V6.waveform(**given_ | changes)
 
 
-def swept(**changes: Any) -> cp.types.Sweep:
+def swept(**changes: Any) -> cp.results.Sweep:
     given_: dict[str, Any] = {"rpm": 1000, "bank_angle_deg": [60, 90], "hold": "pins"}
     return cp.sweep(V6, **given_ | changes)
 
 
-def ranked(**changes: Any) -> cp.types.Ranking:
+def ranked(**changes: Any) -> cp.results.Ranking:
     given_: dict[str, Any] = {"rpm": 1000, "bank_angle_deg": [60, 90], "hold": "pins"}
     given_ |= {"by": "total.moment.peak"}
     return cp.rank(V6, **given_ | changes)
 
 
-def ranked_search(**changes: Any) -> cp.types.Ranking:
+def ranked_search(**changes: Any) -> cp.results.Ranking:
     given_: dict[str, Any] = {"cylinder": CYLINDER, "spacing": 0.1, "by": "total.moment.peak"}
     return cp.rank(cp.search_arrangements(6), rpm=1000, **given_ | changes)
 
 
-def proportions(**changes: Any) -> cp.types.Sweep:
+def proportions(**changes: Any) -> cp.results.Sweep:
     return swept(bank_angle_deg=None, hold=None, **changes)
 
 
-def closed_form(**changes: Any) -> cp.types.ClosedForm:
+def closed_form(**changes: Any) -> cp.results.ClosedForm:
     given_: dict[str, Any] = {"order": 1}
     return V6.closed_form(**given_ | changes)
 

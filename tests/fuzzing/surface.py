@@ -1,7 +1,7 @@
 """The public surface, enumerated: every function, constructor and method, and how to call it.
 
-Subjects are ``crankpin.__all__`` and ``crankpin.types.__all__``; instances of the classes are what
-sound calls return. A method that classes share is one target.
+Subjects are ``crankpin.__all__`` and ``crankpin.results.__all__``; instances of the classes are
+what sound calls return. A method that classes share is one target.
 """
 
 # ruff: noqa: ANN401 - arguments of any type are the point
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 CLASSES: dict[str, type] = {
     name: kind
-    for module in (cp, cp.types)
+    for module in (cp, cp.results)
     for name in sorted(module.__all__)
     if isinstance(kind := getattr(module, name), type) and not issubclass(kind, Exception)
 }

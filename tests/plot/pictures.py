@@ -86,12 +86,12 @@ SPREAD = cp.tolerances(
 )
 
 
-def over_bank_angle(**options: Any) -> cp.types.Sweep:  # noqa: ANN401 - of a sweep
+def over_bank_angle(**options: Any) -> cp.results.Sweep:  # noqa: ANN401 - of a sweep
     """The four engines of the IJESC paper over bank angle."""
     return cp.sweep(FAMILY, rpm=5000, bank_angle_deg=BANK_ANGLES, hold="pins", **options)
 
 
-def over_two(**options: Any) -> cp.types.Sweep:  # noqa: ANN401 - of a sweep
+def over_two(**options: Any) -> cp.results.Sweep:  # noqa: ANN401 - of a sweep
     """One engine over bank angle and rod ratio."""
     angles, ratios = np.arange(0.0, 181.0, 10.0), np.linspace(0.2, 0.4, 12)
     return cp.sweep(V6, rpm=5000, bank_angle_deg=angles, hold="pins", rod_ratio=ratios, **options)

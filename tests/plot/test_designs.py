@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-def design(cylinders: int, layout: str, by: Any, **given: Any) -> cp.types.Designs:  # noqa: ANN401
+def design(cylinders: int, layout: str, by: Any, **given: Any) -> cp.results.Designs:  # noqa: ANN401
     given = {"cylinder": CYLINDER, "spacing": 0.1, "rpm": 6000.0, "by": by} | given
     return cp.design(cylinders, layout=layout, **given)  # type: ignore[arg-type]
 
@@ -33,7 +33,7 @@ def of(ax: Axes, gid: str) -> list[Any]:
 
 
 @pytest.mark.parametrize("found", [V10, V6], ids=["all angles", "a range"])
-def test_curves_are_the_objective_over_bank_angle(found: cp.types.Designs) -> None:
+def test_curves_are_the_objective_over_bank_angle(found: cp.results.Designs) -> None:
     ax = found.plot(count=3)
     curves = of(ax, SERIES)
     assert len(curves) == 3

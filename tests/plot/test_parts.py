@@ -16,7 +16,7 @@ from plot.reading import figure_of, heights, legend_texts, marks, series, title_
 ANGLES = np.arange(0.0, 181.0, 5.0)
 
 
-def of_one(**options: Any) -> cp.types.Sweep:  # noqa: ANN401 - of a sweep
+def of_one(**options: Any) -> cp.results.Sweep:  # noqa: ANN401 - of a sweep
     """A V6 that at 60° has pins split for even firing."""
     v6 = cp.Engine.preset("v6-60")
     return cp.sweep(v6, rpm=5000, bank_angle_deg=ANGLES, hold="firing", **options)

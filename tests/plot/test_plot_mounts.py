@@ -157,7 +157,7 @@ def test_a_design_is_its_frequencies_before_and_after() -> None:
     assert "decoupling" in ax.get_title(loc="left")
 
 
-def scattered() -> cp.types.DesignResponses:
+def scattered() -> cp.results.DesignResponses:
     draw = np.random.default_rng(2)
     vary = {"right": {"stiffness": draw.uniform(1e5, 4e5, (9, 3))}}
     return MOUNTED.designs([700.0, 1500.0, 1100.0], vary, orders=[1, 2])

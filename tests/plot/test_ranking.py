@@ -70,7 +70,7 @@ def test_of_many_engines_the_best_are_named() -> None:
 
 
 def test_values_that_are_not_finite_leave_gaps() -> None:
-    def measure(balance: cp.types.Balance) -> float:
+    def measure(balance: cp.results.Balance) -> float:
         return np.nan if balance.engine.bank_angle_deg > 90 else balance.total.moment.peak
 
     ranking = cp.rank(V6, rpm=5000, bank_angle_deg=[60, 90, 120], hold="pins", by=measure)

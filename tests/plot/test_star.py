@@ -39,7 +39,7 @@ def titled(ax: Axes) -> str:
 
 @pytest.mark.parametrize(("diagram", "order"), [(ODD, 1.5), (MODE, 0.5), (MODE, 3)])
 def test_vectors_are_drawn_to_the_longest_and_the_sum_to_that_of_all(
-    diagram: cp.types.StarDiagram, order: float
+    diagram: cp.results.StarDiagram, order: float
 ) -> None:
     ax = diagram.plot(order=order)
     vectors = diagram.vectors[diagram.orders.index(order)]

@@ -28,7 +28,7 @@ RADIAL = cp.Engine.from_lists(CYLINDER, tdc_deg=[0, 120, 240], bank_deg=[90, 210
 SPEEDS = [1000.0, 2000.0]
 
 
-def over_speed(engine: cp.Engine) -> cp.types.Sweep:
+def over_speed(engine: cp.Engine) -> cp.results.Sweep:
     return cp.sweep(engine, rpm=SPEEDS)
 
 

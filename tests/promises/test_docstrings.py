@@ -143,9 +143,9 @@ CONSTRUCTED = {name for name in cp.__all__ if inspect.isclass(getattr(cp, name))
 
 def public() -> dict[str, Any]:
     """Return all that is public, by name."""
-    names = sorted({*cp.__all__} - {"types", "__version__"})
+    names = sorted({*cp.__all__} - {"results", "__version__"})
     things = {name: getattr(cp, name) for name in names}
-    things |= {name: getattr(cp.types, name) for name in cp.types.__all__}
+    things |= {name: getattr(cp.results, name) for name in cp.results.__all__}
     for kind in filter(inspect.isclass, [*things.values()]):
         things |= dict(members(kind))
     return things
@@ -159,9 +159,9 @@ def test_docstring_states_parameters_types_and_results(name: str) -> None:
     assert wrong_with(name, PUBLIC[name]) == []
 
 
-@pytest.mark.parametrize("name", cp.types.__all__)
+@pytest.mark.parametrize("name", cp.results.__all__)
 def test_help_of_a_result_has_its_fields(name: str) -> None:
-    kind = getattr(cp.types, name)
+    kind = getattr(cp.results, name)
     fields = {field.name for field in kind._fields if not field.name.startswith("_")}
     listed = entries(sections_of(inspect.getdoc(kind) or "").get("Attributes", ""))
     assert {name for entry in listed for name in entry.names} == fields

@@ -59,7 +59,7 @@ def test_frames_begin_with_the_table(name: str) -> None:
     assert result.frames["table"] == result.table
     for frame in result.frames.values():
         assert frame.loads == result.table.loads
-        assert isinstance(frame, cp.types.Table)
+        assert isinstance(frame, cp.results.Table)
         assert frame.columns
         assert len({len(column.values) for column in frame.columns}) == 1
 
@@ -68,7 +68,7 @@ def test_frames_begin_with_the_table(name: str) -> None:
 def test_text_and_html_show_every_frame_or_a_line(name: str) -> None:
     result = result_of(name)
     text, html, frames = repr(result), result._repr_html_(), list(result.frames.values())
-    if isinstance(result, (cp.types.ClosedForm, cp.types.Exercise, cp.types.Explanation)):
+    if isinstance(result, (cp.results.ClosedForm, cp.results.Exercise, cp.results.Explanation)):
         assert text.startswith(result.table.title)  # formulas, questions, sentences
         return
     if isinstance(result, Item):  # one of many
@@ -203,7 +203,7 @@ def test_latex_has_every_cell_between_rules(name: str) -> None:
 def test_any_text_is_escaped_in_latex(seed: int) -> None:
     rng = np.random.default_rng(seed)
     words = ["".join(rng.choice([*CHARACTERS], 12)) for _ in range(4)]
-    table = cp.types.Table.from_rows(words[0], [words[1], "x"], words[2:], rng.random((2, 1)))
+    table = cp.results.Table.from_rows(words[0], [words[1], "x"], words[2:], rng.random((2, 1)))
     columns, rows = tabular(table.to_latex())
     assert columns == "lr"
     assert [len(row) for row in rows] == [2, 2, 2]

@@ -165,7 +165,7 @@ def test_objects_of_other_classes_that_calls_return() -> None:
     assert not found, "\n".join(found[:20])
 
 
-@pytest.mark.parametrize("name", sorted({*cp.types.__all__} - HOLD_ANYTHING))
+@pytest.mark.parametrize("name", sorted({*cp.results.__all__} - HOLD_ANYTHING))
 def test_results_cannot_be_made_of_anything(name: str) -> None:
     count = len(inspect.signature(CLASSES[name]).parameters)
     values: tuple[Any, ...] = (None, "text", 0, [], V6)

@@ -11,7 +11,7 @@ import sys
 
 import crankpin as cp
 import pytest
-from crankpin import types
+from crankpin import results
 
 LOADED = "print(*(name for name in sys.modules if name.partition('.')[0] in ('crankpin', 'numpy')))"
 
@@ -30,7 +30,7 @@ def loaded(program: str) -> set[str]:
 def test_import_loads_neither_numpy_nor_any_analysis() -> None:
     names = ("", "._support", "._support.calls", "._support.interrupted", "._support.lazy")
     assert loaded("import crankpin") == {f"crankpin{name}" for name in names}
-    assert loaded("import crankpin.types") == {f"crankpin{name}" for name in (*names, ".types")}
+    assert loaded("import crankpin.results") == {f"crankpin{name}" for name in (*names, ".results")}
 
 
 def test_a_balance_loads_what_it_needs() -> None:
@@ -49,7 +49,7 @@ def test_a_command_loads_no_other_command() -> None:
     assert commands == {f"crankpin.cli.{name}" for name in ("arguments", "outputs", "shaking")}
 
 
-@pytest.mark.parametrize("module", [cp, types], ids=lambda module: module.__name__)
+@pytest.mark.parametrize("module", [cp, results], ids=lambda module: module.__name__)
 def test_names_are_those_that_type_checkers_see(module: object) -> None:
     static = {
         name.name: (node.module, name.name)
@@ -71,7 +71,7 @@ def test_a_star_imports_every_public_name() -> None:
     assert {*names} - {"__builtins__"} == {*cp.__all__} == {*dir(cp)}
 
 
-@pytest.mark.parametrize("module", [cp, types], ids=lambda module: module.__name__)
+@pytest.mark.parametrize("module", [cp, results], ids=lambda module: module.__name__)
 def test_other_names_are_attribute_errors(module: object) -> None:
     with pytest.raises(AttributeError, match="has no attribute 'nonsense'"):
         module.nonsense  # type: ignore[attr-defined] # noqa: B018
@@ -88,8 +88,8 @@ def test_functions_and_results_are_pickled_where_nothing_is_loaded() -> None:
 
 
 FIRST = """
-import importlib, sys, crankpin, crankpin.types
-for home in {*crankpin._HOMES, *crankpin.types._HOMES} - {"crankpin._core"}:
+import importlib, sys, crankpin, crankpin.results
+for home in {*crankpin._HOMES, *crankpin.results._HOMES} - {"crankpin._core"}:
     for name in [name for name in sys.modules if name.startswith("crankpin.")]:
         if name != "crankpin._core":
             del sys.modules[name]

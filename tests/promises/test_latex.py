@@ -42,7 +42,7 @@ def tables() -> dict[str, str]:
     rng = np.random.default_rng(1)
     for k in range(20):
         words = ["".join(rng.choice([*CHARACTERS], 12)) for _ in range(4)]
-        table = cp.types.Table.from_rows(words[0], [words[1], "x"], words[2:], rng.random((2, 1)))
+        table = cp.results.Table.from_rows(words[0], [words[1], "x"], words[2:], rng.random((2, 1)))
         found[f"any text {k}"] = table.to_latex()
     return found
 

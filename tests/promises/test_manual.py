@@ -15,10 +15,10 @@ TOCTREE = re.compile(r"```\{toctree\}\n(?::\w+:.*\n)*\n(.*?)```", re.DOTALL)
 def test_its_reference_has_every_public_name() -> None:
     pages = [path.read_text(encoding="utf-8") for path in DOCS.glob("reference/*.md")]
     found = re.findall(
-        r"^\.\. auto\w+:: (crankpin\.(?:types\.)?\w+)$", "\n".join(pages), re.MULTILINE
+        r"^\.\. auto\w+:: (crankpin\.(?:results\.)?\w+)$", "\n".join(pages), re.MULTILINE
     )
-    named = {f"crankpin.{name}" for name in cp.__all__ if name != "types"}
-    named |= {f"crankpin.types.{name}" for name in cp.types.__all__}
+    named = {f"crankpin.{name}" for name in cp.__all__ if name != "results"}
+    named |= {f"crankpin.results.{name}" for name in cp.results.__all__}
     assert sorted(found) == sorted(named)
 
 

@@ -57,28 +57,28 @@ SPECTRUM = {1: 0.5, 2: 0.1 + 0.05j}
 THETA = np.arange(0.0, 720.0, 10.0)
 
 
-def balance(**options: Any) -> cp.types.Balance:
+def balance(**options: Any) -> cp.results.Balance:
     given: dict[str, Any] = {"rpm": 5000, "orders": [1, 2, 6]}
     return V6.balance(**given | options)
 
 
-def waveform(**options: Any) -> cp.types.Waveform:
+def waveform(**options: Any) -> cp.results.Waveform:
     given: dict[str, Any] = {"rpm": 5000, "theta_deg": THETA}
     return V6.waveform(**given | options)
 
 
-def sweep(**options: Any) -> cp.types.Sweep:
+def sweep(**options: Any) -> cp.results.Sweep:
     given: dict[str, Any] = {"rpm": [3000, 5000], "bank_angle_deg": [60, 75, 90], "hold": "pins"}
     return cp.sweep({"even": V6, "again": V6}, **given | {"orders": [1, 2]} | options)
 
 
-def ranking(**options: Any) -> cp.types.Ranking:
+def ranking(**options: Any) -> cp.results.Ranking:
     given: dict[str, Any] = {"rpm": 5000, "bank_angle_deg": [60, 75, 90], "hold": "pins"}
     given |= {"by": "total.moment.peak"}
     return cp.rank({"even": V6, "again": V6}, **given | {"orders": [1, 2]} | options)
 
 
-def designs(**options: Any) -> cp.types.Designs:
+def designs(**options: Any) -> cp.results.Designs:
     given: dict[str, Any] = {"layout": "vee", "bank_angle_deg": 72, "by": "total.moment.peak"}
     given |= {"cylinder": OFFSET, "spacing": 0.1, "rpm": 5000, "counterweights": True}
     return cp.design(6, **given | options)
@@ -243,9 +243,9 @@ def figures(value: Any) -> dict[str, Any]:
 def assert_same(one: Any, other: Any) -> None:
     """Equal to the last bit, arrays and all."""
     assert type(one) is type(other)
-    if isinstance(one, cp.types.Quantity) and one.order == "all":
+    if isinstance(one, cp.results.Quantity) and one.order == "all":
         assert_same(figures(one), figures(other))
-    elif isinstance(one, (np.ndarray, cp.types.Quantity)):
+    elif isinstance(one, (np.ndarray, cp.results.Quantity)):
         np.testing.assert_array_equal(one, other)
     elif isinstance(one, (tuple, list)):
         assert len(one) == len(other)
@@ -256,7 +256,8 @@ def assert_same(one: Any, other: Any) -> None:
         for key in one:
             assert_same(one[key], other[key])
     elif isinstance(
-        one, (cp.types.OrderBalance, cp.types.Waveform, cp.types.Sweep, cp.types.SweepWaveform)
+        one,
+        (cp.results.OrderBalance, cp.results.Waveform, cp.results.Sweep, cp.results.SweepWaveform),
     ):
         assert_same(figures(one), figures(other))
     else:
@@ -340,7 +341,7 @@ def test_arrays_are_read_only(name: str) -> None:
 
 def test_every_class_is_among_the_objects() -> None:
     classes = {type(value) for value in OBJECTS.values()}
-    public = {getattr(module, name) for module in (cp, cp.types) for name in module.__all__}
+    public = {getattr(module, name) for module in (cp, cp.results) for name in module.__all__}
     assert {each for each in public if isinstance(each, type)} - classes == {cp.InputError}
 
 
@@ -391,7 +392,7 @@ def test_given_arrays_are_copied() -> None:
 
 def test_completion_offers_what_is_public() -> None:
     assert dir(cp) == sorted(cp.__all__)
-    assert [name for name in dir(cp) if inspect.ismodule(getattr(cp, name))] == ["types"]
+    assert [name for name in dir(cp) if inspect.ismodule(getattr(cp, name))] == ["results"]
 
 
 # --- another question is another call -------------------------------------------------------------
@@ -656,7 +657,7 @@ def test_operators_answer_whatever_they_meet(name: str) -> None:
                 value[other]
             except cp.InputError as error:
                 assert str(error)  # noqa: PT017 - some keys are there
-    if not isinstance(value, cp.types.Quantity):
+    if not isinstance(value, cp.results.Quantity):
         assert hash(value) == hash(value)
         assert value == value  # noqa: PLR0124 - the law
         assert not value != value  # noqa: PLR0124, SIM202 - the law
@@ -1031,8 +1032,8 @@ def test_the_warning_of_units_points_at_who_typed_them(method: str) -> None:
 def documented() -> dict[str, str]:
     """Docstrings with examples of everything public, by name."""
     found = {"crankpin": inspect.getdoc(cp) or ""}
-    listed = {name: getattr(cp, name) for name in cp.__all__ if name != "types"}
-    listed |= {name: getattr(cp.types, name) for name in cp.types.__all__}
+    listed = {name: getattr(cp, name) for name in cp.__all__ if name != "results"}
+    listed |= {name: getattr(cp.results, name) for name in cp.results.__all__}
     for name, value in listed.items():
         if isinstance(value, str) or value is cp.InputError:
             continue
@@ -1055,11 +1056,11 @@ def test_every_public_object_is_documented_and_the_main_ones_by_example() -> Non
             cp.CycleMap,
             cp.Traces,
             cp.Cylinder,
-            cp.types.Balance,
-            cp.types.OrderBalance,
-            cp.types.Table,
-            cp.types.MountDesign,
-            cp.types.VelocityFeedback,
+            cp.results.Balance,
+            cp.results.OrderBalance,
+            cp.results.Table,
+            cp.results.MountDesign,
+            cp.results.VelocityFeedback,
             cp.Actuator,
             cp.Mount,
             cp.Receptance,

@@ -398,7 +398,7 @@ def endless(value: float, *shape: int) -> Any:
     return np.broadcast_to(np.float64(value), shape)
 
 
-def grid(**axes: float) -> cp.types.Sweep:
+def grid(**axes: float) -> cp.results.Sweep:
     """1e5 points along each of two axes."""
     fixed: dict[str, Any] = {"rpm": 1000.0} | {name: endless(v, 10**5) for name, v in axes.items()}
     hold: Any = "pins" if "bank_angle_deg" in axes else None

@@ -59,7 +59,7 @@ def engine(
     )
 
 
-def sizes(b: cp.types.Balance) -> Array:
+def sizes(b: cp.results.Balance) -> Array:
     """|F_x|, |F_y|, |sum z F_x|, |sum z F_y| per order, (n_orders, 4)."""
     return np.hstack([b.force.peak_xy, b.moment.peak_xy[:, ::-1]])
 
@@ -255,7 +255,7 @@ def test_builders_give_the_engines_of_the_lists(name: str) -> None:
     )
 
 
-def rod_ratio_sweep(ratios: list[float], mass: float) -> dict[str, cp.types.Sweep]:
+def rod_ratio_sweep(ratios: list[float], mass: float) -> dict[str, cp.results.Sweep]:
     """Engines over rod ratio, one mass at all orders."""
     cylinder = PISTON.replace(reciprocating_mass=mass)
     names = ("single", "inline_4", "flat_4_non_boxer", "straight_3", "boxer_4")

@@ -65,7 +65,7 @@ def engine(
 ENGINES = [engine(firing_order) for firing_order in ijesc.FIRING_ORDERS]
 
 
-def swept(angles_deg: Array, *, exact: bool = False) -> cp.types.Sweep:
+def swept(angles_deg: Array, *, exact: bool = False) -> cp.results.Sweep:
     """All four engines over bank angle, their pins held."""
     return cp.sweep(
         [each.replace(reference_z=0.0) for each in ENGINES],

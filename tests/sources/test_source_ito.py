@@ -329,7 +329,7 @@ SEARCH = cp.search_arrangements(14, alternating=True)
 SIX = cp.search_arrangements(6)
 
 
-def found_engine(search: cp.types.ArrangementSearch, bank_angle_deg: float) -> cp.Engine:
+def found_engine(search: cp.results.ArrangementSearch, bank_angle_deg: float) -> cp.Engine:
     """The engine of a bank angle as printed."""
     (index,) = np.flatnonzero(np.abs(search.bank_angles_deg - bank_angle_deg) < 0.005)
     return search[int(index)].engine(CYLINDER, spacing=SPACING)

@@ -14,7 +14,7 @@ from crankpin._support import calls
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-RECORDS = {name: getattr(cp.types, name) for name in cp.types.__all__}
+RECORDS = {name: getattr(cp.results, name) for name in cp.results.__all__}
 
 
 def public() -> Iterator[tuple[str, Callable[..., Any]]]:

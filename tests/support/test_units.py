@@ -181,7 +181,7 @@ def test_no_text_has_other_units_than_those_set(name: str) -> None:
         return
     value = OBJECTS[name]
     with cp.units(IMPERIAL):
-        texts = [repr(value)] if isinstance(value, (cp.Engine, cp.types.Explanation)) else []
+        texts = [repr(value)] if isinstance(value, (cp.Engine, cp.results.Explanation)) else []
         if isinstance(value, Tabled):
             for key, frame in value.frames.items():
                 texts += [frame.text(), frame.html(), value.to_csv(frame=key, units=IMPERIAL)]

@@ -63,7 +63,7 @@ class Balance(ByOrder[float]):
     """Force, moment and torque of an engine at one speed, order by order.
 
     ``force``, ``moment``, ``torque`` and ``crank_torque`` are complex peak phasors, each a
-    :class:`~crankpin.types.Quantity`. An order is a key: ``balance[2].force`` and
+    :class:`~crankpin.results.Quantity`. An order is a key: ``balance[2].force`` and
     ``balance.force[2]`` are order 2, also if it is not among ``orders``; ``balance.total`` is all
     orders together. Sums that vanish are exactly zero: a phasor below its
     ``zero_bound``, the largest rounding error of such a sum, is reported as zero.

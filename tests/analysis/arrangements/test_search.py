@@ -332,7 +332,7 @@ def phase_sets(draw: st.DrawFn) -> tuple[int, list[int]]:
 
 def searched(
     parts: int, phases: list[int], hold: Literal["firing", "pins"] = "firing"
-) -> cp.types.ArrangementSearch:
+) -> cp.results.ArrangementSearch:
     texts = [f"{360 * k}/{parts}" for k in phases]
     return cp.search_arrangements(2 * len(phases), phases_deg=texts, hold=hold)
 

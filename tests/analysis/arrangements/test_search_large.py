@@ -158,10 +158,10 @@ def test_an_arrangement_hands_back_its_engine() -> None:
 
 def test_arrangements_of_ones_own() -> None:
     cylinder = cp.Cylinder(0.045, 0.158, 0.5)
-    own = cp.types.Arrangement(90, (0, 120, 240), (0, 120, 240), 0.0, (0.0, 0.0), "pins")
+    own = cp.results.Arrangement(90, (0, 120, 240), (0, 120, 240), 0.0, (0.0, 0.0), "pins")
     engine = own.engine(cylinder, spacing=0.1)
     assert engine.balance(rpm=3000, orders=[1]).moment.backward[0] == 0
-    uneven = cp.types.Arrangement(90, (0, 120, 240), (0, 120), 0.0, (0.0, 0.0))
+    uneven = cp.results.Arrangement(90, (0, 120, 240), (0, 120), 0.0, (0.0, 0.0))
     with pytest.raises(cp.InputError, match="second_deg has 2 entries, first_deg has 3"):
         uneven.engine(cylinder, spacing=0.1)
 
@@ -173,4 +173,4 @@ def test_an_arrangement_of_nonsense_is_refused() -> None:
     names = ("bank_angle_deg", "first_deg", "second_deg", "counterweight", "second_order", "hold")
     for k, name in enumerate(names):
         with pytest.raises(cp.InputError, match=name):
-            cp.types.Arrangement(*(*given[:k], endless, *given[k + 1 :]))  # type: ignore[arg-type]
+            cp.results.Arrangement(*(*given[:k], endless, *given[k + 1 :]))  # type: ignore[arg-type]

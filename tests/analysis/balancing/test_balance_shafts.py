@@ -694,13 +694,13 @@ def test_errors_name_the_argument(given: dict[str, Any], words: str) -> None:
     with pytest.raises(cp.InputError, match=words):
         call(**arguments)
     with pytest.raises(cp.InputError, match=r"use crankpin\.balance_shafts"):
-        cp.types.BalanceShafts(I4, (1,), (), (), None)  # type: ignore[arg-type]
+        cp.results.BalanceShafts(I4, (1,), (), (), None)  # type: ignore[arg-type]
 
 
 # --- nearly dependent equations -------------------------------------------------------------------
 
 
-def roll_left(fit: cp.types.BalanceShafts) -> float:
+def roll_left(fit: cp.results.BalanceShafts) -> float:
     """Return the roll torque that stays, over ω²."""
     return next(part.after for part in fit.parts() if part.quantity == "torque")
 

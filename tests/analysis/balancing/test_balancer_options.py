@@ -76,7 +76,7 @@ def test_relative_target() -> None:
 
 
 def test_rounding_does_not_miss_a_target() -> None:
-    def nearly_one(balance: cp.types.Balance) -> float:
+    def nearly_one(balance: cp.results.Balance) -> float:
         return 1.0 + 1e-12 * len(balance.engine.shafts)
 
     options = cp.balancer_options(I4, rpm=RPM, by=nearly_one, target=1.0)
@@ -195,7 +195,7 @@ def test_values_are_those_of_the_balance() -> None:
 
 
 def test_functions_and_reference_plane() -> None:
-    def pitch(balance: cp.types.Balance) -> float:
+    def pitch(balance: cp.results.Balance) -> float:
         return float(balance.total.moment.peak_xy[0])
 
     engine = HEAVIER.replace(reference_z=0.4)
@@ -242,7 +242,7 @@ def test_result_is_frozen_and_copies() -> None:
             one.rpm = 3  # type: ignore[misc, union-attr]
     assert cp.balancer_options(V6_90, rpm=RPM) != OPTIONS
     with pytest.raises(cp.InputError, match=r"use crankpin\.balancer_options"):
-        cp.types.BalancerOptions(V6_90, RPM, (), (), ())
+        cp.results.BalancerOptions(V6_90, RPM, (), (), ())
 
 
 def test_table_shows_the_front_and_whether_it_reaches_the_target() -> None:

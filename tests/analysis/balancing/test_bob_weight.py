@@ -28,7 +28,7 @@ def preset(name: str, **options: Any) -> cp.Engine:  # noqa: ANN401
     return cp.Engine.preset(name, cylinder=UNIT, spacing=1.0, **options)
 
 
-def order_1(engine: cp.Engine) -> cp.types.OrderBalance:
+def order_1(engine: cp.Engine) -> cp.results.OrderBalance:
     return engine.balance(UNIT_SPEED, orders=[1])[1]
 
 

@@ -21,7 +21,7 @@ PARTS = {
 OIL = 0.004
 
 
-def card_of_a_v8() -> cp.types.Card:
+def card_of_a_v8() -> cp.results.Card:
     """A cross-plane V8 whose crankshaft was balanced to 1850 g."""
     bob = cp.bob_weight(cp.Engine.preset("v8-crossplane"), 0.5, OIL, parts=PARTS)
     return bob.card(

@@ -1067,7 +1067,7 @@ def test_results_are_frozen_and_copied() -> None:
     with pytest.raises(AttributeError):
         fitted.exact = False  # type: ignore[misc]
     with pytest.raises(cp.InputError, match=r"use crankpin\.counterweights"):
-        cp.types.Counterweights(V6_90, (), None, (), True, 0.0)  # type: ignore[arg-type]
+        cp.results.Counterweights(V6_90, (), None, (), True, 0.0)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(

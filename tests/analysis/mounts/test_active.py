@@ -27,7 +27,7 @@ P = cp.Powertrain(I4, BODY, FOUR)
 SEAT = ((0.22, -0.12, 0.4), (0, 1, 0))
 
 
-def one_channel(rpm: Any = 3000.0, **limits: Any) -> cp.types.Cancellation:  # noqa: ANN401
+def one_channel(rpm: Any = 3000.0, **limits: Any) -> cp.results.Cancellation:  # noqa: ANN401
     return P.response(rpm, orders=[2, 4]).cancel(HEAD.replace(**limits), {"seat": SEAT})
 
 

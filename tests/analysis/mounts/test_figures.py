@@ -167,7 +167,7 @@ def test_roll_of_a_half_order_at_idle() -> None:
     request = PLAIN.response(800, orders=[0.5]).request
     forces = np.array([[[60.0, -60.0]]], complex)
     speeds = np.array([800.0])
-    r = cp.types.DrivenResponse(PLAIN, speeds, request, pair, forces, engine_runs=False)
+    r = cp.results.DrivenResponse(PLAIN, speeds, request, pair, forces, engine_runs=False)
     assert r.load[0, 0].tolist() == [0, 0, 0, 0, 0, 60]
     assert np.degrees(abs(r.motion[0, 0, 5])) == near(0.095812975)
 

@@ -107,12 +107,12 @@ def lever(at: np.ndarray, cg: np.ndarray) -> np.ndarray:
 
 def moved_by_force(
     p: cp.Powertrain, rpm: np.ndarray, at: np.ndarray, along: np.ndarray
-) -> cp.types.DrivenResponse:
+) -> cp.results.DrivenResponse:
     """Return the response to 1 N of order 1 alone."""
     pusher = cp.Actuator("pusher", tuple(at), tuple(along))
     request = p.response(rpm, orders=[1]).request
     forces = np.ones((len(rpm), 1, 1), complex)
-    return cp.types.DrivenResponse(p, rpm, request, (pusher,), forces, engine_runs=False)
+    return cp.results.DrivenResponse(p, rpm, request, (pusher,), forces, engine_runs=False)
 
 
 @pytest.mark.parametrize("seed", range(8))

@@ -176,7 +176,7 @@ def readings() -> dict[str, Any]:
     return found
 
 
-def numbers(result: cp.types.MountModes) -> list[str]:
+def numbers(result: cp.results.MountModes) -> list[str]:
     """Return the figures that a result prints, without words."""
     text = "\n".join(frame.text() for frame in result.frames.values())
     return re.findall(r"-?\d+\.?\d*(?:e[-+]\d+)?", text)

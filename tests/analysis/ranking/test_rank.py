@@ -35,7 +35,7 @@ I4 = cp.Engine.inline(IJESC, throws_deg=[0, 180, 180, 0], spacing=0.1, name="I4"
 ROUNDING = 1e-13
 
 
-def paper(**options: Any) -> cp.types.Ranking:
+def paper(**options: Any) -> cp.results.Ranking:
     """The paper's four engines at its seventeen angles, with its data."""
     given: dict[str, Any] = {"rpm": ijesc.RPM, "bank_angle_deg": ijesc.V_ANGLES_DEG, "hold": "pins"}
     given |= {"orders": (1, 2), "spectrum": AS_PRINTED}
@@ -43,11 +43,11 @@ def paper(**options: Any) -> cp.types.Ranking:
     return cp.rank({k: e.replace(reference_z=0.0) for k, e in V6.items()}, **given | options)
 
 
-def angles(ranking: cp.types.Ranking) -> dict[str, tuple[float, ...]]:
+def angles(ranking: cp.results.Ranking) -> dict[str, tuple[float, ...]]:
     return {choice.name: choice.bank_angles_deg for choice in ranking}
 
 
-def parts_left(balance: cp.types.Balance) -> int:
+def parts_left(balance: cp.results.Balance) -> int:
     """How many of the paper's four figures, M_px, M_py, M_sx, M_sy, are not zero."""
     return int(np.count_nonzero(balance.moment.peak_xy))
 
@@ -218,7 +218,7 @@ def test_the_table_has_the_objectives_that_are_known() -> None:
 # --- what is least ------------------------------------------------------------------------------
 
 
-def of_tables(*tables: list[list[float]], **options: Any) -> cp.types.Ranking:
+def of_tables(*tables: list[list[float]], **options: Any) -> cp.results.Ranking:
     """Ranking by given numbers: a row for each engine, columns for 10, 20, 30 … degrees."""
 
     def look_up(table: list[list[float]]) -> Any:
@@ -230,7 +230,7 @@ def of_tables(*tables: list[list[float]], **options: Any) -> cp.types.Ranking:
     return cp.rank(engines, **given | {"by": [look_up(table) for table in tables]} | options)
 
 
-def found(ranking: cp.types.Ranking) -> list[tuple[int, str, tuple[float, ...]]]:
+def found(ranking: cp.results.Ranking) -> list[tuple[int, str, tuple[float, ...]]]:
     return [(each.place, each.name, each.bank_angles_deg) for each in ranking]
 
 
@@ -295,7 +295,7 @@ def test_angles_in_any_order_and_twice() -> None:
 # --- between the angles -------------------------------------------------------------------------
 
 
-def by_angle(function: Any, at: Any, **options: Any) -> cp.types.Choice:
+def by_angle(function: Any, at: Any, **options: Any) -> cp.results.Choice:
     """The choice where the objective is a function of the bank angle."""
     return cp.rank(
         SHARED,
@@ -472,7 +472,7 @@ def test_a_warning_of_units_comes_once_and_points_here() -> None:
 
 
 def test_errors_of_a_function_come_through() -> None:
-    def fail(_: cp.types.Balance) -> float:
+    def fail(_: cp.results.Balance) -> float:
         raise ZeroDivisionError("mine")
 
     with pytest.raises(ZeroDivisionError, match="mine"):

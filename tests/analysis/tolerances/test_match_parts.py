@@ -328,7 +328,7 @@ def test_the_work_for_influences_grows_as_the_number_of_cylinders(
     summed = []
     balance = over_square
 
-    def counted(engine: cp.Engine, orders: Any) -> cp.types.Balance:  # noqa: ANN401
+    def counted(engine: cp.Engine, orders: Any) -> cp.results.Balance:  # noqa: ANN401
         summed.append(len(engine))
         return balance(engine, orders)
 

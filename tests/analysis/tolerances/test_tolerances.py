@@ -35,14 +35,14 @@ NONE: dict[str, Any] = {"reciprocating_mass": 1e-30}
 QUANTITIES = ("force", "moment", "torque", "crank_torque")
 
 
-def tolerances(engine: cp.Engine = V6, **changes: object) -> cp.types.Tolerances:
+def tolerances(engine: cp.Engine = V6, **changes: object) -> cp.results.Tolerances:
     arguments: dict[str, Any] = (
         {"rpm": RPM, "orders": [1, 2, 4, 6], "samples": 500} | SPREADS | changes
     )
     return cp.tolerances(engine, **arguments)
 
 
-def per_cylinder(t: cp.types.Tolerances, name: str) -> NDArray[np.float64]:
+def per_cylinder(t: cp.results.Tolerances, name: str) -> NDArray[np.float64]:
     draws = t.draws(name)
     if name in ("crank_radius", "pin_deg"):
         places = [next(k for k, pin in enumerate(t.pins) if n in pin) for n in range(1, 7)]

@@ -65,7 +65,7 @@ class BalancerOption(Item):
 class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
     """Sets of balancing hardware, fewest shafts and least unbalance first.
 
-    A sequence of :class:`~crankpin.types.BalancerOption`. Made by
+    A sequence of :class:`~crankpin.results.BalancerOption`. Made by
     :func:`crankpin.balancer_options`, which says what is compared.
 
     Examples

@@ -162,7 +162,7 @@ def remarks_by_factor(
 
 
 class Card(Tabled):
-    """Card of a balancing shop, made by :meth:`crankpin.types.BobWeight.card`.
+    """Card of a balancing shop, made by :meth:`crankpin.results.BobWeight.card`.
 
     Frames: ``table``, the weighed parts; ``bob weights`` of every crankpin; ``residual`` at a speed
     by balance factor; and, where planes are given, ``correction``.
