@@ -16,7 +16,7 @@ import pytest
 from crankpin.analysis.contributions import contributions
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from several_cranks import Draft, fired_engine, random_engine
+from support.several_cranks import Draft, fired_engine, random_engine
 
 if TYPE_CHECKING:
     from crankpin.model.engine import Hold

@@ -8,9 +8,9 @@ from typing import Literal
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import CYLINDER, I4
 from rederivation import bearings, rigid_rod
 from rederivation.rigid_rod import SliderCrank
+from support.engines import CYLINDER, I4
 
 RPM = 4500.0
 OMEGA = 2.0 * np.pi * RPM / 60.0

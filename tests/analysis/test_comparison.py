@@ -7,7 +7,8 @@ import pickle
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import I4, V6, html_of
+from support import html_of
+from support.engines import I4, V6
 
 SHAFTS = [
     cp.Shaft(ratio, [cp.Unbalance(0.003, z=0.15, angle_deg=-90)], x=x)

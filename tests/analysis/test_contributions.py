@@ -7,8 +7,8 @@ from typing import Any
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import I4, OFFSET, V6
 from crankpin.analysis.contributions import contributions, phasors
+from support.engines import I4, OFFSET, V6
 
 ORDERS = (1, 2, 3, 4, 6)
 FITTED = V6.replace(cylinder=OFFSET, rotating_mass=[0.1, 0.2, 0.3, 0.4, 0.5, 0.6]).replace(

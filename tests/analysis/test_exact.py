@@ -20,10 +20,11 @@ import mpmath
 import numpy as np
 import pytest
 import sympy as sp
-from conftest import CYLINDER, html_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import crossplane
+from support import html_of
+from support.engines import CYLINDER
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

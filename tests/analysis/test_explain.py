@@ -17,11 +17,11 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import html_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import time_domain
-from several_cranks import random_engine
+from support import html_of
+from support.several_cranks import random_engine
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -21,13 +21,13 @@ from typing import TYPE_CHECKING, Any, Literal
 import crankpin as cp
 import numpy as np
 import pytest
-from built_engines import EVEN, UNEVEN
-from conftest import CYLINDER
 from crankpin.cli import main
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from matplotlib import pyplot as plt
 from rederivation import firing, ijesc
+from support.built_engines import EVEN, UNEVEN
+from support.engines import CYLINDER
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any, Literal
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import I4
 from crankpin._support.record import changed
 from rederivation import flywheel as rederived
+from support.engines import I4
 
 if TYPE_CHECKING:
     from collections.abc import Callable

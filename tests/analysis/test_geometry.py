@@ -5,9 +5,9 @@ from __future__ import annotations
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import CYLINDER
 from crankpin.analysis.geometry import assumed_bores, geometry, weights_on_crank, weights_on_shafts
 from crankpin.model.crankpins import bays, throws
+from support.engines import CYLINDER
 
 STAGGERED = cp.Engine.vee(
     CYLINDER, bank_angle_deg=90, throws_deg=[0, 120, 240], spacing=0.11, bank_stagger=0.022

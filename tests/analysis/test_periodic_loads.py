@@ -17,7 +17,7 @@ from crankpin.analysis import export
 from crankpin.view import mounted
 from crankpin.view.figures import figures
 from rederivation import periodic
-from several_cranks import Draft
+from support.several_cranks import Draft
 
 if TYPE_CHECKING:
     from collections.abc import Callable

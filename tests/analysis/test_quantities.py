@@ -19,9 +19,9 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from conftest import OFFSET
 from crankpin.analysis import export
 from matplotlib import pyplot as plt
+from support.engines import OFFSET
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import CYLINDER
 from rederivation import time_domain
+from support.engines import CYLINDER
 
 if TYPE_CHECKING:
     from crankpin.model.engine import Hold

@@ -12,7 +12,7 @@ import pytest
 from crankpin.analysis.contributions import contributions, phasors
 from crankpin.analysis.geometry import geometry, rotating_masses, weights_on_crank
 from crankpin.model.crankpins import crankpins
-from several_cranks import Draft, fired_engine, random_engine, size
+from support.several_cranks import Draft, fired_engine, random_engine, size
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import CYLINDER
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import firing as rederived
+from support.engines import CYLINDER
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -12,7 +12,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from numpy.typing import NDArray  # noqa: TC002 - read by tests of signatures
-from several_cranks import random_engine
+from support.several_cranks import random_engine
 
 CYLINDER = cp.Cylinder(0.043, 0.145, 0.5, pin_offset=0.002, bore=0.086)
 I4 = cp.Engine.preset("i4", cylinder=CYLINDER).with_cycle(cp.Cycle.example())

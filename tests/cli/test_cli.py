@@ -19,13 +19,13 @@ import crankpin as cp
 import matplotlib as mpl
 import numpy as np
 import pytest
-from conftest import DATA
 from crankpin import cli
 from crankpin._support import inputs
 from crankpin._support.record import AbsentItemError
 from crankpin.cli import main
 from crankpin.cli.arguments import Given, error_in_options
 from matplotlib import pyplot as plt
+from support import DATA
 
 IJESC = [
     "ijesc-v6-1-3-5-2-4-6",

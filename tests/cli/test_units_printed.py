@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import crankpin as cp
 import pytest
+from _support.test_units import IMPERIAL, SI
 from crankpin.cli import ORDER, main, registered
 from crankpin.cli.arguments import Parser
-from support.test_units import IMPERIAL, SI
 
 if TYPE_CHECKING:
     from pathlib import Path

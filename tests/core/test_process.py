@@ -11,11 +11,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import crankpin as cp
-import long_calls
 import numpy as np
 import pytest
 from fuzzing.sound import FIRED
 from fuzzing.surface import CALLED
+from support import long_calls
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -9,9 +9,9 @@ from operator import attrgetter
 from pathlib import Path
 
 import crankpin as cp
-import long_calls
 import numpy as np
 import pytest
+from support import long_calls
 
 pytestmark = pytest.mark.slow
 

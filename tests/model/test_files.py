@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import CYLINDER, I4
 from crankpin.analysis.balancing import planes
 from crankpin.model.crankpins import bays
+from support.engines import CYLINDER, I4
 
 if TYPE_CHECKING:
     from pathlib import Path

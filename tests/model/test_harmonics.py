@@ -6,10 +6,10 @@ import crankpin as cp
 import mpmath
 import numpy as np
 import pytest
-from conftest import DATA
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import harmonics_mp, kinematics
+from support import DATA
 
 TABLE = harmonics_mp.reference_table(DATA / "harmonics_50_digits.csv")
 ORDERS = list(range(1, 41))

@@ -16,10 +16,10 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
-from built_engines import EVEN, UNEVEN
-from conftest import DATA
 from crankpin.model import presets as presets_module
 from rederivation import crossplane, ebook, ijesc
+from support import DATA
+from support.built_engines import EVEN, UNEVEN
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -7,16 +7,16 @@ import pickle
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-import conftest
 import crankpin as cp
 import numpy as np
 import pytest
 import sympy as sp
-from conftest import CYLINDER
 from crankpin import Shaft, Unbalance
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import rotors, time_domain
+from support import engines
+from support.engines import CYLINDER
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -507,7 +507,7 @@ def test_closed_form_evaluates_to_the_balance() -> None:
 
 def test_lanchester_shafts_remove_the_second_order_of_an_inline_four() -> None:
     amplitude = float(CYLINDER.harmonics([2])[0].real) * 0.5 * 0.045
-    i4, middle = conftest.I4, conftest.I4.reference_z
+    i4, middle = engines.I4, engines.I4.reference_z
     # Each shaft has half of four pistons' amplitude, over the square of its ratio.
     pair = [
         Shaft(ratio, [Unbalance(4 * amplitude / 2 / 4, z=middle, angle_deg=-90)], x=x)

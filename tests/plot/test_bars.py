@@ -6,11 +6,10 @@ from typing import TYPE_CHECKING
 
 import crankpin as cp
 import numpy as np
-from conftest import I4, V6
 from matplotlib import pyplot as plt
-
-from plot.pictures import SUMMARY
-from plot.reading import figure_of, legend_texts
+from support.engines import I4, V6
+from support.pictures import SUMMARY
+from support.reading import figure_of, legend_texts
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import I4, V6
 from crankpin.plot.compare import changed
 from matplotlib import pyplot as plt
+from support.engines import I4, V6
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 from matplotlib.quiver import Quiver
-
-from plot.pictures import V6_90, V8
-from plot.reading import figure_of, legend_texts, marks, series, title_of
+from support.pictures import V6_90, V8
+from support.reading import figure_of, legend_texts, marks, series, title_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

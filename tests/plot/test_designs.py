@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import CYLINDER
 from crankpin.plot.style import MARK, SERIES
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
+from support.engines import CYLINDER
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any, Literal
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import CYLINDER
 from crankpin.analysis.geometry import geometry
 from crankpin.plot.crank import PINS, UNBALANCES, WEIGHTS
 from crankpin.plot.section import MOVING
 from crankpin.plot.shapes import listed
 from matplotlib import pyplot as plt
+from support.engines import CYLINDER
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

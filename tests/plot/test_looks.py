@@ -13,9 +13,8 @@ from crankpin.plot.style import is_dark
 from matplotlib import colors
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
-
-from plot.looks import compared, in_a_grid, on_dark_column
-from plot.pictures import PICTURES
+from support.looks import compared, in_a_grid, on_dark_column
+from support.pictures import PICTURES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

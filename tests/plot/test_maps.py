@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import I4, V6
 from matplotlib import pyplot as plt
-
-from plot.pictures import FIRED, over_two
-from plot.reading import figure_of, title_of
+from support.engines import I4, V6
+from support.pictures import FIRED, over_two
+from support.reading import figure_of, title_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

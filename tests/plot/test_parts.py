@@ -7,11 +7,10 @@ from typing import Any
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import V6
 from matplotlib import pyplot as plt
-
-from plot.pictures import over_bank_angle
-from plot.reading import figure_of, heights, legend_texts, marks, series, title_of, xtick_texts
+from support.engines import V6
+from support.pictures import over_bank_angle
+from support.reading import figure_of, heights, legend_texts, marks, series, title_of, xtick_texts
 
 ANGLES = np.arange(0.0, 181.0, 5.0)
 

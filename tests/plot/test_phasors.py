@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import I4, V6
 from crankpin.analysis.contributions import contributions
 from crankpin.plot.phasors import SUM
 from matplotlib import pyplot as plt
 from matplotlib.patches import FancyArrowPatch
+from support.engines import I4, V6
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -11,14 +11,13 @@ import crankpin as cp
 import matplotlib as mpl
 import numpy as np
 import pytest
-from conftest import I4, V6
 from cycler import cycler
 from matplotlib import pyplot as plt
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
-
-from plot.pictures import over_bank_angle
-from plot.reading import figure_of, heights, legend_texts, series, title_of
+from support.engines import I4, V6
+from support.pictures import over_bank_angle
+from support.reading import figure_of, heights, legend_texts, series, title_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import I4, V6
 from matplotlib import pyplot as plt
-
-from plot.pictures import V8
-from plot.reading import legend_texts, series, title_of
+from support.engines import I4, V6
+from support.pictures import V8
+from support.reading import legend_texts, series, title_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 from matplotlib.collections import LineCollection
-
-from plot.pictures import LOADED
-from plot.reading import heights, legend_texts, series, title_of
+from support.pictures import LOADED
+from support.reading import heights, legend_texts, series, title_of
 
 
 def test_polar_diagrams_trace_the_loads_once() -> None:

@@ -6,8 +6,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
-
-from plot.reading import figure_of, legend_texts, title_of
+from support.reading import figure_of, legend_texts, title_of
 
 CYLINDER = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
 MOTORED = cp.Cycle.motored(CYLINDER, compression_ratio=10)

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import crankpin as cp
 import numpy as np
-from conftest import I4, V6
-
-from plot.pictures import BANK_ANGLES, FAMILY, ORDERS, V8
-from plot.reading import legend_texts, marks, series, title_of
+from support.engines import I4, V6
+from support.pictures import BANK_ANGLES, FAMILY, ORDERS, V8
+from support.reading import legend_texts, marks, series, title_of
 
 NAMED = dict(zip(ORDERS, FAMILY, strict=True))
 

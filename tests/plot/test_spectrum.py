@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import I4, V6
 from matplotlib.figure import Figure
-
-from plot.pictures import UNNAMED
-from plot.reading import legend_texts, series, title_of, xtick_texts
+from support.engines import I4, V6
+from support.pictures import UNNAMED
+from support.reading import legend_texts, series, title_of, xtick_texts
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

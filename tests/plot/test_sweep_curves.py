@@ -5,11 +5,10 @@ from __future__ import annotations
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import I4, V6
 from matplotlib import pyplot as plt
-
-from plot.pictures import BANK_ANGLES, FAMILY, ORDERS, UNNAMED, over_bank_angle, over_two
-from plot.reading import figure_of, heights, legend_texts, marks, series, title_of, xtick_texts
+from support.engines import I4, V6
+from support.pictures import BANK_ANGLES, FAMILY, ORDERS, UNNAMED, over_bank_angle, over_two
+from support.reading import figure_of, heights, legend_texts, marks, series, title_of, xtick_texts
 
 
 def test_all_orders_come_first_then_the_largest() -> None:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import crankpin as cp
 import numpy as np
-from conftest import I4, V6
 from matplotlib import pyplot as plt
-
-from plot.pictures import over_two
-from plot.reading import figure_of, heights, legend_texts, series, title_of
+from support.engines import I4, V6
+from support.pictures import over_two
+from support.reading import figure_of, heights, legend_texts, series, title_of
 
 THETA = np.arange(0.0, 361.0)
 

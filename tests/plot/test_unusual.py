@@ -10,11 +10,10 @@ import crankpin as cp
 import matplotlib as mpl
 import numpy as np
 import pytest
-from conftest import CYLINDER, I4, V6
 from matplotlib import pyplot as plt
 from matplotlib.collections import QuadMesh
-
-from plot.reading import heights, legend_texts, series, title_of, xtick_texts
+from support.engines import CYLINDER, I4, V6
+from support.reading import heights, legend_texts, series, title_of, xtick_texts
 
 if TYPE_CHECKING:
     from collections.abc import Callable

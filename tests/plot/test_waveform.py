@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from conftest import V6
-
-from plot.pictures import FAMILY
-from plot.reading import heights, legend_texts, series, title_of, xtick_texts
+from support.engines import V6
+from support.pictures import FAMILY
+from support.reading import heights, legend_texts, series, title_of, xtick_texts
 
 
 def test_curves_are_the_values() -> None:

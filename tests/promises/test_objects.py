@@ -27,7 +27,8 @@ import crankpin as cp
 import numpy as np
 import pandas as pd
 import pytest
-from conftest import OFFSET, html_of
+from support import html_of
+from support.engines import OFFSET
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -12,8 +12,8 @@ from fractions import Fraction
 import mpmath as mp
 import numpy as np
 import pytest
-from conftest import DATA
 from rederivation import crossplane, ebook, harmonics_mp, ijesc, ito, kinematics, time_domain
+from support import DATA
 
 TURN = np.linspace(0.0, 2.0 * np.pi, 721)
 

@@ -12,8 +12,8 @@ from typing import Literal
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import CYLINDER
 from rederivation import crossplane, ebook
+from support.engines import CYLINDER
 
 RPM = 3000.0
 SPACING = 0.1  # m, the page's a

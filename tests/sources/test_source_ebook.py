@@ -15,9 +15,9 @@ from fractions import Fraction
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import DATA
 from numpy.typing import NDArray
 from rederivation import ebook
+from support import DATA
 
 Array = NDArray[np.float64]
 

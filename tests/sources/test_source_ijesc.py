@@ -13,9 +13,10 @@ import csv
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import DATA, IJESC
 from numpy.typing import NDArray
 from rederivation import ijesc
+from support import DATA
+from support.engines import IJESC
 
 Array = NDArray[np.float64]
 Place = tuple[str, float, str]

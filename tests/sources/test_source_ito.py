@@ -14,9 +14,9 @@ import crankpin as cp
 import mpmath
 import numpy as np
 import pytest
-from conftest import DATA
 from numpy.typing import NDArray
 from rederivation import ito
+from support import DATA
 
 Array = NDArray[np.float64]
 Row = dict[str, str]

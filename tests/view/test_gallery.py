@@ -11,7 +11,7 @@ from crankpin.view.gallery import save_gallery
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from chromium import Open
+    from support.chromium import Open
 
 pytestmark = pytest.mark.slow  # a browser
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import crankpin as cp
 import numpy as np
 import pytest
-from chromium import values
+from support.chromium import values
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

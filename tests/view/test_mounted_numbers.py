@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
-from chromium import Open, values
 from crankpin.view import mounted
 from crankpin.view.page import module
+from support.chromium import Open, values
 
 if TYPE_CHECKING:
     from collections.abc import Callable

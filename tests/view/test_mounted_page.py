@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
-from chromium import Open, values
 from crankpin.view import mounted
 from crankpin.view.page import as_json
-from view_engines import everything
+from support.chromium import Open, values
+from support.view_engines import everything
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
-from chromium import Open, values
-from several_cranks import fired_engine, random_engine
-from view_engines import everything, radial
+from support.chromium import Open, values
+from support.several_cranks import fired_engine, random_engine
+from support.view_engines import everything, radial
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 import crankpin as cp
 import numpy as np
 import pytest
-from chromium import Open, values
-from conftest import CYLINDER
 from crankpin._support import units
 from crankpin.view.figures import figures
 from crankpin.view.page import WEB
-from view_engines import everything, radial, square_four
+from support.chromium import Open, values
+from support.engines import CYLINDER
+from support.view_engines import everything, radial, square_four
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -14,10 +14,10 @@ import crankpin as cp
 import numpy as np
 import pytest
 from PIL import Image
-from view_engines import everything, radial
+from support.view_engines import everything, radial
 
 if TYPE_CHECKING:
-    from chromium import Open
+    from support.chromium import Open
 
 pytestmark = pytest.mark.slow  # a browser
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 if TYPE_CHECKING:
-    from chromium import Open
     from playwright.sync_api import Page
+    from support.chromium import Open
 
 pytestmark = pytest.mark.slow  # a browser
 

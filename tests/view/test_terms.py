@@ -18,8 +18,8 @@ from crankpin.view.figures import Settings, figures
 from crankpin.view.gallery import speed_of
 from crankpin.view.terms import RodRatios
 from numpy.polynomial import chebyshev
-from several_cranks import fired_engine, random_engine, size
-from view_engines import everything, radial
+from support.several_cranks import fired_engine, random_engine, size
+from support.view_engines import everything, radial
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
-from chromium import Open, values
-from view_engines import everything
+from support.chromium import Open, values
+from support.view_engines import everything
 
 if TYPE_CHECKING:
     from pathlib import Path

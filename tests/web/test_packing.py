@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from building import SITE, builder
+from support.building import SITE, builder
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from chromium import Open
+    from support.chromium import Open
 
 pytestmark = pytest.mark.slow  # a browser
 

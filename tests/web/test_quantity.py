@@ -14,7 +14,7 @@ from crankpin._support import units
 from crankpin.cli import arguments
 
 if TYPE_CHECKING:
-    from core_in_page import Ask
+    from support.core_in_page import Ask
 
 pytestmark = pytest.mark.slow  # a browser
 

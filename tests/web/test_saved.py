@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import crankpin as cp
 import numpy as np
 import pytest
-from building import cells, choose, engine, faults, field, settle, take_file, type_in
+from support.building import cells, choose, engine, faults, field, settle, take_file, type_in
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from chromium import Open
     from playwright.sync_api import Download, Page
+    from support.chromium import Open
 
 pytestmark = pytest.mark.slow  # a browser
 

@@ -19,13 +19,13 @@ from typing import TYPE_CHECKING, Any, Literal
 import crankpin as cp
 import numpy as np
 import pytest
-from core_in_page import Ask, Calls
 from crankpin import _core
 from crankpin.model import presets
 from crankpin.model.builders import FANS
 from crankpin.model.checks import UNITS
 from crankpin.view.figures import figures
-from several_cranks import fired_engine, random_engine
+from support.core_in_page import Ask, Calls
+from support.several_cranks import fired_engine, random_engine
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -573,12 +573,12 @@ def test_wrong_arguments_are_named(ask: Ask) -> None:
     assert (same["message"], same["hint"]) == (str(raised.value), raised.value.hint)
 
 
-def test_hostile_names_stay_texts(ask: Ask, page: Page) -> None:
+def test_hostile_names_stay_texts(ask: Ask, core_page: Page) -> None:
     names = ["<script>alert(1)</script>", "__proto__", '"; throw 1; //', "\u2028", "é" * 999, "\0x"]
     engines = [cp.Engine.preset("i4").replace(name=name) for name in names]
     found = results(ask, [("read", {"engine": each.to_json()}) for each in engines])
     assert [each["summary"]["name"] for each in found] == names
-    assert page.evaluate("Object.keys({}).length + Object.keys(Object.prototype).length") == 0
+    assert core_page.evaluate("Object.keys({}).length + Object.keys(Object.prototype).length") == 0
 
 
 def test_what_is_too_large_is_an_error_and_the_next_call_works(ask: Ask) -> None:
@@ -591,7 +591,7 @@ def test_what_is_too_large_is_an_error_and_the_next_call_works(ask: Ask) -> None
     assert answers[1]["result"]["orders"][0]["order"] == 2
 
 
-def test_memory_stays_bounded_after_a_thousand_engines(ask: Ask, page: Page) -> None:
+def test_memory_stays_bounded_after_a_thousand_engines(ask: Ask, core_page: Page) -> None:
     texts = [each.to_json() for each in random_engines()[:100]]
 
     def once() -> None:
@@ -600,9 +600,9 @@ def test_memory_stays_bounded_after_a_thousand_engines(ask: Ask, page: Page) -> 
             results(ask, [(name, {"engine": text, "rpm": RPM}) for text in some])
 
     once()
-    before = page.evaluate("core.memory")
+    before = core_page.evaluate("core.memory")
     for _ in range(9):
         once()
     # The allocator's own fragments: two pages of 64 KiB.
-    assert page.evaluate("core.memory") <= before + 2 * 65536
+    assert core_page.evaluate("core.memory") <= before + 2 * 65536
     assert before < 32 << 20

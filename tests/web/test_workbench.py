@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 import crankpin as cp
 import numpy as np
 import pytest
-from building import SITE, cells, choose, engine, faults, field, settle, take_file, type_in
-from chromium import ARGUMENTS, NAMES
 from crankpin.model import presets
+from support.building import SITE, cells, choose, engine, faults, field, settle, take_file, type_in
+from support.chromium import ARGUMENTS, NAMES
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, Literal
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import CYLINDER, DATA
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from rederivation import ito
 from rederivation import search as numpy_search
+from support import DATA
+from support.engines import CYLINDER
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

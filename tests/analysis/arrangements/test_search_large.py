@@ -6,11 +6,11 @@ import itertools
 from fractions import Fraction
 
 import crankpin as cp
-import long_calls
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from support import long_calls
 
 pytestmark = pytest.mark.slow
 

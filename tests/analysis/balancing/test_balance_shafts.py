@@ -11,7 +11,6 @@ import pickle
 import warnings
 from typing import TYPE_CHECKING, Any
 
-import conftest
 import crankpin as cp
 import numpy as np
 import pytest
@@ -21,6 +20,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import balance_shafts as rederived
 from rederivation import rotors, time_domain
+from support import html_of
+from support.engines import CYLINDER, I4
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.filterwarnings("ignore:the roll torque is not cancelled")
 RPM = 600.0
 OMEGA = 2 * np.pi * RPM / 60
-CYLINDER = conftest.CYLINDER
 MR = CYLINDER.reciprocating_mass * CYLINDER.crank_radius
 A2 = float(CYLINDER.harmonics([2])[0].real)
 """Second-order harmonic of the piston's acceleration over r·ω²."""
@@ -38,7 +38,6 @@ ROUNDING = 1e-13
 # Differentiating 256 samples twice lifts rounding by up to 128².
 SAMPLED = 1e-11
 
-I4 = conftest.I4
 BORE = 2 * CYLINDER.crank_radius
 FIRED = I4.replace(cylinder=CYLINDER.replace(bore=BORE), firing_order="1-3-4-2").with_cycle(
     cp.Cycle.example()
@@ -653,7 +652,7 @@ def test_tables_show_the_fit() -> None:
             expected = abs(getattr(one, str(part) if part else "phasor")) / OMEGA**2
             assert value == pytest.approx(float(expected), rel=1e-9, abs=1e-15)
     assert repr(FIT).count("\n\n") == 2
-    assert conftest.html_of(FIT).count("<table>") == 3
+    assert html_of(FIT).count("<table>") == 3
 
 
 def test_to_pandas() -> None:

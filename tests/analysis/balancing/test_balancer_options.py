@@ -7,16 +7,15 @@ import itertools
 import pickle
 from typing import Any
 
-import conftest
 import crankpin as cp
 import numpy as np
 import pytest
 from crankpin import Shaft, Unbalance
 from crankpin.analysis.balancing.balancer_options import _front
+from support import html_of
+from support.engines import CYLINDER, I4
 
 RPM = 3000.0
-CYLINDER = conftest.CYLINDER
-I4 = conftest.I4
 V6_90 = cp.Engine.preset("v6-90")
 V6_60 = cp.Engine.preset("v6-60")
 SINGLE = cp.Engine.preset("single")
@@ -256,7 +255,7 @@ def test_table_shows_the_front_and_whether_it_reaches_the_target() -> None:
     last = repr(OPTIONS).splitlines()[-1]
     assert last == "Target: order-1 rocking moment ≤ 0 N·m; least counterweights + shaft −1."
     assert f"{len(OPTIONS.front)} of {len(OPTIONS)} sets" in repr(OPTIONS).splitlines()[0]
-    assert conftest.html_of(OPTIONS).startswith("<table>")
+    assert html_of(OPTIONS).startswith("<table>")
     assert "\n" not in repr(OPTIONS[0])
     assert "no set reaches it" in repr(
         cp.balancer_options(I4, rpm=RPM, target={"[4].force.peak": 0.0})

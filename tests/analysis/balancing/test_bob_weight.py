@@ -8,11 +8,11 @@ from typing import Any
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import html_of
 from crankpin import Unbalance
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import first_order, time_domain
+from support import html_of
 
 UNIT = cp.Cylinder(crank_radius=1.0, rod_length=4.0, reciprocating_mass=1.0)
 UNIT_SPEED = 60.0 / (2.0 * np.pi)

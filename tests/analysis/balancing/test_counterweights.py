@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any, Literal
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import html_of
 from crankpin import Unbalance
 from crankpin.model import crankpins
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import first_order, time_domain
+from support import html_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -8,10 +8,10 @@ from typing import Any
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import html_of
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from rederivation import rotors
+from support import html_of
 
 PLACES = st.lists(st.floats(-1.0, 1.0), min_size=2, max_size=2)
 

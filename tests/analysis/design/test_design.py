@@ -11,11 +11,12 @@ from typing import Any
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import CYLINDER, OFFSET, html_of
 from crankpin.analysis.arrangements.cranks import Crank, Symmetries
 from crankpin.analysis.design.families import engines_of
-from designing import A2, RPM, SPACING, UNIT, design, question
 from rederivation import design as brute
+from support import html_of
+from support.designing import A2, RPM, SPACING, UNIT, design, question
+from support.engines import CYLINDER, OFFSET
 
 CROSS_PLANE: dict[str, Any] = {"bank_angle_deg": 90, "throws_deg": [0, 90, 180, 270]}
 """A V8 whose four throws all point another way."""

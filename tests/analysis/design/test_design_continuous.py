@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import OFFSET
 from crankpin import _core
 from crankpin.analysis.design.families import Family, engines_of, families
 from crankpin.analysis.ranking import objectives
-from designing import A2, RPM, UNIT, design, question
 from rederivation import design as brute
+from support.designing import A2, RPM, UNIT, design, question
+from support.engines import OFFSET
 
 if TYPE_CHECKING:
     from crankpin.analysis.design.question import Question

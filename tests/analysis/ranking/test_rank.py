@@ -11,10 +11,11 @@ import crankpin as cp
 import matplotlib as mpl
 import numpy as np
 import pytest
-from conftest import IJESC, html_of
 from crankpin.analysis.ranking import objectives
 from matplotlib import pyplot as plt
 from rederivation import ijesc
+from support import html_of
+from support.engines import IJESC
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
-import long_calls
 import numpy as np
 import pytest
-from conftest import OFFSET
 from crankpin._support import labels
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import time_domain
+from support import long_calls
+from support.engines import OFFSET
 
 if TYPE_CHECKING:
     from crankpin.model.engine import Hold

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import html_of
 from crankpin.analysis.balance import over_square
 from crankpin.analysis.tolerances import match_parts as matching
 from crankpin.analysis.tolerances.match_parts import windows
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from several_cranks import random_engine
+from support import html_of
+from support.several_cranks import random_engine
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import html_of
 from crankpin._support import labels
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import tolerances as rederived
 from scipy import stats
+from support import html_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -10,10 +10,10 @@ from typing import Any
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import CYLINDER
 from crankpin._support import inputs
 from hypothesis import given
 from hypothesis import strategies as st
+from support.engines import CYLINDER
 
 
 def text(value: object) -> str:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import crankpin as cp
-from conftest import CYLINDER
+
+from support.engines import CYLINDER
 
 
 def everything() -> cp.Engine:

@@ -10,11 +10,11 @@ from xml.etree import ElementTree as ET
 
 import crankpin as cp
 import pytest
-from conftest import I4, V6
 from crankpin._support import labels
 from crankpin._support.tables import Column, Table
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from support.engines import I4, V6
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -6,8 +6,9 @@ from typing import Any
 
 import crankpin as cp
 import numpy as np
-from conftest import CYLINDER
 from crankpin.analysis.design.question import Question, checked
+
+from support.engines import CYLINDER
 
 RPM = 6000.0
 SPACING = 0.1

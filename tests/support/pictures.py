@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
 import numpy as np
-from conftest import CYLINDER, I4, V6
 from matplotlib import pyplot as plt
+
+from support.engines import CYLINDER, I4, V6
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import I4
 from crankpin import cli
 from crankpin._support import files
+from support.engines import I4
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from playwright.sync_api import Browser, Page
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 MODULE = ROOT / "target" / "web" / "crankpin.wasm"
 LOADER = ROOT / "site" / "core.mjs"
 NOT_BUILT = "the core for browsers is not built: packaging/web"
@@ -47,7 +47,7 @@ ASK = """(calls) => {
 
 
 @pytest.fixture(scope="module")
-def page(browser: Browser) -> Iterator[Page]:
+def core_page(browser: Browser) -> Iterator[Page]:
     """An empty page that has the core."""
     if not MODULE.exists():
         pytest.skip(NOT_BUILT)
@@ -63,6 +63,6 @@ def page(browser: Browser) -> Iterator[Page]:
 
 
 @pytest.fixture(scope="module")
-def ask(page: Page) -> Ask:
+def ask(core_page: Page) -> Ask:
     """Call the core, several times at once."""
-    return lambda calls: json.loads(page.evaluate(ASK, json.dumps(calls)))
+    return lambda calls: json.loads(core_page.evaluate(ASK, json.dumps(calls)))

@@ -12,10 +12,11 @@ import pytest
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from chromium import Open
     from playwright.sync_api import Locator, Page
 
-SITE = Path(__file__).parents[1] / "site"
+    from support.chromium import Open
+
+SITE = Path(__file__).parents[2] / "site"
 NOT_BUILT = "the core for browsers is not built: packaging/web"
 
 

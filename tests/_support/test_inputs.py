@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
-from conftest import CYLINDER, I4, V6
 from crankpin._support import inputs
 from crankpin._support.warnings import suppressed, warn
+from support.engines import CYLINDER, I4, V6
 
 if TYPE_CHECKING:
     from collections.abc import Callable
