@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use crate::Complex64;
 use crate::balancing::roll_torque;
-use crate::engine::{ActsOn, Details, Engine, Gas, Hold, Origin, PeriodicLoad, Station, file};
+use crate::engine::{ActsOn, Details, Engine, Gas, Hold, PeriodicLoad, Station, file};
 use crate::mechanism::cylinder::Cylinder;
 use crate::mounts::{Mount, MountFigures, Powertrain, RigidBody};
 use crate::numbers::angle::Angle;
@@ -483,11 +483,11 @@ impl<'a> Case<'a> {
                     self.slack(rpm, false),
                 )?;
             }
-            for (origin, part) in
-                terms(&self.with, &request, [point[0], point[1]], &orders, &self.cancel)?
-            {
-                for (k, &order) in orders.iter().enumerate().filter(|_| origin == Origin::Load(0)) {
-                    self.compare("terms", six_of(&part, k), order, rpm, point)?;
+            // It is the last of all parts.
+            let parts = terms(&self.with, &request, [point[0], point[1]], &orders, &self.cancel)?;
+            if let Some((_, part)) = parts.last() {
+                for (k, &order) in orders.iter().enumerate() {
+                    self.compare("terms", six_of(part, k), order, rpm, point)?;
                 }
             }
         }

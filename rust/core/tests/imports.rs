@@ -59,7 +59,7 @@ const HOMES: [&str; 5] = ["engine", "load", "mechanism", "pressure", "source"];
 /// Files and folders besides that name gas, pistons, rods or [`Origin`]s, and why.
 ///
 /// [`Origin`]: crankpin_core::engine::Origin
-const NAMING: [(&str, &str); 15] = [
+const NAMING: [(&str, &str); 13] = [
     ("checking.rs", "its engines have gas, and its load is an origin"),
     ("firing/", "a word of errors and a module: pistons fire, gas is exchanged"),
     ("lib.rs", "exports"),
@@ -69,12 +69,10 @@ const NAMING: [(&str, &str); 15] = [
     ("readings/exact/", "proofs have symbols for motions, and the star is of pressure"),
     ("readings/explain/", "words, and what is compared with one piston"),
     ("readings/figures.rs", "what a page turns, by part of the engine"),
-    ("readings/flywheel.rs", "an inertia of each cylinder"),
     ("readings/quantity.rs", "names of parts that are always there"),
     ("readings/sweep/", "an axis is the rod ratio"),
     ("readings/terms.rs", "terms are of each origin"),
     ("readings/tolerances/", "the rod length is a figure that deviates, pressure none"),
-    ("readings/turning.rs", "what turns with a crank, by origin"),
 ];
 
 /// Whether a word of code is one of those, in `snake_case` or `CamelCase`.
@@ -93,23 +91,45 @@ fn names_a_kind(word: &str) -> bool {
     word == "Origin" || parts.iter().any(|part| kinds.contains(&&**part))
 }
 
-#[test]
-fn kinds_of_loads_are_named_where_they_live() {
+/// Expressions that ask of which kind a part, a source or its torque is.
+const ASKING: [&str; 6] = [
+    "Origin::",
+    ".gas()",
+    "GasPressure",
+    "TorquePart::Gas",
+    "TorqueKey::Masses",
+    "TorqueKey::Swing",
+];
+
+/// Code of all files outside the homes, without tests and comments, by name.
+fn outside_homes() -> impl Iterator<Item = (String, String)> {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut naming = Vec::new();
-    for path in files(&source) {
+    files(&source).into_iter().filter_map(move |path| {
         let name = path.strip_prefix(&source).unwrap().to_str().unwrap().replace('\\', "/");
         if HOMES.iter().any(|home| name.starts_with(home)) {
-            continue;
+            return None;
         }
         let text = read_to_string(&path).unwrap();
-        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
-        let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
-        let word = |c: char| !c.is_alphanumeric() && c != '_';
-        if lines.flat_map(|line| line.split(word)).any(names_a_kind) {
-            naming.push(name);
-        }
-    }
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default().lines();
+        let code: Vec<&str> = code.filter(|line| !line.trim_start().starts_with("//")).collect();
+        Some((name, code.join("\n")))
+    })
+}
+
+#[test]
+fn kinds_are_asked_where_they_live() {
+    let asks = |code: &str| ASKING.iter().find(|asking| code.contains(**asking)).copied();
+    let asking: Vec<_> =
+        outside_homes().filter_map(|(name, code)| Some((name, asks(&code)?))).collect();
+    assert!(asking.is_empty(), "{asking:?}: let the part or the source answer");
+}
+
+#[test]
+fn kinds_of_loads_are_named_where_they_live() {
+    let word = |c: char| !c.is_alphanumeric() && c != '_';
+    let names = |code: &str| code.split(word).any(names_a_kind);
+    let naming: Vec<String> =
+        outside_homes().filter_map(|(name, code)| names(&code).then_some(name)).collect();
     let of = |name: &str| NAMING.iter().position(|(listed, _)| name.starts_with(listed));
     let others: Vec<&String> = naming.iter().filter(|name| of(name).is_none()).collect();
     assert!(others.is_empty(), "{others:?} name kinds of loads; ask the source, or say why");

@@ -91,13 +91,8 @@ pub fn terms(
     let engine = engine.get().with_spectrum(spectrum)?;
     let terms =
         interrupt::run(py, |cancel| core::terms::terms(&engine, &request, aside, &orders, cancel))?;
-    let named = |(origin, balance)| {
-        let (kind, index) = match origin {
-            Origin::Cylinder(index) => ("cylinder", index),
-            Origin::Counterweight(index) => ("counterweight", index),
-            Origin::Shaft(index) => ("shaft", index),
-            Origin::Load(index) => ("load", index),
-        };
+    let named = |(origin, balance): (Origin, _)| {
+        let (kind, index) = origin.named();
         (kind, index, Balance(balance))
     };
     Ok(terms.into_iter().map(named).collect())

@@ -30,9 +30,9 @@ pub fn group_terms<'py>(
     let orders = orders(&numbers)?;
     let torque = spectrum.is_none();
     let engine = engine.get().with_spectrum(spectrum)?;
-    let parts = if cylinders { figures::Parts::Moving } else { figures::Parts::Standing };
-    let found =
-        interrupt::run(py, |cancel| figures::group_terms(&engine, parts, &orders, torque, cancel))?;
+    let found = interrupt::run(py, |cancel| {
+        figures::group_terms(&engine, cylinders, &orders, torque, cancel)
+    })?;
     let planar =
         Array3::from_shape_fn((found.len(), GROUPS, 4), |(k, group, j)| found[k][group].planar[j]);
     let torques = Array3::from_shape_fn((found.len(), GROUPS, 2), |(k, group, j)| {

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use crankpin_core::drawing::{Drawing, block, fired_kinds, gas};
 use crankpin_core::figures::{
-    GROUPS, GroupTerms, Parts, Sizes, group_terms, listed_orders, load_rows, mean_inertia, orders,
-    sizes, swept,
+    GROUPS, GroupTerms, Sizes, group_terms, listed_orders, load_rows, mean_inertia, orders, sizes,
+    swept,
 };
 use crankpin_core::{Cancel, Complex64, Engine, Order, Result};
 use serde_json::{Value, json};
@@ -42,8 +42,8 @@ pub fn figures(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
 /// factor at the engine's own.
 fn terms(engine: &Engine, rpm: f64, cancel: &Cancel) -> Result<Value> {
     let all = orders(engine, cancel)?;
-    let tables = [Parts::Moving, Parts::Standing]
-        .map(|parts| group_terms(engine, parts, &all, true, cancel));
+    let tables =
+        [true, false].map(|of_cylinders| group_terms(engine, of_cylinders, &all, true, cancel));
     let [moving, standing] = tables;
     let tables = [moving?, standing?];
     let driven = engine.gas().is_some() || !engine.loads().is_empty();

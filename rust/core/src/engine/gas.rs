@@ -88,11 +88,17 @@ impl Engine {
         pairs.filter(|&[i, k]| i < k && crank(i) != crank(k) && facing(i, k)).collect()
     }
 
+    /// Index of a cylinder's cycle, where pressure counts.
+    #[must_use]
+    pub fn cycle_of(&self, cylinder: usize) -> Option<usize> {
+        self.gas.as_ref()?.cycle_of[cylinder]
+    }
+
     /// Cycle of a cylinder and absolute pressure in the crankcase, Pa, where pressure counts.
     #[must_use]
     pub fn pressure_of(&self, cylinder: usize) -> Option<(Arc<Cycle>, f64)> {
-        let gas = self.gas.as_ref()?;
-        Some((Arc::clone(&gas.cycles[gas.cycle_of[cylinder]?]), gas.crankcase))
+        let (gas, cycle) = (self.gas.as_ref()?, self.cycle_of(cylinder)?);
+        Some((Arc::clone(&gas.cycles[cycle]), gas.crankcase))
     }
 
     /// Whether each cylinder fires at its top dead centre in the second turn of the cycle, where that is

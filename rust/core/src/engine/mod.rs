@@ -319,6 +319,33 @@ impl Engine {
         unbalance.pin.map_or(unbalance.crank, |cylinder| self.crank_of[cylinder])
     }
 
+    /// All parts to which loads belong: cylinders, counterweights, shafts, further loads.
+    pub(crate) fn parts(&self) -> Vec<Origin> {
+        let count = |part: fn(usize) -> Origin, count: usize| (0..count).map(part);
+        count(Origin::Cylinder, self.stations.len())
+            .chain(count(Origin::Counterweight, self.counterweights.len()))
+            .chain(count(Origin::Shaft, self.shafts.len()))
+            .chain(count(Origin::Load, self.loads.len()))
+            .collect()
+    }
+
+    /// Index of a part in that list.
+    pub(crate) fn position_of(&self, part: Origin) -> usize {
+        let lists = [self.stations.len(), self.counterweights.len(), self.shafts.len()];
+        let (before, index) = match part {
+            Origin::Cylinder(i) => (0, i),
+            Origin::Counterweight(k) => (1, k),
+            Origin::Shaft(k) => (2, k),
+            Origin::Load(k) => (3, k),
+        };
+        lists[..before].iter().sum::<usize>() + index
+    }
+
+    /// Index of the bank with whose bores or crankpins a part turns.
+    pub(crate) fn bank_with(&self, part: Origin) -> Option<usize> {
+        self.cylinder_with(part).map(|cylinder| self.bank_of[cylinder])
+    }
+
     /// Index of the crank that carries a part; none of shafts and further loads.
     pub(crate) fn crank_with(&self, origin: Origin) -> Option<CrankIndex> {
         match origin {

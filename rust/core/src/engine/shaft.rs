@@ -45,6 +45,25 @@ pub enum Origin {
     Load(usize),
 }
 
+impl Origin {
+    /// The cylinder whose figures act on its loads and whose piston moves; none of other parts.
+    #[must_use]
+    pub fn cylinder(self) -> Option<usize> {
+        if let Self::Cylinder(i) = self { Some(i) } else { None }
+    }
+
+    /// What it is, in a word, and its index among those.
+    #[must_use]
+    pub fn named(self) -> (&'static str, usize) {
+        match self {
+            Self::Cylinder(i) => ("cylinder", i),
+            Self::Counterweight(k) => ("counterweight", k),
+            Self::Shaft(k) => ("shaft", k),
+            Self::Load(k) => ("load", k),
+        }
+    }
+}
+
 /// A balance shaft: it turns at a fixed ratio to the crankshaft about an axis parallel to it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shaft {

@@ -185,6 +185,14 @@ impl LoadList {
         superpose(&Phasors { reference: self.reference }, some, order, wanted)
     }
 
+    /// Loads that are none of the engine's own parts, with their indices among the engine's.
+    pub fn further(&self) -> impl Iterator<Item = (usize, &Load)> {
+        self.list.iter().filter_map(|load| match load.place.origin {
+            Origin::Load(index) => Some((index, load)),
+            _ => None,
+        })
+    }
+
     /// Source of a load.
     pub fn source(&self, load: &Load) -> &dyn Source {
         &*self.sources[load.source]

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::Complex64;
+use crate::mechanism::exact::TorqueKey;
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::mechanism::motion::MotionColumns;
 use crate::mechanism::{DrivenMechanism, HarmonicsOf, at_own_orders};
@@ -76,7 +77,7 @@ impl Source for PistonInertia {
     }
 
     fn exact(&self) -> ExactFactor {
-        ExactFactor::Piston
+        ExactFactor::Motion(TorqueKey::Masses)
     }
 
     fn over_angle(

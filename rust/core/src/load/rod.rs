@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::piston::{multiples, torque_beyond, torque_by};
+use crate::mechanism::exact::TorqueKey;
 use crate::mechanism::motion::Swing;
 use crate::mechanism::{DrivenMechanism, HarmonicsOf};
 use crate::numbers::cancel::Cancel;
@@ -64,7 +65,7 @@ impl Source for RodInertia {
     }
 
     fn exact(&self) -> ExactFactor {
-        ExactFactor::Rod
+        ExactFactor::Motion(TorqueKey::Swing)
     }
 
     fn over_angle(

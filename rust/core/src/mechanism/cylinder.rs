@@ -2,6 +2,7 @@
 //!
 //! Its rod may be infinite, as that of a Scotch yoke: λ = r/l is zero.
 
+use super::exact::TorqueKey;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 
@@ -198,6 +199,11 @@ impl Cylinder {
     #[must_use]
     pub fn second_moment(&self) -> f64 {
         self.first_order() * self.crank_radius
+    }
+
+    /// Weights of its torques.
+    pub(crate) fn torque_weights(&self) -> [(TorqueKey, f64); 2] {
+        [(TorqueKey::Masses, self.second_moment()), (TorqueKey::Swing, self.rod_inertia_excess)]
     }
 }
 

@@ -1,5 +1,9 @@
 //! What exact sums know of a motion.
 
+use super::Mechanism;
+use super::harmonics::rod::TorqueHarmonics;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::Result;
 use crate::numbers::rational::Ratio;
 
 /// Figures on which a motion depends: equal where they are equal as typed, though quotients of doubles differ.
@@ -18,6 +22,38 @@ pub(crate) enum FigureKey {
     Exact(Ratio),
     /// Bits of its double.
     Nearest(u64),
+}
+
+/// Which torque of a motion: those of equal motions and keys are multiples of one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum TorqueKey {
+    /// Of masses that move with the piston.
+    Masses,
+    /// Of the rod's moment of inertia beyond that of its two masses.
+    Swing,
+}
+
+impl TorqueKey {
+    /// All of them.
+    pub(crate) const ALL: [Self; 2] = [Self::Masses, Self::Swing];
+
+    /// That torque of a motion at some orders, over its weight.
+    pub(crate) fn torque(
+        self,
+        mechanism: &dyn Mechanism,
+        orders: &[u32],
+        cancel: &Cancel,
+    ) -> Result<TorqueHarmonics> {
+        match self {
+            Self::Masses => mechanism.torque(orders, cancel),
+            Self::Swing => mechanism.swing_torque(orders, cancel),
+        }
+    }
+
+    /// Whether a harmonic of it is known to be other than zero.
+    pub(crate) fn is_certain(self, known: ExactHarmonic) -> bool {
+        self == Self::Masses && known.is_certain
+    }
 }
 
 /// Parts of a harmonic, in crank radii.

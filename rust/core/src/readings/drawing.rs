@@ -244,7 +244,7 @@ fn cycles(engine: &Engine) -> Vec<Arc<Cycle>> {
 /// Pressure in the cylinders of an engine, if it counts.
 #[must_use]
 pub fn gas(engine: &Engine) -> Option<DrawnGas> {
-    let crankcase = engine.gas()?.crankcase;
+    let (_, crankcase) = (0..engine.stations().len()).find_map(|i| engine.pressure_of(i))?;
     Some(DrawnGas { crankcase, cycles: cycles(engine).iter().map(|c| drawn_cycle(c)).collect() })
 }
 

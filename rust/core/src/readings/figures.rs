@@ -10,7 +10,7 @@ use super::flywheel::mean_inertias;
 use super::quantity::Part;
 use super::terms::{LoadSums, terms};
 use crate::Complex64;
-use crate::engine::{Engine, Origin};
+use crate::engine::Engine;
 use crate::load::{Load, LoadList};
 use crate::numbers::UNIT_RPM;
 use crate::numbers::cancel::Cancel;
@@ -30,15 +30,6 @@ const FIGURE_ROUNDING: f64 = 1e-13;
 const ONE_RADIAN_PER_SECOND: f64 = 60.0 / std::f64::consts::TAU;
 /// Groups of parts: the right bank, the left one, and what stands still as the bank angle changes.
 pub const GROUPS: usize = 3;
-
-/// Parts whose terms are summed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Parts {
-    /// Cylinders.
-    Moving,
-    /// Counterweights and shafts, which no rod moves.
-    Standing,
-}
 
 /// Terms of an order over ω², of each group.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -107,7 +98,7 @@ pub fn orders(engine: &Engine, cancel: &Cancel) -> Result<Vec<Order>> {
             let largest =
                 [0, 1].map(|q| REST * sizes.iter().map(|size| size[q]).fold(0.0, f64::max));
             let kept = |size: &[f64; 2]| (0..2).any(|q| size[q] > largest[q]);
-            matches!(origin, Origin::Cylinder(_)).then(|| sizes.iter().rposition(kept)).flatten()
+            origin.cylinder().and_then(|_| sizes.iter().rposition(kept))
         });
         let last = last.max().map_or(1, |index| index as u32 + 1);
         if last <= count || count >= MOST_ORDERS {
@@ -118,33 +109,23 @@ pub fn orders(engine: &Engine, cancel: &Cancel) -> Result<Vec<Order>> {
     with_shafts(last, engine, speeds(engine)?)
 }
 
-/// Terms of an engine's parts over ω², by order and summed over groups; what cancels within a group is
-/// zero.
+/// Terms over ω² of an engine's cylinders, or else of counterweights and shafts, which no rod moves, by order
+/// and summed over groups; what cancels within a group is zero.
 ///
 /// Cylinders of the right bank are group 0 and of the left 1 where a change of bank angle moves them
 /// apart, and the rest is 2; all are group 0 of other engines.
 pub fn group_terms(
     engine: &Engine,
-    parts: Parts,
+    of_cylinders: bool,
     orders: &[Order],
     torque: bool,
     cancel: &Cancel,
 ) -> Result<Vec<[GroupTerms; GROUPS]>> {
     let group_of = grouping(engine);
-    let bank = |cylinder: usize| engine.bank_of(cylinder);
-    let group = |origin: Origin| match origin {
-        Origin::Cylinder(index) => (Parts::Moving, group_of(Some(bank(index)))),
-        Origin::Counterweight(index) => {
-            (Parts::Standing, group_of(engine.counterweights()[index].pin.map(bank)))
-        }
-        Origin::Shaft(_) | Origin::Load(_) => (Parts::Standing, group_of(None)),
-    };
     let all = terms(&engine.bare(), &request(torque), [0.0; 2], orders, cancel)?;
-    let own = |(origin, part): &(Origin, Balance)| {
-        let (kind, group) = group(*origin);
-        (kind == parts).then(|| (group, part.clone()))
-    };
-    let own: Vec<(usize, Balance)> = all.iter().filter_map(own).collect();
+    let own = all.into_iter().filter(|(origin, _)| origin.cylinder().is_some() == of_cylinders);
+    let own: Vec<(usize, Balance)> =
+        own.map(|(origin, part)| (group_of(engine.bank_with(origin)), part)).collect();
     let summed = |k: usize| {
         let mut sums = [GroupTerms::default(); GROUPS];
         let mut sizes = [[0.0; 6]; GROUPS];
@@ -208,14 +189,9 @@ fn load_orders(engine: &Engine) -> Result<Vec<Order>> {
         return Ok(Vec::new());
     }
     let loads = LoadList::of(engine, engine.reference(None)?)?;
-    let orders = |load| loads.source(load).orders(Order::HIGHEST);
-    let own: BTreeSet<Order> =
-        loads.list.iter().filter(|load| is_given(load)).flat_map(orders).collect();
+    let orders = |(_, load)| loads.source(load).orders(Order::HIGHEST);
+    let own: BTreeSet<Order> = loads.further().flat_map(orders).collect();
     Ok(own.into_iter().collect())
-}
-
-fn is_given(load: &Load) -> bool {
-    matches!(load.place.origin, Origin::Load(_))
 }
 
 /// Terms of an engine's periodic loads, each at all speeds; a speed, rpm, that tables do not have is an
@@ -229,7 +205,7 @@ pub fn load_rows(engine: &Engine, rpm: f64, torque: bool, cancel: &Cancel) -> Re
     }
     let engine = engine.without_gas();
     let sums = LoadSums::new(&engine, None, torque, &orders, cancel)?;
-    let given = || sums.loads.list.iter().filter(|load| is_given(load));
+    let given = || sums.loads.further().map(|(_, load)| load);
     let mut scalings: Vec<Scaling> = Vec::new();
     for load in given() {
         if !scalings.contains(&load.parts.scaling) {
@@ -321,7 +297,7 @@ pub fn sizes(engine: &Engine, cancel: &Cancel) -> Result<Sizes> {
     let reference = engine.reference(None)?.abs();
     let mut found = Sizes::default();
     for (origin, part) in &parts {
-        let Origin::Cylinder(i) = *origin else { continue };
+        let Some(i) = origin.cylinder() else { continue };
         let (station, crank) = (&engine.stations()[i], &engine.cranks()[engine.crank_of(i)]);
         let speed = speeds.iter().position(|&speed| crank.ratio.order() == Ok(speed));
         let force = speed.map_or(0.0, |k| part.planar(Vector::Force, k).peak());

@@ -6,7 +6,7 @@
 
 use std::sync::LazyLock;
 
-use crate::engine::{Engine, Origin};
+use crate::engine::Engine;
 use crate::load::kinematics::Kinematics;
 use crate::load::{Load, LoadList};
 use crate::numbers::cancel::Cancel;
@@ -509,7 +509,7 @@ pub fn mean_inertias(engine: &Engine, cancel: &Cancel) -> Result<Vec<f64>> {
     let grid = CycleGrid::new(360.0, &[], cancel)?;
     let loads = LoadList::of(engine, engine.reference(None)?)?;
     let of_cylinder = |i: usize| {
-        let own = |load: &&Load| load.place.origin == Origin::Cylinder(i);
+        let own = |load: &&Load| load.place.origin.cylinder() == Some(i);
         let list = loads.list.iter().filter(own).copied().collect();
         let own = LoadList { list, ..(*loads).clone() };
         let [inertia, _] = moving_of(&own, &grid.nodes_deg, cancel)?;

@@ -53,19 +53,8 @@ pub fn terms(
     for (name, place) in [("x", x), ("y", y)] {
         limits::finite(name, place)?;
     }
-    let (cylinders, weights) = (engine.stations().len(), engine.counterweights().len());
-    let count = |origin: fn(usize) -> Origin, count: usize| (0..count).map(origin);
-    let parts = count(Origin::Cylinder, cylinders)
-        .chain(count(Origin::Counterweight, weights))
-        .chain(count(Origin::Shaft, engine.shafts().len()))
-        .chain(count(Origin::Load, engine.loads().len()));
-    let own = |origin| match origin {
-        Origin::Cylinder(i) => i,
-        Origin::Counterweight(k) => cylinders + k,
-        Origin::Shaft(k) => cylinders + weights + k,
-        Origin::Load(k) => cylinders + weights + engine.shafts().len() + k,
-    };
-    let parts: Vec<Origin> = parts.collect();
+    let parts = engine.parts();
+    let own = |part| engine.position_of(part);
     let sums = sums_by(engine, request, aside, orders, (parts.len(), &own), cancel)?;
     Ok(parts.into_iter().zip(sums).collect())
 }

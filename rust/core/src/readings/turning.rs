@@ -1,7 +1,7 @@
 //! Parts of force and moment that turn with a crank or shaft: weights on it can remove them.
 
 use crate::Complex64;
-use crate::engine::{CrankIndex, Engine, Origin};
+use crate::engine::{CrankIndex, Engine};
 use crate::load::LoadList;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -104,12 +104,8 @@ pub(crate) fn on_cranks(
     let engine = &engine.of_speed_squared();
     let request = Request { rpm: UNIT_RPM, reference_z: None, torque: false };
     let others = cranks.len();
-    let group_of = |origin: Origin| {
-        let crank = match origin {
-            Origin::Cylinder(i) => Some(engine.crank_of(i)),
-            Origin::Counterweight(k) => Some(engine.crank_carrying(&engine.counterweights()[k])),
-            Origin::Shaft(_) | Origin::Load(_) => None,
-        };
+    let group_of = |part| {
+        let crank = engine.crank_with(part);
         cranks.iter().position(|&own| Some(own) == crank).unwrap_or(others)
     };
     let order = [ratio.order()?];
@@ -145,11 +141,7 @@ pub(crate) fn roll_of_axes(engine: &Engine, cancel: &Cancel) -> Result<RollOfAxe
     };
     let (cranks, request) =
         (engine.cranks().len(), Request { rpm: UNIT_RPM, reference_z: None, torque: false });
-    let crank_of = |origin: Origin| match origin {
-        Origin::Cylinder(i) => engine.crank_of(i).position(),
-        Origin::Counterweight(k) => engine.crank_carrying(&engine.counterweights()[k]).position(),
-        Origin::Shaft(_) | Origin::Load(_) => cranks,
-    };
+    let crank_of = |part| engine.crank_with(part).map_or(cranks, CrankIndex::position);
     let first = [Order::FIRST];
     let sums = sums_by(engine, &request, [0.0; 2], &first, (cranks + 1, &crank_of), cancel)?;
     let (mut beside, mut size) = (Complex64::default(), 0.0);

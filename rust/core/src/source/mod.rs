@@ -56,6 +56,7 @@ use std::sync::Arc;
 use self::over_angle::{AngleBlock, Columns, LoadSum, Quantities};
 use crate::Complex64;
 use crate::mechanism::DrivenMechanism;
+use crate::mechanism::exact::TorqueKey;
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::UNIT_RPM;
 use crate::numbers::cancel::Cancel;
@@ -199,10 +200,8 @@ pub struct Scale {
 pub enum ExactFactor {
     /// 1.
     One,
-    /// Symbols, one for a motion: of a piston's inertia.
-    Piston,
-    /// Of a rod's.
-    Rod,
+    /// Symbols, one for a motion and, in torques, for this key.
+    Motion(TorqueKey),
     /// That of the sum of directions in which cylinders fire: of pressure.
     Cycle,
     /// No rational multiple of anything.

@@ -10,7 +10,7 @@ use num_traits::{CheckedDiv, CheckedMul};
 use super::roots::{FormalSum, Share};
 use super::{ExactLoads, Levers, too_long, whole};
 use crate::Complex64;
-use crate::engine::{Engine, Origin};
+use crate::engine::Engine;
 use crate::load::{Load, LoadIndex, LoadList, Wanted, superpose};
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
@@ -236,8 +236,7 @@ fn given_loads(
 ) -> Result<Vec<usize>> {
     let loads = LoadList::of(engine, engine.reference(reference_z)?)?;
     let mut found = Vec::new();
-    for load in &loads.list {
-        let Origin::Load(index) = load.place.origin else { continue };
+    for (index, load) in loads.further() {
         let has_lever = !moment || load.place.z != loads.reference;
         if load.parts.force.is_some() && has_lever && !found.contains(&index) {
             let force = loads.source(load).force(&[order], cancel)?;

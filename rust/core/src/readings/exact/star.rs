@@ -84,15 +84,14 @@ impl Stars {
     /// equal radius, rod, offset, bore and cycle on cranks of one speed; the torque of one that turns
     /// against the main crank has the opposite sign.
     pub fn of_gas(engine: &Engine, firing: Option<&Firing>, cancel: &Cancel) -> Result<Self> {
-        let gas = engine.gas();
         let phases = || (0..engine.stations().len()).map(|i| engine.firing_phase(i)).collect();
-        let fire = firing.filter(|_| gas.is_none()).map_or_else(phases, Firing::phases);
-        let cycle_of = |i: usize| gas.and_then(|gas| gas.cycle_of[i]);
+        let fire =
+            firing.filter(|_| engine.cycles_in_use() == 0).map_or_else(phases, Firing::phases);
         let ratio = |i: usize| engine.cranks()[engine.crank_of(i)].ratio;
         let sizes = |(i, place): (usize, &Station)| {
             let gear = &place.cylinder;
             let sizes = [gear.crank_radius(), gear.rod_length(), gear.pin_offset().abs()];
-            (sizes, engine.details()[i].bore, cycle_of(i), ratio(i).halves().abs())
+            (sizes, engine.details()[i].bore, engine.cycle_of(i), ratio(i).halves().abs())
         };
         let (_, groups) = distinct::<usize, _>(engine.stations().iter().enumerate().map(sizes));
         let mirrored = engine.stations().iter().map(|place| place.cylinder.pin_offset() < 0.0);

@@ -41,10 +41,11 @@ use super::roots::{PartOfTurn, SymbolEntry};
 use super::star::Stars;
 use super::{ExactMotion, MotionIndex, NumberedLoads, whole};
 use crate::Complex64;
-use crate::engine::{Engine, Origin};
+use crate::engine::Engine;
 use crate::firing::Firing;
 use crate::layout::Strokes;
 use crate::load::{Load, LoadIndex, LoadList};
+use crate::mechanism::exact::TorqueKey;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -240,43 +241,53 @@ impl Proof {
         view: View,
         cancel: &Cancel,
     ) -> Result<bool> {
-        use Channel::{Force, Gear, Masses, OddOfGear, OddOfMasses, OddOfRod, One, Rod};
+        use Channel::{Force, Gear, One, Torque};
         let of_motion = |motion: MotionIndex| {
             let motion = &self.motions[motion];
             (Arc::clone(&motion.mechanism), motion.own_order(order))
         };
-        let ((mechanism, own), [masses, inertia]) = match channel {
+        let ((mechanism, own), weights, is_odd) = match channel {
             One => return Ok(true),
-            Force(motion) | Masses(motion) | OddOfMasses(motion) => (of_motion(motion), [1.0, 0.0]),
-            Rod(motion) | OddOfRod(motion) => (of_motion(motion), [0.0, 1.0]),
-            Gear(gear) | OddOfGear(gear) => {
+            Force(motion) => (of_motion(motion), None, false),
+            Torque(motion, key, is_odd) => (of_motion(motion), Some(vec![(key, 1.0)]), is_odd),
+            Gear(gear, is_odd) => {
                 let (gear, speed) = self.gears[gear];
-                let weights = [gear.second_moment(), gear.rod_inertia_excess()];
-                ((gear.mechanism(), order.halves() / speed), weights)
+                let weights =
+                    gear.torque_weights().into_iter().filter(|(_, weight)| *weight != 0.0);
+                ((gear.mechanism(), order.halves() / speed), Some(weights.collect()), is_odd)
             }
         };
-        let torque = !matches!(channel, Force(_));
-        let known = if torque { mechanism.exact_torque(own) } else { mechanism.exact_force(own) };
-        if (known.is_certain && inertia == 0.0 && masses != 0.0) || (known.crank && !view.parts) {
+        let known = match &weights {
+            Some(_) => mechanism.exact_torque(own),
+            None => mechanism.exact_force(own),
+        };
+        let is_certain = match weights.as_deref() {
+            Some(weights) => matches!(weights, [(key, _)] if key.is_certain(known)),
+            None => known.is_certain,
+        };
+        if is_certain || (known.crank && !view.parts) {
             return Ok(true);
         }
-        let terms = if torque {
-            let of_masses = mechanism.torque(&[own], cancel)?.roll[0];
-            let of_rod = mechanism.swing_torque(&[own], cancel)?.roll[0];
-            [of_masses * masses, of_rod * inertia]
-        } else {
-            [mechanism.force(&[own], cancel)?[0], Complex64::default()]
+        let torque = |&(key, weight): &(TorqueKey, f64)| {
+            Ok(key.torque(&*mechanism, &[own], cancel)?.roll[0] * weight)
         };
-        let value = terms[0] + terms[1];
-        let value = match (view.parts, channel) {
-            (false, _) => value.norm(),
-            (true, OddOfMasses(_) | OddOfRod(_) | OddOfGear(_)) => value.re.abs(),
-            (true, _) if torque || own % 2 == 1 => value.im.abs(),
-            (true, _) => value.re.abs(),
+        let (terms, size): (Vec<Complex64>, f64) = match &weights {
+            Some(weights) => {
+                let size = weights.iter().map(|(_, weight)| weight.abs()).sum();
+                (weights.iter().map(torque).collect::<Result<_>>()?, size)
+            }
+            None => (mechanism.force(&[own], cancel)?, 1.0),
+        };
+        let value: Complex64 = terms.iter().sum();
+        let value = match view.parts {
+            false => value.norm(),
+            true if !is_odd && (weights.is_some() || own % 2 == 1) => value.im.abs(),
+            true => value.re.abs(),
         };
         let n = f64::from(own);
-        let made_of = n * n * mechanism.decay().powf(n - 2.0) * (masses + inertia.abs());
-        Ok(value > 1e-12 * made_of && value > 1e-9 * (terms[0].norm() + terms[1].norm()))
+        let made_of = n * n * mechanism.decay().powf(n - 2.0) * size;
+        let largest: f64 = terms.iter().map(|term| term.norm()).sum();
+        Ok(value > 1e-12 * made_of && value > 1e-9 * largest)
     }
 
     /// Why a sum may be undecided.
@@ -284,11 +295,10 @@ impl Proof {
         let mut found = Vec::new();
         let is_piston = |load: &&Load| load.parts.force == Some(ForcePart::Along);
         let listed = |angles: &List<LoadIndex, PartOfTurn>| {
-            let number = |(load, angle): (&Load, &PartOfTurn)| match load.place.origin {
-                Origin::Cylinder(i) if is_piston(&load) && angle.symbol > 0 => {
-                    Some((i + 1).to_string())
-                }
-                _ => None,
+            let number = |(load, angle): (&Load, &PartOfTurn)| {
+                let cylinder = load.place.origin.cylinder();
+                let i = cylinder.filter(|_| is_piston(&load) && angle.symbol > 0)?;
+                Some((i + 1).to_string())
             };
             let numbers: Vec<String> =
                 self.loads.list.iter().zip(angles).filter_map(number).take(12).collect();
@@ -405,7 +415,8 @@ pub(crate) fn vanishing_of(
     let strokes = firing.map_or(engine.strokes(), Firing::strokes);
     let proof = Proof::of(engine, reference_z, cancel)?;
     let half = orders.iter().find(|order| order.as_whole().is_none());
-    if let (Some(half), None, None) = (half, firing, engine.gas())
+    if let (Some(half), None) = (half, firing)
+        && engine.cycles_in_use() == 0
         && engine.loads().is_empty()
         && !proof.has_half_orders()
     {

@@ -13,7 +13,7 @@ use std::sync::Arc;
 pub use self::finding::{Finding, LargestOrder, Row};
 pub use self::sentences::Wording;
 use self::sums::Sums;
-use crate::engine::{CrankIndex, Engine, Origin, Unbalance};
+use crate::engine::{CrankIndex, Engine, Unbalance};
 use crate::firing::Firing;
 use crate::load::LoadList;
 use crate::numbers::cancel::Cancel;
@@ -145,7 +145,9 @@ fn strongest(engine: &Engine, cancel: &Cancel) -> Result<(f64, Part)> {
     let mut pistons: f64 = 0.0;
     let mut throws: f64 = 0.0;
     for load in &loads.list {
-        let Origin::Cylinder(_) = load.place.origin else { continue };
+        if load.place.origin.cylinder().is_none() {
+            continue;
+        }
         let first = load.place.ratio.order()?;
         let force = loads.source(load).force(&[first], cancel)?[0].norm();
         let size = force * load.weight.abs() * load.place.speed_squared();

@@ -173,9 +173,9 @@ impl Explanation {
             }
             Finding::InertiaTorque { order, peak } => {
                 let peak = self.rpm.map(|_| format!(": {}", wording.figure(*peak, "N·m", false)));
-                let counted = match self.engine.gas() {
-                    Some(_) => String::new(),
-                    None => format!(", {}", wording.loads),
+                let counted = match self.engine.cycles_in_use() {
+                    0 => format!(", {}", wording.loads),
+                    _ => String::new(),
                 };
                 format!(
                     "the roll torque of the moving parts is largest at {}{}{counted}",

@@ -74,16 +74,12 @@ impl<'a> Sums<'a> {
         let mut cylinders = Vec::new();
         let mut hardware = [const { None }; 2];
         for (origin, part) in terms {
-            let group = match origin {
-                Origin::Cylinder(_) => {
-                    cylinders.push(of(part));
-                    continue;
-                }
-                Origin::Counterweight(_) => 0,
-                Origin::Shaft(_) => 1,
-                // Neither the engine's nor its hardware: findings of their own.
-                Origin::Load(_) => continue,
-            };
+            if origin.cylinder().is_some() {
+                cylinders.push(of(part));
+                continue;
+            }
+            // On cranks, or on shafts.
+            let group = usize::from(engine.crank_with(*origin).is_none());
             let sums = hardware[group].get_or_insert_with(|| vec![Parts::default(); count]); // bounded: by a balance's orders
             sums.iter_mut().zip(of(part)).for_each(|(sum, added)| *sum = plus(*sum, added));
         }

@@ -156,7 +156,7 @@ impl Tolerances {
         pin_of: &[usize],
         cancel: &Cancel,
     ) -> Result<Self> {
-        if request.torque && engine.gas().is_some() {
+        if request.torque && engine.cycles_in_use() > 0 {
             return Err(Error::NoTorque(
                 "tolerances do not count gas pressure; give `torque: false`, or `Engine::without_gas`",
             ));

@@ -11,7 +11,7 @@ use std::rc::Rc;
 use super::amplitudes::{SampleAmplitudes, amplitudes};
 use super::{Deviations, Parameter, SAMPLES_AT_ONCE, pins};
 use crate::Complex64;
-use crate::engine::{Engine, Origin, Station};
+use crate::engine::{Engine, Station};
 use crate::load::{
     Arithmetic, Factor, Load, LoadIndex, LoadList, Phasors, Wanted, Weight, superpose,
 };
@@ -22,6 +22,7 @@ use crate::numbers::index::{List, ListIndex, distinct, list_index};
 use crate::numbers::order::Order;
 use crate::numbers::ratio::SpeedRatio;
 use crate::numbers::simd::{sin_cos_degrees, vectorised};
+use crate::source::ForcePart;
 
 /// A number of each sample.
 type Reals = [f64; SAMPLES_AT_ONCE];
@@ -48,16 +49,8 @@ list_index! {
 #[derive(Clone, Copy)]
 struct Deviating {
     pin: usize,
-    kind: DeviatingKind,
-}
-
-/// What deviates, by the index of its cylinder.
-#[derive(Clone, Copy)]
-enum DeviatingKind {
-    Piston(usize),
-    Rod(usize),
-    RotatingMass(usize),
-    Counterweight,
+    /// Whose figures act on it, besides its pin's angle.
+    cylinder: Option<usize>,
 }
 
 /// Loads of an engine whose figures deviate.
@@ -99,16 +92,9 @@ impl Terms {
         }
         let mut loads = LoadList::new(&laden, reference);
         let deviating = |load: &Load| {
-            let (pin, kind) = match load.place.origin {
-                Origin::Cylinder(i) if load.is_turning() => (i, DeviatingKind::RotatingMass(i)),
-                Origin::Cylinder(i) if load.parts.force.is_none() => (i, DeviatingKind::Rod(i)),
-                Origin::Cylinder(i) => (i, DeviatingKind::Piston(i)),
-                Origin::Counterweight(k) => {
-                    (engine.counterweights()[k].pin?, DeviatingKind::Counterweight)
-                }
-                Origin::Shaft(_) | Origin::Load(_) => return None,
-            };
-            Some(Deviating { pin: pin_of[pin], kind })
+            let origin = load.place.origin;
+            let pin = pin_of[laden.cylinder_with(origin)?];
+            Some(Deviating { pin, cylinder: origin.cylinder() })
         };
         loads.list.retain(|load| deviating(load).is_some());
         Ok(Self {
@@ -189,19 +175,14 @@ impl Terms {
             Vec::new()
         };
         let reference = self.loads.reference;
-        let drawn = |(&Deviating { pin, kind }, load): (&Deviating, &Load)| {
+        let drawn = |(&Deviating { pin, cylinder }, load): (&Deviating, &Load)| {
             let turns = turns.get(pin).map(|turns| &turns[..]);
             let fixed = |value: f64| ([value; SAMPLES_AT_ONCE], value);
             let one = [&one; 2];
-            let i = match kind {
-                DeviatingKind::Piston(i)
-                | DeviatingKind::Rod(i)
-                | DeviatingKind::RotatingMass(i) => i,
-                DeviatingKind::Counterweight => {
-                    let lever = fixed(load.place.lever(reference));
-                    let parts = vec![(0, fixed(load.weight))];
-                    return Drawn { parts, lever, amplitudes: one, turns };
-                }
+            let Some(i) = cylinder else {
+                let lever = fixed(load.place.lever(reference));
+                let parts = vec![(0, fixed(load.weight))];
+                return Drawn { parts, lever, amplitudes: one, turns };
             };
             let place = &self.places[i];
             let Station { cylinder, rotating_mass, z, .. } = *place;
@@ -209,19 +190,19 @@ impl Terms {
             let lever = (around(-reference, &around(z, &places[i])), z - reference);
             let of_cylinder = &nominal[self.mechanism_of[i]];
             let of_cylinder = [changed.get(i).unwrap_or(of_cylinder), of_cylinder];
-            let (parts, amplitudes) = match kind {
-                DeviatingKind::Piston(_) => {
+            let (parts, amplitudes) = match load.parts.force {
+                Some(ForcePart::Along) => {
                     let mass = around(cylinder.reciprocating_mass(), &masses[i]);
                     let first_order = product(mass, &radius);
                     let force = (first_order, cylinder.first_order());
                     let torque = (product(first_order, &radius), cylinder.second_moment());
                     (vec![(0, force), (1, torque), (2, torque)], of_cylinder)
                 }
-                DeviatingKind::Rod(_) => {
+                None => {
                     let torque = fixed(cylinder.rod_inertia_excess());
                     (vec![(3, torque), (4, torque)], of_cylinder)
                 }
-                _ => {
+                Some(ForcePart::Turning) => {
                     let unbalance = product(around(rotating_mass, &rotating[i]), &radius);
                     (vec![(0, (unbalance, rotating_mass * cylinder.crank_radius()))], one)
                 }

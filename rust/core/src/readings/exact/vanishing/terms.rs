@@ -6,9 +6,10 @@ use std::sync::Arc;
 use super::super::roots::{FormalSum, PartOfTurn, Share, SymbolEntry, parts_of_turn};
 use super::super::{ExactLoads, ExactMotion, Levers, MotionIndex, too_long};
 use super::ProofQuantity;
-use crate::engine::{Engine, Origin};
+use crate::engine::Engine;
 use crate::load::{self, Harmonic, Load, LoadIndex, LoadList, SourceIndex, Wanted, superpose};
 use crate::mechanism::cylinder::Cylinder;
+use crate::mechanism::exact::TorqueKey;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::index::{List, distinct, list_index};
@@ -29,15 +30,10 @@ pub(super) enum Channel {
     One,
     /// Of the force of a motion.
     Force(MotionIndex),
-    /// Torque of the masses of a motion.
-    Masses(MotionIndex),
-    OddOfMasses(MotionIndex),
-    /// Torque of the rod inertia of a motion.
-    Rod(MotionIndex),
-    OddOfRod(MotionIndex),
-    /// Torque of a whole running gear, masses and rod.
-    Gear(DrivenGearIndex),
-    OddOfGear(DrivenGearIndex),
+    /// Torque of a motion; whether its odd part.
+    Torque(MotionIndex, TorqueKey, bool),
+    /// All torque of a running gear; whether its odd part.
+    Gear(DrivenGearIndex, bool),
 }
 
 /// Lists of weights that have no rational relation to each other's.
@@ -46,10 +42,8 @@ pub(super) enum SymbolWeights {
     /// m·r and unbalances, kg·m.
     #[default]
     Planar,
-    /// m·r², kg·m².
-    Masses,
-    /// Rod inertia, kg·m².
-    Rod,
+    /// m·r² and rod inertia, kg·m², each with its own kind.
+    Roll,
     /// m·r or unbalance times x or y of the axis of its crank or shaft, kg·m².
     Arm,
     /// 1.
@@ -84,7 +78,7 @@ pub(super) struct View {
     /// `a₁ = 1 + ib`, even orders are real and even in the offset, odd ones above imaginary and odd in
     /// it. Otherwise a complex number for each set of proportions.
     pub parts: bool,
-    /// Torque by whole running gears, whose masses and rod have one phase.
+    /// Torque by whole running gears, all of whose torques have one phase.
     pub gears: bool,
 }
 
@@ -106,8 +100,7 @@ pub(super) struct Proof {
     bores: List<LoadIndex, PartOfTurn>,
     /// For each list of weights, unit and multiple of every load; of arms along x and y.
     planar: List<LoadIndex, (usize, Ratio)>,
-    masses: List<LoadIndex, (usize, Ratio)>,
-    rods: List<LoadIndex, (usize, Ratio)>,
+    rolls: List<LoadIndex, (usize, Ratio)>,
     arms: List<LoadIndex, [(usize, Ratio); 2]>,
     /// Number of units of m·r and unbalances.
     pub planar_units: usize,
@@ -136,10 +129,16 @@ impl Proof {
             Multiples::new(&loads.list.iter().map(of).collect::<Vec<_>>(), cancel)
         };
         let planar = weights(&|load| load.weight)?;
-        let roll_of = |factor: ExactFactor| {
-            let loads = &loads;
-            move |load: &Load| if loads.source(load).exact() == factor { load.roll } else { 0.0 }
-        };
+        let mut rolls = loads.list.map_to(|_| (0, Ratio::ZERO));
+        for factor in TorqueKey::ALL.map(ExactFactor::Motion) {
+            let is_own = |load: &Load| loads.source(load).exact() == factor;
+            let own = weights(&|load| if is_own(load) { load.roll } else { 0.0 })?.of;
+            for ((roll, load), own) in rolls.iter_mut().zip(&loads.list).zip(own) {
+                if is_own(load) {
+                    *roll = own;
+                }
+            }
+        }
         let arm = |load: &Load| {
             let axis = load.place.axis;
             [axis.re, axis.im].map(|arm| load.weight * arm)
@@ -160,17 +159,14 @@ impl Proof {
             let mass = gear.reciprocating_mass();
             ([gear.crank_radius(), gear.rod_length(), offset, mass, inertia], *speed)
         });
-        let gear_of = loads.list.map_to(|load| match load.place.origin {
-            Origin::Cylinder(i) => Some([of_cylinder[i], first_of_size[of_cylinder[i]]]),
-            Origin::Counterweight(_) | Origin::Shaft(_) | Origin::Load(_) => None,
-        });
+        let of_size = |i: usize| [of_cylinder[i], first_of_size[of_cylinder[i]]];
+        let gear_of = loads.list.map_to(|load| load.place.origin.cylinder().map(of_size));
         Ok(Self {
             roots: FormalSum::new(&loads, cancel)?,
             bores: parts_of_turn(bores, false, cancel)?,
             planar_units: planar.units.len(),
             planar: List::new(planar.of),
-            masses: List::new(weights(&roll_of(ExactFactor::Piston))?.of),
-            rods: List::new(weights(&roll_of(ExactFactor::Rod))?.of),
+            rolls,
             arms: List::new(arms.as_chunks().0.to_vec()),
             levers,
             mirrored,
@@ -224,7 +220,7 @@ impl Proof {
         (motion, load): (MotionIndex, LoadIndex),
         order: Order,
         view: View,
-        [whole, odd]: [fn(I) -> Channel; 2],
+        channel: impl Fn(I, bool) -> Channel,
         [own, mirrored]: [I; 2],
     ) -> Vec<(Channel, i128)> {
         let of = &self.motions[motion];
@@ -233,10 +229,14 @@ impl Proof {
         let sense = i128::from(self.loads.list[load].place.ratio.sense());
         // T(θ) of an offset is −T(−θ) of the opposite one: sines are even in it.
         let [has_even, has_odd] = known.rest.parts();
-        let even = (has_even, (whole(mirrored), sense));
-        let odd = (has_odd, (odd(mirrored), sense * self.sign(motion)));
+        let even = (has_even, (channel(mirrored, false), sense));
+        let odd = (has_odd, (channel(mirrored, true), sense * self.sign(motion)));
         let parts = [even, odd].into_iter().filter_map(|(has, part)| has.then_some(part));
-        if view.parts || !known.rest.exists() { parts.collect() } else { vec![(whole(own), sense)] }
+        if view.parts || !known.rest.exists() {
+            parts.collect()
+        } else {
+            vec![(channel(own, false), sense)]
+        }
     }
 
     /// Channels and their signs of one load's share of a sum.
@@ -252,23 +252,18 @@ impl Proof {
         let at = (motion, share.load);
         match (harmonic.column, self.exact(share.load)) {
             (Column::Force, _) => self.force_channels(motion, order, view),
-            // In that of the gear.
-            (Column::Roll, ExactFactor::Rod) if view.gears => vec![],
-            (Column::Roll, ExactFactor::Rod) => self.torque_channels(
-                at,
-                order,
-                view,
-                [Channel::Rod, Channel::OddOfRod],
-                both(motion),
-            ),
             (Column::Roll, _) if view.gears => {
-                let Some(of_gear) = self.gear_of[share.load] else { return vec![] };
-                self.torque_channels(at, order, view, [Channel::Gear, Channel::OddOfGear], of_gear)
+                // Once for each gear: with the force.
+                let has_force = self.loads.list[share.load].parts.force.is_some();
+                let of_gear = self.gear_of[share.load].filter(|_| has_force);
+                let of = |of_gear| self.torque_channels(at, order, view, Channel::Gear, of_gear);
+                of_gear.map_or_else(Vec::new, of)
             }
-            (Column::Roll, _) => {
-                let named = [Channel::Masses, Channel::OddOfMasses];
-                self.torque_channels(at, order, view, named, both(motion))
+            (Column::Roll, ExactFactor::Motion(key)) => {
+                let channel = |motion, is_odd| Channel::Torque(motion, key, is_odd);
+                self.torque_channels(at, order, view, channel, both(motion))
             }
+            (Column::Roll, _) => vec![],
         }
     }
 
@@ -284,8 +279,7 @@ impl Proof {
         let (list, (unit, weight)) = match share.weight {
             Weight::Force | Weight::Moment => (SymbolWeights::Planar, self.planar[i]),
             Weight::Roll if view.gears => (SymbolWeights::Gear, (0, Ratio::ONE)),
-            Weight::Roll if self.exact(i) == ExactFactor::Rod => (SymbolWeights::Rod, self.rods[i]),
-            Weight::Roll => (SymbolWeights::Masses, self.masses[i]),
+            Weight::Roll => (SymbolWeights::Roll, self.rolls[i]),
             Weight::ArmX => (SymbolWeights::Arm, self.arms[i][0]),
             Weight::ArmY => (SymbolWeights::Arm, self.arms[i][1]),
         };
