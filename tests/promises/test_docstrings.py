@@ -26,6 +26,8 @@ LISTED = SECTIONS[:5]
 ANNOTATION = re.compile(r" \| |\b(?:Sequence|Iterable|Mapping|Literal|Optional|Union|NDArray)\b")
 """What a type in words does not have."""
 
+ELSEWHERE = re.compile(r"^As (?:in|for) :|\bor\s+as\s+for\s+:|^…|\bor …\.")
+"""What an entry says that is not whole in itself."""
 SHAPE = re.compile(r"\((?:…|n_\w+|2)(?:, (?:n_\w+|2))*,?\)")
 """Shape of an array, such as (n_cylinders, n_theta, 2)."""
 STARS: dict[Any, str] = {inspect.Parameter.VAR_POSITIONAL: "*", inspect.Parameter.VAR_KEYWORD: "**"}
@@ -68,6 +70,8 @@ def wrong_sections(docstring: str) -> Iterator[str]:
         for entry in entries(sections_of(docstring).get(title, "")):
             if not entry.text:
                 yield f"{title}: {entry.written}: no text"
+            if ELSEWHERE.search(entry.text):
+                yield f"{title}: {entry.written}: the text is elsewhere"
             if ANNOTATION.search(entry.written):
                 yield f"{title}: {entry.written} is an annotation"
 
@@ -214,6 +218,7 @@ def test_a_sound_docstring_passes() -> None:
         ('"auto", default "auto"', '"auto", default "all"'),
         ("**style : dict, optional", "style : dict, optional"),
         ("    A value.\n", ""),
+        ("    Crank speed, rpm.\n", "    As in :meth:`balance`.\n"),
         ("Raises\n------", "Throws\n------"),
         ("Return a value.", "Return a value"),
         (SOUND[: SOUND.index("Returns")], "Return a value.\n\n"),

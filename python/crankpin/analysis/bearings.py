@@ -12,6 +12,7 @@ from crankpin import _core
 from crankpin._support import inputs, labels, optional
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
+from crankpin._support.parameters import documented
 from crankpin._support.quantities import LOADS
 from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
@@ -150,7 +151,7 @@ class BearingLoads(Tabled):
         ----------
         load : str
             ``"crankpin"``, ``"wrist_pin"``, ``"main"``, ``"side_thrust"``, ``"rod_force"`` or
-            ``"gas_force"``, as for :meth:`magnitude`, :meth:`peak` and :meth:`mean`.
+            ``"gas_force"``.
 
         Returns
         -------
@@ -374,13 +375,9 @@ class BearingLoads(Tabled):
             )
         return self._core.turned(name, chosen, self.theta_deg)
 
+    @documented(read)
     def magnitude(self, load: str) -> NDArray[np.float64]:
         """Return the magnitude of a load, N: (n, n_theta).
-
-        Parameters
-        ----------
-        load : str
-            As in :meth:`read`.
 
         Returns
         -------
@@ -396,6 +393,7 @@ class BearingLoads(Tabled):
         sizes = np.hypot(values[..., 0], values[..., 1]) if load in _VECTORS else np.abs(values)
         return np.asarray(sizes)
 
+    @documented(read)
     def peak(self, load: str) -> NDArray[np.float64]:
         """Return the largest magnitude of a load, N: (n,).
 
@@ -403,11 +401,6 @@ class BearingLoads(Tabled):
         them it may be larger, by up to an eighth of the square of their distance in radians times
         the second derivative there: at steps of 1°, of an engine fired by :meth:`Cycle.example`, by
         less than 1e-3 of it.
-
-        Parameters
-        ----------
-        load : str
-            As in :meth:`read`.
 
         Returns
         -------
@@ -438,16 +431,12 @@ class BearingLoads(Tabled):
         extremes = self._core.extremes(180 * self.engine.strokes)
         return dict(zip([*LOADS, "whole_crankpin"], extremes, strict=True))
 
+    @documented(read)
     def mean(self, load: str) -> NDArray[np.float64]:
         """Return the mean magnitude of a load over the crank angles, N: (n,).
 
         Each angle counts for the distance between its neighbours (trapezoidal rule), in whichever
         order angles are given.
-
-        Parameters
-        ----------
-        load : str
-            As in :meth:`read`.
 
         Returns
         -------

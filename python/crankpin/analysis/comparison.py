@@ -9,6 +9,7 @@ import numpy as np
 from crankpin._support import inputs, labels
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
+from crankpin._support.parameters import documented
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import read_only
 from crankpin._support.tables import Table
@@ -31,6 +32,7 @@ LUMPED: Final = "lumped"
 """Stands for an engine as textbooks lump it."""
 
 
+@documented()
 def compare(
     before: Engine,
     after: Engine | Literal["lumped"],
@@ -56,12 +58,10 @@ def compare(
     orders : number, sequence of numbers or "auto", default "auto"
         Multiples of crank speed, whole or half; by default all that either engine needs to reach
         ``rtol``.
-    rtol : float, optional
-        As in :meth:`Engine.balance`; moments of each engine are about its own reference plane.
     spectrum : mapping of int to complex, optional
-        As in :meth:`Engine.balance`; moments of each engine are about its own reference plane.
+        … Moments of each engine are about its own reference plane.
     torque : bool, default True
-        As in :meth:`Engine.balance`; an engine that is lumped has none.
+        …; an engine that is lumped has none.
 
     Returns
     -------

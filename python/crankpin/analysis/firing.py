@@ -13,6 +13,7 @@ from crankpin import _core
 from crankpin._support import inputs, labels, tables
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
+from crankpin._support.parameters import documented
 from crankpin._support.record import read_only
 from crankpin.analysis.gas_exchange import PortTiming, Timing, ValveTiming, angles
 from crankpin.model import checks
@@ -166,6 +167,7 @@ class Firing(Tabled):
         gaps = self._core.gaps(_groups(groups))
         return tuple({(first, then): gap for first, then, gap in group} for group in gaps)
 
+    @documented(gaps)
     def exhaust_overlaps(
         self, groups: Groups | None = None, *, timing: Timing | None = None
     ) -> tuple[Gaps, ...]:
@@ -175,8 +177,6 @@ class Firing(Tabled):
 
         Parameters
         ----------
-        groups : sequence of sequence of int, optional
-            As in :meth:`gaps`.
         timing : ValveTiming or PortTiming, optional
             When valves open and close; by default ``ValveTiming()``, of a two-stroke
             ``PortTiming()``.
@@ -384,6 +384,7 @@ def firing_orders(engine: Engine, strokes: int | None) -> tuple[Firing, ...]:
     return tuple(Firing._of(each, engine) for each in _core.Firing.all(engine._core, count))
 
 
+@documented()
 def throws(
     firing_order: str | Iterable[int],
     *,
@@ -404,10 +405,6 @@ def throws(
     intervals_deg : sequence of number or str, shape (n_cylinders,), optional
         Crank angles from each cylinder of the order to the next, and from the last to the
         first, degrees, 0 between those joined by ``+``; by default equal ones.
-    numbering : {"alternating", "by-bank"}, default "alternating"
-        As in :meth:`Engine.vee`.
-    odd_bank : {"right", "left"}, default "right"
-        As in :meth:`Engine.vee`.
     strokes : {4, 2}, default 4
         4 or 2: intervals add up to 720 or 360.
 

@@ -10,11 +10,12 @@ import numpy as np
 from crankpin._support import inputs, labels
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
+from crankpin._support.parameters import documented
 from crankpin._support.quantities import LOADS
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import mean_piston_speed
-from crankpin.analysis.bearings import bearing_loads
+from crankpin.analysis.bearings import BearingLoads, bearing_loads
 from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.request import engine_core
 from crankpin.analysis.sweeps.gas import GasMap
@@ -164,13 +165,9 @@ class OperatingMap(Tabled):
         """Gas pressure that counts, in words: as :attr:`Engine.loads_counted`."""
         return self.gas
 
+    @documented(BearingLoads.read)
     def peak(self, load: str) -> NDArray[np.float64]:
         """Return the largest magnitude of a load at each point, N: (n_rpm, n_load, n).
-
-        Parameters
-        ----------
-        load : str
-            As in :meth:`BearingLoads.read`.
 
         Returns
         -------

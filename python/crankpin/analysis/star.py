@@ -217,9 +217,9 @@ def star_diagram(
     mode_shape : array_like, shape (n_cylinders,), optional
         Amplitude of a torsional mode at each cylinder, by number; by default 1 for each.
     firing_order : str or sequence of int, optional
-        As in :meth:`Engine.firing`.
+        Cylinder numbers, as ``"1-8-4-3-6-5-7-2"`` or a list; by default the engine's own order.
     strokes : {4, 2}, optional
-        As in :meth:`Engine.firing`.
+        Strokes of a cycle, 4 or 2; by default the engine's own.
 
     Returns
     -------

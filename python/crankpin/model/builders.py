@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias
 
 from crankpin import _core
 from crankpin._support import inputs
+from crankpin._support.parameters import documented
 from crankpin.model import checks
 from crankpin.model import shafts as rotating
 from crankpin.model.data import Cranks, EngineData, allowed, big_end, core_of_lists, parts
@@ -35,6 +36,7 @@ class Builders(EngineData):
     """Constructors of engines."""
 
     @classmethod
+    @documented()
     def from_lists(
         cls,
         cylinder: Cylinder | Sequence[Cylinder],
@@ -63,48 +65,12 @@ class Builders(EngineData):
         ----------
         cylinder : Cylinder or sequence of Cylinder
             Moving parts of all cylinders, or one for each.
-        bank_deg : sequence of number or str, shape (n_cylinders,)
-            Directions of the bores from +x, degrees; 90 is upright.
-        z : array_like, shape (n_cylinders,)
-            Places along the crank, from the front to the flywheel, m.
-        tdc_deg : sequence of number or str, shape (n_cylinders,), optional
-            Crank angles at which each crankpin points along its bore, degrees; exactly one of
-            ``tdc_deg`` and ``pin_deg`` is given.
-        pin_deg : sequence of number or str, shape (n_cylinders,), optional
-            Directions of the crankpins from +x at θ = 0, degrees, in place of ``tdc_deg``.
-        rotating_mass : array_like, optional
-            Rotating mass at the crank radius, each cylinder's share of its crankpin, kg: a number
-            for all cylinders, or one for each. Of a pin that two cylinders share it is half. By
-            default the big end of each cylinder's ``rod`` (:meth:`Cylinder.from_rod`), zero where
-            it has none; a number replaces that, and 0 leaves the big end out.
-        counterweights : sequence of Unbalance, optional
-            Unbalances on the crankshaft besides ``rotating_mass``; by default none.
-        shafts : sequence of Shaft, optional
-            Balance shafts; by default none.
-        mains : array_like, shape (n_mains,), optional
-            Places of the main bearings along the crank, m, ascending; by default one between
-            neighbouring throws and one at either end, as in :attr:`mains`.
-        reference_z : float, optional
-            Plane about which moments are taken, m; by default midway between the first and the
-            last cylinder. Moments depend on it where a force remains.
         cranks : sequence of (float, float, int), optional
             Further crankshafts: x and y of the axis, m, and speed over that of the main one, below
             zero against it; by default none.
         crank : sequence of int, shape (n_cylinders,), optional
             Crankshaft of each cylinder: 0 is the main one, 1 the first of ``cranks``; by default
             all are on the main one.
-        firing_order : str or sequence of int, optional
-            Firing order of the engine, such as ``"1-3-2"``, if it is known: :meth:`firing` uses it,
-            and files keep it. Dashes of any kind, spaces or nothing stand between cylinders, ``+``
-            between those that fire together; ``"A1-B1-A2"`` counts in each bank, A that of cylinder
-            1, and ``"1L-1R"`` in the left and the right one.
-        strokes : {4, 2}, default 4
-            4 or 2: strokes of a cycle.
-        name : str, optional
-            Name of the engine, in which ``{bank_angle}`` stands for the bank angle and ``{pins}``
-            for "shared pins" or "split pins".
-        source : str, optional
-            Source of the layout.
 
         Returns
         -------
@@ -155,6 +121,7 @@ class Builders(EngineData):
         return cls(core, name, source, firing_order, strokes)
 
     @classmethod
+    @documented(from_lists)
     def inline(
         cls,
         cylinder: Cylinders,
@@ -175,21 +142,8 @@ class Builders(EngineData):
         cylinder : Cylinder, sequence of Cylinder or mapping of str to Cylinder
             Moving parts of every cylinder, of each by number, or of each bank by its name: a
             piston that is heavier, a bank with a pin offset of its own.
-        throws_deg : sequence of number or str, shape (n_cylinders,)
-            Crankpin angles in the direction of rotation, relative to each other, front to
-            flywheel, degrees. A throw 120° ahead is at top dead centre 120° *earlier*.
         spacing : float or array_like
             Distance between neighbouring cylinders, m, or of each from the one before it.
-        rotating_mass : array_like, optional
-            As in :meth:`from_lists`.
-        first_tdc_deg : number or str, default 0.0
-            Crank angle at which cylinder 1 is at top dead centre, degrees.
-        firing_order : str or sequence of int, optional
-            As in :meth:`from_lists`.
-        strokes : {4, 2}, default 4
-            As in :meth:`from_lists`.
-        name, source : str, optional
-            As in :meth:`from_lists`.
 
         Returns
         -------
@@ -199,12 +153,7 @@ class Builders(EngineData):
         Raises
         ------
         InputError
-            As for :meth:`from_lists`.
-
-        Warns
-        -----
-        UserWarning
-            As for :meth:`from_lists`.
+            If a figure is out of range, or the crank does not allow the firing order.
 
         Examples
         --------
@@ -223,6 +172,7 @@ class Builders(EngineData):
         return furnished(engine, cylinder, rotating_mass, firing_order)
 
     @classmethod
+    @documented(inline)
     def vee(
         cls,
         cylinder: Cylinders,
@@ -246,55 +196,25 @@ class Builders(EngineData):
 
         Parameters
         ----------
-        cylinder : Cylinder, sequence of Cylinder or mapping of str to Cylinder
-            As in :meth:`inline`.
         bank_angle_deg : number or str
             Angle between the banks, degrees, 0 to 180.
-        throws_deg : sequence of number or str, shape (n_throws,)
-            Angles of the right bank's crankpins in the direction of rotation, relative to each
-            other, front to flywheel, degrees.
-        spacing : float or array_like
-            Distance between neighbouring throws, m, or of each from the one before it.
         pin_split_deg : number or str, default 0.0
             Left pin minus right pin, in the direction of rotation, degrees; 0 for shared pins.
             Even firing needs bank angle − firing interval: −60 for a 60° V6, −30 for a 90° V6.
-        bank_stagger : float, default 0.0
-            How far the left bank stands behind the right, towards the flywheel, m.
-        numbering : {"alternating", "by-bank"}, default "alternating"
-            ``"alternating"`` along the crank from bank to bank, or ``"by-bank"``.
-        odd_bank : {"right", "left"}, default "right"
-            The bank with cylinder 1, seen from the flywheel.
         absent : sequence of int, optional
             Cylinders that are not there, by their numbers in the whole vee; those that are there
             are numbered anew from 1. Of three throws ``[6]`` leaves a V5, ``[2, 3, 6]`` a V3 with
             a cylinder on each throw, by turns right and left.
-        rotating_mass : array_like, optional
-            Rotating mass at the crank radius, each cylinder's share of its crankpin, kg: a number
-            for all cylinders, or one for each. Of a pin that two cylinders share it is half. By
-            default the big end of the cylinder's ``rod``, as in :meth:`from_lists`.
-        first_tdc_deg : number or str, default 0.0
-            Crank angle at which cylinder 1 is at top dead centre, degrees.
-        firing_order : str or sequence of int, optional
-            As in :meth:`from_lists`.
-        strokes : {4, 2}, default 4
-            As in :meth:`from_lists`.
-        name, source : str, optional
-            As in :meth:`from_lists`.
 
         Returns
         -------
         Engine
             The engine.
 
-        Raises
-        ------
-        InputError
-            As for :meth:`from_lists`, or if there is not one bank angle from 0 to 180.
-
         Warns
         -----
         UserWarning
-            If the opposite pin split would fire evenly, or as for :meth:`from_lists`.
+            If the opposite pin split would fire evenly, or ….
 
         Examples
         --------
@@ -321,6 +241,7 @@ class Builders(EngineData):
         return furnished(engine, cylinder, rotating_mass, firing_order)
 
     @classmethod
+    @documented(vee)
     def flat(
         cls,
         cylinder: Cylinders,
@@ -339,40 +260,10 @@ class Builders(EngineData):
     ) -> Self:
         """Return a flat engine whose opposed cylinders share a crankpin: a 180° vee.
 
-        Parameters
-        ----------
-        cylinder : Cylinder, sequence of Cylinder or mapping of str to Cylinder
-            As in :meth:`vee`.
-        throws_deg : sequence of number or str, shape (n_throws,)
-            As in :meth:`vee`.
-        spacing : float or array_like
-            As in :meth:`vee`.
-        bank_stagger : float, default 0.0
-            As in :meth:`vee`.
-        numbering : {"alternating", "by-bank"}, default "alternating"
-            As in :meth:`vee`.
-        odd_bank : {"right", "left"}, default "right"
-            As in :meth:`vee`.
-        rotating_mass : array_like, optional
-            As in :meth:`vee`.
-        first_tdc_deg : number or str, default 0.0
-            As in :meth:`vee`.
-        firing_order : str or sequence of int, optional
-            As in :meth:`vee`.
-        strokes : {4, 2}, default 4
-            As in :meth:`vee`.
-        name, source : str, optional
-            As in :meth:`vee`.
-
         Returns
         -------
         Engine
             The engine.
-
-        Raises
-        ------
-        InputError
-            As for :meth:`from_lists`.
 
         Examples
         --------
@@ -389,6 +280,7 @@ class Builders(EngineData):
         )  # fmt: skip
 
     @classmethod
+    @documented(vee)
     def boxer(
         cls,
         cylinder: Cylinders,
@@ -409,38 +301,13 @@ class Builders(EngineData):
 
         Parameters
         ----------
-        cylinder : Cylinder, sequence of Cylinder or mapping of str to Cylinder
-            As in :meth:`vee`.
-        throws_deg : sequence of number or str, shape (n_throws,)
-            As in :meth:`vee`.
-        spacing : float or array_like
-            As in :meth:`vee`.
         bank_stagger : float, default 0.0
             Distance that a crank web puts between opposed cylinders, m.
-        numbering : {"alternating", "by-bank"}, default "alternating"
-            As in :meth:`vee`.
-        odd_bank : {"right", "left"}, default "right"
-            As in :meth:`vee`.
-        rotating_mass : array_like, optional
-            As in :meth:`vee`.
-        first_tdc_deg : number or str, default 0.0
-            As in :meth:`vee`.
-        firing_order : str or sequence of int, optional
-            As in :meth:`vee`.
-        strokes : {4, 2}, default 4
-            As in :meth:`vee`.
-        name, source : str, optional
-            As in :meth:`vee`.
 
         Returns
         -------
         Engine
             The engine.
-
-        Raises
-        ------
-        InputError
-            As for :meth:`from_lists`.
 
         Examples
         --------
@@ -457,6 +324,7 @@ class Builders(EngineData):
         )  # fmt: skip
 
     @classmethod
+    @documented(inline)
     def radial(
         cls,
         cylinder: Cylinders,
@@ -481,8 +349,6 @@ class Builders(EngineData):
 
         Parameters
         ----------
-        cylinder : Cylinder, sequence of Cylinder or mapping of str to Cylinder
-            As in :meth:`inline`.
         cylinders : int, default 7
             Number of cylinders of all rows, three or more in each.
         rows : int, default 1
@@ -490,17 +356,9 @@ class Builders(EngineData):
         spacing : float or array_like, optional
             Distance between neighbouring rows, m, or of each from the one before it; of one row it
             may be left out.
-        rotating_mass : array_like, optional
-            As in :meth:`inline`.
-        first_tdc_deg : number or str, default 0.0
-            As in :meth:`inline`.
         firing_order : str or sequence of int, optional
-            As in :meth:`from_lists`; by default every second cylinder of a row, and the rows by
+            …; by default every second cylinder of a row, and the rows by
             turns, if that is even: in a four-stroke for odd numbers of cylinders in a row.
-        strokes : {4, 2}, default 4
-            As in :meth:`inline`.
-        name, source : str, optional
-            As in :meth:`inline`.
 
         Returns
         -------
@@ -510,8 +368,7 @@ class Builders(EngineData):
         Raises
         ------
         InputError
-            If a row has fewer than three cylinders, two rows have no spacing, or as for
-            :meth:`from_lists`.
+            If a row has fewer than three cylinders, two rows have no spacing, or ….
 
         Examples
         --------
@@ -538,6 +395,7 @@ class Builders(EngineData):
         return furnished(engine, cylinder, rotating_mass, order)
 
     @classmethod
+    @documented(vee)
     def from_banks(
         cls,
         cylinder: Cylinders,
@@ -560,37 +418,17 @@ class Builders(EngineData):
         Parameters
         ----------
         cylinder : Cylinder, sequence of Cylinder or mapping of str to Cylinder
-            As in :meth:`vee`; banks are ``"bank 1"``, ``"bank 2"``, ….
+            …; banks are ``"bank 1"``, ``"bank 2"``, ….
         bank_deg : sequence of number or str, or {"W", "X", "Y", "H"}
             Directions of the banks from +x, degrees; ``"W"`` is 30, 90, 150, ``"X"`` is 45, 135,
             225, 315, ``"Y"`` is 90, 210, 330, and ``"H"`` is 0, 180.
-        throws_deg : sequence of number or str, shape (n_throws,)
-            Crankpins in the direction of rotation, relative to each other, front to flywheel,
-            degrees.
-        spacing : float or array_like
-            As in :meth:`vee`.
         bank_stagger : float, default 0.0
             How far each bank stands behind the one before it, m.
-        rotating_mass : array_like, optional
-            As in :meth:`from_lists`.
-        first_tdc_deg : number or str, default 0.0
-            As in :meth:`vee`.
-        firing_order : str or sequence of int, optional
-            As in :meth:`from_lists`.
-        strokes : {4, 2}, default 4
-            As in :meth:`from_lists`.
-        name, source : str, optional
-            As in :meth:`from_lists`.
 
         Returns
         -------
         Engine
             The engine.
-
-        Raises
-        ------
-        InputError
-            As for :meth:`from_lists`.
 
         Examples
         --------
@@ -615,6 +453,7 @@ class Builders(EngineData):
         return furnished(engine, cylinder, rotating_mass, firing_order)
 
     @classmethod
+    @documented(vee)
     def from_firing_order(
         cls,
         cylinder: Cylinders,
@@ -638,14 +477,10 @@ class Builders(EngineData):
 
         Parameters
         ----------
-        cylinder : Cylinder, sequence of Cylinder or mapping of str to Cylinder
-            As in :meth:`inline`.
         firing_order : str or sequence of int
             Cylinder numbers, as ``"1-8-4-3-6-5-7-2"`` or a list; ``+`` joins cylinders that fire
             together, ``"1+4-2+3"``. Where ``rule="ijesc"`` gives a crank that cannot fire in this
             order, the engine's firing order is left empty.
-        spacing : float or array_like
-            Distance between neighbouring throws, m, or of each from the one before it.
         bank_angle_deg : number or str, optional
             Angle between the banks of a vee, degrees; None for an inline engine.
         shared_pins : bool, optional
@@ -665,17 +500,9 @@ class Builders(EngineData):
         strokes : {4, 2}, default 4
             4 or 2: intervals add up to 720 or 360.
         numbering : {"alternating", "by-bank"}, default "alternating"
-            As in :meth:`vee`; the IJESC paper has odd cylinders right, the cross-plane page left.
+            …; the IJESC paper has odd cylinders right, the cross-plane page left.
         odd_bank : {"right", "left"}, default "right"
-            As in :meth:`vee`; the IJESC paper has odd cylinders right, the cross-plane page left.
-        bank_stagger : float, default 0.0
-            As in :meth:`vee`.
-        rotating_mass : array_like, optional
-            As in :meth:`vee`.
-        first_tdc_deg : number or str, default 0.0
-            As in :meth:`vee`.
-        name, source : str, optional
-            As in :meth:`vee`.
+            …; the IJESC paper has odd cylinders right, the cross-plane page left.
 
         Returns
         -------
@@ -685,8 +512,7 @@ class Builders(EngineData):
         Raises
         ------
         InputError
-            If the order is no order of all cylinders, intervals do not add up to a cycle, or as
-            for :meth:`from_lists`.
+            If the order is no order of all cylinders, intervals do not add up to a cycle, or ….
 
         Warns
         -----

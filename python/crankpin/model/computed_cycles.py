@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final, Literal, Self, TypedDict
 from crankpin import _core
 from crankpin._core import ATMOSPHERE
 from crankpin._support import inputs
+from crankpin._support.parameters import documented
 from crankpin.model.cylinder import Cylinder
 
 if TYPE_CHECKING:
@@ -40,81 +41,6 @@ class ComputedCycles:
     def _of(cls, core: _core.Cycle, origin: str = "") -> Self:
         """Return the cycle of what the core has."""
         raise NotImplementedError
-
-    @classmethod
-    def otto(
-        cls,
-        cylinder: Cylinder,
-        *,
-        compression_ratio: float,
-        pressure_ratio: float,
-        **options: Unpack[IdealOptions],
-    ) -> Self:
-        """Return the ideal cycle with combustion at constant volume.
-
-        Parameters
-        ----------
-        cylinder : Cylinder
-            As in :meth:`dual`.
-        compression_ratio, pressure_ratio : float
-            As in :meth:`dual`.
-        **options : dict, optional
-            As in :meth:`dual`.
-
-        Returns
-        -------
-        Cycle
-            The cycle.
-
-        Raises
-        ------
-        InputError
-            As for :meth:`dual`.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> cylinder = cp.Cylinder(0.043, 0.043 / 0.3, 0.5, bore=0.086)
-        >>> otto = cp.Cycle.otto(
-        ...     cylinder, compression_ratio=10, pressure_ratio=3.5, intake_pressure=1e5
-        ... )
-        >>> round(otto.imep(cylinder) / 1e5, 4), round(otto.mean_torque(cylinder), 3)
-        (9.2154, 36.634)
-        """
-        ratios = (compression_ratio, pressure_ratio, 1.0)
-        return cls._ideal("Otto", cylinder, *ratios, **options)
-
-    @classmethod
-    def diesel(
-        cls,
-        cylinder: Cylinder,
-        *,
-        compression_ratio: float,
-        cutoff_ratio: float,
-        **options: Unpack[IdealOptions],
-    ) -> Self:
-        """Return the ideal cycle with combustion at constant pressure.
-
-        Parameters
-        ----------
-        cylinder : Cylinder
-            As in :meth:`dual`.
-        compression_ratio, cutoff_ratio : float
-            As in :meth:`dual`.
-        **options : dict, optional
-            As in :meth:`dual`.
-
-        Returns
-        -------
-        Cycle
-            The cycle.
-
-        Raises
-        ------
-        InputError
-            As for :meth:`dual`.
-        """
-        return cls._ideal("Diesel", cylinder, compression_ratio, 1.0, cutoff_ratio, **options)
 
     @classmethod
     def dual(
@@ -161,6 +87,57 @@ class ComputedCycles:
         return cls._ideal("Dual", cylinder, *ratios, **options)
 
     @classmethod
+    @documented(dual)
+    def otto(
+        cls,
+        cylinder: Cylinder,
+        *,
+        compression_ratio: float,
+        pressure_ratio: float,
+        **options: Unpack[IdealOptions],
+    ) -> Self:
+        """Return the ideal cycle with combustion at constant volume.
+
+        Returns
+        -------
+        Cycle
+            The cycle.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cylinder = cp.Cylinder(0.043, 0.043 / 0.3, 0.5, bore=0.086)
+        >>> otto = cp.Cycle.otto(
+        ...     cylinder, compression_ratio=10, pressure_ratio=3.5, intake_pressure=1e5
+        ... )
+        >>> round(otto.imep(cylinder) / 1e5, 4), round(otto.mean_torque(cylinder), 3)
+        (9.2154, 36.634)
+        """
+        ratios = (compression_ratio, pressure_ratio, 1.0)
+        return cls._ideal("Otto", cylinder, *ratios, **options)
+
+    @classmethod
+    @documented(dual)
+    def diesel(
+        cls,
+        cylinder: Cylinder,
+        *,
+        compression_ratio: float,
+        cutoff_ratio: float,
+        **options: Unpack[IdealOptions],
+    ) -> Self:
+        """Return the ideal cycle with combustion at constant pressure.
+
+        Returns
+        -------
+        Cycle
+            The cycle.
+
+        """
+        return cls._ideal("Diesel", cylinder, compression_ratio, 1.0, cutoff_ratio, **options)
+
+    @classmethod
+    @documented(dual)
     def motored(
         cls, cylinder: Cylinder, *, compression_ratio: float, **options: Unpack[IdealOptions]
     ) -> Self:
@@ -169,24 +146,11 @@ class ComputedCycles:
         With equal exponents and equal pressures of intake and exhaust its work is zero. For heat
         loss take :meth:`wiebe` with ``heat=0`` and a wall temperature.
 
-        Parameters
-        ----------
-        cylinder : Cylinder
-            As in :meth:`dual`.
-        compression_ratio : float
-            As in :meth:`dual`.
-        **options : dict, optional
-            As in :meth:`dual`.
-
         Returns
         -------
         Cycle
             The cycle.
 
-        Raises
-        ------
-        InputError
-            As for :meth:`dual`.
         """
         return cls._ideal("Motored", cylinder, compression_ratio, 1.0, 1.0, **options)
 
@@ -220,6 +184,7 @@ class ComputedCycles:
         )
 
     @classmethod
+    @documented()
     def wiebe(
         cls,
         cylinder: Cylinder,
@@ -296,10 +261,8 @@ class ComputedCycles:
             Mass of air over that of fuel, for ``excess_air``; by default 14.6.
         heating_value : float, optional
             Lower heating value of the fuel, J/kg, for ``excess_air``; by default 43e6.
-        strokes : {4, 2}, default 4
-            As in :class:`Cycle`.
         name : str, optional
-            As in :class:`Cycle`; by default that of the cycle.
+            Name; by default that of the cycle.
 
         Returns
         -------

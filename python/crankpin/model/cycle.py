@@ -14,6 +14,7 @@ from crankpin._core import ATMOSPHERE
 from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
+from crankpin._support.parameters import documented
 from crankpin._support.record import Input, read_only
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
@@ -140,33 +141,15 @@ class Cycle(Tabled, Input, ComputedCycles):
         return _core.Cycle(self.theta_deg, self.pressure, self.strokes, self.name, self.degree)
 
     @classmethod
+    @documented(cycle_files.load)
     def load(cls, path: str | Path, **options: Unpack[FileOptions]) -> Cycle:
         """Return the cycle in a file of crank angle and pressure; of several their mean.
-
-        Parameters
-        ----------
-        path : str or pathlib.Path
-            As in :meth:`Traces.load`.
-        **options : dict, optional
-            As in :meth:`Traces.load`.
 
         Returns
         -------
         Cycle
             The cycle, its angles counted from the firing top dead centre; ``origin`` says what was
             read.
-
-        Raises
-        ------
-        InputError
-            As for :meth:`Traces.load`.
-        OSError
-            If the file cannot be read.
-
-        Warns
-        -----
-        UserWarning
-            As for :class:`Cycle`.
         """
         theta, pressure, strokes, name, origin, degree = cycle_files.load(path, **options)
         if degree is None:
@@ -344,6 +327,7 @@ class Cycle(Tabled, Input, ComputedCycles):
         checks.absolute("crankcase", below)
         return self._core.torque(cylinder._parts, below, halves)[1] * scale
 
+    @documented(torque_harmonics)
     def resolution_error(
         self, cylinder: Cylinder, orders: Order | Iterable[Order], *, crankcase: float = ATMOSPHERE
     ) -> NDArray[np.float64]:
@@ -359,15 +343,6 @@ class Cycle(Tabled, Input, ComputedCycles):
         coarse digits and the sensor's own error are in the points, which both tables share, and can
         be hundreds of times larger; :meth:`Traces.resolution_error` has them from the spread over
         cycles. Zero for polynomials, of which it is a bound.
-
-        Parameters
-        ----------
-        cylinder : Cylinder
-            As in :meth:`torque_harmonics`.
-        orders : number or sequence of numbers
-            As in :meth:`torque_harmonics`.
-        crankcase : float, default 101325.0
-            As in :meth:`torque_harmonics`.
 
         Returns
         -------
@@ -398,6 +373,7 @@ class Cycle(Tabled, Input, ComputedCycles):
             np.maximum(error, abs(coarse - whole), out=error)
         return error
 
+    @documented(torque_harmonics)
     def resolution_bound(
         self, cylinder: Cylinder, orders: Order | Iterable[Order], *, crankcase: float = ATMOSPHERE
     ) -> NDArray[np.float64]:
@@ -411,22 +387,13 @@ class Cycle(Tabled, Input, ComputedCycles):
 
         Parameters
         ----------
-        cylinder : Cylinder
-            As in :meth:`torque_harmonics`.
-        orders : number or sequence of numbers
-            As in :meth:`torque_harmonics`.
         crankcase : float, default 101325.0
-            As in :meth:`torque_harmonics`; it makes no error.
+            …; it makes no error.
 
         Returns
         -------
         ndarray of float, shape (n_orders,)
             Bound of the magnitude of the error of each phasor, N·m; zero for polynomials.
-
-        Raises
-        ------
-        InputError
-            As for :meth:`torque_harmonics`.
 
         Examples
         --------

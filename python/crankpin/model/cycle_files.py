@@ -131,7 +131,49 @@ def load(
     strokes: int | None = None,
     name: str | None = None,
 ) -> Recorded:
-    """Return the cycles in a file: see :meth:`Traces.load`."""
+    """Return the cycles in a file: see :meth:`Traces.load`.
+
+    Parameters
+    ----------
+    path : str or pathlib.Path
+        ``.csv``, ``.tsv``, ``.txt``, ``.dat`` or ``.asc``, or ``.xlsx``, which needs
+        ``pip install "crankpin[excel]"``.
+    **options : dict, optional
+        ``pressure_unit``: ``"Pa"``, ``"hPa"``, ``"kPa"``, ``"MPa"``, ``"mbar"``, ``"bar"`` or
+        ``"psi"``; by default what the header names.
+        ``gauge``: True for pressure above that of the atmosphere, False for absolute pressure;
+        by default what the header says.
+        ``atmosphere``: pressure added to gauge pressure, Pa, by default 101325.
+        ``angle_unit``: ``"deg"`` or ``"rad"``, or ``"s"`` or ``"ms"`` for a record over time;
+        by default what the header names, else degrees. Times become angles at a constant
+        speed, that at which three or more compressions follow each other.
+        ``recorded_rpm``: crank speed of a record over time, rpm, where it is too short for
+        that.
+        ``tdc_deg``: angle of the firing top dead centre as the file counts angles, from
+        whatever event, degrees, by default 0.
+        ``columns``: numbers from 0, or names, with or without unit, of the columns of angle and
+        pressure, those of further cycles after them; by default the first two, and all that are
+        like the second.
+        ``sheet``: name of the sheet of a spreadsheet, by default the first.
+        ``strokes``: 4 or 2; by default 4, or what :meth:`Cycle.save` has written.
+        ``name``: by default the name of the file, or what :meth:`Cycle.save` has written.
+
+    Raises
+    ------
+    InputError
+        If the file states no unit, or not whether pressure is absolute, and the arguments do
+        neither; if it has no such columns; if angles are not ascending or do not cover one period.
+    OSError
+        If the file cannot be read.
+    ImportError
+        If it is a spreadsheet and openpyxl is not installed.
+
+    Warns
+    -----
+    UserWarning
+        If compressions follow each other at another speed than is given, lines are missing or
+        repeated; or there are spikes or odd cycles.
+    """
     file = inputs.file_path(path, table_files.ENDINGS, table_files.HINT)
     hint = "give two, of angle and pressure, or more of pressure"
     chosen = None if columns is None else inputs.items("columns", columns, hint)

@@ -11,6 +11,7 @@ from crankpin import _core
 from crankpin._core import ATMOSPHERE
 from crankpin._support import inputs
 from crankpin._support.frames import Tabled
+from crankpin._support.parameters import documented
 from crankpin._support.record import Input, read_only
 from crankpin._support.tables import Table
 from crankpin._support.warnings import suppressed
@@ -121,6 +122,7 @@ class CycleMap(Tabled, Input):
         with suppressed():  # Warned of where they were given.
             return Cycle._of(core)
 
+    @documented(Cycle.torque_harmonics)
     def torque_harmonics(
         self,
         cylinder: Cylinder,
@@ -136,14 +138,8 @@ class CycleMap(Tabled, Input):
 
         Parameters
         ----------
-        cylinder : Cylinder
-            As in :meth:`Cycle.torque_harmonics`.
-        orders : number or sequence of numbers
-            As in :meth:`Cycle.torque_harmonics`.
         rpm, load : array_like
             Speeds and loads within the map, of shapes that broadcast.
-        crankcase : float, default 101325.0
-            As in :meth:`Cycle.torque_harmonics`.
 
         Returns
         -------

@@ -10,6 +10,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs
+from crankpin._support.parameters import documented
 from crankpin._support.record import Input
 from crankpin._support.warnings import suppressed
 from crankpin.model import checks
@@ -98,6 +99,7 @@ class Cylinder:
     """None, so that NumPy leaves comparison and arithmetic with arrays to the cylinder."""
 
     @classmethod
+    @documented(__doc__)
     def from_bore_stroke(
         cls,
         *,
@@ -116,20 +118,11 @@ class Cylinder:
             Diameter of the cylinder, m.
         stroke : float
             Twice the crank radius, m.
-        rod_length, reciprocating_mass : float
-            As in :class:`Cylinder`.
-        pin_offset, rod_inertia_excess : float, default 0.0
-            As in :class:`Cylinder`.
 
         Returns
         -------
         Cylinder
             The cylinder.
-
-        Raises
-        ------
-        InputError
-            As for :class:`Cylinder`.
 
         Examples
         --------
@@ -153,6 +146,7 @@ class Cylinder:
         )
 
     @classmethod
+    @documented(__doc__)
     def from_rod(
         cls,
         rod: Rod,
@@ -175,20 +169,11 @@ class Cylinder:
             Crank radius r, m.
         piston_mass : float
             Mass of piston, pin and rings, without any of the rod, kg.
-        pin_offset : float, default 0.0
-            As in :class:`Cylinder`.
-        bore : float, optional
-            As in :class:`Cylinder`.
 
         Returns
         -------
         Cylinder
             The cylinder, with the rod's share of the reciprocating mass.
-
-        Raises
-        ------
-        InputError
-            As for :class:`Cylinder`.
 
         Examples
         --------
@@ -522,6 +507,7 @@ class Rod(Input):
     to_crankpin: float
 
     @classmethod
+    @documented(__doc__)
     def estimated(cls, mass: float, length: float, to_crankpin: float) -> Rod:
         """Return a rod with an estimated moment of inertia, I = m·a·b/1.0965.
 
@@ -529,20 +515,10 @@ class Rod(Input):
         spark-ignition engines that is 9.65 % more than theirs on average, from 2.65 % less to 22 %
         more (ASME ICEF2002, vol. 46628, p. 305).
 
-        Parameters
-        ----------
-        mass, length, to_crankpin : float
-            As in :class:`Rod`.
-
         Returns
         -------
         Rod
             The rod.
-
-        Raises
-        ------
-        InputError
-            As for :class:`Rod`.
 
         Examples
         --------

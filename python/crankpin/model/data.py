@@ -11,6 +11,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import files, inputs, labels
+from crankpin._support.parameters import documented
 from crankpin._support.record import AbsentError, read_only
 from crankpin._support.warnings import suppressed
 from crankpin.model import checks, engine_files
@@ -355,126 +356,6 @@ class EngineData:
 
     # --- changed copies -------------------------------------------------------------------------
 
-    def replace(
-        self,
-        *,
-        cylinder: Cylinder | Sequence[Cylinder] | None = None,
-        tdc_deg: Angles | None = None,
-        pin_deg: Angles | None = None,
-        bank_deg: Angles | None = None,
-        z: ArrayLike | None = None,
-        rotating_mass: ArrayLike | None = None,
-        counterweights: Iterable[Unbalance] | None = None,
-        shafts: Iterable[Shaft] | None = None,
-        loads: Iterable[PeriodicLoad] | None = None,
-        mains: ArrayLike | Literal["kept"] | None = KEPT,
-        reference_z: float | Literal["kept"] | None = KEPT,
-        cycle: Cycle | Sequence[Cycle | None] | Literal["kept"] | None = KEPT,
-        crankcase: float | None = None,
-        firing_order: str | Iterable[int] | None = None,
-        strokes: int | None = None,
-        name: str | None = None,
-        source: str | None = None,
-    ) -> Self:
-        """Return a copy with some lists changed; see :meth:`from_lists`.
-
-        A firing order that the changed crank does not allow is dropped, unless it is given; dummy
-        pistons leave it, and have no cycle. A cylinder with another ``rod`` brings its big end as
-        rotating mass, unless the engine's differs from the big end of the rod that it had.
-
-        Parameters
-        ----------
-        cylinder : Cylinder or sequence of Cylinder, optional
-            As in :meth:`from_lists`; by default unchanged.
-        tdc_deg, pin_deg, bank_deg : sequence of number or str, optional
-            As in :meth:`from_lists`; by default unchanged.
-        z, rotating_mass : array_like, optional
-            As in :meth:`from_lists`; by default unchanged.
-        counterweights : sequence of Unbalance, optional
-            As in :meth:`from_lists`; by default unchanged.
-        shafts : sequence of Shaft, optional
-            As in :meth:`from_lists`; by default unchanged.
-        loads : sequence of PeriodicLoad, optional
-            As in :meth:`with_loads`; by default unchanged.
-        mains : array_like or None, optional
-            As in :meth:`from_lists`; None for the default of :attr:`mains`.
-        reference_z : float or None, optional
-            As in :meth:`from_lists`, m; None for the default of :attr:`reference_z`.
-        cycle : Cycle, sequence of Cycle or None, or None, optional
-            As in :meth:`with_cycle`.
-        crankcase : float, optional
-            As in :meth:`with_cycle`, Pa.
-        firing_order : str or sequence of int, optional
-            As in :meth:`from_lists`; by default unchanged.
-        strokes : {4, 2}, optional
-            As in :meth:`from_lists`; by default unchanged.
-        name, source : str, optional
-            As in :meth:`from_lists`; by default unchanged.
-
-        Returns
-        -------
-        Engine
-            The changed copy.
-
-        Raises
-        ------
-        InputError
-            As for :meth:`from_lists` and :meth:`with_cycle`.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> i4 = cp.Engine.preset("i4")
-        >>> longer = i4.replace(cylinder=[c.replace(rod_length=0.2) for c in i4.cylinders])
-        >>> longer == i4
-        False
-        """
-        exact_tdc, exact_bank = self._core.exact_angles
-        bearings: Any = self._core.mains if _is_kept(mains) else mains
-        plane: Any = self._core.reference_z if _is_kept(reference_z) else reference_z
-        core = core_of_lists(
-            self.cylinders if cylinder is None else cylinder,
-            exact_tdc if tdc_deg is None and pin_deg is None else tdc_deg,
-            pin_deg,
-            exact_bank if bank_deg is None else bank_deg,
-            self.z if z is None else z,
-            self._rotating(cylinder) if rotating_mass is None else rotating_mass,
-            mains=bearings,
-            reference_z=plane,
-            bank=self._core.bank if bank_deg is None else None,
-            cranks=self._core.cranks if len(self._core.cranks[0]) > 1 else None,
-        )
-        weights = self.counterweights if counterweights is None else counterweights
-        core = rotating.with_counterweights(core, weights)
-        core = rotating.with_shafts(core, self.shafts if shafts is None else shafts)
-        core = periodic.with_loads(core, self.loads if loads is None else loads)
-        count = self.strokes if strokes is None else inputs.strokes(strokes)
-        changed = type(self)(
-            core,
-            self._core.name if name is None else name,
-            self.source if source is None else source,
-            allowed(core, self.firing_order, count) if firing_order is None else firing_order,
-            count,
-        )
-        as_before = tdc_deg is None and pin_deg is None and count == self.strokes
-        if as_before and firing_order is None and changed.firing_order == self.firing_order:
-            changed = type(self)(changed._core.with_turns(self._core.chosen_turns))
-        cycles: Any = self.cycles if _is_kept(cycle) else cycle
-        if cycles is None:
-            inputs.only_with("cycle", crankcase=crankcase)
-            return changed
-        if _is_kept(cycle) and (dummies := _dummies(core)) != _dummies(self._core):
-            cycles = [None if k in dummies else one for k, one in enumerate(cycles, start=1)]
-            as_before = False
-        if _is_kept(cycle) and as_before and firing_order is None:
-            # Each cylinder fires in the turn in which it did, whether or not its order was dropped.
-            below = self._below_pistons(crankcase)
-            fired = changed._core.fired_as(self._core, list(range(len(self))), below)
-            checks.absolute("crankcase", below)
-            fired = fired.firing_as(changed.firing_order, count)
-            return type(self)(fired.with_turns(changed._core.chosen_turns))
-        return changed._fired_by(cycles, crankcase, self)
-
     def _rotating(self, cylinder: Cylinder | Sequence[Cylinder] | None) -> list[float]:
         """Return the rotating masses that stay, or come with the rods, as cylinders change."""
         masses: list[float] = self.rotating_mass.tolist()
@@ -635,6 +516,128 @@ class EngineData:
         'zero, proved'
         """
         return self._fired_by(cycle, crankcase, self)
+
+    @documented(with_loads, with_cycle)
+    def replace(
+        self,
+        *,
+        cylinder: Cylinder | Sequence[Cylinder] | None = None,
+        tdc_deg: Angles | None = None,
+        pin_deg: Angles | None = None,
+        bank_deg: Angles | None = None,
+        z: ArrayLike | None = None,
+        rotating_mass: ArrayLike | None = None,
+        counterweights: Iterable[Unbalance] | None = None,
+        shafts: Iterable[Shaft] | None = None,
+        loads: Iterable[PeriodicLoad] | None = None,
+        mains: ArrayLike | Literal["kept"] | None = KEPT,
+        reference_z: float | Literal["kept"] | None = KEPT,
+        cycle: Cycle | Sequence[Cycle | None] | Literal["kept"] | None = KEPT,
+        crankcase: float | None = None,
+        firing_order: str | Iterable[int] | None = None,
+        strokes: int | None = None,
+        name: str | None = None,
+        source: str | None = None,
+    ) -> Self:
+        """Return a copy with some lists changed; see :meth:`from_lists`.
+
+        A firing order that the changed crank does not allow is dropped, unless it is given; dummy
+        pistons leave it, and have no cycle. A cylinder with another ``rod`` brings its big end as
+        rotating mass, unless the engine's differs from the big end of the rod that it had.
+
+        Parameters
+        ----------
+        cylinder : Cylinder or sequence of Cylinder, optional
+            Moving parts of all cylinders, or one for each; by default unchanged.
+        tdc_deg, pin_deg, bank_deg : sequence of number or str, optional
+            …; by default unchanged.
+        z, rotating_mass : array_like, optional
+            …; by default unchanged.
+        counterweights : sequence of Unbalance, optional
+            …; by default unchanged.
+        shafts : sequence of Shaft, optional
+            …; by default unchanged.
+        loads : sequence of PeriodicLoad, optional
+            …; by default unchanged.
+        mains : array_like or None, optional
+            …; by default unchanged, None for the default of :attr:`mains`.
+        reference_z : float or None, optional
+            …; by default unchanged, None for the default of :attr:`reference_z`.
+        cycle : Cycle, sequence of Cycle or None, or None, optional
+            …; by default unchanged.
+        crankcase : float, optional
+            …; by default unchanged.
+        firing_order : str or sequence of int, optional
+            …; by default unchanged.
+        strokes : {4, 2}, optional
+            …; by default unchanged.
+        name, source : str, optional
+            …; by default unchanged.
+
+        Returns
+        -------
+        Engine
+            The changed copy.
+
+        Raises
+        ------
+        InputError
+            If lists differ in length, both of ``tdc_deg`` and ``pin_deg`` are given, a figure is
+            out of range, or the crank does not allow the firing order.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> i4 = cp.Engine.preset("i4")
+        >>> longer = i4.replace(cylinder=[c.replace(rod_length=0.2) for c in i4.cylinders])
+        >>> longer == i4
+        False
+        """
+        exact_tdc, exact_bank = self._core.exact_angles
+        bearings: Any = self._core.mains if _is_kept(mains) else mains
+        plane: Any = self._core.reference_z if _is_kept(reference_z) else reference_z
+        core = core_of_lists(
+            self.cylinders if cylinder is None else cylinder,
+            exact_tdc if tdc_deg is None and pin_deg is None else tdc_deg,
+            pin_deg,
+            exact_bank if bank_deg is None else bank_deg,
+            self.z if z is None else z,
+            self._rotating(cylinder) if rotating_mass is None else rotating_mass,
+            mains=bearings,
+            reference_z=plane,
+            bank=self._core.bank if bank_deg is None else None,
+            cranks=self._core.cranks if len(self._core.cranks[0]) > 1 else None,
+        )
+        weights = self.counterweights if counterweights is None else counterweights
+        core = rotating.with_counterweights(core, weights)
+        core = rotating.with_shafts(core, self.shafts if shafts is None else shafts)
+        core = periodic.with_loads(core, self.loads if loads is None else loads)
+        count = self.strokes if strokes is None else inputs.strokes(strokes)
+        changed = type(self)(
+            core,
+            self._core.name if name is None else name,
+            self.source if source is None else source,
+            allowed(core, self.firing_order, count) if firing_order is None else firing_order,
+            count,
+        )
+        as_before = tdc_deg is None and pin_deg is None and count == self.strokes
+        if as_before and firing_order is None and changed.firing_order == self.firing_order:
+            changed = type(self)(changed._core.with_turns(self._core.chosen_turns))
+        cycles: Any = self.cycles if _is_kept(cycle) else cycle
+        if cycles is None:
+            inputs.only_with("cycle", crankcase=crankcase)
+            return changed
+        if _is_kept(cycle) and (dummies := _dummies(core)) != _dummies(self._core):
+            cycles = [None if k in dummies else one for k, one in enumerate(cycles, start=1)]
+            as_before = False
+        if _is_kept(cycle) and as_before and firing_order is None:
+            # Each cylinder fires in the turn in which it did, whether or not its order was dropped.
+            below = self._below_pistons(crankcase)
+            fired = changed._core.fired_as(self._core, list(range(len(self))), below)
+            checks.absolute("crankcase", below)
+            fired = fired.firing_as(changed.firing_order, count)
+            return type(self)(fired.with_turns(changed._core.chosen_turns))
+        return changed._fired_by(cycles, crankcase, self)
 
     def _fired_by(self, cycle: object, crankcase: float | None, other: EngineData) -> Self:
         """Return the same engine with cycles, its crankcase by default that of another."""

@@ -11,6 +11,7 @@ import numpy as np
 
 from crankpin._support import labels, units
 from crankpin._support.drawing import draw, inline_svg
+from crankpin._support.parameters import documented
 from crankpin._support.record import AbsentError
 from crankpin._support.tables import Table
 from crankpin.analysis import firing
@@ -72,6 +73,7 @@ class Engine(Builders):
     """
 
     @classmethod
+    @documented()
     def preset(
         cls,
         name: str,
@@ -89,15 +91,15 @@ class Engine(Builders):
         name : str
             Such as ``"v8-crossplane"``.
         cylinder : Cylinder, optional
-            Moving parts of all cylinders, in place of the preset's.
+            Moving parts of all cylinders; by default the preset's.
         spacing : float, optional
-            Distance between neighbouring throws, in place of the preset's, m.
+            Distance between neighbouring throws, m; by default the preset's.
         rotating_mass : array_like, optional
-            As in :meth:`from_lists`, in place of the preset's.
+            … By default the preset's.
         counterweights : sequence of Unbalance, optional
-            As in :meth:`from_lists`, in place of the preset's.
+            … By default the preset's.
         shafts : sequence of Shaft, optional
-            As in :meth:`from_lists`, in place of the preset's.
+            … By default the preset's.
 
         Returns
         -------
@@ -144,6 +146,7 @@ class Engine(Builders):
 
     # --- analyses -------------------------------------------------------------------------------
 
+    @documented()
     def balance(
         self,
         rpm: float,
@@ -161,22 +164,6 @@ class Engine(Builders):
         ----------
         rpm : float
             Crank speed, rpm.
-        orders : number, sequence of numbers or "auto", default "auto"
-            Multiples of crank speed, whole or half (0.5, of which gas pressure alone makes any);
-            by default the few that reach ``rtol``.
-        rtol : float, optional
-            For ``orders="auto"``: what the omitted orders may add up to, relative to the
-            largest m·r·ω² of any cylinder (its reciprocating or its rotating mass), times the
-            longest lever for moments and the crank radius for torque; None for 1e-9. Gas
-            pressure counts apart, relative to the largest gas torque of a cylinder, and to 1e-3
-            at best, since its orders decline slowly; ``error_bound`` has what is left out of
-            both.
-        spectrum : mapping of int to complex, optional
-            Order → amplitude of one cylinder's force over ω², in kg·m, in place of every cylinder's
-            slider-crank: one measurement or simulation, many layouts. ``rotating_mass`` still
-            counts; torque is undefined then.
-        torque : bool, default True
-            False to leave out torque, in the result and in the choice of orders.
 
         Returns
         -------
@@ -204,6 +191,7 @@ class Engine(Builders):
         """
         return balance(self, rpm, orders=orders, rtol=rtol, spectrum=spectrum, torque=torque)
 
+    @documented(balance)
     def waveform(
         self,
         rpm: float,
@@ -229,11 +217,11 @@ class Engine(Builders):
             ``"auto"`` for the few that reach ``rtol``, the rest being in ``omitted`` and
             ``error_bound``.
         rtol : float, optional
-            For ``orders="auto"``, as in :meth:`balance`; by default 1e-6.
+            … By default 1e-6.
         spectrum : mapping of int to complex, optional
-            As in :meth:`balance`; a spectrum needs ``orders``.
+            …; a spectrum needs ``orders``.
         torque : bool, default True
-            As in :meth:`balance`; a spectrum needs ``orders``.
+            …; a spectrum needs ``orders``.
 
         Returns
         -------
@@ -297,6 +285,7 @@ class Engine(Builders):
         """
         return firing.firing(self, firing_order, strokes)
 
+    @documented(firing)
     def firings(
         self, firing_order: str | Iterable[int] | None = None, *, strokes: int | None = None
     ) -> tuple[Firing, ...]:
@@ -304,13 +293,6 @@ class Engine(Builders):
 
         Empty if the crank does not allow the order. There are several where the order follows the
         top dead centres of one turn, so that the next turn may begin after any cylinder.
-
-        Parameters
-        ----------
-        firing_order : str or sequence of int, optional
-            As in :meth:`firing`.
-        strokes : {4, 2}, optional
-            As in :meth:`firing`.
 
         Returns
         -------
@@ -396,6 +378,7 @@ class Engine(Builders):
         """
         return vanishing_orders(self, orders, reference_z=reference_z)
 
+    @documented(vanishing_orders)
     def closed_form(
         self,
         order: int,
@@ -411,8 +394,6 @@ class Engine(Builders):
             Whole multiple of crank speed.
         quantity : {"force", "moment"}, default "moment"
             ``"force"`` or ``"moment"``.
-        reference_z : float, optional
-            As in :meth:`vanishing_orders`.
 
         Returns
         -------
@@ -464,6 +445,7 @@ class Engine(Builders):
 
     # --- pages ----------------------------------------------------------------------------------
 
+    @documented(balance)
     def view(
         self,
         rpm: float = 3000.0,
@@ -487,8 +469,7 @@ class Engine(Builders):
             :func:`crankpin.flywheel`; by default that with which the speed varies by 1 % at
             ``rpm``.
         spectrum : mapping of int to complex, optional
-            As in :meth:`balance`: order → amplitude of one cylinder's force over ω², in kg·m. The
-            page has no torque then.
+            … The page has no torque then.
         compact : bool, default False
             Whether to show the cross-section and one vector alone, with three controls: for a
             lecture, 640 by 360 pixels.
@@ -516,6 +497,7 @@ class Engine(Builders):
             self, rpm, inertia=inertia, spectrum=spectrum, compact=compact, controls=controls
         )
 
+    @documented(view)
     def save_html(
         self,
         path: str | Path,
@@ -532,16 +514,8 @@ class Engine(Builders):
         ----------
         path : str or pathlib.Path
             Name of the file, which ends in ``.html``.
-        rpm : float, default 3000.0
-            As in :meth:`view`.
-        inertia : float, optional
-            As in :meth:`view`.
-        spectrum : mapping of int to complex, optional
-            As in :meth:`view`.
         compact : bool, default False
-            As in :meth:`view`; a compact page fills its window, such as a frame on a slide.
-        controls : str or sequence of str, optional
-            As in :meth:`view`.
+            …; a compact page fills its window, such as a frame on a slide.
 
         Raises
         ------

@@ -13,6 +13,7 @@ from crankpin._core import ATMOSPHERE
 from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
+from crankpin._support.parameters import documented
 from crankpin._support.record import AbsentError, Input, changed, item_key, read_only
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import is_suppressed, suppressed, warn
@@ -57,7 +58,7 @@ class Traces(Tabled, Input):
     pressure : array_like, shape (n_cycles, n)
         Absolute pressure there, Pa, a row for each cycle.
     strokes : {4, 2}, default 4
-        As in :class:`Cycle`.
+        4 for a period of 720°, 2 for one of 360°.
     name : str, optional
         Name; may be empty.
     origin : str, optional
@@ -66,12 +67,14 @@ class Traces(Tabled, Input):
     Raises
     ------
     InputError
-        As for :class:`Cycle`.
+        If angles are not ascending or do not cover one period, or a pressure is below that of a
+        vacuum by more than an atmosphere.
 
     Warns
     -----
     UserWarning
-        As for :class:`Cycle`, once for all cycles; if there are spikes or odd cycles among them.
+        If pressure seems to be in another unit or gauge pressure, once for all cycles; if there are
+        spikes or odd cycles among them.
 
     Examples
     --------
@@ -140,6 +143,7 @@ class Traces(Tabled, Input):
         self.__dict__.update(_raised=raised, _mean=mean)
 
     @classmethod
+    @documented(cycle_files.load)
     def load(cls, path: str | Path, **options: Unpack[FileOptions]) -> Self:
         """Return the cycles in a file with columns of crank angle, or time, and pressure.
 
@@ -154,55 +158,15 @@ class Traces(Tabled, Input):
         angles raise a warning. ``origin`` reports what was read, and whether the header or an
         argument states it or it is assumed.
 
-        Parameters
-        ----------
-        path : str or pathlib.Path
-            ``.csv``, ``.tsv``, ``.txt``, ``.dat`` or ``.asc``, or ``.xlsx``, which needs
-            ``pip install "crankpin[excel]"``.
-        **options : dict, optional
-            ``pressure_unit``: ``"Pa"``, ``"hPa"``, ``"kPa"``, ``"MPa"``, ``"mbar"``, ``"bar"`` or
-            ``"psi"``; by default what the header names.
-            ``gauge``: True for pressure above that of the atmosphere, False for absolute pressure;
-            by default what the header says.
-            ``atmosphere``: pressure added to gauge pressure, Pa, by default 101325.
-            ``angle_unit``: ``"deg"`` or ``"rad"``, or ``"s"`` or ``"ms"`` for a record over time;
-            by default what the header names, else degrees. Times become angles at a constant
-            speed, that at which three or more compressions follow each other.
-            ``recorded_rpm``: crank speed of a record over time, rpm, where it is too short for
-            that.
-            ``tdc_deg``: angle of the firing top dead centre as the file counts angles, from
-            whatever event, degrees, by default 0.
-            ``columns``: numbers from 0, or names, with or without unit, of the columns of angle and
-            pressure, those of further cycles after them; by default the first two, and all that are
-            like the second.
-            ``sheet``: name of the sheet of a spreadsheet, by default the first.
-            ``strokes``: 4 or 2; by default 4, or what :meth:`Cycle.save` has written.
-            ``name``: by default the name of the file, or what :meth:`Cycle.save` has written.
-
         Returns
         -------
         Traces
             The cycles, their angles counted from the firing top dead centre.
-
-        Raises
-        ------
-        InputError
-            If the file states no unit, or not whether pressure is absolute, and the arguments do
-            neither; if it has no such columns; or as for :class:`Cycle`.
-        OSError
-            If the file cannot be read.
-        ImportError
-            If it is a spreadsheet and openpyxl is not installed.
-
-        Warns
-        -----
-        UserWarning
-            If compressions follow each other at another speed than is given, lines are missing or
-            repeated, or as for :class:`Traces`.
         """
         return cls(*cycle_files.load(path, **options)[:5])
 
     @classmethod
+    @documented(load)
     def load_cylinders(
         cls,
         path: str | Path,
@@ -215,15 +179,11 @@ class Traces(Tabled, Input):
 
         Parameters
         ----------
-        path : str or pathlib.Path
-            As in :meth:`load`.
         columns : sequence of int, str or sequence of these
             Column of the angle or time, and that of each cylinder's pressure, or a list of those of
             its cycles; numbers from 0 or names.
         tdc_deg : array_like
             Angle of each cylinder's firing top dead centre as the file counts angles, degrees.
-        **options : dict, optional
-            As in :meth:`load`.
 
         Returns
         -------
@@ -233,14 +193,10 @@ class Traces(Tabled, Input):
         Raises
         ------
         InputError
-            As for :meth:`load`, or if there is not one angle for each cylinder.
+            …, or if there is not one angle for each cylinder.
         OSError
             If the file cannot be read.
 
-        Warns
-        -----
-        UserWarning
-            As for :meth:`load`.
         """
         read = cycle_files.load_cylinders(path, columns, tdc_deg, **options)
         return tuple(cls(*each[:5]) for each in read)
@@ -393,71 +349,43 @@ class Traces(Tabled, Input):
         top = float(checks.about_tdc(mean.theta_deg[[mean.pressure.argmax()]], self.period_deg)[0])
         return read_only(checks.about_tdc(at - top, self.period_deg) + top)
 
+    @documented(Cycle.imep)
     def imep(self, cylinder: Cylinder) -> NDArray[np.float64]:
         """Return the indicated mean effective pressure of each cycle, Pa: (n_cycles,).
-
-        Parameters
-        ----------
-        cylinder : Cylinder
-            As in :meth:`Cycle.imep`.
 
         Returns
         -------
         ndarray of float, shape (n_cycles,)
             Indicated mean effective pressures, Pa.
 
-        Raises
-        ------
-        InputError
-            As for :meth:`Cycle.imep`.
         """
         with suppressed():  # a single cycle may be far from the others
             return np.array([each.imep(cylinder) for each in self._raised_cycles()])
 
+    @documented(imep)
     def cov(self, cylinder: Cylinder) -> float:
         """Return the coefficient of variation of imep: its standard deviation over its mean.
-
-        Parameters
-        ----------
-        cylinder : Cylinder
-            As in :meth:`Cycle.imep`.
 
         Returns
         -------
         float
             Coefficient of variation; NaN for one cycle.
 
-        Raises
-        ------
-        InputError
-            As for :meth:`Cycle.imep`.
         """
         imep = self.imep(cylinder)
         return _deviation(imep) / abs(float(imep.mean()))
 
+    @documented(Cycle.torque_harmonics)
     def torque_harmonics(
         self, cylinder: Cylinder, orders: Order | Iterable[Order], *, crankcase: float = ATMOSPHERE
     ) -> NDArray[np.complex128]:
         """Return the peak phasors of the torque of each cycle on the crank, N·m.
-
-        Parameters
-        ----------
-        cylinder : Cylinder
-            As in :meth:`Cycle.torque_harmonics`.
-        orders : number or sequence of numbers
-            As in :meth:`Cycle.torque_harmonics`.
-        crankcase : float, default 101325.0
-            As in :meth:`Cycle.torque_harmonics`.
 
         Returns
         -------
         ndarray of complex, shape (n_cycles, n_orders)
             Peak phasors, N·m. Their mean is that of the mean cycle.
 
-        Raises
-        ------
-        InputError
-            As for :meth:`Cycle.torque_harmonics`.
         """
         listed = inputs.explicit_half_orders(orders)
         below = inputs.number("crankcase", crankcase)
@@ -469,6 +397,7 @@ class Traces(Tabled, Input):
             ]
         return np.array(found)
 
+    @documented(torque_harmonics)
     def spread(self, cylinder: Cylinder, orders: Order | Iterable[Order] = SHOWN_ORDERS) -> Table:
         """Return mean and spread over cycles of peak, imep and the torque's harmonics.
 
@@ -476,8 +405,6 @@ class Traces(Tabled, Input):
         ----------
         cylinder : Cylinder
             Cylinder with a bore.
-        orders : number or sequence of numbers, default (0.5, 1, 6, 12)
-            As in :meth:`Cycle.torque_harmonics`.
 
         Returns
         -------
@@ -486,10 +413,6 @@ class Traces(Tabled, Input):
             mean is the magnitude of the mean phasor and deviation that of phasors in the plane,
             phases included; over the root of the number of cycles it is the mean's standard error.
 
-        Raises
-        ------
-        InputError
-            As for :meth:`Cycle.torque_harmonics`.
         """
         listed = inputs.explicit_half_orders(orders)
         phasors = self.torque_harmonics(cylinder, listed)
@@ -525,6 +448,7 @@ class Traces(Tabled, Input):
             row_units=row_units,
         )
 
+    @documented(torque_harmonics)
     def resolution_error(
         self, cylinder: Cylinder, orders: Order | Iterable[Order], *, crankcase: float = ATMOSPHERE
     ) -> NDArray[np.float64]:
@@ -534,15 +458,6 @@ class Traces(Tabled, Input):
         error over cycles, root of the sum of squares. The second contains noise, coarse digits and
         the spread of combustion. It is an estimate, no bound: a wrong top dead centre, reference or
         gain of the sensor is the same in all cycles.
-
-        Parameters
-        ----------
-        cylinder : Cylinder
-            As in :meth:`Cycle.torque_harmonics`.
-        orders : number or sequence of numbers
-            As in :meth:`Cycle.torque_harmonics`.
-        crankcase : float, default 101325.0
-            As in :meth:`Cycle.torque_harmonics`.
 
         Returns
         -------

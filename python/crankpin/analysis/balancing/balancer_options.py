@@ -12,6 +12,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs
+from crankpin._support.parameters import documented
 from crankpin._support.record import changed
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.balancing import planes as correction_planes
@@ -46,6 +47,7 @@ DEFAULT = ("total.force.peak", "total.moment.peak")
 """Objectives if none are given."""
 
 
+@documented()
 def balancer_options(
     engine: Engine,
     rpm: float,
@@ -100,10 +102,6 @@ def balancer_options(
     places : mapping of int to pair of float or None, optional
         Ratio → x and y of a shaft's axis, m, None where free. Without them places are free: see
         :func:`crankpin.balance_shafts`.
-    orders : number, sequence of numbers or "auto", default "auto"
-        As in :meth:`Engine.balance`.
-    rtol : float, optional
-        As in :meth:`Engine.balance`.
 
     Returns
     -------

@@ -10,6 +10,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
+from crankpin._support.parameters import documented
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import balance
 from crankpin.analysis.design import optima
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
     from crankpin.model.cylinder import Cylinder
 
 
+@documented()
 def design(
     cylinders: int,
     *,
@@ -116,8 +118,6 @@ def design(
         Speed ratios of balance shafts that are allowed, such as ``[-1]`` or ``[2, -2]``: each
         removes the part of its order that turns with it, force and moment. They are put on the
         crank axis, where they add no roll torque.
-    bank_stagger : float, default 0.0
-        As in :meth:`Engine.vee`, m.
     rotating_mass : float, optional
         Rotating mass of every cylinder, kg, as in :meth:`Engine.vee`; by default the rod's big
         end.

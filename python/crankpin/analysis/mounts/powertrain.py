@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 
 from crankpin import _core
 from crankpin._support import files, inputs, labels
+from crankpin._support.parameters import documented
 from crankpin._support.record import Input
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.mounts import active, feedback, static_state
@@ -230,13 +231,9 @@ class Powertrain(Input):
         given = None if frequency is None else inputs.number("frequency", frequency)
         return natural.MountModes(self, given)
 
+    @documented(modes)
     def axes(self, frequency: float | None = None) -> RollAxes:
         """Return torque roll axis and elastic roll axis, with static and with dynamic stiffness.
-
-        Parameters
-        ----------
-        frequency : float, optional
-            As in :meth:`modes`, for the dynamic stiffness.
 
         Returns
         -------
@@ -252,6 +249,7 @@ class Powertrain(Input):
         given = None if frequency is None else inputs.number("frequency", frequency)
         return natural.RollAxes(self, given)
 
+    @documented()
     def response(
         self, rpm: ArrayLike, *, orders: Orders = "auto", rtol: float | None = None
     ) -> MountResponse:
@@ -267,8 +265,6 @@ class Powertrain(Input):
         orders : number, sequence of numbers or "auto", default "auto"
             Multiples of crank speed, halves too, or ``"auto"`` for those of the engine's balance
             that reach ``rtol``.
-        rtol : float, optional
-            As in :meth:`Engine.balance`.
 
         Returns
         -------
@@ -329,6 +325,7 @@ class Powertrain(Input):
         """
         return feedback.velocity_feedback(self, actuator, gain)
 
+    @documented(response)
     def designs(
         self,
         rpm: ArrayLike,
@@ -350,10 +347,6 @@ class Powertrain(Input):
             Name of a mount to its figures that differ: ``"at"``, ``"tilt_deg"``, ``"stiffness"``,
             ``"dynamic_stiffness"``, ``"loss_factor"`` or ``"damping"``, one value, or one along
             each axis, of each design: of shape (n_designs,) or (n_designs, 3).
-        orders : number, sequence of numbers or "auto", default "auto"
-            As in :meth:`response`.
-        rtol : float, optional
-            As in :meth:`Engine.balance`.
         mount_force : bool, default False
             True: with the force of each mount, besides their sum.
         at : sequence of points, default ()
@@ -405,6 +398,7 @@ class Powertrain(Input):
             frequency=frequency,
         )
 
+    @documented(modes)
     def robustness(
         self,
         stiffness: float | Mapping[str, float] = 0.1,
@@ -435,8 +429,6 @@ class Powertrain(Input):
         corners : {"axes", "mounts"}, default "axes"
             Whether the axes of a mount are stiff or soft each by itself, or together; there are
             corners of 2 to the power of their number, at most 2¹⁸.
-        frequency : float, optional
-            As in :meth:`modes`.
 
         Returns
         -------
@@ -550,6 +542,7 @@ class Powertrain(Input):
 
     # --- pages ------------------------------------------------------------------------------------
 
+    @documented(modes)
     def view(
         self,
         rpm: float = 800.0,
@@ -567,8 +560,6 @@ class Powertrain(Input):
         ----------
         rpm : float, default 800.0
             Crank speed at first, rpm.
-        frequency : float, optional
-            As in :meth:`modes`.
         controls : str or sequence of str, optional
             Names of the controls that are shown, in this order, or one name: ``"crank_angle"``,
             ``"rpm"``, ``"order"``, ``"mode"``, ``"rocking"`` for how much the motion is magnified,
@@ -593,6 +584,7 @@ class Powertrain(Input):
 
         return PowertrainWidget(self, rpm, frequency=frequency, controls=controls)
 
+    @documented(view, modes)
     def save_html(
         self,
         path: str | Path,
@@ -610,12 +602,6 @@ class Powertrain(Input):
         ----------
         path : str or pathlib.Path
             Name of the file, which ends in ``.html``.
-        rpm : float, default 800.0
-            As in :meth:`view`.
-        frequency : float, optional
-            As in :meth:`modes`.
-        controls : str or sequence of str, optional
-            As in :meth:`view`.
 
         Raises
         ------

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, cast
 
 from crankpin._support import inputs
+from crankpin._support.parameters import documented
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.arrangements.search import Arrangement, ArrangementSearch
 from crankpin.analysis.ranking.objectives import LEFT, tie_tolerance
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Hold
 
 
+@documented(sweep)
 def rank(
     engines: Engines | Arrangement | Sequence[Arrangement] | ArrangementSearch,
     rpm: float,
@@ -58,12 +60,6 @@ def rank(
         unchanged.
     hold : {"pins", "firing"}, optional
         Quantity that a change of bank angle does not change, as in :func:`crankpin.sweep`.
-    orders : number, sequence of numbers or "auto", default "auto"
-        As in :func:`crankpin.sweep`.
-    rtol : float, optional
-        As in :func:`crankpin.sweep`.
-    spectrum : mapping of int to complex, optional
-        As in :func:`crankpin.sweep`.
     cylinder : Cylinder, optional
         Cylinder of the engines of arrangements, as in :meth:`Arrangement.engine`.
     spacing : float, optional

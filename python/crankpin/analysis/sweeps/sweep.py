@@ -14,6 +14,7 @@ from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
 from crankpin._support.drawing import draw
+from crankpin._support.parameters import documented
 from crankpin._support.quantities import QUANTITIES, kind_of
 from crankpin._support.record import changed, read_only
 from crankpin._support.tables import Column, Table
@@ -48,6 +49,7 @@ MOST_SHOWN = 1000
 Engines: TypeAlias = Engine | Iterable[Engine] | Mapping[str, Engine]
 
 
+@documented()
 def sweep(
     engines: Engines,
     rpm: ArrayLike,
@@ -101,10 +103,8 @@ def sweep(
     orders : number, sequence of numbers or "auto", default "auto"
         Multiples of crank speed, or ``"auto"`` for the fewest that reach ``rtol`` at every
         point. Choosing takes no longer for more points: it bounds every order over the axes.
-    rtol : float, optional
-        As in :meth:`Engine.balance`.
     spectrum : mapping of int to complex, optional
-        As in :meth:`Engine.balance`. Moments are about each engine's own reference plane.
+        … Moments are about each engine's own reference plane.
     torque : bool, default True
         Whether torque is computed. If not, it does not count in the choice of orders.
     progress : bool or callable, default False

@@ -11,6 +11,7 @@ from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
 from crankpin._support.drawing import draw
+from crankpin._support.parameters import documented
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import changed, read_only
 from crankpin._support.tables import Table
@@ -278,13 +279,9 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         """
         return _read(self._objective(by), self)
 
+    @documented(values)
     def nominal_value(self, by: str | None = None) -> float:
         """Return the same of the nominal engine, N or N·m.
-
-        Parameters
-        ----------
-        by : str, optional
-            As in :meth:`values`.
 
         Returns
         -------
@@ -298,13 +295,9 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         """
         return float(_read(self._objective(by), self.nominal))
 
+    @documented(values)
     def mean(self, by: str | None = None) -> float:
         """Return the mean of :meth:`values`.
-
-        Parameters
-        ----------
-        by : str, optional
-            As in :meth:`values`.
 
         Returns
         -------
@@ -320,13 +313,9 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         # Equal values are their mean, to the last digit.
         return float(values[0] + (values - values[0]).mean())
 
+    @documented(values)
     def std(self, by: str | None = None) -> float:
         """Return the standard deviation of :meth:`values`.
-
-        Parameters
-        ----------
-        by : str, optional
-            As in :meth:`values`.
 
         Returns
         -------
@@ -341,6 +330,7 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         values = self.values(by)
         return float((values - values[0]).std())
 
+    @documented(values)
     def quantile(self, q: ArrayLike = QUANTILES, by: str | None = None) -> Any:  # noqa: ANN401
         """Return quantiles of :meth:`values`, of the shape of ``q``.
 
@@ -348,8 +338,6 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         ----------
         q : array_like, optional
             Parts of the samples below, 0 to 1; by default 0.05, 0.5 and 0.95.
-        by : str, optional
-            As in :meth:`values`.
 
         Returns
         -------
