@@ -156,21 +156,7 @@ impl Objectives {
         let arithmetic =
             Rotors { phasors: Phasors { reference: loads.reference }, turns: &all_turns };
 
-        let mut all: Vec<Order> = objectives.iter().filter_map(|each| each.order).collect();
-        all.extend_from_slice(orders);
-        all.sort_unstable();
-        all.dedup();
-        if !all.is_empty() {
-            order::check_list(&all)?;
-        }
-        let repeat = loads.list.iter().all(|load| load.parts.repeats == Repeats::EveryTurn);
-        if let Some(half) = all.iter().find(|order| repeat && order.as_whole().is_none()) {
-            return Err(Error::value("orders", half, "give whole orders: inertia has no others"));
-        }
-        if loads.list.iter().any(|load| load.parts.scaling != Scaling::SpeedSquared) {
-            let reason = "it has loads that do not scale with the square of the speed".to_owned();
-            return Err(Error::Undefined { argument: "objectives", reason });
-        }
+        let all = orders_of(objectives, orders, &loads)?;
         let amplitudes = SourceAmplitudes::new(&loads.sources, true, &all, cancel)?;
         let wanted = Wanted { planar: true, roll: true, by_bank: false };
         let by_order: Vec<[Vec<TurningPhasor>; 4]> = all
@@ -182,17 +168,14 @@ impl Objectives {
             })
             .collect();
         let function = |objective: &Objective| {
-            let of_function =
+            let counts =
                 |order: &Order| objective.order.map_or(orders.contains(order), |own| own == *order);
-            let mut parts: Vec<TurningPhasor> = Vec::new();
-            for (_, found) in all.iter().zip(&by_order).filter(|(order, _)| of_function(order)) {
-                parts.extend_from_slice(&found[objective.quantity as usize]);
-            }
-            match objective.reading {
-                ObjectiveFigure::Forward => parts.truncate(1),
-                ObjectiveFigure::Backward => parts = parts.split_off(parts.len().min(1)),
-                ObjectiveFigure::Peak | ObjectiveFigure::PeakXy => {}
-            }
+            let counted = all.iter().zip(&by_order).filter(|(order, _)| counts(order));
+            let parts = counted.flat_map(|(_, parts)| &parts[objective.quantity as usize]);
+            let parts: Vec<TurningPhasor> = parts.cloned().collect();
+            let skipped = usize::from(objective.reading == ObjectiveFigure::Backward);
+            let last = if objective.reading == ObjectiveFigure::Forward { 1 } else { parts.len() };
+            let parts = parts.into_iter().take(last).skip(skipped).collect();
             ObjectiveFunction::new(*objective, parts)
         };
         let functions = objectives.iter().map(function).collect();
@@ -251,6 +234,26 @@ impl Objectives {
         }
         (value, slopes)
     }
+}
+
+/// Orders of objectives and of totals, ascending, where the loads allow them.
+fn orders_of(objectives: &[Objective], orders: &[Order], loads: &LoadList) -> Result<Vec<Order>> {
+    let mut all: Vec<Order> = objectives.iter().filter_map(|each| each.order).collect();
+    all.extend_from_slice(orders);
+    all.sort_unstable();
+    all.dedup();
+    if !all.is_empty() {
+        order::check_list(&all)?;
+    }
+    let repeat = loads.list.iter().all(|load| load.parts.repeats == Repeats::EveryTurn);
+    if let Some(half) = all.iter().find(|order| repeat && order.as_whole().is_none()) {
+        return Err(Error::value("orders", half, "give whole orders: inertia has no others"));
+    }
+    if loads.list.iter().any(|load| load.parts.scaling != Scaling::SpeedSquared) {
+        let reason = "it has loads that do not scale with the square of the speed".to_owned();
+        return Err(Error::Undefined { argument: "objectives", reason });
+    }
+    Ok(all)
 }
 
 /// Parts of force, moment, roll torque and crank torque of one order, in the order of [`ObjectiveQuantity`].

@@ -362,79 +362,20 @@ impl Matching {
         cancel: &Cancel,
     ) -> Result<Partition> {
         let used = self.sets * self.places;
-        let mut trials = [Vec::new(), Vec::new()];
         let mut last = self.value(&sequences);
         loop {
             // Anew in each round: rounding of sums that are updated grows.
             let mut remainders = self.remainders(&sequences);
-            let mut lengths: Vec<f64> = remainders.iter().map(|each| length(each)).collect();
             for (kind, parts) in sequences.iter_mut().enumerate() {
-                let figures = self.kinds[kind].deviations.len();
-                // Of spare parts nothing counts.
-                let mut rates = vec![0.0; parts.len() * figures];
-                let mut slopes = vec![Vec::new(); self.sets];
-                // By how much slopes say less than the measures, as a number below zero, until anew.
-                let mut slack = vec![f64::NEG_INFINITY; self.sets];
-                let deviations =
-                    |part: usize| self.kinds[kind].deviations.iter().map(move |of| of[part]);
-                let mut held: Vec<f64> = parts.iter().flat_map(|&part| deviations(part)).collect();
+                let mut exchange = Exchange::new(self, kind, parts, &mut remainders);
                 for i in 0..used {
                     cancel.check()?;
-                    *compared += parts.len() - i - 1;
-                    for (set, below) in slack.iter_mut().enumerate().filter(|(_, x)| **x < 0.0) {
-                        slopes[set] = self.measure.slope(&remainders[set]);
-                        self.write_rates(kind, set, &slopes[set], &mut rates);
-                        *below = 0.0;
-                    }
+                    *compared += exchange.parts.len() - i - 1;
+                    exchange.renew_rates();
                     let mut is_new = true;
-                    for j in i + 1..parts.len() {
-                        let (one, other) = (i * figures, j * figures);
-                        let mut rise = 0.0;
-                        for f in 0..figures {
-                            rise += (held[other + f] - held[one + f])
-                                * (rates[one + f] - rates[other + f]);
-                        }
-                        if rise >= 0.0 && is_new {
-                            continue;
-                        }
-                        let (slots, moved) = ([i, j], [parts[i], parts[j]]);
-                        let sets = slots.map(|slot| slot / self.places);
-                        let changed = if j < used && sets[0] != sets[1] { 2 } else { 1 };
-                        let below: f64 = sets[..changed].iter().map(|&set| slack[set]).sum();
-                        if rise + below >= 0.0 {
-                            continue;
-                        }
-                        let known: f64 = sets[..changed].iter().map(|&set| lengths[set]).sum();
-                        if self.estimated(kind, slots, moved, &remainders) > known * (1.0 + CLOSE) {
-                            continue;
-                        }
-                        let mut before = 0.0;
-                        for (trial, &set) in trials.iter_mut().zip(&sets[..changed]) {
-                            trial.clone_from(&remainders[set]);
-                            before += self.measure.of(trial);
-                        }
-                        for k in (0..2).filter(|&k| slots[k] < used) {
-                            let (trial, place) =
-                                (&mut trials[k.min(changed - 1)], slots[k] % self.places);
-                            self.add(trial, -1.0, kind, [place, moved[k]]);
-                            self.add(trial, 1.0, kind, [place, moved[1 - k]]);
-                        }
-                        let after: f64 =
-                            trials[..changed].iter().map(|each| self.measure.of(each)).sum();
-                        if after < before * (1.0 - BETTER) {
-                            parts.swap(i, j);
-                            for figure in 0..figures {
-                                held.swap(i * figures + figure, j * figures + figure);
-                            }
-                            for (trial, set) in trials.iter_mut().zip(sets).take(changed) {
-                                mem::swap(&mut remainders[set], trial);
-                                lengths[set] = length(&remainders[set]);
-                                let by_slope = slopes[set].iter();
-                                let by_slope: f64 = by_slope
-                                    .map(|&(k, x): &(usize, f64)| x * remainders[set][k])
-                                    .sum();
-                                slack[set] = by_slope - self.measure.of(&remainders[set]);
-                            }
+                    for j in i + 1..exchange.parts.len() {
+                        let rise = exchange.rise([i, j]);
+                        if (rise < 0.0 || !is_new) && exchange.swapped([i, j], rise) {
                             is_new = false;
                         }
                     }
@@ -449,6 +390,119 @@ impl Matching {
                 return Ok(sequences);
             }
             last = value;
+        }
+    }
+}
+
+/// Exchanges of parts of a kind; of spare parts nothing counts.
+struct Exchange<'a> {
+    matching: &'a Matching,
+    kind: usize,
+    parts: &'a mut [usize],
+    /// Of each set, and their lengths.
+    remainders: &'a mut [Vec<f64>],
+    lengths: Vec<f64>,
+    /// Figures of the part in each slot, and what a unit of each changes the measure by, at least.
+    held: Vec<f64>,
+    rates: Vec<f64>,
+    /// Slope of the measure of each set.
+    slopes: Vec<Vec<(usize, f64)>>,
+    /// By how much slopes say less than the measures, as a number below zero, until they are evaluated anew.
+    slack: Vec<f64>,
+    /// Remainders after an exchange.
+    trials: [Vec<f64>; 2],
+}
+
+impl<'a> Exchange<'a> {
+    fn new(
+        matching: &'a Matching,
+        kind: usize,
+        parts: &'a mut [usize],
+        remainders: &'a mut [Vec<f64>],
+    ) -> Self {
+        let deviations = &matching.kinds[kind].deviations;
+        let figures = |&part: &usize| deviations.iter().map(move |of| of[part]);
+        Self {
+            held: parts.iter().flat_map(figures).collect(),
+            rates: vec![0.0; parts.len() * deviations.len()],
+            slopes: vec![Vec::new(); matching.sets],
+            slack: vec![f64::NEG_INFINITY; matching.sets],
+            lengths: remainders.iter().map(|own| length(own)).collect(),
+            trials: [Vec::new(), Vec::new()],
+            matching,
+            kind,
+            parts,
+            remainders,
+        }
+    }
+
+    /// Evaluates the slopes of sets that have changed.
+    fn renew_rates(&mut self) {
+        for (set, slack) in self.slack.iter_mut().enumerate().filter(|(_, x)| **x < 0.0) {
+            self.slopes[set] = self.matching.measure.slope(&self.remainders[set]);
+            self.matching.write_rates(self.kind, set, &self.slopes[set], &mut self.rates);
+            *slack = 0.0;
+        }
+    }
+
+    /// By how much the measure rises with an exchange, at least, as slopes say.
+    fn rise(&self, slots: [usize; 2]) -> f64 {
+        let figures = self.matching.kinds[self.kind].deviations.len();
+        let [one, other] = slots.map(|slot| slot * figures);
+        let mut rise = 0.0;
+        for f in 0..figures {
+            rise += (self.held[other + f] - self.held[one + f])
+                * (self.rates[one + f] - self.rates[other + f]);
+        }
+        rise
+    }
+
+    /// Exchanges the parts of two slots, of which the first is used, if that is better.
+    fn swapped(&mut self, slots: [usize; 2], rise: f64) -> bool {
+        let Self { matching, kind, .. } = *self;
+        let used = matching.sets * matching.places;
+        let moved = slots.map(|slot| self.parts[slot]);
+        let sets = slots.map(|slot| slot / matching.places);
+        let changed = if slots[1] < used && sets[0] != sets[1] { 2 } else { 1 };
+        let below: f64 = sets[..changed].iter().map(|&set| self.slack[set]).sum();
+        if rise + below >= 0.0 {
+            return false;
+        }
+        let known: f64 = sets[..changed].iter().map(|&set| self.lengths[set]).sum();
+        if matching.estimated(kind, slots, moved, self.remainders) > known * (1.0 + CLOSE) {
+            return false;
+        }
+        let mut before = 0.0;
+        for (trial, &set) in self.trials.iter_mut().zip(&sets[..changed]) {
+            trial.clone_from(&self.remainders[set]);
+            before += matching.measure.of(trial);
+        }
+        for k in (0..2).filter(|&k| slots[k] < used) {
+            let (trial, place) = (&mut self.trials[k.min(changed - 1)], slots[k] % matching.places);
+            matching.add(trial, -1.0, kind, [place, moved[k]]);
+            matching.add(trial, 1.0, kind, [place, moved[1 - k]]);
+        }
+        let after: f64 = self.trials[..changed].iter().map(|own| matching.measure.of(own)).sum();
+        let is_better = after < before * (1.0 - BETTER);
+        if is_better {
+            self.swap(slots, &sets[..changed]);
+        }
+        is_better
+    }
+
+    /// Exchanges the parts of two slots; remainders of the sets become those of the trials.
+    fn swap(&mut self, slots: [usize; 2], sets: &[usize]) {
+        self.parts.swap(slots[0], slots[1]);
+        let figures = self.matching.kinds[self.kind].deviations.len();
+        for figure in 0..figures {
+            self.held.swap(slots[0] * figures + figure, slots[1] * figures + figure);
+        }
+        for (trial, &set) in self.trials.iter_mut().zip(sets) {
+            mem::swap(&mut self.remainders[set], trial);
+            let remainder = &self.remainders[set];
+            self.lengths[set] = length(remainder);
+            let by_slope: f64 = self.slopes[set].iter().map(|&(k, x)| x * remainder[k]).sum();
+            self.slack[set] = by_slope - self.matching.measure.of(remainder);
         }
     }
 }

@@ -119,32 +119,8 @@ pub fn least(request: &WeightRequest, cancel: &Cancel) -> Result<FittedWeights> 
         let missing = if reached { 0.0 } else { 1.0 };
         return Ok(FittedWeights { list: Vec::new(), reached, missing });
     }
-    let rows = DMatrix::from_fn(target.len(), kept.len(), |row, k| {
-        let is_force = row == 0 && request.force.is_some();
-        if is_force { 1.0 } else { (request.z[kept[k]] - request.reference) / request.length }
-    });
-    let bound = |&plane: &usize| Some(request.bounds[plane] / scale).filter(|&b| b < UNBOUNDED);
-    let mut target = vectors(&target) / scale;
-    let mut bounds: Vec<f64> =
-        kept.iter().map(|plane| bound(plane).unwrap_or(f64::INFINITY)).collect();
-    // Planes near each other take weights far above the target: those are to be figures of order 1.
-    let free = least_squares(&rows, &target, target.nrows()).solution;
-    let largest = complex(&free).into_iter().zip(&bounds).map(|(u, bound)| u.norm().min(*bound));
-    let size = largest.fold(1.0, f64::max);
-    target /= size;
-    for bound in &mut bounds {
-        *bound /= size;
-    }
-    let problem = Problem {
-        rows,
-        target,
-        bounds,
-        directions: request.angles.map(|angles| {
-            let unit = |&angle: &f64| Complex64::from_polar(1.0, angle);
-            kept.iter().map(|&plane| angles[plane].iter().map(unit).collect()).collect()
-        }),
-        cancel,
-    };
+    let problem = Problem::new(request, &kept, vectors(&target) / scale, scale, cancel);
+    let (problem, size) = problem.with_target_of_order_one();
     let mut amounts = problem.least(request.minimise)?;
     let is_proved = problem.made_up(&mut amounts);
     let largest = amounts.iter().map(|weight| weight.vector.norm()).fold(0.0, f64::max);
@@ -153,16 +129,12 @@ pub fn least(request: &WeightRequest, cancel: &Cancel) -> Result<FittedWeights> 
     problem.made_up(&mut amounts);
     let reached = is_proved && problem.is_rounding(&amounts);
     let missing = problem.missing(&amounts).row_iter().map(|part| part.norm()).fold(0.0, f64::max);
-    let missing = missing * size;
-    let list = amounts
-        .into_iter()
-        .map(|weight| PlacedWeight {
-            plane: kept[weight.plane],
-            vector: weight.vector * size * scale,
-            ..weight
-        })
-        .collect();
-    Ok(FittedWeights { list, reached, missing })
+    let list = amounts.into_iter().map(|weight| PlacedWeight {
+        plane: kept[weight.plane],
+        vector: weight.vector * size * scale,
+        ..weight
+    });
+    Ok(FittedWeights { list: list.collect(), reached, missing: missing * size })
 }
 
 /// Weights in planes, in any direction and of any size: force and moment are met by two planes, and
@@ -196,6 +168,42 @@ pub(super) struct Problem<'a> {
     /// Unit vectors allowed in each plane; None for all.
     pub directions: Option<Vec<Vec<Complex64>>>,
     pub cancel: &'a Cancel,
+}
+
+impl<'a> Problem<'a> {
+    /// Of some of the planes of a request; target and bounds are over a scale.
+    fn new(
+        request: &WeightRequest,
+        kept: &[usize],
+        target: Vectors,
+        scale: f64,
+        cancel: &'a Cancel,
+    ) -> Self {
+        let rows = DMatrix::from_fn(target.nrows(), kept.len(), |row, k| {
+            let is_force = row == 0 && request.force.is_some();
+            if is_force { 1.0 } else { (request.z[kept[k]] - request.reference) / request.length }
+        });
+        let bound = |&plane: &usize| Some(request.bounds[plane] / scale).filter(|&b| b < UNBOUNDED);
+        let bounds = kept.iter().map(|plane| bound(plane).unwrap_or(f64::INFINITY)).collect();
+        let unit = |&angle: &f64| Complex64::from_polar(1.0, angle);
+        let directions = request.angles.map(|angles| {
+            kept.iter().map(|&plane| angles[plane].iter().map(unit).collect()).collect()
+        });
+        Self { rows, target, bounds, directions, cancel }
+    }
+
+    /// The same over a size, so that weights are figures of order 1: planes near each other take weights far
+    /// above the target.
+    fn with_target_of_order_one(mut self) -> (Self, f64) {
+        let free = least_squares(&self.rows, &self.target, self.target.nrows()).solution;
+        let largest = complex(&free).into_iter().zip(&self.bounds);
+        let size = largest.map(|(u, bound)| u.norm().min(*bound)).fold(1.0, f64::max);
+        self.target /= size;
+        for bound in &mut self.bounds {
+            *bound /= size;
+        }
+        (self, size)
+    }
 }
 
 impl Problem<'_> {

@@ -410,18 +410,11 @@ impl EngineFile {
         }))
     }
 
-    fn engine(mut self) -> Result<Engine> {
-        if self.schema != SCHEMA {
-            let hint = format!("this version reads schema = {SCHEMA}");
-            return Err(Error::value("schema", self.schema, hint));
-        }
+    /// Stations of the cylinders, and details of each.
+    fn stations(&self) -> Result<(Vec<Station>, Vec<Details>)> {
         let shared = self.cylinder.map(|parts| parts.cylinder()).transpose();
         let shared = shared.map_err(|error| error.within("cylinder."))?;
-        let details = self.placements.iter().map(|place| {
-            place.cylinder.or(self.cylinder).map_or_else(Details::default, |parts| parts.details())
-        });
-        let details: Vec<Details> = details.collect();
-        let stations = self.placements.iter().enumerate().map(|(i, place)| {
+        let all = self.placements.iter().enumerate().map(|(i, place)| {
             let at = format!("placements[{i}].");
             let own = place.cylinder.map(|parts| parts.cylinder()).transpose();
             let own = own.map_err(|error| error.within(&format!("{at}cylinder.")))?;
@@ -429,34 +422,49 @@ impl EngineFile {
                 let hint = "give the engine a [cylinder], or each placement one of its own";
                 Error::value(format!("{at}cylinder"), "none", hint)
             })?;
-            let rotating_mass = match place.rotating_mass {
-                Some(mass) => mass,
-                None => details[i]
-                    .big_end(cylinder.rod_length())
-                    .map_err(|error| error.within(&format!("{at}cylinder.rod.")))?,
-            };
-            Ok(Station {
+            let parts = place.cylinder.or(self.cylinder);
+            let details = parts.map_or_else(Details::default, |parts| parts.details());
+            let big_end = || details.big_end(cylinder.rod_length());
+            let rotating_mass = place.rotating_mass.map_or_else(big_end, Ok);
+            let station = Station {
                 cylinder,
                 tdc: place.tdc_deg.angle(&format!("{at}tdc_deg"))?,
                 bank: place.bank_deg.angle(&format!("{at}bank_deg"))?,
                 z: place.z,
-                rotating_mass,
-            })
+                rotating_mass: rotating_mass
+                    .map_err(|error| error.within(&format!("{at}cylinder.rod.")))?,
+            };
+            Ok((station, details))
         });
-        let stations: Vec<Station> = stations.collect::<Result<_>>()?;
-        let (strokes, gas) = (Strokes::from_number(self.strokes)?, self.gas()?);
-        let numbered = self.placements.iter().any(|p| p.bank.is_some());
+        let all: Vec<(Station, Details)> = all.collect::<Result<_>>()?;
+        Ok(all.into_iter().unzip())
+    }
+
+    /// The bank of each cylinder, where banks are numbered.
+    fn bank_numbers(&self, stations: &[Station]) -> Result<Option<Vec<usize>>> {
+        if self.placements.iter().all(|place| place.bank.is_none()) {
+            return Ok(None);
+        }
         let numbers = self.placements.iter().enumerate().map(|(i, place)| {
             let hint = "give each placement the number of its bank, or none";
             place.bank.ok_or_else(|| Error::value(format!("placements[{i}].bank"), "none", hint))
         });
-        let numbers = numbered.then(|| numbers.collect::<Result<Vec<_>>>()).transpose()?;
-        let engine = match numbers {
-            Some(numbers) => {
-                same_directions(&stations, &numbers)?;
-                Engine::in_banks(self.name, self.source, stations, &numbers)?
-            }
-            None => Engine::new(self.name, self.source, stations)?,
+        let numbers: Vec<usize> = numbers.collect::<Result<_>>()?;
+        same_directions(stations, &numbers)?;
+        Ok(Some(numbers))
+    }
+
+    fn engine(mut self) -> Result<Engine> {
+        if self.schema != SCHEMA {
+            let hint = format!("this version reads schema = {SCHEMA}");
+            return Err(Error::value("schema", self.schema, hint));
+        }
+        let (stations, details) = self.stations()?;
+        let (strokes, gas) = (Strokes::from_number(self.strokes)?, self.gas()?);
+        let (name, source) = (mem::take(&mut self.name), mem::take(&mut self.source));
+        let engine = match self.bank_numbers(&stations)? {
+            Some(numbers) => Engine::in_banks(name, source, stations, &numbers)?,
+            None => Engine::new(name, source, stations)?,
         };
         let others = self.cranks.iter().map(|c| Crank { axis: [c.x, c.y], ratio: c.ratio });
         let cranks = std::iter::once(Crank::MAIN).chain(others).collect();

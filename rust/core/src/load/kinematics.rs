@@ -69,6 +69,7 @@ impl Kinematics {
                     moment: Complex64::default(),
                     arm: Complex64::default(),
                     roll: 0.0,
+                    has_opposite: false,
                 },
             });
             sum.force += force;
@@ -76,6 +77,11 @@ impl Kinematics {
             sum.moment += Complex64::new(0.0, place.lever(loads.reference)) * force;
             sum.arm += place.axis.conj() * force;
             sum.roll += load.roll * square;
+        }
+        for i in 0..sums.len() {
+            let (index, turned) = (sums[i].index, sums[i].loads.turned);
+            let opposite = |own: &SourceSum| own.index == index && own.loads.turned == -turned;
+            sums[i].loads.has_opposite = sums.iter().any(opposite);
         }
         let scalings = loads.groups.map_to(|group| group.scaling);
         Self { sums, zero_bounds, scalings }

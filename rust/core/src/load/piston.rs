@@ -88,41 +88,38 @@ impl Source for PistonInertia {
         square: f64,
         columns: &mut Columns,
     ) -> Result<()> {
-        let mut scratch = block.scratch();
-        let [velocity, acceleration] = &mut *scratch;
-        let mut motion = MotionColumns::of(acceleration);
-        motion.velocity = wanted.torque.then_some(&mut velocity[..]);
-        block.with_cranks(sum.ratio, sum.turned, |cranks| self.0.mechanism.motions(cranks, motion));
         let Columns { force: [force_x, force_y], moment: [moment_x, moment_y], .. } = columns;
         let [roll, crank] = &mut columns.torque;
         // The force is against the acceleration of the piston away from the crank.
         let [force, moment, arm] = [sum.force, sum.moment, sum.arm].map(|sum| sum * -square);
         let [on_block, on_crank] = self.0.senses().map(|sense| sense * square * sum.roll);
         let offset = self.0.mechanism.offset();
-        vectorised(
-            #[inline(always)]
-            || {
-                if wanted.force {
-                    for i in 0..BLOCK {
-                        force_x[i] += force.re * acceleration[i];
-                        force_y[i] += force.im * acceleration[i];
+        block.with_motion(&self.0, sum, wanted.torque, |[velocity, acceleration]| {
+            vectorised(
+                #[inline(always)]
+                || {
+                    if wanted.force {
+                        for i in 0..BLOCK {
+                            force_x[i] += force.re * acceleration[i];
+                            force_y[i] += force.im * acceleration[i];
+                        }
                     }
-                }
-                if wanted.moment {
-                    for i in 0..BLOCK {
-                        moment_x[i] += moment.re * acceleration[i];
-                        moment_y[i] += moment.im * acceleration[i];
+                    if wanted.moment {
+                        for i in 0..BLOCK {
+                            moment_x[i] += moment.re * acceleration[i];
+                            moment_y[i] += moment.im * acceleration[i];
+                        }
                     }
-                }
-                if wanted.torque {
-                    for i in 0..BLOCK {
-                        let along = velocity[i] + offset;
-                        roll[i] += (on_block * along + arm.im) * acceleration[i];
-                        crank[i] -= on_crank * velocity[i] * acceleration[i];
+                    if wanted.torque {
+                        for i in 0..BLOCK {
+                            let along = velocity[i] + offset;
+                            roll[i] += (on_block * along + arm.im) * acceleration[i];
+                            crank[i] -= on_crank * velocity[i] * acceleration[i];
+                        }
                     }
-                }
-            },
-        );
+                },
+            );
+        });
         Ok(())
     }
 

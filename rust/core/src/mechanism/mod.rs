@@ -53,6 +53,11 @@ pub trait Mechanism: Debug + Send + Sync + Any {
         into.fill_one_by_one(cranks, &|crank| self.motion(crank));
     }
 
+    /// Whether motion half a turn on costs next to nothing beside that at a position.
+    fn has_cheap_opposites(&self) -> bool {
+        false
+    }
+
     /// Velocity and acceleration of the rod's angle at some positions.
     fn swings(&self, cranks: &Cranks, into: [&mut [f64]; 2]) {
         let [velocities, accelerations] = into;

@@ -35,6 +35,13 @@ impl CrankPosition {
     fn turned(cos: f64, sin: f64, phase: Complex64) -> Self {
         Self::new(sin * phase.re + cos * phase.im, cos * phase.re - sin * phase.im)
     }
+
+    /// Half a turn on.
+    #[inline(always)]
+    pub(super) fn opposite(&self) -> Self {
+        let Self { sin, cos, squared, to_above, to_below } = *self;
+        Self { sin: -sin, cos: -cos, squared, to_above: to_below, to_below: to_above }
+    }
 }
 
 /// Where the piston is and how it moves, in crank radii; derivatives by crank angle.
@@ -182,12 +189,14 @@ pub struct MotionColumns<'a> {
     pub jerk: Option<&'a mut [f64]>,
     /// Slope and secant of the rod's angle to the bore.
     pub lean: Option<[&'a mut [f64]; 2]>,
+    /// Velocity, if that is wanted, and acceleration where the crank is half a turn on.
+    pub opposite: Option<[&'a mut [f64]; 2]>,
 }
 
 impl<'a> MotionColumns<'a> {
     /// Of the acceleration alone.
     pub(crate) fn of(acceleration: &'a mut [f64]) -> Self {
-        Self { acceleration, velocity: None, jerk: None, lean: None }
+        Self { acceleration, velocity: None, jerk: None, lean: None, opposite: None }
     }
 
     /// Of velocity and acceleration.
@@ -198,18 +207,23 @@ impl<'a> MotionColumns<'a> {
     /// Fills them in one loop, since each takes a root and a quotient.
     #[inline(always)]
     pub(crate) fn fill(self, cranks: &Cranks, motion: impl Fn(&CrankPosition) -> Motion) {
+        if self.opposite.is_some() {
+            return self.fill_one_by_one(cranks, &motion);
+        }
         match (self, cranks.0) {
-            (Self { acceleration, velocity: None, jerk: None, lean: None }, _) => {
+            (Self { acceleration, velocity: None, jerk: None, lean: None, .. }, _) => {
                 fill(cranks, [acceleration], |crank| [motion(crank).acceleration]);
             }
-            (Self { acceleration, velocity: Some(velocity), jerk: None, lean: None }, _) => {
+            (Self { acceleration, velocity: Some(velocity), jerk: None, lean: None, .. }, _) => {
                 fill(cranks, [velocity, acceleration], |crank| {
                     let Motion { velocity, acceleration, .. } = motion(crank);
                     [velocity, acceleration]
                 });
             }
             (
-                Self { acceleration, velocity: Some(velocity), jerk: Some(jerk), lean: None },
+                Self {
+                    acceleration, velocity: Some(velocity), jerk: Some(jerk), lean: None, ..
+                },
                 Positions::Turned(units, phase),
             ) => {
                 fill_turned((units, phase), [velocity, acceleration, jerk], |crank| {
@@ -218,7 +232,9 @@ impl<'a> MotionColumns<'a> {
                 });
             }
             (
-                Self { acceleration, velocity: None, jerk: None, lean: Some([slope, secant]) },
+                Self {
+                    acceleration, velocity: None, jerk: None, lean: Some([slope, secant]), ..
+                },
                 Positions::Turned(units, phase),
             ) => {
                 fill_turned((units, phase), [acceleration, slope, secant], |crank| {
@@ -236,6 +252,7 @@ impl<'a> MotionColumns<'a> {
         cranks: &Cranks,
         motion: &dyn Fn(&CrankPosition) -> Motion,
     ) {
+        let at_opposite = |i: usize| motion(&cranks.at(i).opposite());
         for i in 0..cranks.len() {
             let motion = motion(&cranks.at(i));
             self.acceleration[i] = motion.acceleration;
@@ -247,6 +264,13 @@ impl<'a> MotionColumns<'a> {
             }
             if let Some([slope, secant]) = &mut self.lean {
                 (slope[i], secant[i]) = (motion.slope, motion.secant);
+            }
+            if let Some([velocity, acceleration]) = &mut self.opposite {
+                let motion = at_opposite(i);
+                acceleration[i] = motion.acceleration;
+                if self.velocity.is_some() {
+                    velocity[i] = motion.velocity;
+                }
             }
         }
     }

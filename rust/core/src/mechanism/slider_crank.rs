@@ -105,22 +105,28 @@ impl Proportions {
     /// [`Self::motion`], where the crank stands so.
     #[inline(always)]
     fn motion_at(&self, crank: &CrankPosition) -> Motion {
-        let CrankPosition { sin, cos, squared, to_above, to_below } = *crank;
-        let height_squared = (self.above.high + to_above) * (self.below.high + to_below);
-        let height = height_squared.sqrt();
-        let lateral = sin - self.offset;
-        // h = √(l² − u²) with u = r sin θ − e: h' = −u u'/h, h'' = −(u u'' + l² u'²/h²)/h.
-        let inverse = 1.0 / height;
-        let secant = self.rod * inverse;
-        let slope = lateral * inverse;
-        let rising = -lateral * cos * inverse;
-        let bending = (lateral * sin - secant * secant * squared) * inverse;
-        let [velocity, acceleration] = [rising - sin, bending - cos];
+        let CrankPosition { sin, cos, .. } = *crank;
+        let Height { value: height, inverse, secant, rise, bend } = self.height_at(crank);
+        let slope = (sin - self.offset) * inverse;
+        let [velocity, acceleration] = [rise - sin, bend - cos];
         // h·h‴ = 3 sin θ cos θ + u cos θ − 3h′h″.
         let (rise, bend) = (velocity + sin, acceleration + cos);
         let of_height = cos * (4.0 * sin - self.offset) - 3.0 * rise * bend;
         let jerk = sin + of_height / (self.rod / secant);
         Motion { position: cos + height, velocity, acceleration, jerk, slope, secant }
+    }
+
+    #[inline(always)]
+    fn height_at(&self, crank: &CrankPosition) -> Height {
+        let CrankPosition { sin, cos, squared, to_above, to_below } = *crank;
+        let height = ((self.above.high + to_above) * (self.below.high + to_below)).sqrt();
+        let lateral = sin - self.offset;
+        // h = √(l² − u²) with u = r sin θ − e: h' = −u u'/h, h'' = −(u u'' + l² u'²/h²)/h.
+        let inverse = 1.0 / height;
+        let secant = self.rod * inverse;
+        let rise = -lateral * cos * inverse;
+        let bend = (lateral * sin - secant * secant * squared) * inverse;
+        Height { value: height, inverse, secant, rise, bend }
     }
 
     /// How the rod turns, where the crank stands so.
@@ -135,6 +141,18 @@ impl Proportions {
             0.5 * (below * to_above * to_above - above * to_below * to_below) - above * below * sin;
         Swing { velocity: cos * inverse, acceleration: bend * inverse * inverse * inverse }
     }
+}
+
+/// Height of the wrist pin above the crankpin along the bore, in crank radii.
+struct Height {
+    value: f64,
+    /// 1/`value`.
+    inverse: f64,
+    /// 1/cos φ.
+    secant: f64,
+    /// First and second derivative by crank angle.
+    rise: f64,
+    bend: f64,
 }
 
 /// The mechanism of most engines: a rod between crankpin and piston.
@@ -161,6 +179,38 @@ impl SliderCrank {
     fn is_centred(&self) -> bool {
         self.offset() == 0.0
     }
+
+    /// Motion at some positions and half a turn on, of a rod without an offset: what it adds to that of the
+    /// crankpin is the same, to the last bit, and so are its root and its quotient.
+    #[inline(always)]
+    fn opposite_motions(
+        &self,
+        cranks: &Cranks,
+        velocities: Option<&mut [f64]>,
+        accelerations: &mut [f64],
+        [opposite_velocities, opposite_accelerations]: [&mut [f64]; 2],
+    ) {
+        let Some(velocities) = velocities else {
+            return fill(
+                cranks,
+                [accelerations, opposite_accelerations],
+                #[inline(always)]
+                |crank| {
+                    let Height { bend, .. } = self.proportions.height_at(crank);
+                    [bend - crank.cos, bend + crank.cos]
+                },
+            );
+        };
+        fill(
+            cranks,
+            [velocities, opposite_velocities, accelerations, opposite_accelerations],
+            #[inline(always)]
+            |crank| {
+                let Height { rise, bend, .. } = self.proportions.height_at(crank);
+                [rise - crank.sin, rise + crank.sin, bend - crank.cos, bend + crank.cos]
+            },
+        );
+    }
 }
 
 impl Mechanism for SliderCrank {
@@ -180,6 +230,18 @@ impl Mechanism for SliderCrank {
         vectorised(
             #[inline(always)]
             || {
+                let into = match into {
+                    MotionColumns {
+                        acceleration,
+                        velocity,
+                        jerk: None,
+                        lean: None,
+                        opposite: Some(opposite),
+                    } if self.is_centred() => {
+                        return self.opposite_motions(cranks, velocity, acceleration, opposite);
+                    }
+                    into => into,
+                };
                 into.fill(
                     cranks,
                     #[inline(always)]
@@ -187,6 +249,10 @@ impl Mechanism for SliderCrank {
                 );
             },
         );
+    }
+
+    fn has_cheap_opposites(&self) -> bool {
+        self.is_centred()
     }
 
     fn swings(&self, cranks: &Cranks, into: [&mut [f64]; 2]) {

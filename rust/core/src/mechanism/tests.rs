@@ -36,21 +36,30 @@ fn assert_same(found: &[Complex64], sampled: &[Complex64], scale: f64) {
 }
 
 /// Columns have the values of these single positions: velocity, jerk and lean if wanted.
-fn check_columns(mechanism: &dyn Mechanism, [cranks, single]: [&Cranks; 2], wanted: [bool; 3]) {
-    let mut columns = vec![vec![f64::NAN; cranks.len()]; 7];
-    let [acceleration, velocity, jerk, slope, secant, turning, bending] = &mut columns[..] else {
-        unreachable!("seven of them")
+fn check_columns(mechanism: &dyn Mechanism, [cranks, single]: [&Cranks; 2], wanted: [bool; 4]) {
+    let mut columns = vec![vec![f64::NAN; cranks.len()]; 9];
+    let [acceleration, velocity, jerk, slope, secant, opposite @ .., turning, bending] =
+        &mut columns[..]
+    else {
+        unreachable!("nine of them")
     };
     let motion = MotionColumns {
         acceleration,
         velocity: wanted[0].then_some(velocity),
         jerk: wanted[1].then_some(jerk),
         lean: wanted[2].then_some([slope, secant]),
+        opposite: opposite
+            .as_chunks_mut()
+            .0
+            .first_mut()
+            .filter(|_| wanted[3])
+            .map(|both| both.each_mut().map(|own: &mut Vec<f64>| &mut own[..])),
     };
     mechanism.motions(cranks, motion);
     mechanism.swings(cranks, [turning, bending]);
     for i in 0..cranks.len() {
         let (motion, swing) = (mechanism.motion(&single.at(i)), mechanism.swing(&single.at(i)));
+        let opposite = mechanism.motion(&single.at(i).opposite());
         let lean = [motion.slope, motion.secant].map(|value| wanted[2].then_some(value));
         let one_by_one = [
             Some(motion.acceleration),
@@ -58,6 +67,8 @@ fn check_columns(mechanism: &dyn Mechanism, [cranks, single]: [&Cranks; 2], want
             wanted[1].then_some(motion.jerk),
             lean[0],
             lean[1],
+            (wanted[3] && wanted[0]).then_some(opposite.velocity),
+            wanted[3].then_some(opposite.acceleration),
             Some(swing.velocity),
             Some(swing.acceleration),
         ];
@@ -80,8 +91,8 @@ fn check(mechanism: &dyn Mechanism) {
     kept.set(&cos, &sin, phase);
     let turned = Cranks::new(&cos, &sin, phase);
     for cranks in [turned, kept.cranks()] {
-        for wanted in 0..8 {
-            check_columns(mechanism, [&cranks, &turned], [1, 2, 4].map(|bit| wanted & bit != 0));
+        for wanted in 0..16 {
+            check_columns(mechanism, [&cranks, &turned], [1, 2, 4, 8].map(|bit| wanted & bit != 0));
         }
     }
     // Derivatives: order n of each is i·n times that of the one before.

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use crate::Complex64;
 use crate::mechanism::DrivenMechanism;
-use crate::mechanism::motion::{CrankColumns, CrankPosition, Cranks};
+use crate::mechanism::motion::{CrankColumns, CrankPosition, Cranks, MotionColumns};
 use crate::numbers::angle::Angle;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::order::Order;
@@ -57,6 +57,8 @@ pub struct LoadSum {
     pub(crate) arm: Complex64,
     /// Weight of the torque.
     pub(crate) roll: f64,
+    /// Whether there is another of the same source half a turn of their crank away.
+    pub(crate) has_opposite: bool,
 }
 
 impl LoadSum {
@@ -126,6 +128,15 @@ pub struct AngleBlock<'a> {
     /// Positions of cranks by speed and phase, if they are kept.
     kept: Option<RefCell<Vec<CranksOfPhase>>>,
     scratch: RefCell<[AngleColumn; 2]>,
+    opposites: RefCell<Vec<OppositeMotion>>,
+}
+
+/// Motion that was evaluated beside that half a turn away.
+struct OppositeMotion {
+    /// Of which, and `e^{−iφ}` of its phase, until it is used.
+    of: Option<(DrivenMechanism, Complex64)>,
+    /// Velocity, if that was wanted, and acceleration.
+    columns: Box<[AngleColumn; 2]>,
 }
 
 impl<'a> AngleBlock<'a> {
@@ -133,7 +144,7 @@ impl<'a> AngleBlock<'a> {
     pub(crate) fn new(angles: &'a CrankAngles, range: Range<usize>) -> Self {
         let main = Units::new(angles, range.clone(), Order::FIRST);
         let scratch = RefCell::new([[0.0; BLOCK]; 2]);
-        Self { angles, range, main, kept: None, scratch }
+        Self { angles, range, main, kept: None, scratch, opposites: RefCell::default() }
     }
 
     /// The same block, which keeps positions of cranks: for many rods.
@@ -144,6 +155,43 @@ impl<'a> AngleBlock<'a> {
     /// Columns for what is overwritten.
     pub(crate) fn scratch(&self) -> RefMut<'_, [AngleColumn; 2]> {
         self.scratch.borrow_mut()
+    }
+
+    /// Hands velocity, if that is wanted, and acceleration of a mechanism at the phase of a sum to a function.
+    /// Of phases half a turn apart both are evaluated with the first.
+    pub(crate) fn with_motion(
+        &self,
+        mechanism: &DrivenMechanism,
+        sum: &LoadSum,
+        wants_velocity: bool,
+        work: impl FnOnce(&[AngleColumn; 2]),
+    ) {
+        let mut scratch = self.scratch.borrow_mut();
+        let mut opposites = self.opposites.borrow_mut();
+        let shares = sum.has_opposite && mechanism.mechanism.has_cheap_opposites();
+        let is_such = |own: &&mut OppositeMotion| {
+            own.of.as_ref().is_some_and(|(of, turned)| *turned == sum.turned && of == mechanism)
+        };
+        if shares && let Some(known) = opposites.iter_mut().find(is_such) {
+            known.of = None;
+            return work(&known.columns);
+        }
+        let free = opposites.iter().position(|own| own.of.is_none()).filter(|_| shares);
+        let place = free.unwrap_or(opposites.len());
+        if shares && free.is_none() {
+            opposites.push(OppositeMotion { of: None, columns: Box::new([[0.0; BLOCK]; 2]) });
+        }
+        let [velocity, acceleration] = &mut *scratch;
+        let mut motion = MotionColumns::of(acceleration);
+        motion.velocity = wants_velocity.then_some(&mut velocity[..]);
+        if shares {
+            let OppositeMotion { of, columns } = &mut opposites[place];
+            *of = Some((mechanism.clone(), -sum.turned));
+            motion.opposite = Some(columns.each_mut().map(|column| &mut column[..]));
+        }
+        let ratio = sum.ratio;
+        self.with_cranks(ratio, sum.turned, |cranks| mechanism.mechanism.motions(cranks, motion));
+        work(&scratch);
     }
 
     /// Hands positions of a crank at some multiple of the angles that is `phase` ahead to a function.

@@ -142,6 +142,53 @@ struct Carried {
     bound: f64,
 }
 
+impl Carried {
+    /// Adds the other forces at a block of crank angles; what is rounding becomes zero.
+    fn add_waves(&self, units: &Units, theta_deg: &[f64], row: &mut [f64]) -> Result<()> {
+        let [mut x, mut y] = [[0.0; BLOCK]; 2];
+        let (own, others) = self.waves.split_at(usize::from(!self.waves.is_empty()));
+        for &(halves, at_start) in own {
+            // What turns with the crank.
+            units.add_turning(at_start, halves, [&mut x, &mut y]);
+        }
+        if !others.is_empty() {
+            Periodic::add(others, &CrankAngles::of_checked(theta_deg), [&mut x, &mut y])?;
+        }
+        for (pair, (x, y)) in row.chunks_exact_mut(2).zip(x.iter().zip(&y)) {
+            pair[0] += x;
+            pair[1] += y;
+            for part in pair {
+                *part = if part.abs() <= self.bound { 0.0 } else { *part };
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Loads of one rod over crank angle.
+struct RodRows<'a> {
+    /// On crankpin and wrist pin.
+    vectors: [&'a mut [f64]; 2],
+    /// Side thrust, compression of the rod, gas force.
+    scalars: [&'a mut [f64]; 3],
+}
+
+impl RodRows<'_> {
+    fn write(&mut self, range: &Range<usize>, columns: &RodColumns) {
+        let pairs = [&columns.crankpin, &columns.wrist_pin];
+        for (row, [x, y]) in self.vectors.iter_mut().zip(pairs) {
+            let row = row[2 * range.start..2 * range.end].chunks_exact_mut(2);
+            for (pair, (x, y)) in row.zip(x.iter().zip(&y[..])) {
+                pair.copy_from_slice(&[*x, *y]);
+            }
+        }
+        let values = [&columns.across, &columns.compression, &columns.gas];
+        for (row, column) in self.scalars.iter_mut().zip(values) {
+            row[range.clone()].copy_from_slice(&column[..range.len()]);
+        }
+    }
+}
+
 impl BearingLoadsModel {
     /// Of an engine, on its main bearings.
     pub fn new(engine: &Engine, rpm: f64) -> Result<Self> {
@@ -252,64 +299,40 @@ impl BearingLoadsModel {
             gas: scalars(rods, count)?,
         };
         let blocks = self.blocks(theta_deg, cancel)?;
-        let vectors = found.crankpin.outer_iter_mut().zip(found.wrist_pin.outer_iter_mut());
-        let scalars = found.side_thrust.outer_iter_mut().zip(found.rod.outer_iter_mut());
-        let rows = vectors.zip(scalars).zip(found.gas.outer_iter_mut()).enumerate();
-        let rows = rows.map(|(i, (((crankpin, wrist_pin), (across, rod)), gas))| {
-            (i, [crankpin, wrist_pin].map(slice), [across, rod, gas].map(slice))
+        let [mut crankpin, mut wrist_pin] = [&mut found.crankpin, &mut found.wrist_pin]
+            .map(|rows| rows.outer_iter_mut().map(slice));
+        let [mut across, mut rod, mut gas] =
+            [&mut found.side_thrust, &mut found.rod, &mut found.gas]
+                .map(|rows| rows.outer_iter_mut().map(slice));
+        let rows = self.rods.iter().filter_map(|own| {
+            let vectors = [crankpin.next()?, wrist_pin.next()?];
+            Some((own, RodRows { vectors, scalars: [across.next()?, rod.next()?, gas.next()?] }))
         });
-        pool::each(cancel, rows.collect(), 2 * rods * count, |(i, mut vectors, mut scalars)| {
+        pool::each(cancel, rows.collect(), 2 * rods * count, |(rod, mut rows)| {
             let mut columns = RodColumns::ZERO;
-            for (range, units) in blocks_at(&blocks, self.rods[i].ratio) {
+            for (range, units) in blocks_at(&blocks, rod.ratio) {
                 cancel.check()?;
-                columns.set_gas(&self.rods[i], &theta_deg[range.clone()]);
-                columns.fill(&self.rods[i], units);
-                let pairs = [&columns.crankpin, &columns.wrist_pin];
-                for (row, [x, y]) in vectors.iter_mut().zip(pairs) {
-                    let row = row[2 * range.start..2 * range.end].chunks_exact_mut(2);
-                    for (pair, (x, y)) in row.zip(x.iter().zip(&y[..])) {
-                        pair.copy_from_slice(&[*x, *y]);
-                    }
-                }
-                let values = [&columns.across, &columns.compression, &columns.gas];
-                for (row, column) in scalars.iter_mut().zip(values) {
-                    row[range.clone()].copy_from_slice(&column[..range.len()]);
-                }
+                columns.set_gas(rod, &theta_deg[range.clone()]);
+                columns.fill(rod, units);
+                rows.write(range, &columns);
             }
             Ok(())
         })?;
         let rows = found.main.outer_iter_mut().map(slice).enumerate().collect();
         pool::each(cancel, rows, mains * count, |(main, row)| {
-            let Carried { rods, waves, ratio, bound } = self.carried(main);
+            let carried = self.carried(main);
             let row_of = |i: usize| found.crankpin.index_axis(Axis(0), i).to_slice();
-            let carried = rods.iter().filter_map(|&(share, i)| Some((share, row_of(i)?)));
-            let carried: Vec<_> = carried.collect();
-            for (range, units) in blocks_at(&blocks, ratio) {
+            let rods = carried.rods.iter().filter_map(|&(share, i)| Some((share, row_of(i)?)));
+            let rods: Vec<_> = rods.collect();
+            for (range, units) in blocks_at(&blocks, carried.ratio) {
                 cancel.check()?;
-                let (start, end) = (2 * range.start, 2 * range.end);
-                let row = &mut row[start..end];
-                for (share, force) in &carried {
-                    for (sum, force) in row.iter_mut().zip(&force[start..]) {
+                let row = &mut row[2 * range.start..2 * range.end];
+                for (share, force) in &rods {
+                    for (sum, force) in row.iter_mut().zip(&force[2 * range.start..]) {
                         *sum += share * force;
                     }
                 }
-                let [mut x, mut y] = [[0.0; BLOCK]; 2];
-                let (own, others) = waves.split_at(usize::from(!waves.is_empty()));
-                for &(halves, at_start) in own {
-                    // What turns with the crank.
-                    units.add_turning(at_start, halves, [&mut x, &mut y]);
-                }
-                if !others.is_empty() {
-                    let angles = CrankAngles::of_checked(&theta_deg[range.clone()]);
-                    Periodic::add(others, &angles, [&mut x, &mut y])?;
-                }
-                for (pair, (x, y)) in row.chunks_exact_mut(2).zip(x.iter().zip(&y)) {
-                    pair[0] += x;
-                    pair[1] += y;
-                    for part in pair {
-                        *part = if part.abs() <= bound { 0.0 } else { *part };
-                    }
-                }
+                carried.add_waves(units, &theta_deg[range.clone()], row)?;
             }
             Ok(())
         })?;

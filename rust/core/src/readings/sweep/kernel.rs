@@ -15,7 +15,6 @@ use super::factors::{Coefficients, Waves};
 use super::layout::Layout;
 use super::{Selection, Sweep};
 use crate::Complex64;
-use crate::load::LoadList;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::parts;
 use crate::numbers::error::Result;
@@ -64,88 +63,129 @@ impl Job<'_> {
     }
 
     /// Evaluates every row; `finish` writes those of a block, times a factor.
+    ///
+    /// Rows are those of engine, bank angle and point, in this order; waves and coefficients are held for a slab
+    /// of bank angles and a slab of points at a time.
     pub fn rows<T: Number>(
         &self,
         out: &mut [T],
         factor: f64,
         finish: impl Fn(&Block, f64, &mut [T]) -> Result<()> + Sync,
     ) -> Result<()> {
-        let (sweep, width) = (self.sweep, self.width);
+        let sweep = self.sweep;
         let angles = sweep.bank_angles().len();
         let points = sweep.points_of(self.selection);
-        let piece = if self.slow { 8 } else { ROWS_PER_TASK };
         let slab = (SLAB / sweep.orders.len().max(1)).clamp(ROWS_PER_CHECK, 1 << 14);
-        let slabs = |length: usize| (0..length).step_by(slab).map(move |k| k..length.min(k + slab));
         let numbers = out.len() * if self.slow { 256 } else { 1 };
-        let many = pool::is_worth_parallel(numbers);
         let layouts = self.layouts()?;
         self.cancel.expect(layouts.len() * angles * points);
-        for angle_slab in slabs(angles) {
+        for angle_slab in parts(0..angles, slab) {
             let waves =
                 Waves::new(sweep, self.selection.quantity, angle_slab.clone(), self.cancel)?;
-            for point_slab in slabs(points) {
-                let parts: Vec<Range<usize>> = parts(point_slab.clone(), PART).collect();
-                let loads = sweep.loads.iter().map(AsRef::as_ref);
-                let each_part = loads.zip(&layouts).flat_map(|of_engine| {
-                    parts.iter().map(move |points| (of_engine, points.clone()))
-                });
-                let coefficients = |(of_engine, points): ((&LoadList, &Layout), Range<usize>)| {
-                    Coefficients::new(sweep, self.selection, of_engine, points, self.cancel)
-                };
-                let coefficients =
-                    pool::map_if(many, self.cancel, each_part.collect(), coefficients)?;
-                let mut tasks = Vec::new();
-                for (out, coefficients) in
-                    out.chunks_mut(angles * points * width).zip(coefficients.chunks(parts.len()))
-                {
-                    let span = angle_slab.start * points..angle_slab.end * points;
-                    let out = &mut out[span.start * width..span.end * width];
-                    // Rows are contiguous over several bank angles where a part has all points.
-                    let whole = parts[0].len() == points;
-                    let per_run = if whole { out.len() } else { points * width };
-                    for (run, out) in out.chunks_mut(per_run.max(1)).enumerate() {
-                        let mut rest = if whole {
-                            out
-                        } else {
-                            &mut out[point_slab.start * width..point_slab.end * width]
-                        };
-                        for coefficients in coefficients {
-                            let length =
-                                if whole { rest.len() } else { coefficients.points * width };
-                            let (own, others) = rest.split_at_mut(length);
-                            rest = others;
-                            let rows = own.chunks_mut(piece * width).enumerate();
-                            let first = |k| run * coefficients.points + k * piece;
-                            tasks.extend(rows.map(|(k, rows)| (coefficients, first(k), rows)));
-                        }
-                    }
-                }
-                let work = |(coefficients, first, out): (&Coefficients, usize, &mut [T])| {
-                    let mut block = Block::new(sweep.orders.len());
-                    for (k, out) in out.chunks_mut(ROWS_PER_CHECK * width).enumerate() {
-                        self.cancel.check()?;
-                        vectorised(
-                            #[inline(always)]
-                            || {
-                                for (j, out) in
-                                    out.chunks_mut(ROWS_SIDE_BY_SIDE * width).enumerate()
-                                {
-                                    let row = first + k * ROWS_PER_CHECK + j * ROWS_SIDE_BY_SIDE;
-                                    block.evaluate(&waves, coefficients, row);
-                                    finish(&block, factor, out)?;
-                                }
-                                Ok(())
-                            },
-                        )?;
-                    }
-                    self.cancel.advance(out.len() / width);
-                    Ok(())
-                };
-                pool::each(self.cancel, tasks, numbers, work)?;
+            for point_slab in parts(0..points, slab) {
+                let coefficients = self.coefficients(&layouts, point_slab.clone(), numbers)?;
+                let span = Span { angles: angle_slab.clone(), points: point_slab, of: points };
+                let per_engine = coefficients.len() / layouts.len().max(1);
+                let engines = out.chunks_mut(angles * points * self.width);
+                let tasks = engines.zip(coefficients.chunks(per_engine.max(1)));
+                let tasks =
+                    tasks.flat_map(|(out, coefficients)| self.tasks(&span, coefficients, out));
+                pool::each(self.cancel, tasks.collect(), numbers, |task| {
+                    self.evaluate(&waves, task, |block, out| finish(block, factor, out))
+                })?;
             }
         }
         Ok(())
     }
+
+    /// Coefficients of each engine at some points, part by part.
+    fn coefficients(
+        &self,
+        layouts: &[Layout],
+        points: Range<usize>,
+        numbers: usize,
+    ) -> Result<Vec<Coefficients>> {
+        let engines = self.sweep.loads.iter().map(AsRef::as_ref).zip(layouts);
+        let of_parts = engines
+            .flat_map(|engine| parts(points.clone(), PART).map(move |points| (engine, points)));
+        let many = pool::is_worth_parallel(numbers);
+        pool::map_if(many, self.cancel, of_parts.collect(), |(of_engine, points)| {
+            Coefficients::new(self.sweep, self.selection, of_engine, points, self.cancel)
+        })
+    }
+
+    /// Tasks that write the rows of a span of one engine, from its coefficients part by part.
+    fn tasks<'t, T: Number>(
+        &self,
+        span: &Span,
+        coefficients: &'t [Coefficients],
+        out: &'t mut [T],
+    ) -> Vec<Task<'t, T>> {
+        let row = span.of * self.width;
+        let out = &mut out[span.angles.start * row..span.angles.end * row];
+        // Rows are contiguous over several bank angles where a part has all points.
+        let is_whole = coefficients.first().is_some_and(|part| part.points == span.of);
+        let per_run = if is_whole { out.len() } else { row };
+        let piece = if self.slow { 8 } else { ROWS_PER_TASK };
+        let mut tasks = Vec::new();
+        for (run, out) in out.chunks_mut(per_run.max(1)).enumerate() {
+            let mut rest = if is_whole {
+                out
+            } else {
+                &mut out[span.points.start * self.width..span.points.end * self.width]
+            };
+            for coefficients in coefficients {
+                let length = if is_whole { rest.len() } else { coefficients.points * self.width };
+                let (own, others) = rest.split_at_mut(length);
+                rest = others;
+                let rows = own.chunks_mut(piece * self.width).enumerate();
+                let first = |k| run * coefficients.points + k * piece;
+                tasks.extend(rows.map(|(k, out)| Task { coefficients, first: first(k), out }));
+            }
+        }
+        tasks
+    }
+
+    /// Evaluates the rows of a task.
+    fn evaluate<T: Number>(
+        &self,
+        waves: &Waves,
+        Task { coefficients, first, out }: Task<T>,
+        finish: impl Fn(&Block, &mut [T]) -> Result<()>,
+    ) -> Result<()> {
+        let mut block = Block::new(self.sweep.orders.len());
+        let rows = out.len() / self.width;
+        for (k, out) in out.chunks_mut(ROWS_PER_CHECK * self.width).enumerate() {
+            self.cancel.check()?;
+            vectorised(
+                #[inline(always)]
+                || {
+                    for (j, out) in out.chunks_mut(ROWS_SIDE_BY_SIDE * self.width).enumerate() {
+                        let row = first + k * ROWS_PER_CHECK + j * ROWS_SIDE_BY_SIDE;
+                        block.evaluate(waves, coefficients, row);
+                        finish(&block, out)?;
+                    }
+                    Ok(())
+                },
+            )?;
+        }
+        self.cancel.advance(rows);
+        Ok(())
+    }
+}
+
+/// Bank angles and points whose waves and coefficients are held, and the number of all points.
+struct Span {
+    angles: Range<usize>,
+    points: Range<usize>,
+    of: usize,
+}
+
+/// Rows of one engine, contiguous, from the first that has these coefficients.
+struct Task<'a, T> {
+    coefficients: &'a Coefficients,
+    first: usize,
+    out: &'a mut [T],
 }
 
 #[cfg(test)]

@@ -45,7 +45,15 @@ impl Sweep {
         point: usize,
     ) -> Result<Vec<Arc<dyn Source>>> {
         let point = self.at(selection, point);
-        kinematics.sums.iter().map(|sum| at_point(&sum.source, &point)).collect()
+        let mut sources: Vec<Arc<dyn Source>> = Vec::new();
+        for (k, sum) in kinematics.sums.iter().enumerate() {
+            // One of several phases is one, as before.
+            let same = (0..k).find(|&of| Arc::ptr_eq(&kinematics.sums[of].source, &sum.source));
+            let own = same
+                .map_or_else(|| at_point(&sum.source, &point), |of| Ok(Arc::clone(&sources[of])));
+            sources.push(own?);
+        }
+        Ok(sources)
     }
 }
 
