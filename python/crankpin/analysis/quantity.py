@@ -228,7 +228,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
 
     @property
     def xyz(self) -> NDArray[Element]:
-        """Peak phasors along x, y and z, in ``unit``: (…, n_orders, 3)."""
+        """Peak phasors along x, y and z, in ``unit``: (…, n_orders, n_axes)."""
         return self._along(VALUES, "xyz", 3)  # type: ignore[no-any-return]
 
     @property
@@ -263,7 +263,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
 
     @property
     def peak_xyz(self) -> NDArray[np.float64]:
-        """Peaks along x, y and z, in ``unit``: (…, n_orders, 3); of all together: (…, 3)."""
+        """Peaks along x, y, z, in ``unit``: (…, n_orders, n_axes); of all together: (…, n_axes)."""
         return self._along("peak_xyz", count=3)  # type: ignore[no-any-return]
 
     @property
@@ -273,7 +273,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
 
     @property
     def rms_xyz(self) -> NDArray[np.float64]:
-        """Root mean squares along x, y and z, in ``unit``: (…, n_orders, 3); of all: (…, 3)."""
+        """Root mean squares along x, y, z, in ``unit``: (…, n_orders, n_axes); of all: (…, n_axes)."""
         return self._along("rms_xyz", count=3)  # type: ignore[no-any-return]
 
     @property
@@ -648,8 +648,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
         over = ", ".join(f"{d}: {len(known[d])}" for d in dims)
         return f"{text}, {self.unit}, over ({over}){loads}>"
 
-    def _dataset(self) -> xr.Dataset:
-        return export.dataset_of(self)
+    def _dataset(self) -> xr.Dataset | None:
+        return None if self.order == ALL else export.dataset_of(self)
 
 
 def _plain(value: Any) -> Any:  # noqa: ANN401 - arguments of functions of NumPy
