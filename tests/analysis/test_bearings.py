@@ -92,8 +92,9 @@ def as_complex(vectors: ArrayLike) -> np.ndarray:
 
 def assert_close(found: ArrayLike, expected: ArrayLike, rtol: float = 1e-12) -> None:
     """Relative to the largest: numpy.linalg.solve and the core round some ten operations each."""
-    assert np.abs(expected).max() > 0.0
-    np.testing.assert_allclose(found, expected, rtol=0.0, atol=rtol * np.abs(expected).max())
+    atol = rtol * np.abs(expected).max()
+    assert atol > 0.0
+    np.testing.assert_allclose(np.asarray(found), np.asarray(expected), rtol=0.0, atol=atol)
 
 
 @pytest.mark.parametrize("engine", [MIXED, FIRED], ids=["inertia", "gas"])

@@ -193,7 +193,11 @@ def test_exact_waveform(case: Case) -> None:
     ]
     for found, expected, atol in pairs:
         np.testing.assert_allclose(
-            found, expected(case.lists, case.rpm, theta), rtol=0, atol=atol, err_msg=str(expected)
+            np.asarray(found),
+            expected(case.lists, case.rpm, theta),
+            rtol=0,
+            atol=atol,
+            err_msg=str(expected),
         )
 
 

@@ -65,7 +65,8 @@ def without(engine: cp.Engine) -> cp.Engine:
 
 
 def close(found: ArrayLike, expected: Array, tolerance: float = ROUNDING) -> None:
-    np.testing.assert_allclose(found, expected, rtol=0, atol=tolerance * np.abs(expected).max())
+    atol = tolerance * np.abs(expected).max()
+    np.testing.assert_allclose(np.asarray(found), expected, rtol=0, atol=atol)
 
 
 # --- against rigid bodies -----------------------------------------------------------------------

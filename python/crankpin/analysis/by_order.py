@@ -13,10 +13,9 @@ from crankpin._support.record import AbsentError, changed
 from crankpin._support.tables import Column, Table
 from crankpin.analysis import export
 from crankpin.analysis.export import VALUES
-from crankpin.analysis.labelled import total_peaks
+from crankpin.analysis.labelled import Shaking, ShakingQuantities, total_peaks
 from crankpin.analysis.quantity import ALL, Keyed, Quantity, Value, one_order, order_key
 from crankpin.analysis.request import engine_core
-from crankpin.analysis.shaking import Shaking, ShakingQuantities
 from crankpin.model import checks
 
 if TYPE_CHECKING:

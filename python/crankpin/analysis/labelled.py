@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic
 
 import numpy as np
 
@@ -11,11 +11,11 @@ from crankpin import _core
 from crankpin._support import inputs, labels, optional
 from crankpin._support import units as unit_names
 from crankpin._support.frames import Tabled, in_units
-from crankpin._support.quantities import COMPONENTS_OF_LOADS, kind_of
+from crankpin._support.quantities import COMPONENTS_OF_LOADS, kind_of, parts_of
 from crankpin._support.record import AbsentError, read_only
 from crankpin.analysis import export
 from crankpin.analysis.export import VALUES
-from crankpin.analysis.quantity import Quantity
+from crankpin.analysis.quantity import Element, Quantity, Value, Values
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Order
     from crankpin._support.quantities import Kind
     from crankpin._support.tables import Table
+    from crankpin.analysis.request import Request
 
 
 class Labelled(Tabled):
@@ -171,7 +172,7 @@ class Labelled(Tabled):
             One of ``quantities``, such as ``"force"``, or ``"torque.gas"``, a part of a torque.
         what : str, default "values"
             ``"values"``, of results by order peak phasors; or an attribute of
-            :class:`~crankpin.types.Quantity`: ``"peak"``, ``"forward"``, ``"zero_bound"``; of all
+            :class:`~crankpin.results.Quantity`: ``"peak"``, ``"forward"``, ``"zero_bound"``; of all
             orders together ``"total_peak"``.
 
         Returns
@@ -367,6 +368,88 @@ class Labelled(Tabled):
         named = [self._quantity(name) for name in self._chosen(quantities)]
         whole = in_units(export.dataset(self, named), unit_names.read(units))
         return optional.split_complex(whole) if split else whole
+
+
+# --- force, moment and torques --------------------------------------------------------------------
+
+
+class ShakingQuantities(Generic[Element, Values, Value]):
+    """Mixin of what has force, moment and torques."""
+
+    def _quantity(self, name: str) -> Quantity[Any, Any, Any]:
+        raise NotImplementedError
+
+    @property
+    def force(self) -> Quantity[Element, Values, Value]:
+        """Shaking force along x and y, N: (…, n_orders, 2) or (…, n_theta, 2)."""
+        return self._quantity("force")
+
+    @property
+    def moment(self) -> Quantity[Element, Values, Value]:
+        """Rocking moment about x (pitch) and y (yaw), N·m: shaped as ``force``."""
+        return self._quantity("moment")
+
+    @property
+    def torque(self) -> Quantity[Element, Values, Value]:
+        """Roll torque on the block about +z, N·m: (…, n_orders) or (…, n_theta).
+
+        Of inertia forces, and of gas if it counts. An AttributeError where it was not requested, or
+        a force spectrum does not determine it.
+        """
+        return self._quantity("torque")
+
+    @property
+    def crank_torque(self) -> Quantity[Element, Values, Value]:
+        """Torque on the crank about +z, N·m: (…, n_orders) or (…, n_theta).
+
+        Of inertia forces, and of gas if it counts. An AttributeError where it was not requested, or
+        a force spectrum does not determine it.
+        """
+        return self._quantity("crank_torque")
+
+
+class Shaking(ShakingQuantities[Element, Values, Value], Labelled, Generic[Element, Values, Value]):
+    """Base class of results that have force, moment and torques, by a request."""
+
+    if TYPE_CHECKING:
+
+        @property
+        def request(self) -> Request:
+            """The options of the result, checked."""
+
+    @property
+    def fired(self) -> bool:
+        """True if gas pressure is counted."""
+        return False
+
+    @property
+    def causes(self) -> tuple[str, ...]:
+        """Causes of the quantities by name: ``inertia``, ``gas`` and those of further loads."""
+        return ("inertia",)
+
+    def _quantity(self, name: str) -> Quantity[Element, Values, Value]:
+        return Quantity(self, name)
+
+    @property
+    def _names(self) -> tuple[str, ...]:
+        return self.request.named((), self.causes)
+
+    def _check(self, quantity: str) -> None:
+        self.request.check(quantity, self)
+
+    def _parts(self, quantity: str) -> tuple[str, ...]:
+        return parts_of(quantity, self.causes)
+
+    def _named_parts(self, quantity: str) -> tuple[str, ...]:
+        return self.request.parts(quantity, self.causes)
+
+    def _loads_of(self, quantity: str) -> str:
+        if self.request.pairs is not None or not kind_of(quantity).planar:
+            return self.loads_counted
+        return labels.without_gas(self.loads_counted)
+
+
+# --- arrays of arrays -----------------------------------------------------------------------------
 
 
 def _over_angle(

@@ -273,7 +273,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
 
     @property
     def rms_xyz(self) -> NDArray[np.float64]:
-        """Root mean squares along x, y, z, in ``unit``: (…, n_orders, n_axes); of all: (…, n_axes)."""
+        """Root mean squares along x, y, z, in ``unit``: (…, n_orders, n_axes); (…, n_axes)."""
         return self._along("rms_xyz", count=3)  # type: ignore[no-any-return]
 
     @property
@@ -404,7 +404,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
         if self.order is None:
             values = self.result.read(self.name, what)
             number = values.ndim == 0 and what != VALUES
-            return self._picked(what, float(values) if number else values)  # type: ignore[arg-type]
+            return self._picked(what, float(values) if number else values)
         if self.order != ALL:
             return self._picked(what, self.result._read_order(self.order, self.name, what))
         if f"total_{what}" not in self.result._readings(self.name):

@@ -13,9 +13,9 @@ from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import mean_piston_speed
+from crankpin.analysis.labelled import Shaking
 from crankpin.analysis.quantity import Values
 from crankpin.analysis.request import Request, check_request, engine_core
-from crankpin.analysis.shaking import Shaking
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
