@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.balancing.fitted_shafts import BalanceShafts
     from crankpin.analysis.balancing.two_plane import TwoPlaneCorrection
     from crankpin.analysis.bearings import BearingLoads
+    from crankpin.analysis.by_order import OrderBalance
     from crankpin.analysis.closed_form import ClosedForm
     from crankpin.analysis.comparison import Comparison
     from crankpin.analysis.design.designs import Design, Designs
@@ -39,7 +40,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.mounts.vectors import VectorQuantity
     from crankpin.analysis.operating_map import OperatingMap
     from crankpin.analysis.prepared_trace import PreparedTrace
-    from crankpin.analysis.quantity import OrderBalance, Quantity
+    from crankpin.analysis.quantity import Quantity
     from crankpin.analysis.ranking.ranking import Choice, Ranking
     from crankpin.analysis.star import StarDiagram
     from crankpin.analysis.sweeps.sweep import Sweep
@@ -138,7 +139,8 @@ _HOMES = {
     "crankpin.analysis.mounts.vectors": ("VectorQuantity",),
     "crankpin.analysis.operating_map": ("OperatingMap",),
     "crankpin.analysis.prepared_trace": ("PreparedTrace",),
-    "crankpin.analysis.quantity": ("OrderBalance", "Quantity"),
+    "crankpin.analysis.by_order": ("OrderBalance",),
+    "crankpin.analysis.quantity": ("Quantity",),
     "crankpin.analysis.ranking.ranking": ("Choice", "Ranking"),
     "crankpin.analysis.star": ("StarDiagram",),
     "crankpin.analysis.sweeps.sweep": ("Sweep",),

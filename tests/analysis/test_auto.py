@@ -598,14 +598,14 @@ def test_an_order_that_was_left_out_is_read_as_if_it_were_given(
     b = engine.balance(RPM, orders="auto", rtol=rtol)
     for order in range(1, 9):
         alone = engine.balance(RPM, orders=[order])
-        assert b._alone(order).orders == alone.orders
+        assert b._at_order(order).orders == alone.orders
         for name in ("force", "moment", "torque", "crank_torque"):
             one, given_alone = getattr(b[order], name), getattr(alone, name)
             bound = given_alone.zero_bound[0]  # of the rounding of either
             assert one.zero_bound == pytest.approx(bound, rel=1e-12)
             assert np.abs(np.asarray(one) - np.asarray(given_alone)[0]).max() <= 2.0 * bound
             assert one.peak == pytest.approx(given_alone.peak[0], abs=4.0 * bound)
-            assert one.peak == b._alone(order).read(name, "peak")[0]
+            assert one.peak == b._at_order(order).read(name, "peak")[0]
 
 
 def test_a_sweep_of_one_point_is_a_balance() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import crankpin as cp
 import numpy as np
@@ -11,6 +11,9 @@ import pytest
 from rederivation import bearings, rigid_rod
 from rederivation.rigid_rod import SliderCrank
 from support.engines import CYLINDER, I4
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 RPM = 4500.0
 OMEGA = 2.0 * np.pi * RPM / 60.0
@@ -82,14 +85,16 @@ def throws(engine: cp.Engine) -> list[bearings.Throw]:
     return found
 
 
-def as_complex(vectors: np.ndarray) -> np.ndarray:
-    return np.asarray(vectors[..., 0] + 1j * vectors[..., 1])
+def as_complex(vectors: ArrayLike) -> np.ndarray:
+    x, y = np.moveaxis(np.asarray(vectors), -1, 0)
+    return np.asarray(x + 1j * y)
 
 
-def assert_close(found: np.ndarray, expected: np.ndarray, rtol: float = 1e-12) -> None:
+def assert_close(found: ArrayLike, expected: ArrayLike, rtol: float = 1e-12) -> None:
     """Relative to the largest: numpy.linalg.solve and the core round some ten operations each."""
-    assert np.abs(expected).max() > 0.0
-    np.testing.assert_allclose(found, expected, rtol=0.0, atol=rtol * np.abs(expected).max())
+    atol = rtol * np.abs(expected).max()
+    assert atol > 0.0
+    np.testing.assert_allclose(np.asarray(found), np.asarray(expected), rtol=0.0, atol=atol)
 
 
 @pytest.mark.parametrize("engine", [MIXED, FIRED], ids=["inertia", "gas"])

@@ -104,10 +104,10 @@ def test_zeros_are_above_zero(name: str, fired: bool) -> None:
     zeros = list[np.ndarray]()
     for result in (engine.balance(0), engine.balance(1000), cp.sweep(engine, [0, 1000])):
         for quantity in ("force", "moment"):
-            arrays = (result.read(quantity, what) for what in ("phasors", "forward", "backward"))
+            arrays = (result.read(quantity, what) for what in ("values", "forward", "backward"))
             zeros += map(signs_of_zeros, arrays)
         parts = ("torque", "crank_torque", "torque.inertia", "torque.gas")
-        zeros += (signs_of_zeros(result.read(part, "phasors")) for part in parts)
+        zeros += (signs_of_zeros(result.read(part, "values")) for part in parts)
     loads = cp.bearing_loads(engine, 0)
     for load in ("main", "crankpin", "wrist_pin", "side_thrust", "rod_force", "gas_force"):
         zeros.append(signs_of_zeros(loads.read(load)))

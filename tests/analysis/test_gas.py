@@ -69,10 +69,10 @@ def test_torque_is_that_of_the_forces_on_pin_wall_head_and_bearing(name: str) ->
     b = fired.balance(rpm=3000, orders=HALVES)
     assert np.allclose(b.crank_torque.gas, again.phasors(on_crank, HALVES), **close)
     assert np.allclose(b.torque.gas, again.phasors(on_block, HALVES), **close)
-    assert b.crank_torque.mean == pytest.approx(on_crank.mean(), rel=1e-7)
+    assert b.crank_torque.cycle_mean == pytest.approx(on_crank.mean(), rel=1e-7)
     # Internal forces: exactly opposite on block and crank.
     assert np.array_equal(b.torque.gas, -np.asarray(b.crank_torque.gas))
-    assert b.torque.mean == -b.crank_torque.mean
+    assert b.torque.cycle_mean == -b.crank_torque.cycle_mean
 
 
 @pytest.mark.parametrize("name", engines())
@@ -158,7 +158,7 @@ def test_a_firing_order_and_its_mirror_have_equal_magnitudes_and_any_order_the_s
     i4 = engines()["i4"].with_cycle([cycle(), cycle(), cycle(3e6), cycle(2e6)])
     turned = i4.replace(firing_order="1-2-4-3")
     first, second = (e.balance(rpm=3000, orders=HALVES) for e in (i4, turned))
-    assert first.crank_torque.mean == second.crank_torque.mean
+    assert first.crank_torque.cycle_mean == second.crank_torque.cycle_mean
     assert np.allclose(first.crank_torque.gas.peak, second.crank_torque.gas.peak, rtol=1e-12)
     assert not np.allclose(first.crank_torque.gas, np.asarray(second.crank_torque.gas), rtol=1e-3)
 
@@ -171,7 +171,7 @@ def test_the_pressure_of_the_crankcase_leaves_inertia_alone() -> None:
     plain = engine.balance(rpm=3000)
     assert b.orders == plain.orders
     assert np.array_equal(b.torque, plain.torque)
-    assert b.torque.mean == 0.0
+    assert b.torque.cycle_mean == 0.0
     assert b.fired
     # Absolute pressure in place of that above the crankcase is another torque of order 1.
     one = cp.Engine.inline(cylinder(), throws_deg=[0], spacing=0.1)
@@ -198,7 +198,7 @@ def test_a_cycle_knows_nothing_of_what_was_asked_before() -> None:
     for (known, fresh), (*_, orders) in zip(engines, cases, strict=True):
         found, expected = (each.balance(3000, orders=orders) for each in (known, fresh))
         assert (found.crank_torque.phasor == expected.crank_torque.phasor).all()
-        assert found.crank_torque.mean == expected.crank_torque.mean
+        assert found.crank_torque.cycle_mean == expected.crank_torque.cycle_mean
 
 
 def test_turning_the_engine_turns_nothing_of_torque() -> None:
@@ -292,7 +292,7 @@ def test_mean_torque_of_the_otto_cycle() -> None:
     one = cp.Engine.inline(cp.Cylinder(r, length, 0.5, bore=0.086), throws_deg=[0], spacing=0.1)
     b = one.with_cycle(otto, crankcase=1e5).balance(rpm=3000, orders=[0.5])
     # Cubics at steps of 0.25°.
-    assert b.crank_torque.mean == pytest.approx(36.63441, rel=1e-6)
+    assert b.crank_torque.cycle_mean == pytest.approx(36.63441, rel=1e-6)
 
 
 def test_printed_inertia_torques_are_parts_of_fired_engines() -> None:

@@ -101,7 +101,7 @@ def test_what_was_read_of_a_file_is_printed(capsys: CAPTURE, tmp_path: Path) -> 
     out = printed(capsys, f"torque i4 --cycle {file} --atmosphere 0.98bar --recorded-rpm 1500")
     assert "Read: 1 cycle, bar (header), gauge (header), 98000 Pa added, over time (header)" in out
     engine = fired("i4", bore=0.086)
-    assert f"{engine.balance(3000).crank_torque.mean:.1f}" in out
+    assert f"{engine.balance(3000).crank_torque.cycle_mean:.1f}" in out
 
 
 def test_orders_of_noise_are_counted_below_the_table(capsys: CAPTURE, tmp_path: Path) -> None:
@@ -155,7 +155,7 @@ def test_a_fired_engine_keeps_its_own_cycle(capsys: CAPTURE, tmp_path: Path) -> 
     fired = engine.with_cycle(cycle)
     fired.save(tmp_path / "i4.toml")
     out = printed(capsys, f"torque {tmp_path / 'i4.toml'} --orders 2")
-    assert f"{fired.balance(3000).crank_torque.mean:.2f}" in out
+    assert f"{fired.balance(3000).crank_torque.cycle_mean:.2f}" in out
     assert "petrol" not in out
     assert "petrol" in printed(capsys, f"torque {tmp_path / 'i4.toml'} --cycle petrol")
 
@@ -185,7 +185,11 @@ def test_files_of_cycles_are_read_as_options_say(capsys: CAPTURE, tmp_path: Path
     read = f"--cycle {file} --angle-unit rad --tdc 90deg --columns 0,2"
     out = printed(capsys, f"torque i4 {read} --pressure-unit bar --gauge --bore 86mm --orders 2")
     engine = cp.Engine.preset("i4", cylinder=cp.Cylinder(0.043, 0.145, 0.5, bore=0.086))
-    mean = engine.with_cycle(cp.Cycle(theta, pressure)).balance(3000, orders=[2]).crank_torque.mean
+    mean = (
+        engine.with_cycle(cp.Cycle(theta, pressure))
+        .balance(3000, orders=[2])
+        .crank_torque.cycle_mean
+    )
     assert f"{mean:.2f}" in out
     for typed, hints in (
         (f"bearings i4 {read}", ["--pressure-unit is left out: ", "give one of Pa"]),

@@ -188,7 +188,7 @@ def test_several_threads_at_once_agree() -> None:
     results: list[np.ndarray] = []
     threads = [
         threading.Thread(
-            target=lambda: results.append(v6.waveform(5000, theta_deg=np.arange(5000.0)).moment)
+            target=lambda: results.append(v6.waveform(5000, theta_deg=np.arange(5000.0)).moment.xy)
         )
         for _ in range(8)
     ]

@@ -40,8 +40,8 @@ def test_a_dummy_piston_balances_and_has_no_gas() -> None:
     assert fired.cycles == (PETROL, None)
     assert fired.loads_counted.endswith("cylinder 2 does not fire")
     alone = cp.Engine.inline(PISTON, throws_deg=[0], spacing=0.08, firing_order="1")
-    mean = alone.with_cycle(PETROL).balance(6000).crank_torque.mean
-    assert fired.balance(6000).crank_torque.mean == pytest.approx(mean, rel=1e-12)
+    mean = alone.with_cycle(PETROL).balance(6000).crank_torque.cycle_mean
+    assert fired.balance(6000).crank_torque.cycle_mean == pytest.approx(mean, rel=1e-12)
     with pytest.raises(cp.InputError, match=r"cycle\[1\] .*a dummy piston has no gas"):
         engine.with_cycle([PETROL, PETROL])
 
@@ -69,7 +69,7 @@ def test_dummies_have_no_place_in_firing_orders(seed: int) -> None:
         assert named == numbers.tolist()
         again = engine.replace(firing_order=order.firing_order)
         assert again.firing_order == order.firing_order
-        assert again.with_cycle(PETROL).balance(3000).crank_torque.mean > 0.0
+        assert again.with_cycle(PETROL).balance(3000).crank_torque.cycle_mean > 0.0
     complete = "-".join(map(str, range(1, count + 1)))
     if dummy.any():
         with pytest.raises(cp.InputError, match="is a dummy piston, which does not fire"):

@@ -13,7 +13,7 @@ from typing import Any
 import crankpin as cp
 import numpy as np
 import pytest
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from rederivation import rigid_rod, swing_mp
 
 Array = NDArray[np.float64]
@@ -64,8 +64,9 @@ def without(engine: cp.Engine) -> cp.Engine:
     return engine.replace(cylinder=[c.replace(rod_inertia_excess=0.0) for c in engine.cylinders])
 
 
-def close(found: Array, expected: Array, tolerance: float = ROUNDING) -> None:
-    np.testing.assert_allclose(found, expected, rtol=0, atol=tolerance * np.abs(expected).max())
+def close(found: ArrayLike, expected: Array, tolerance: float = ROUNDING) -> None:
+    atol = tolerance * np.abs(expected).max()
+    np.testing.assert_allclose(np.asarray(found), expected, rtol=0, atol=atol)
 
 
 # --- against rigid bodies -----------------------------------------------------------------------

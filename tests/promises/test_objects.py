@@ -232,6 +232,8 @@ def figures(value: Any) -> dict[str, Any]:
     for name in dir(value):
         if name in ("_", "result") or name.startswith("_"):
             continue
+        if name == "total" and getattr(value, "order", None) == "all":  # that of itself
+            continue
         if callable(getattr(type(value), name, None)):
             continue
         try:

@@ -407,7 +407,7 @@ def grid(**axes: float) -> cp.results.Sweep:
 
 TOO_LARGE: dict[str, tuple[Callable[[], Any], str]] = {
     "waveforms of a sweep": (
-        lambda: swept(rod_ratio=endless(0.3, 10**5)).waveform(np.arange(7200)).force,
+        lambda: swept(rod_ratio=endless(0.3, 10**5)).waveform(np.arange(7200)).force.xy,
         "sweep",
     ),
     "angles of a sweep": (lambda: swept().waveform(endless(1.0, 10**12)), "theta_deg"),

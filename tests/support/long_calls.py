@@ -69,7 +69,7 @@ def over_speeds() -> cp.results.Sweep:
 def waveforms(*, exact: bool) -> np.ndarray:
     """Return forces of a sweep of more rows and angles than one task has."""
     sweep = cp.sweep([V6, V8], rpm=[1000, 5000], rod_ratio=RATIOS[:150], orders=range(1, 10))
-    return sweep.waveform(np.linspace(0, 720, 2101), exact=exact).force
+    return sweep.waveform(np.linspace(0, 720, 2101), exact=exact).read("force")
 
 
 def ranking() -> np.ndarray:

@@ -21,13 +21,23 @@ class Kind(NamedTuple):
     """Names of its components: two of a vector in the cross-section plane, one about z."""
     unit: str
     """Unit, as read by people."""
-    unit_over_square: str
+    unit_over_square: str = ""
     """Unit over ω² of quantities that scale with ω²; empty for the others."""
+    dims: tuple[str, ...] = ()
+    """Dimensions that it has besides those of a result, such as ``cylinder``."""
+    real: bool = False
+    """True for what is no phasor, by order too: a power, a ratio."""
 
     @property
     def planar(self) -> bool:
         """True for vectors in the cross-section plane, which have forward and backward parts."""
         return len(self.components) == 2
+
+    @property
+    def axes(self) -> tuple[str, ...]:
+        """Coordinates of the dimension ``axis`` of a vector; none of what is no vector."""
+        count = len(self.components)
+        return ("x", "y", "z")[:count] if count > 1 else ()
 
     @property
     def vector_symbol(self) -> str:
@@ -59,7 +69,7 @@ PART_WORDS = {"gas": "of gas pressure", "inertia": "of inertia forces"}
 def kind_of(name: str) -> Kind:
     """Return the entry of a quantity, or of a part of one, such as ``"torque.gas"``."""
     whole, _, part = name.partition(".")
-    kind = QUANTITIES[whole]
+    kind = _REGISTRY[whole]
     if not part:
         return kind
     return kind._replace(name=name, words=f"{kind.words} {PART_WORDS.get(part, f'of {part}')}")
@@ -90,12 +100,18 @@ _ACROSS = ("|F_x|", "|F_y|"), ("along x", "along y")
 LOADS = {
     each.name: each
     for each in (
-        Kind("crankpin", "crankpin", *_ACROSS, "N", "kg·m"),
-        Kind("wrist_pin", "wrist pin", *_ACROSS, "N", "kg·m"),
-        Kind("main", "main bearing", *_ACROSS, "N", "kg·m"),
-        Kind("side_thrust", "side thrust", ("|F|",), ("across the bore",), "N", "kg·m"),
-        Kind("rod_force", "rod force", ("|F|",), ("along the rod",), "N", "kg·m"),
-        Kind("gas_force", "gas force", ("|F|",), ("along the bore",), "N", ""),
+        Kind("crankpin", "crankpin", *_ACROSS, "N", "kg·m", ("cylinder",)),
+        Kind("wrist_pin", "wrist pin", *_ACROSS, "N", "kg·m", ("cylinder",)),
+        Kind("main", "main bearing", *_ACROSS, "N", "kg·m", ("main_bearing",)),
+        Kind("side_thrust", "side thrust", ("|F|",), ("across the bore",), "N", "kg·m",
+             ("cylinder",)),
+        Kind("rod_force", "rod force", ("|F|",), ("along the rod",), "N", "kg·m", ("cylinder",)),
+        Kind("gas_force", "gas force", ("|F|",), ("along the bore",), "N", "", ("cylinder",)),
     )
-}
+}  # fmt: skip
 """Name of a load inside an engine → its entry."""
+
+COMPONENTS_OF_LOADS = ("F_x", "F_y", "F_z", "M_x", "M_y", "M_z")
+"""Components of a load, and of the motion that answers to it."""
+
+_REGISTRY = QUANTITIES | LOADS

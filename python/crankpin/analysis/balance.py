@@ -13,6 +13,7 @@ from crankpin._support.quantities import QUANTITIES, kind_of
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.by_order import ByOrder
+from crankpin.analysis.export import VALUES
 from crankpin.analysis.quantity import ALL, one_order
 from crankpin.analysis.request import Request, check_request, engine_core
 from crankpin.model import shafts as rotating
@@ -183,10 +184,10 @@ class Balance(ByOrder[float]):
                 return lengths[0] + lengths[1] if planar else lengths
         return super()._read_order(order, quantity, what)
 
-    def _alone(self, order: Order) -> ByOrder[float]:
+    def _at_order(self, order: Order) -> ByOrder[float]:
         core = None if self.within is not None else self.__dict__["_core"].alone(order)
         if core is None or order in self._kept:
-            return super()._alone(order)
+            return super()._at_order(order)
         # What was evaluated as orders were chosen is not computed again.
         alone = object.__new__(type(self))
         request = self.request.at_orders((order,))
@@ -201,9 +202,9 @@ class Balance(ByOrder[float]):
         part: NDArray[Any] = whole.read(quantity, what)[at]
         return part
 
-    def _compute(self, quantity: str, what: str) -> NDArray[Any]:
+    def _about_axis(self, quantity: str, what: str) -> NDArray[Any]:
         core: _core.Balance = self.__dict__["_core"]
-        if what == "phasors":
+        if what == VALUES:
             return core.phasors(quantity, False)
         if what in labels.TURNING:
             return core.phasors(quantity, True)[:, int(what == "backward")]
@@ -211,9 +212,9 @@ class Balance(ByOrder[float]):
             forward, backward = np.abs(core.phasors(quantity, True)).T
             return np.asarray(forward + backward)
         if what in ("peak", "peak_xy"):
-            return np.asarray(np.abs(self.read(quantity, "phasors")))
-        # "zero_bound", "total_peak", "total_peak_xy" and "mean"
-        return np.asarray(getattr(core, what)(quantity))
+            return np.asarray(np.abs(self.read(quantity)))
+        # "zero_bound", "total_peak", "total_peak_xy" and "cycle_mean"
+        return np.asarray(getattr(core, what.removeprefix("cycle_"))(quantity))
 
     # --- tables and pictures --------------------------------------------------------------------
 
@@ -330,7 +331,7 @@ class Balance(ByOrder[float]):
             )
             means: tuple[float | None, ...] = ()
             if self._has_means:
-                means = (None if kind.planar else getattr(self, name).mean,)
+                means = (None if kind.planar else getattr(self, name).cycle_mean,)
             least = self._least_shown(rows)
             columns += [
                 Column(symbol, (*means, *values), kind.unit, least=least)

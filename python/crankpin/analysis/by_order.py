@@ -2,31 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Generic, Literal, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Literal, Self
 
 import numpy as np
 
-from crankpin import _core
 from crankpin._support import inputs, labels
+from crankpin._support.frames import Tabled
 from crankpin._support.quantities import QUANTITIES, kind_of
-from crankpin._support.record import AbsentError, read_only
+from crankpin._support.record import AbsentError, changed
+from crankpin._support.tables import Column, Table
 from crankpin.analysis import export
-from crankpin.analysis.export import Labelled
-from crankpin.analysis.quantity import (
-    ALL,
-    Keyed,
-    OrderBalance,
-    Quantities,
-    Quantity,
-    Value,
-    one_order,
-    order_key,
-)
+from crankpin.analysis.export import VALUES
+from crankpin.analysis.labelled import Shaking, ShakingQuantities, total_peaks
+from crankpin.analysis.quantity import ALL, Keyed, Quantity, Value, one_order, order_key
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order, Spectrum
@@ -34,8 +28,10 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 
-class ByOrder(Keyed, Quantities["NDArray[np.float64]", Value], Labelled, Generic[Value]):
+class ByOrder(Keyed, Shaking["np.complex128", "NDArray[np.float64]", Value], Generic[Value]):
     """Base class of balances and sweeps: arrays computed when first read, orders as keys."""
+
+    _along: ClassVar[tuple[str, ...]] = ("order",)
 
     @property
     def orders(self) -> tuple[Order, ...]:
@@ -98,9 +94,6 @@ class ByOrder(Keyed, Quantities["NDArray[np.float64]", Value], Labelled, Generic
         """
         return OrderBalance(self, order_key(order))
 
-    def _quantity(self, name: str) -> Quantity[NDArray[np.float64], Value]:
-        return Quantity(self, name)
-
     def about(self, point: ArrayLike | None = None, *, z: float | None = None) -> Self:
         """Return the same result with moments and roll torque about another point.
 
@@ -138,79 +131,45 @@ class ByOrder(Keyed, Quantities["NDArray[np.float64]", Value], Labelled, Generic
 
     # --- arrays ---------------------------------------------------------------------------------
 
-    @property
-    def _kept(self) -> dict[Any, Any]:
-        """Arrays that were read, and results of orders that were requested later."""
-        return self.__dict__.setdefault("_cache", {})  # type: ignore[no-any-return]
+    def _readings(self, quantity: str) -> tuple[str, ...]:
+        return export.OF_TURNING if kind_of(quantity).planar else export.OF_TORQUES
 
-    def read(self, quantity: str, what: str) -> NDArray[Any]:
-        """Return one of the arrays of a quantity, read-only: ``"peak"``, ``"phasors"`` and others.
+    def _in_datasets(self, quantity: str) -> tuple[str, ...]:
+        names = self._readings(quantity)
+        return names if self._has_means else tuple(n for n in names if n != "cycle_mean")
 
-        Computed when it is first read, and kept; threads that read it at once get one array.
-
-        Parameters
-        ----------
-        quantity : str
-            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``, or a part of a torque,
-            such as ``"torque.gas"``.
-        what : str
-            ``"phasors"``, ``"forward"``, ``"backward"``, ``"peak"``, ``"peak_xy"``,
-            ``"zero_bound"``, ``"total_peak"``, ``"total_peak_xy"``, or ``"mean"`` of a torque.
-
-        Returns
-        -------
-        ndarray of float or complex
-            The array, N or N·m, of the swept dimensions, then orders and axes.
-
-        Raises
-        ------
-        InputError
-            If there is no such quantity or array.
-        """
-        self.request.check(quantity, self)
-        inputs.one_of("what", what, export.arrays(quantity))
-        array: NDArray[Any] | None = self._kept.get((quantity, what))
-        if array is None:
-            array = read_only(np.asarray(self._about_point(quantity, what)))
-            array = self._kept.setdefault((quantity, what), array)
-        return array
+    def _compute(self, quantity: str, what: str) -> NDArray[Any]:
+        return self._about_point(quantity, what)
 
     def _about_point(self, quantity: str, what: str) -> NDArray[Any]:
         """Compute an array; roll torque about a point beside the crank from that about its axis."""
         x, y = self.request.aside
         whole, point, part = quantity.partition(".")
-        if whole != "torque" or what == "mean" or (x == 0.0 and y == 0.0) or part == "gas":
-            return self._compute(quantity, what)
+        if whole != "torque" or what == "cycle_mean" or (x, y) == (0.0, 0.0) or part == "gas":
+            return self._about_axis(quantity, what)
         force_name = f"force{point}{part}"
-        if what == "phasors":
-            force = self.read(force_name, "phasors")
-            return self._compute(quantity, what) - (x * force[..., 1] - y * force[..., 0])
+        if what == VALUES:
+            force = self.read(force_name)
+            return self._about_axis(quantity, what) - (x * force[..., 1] - y * force[..., 0])
         if what == "zero_bound":
             bound = (abs(x) + abs(y)) * self.read(force_name, "zero_bound")
-            return self._compute(quantity, what) + bound
-        phasors = self.read(quantity, "phasors")
+            return self._about_axis(quantity, what) + bound
+        phasors = self.read(quantity)
         if what == "peak":
             return np.asarray(np.abs(phasors))
-        return total_peaks(self.orders, phasors, self.read(quantity, "mean"))
+        return total_peaks(self.orders, phasors, self.read(quantity, "cycle_mean"))
 
-    def _compute(self, quantity: str, what: str) -> NDArray[Any]:
+    def _about_axis(self, quantity: str, what: str) -> NDArray[Any]:
+        """Compute an array; of the roll torque about the axis of the crank."""
         raise NotImplementedError
 
-    def _read_order(self, order: Order, quantity: str, what: str) -> Any:  # noqa: ANN401 - as read
-        """Return a part of an array: that of one order, which may not be among ``orders``."""
-        orders = self.orders
-        if order not in orders:
-            return self._alone(one_order(order))._read_order(order, quantity, what)
-        at: Any = (*(slice(None) for _ in self.dims), orders.index(order))
-        return self.read(quantity, what)[at]
-
-    def _alone(self, order: Order) -> ByOrder[Value]:
+    def _at_order(self, order: Order) -> ByOrder[Value]:
         """Return the same result of one order."""
-        result: ByOrder[Value] | None = self._kept.get(order)
-        if result is None:
-            result = self._with_request(self.request.at_orders((order,)))
-            result = self._kept.setdefault(order, result)
-        return result
+        order = one_order(order)
+        one: ByOrder[Value] = self._once(
+            order, lambda: self._with_request(self.request.at_orders((order,)))
+        )
+        return one
 
     @property
     def _engines(self) -> tuple[Engine, ...]:
@@ -265,41 +224,160 @@ class ByOrder(Keyed, Quantities["NDArray[np.float64]", Value], Labelled, Generic
         chosen = self.request.orders is None
         return labels.NEGLIGIBLE * float(peaks.max(initial=0.0)) if chosen else 0.0
 
-    # --- in other forms -----------------------------------------------------------------------
+    def _table_of(self, quantity: Quantity) -> Table:
+        """Return peaks by order, and of all orders together; those of a sweep at each point.
 
-    def _arrays(self, quantities: Sequence[str]) -> tuple[dict[str, Any], dict[str, Any]]:
-        variables = list(export.variables(quantities, means=self._has_means))
-        coords = {**self.coords, "order": self.orders}
-        export.fitting(
-            coords,
-            *(
-                ((*self.dims, *dims), 16 if what in export.COMPLEX else 8)
-                for _, _, what, dims in variables
-            ),
-        )
-        return coords, {
-            name: ((*self.dims, *dims), self.read(quantity, what), export.units(quantity))
-            for name, quantity, what, dims in variables
-        }
+        Torques of a fired engine have their mean, their phases and their parts too.
+        """
+        keys: tuple[Order | Literal["all"], ...] = ()
+        note = ""
+        if quantity.order is not None:
+            keys = (quantity.order,)
+        else:
+            shown, left_out = self._shown_orders(quantity.name)
+            keys, note = (*(self.orders[k] for k in shown), ALL), labels.not_shown(left_out)
+        unit, words = quantity.unit, quantity.words
+        title = f"{words}, {unit}"
+        coords = {name: each for name, each in quantity.coords.items() if name in self.dims}
+        if coords:
+            columns = export.points(coords, len(keys))
+            columns += [
+                Column(ALL if key == ALL else f"order {key}", quantity[key].peak) for key in keys
+            ]
+        elif self._has_means and not quantity.kind.planar:
+            title, columns = words, self._columns_of_parts(quantity, keys)
+        else:
+            columns = [Column("order", keys)]
+            columns += [
+                Column(head, tuple(_figure(quantity[key], what) for key in keys))
+                for head, what in _columns_of(quantity).items()
+            ]
+        row_units = (unit,) * len(columns[0]) if columns and title != words else ()
+        return Table(title, tuple(columns), note, quantity.loads_counted, row_units)
 
-    def _figures(self, quantity: str) -> Mapping[str, Mapping[str, NDArray[np.float64]]]:
-        phasors = self.read(quantity, "phasors")
-        parts = {"z": phasors}
-        if kind_of(quantity).planar:
-            parts = {"x": phasors[..., 0], "y": phasors[..., 1]}
-            parts |= {part: self.read(quantity, part) for part in labels.TURNING}
-        return {
-            component: {"real": values.real, "imag": values.imag, "peak": np.abs(values)}
-            for component, values in parts.items()
-        }
+    def _columns_of_parts(
+        self, quantity: Quantity, keys: Sequence[Order | Literal["all"]]
+    ) -> list[Column]:
+        """Return mean, peaks and phases of a torque and of its parts."""
+        columns = [Column("order", ("mean", *keys))]
+        parts = [quantity, *map(quantity.part, quantity.parts)]
+        least = self._least_shown(np.asarray(quantity.peak))
+        for part in parts:
+            peaks = [_figure(part[key], "peak") for key in keys]
+            phases = [
+                None if key == ALL or not peak else float(np.angle(part[key].phasor, deg=True))
+                for key, peak in zip(keys, peaks, strict=True)
+            ]
+            name = "" if part is quantity else part.name.partition(".")[-1]
+            mean = changed(part, order=None).cycle_mean
+            head = name or quantity.kind.symbols[0]
+            columns += [
+                Column(head, (mean, *peaks), quantity.unit, least=least),
+                Column(f"{name} phase".strip(), (None, *phases), "°", digits=4),
+            ]
+        return columns
 
 
-def total_peaks(
-    orders: tuple[Order, ...], phasors: NDArray[np.complex128], mean: ArrayLike = 0.0
-) -> NDArray[np.float64]:
-    """Return the largest magnitude over θ of a mean and all orders: (…), of (…, n_orders)."""
-    if not orders:
-        return np.array(np.broadcast_to(np.abs(mean), phasors.shape[:-1]))
-    rows = np.ascontiguousarray(phasors.reshape(-1, len(orders)))
-    means = np.broadcast_to(mean, phasors.shape[:-1]).ravel()
-    return _core.peaks_of_sums(list(orders), rows, means).reshape(phasors.shape[:-1])
+def _columns_of(quantity: Quantity) -> dict[str, str]:
+    """Head of each column of the table of a quantity → array that it shows."""
+    kind = quantity.kind
+    if not kind.planar:
+        return {kind.symbols[0]: "peak"}
+    if "axis" in dict(quantity.selected):
+        return {"peak": "peak"}
+    parts = {kind.vector_symbol: "peak", "forward": "forward", "backward": "backward"}
+    return {head: f"peak_xy.{k}" for k, head in enumerate(kind.symbols)} | parts
+
+
+def _figure(quantity: Quantity, what: str) -> float | None:
+    """Return a figure of one order of a balance; None where all together have none."""
+    name, _, axis = what.partition(".")
+    if quantity.order == ALL and not name.startswith("peak"):
+        return None
+    values = np.abs(getattr(quantity, name))
+    return float(values[int(axis)] if axis else values)
+
+
+class OrderBalance(ShakingQuantities["np.complex128", Value, Value], Tabled, Generic[Value]):
+    """One order of a balance or sweep, or all orders together: the quantities without orders.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> b = cp.Engine.preset("i4").balance(rpm=6000)
+    >>> b[2].order, b[2].force.shape, float(b[2].force.x.real)
+    (2, (2,), 0.0)
+    >>> b["all"] == b.total
+    True
+    >>> b[2]
+    Inline-4 at 6000 rpm: order 2
+    quantity        unit  x       y  largest  forward  backward  status
+    shaking force   N     0  9269.4   9269.4   4634.7    4634.7  summed
+    rocking moment  N·m   0       0        0        0         0  zero, proved
+    roll torque     N·m   –       –   657.31        –         –  summed
+    crank torque    N·m   –       –   657.31        –         –  summed
+    Without gas pressure.
+    """
+
+    result: ByOrder[Value]
+    """Balance or sweep that it belongs to."""
+    order: Order | Literal["all"]
+    """Multiple of crank speed, or ``"all"``."""
+
+    def _quantity(self, name: str) -> Quantity[np.complex128, Value, Value]:
+        return Quantity(self.result, name, self.order)
+
+    @property
+    def table(self) -> Table:
+        """Peaks along (about) x and y, the largest, and its parts; of a sweep at each point.
+
+        The status is that of :attr:`Quantity.status`.
+        """
+        if self.result.dims:
+            return self._table_by_point()
+        parts = () if self.order == ALL else ("forward", "backward")
+        rows: list[tuple[str | float | None, ...]] = []
+        for each in self._each():
+            beside: list[float | None] = [None] * (2 + len(parts))
+            if each.kind.planar:
+                beside = [*each.peak_xy.tolist(), *(abs(getattr(each, part)) for part in parts)]
+            status = () if self.order == ALL else (each.status,)
+            row = (*beside[:2], each.peak, *beside[2:], *status)
+            rows.append((each.kind.words, each.unit, *row))
+        heads = ["quantity", "unit", "x", "y", "largest", *parts]
+        heads += [] if self.order == ALL else ["status"]
+        speed = labels.at_speed(self.result._attributes["rpm"])
+        title = f"{labels.name_of(self.result._engines[0])} {speed}: {self._which}"
+        row_units = [each.unit for each in self._each()]
+        return Table.from_rows(title, heads, rows, loads=self.loads_counted, row_units=row_units)
+
+    def _table_by_point(self) -> Table:
+        """Return the largest peak of each quantity of a sweep at each point."""
+        shown = list(self._each())
+        columns = export.points(self.result.coords, len(shown))
+        columns += [Column(each.kind.vector_symbol, each.peak, each.unit) for each in shown]
+        title = f"Peaks of {self._which}"
+        return Table(title, tuple(columns), loads=self.loads_counted)
+
+    @property
+    def loads_counted(self) -> str:
+        """Loads that count where more could, in words: as of the balance or sweep."""
+        return self.result.loads_counted
+
+    def _each(self) -> Iterator[Quantity]:
+        """Yield the quantities, and their parts where more than inertia makes them."""
+        for name in self.result.request.quantities:
+            whole: Quantity = getattr(self, name)
+            yield whole
+            yield from map(whole.part, whole.parts)
+
+    @property
+    def _which(self) -> str:
+        return "all orders" if self.order == ALL else f"order {self.order}"
+
+    @property
+    def _brief(self) -> str:
+        if not self.result.dims:
+            return ""
+        lines = (f"  {getattr(self, name)!r}" for name in self.result.request.quantities)
+        return "\n".join([f"<OrderBalance of {self._which}>", *lines])

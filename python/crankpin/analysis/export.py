@@ -1,239 +1,156 @@
-"""Results as xarray datasets and as tables in long form."""
+"""Labelled arrays as xarray datasets and as tables in long form, and what arrays there are."""
 
 from __future__ import annotations
 
 import math
 from functools import cache
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from crankpin._support import inputs, labels, optional
-from crankpin._support import units as unit_names
-from crankpin._support.frames import Tabled, in_units
-from crankpin._support.quantities import PLANE_VECTORS, kind_of
 from crankpin._support.tables import Column, Table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     import xarray as xr
     from numpy.typing import NDArray
 
-    from crankpin.analysis.request import Request
+    from crankpin._support.quantities import Kind
+    from crankpin.analysis.labelled import Labelled
+    from crankpin.analysis.quantity import Quantity
 
 SMALLER = "sweep one axis in parts, or use to_dask"
 """Hint for results too large for memory."""
-Variable: TypeAlias = "tuple[tuple[str, ...], Any, dict[str, str]]"
-"""Dimensions, values and attributes of a variable of a dataset."""
-TRAILING: dict[str, tuple[str, ...]] = {
-    "phasors": ("order", "axis"),
-    "forward": ("order",),
-    "backward": ("order",),
-    "zero_bound": ("order",),
-    "peak": ("order",),
-    "peak_xy": ("order", "axis"),
-    "total_peak": (),
-    "total_peak_xy": ("axis",),
-    "mean": (),
-}
-"""Array of a plane vector → its dimensions after the swept ones; a scalar has no ``axis``."""
-NOT_OF_SCALARS = ("forward", "backward", "peak_xy", "total_peak_xy")
-COMPLEX = ("phasors", "forward", "backward")
-"""Arrays of complex numbers."""
-MEANS = ("mean",)
-"""Arrays that only torques have which more than inertia makes."""
+VALUES = "values"
+"""Name of the array itself: phasors of results by order, else values."""
+COMPLEX = (VALUES, "forward", "backward")
+"""Arrays by order of complex numbers."""
+OF_TURNING = (VALUES, "forward", "backward", "zero_bound", "peak", "peak_xy", "total_peak",
+              "total_peak_xy")  # fmt: skip
+"""Arrays of a vector in the cross-section plane, by order."""
+OF_TORQUES = (VALUES, "zero_bound", "peak", "total_peak", "cycle_mean")
+"""Arrays of a torque, by order."""
 
 
-def variables(
-    quantities: Sequence[str], *, means: bool
-) -> Iterator[tuple[str, str, str, tuple[str, ...]]]:
-    """Yield name, quantity, array and trailing dimensions of each variable of a dataset."""
-    for quantity in quantities:
-        planar = kind_of(quantity).planar
-        absent = MEANS if planar else NOT_OF_SCALARS if means else (*NOT_OF_SCALARS, *MEANS)
-        for what, dims in TRAILING.items():
-            if what not in absent:
-                name = quantity.replace(".", "_")
-                name = name if what == "phasors" else f"{name}_{what}"
-                yield name, quantity, what, tuple(d for d in dims if planar or d != "axis")
+def reduced(dims: tuple[str, ...], what: str) -> tuple[str, ...]:
+    """Return the dimensions of one of the arrays of a quantity that has these."""
+    if what == VALUES:
+        return dims
+    without = set() if what.endswith(("_xy", "_xyz")) else {"axis"}
+    if what != "magnitude":
+        without.add("theta_deg")
+    if what.startswith("total_") or what == "cycle_mean":
+        without.add("order")
+    return tuple(name for name in dims if name not in without)
 
 
 @cache
-def arrays(quantity: str) -> tuple[str, ...]:
-    """Return the names of the arrays of a quantity."""
-    return tuple(what for _, _, what, _ in variables([quantity], means=True))
+def readings(kind: Kind, dims: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the names of the arrays of a quantity: of values over crank angle, or phasors."""
+    if "theta_deg" in dims:
+        return (VALUES, "magnitude", "peak", *(("peak_xy",) if kind.axes else ()))
+    if "order" not in dims or kind.real:
+        return (VALUES,)
+    by_order = ("peak", "peak_xyz", "rms", "rms_xyz") if kind.axes else ("peak",)
+    total = by_order if kind.axes else ("peak",)
+    return (VALUES, *by_order, *(f"total_{what}" for what in total))
 
 
-class Labelled(Tabled):
-    """Base class of results that are arrays over dimensions, of which frames show the most."""
+def place_of(name: str, value: object, values: Any) -> int:  # noqa: ANN401 - texts or numbers
+    """Return the place of a value among those of a coordinate."""
+    if isinstance(values, tuple) and values and isinstance(values[0], str):
+        return values.index(inputs.one_of(name, value, values))
+    number, known = inputs.number(name, value), np.asarray(values)
+    places = np.flatnonzero(known == number)
+    if not places.size:
+        nearest = ""
+        if known.size:
+            nearest = (
+                f", {known.min():.10g} to {known.max():.10g}; "
+                f"the nearest is {known[np.abs(known - number).argmin()]:.10g}"
+            )
+        swept = "swept " if name in labels.SWEPT else ""
+        raise inputs.rejected(name, value, f"is not among the {len(known)} {swept}values{nearest}")
+    return int(places[0])
 
-    if TYPE_CHECKING:
 
-        @property
-        def request(self) -> Request:
-            """The options of the result, checked."""
-
-        @property
-        def error_bound(self) -> Mapping[str, float]:
-            """Quantity → upper bound on what the omitted orders add, N or N·m."""
-
-        @property
-        def loads_counted(self) -> str:
-            """Loads that count where more could, in words."""
-
-    @property
-    def fired(self) -> bool:
-        """True if gas pressure is counted."""
-        return False
-
-    @property
-    def causes(self) -> tuple[str, ...]:
-        """Names of the causes of the quantities."""
-        return ("inertia",)
-
-    @property
-    def coords(self) -> Mapping[str, Any]:
-        """Dimension → its values."""
-        return {}
-
-    @property
-    def dims(self) -> tuple[str, ...]:
-        """Names of the dimensions before orders and axes."""
-        return tuple(self.coords)
-
-    @property
-    def _attributes(self) -> Mapping[str, Any]:
-        """Attributes of a dataset of the result."""
-        return {}
-
-    def _arrays(self, quantities: Sequence[str]) -> tuple[dict[str, Any], dict[str, Variable]]:
-        """Return dimension → values, and the variables of a dataset of some quantities."""
-        raise NotImplementedError
-
-    def _figures(self, quantity: str) -> Mapping[str, Mapping[str, NDArray[np.float64]]]:
-        """Return the columns of each component of a quantity in long form."""
-        raise NotImplementedError
-
-    def tidy(self, *quantities: str) -> Table:
-        """Return the long form, a row for each point, order, quantity and component.
-
-        Columns are the dimensions, ``order`` where there are orders, quantity, component, the peak
-        phasor as ``real`` and ``imag`` with its ``peak``, or over crank angle ``value``, and unit.
-
-        Parameters
-        ----------
-        *quantities : str, optional
-            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
-
-        Returns
-        -------
-        Table
-            The rows; its ``to_pandas`` and ``to_csv`` write them.
-
-        Raises
-        ------
-        InputError
-            If there is no such quantity.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> i4 = cp.Engine.preset("i4")
-        >>> list(cp.sweep(i4, rpm=[3000, 6000], orders=[2]).tidy("torque"))
-        ['rpm', 'order', 'quantity', 'component', 'real', 'imag', 'peak', 'unit']
-        >>> list(i4.waveform(3000).tidy("force"))
-        ['theta_deg', 'quantity', 'component', 'value', 'unit']
-        """
-        named = self.request.named(quantities, self.causes)
-        parts = [
-            (quantity, component, figures)
-            for quantity in named
-            for component, figures in self._figures(quantity).items()
-        ]
-        return _long(self._arrays(())[0], parts, self.loads_counted)
-
-    def to_xarray(
-        self,
-        *quantities: str,
-        frame: str | None = None,
-        units: str = "",
-        split_complex: bool = False,
-    ) -> xr.Dataset:
-        """Return the arrays with dimensions, units and bounds (needs xarray).
-
-        Of orders these are phasors, peaks and totals.
-
-        Parameters
-        ----------
-        *quantities : str, optional
-            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
-        frame : str, optional
-            Name of one of ``frames``, to return its rows instead.
-        units : str, default ""
-            Units of its numbers, as :func:`crankpin.units` takes them, by default those of results,
-            SI.
-        split_complex : bool, default False
-            Store complex arrays as real ones with a dimension ``part`` of "re" and "im", for
-            ``to_netcdf(path)``: netCDF has no complex numbers. With the package netCDF4,
-            ``to_netcdf(path, auto_complex=True)`` writes complex arrays too.
-
-        Returns
-        -------
-        xarray.Dataset
-            The arrays, with units as attributes.
-
-        Raises
-        ------
-        InputError
-            If there is no such quantity, frame or unit.
-        ImportError
-            If xarray is not installed.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> s = cp.sweep(cp.Engine.preset("i4"), rpm=[1000, 2000], orders=[1, 2])
-        >>> s.to_xarray("force").force.dims
-        ('rpm', 'order', 'axis')
-        >>> s.waveform([0, 90, 180]).to_xarray("force").force.dims
-        ('rpm', 'theta_deg', 'axis')
-        """
-        if frame is not None:
-            return super().to_xarray(frame=frame, units=units, split_complex=split_complex)
-        split = inputs.flag("split_complex", split_complex)
-        named = self.request.named(quantities, self.causes)
-        whole = in_units(dataset(self, named, *self._arrays(named)), unit_names.read(units))
-        return optional.split_complex(whole) if split else whole
+# --- datasets -------------------------------------------------------------------------------------
 
 
 def dataset(
-    result: Labelled,
-    quantities: Sequence[str],
-    coords: Mapping[str, Any],
-    arrays: Mapping[str, Variable],
+    result: Labelled, quantities: Sequence[Quantity], lazy: Mapping[str, Any] | None = None
 ) -> xr.Dataset:
-    """Return arrays of some quantities with dimensions, units, loads and bounds."""
-    labelled = labels.coordinates(coords)
-    if set(PLANE_VECTORS) & set(quantities):
-        labelled["axis"] = ("axis", ["x", "y"])
+    """Return arrays of some quantities with dimensions, units, loads and bounds.
+
+    Parameters
+    ----------
+    result
+        The result.
+    quantities
+        The quantities, or selections of them.
+    lazy
+        Name of a variable → its values where they are not those of the result, as of dask.
+    """
+    listed = [
+        (variable(each.name, what), each, what)
+        for each in quantities
+        for what in result._in_datasets(each.name)
+    ]
+    coords = union([each for _, each, _ in listed])
+    if lazy is None:
+        fitting(
+            coords,
+            *(
+                (each._dims_of(what), 16 if "order" in each.dims and what in COMPLEX else 8)
+                for _, each, what in listed
+            ),
+        )
+    arrays = {
+        name: (
+            each._dims_of(what),
+            lazy[name] if lazy is not None else each._picked(what, result.read(each.name, what)),
+            {"units": each.kind.xarray_unit} if each.unit else {},
+        )
+        for name, each, what in listed
+    }
     attributes = dict(result._attributes) | labels.attributes(result.loads_counted)
-    for name in quantities:
-        bound = result.error_bound[name.partition(".")[0]]
-        attributes[f"{name.replace('.', '_')}_error_bound"] = bound
-    return optional.dataset(arrays, labelled, attributes)
+    for each in quantities:
+        whole = each.name.partition(".")[0]
+        if whole in result.error_bound:
+            attributes[f"{variable(each.name)}_error_bound"] = result.error_bound[whole]
+    return optional.dataset(arrays, labels.coordinates(coords), attributes)
 
 
-def units(quantity: str) -> dict[str, str]:
-    """Return the attributes of a quantity's variables."""
-    return {"units": kind_of(quantity).xarray_unit}
+def dataset_of(quantity: Quantity) -> xr.Dataset:
+    """Return a quantity, or what is selected of it, with its dimensions, unit and loads."""
+    about = {"units": quantity.kind.xarray_unit} if quantity.unit else {}
+    arrays = {variable(quantity.name): (quantity.dims, np.asarray(quantity), about)}
+    attributes = dict(quantity.result._attributes) | labels.attributes(quantity.loads_counted)
+    return optional.dataset(arrays, labels.coordinates(quantity.coords), attributes)
+
+
+def variable(quantity: str, what: str = VALUES) -> str:
+    """Return the name of an array in a dataset."""
+    name = quantity.replace(".", "_")
+    return name if what == VALUES else f"{name}_{what}"
+
+
+def union(quantities: Sequence[Quantity]) -> dict[str, Any]:
+    """Return the coordinates of some quantities: those of all first, axes last."""
+    known = {name: values for each in quantities for name, values in each.coords.items()}
+    return {name: known[name] for name in sorted(known, key=lambda name: name == "axis")}
 
 
 def fitting(coords: Mapping[str, Any], *arrays: tuple[Iterable[str], int]) -> None:
     """Raise an InputError if arrays are too large together: of each its dimensions and bytes."""
-    lengths = {name: len(values) for name, values in coords.items()} | {"axis": 2}
+    lengths = {name: len(values) for name, values in coords.items()}
     size = sum(width * math.prod(lengths[dim] for dim in dims) for dims, width in arrays)
     inputs.fitting("sweep" if {*coords} & {*labels.SWEPT} else "table", size, SMALLER)
+
+
+# --- tables ---------------------------------------------------------------------------------------
 
 
 def points(coords: Mapping[str, Any], beside: int, times: int = 1) -> list[Column]:
@@ -256,22 +173,62 @@ def column(values: object) -> NDArray[Any]:
     return array.astype(object) if array.dtype.kind == "U" else array
 
 
-def _long(
-    coords: Mapping[str, Any],
-    parts: Sequence[tuple[str, str, Mapping[str, NDArray[np.float64]]]],
-    loads: str,
-) -> Table:
-    """Return figures of each quantity and component, below each other."""
-    count = math.prod(len(values) for values in coords.values())
+def components(quantity: Quantity) -> Mapping[str, Mapping[str, NDArray[np.float64]]]:
+    """Return the columns of each component of a quantity in long form."""
+    values, kind = np.asarray(quantity), quantity.kind
+    axes = kind.axes if "axis" in quantity.dims else ()
+    if "order" not in quantity.result._dims(quantity.name) or kind.real or values.dtype.kind != "c":
+        parts = np.moveaxis(values, -1, 0) if axes else values[np.newaxis]
+        names = kind.components if len(kind.components) == len(parts) else (kind.words,)
+        return {name: {"value": part} for name, part in zip(names, parts, strict=True)}
+    by_name = {"z": values}
+    if axes:
+        by_name = dict(zip(axes, np.moveaxis(values, -1, 0), strict=True))
+    if axes and kind.planar:
+        by_name |= {part: getattr(quantity, part) for part in labels.TURNING}
+    return {
+        name: {"real": part.real, "imag": part.imag, "peak": np.abs(part)}
+        for name, part in by_name.items()
+    }
+
+
+def long(quantities: Sequence[Quantity], loads: str, title: str = "Long form") -> Table:
+    """Return values of each quantity and component, below each other."""
+    lengths = [tuple(d for d in each.dims if d != "axis") for each in quantities]
+    coords = {name: values for name, values in union(quantities).items() if name != "axis"}
+    parts = [
+        (each, dims, component, figures)
+        for each, dims in zip(quantities, lengths, strict=True)
+        for component, figures in components(each).items()
+    ]
+    heads = list(dict.fromkeys(head for *_, figures in parts for head in figures))
+    sizes = [math.prod(len(coords[d]) for d in dims) for _, dims, *_ in parts]
 
     def repeated(name: str, texts: Iterable[str]) -> Column:
-        return Column(name, np.repeat(column([*texts]), count))
+        return Column(name, np.repeat(column([*texts]), sizes))
 
-    columns = points(coords, 6, len(parts))
-    columns.append(repeated("quantity", (quantity for quantity, _, _ in parts)))
-    columns.append(repeated("component", (component for _, component, _ in parts)))
-    for head in parts[0][2]:
-        columns.append(Column(head, np.concatenate([np.ravel(each[head]) for *_, each in parts])))
-    columns.append(repeated("unit", (kind_of(quantity).unit for quantity, _, _ in parts)))
-    units = tuple(columns[-1].data)
-    return Table("Long form", tuple(columns), loads=loads, row_units=units)
+    def along(name: str, dims: tuple[str, ...], size: int) -> NDArray[Any]:
+        if name not in dims:
+            return np.full(size, None, dtype=object)
+        shape = tuple(len(coords[d]) for d in dims)
+        values = column(coords[name]).reshape(-1, *(1,) * (len(dims) - dims.index(name) - 1))
+        return np.broadcast_to(values, shape).reshape(size)
+
+    columns = []
+    if len({*lengths}) == 1:
+        columns = points({name: coords[name] for name in lengths[0]}, 6, len(parts))
+    else:
+        fitting(coords, *((dims, 8 * (len(coords) + 6)) for _, dims, *_ in parts))
+        for name in coords:
+            pieces = [along(name, dims, n) for (_, dims, *_), n in zip(parts, sizes, strict=True)]
+            columns.append(Column(name, np.concatenate(pieces), digits=10))
+    columns.append(repeated("quantity", (each.name for each, *_ in parts)))
+    columns.append(repeated("component", (component for _, _, component, _ in parts)))
+    for head in heads:
+        pieces = [
+            np.ravel(figures[head]) if head in figures else np.full(n, np.nan)
+            for (*_, figures), n in zip(parts, sizes, strict=True)
+        ]
+        columns.append(Column(head, np.concatenate(pieces)))
+    columns.append(repeated("unit", (each.unit for each, *_ in parts)))
+    return Table(title, tuple(columns), loads=loads, row_units=tuple(columns[-1].data))

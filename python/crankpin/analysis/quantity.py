@@ -1,9 +1,11 @@
-"""Force, moment or torque of a balance or sweep: an order is a key, the phasors are an array."""
+"""The labelled array: a quantity of a result with name, dimensions, coordinates and unit."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, Generic, Literal, Self, TypeAlias
+import math
+from collections.abc import Callable, Iterable, Iterator
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Generic, Literal, Self, TypeAlias, overload
 
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
@@ -11,25 +13,33 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 from crankpin import _core
 from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Tabled
-from crankpin._support.quantities import Kind, kind_of, parts_of
+from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import AbsentError, AbsentItemError, Record, changed, read_only
-from crankpin._support.tables import Column, Table
 from crankpin.analysis import export
+from crankpin.analysis.export import VALUES
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import xarray as xr
     from numpy.typing import NDArray
     from typing_extensions import TypeVar
 
     from crankpin._core import InputError
     from crankpin._support.inputs import Order
-    from crankpin.analysis.by_order import ByOrder
+    from crankpin._support.quantities import Kind
+    from crankpin._support.tables import Table
+    from crankpin.analysis.labelled import Labelled
 
     # Defaults, which Python has from 3.13 on: annotations need not name the parameters.
+    Element = TypeVar("Element", bound=np.generic, default=Any)
     Values = TypeVar("Values", default=Any)
     Value = TypeVar("Value", default=Any)
 else:
     from typing import TypeVar
 
+    Element = TypeVar("Element")
+    """Type of the values: complex of phasors, float over crank angle."""
     Values = TypeVar("Values")
     """Type of ``peak`` of a quantity: an array of all orders, a number of one of a balance."""
     Value = TypeVar("Value")
@@ -101,43 +111,68 @@ class Keyed:
 # --- quantities ---------------------------------------------------------------------------------
 
 
-class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
-    """Peak phasors of a quantity: of every order as an array, of one order, or of all together.
+class ArrayMember:
+    """Attribute or method of a quantity's plain array, such as ``max``."""
 
-    Order n is ``Re(P exp(inθ))``. ``moment[2]`` is order 2, ``2 in moment`` says whether it is
-    among ``orders``; ``moment.peak`` is an array in the sequence of ``orders``, ``moment[2].peak``
-    that of order 2, ``total.moment.peak`` that of all orders together. In arithmetic and for NumPy
-    a quantity is the array of its phasors, orders after the swept dimensions.
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
 
-    Force and moment are vectors in the cross-section plane with phasors along (about) x and y, and
-    ``x + iy = forward exp(inθ) + backward exp(−inθ)``: ``forward`` turns with the crank, so that a
-    counterweight can cancel it at order 1; ``backward`` turns against it. A torque has one phasor
-    an order, about z; :class:`AttributeError` for what only a vector has.
+    def __get__(self, quantity: object, owner: type | None = None) -> Any:  # noqa: ANN401 - of NumPy
+        """Return the member of the array; of the class that of NumPy's arrays."""
+        if quantity is None:
+            return getattr(np.ndarray, self._name)
+        return getattr(np.asarray(quantity), self._name)
+
+
+class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Value]):
+    """Labelled array: a quantity of a result, with name, dimensions, coordinates and unit.
+
+    For NumPy it is a plain array, and arithmetic gives plain arrays: ``np.max(w.force)``,
+    ``2 * w.torque``, ``w.force[:, 0]``. :meth:`sel` selects by values of coordinates, a text as key
+    by name.
+
+    Of results by order the array has peak phasors: order n is ``Re(P exp(inθ))``. There a number as
+    key is an order: ``moment[2]`` is order 2, ``2 in moment`` says whether it is among ``orders``;
+    ``moment.peak`` is an array in the sequence of ``orders``, ``moment[2].peak`` that of order 2,
+    ``total.moment.peak`` that of all orders together. Over crank angle the array has values, and
+    ``peak`` is the largest magnitude of these.
+
+    A vector has an axis: ``xy`` in the cross-section plane, ``xyz`` in space. Phasors in the plane
+    have parts, ``x + iy = forward exp(inθ) + backward exp(−inθ)``: ``forward`` turns with the
+    crank, so that a counterweight can cancel it at order 1; ``backward`` turns against it. A torque
+    is about z; :class:`AttributeError` for what only a vector has.
 
     Examples
     --------
     >>> import crankpin as cp
-    >>> b = cp.Engine.preset("v8-crossplane").balance(rpm=6000, orders=[1, 2])
+    >>> v8 = cp.Engine.preset("v8-crossplane")
+    >>> b, w = v8.balance(rpm=6000, orders=[1, 2]), v8.waveform(rpm=6000)
     >>> b.moment.shape, b.moment.unit, b.torque.shape
     ((2, 2), 'N·m', (2,))
     >>> b.moment[2].status
     'zero, proved'
+    >>> w.moment.dims, w.moment.unit
+    (('theta_deg', 'axis'), 'N·m')
+    >>> bool(w.moment.sel(theta_deg=90, axis="x") == w.moment[90, 0])
+    True
     """
 
-    result: ByOrder[Value]
-    """Balance or sweep that the quantity belongs to."""
+    result: Labelled
+    """Result that the quantity belongs to."""
     name: str
-    """``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``, or a part: ``"torque.gas"``."""
+    """Its name in the result, such as ``"force"`` or ``"main"``, or a part: ``"torque.gas"``."""
     order: Key = None
-    """The order; ``"all"`` for all orders together, None for every order."""
+    """The order; ``"all"`` for all orders together, None for every order, or where none are."""
+    selected: tuple[tuple[str, int], ...] = ()
+    """Dimension → index, of those that :meth:`sel` has selected."""
 
     def __post_init__(self) -> None:
-        self.result.request.check(self.name, self.result)
+        self.result._check(self.name)
 
     @property
     def kind(self) -> Kind:
         """Entry of the registry: name, symbols, unit and components."""
-        return kind_of(self.name)
+        return self.result._kind(self.name)
 
     @property
     def unit(self) -> str:
@@ -146,61 +181,108 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
 
     @property
     def orders(self) -> tuple[Order, ...]:
-        """Multiples of crank speed."""
-        return self.result.orders if self.order is None or self.order == ALL else (self.order,)
+        """Multiples of crank speed; empty where there are none."""
+        if self.order is not None and self.order != ALL:
+            return (self.order,)
+        return self.result._orders if self._by_order else ()
+
+    @property
+    def _by_order(self) -> bool:
+        """True if the array has phasors by order."""
+        return "order" in self.result._dims(self.name)
 
     @property
     def dims(self) -> tuple[str, ...]:
         """Names of the array's dimensions."""
-        order = ("order",) if self.order is None else ()
-        axis = ("axis",) if self.kind.planar else ()
-        return (*self.result.dims, *order, *axis)
+        return self._dims_of(VALUES)
+
+    def _dims_of(self, what: str) -> tuple[str, ...]:
+        """Return the dimensions of one of the quantity's arrays."""
+        without = {name for name, _ in self.selected}
+        without |= set() if self.order is None else {"order"}
+        return tuple(d for d in self.result._dims(self.name, what) if d not in without)
+
+    @property
+    def coords(self) -> Mapping[str, Any]:
+        """Dimension → its values, in the sequence of ``dims``."""
+        known = self.result._coordinates(self.name)
+        return MappingProxyType({name: known[name] for name in self.dims})
 
     @property
     def peak(self) -> Values:
-        """Largest magnitude, N or N·m: (…, n_orders); of all orders together over θ: (…).
+        """Largest magnitude, in ``unit``: (…, n_orders); of all orders together over θ: (…).
 
-        Of a vector the length of the longest.
+        Of a vector the length of the longest. Of values over crank angle the largest: (…).
         """
         return self._read("peak")  # type: ignore[no-any-return]
 
     @property
-    def xy(self) -> NDArray[np.complex128]:
-        """Peak phasors along (about) x and y, N or N·m: (…, n_orders, 2)."""
-        return self._planar("phasors", "xy")  # type: ignore[no-any-return]
+    def magnitude(self) -> NDArray[np.float64]:
+        """Lengths of vectors, or magnitudes, over crank angle, in ``unit``: (…, n_theta)."""
+        return self._read("magnitude")  # type: ignore[no-any-return]
 
     @property
-    def x(self) -> NDArray[np.complex128]:
-        """Peak phasors along (about) x, N or N·m: (…, n_orders)."""
-        return self._planar("phasors", "x")[..., 0]  # type: ignore[no-any-return]
+    def xy(self) -> NDArray[Element]:
+        """Values or peak phasors along (about) x and y, in ``unit``: (…, n_orders, 2)."""
+        return self._along(VALUES, "xy", 2)  # type: ignore[no-any-return]
 
     @property
-    def y(self) -> NDArray[np.complex128]:
-        """Peak phasors along (about) y, N or N·m: (…, n_orders)."""
-        return self._planar("phasors", "y")[..., 1]  # type: ignore[no-any-return]
+    def xyz(self) -> NDArray[Element]:
+        """Peak phasors along x, y and z, in ``unit``: (…, n_orders, n_axes)."""
+        return self._along(VALUES, "xyz", 3)  # type: ignore[no-any-return]
+
+    @property
+    def x(self) -> NDArray[Element]:
+        """Component along (about) x, in ``unit``: (…, n_orders) or (…, n_theta)."""
+        return self._along(VALUES, "x")[..., 0]  # type: ignore[no-any-return]
+
+    @property
+    def y(self) -> NDArray[Element]:
+        """Component along (about) y, in ``unit``: (…, n_orders) or (…, n_theta)."""
+        return self._along(VALUES, "y")[..., 1]  # type: ignore[no-any-return]
+
+    @property
+    def z(self) -> NDArray[Element]:
+        """Component along z, in ``unit``: (…, n_orders)."""
+        return self._along(VALUES, "z", 3)[..., 2]  # type: ignore[no-any-return]
 
     @property
     def forward(self) -> NDArray[np.complex128]:
-        """Part that turns with the crank, N or N·m: (…, n_orders)."""
-        return self._planar("forward")  # type: ignore[no-any-return]
+        """Part that turns with the crank, in ``unit``: (…, n_orders)."""
+        return self._along("forward", count=2)  # type: ignore[no-any-return]
 
     @property
     def backward(self) -> NDArray[np.complex128]:
-        """Part that turns against the crank, N or N·m: (…, n_orders)."""
-        return self._planar("backward")  # type: ignore[no-any-return]
+        """Part that turns against the crank, in ``unit``: (…, n_orders)."""
+        return self._along("backward", count=2)  # type: ignore[no-any-return]
 
     @property
     def peak_xy(self) -> NDArray[np.float64]:
-        """Peaks along (about) x and y, N or N·m: (…, n_orders, 2); of all together: (…, 2)."""
-        return self._planar("peak_xy")  # type: ignore[no-any-return]
+        """Peaks along (about) x and y, in ``unit``: (…, n_orders, 2); of all together: (…, 2)."""
+        return self._along("peak_xy", count=2)  # type: ignore[no-any-return]
+
+    @property
+    def peak_xyz(self) -> NDArray[np.float64]:
+        """Peaks along x, y, z, in ``unit``: (…, n_orders, n_axes); of all together: (…, n_axes)."""
+        return self._along("peak_xyz", count=3)  # type: ignore[no-any-return]
+
+    @property
+    def rms(self) -> Values:
+        """Root mean square of the length, in ``unit``: (…, n_orders); of all together: (…)."""
+        return self._read("rms")  # type: ignore[no-any-return]
+
+    @property
+    def rms_xyz(self) -> NDArray[np.float64]:
+        """Root mean squares along x, y, z, in ``unit``: (…, n_orders, n_axes); (…, n_axes)."""
+        return self._along("rms_xyz", count=3)  # type: ignore[no-any-return]
 
     @property
     def minor(self) -> Values:
-        """Shortest half axis of the ellipse that a vector traces, N or N·m: (…, n_orders).
+        """Shortest half axis of the ellipse that a vector traces, in ``unit``: (…, n_orders).
 
         Negative where it turns against the crank, 0 on a straight line. ``peak`` is the longest.
         """
-        forward, backward = (self._planar(part, "minor") for part in labels.TURNING)
+        forward, backward = (self._along(part, "minor", 2) for part in labels.TURNING)
         return self._of_one_order(np.abs(forward) - np.abs(backward))
 
     @property
@@ -209,7 +291,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
 
         0 for a circle.
         """
-        forward, backward = (self._planar(part, "tilt_deg") for part in labels.TURNING)
+        forward, backward = (self._along(part, "tilt_deg", 2) for part in labels.TURNING)
         return self._of_one_order(_core.tilts_deg(np.asarray(forward), np.asarray(backward)))
 
     def _of_one_order(self, values: Any) -> Values:  # noqa: ANN401 - an array
@@ -218,15 +300,15 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
 
     @property
     def phasor(self) -> NDArray[np.complex128]:
-        """Peak phasors of a torque, N·m: (…, n_orders)."""
-        if self.kind.planar:
-            raise self._absent("phasor", f"{self.name} has two per order; use xy, x or y")
-        return self._read("phasors")  # type: ignore[no-any-return]
+        """Peak phasors of what is no vector, in ``unit``: (…, n_orders)."""
+        if self.kind.axes or not self._by_order:
+            raise self._absent("phasor", f"{self.name} has values by axis; use xy, x or y")
+        return self._read(VALUES)  # type: ignore[no-any-return]
 
     @property
     def parts(self) -> tuple[str, ...]:
         """Causes of the quantity by name: ``inertia``, ``gas`` and those of further loads."""
-        return tuple(name.partition(".")[-1] for name in parts_of(self.name, self.result.causes))
+        return tuple(name.partition(".")[-1] for name in self.result._parts(self.name))
 
     def part(self, name: str) -> Self:
         """Return the part of the quantity that one name makes.
@@ -257,7 +339,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
         """
         if "." in self.name:
             raise self._absent("part", "it is one; read it of the whole")
-        known = self.result.request.parts(self.name, self.result.causes)
+        known = self.result._named_parts(self.name)
         return changed(self, name=f"{self.name}.{inputs.one_of('name', name, known)}")
 
     @property
@@ -271,17 +353,18 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
         return self._part("inertia")
 
     @property
-    def mean(self) -> Value:
+    def cycle_mean(self) -> Value:
         """Mean of a torque over the cycle, N·m: (…); zero without gas pressure."""
-        if self.kind.planar or self.order not in (None, ALL):
-            raise self._absent("mean", "give a torque, all orders together, as in b.torque.mean")
-        values = self.result.read(self.name, "mean")
+        if self.order not in (None, ALL) or "cycle_mean" not in self.result._readings(self.name):
+            hint = "give a torque, all orders together, as in b.torque.cycle_mean"
+            raise self._absent("cycle_mean", hint)
+        values = self._picked("cycle_mean", self.result.read(self.name, "cycle_mean"))
         mean: Any = values if values.ndim else float(values)
         return mean  # type: ignore[no-any-return]
 
     @property
     def zero_bound(self) -> Values:
-        """Largest rounding error of a sum that vanishes, N or N·m: (…, n_orders).
+        """Largest rounding error of a sum that vanishes, in ``unit``: (…, n_orders).
 
         Phasors below it are reported as exactly zero.
         """
@@ -289,7 +372,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
 
     @property
     def error_bound(self) -> float:
-        """Upper bound on what the omitted orders add at any crank angle, N or N·m."""
+        """Upper bound on what the omitted orders add at any crank angle, in ``unit``."""
         return self.result.error_bound[self.name.partition(".")[0]]
 
     @property
@@ -302,46 +385,161 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
         """
         if self.order is None or self.order == ALL:
             raise self._absent("status", 'give one order, as in "moment[2].status"')
-        if np.any(self._read("phasors")):
-            return "summed" if self.order in self.result.orders else "omitted"
+        if np.any(self._read(VALUES)):
+            return "summed" if self.order in self.result._orders else "omitted"
         proved = self.result._proved_zero(self.name, self.order)
         return "zero, proved" if proved else "zero within rounding"
 
+    @property
+    def total(self) -> Quantity[Element, Value, Value]:
+        """All orders together."""
+        return self[ALL]
+
     def _read(self, what: str) -> Any:  # noqa: ANN401 - an array, or a number of one order
+        if "axis" in dict(self.selected):  # of one axis, where there are values by axis
+            axes = "".join(self.kind.axes)
+            what = {"peak": f"peak_{axes}", "rms": f"rms_{axes}"}.get(what, what)
+        if what not in self.result._readings(self.name):
+            raise self._absent(what, "it has no such array")
         if self.order is None:
-            return self.result.read(self.name, what)
+            values = self.result.read(self.name, what)
+            number = values.ndim == 0 and what != VALUES
+            return self._picked(what, float(values) if number else values)
         if self.order != ALL:
-            return self.result._read_order(self.order, self.name, what)
-        if what not in ("peak", "peak_xy"):
+            return self._picked(what, self.result._read_order(self.order, self.name, what))
+        if f"total_{what}" not in self.result._readings(self.name):
             hint = f"as in b[2], or read the arrays of a balance, as in b.{self.name}"
             raise self._absent(what, f"all orders together have peaks alone; give an order, {hint}")
-        values = self.result.read(self.name, f"total_{what}")
+        values = self._picked(what, self.result.read(self.name, f"total_{what}"))
         return values if values.ndim else float(values)
 
+    def _picked(self, what: str, values: Any) -> Any:  # noqa: ANN401 - as above
+        """Return the selected places of one of the arrays."""
+        if not self.selected:
+            return values
+        places = dict(self.selected)
+        without = {"order"} if self.order is not None else set()
+        dims = (d for d in self.result._dims(self.name, what) if d not in without)
+        return values[tuple(places.get(d, slice(None)) for d in dims)]
+
     def _part(self, part: str) -> Self:
-        if "." in self.name or (self.kind.planar and part not in self.parts):
+        if self.name not in QUANTITIES or (self.kind.axes and part not in self.parts):
             raise self._absent(part, "give torque or crank_torque, which have it")
         return changed(self, name=f"{self.name}.{part}")
 
     def _absent(self, what: str, hint: str) -> InputError:
         return inputs.faulty(what, f"is undefined for {self.name}", hint, AbsentError)
 
-    def _planar(self, what: str, name: str = "") -> Any:  # noqa: ANN401 - as above
-        """Return an array of a vector; of a torque raise an error that names what is read."""
-        if not self.kind.planar:
+    def _along(self, what: str, name: str = "", count: int = 0) -> Any:  # noqa: ANN401 - as above
+        """Return an array of a vector of 2 or 3 axes, or raise an error that names it."""
+        axes = len(self.kind.axes) if "axis" not in dict(self.selected) else 0
+        if axes == 0 or count not in (0, axes):
+            if self.name.partition(".")[0] not in QUANTITIES or self.kind.axes:
+                raise self._absent(name or what, f"its dimensions are {', '.join(self.dims)}")
             fault = f"is that of a vector; {self.name} is about z alone"
-            raise inputs.faulty(name or what, fault, "it has phasor and peak", AbsentError)
+            hint = "it has phasor and peak"
+            raise inputs.faulty(name or what, fault, hint, AbsentError)
         return self._read(what)
 
-    def __getitem__(self, order: Order | Literal["all"]) -> Quantity[Value, Value]:
-        """Return the quantity at one order, or at ``"all"``, of the orders that it has."""
-        whole: Quantity[Any, Any] = self
-        return changed(whole, order=order_key(order))
+    # --- keys -----------------------------------------------------------------------------------
 
-    # --- an array of phasors --------------------------------------------------------------------
+    def __len__(self) -> int:
+        return super().__len__() if self._by_order else len(np.asarray(self))
 
-    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:  # noqa: ANN401
-        return np.array(self._read("phasors"), dtype=dtype, copy=copy)
+    def __iter__(self) -> Iterator[Any]:
+        return super().__iter__() if self._by_order else iter(np.asarray(self))
+
+    def __contains__(self, value: object) -> bool:
+        return super().__contains__(value) if self._by_order else bool(np.any(self == value))
+
+    def __reversed__(self) -> Iterator[Any]:
+        return super().__reversed__() if self._by_order else reversed(np.asarray(self))
+
+    @overload
+    def __getitem__(
+        self: Quantity[np.complex128, Any, Any], key: Order | str
+    ) -> Quantity[Element, Value, Value]: ...
+
+    @overload
+    def __getitem__(self, key: str) -> Quantity[Element, Any, Any]: ...
+
+    @overload
+    def __getitem__(self, key: Any) -> Any: ...  # noqa: ANN401 - as NumPy has it
+
+    def __getitem__(self, key: Any) -> Any:
+        """Return the quantity at an order, ``"all"`` or a name; else what NumPy's index gives.
+
+        Parameters
+        ----------
+        key : number, str, slice, tuple or array
+            An order, where there are orders; ``"all"`` for all of them together; the name of a
+            coordinate, such as that of a mount; or an index of the plain array.
+
+        Returns
+        -------
+        Quantity or ndarray
+            The quantity at the order or name; the plain array's values at an index.
+
+        Raises
+        ------
+        InputError
+            If there is no such order, name or place.
+        """
+        if isinstance(key, str) and key != ALL:
+            for name, values in self.coords.items():
+                if isinstance(values, tuple) and key in values and isinstance(values[0], str):
+                    return self.sel(**{name: key})
+        by_place = isinstance(key, (slice, tuple, list)) or key is ... or np.ndim(key) > 0
+        if self._by_order and not by_place:
+            whole: Quantity[Any, Any, Any] = self
+            return changed(whole, order=order_key(key))
+        array = np.asarray(self)
+        try:
+            return array[key]
+        except (IndexError, TypeError, ValueError, OverflowError) as error:
+            hint = f"give an index, or a name ({inputs.reason(error)})"
+            raise inputs.rejected("index", key, hint, AbsentItemError) from None
+
+    def sel(self, **selection: object) -> Quantity[Element, Any, Any]:
+        """Return the quantity at values of coordinates.
+
+        Parameters
+        ----------
+        **selection : dict, optional
+            A value for some of ``dims``: ``rpm=3000``, ``axis="x"``, ``cylinder=1``.
+
+        Returns
+        -------
+        Quantity
+            The same without these dimensions.
+
+        Raises
+        ------
+        InputError
+            If there is no such dimension, or the value is not among its coordinates.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> s = cp.sweep(cp.Engine.preset("i4"), rpm=[1000, 2000], orders=[2])
+        >>> bool(s.force.sel(rpm=2000).peak[0] == s.force.peak[1, 0])
+        True
+        """
+        found, coords = self, self.coords
+        for name, value in selection.items():
+            values = coords[inputs.one_of("dimension", name, self.dims)]
+            if name == "order":
+                place = self._place(value)
+                found = changed(found, order=self.orders[place])
+            else:
+                place = export.place_of(name, value, values)
+                found = changed(found, selected=(*found.selected, (name, place)))
+        return found
+
+    # --- an array -------------------------------------------------------------------------------
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Element]:  # noqa: ANN401
+        return np.array(self._read(VALUES), dtype=dtype, copy=copy)
 
     def __array_ufunc__(
         self,
@@ -352,15 +550,23 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
     ) -> Any:  # noqa: ANN401
         if any(isinstance(out, Quantity) for out in keywords.get("out", ())):
             return NotImplemented
-        plain = [np.asarray(a) if isinstance(a, Quantity) else a for a in arguments]
         try:
-            return getattr(ufunc, method)(*plain, **keywords)
+            return getattr(ufunc, method)(*_plain(arguments), **keywords)
         except (ValueError, OverflowError, ZeroDivisionError) as error:
             hint = f"give numbers, or an array that broadcasts ({inputs.reason(error)})"
             raise inputs.rejected(f"operands of {ufunc.__name__}", arguments, hint) from None
 
+    def __array_function__(
+        self,
+        function: Callable[..., Any],
+        types: Iterable[type],
+        arguments: tuple[Any, ...],
+        keywords: dict[str, Any],
+    ) -> Any:  # noqa: ANN401 - what the function returns
+        return function(*_plain(arguments), **_plain(keywords))
+
     def __eq__(self, other: object) -> Any:  # noqa: ANN401 - an array, or a bool
-        """Return where phasors are equal, as of arrays; False for what is no array of their shape.
+        """Return where values are equal, as of arrays; False for what is no array of their shape.
 
         All orders together have no phasors: they are equal as other results are.
         """
@@ -381,240 +587,75 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Values, Value]):
     def shape(self) -> tuple[int, ...]:
         """Lengths of the dimensions."""
         if self.order == ALL:
-            return np.shape(self._read("phasors"))
-        orders = (len(self.orders),) if self.order is None else ()
-        return (*self._swept, *orders, *((2,) if self.kind.planar else ()))
-
-    @property
-    def _swept(self) -> tuple[int, ...]:
-        """Lengths of the dimensions before orders and axes."""
-        return tuple(len(values) for values in self.result.coords.values())
+            return np.shape(self._read(VALUES))
+        return tuple(len(values) for values in self.coords.values())
 
     @property
     def ndim(self) -> int:
         """Number of dimensions."""
         return len(self.shape)
 
-    def any(self) -> bool:
-        """Return True if any phasor is not zero.
+    @property
+    def size(self) -> int:
+        """Number of values."""
+        return math.prod(self.shape)
 
-        Returns
-        -------
-        bool
-            Whether one is not exactly zero.
-        """
-        return bool(np.any(np.asarray(self)))
+    dtype, flags, real, imag, T = (ArrayMember() for _ in range(5))
+    max, min, sum, mean, std, any, all = (ArrayMember() for _ in range(7))
+    argmax, argmin, round, item, tolist, copy = (ArrayMember() for _ in range(6))
+    astype, reshape, ravel, cumsum, conj = (ArrayMember() for _ in range(5))
 
     # --- text -----------------------------------------------------------------------------------
 
     @property
     def loads_counted(self) -> str:
         """Loads that count where more could, in words; of a force or a moment without gas."""
-        if self.result.request.pairs is not None or not self.kind.planar:
-            return self.result.loads_counted
-        return labels.without_gas(self.result.loads_counted)
-
-    def _columns(self) -> dict[str, str]:
-        """Head of each column of the table → array that it shows."""
-        if not self.kind.planar:
-            return {self.kind.symbols[0]: "peak"}
-        parts = {self.kind.vector_symbol: "peak", "forward": "forward", "backward": "backward"}
-        return {head: f"peak_xy.{k}" for k, head in enumerate(self.kind.symbols)} | parts
+        return self.result._loads_of(self.name)
 
     @property
     def table(self) -> Table:
-        """Peaks by order, and of all orders together; those of a sweep at each point.
+        """Values in long form; of phasors peaks by order, and of all orders together.
 
-        Torques of a fired engine have their mean, their phases and their parts too.
+        Those of a sweep at each point. Torques of a fired engine have their mean, their phases and
+        their parts too.
         """
-        keys: tuple[Order | Literal["all"], ...] = (self.order,) if self.order is not None else ()
-        note = ""
-        if self.order is None:
-            shown, left_out = self.result._shown_orders(self.name)
-            keys, note = (*(self.orders[k] for k in shown), ALL), labels.not_shown(left_out)
-        title = f"{self.kind.words}, {self.unit}"
-        if self.result.dims:
-            columns = export.points(self.result.coords, len(keys))
-            columns += [
-                Column(ALL if key == ALL else f"order {key}", self[key]._read("peak"))
-                for key in keys
-            ]
-        elif self._has_means:
-            title, columns = self.kind.words, self._columns_of_parts(keys)
-        else:
-            columns = [Column("order", keys)]
-            columns += [
-                Column(head, tuple(self[key]._figure(what) for key in keys))
-                for head, what in self._columns().items()
-            ]
-        whole = title == f"{self.kind.words}, {self.unit}"
-        row_units = (self.unit,) * len(columns[0]) if whole and columns else ()
-        return Table(title, tuple(columns), note, self.loads_counted, row_units)
+        return self.result._table_of(self)
 
     @property
-    def _has_means(self) -> bool:
-        """True of a torque that more than inertia may make."""
-        return not self.kind.planar and self.result._has_means
-
-    def _figure(self, what: str) -> float | None:
-        """Return a figure of one order of a balance; None where all together have none."""
-        name, _, axis = what.partition(".")
-        if self.order == ALL and not name.startswith("peak"):
-            return None
-        values = np.abs(self._read(name))
-        return float(values[int(axis)] if axis else values)
-
-    def _columns_of_parts(self, keys: Sequence[Order | Literal["all"]]) -> list[Column]:
-        """Return mean, peaks and phases of a torque and of its parts."""
-        columns = [Column("order", ("mean", *keys))]
-        parts = [self, *map(self.part, self.parts)]
-        least = self.result._least_shown(np.asarray(self.peak))
-        for part in parts:
-            peaks = [part[key]._figure("peak") for key in keys]
-            phases = [
-                None if key == ALL or not peak else float(np.angle(part[key].phasor, deg=True))
-                for key, peak in zip(keys, peaks, strict=True)
-            ]
-            name = "" if part is self else part.name.partition(".")[-1]
-            mean = changed(part, order=None).mean
-            head = name or self.kind.symbols[0]
-            columns += [
-                Column(head, (mean, *peaks), self.unit, least=least),
-                Column(f"{name} phase".strip(), (None, *phases), "°", digits=4),
-            ]
-        return columns
-
-    @property
-    def _brief(self) -> str:
-        if not self.result.dims and self.order is None:
-            return ""
-        name = self.kind.words
-        which = f" of {'all orders' if self.order == ALL else f'order {self.order}'}"
-        loads = f", {self.loads_counted}" if self.loads_counted else ""
-        if not self.result.dims:
-            highest: Any = self.peak
-            peak = units.figure(highest, self.unit, 5)
-            return f"<Quantity {name}{which}: peak {peak}{loads}>"
-        dims, shape = self.result.dims, self._swept
-        if self.order is None:
-            dims, shape, which = self.dims, self.shape, ""
-        over = ", ".join(f"{d}: {n}" for d, n in zip(dims, shape, strict=True))
-        return f"<Quantity {name}{which}, {self.unit}, over ({over}){loads}>"
-
-
-class Quantities(Generic[Values, Value]):
-    """Mixin of what has force, moment and torques."""
-
-    def _quantity(self, name: str) -> Quantity[Values, Value]:
-        raise NotImplementedError
-
-    @property
-    def force(self) -> Quantity[Values, Value]:
-        """Shaking force along x and y, N."""
-        return self._quantity("force")
-
-    @property
-    def moment(self) -> Quantity[Values, Value]:
-        """Rocking moment about x (pitch) and y (yaw), N·m."""
-        return self._quantity("moment")
-
-    @property
-    def torque(self) -> Quantity[Values, Value]:
-        """Roll torque of inertia forces, and of gas if it counts, on the block about +z, N·m.
-
-        An AttributeError where it was not requested, or a force spectrum does not determine it.
-        """
-        return self._quantity("torque")
-
-    @property
-    def crank_torque(self) -> Quantity[Values, Value]:
-        """Torque of inertia forces, and of gas if it counts, on the crank about +z, N·m.
-
-        An AttributeError where it was not requested, or a force spectrum does not determine it.
-        """
-        return self._quantity("crank_torque")
-
-
-class OrderBalance(Quantities[Value, Value], Tabled, Generic[Value]):
-    """One order of a balance or sweep, or all orders together: the quantities without orders.
-
-    Examples
-    --------
-    >>> import crankpin as cp
-    >>> b = cp.Engine.preset("i4").balance(rpm=6000)
-    >>> b[2].order, b[2].force.shape, float(b[2].force.x.real)
-    (2, (2,), 0.0)
-    >>> b["all"] == b.total
-    True
-    >>> b[2]
-    Inline-4 at 6000 rpm: order 2
-    quantity        unit  x       y  largest  forward  backward  status
-    shaking force   N     0  9269.4   9269.4   4634.7    4634.7  summed
-    rocking moment  N·m   0       0        0        0         0  zero, proved
-    roll torque     N·m   –       –   657.31        –         –  summed
-    crank torque    N·m   –       –   657.31        –         –  summed
-    Without gas pressure.
-    """
-
-    result: ByOrder[Value]
-    """Balance or sweep that it belongs to."""
-    order: Order | Literal["all"]
-    """Multiple of crank speed, or ``"all"``."""
-
-    def _quantity(self, name: str) -> Quantity[Value, Value]:
-        return Quantity(self.result, name, self.order)
-
-    @property
-    def table(self) -> Table:
-        """Peaks along (about) x and y, the largest, and its parts; of a sweep at each point.
-
-        The status is that of :attr:`Quantity.status`.
-        """
-        if self.result.dims:
-            return self._table_by_point()
-        parts = () if self.order == ALL else ("forward", "backward")
-        rows: list[tuple[str | float | None, ...]] = []
-        for each in self._each():
-            beside: list[float | None] = [None] * (2 + len(parts))
-            if each.kind.planar:
-                beside = [*each.peak_xy.tolist(), *(abs(getattr(each, part)) for part in parts)]
-            status = () if self.order == ALL else (each.status,)
-            row = (*beside[:2], each.peak, *beside[2:], *status)
-            rows.append((each.kind.words, each.unit, *row))
-        heads = ["quantity", "unit", "x", "y", "largest", *parts]
-        heads += [] if self.order == ALL else ["status"]
-        speed = labels.at_speed(self.result._attributes["rpm"])
-        title = f"{labels.name_of(self.result._engines[0])} {speed}: {self._which}"
-        row_units = [each.unit for each in self._each()]
-        return Table.from_rows(title, heads, rows, loads=self.loads_counted, row_units=row_units)
-
-    def _table_by_point(self) -> Table:
-        """Return the largest peak of each quantity of a sweep at each point."""
-        shown = list(self._each())
-        columns = export.points(self.result.coords, len(shown))
-        columns += [Column(each.kind.vector_symbol, each.peak, each.unit) for each in shown]
-        title = f"Peaks of {self._which}"
-        return Table(title, tuple(columns), loads=self.loads_counted)
-
-    @property
-    def loads_counted(self) -> str:
-        """Loads that count where more could, in words: as of the balance or sweep."""
-        return self.result.loads_counted
-
-    def _each(self) -> Iterator[Quantity]:
-        """Yield the quantities, and their parts where more than inertia makes them."""
-        for name in self.result.request.quantities:
-            whole: Quantity = getattr(self, name)
-            yield whole
-            yield from map(whole.part, whole.parts)
+    def words(self) -> str:
+        """Name in texts."""
+        return self.result._words(self)
 
     @property
     def _which(self) -> str:
-        return "all orders" if self.order == ALL else f"order {self.order}"
+        """Order, in words that follow a name."""
+        if self.order is None:
+            return ""
+        return " of all orders" if self.order == ALL else f" of order {self.order}"
 
     @property
     def _brief(self) -> str:
-        if not self.result.dims:
+        dims = self._dims_of(VALUES if self.order is None else "peak")
+        if self.order is None and dims[:1] == ("order",):
             return ""
-        lines = (f"  {getattr(self, name)!r}" for name in self.result.request.quantities)
-        return "\n".join([f"<OrderBalance of {self._which}>", *lines])
+        text = f"<Quantity {labels.printable(self.words)}{self._which}"
+        loads = f", {self.loads_counted}" if self.loads_counted else ""
+        if not dims:
+            highest: Any = self.peak if self._by_order else np.asarray(self)[()]
+            peak = "peak " if self._by_order else ""
+            return f"{text}: {peak}{units.figure(highest, self.unit, 5)}{loads}>"
+        known = self.result._coordinates(self.name)
+        over = ", ".join(f"{d}: {len(known[d])}" for d in dims)
+        return f"{text}, {self.unit}, over ({over}){loads}>"
+
+    def _dataset(self) -> xr.Dataset | None:
+        return None if self.order == ALL else export.dataset_of(self)
+
+
+def _plain(value: Any) -> Any:  # noqa: ANN401 - arguments of functions of NumPy
+    """Return arguments with plain arrays in place of quantities."""
+    if isinstance(value, Quantity):
+        return np.asarray(value)
+    if type(value) in (list, tuple):
+        return type(value)(map(_plain, value))
+    return {key: _plain(each) for key, each in value.items()} if type(value) is dict else value

@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Literal
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support.drawing import draw
-from crankpin._support.quantities import QUANTITIES, kind_of
+from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import read_only
 from crankpin._support.tables import Table
-from crankpin.analysis import export
 from crankpin.analysis.balance import mean_piston_speed
-from crankpin.analysis.export import Labelled
+from crankpin.analysis.labelled import Shaking
+from crankpin.analysis.quantity import Values
 from crankpin.analysis.request import Request, check_request, engine_core
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
@@ -61,8 +62,10 @@ def waveform(
     return curves
 
 
-class OverAngle(Labelled):
+class OverAngle(Shaking["np.float64", Values, Values], Generic[Values]):
     """Base class of waveforms: force, moment and torques over crank angle."""
+
+    _along: ClassVar[tuple[str, ...]] = ("theta_deg",)
 
     @property
     def orders(self) -> tuple[Order, ...] | None:
@@ -73,75 +76,8 @@ class OverAngle(Labelled):
     def _how(self) -> str:
         return "exact kinematics" if self.orders is None else labels.orders_text(self.orders)
 
-    @property
-    def force(self) -> NDArray[np.float64]:
-        """Shaking force along x and y, N: (…, n_theta, 2)."""
-        return self.read("force")
 
-    @property
-    def moment(self) -> NDArray[np.float64]:
-        """Rocking moment about x (pitch) and y (yaw), N·m: (…, n_theta, 2)."""
-        return self.read("moment")
-
-    @property
-    def torque(self) -> NDArray[np.float64]:
-        """Roll torque on the block about +z, N·m: (…, n_theta).
-
-        An AttributeError where it was not requested, or a force spectrum does not determine it.
-        """
-        return self.read("torque")
-
-    @property
-    def crank_torque(self) -> NDArray[np.float64]:
-        """Torque on the crank about +z, N·m: (…, n_theta).
-
-        An AttributeError where it was not requested, or a force spectrum does not determine it.
-        """
-        return self.read("crank_torque")
-
-    def read(self, quantity: str) -> NDArray[np.float64]:
-        """Return the values of a quantity, read-only, computed when they are first read.
-
-        Parameters
-        ----------
-        quantity : str
-            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; or the part that one of
-            ``causes`` makes: ``"torque.gas"``, ``"torque.inertia"``, ``"force.valve train"``.
-
-        Returns
-        -------
-        ndarray of float, shape (..., n_theta, 2) or (..., n_theta)
-            The array, N or N·m; of a torque without axes.
-
-        Raises
-        ------
-        InputError
-            If there is no such quantity.
-        """
-        self.request.check(quantity, self)
-        return self._values(quantity)
-
-    def _values(self, quantity: str) -> NDArray[np.float64]:
-        raise NotImplementedError
-
-    def _arrays(self, quantities: Sequence[str]) -> tuple[dict[str, Any], dict[str, Any]]:
-        axes = {name: ("axis",) if kind_of(name).planar else () for name in quantities}
-        export.fitting(self.coords, *(((*self.dims, *axis), 8) for axis in axes.values()))
-        return dict(self.coords), {
-            name.replace(".", "_"): ((*self.dims, *axis), self.read(name), export.units(name))
-            for name, axis in axes.items()
-        }
-
-    def _figures(self, quantity: str) -> Mapping[str, Mapping[str, NDArray[np.float64]]]:
-        values, kind = self.read(quantity), kind_of(quantity)
-        parts = np.moveaxis(values, -1, 0) if kind.planar else (values,)
-        return {
-            component: {"value": part}
-            for component, part in zip(kind.components, parts, strict=True)
-        }
-
-
-class Waveform(OverAngle):
+class Waveform(OverAngle[float]):
     """Force, moment and torque of an engine at given crank angles.
 
     Made by :meth:`Engine.waveform`.

@@ -73,7 +73,7 @@ def _with_phases(balance: Balance) -> Table:
     """Return the table of a balance with the phase of each component beside its peak."""
     keys, *peaks = balance.table.columns
     names = [name for name in balance.request.quantities if name != "crank_torque"]
-    parts = [np.reshape(balance.read(name, "phasors"), (len(balance.orders), -1)) for name in names]
+    parts = [np.reshape(balance.read(name, "values"), (len(balance.orders), -1)) for name in names]
     phasors = dict(zip(balance.orders, np.concatenate(parts, axis=1), strict=True))
     columns = [keys]
     for k, peak in enumerate(peaks):

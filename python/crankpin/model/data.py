@@ -510,7 +510,7 @@ class EngineData:
         >>> cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
         >>> i4 = cp.Engine.preset("i4", cylinder=cylinder).with_cycle(cp.Cycle.example())
         >>> torque = i4.balance(rpm=3000).crank_torque
-        >>> f"{torque.mean:.1f}, {torque[2].gas.peak:.1f}, {torque[2].inertia.peak:.1f} N·m"
+        >>> f"{torque.cycle_mean:.1f}, {torque[2].gas.peak:.1f}, {torque[2].inertia.peak:.1f} N·m"
         '192.6, 312.7, 182.6 N·m'
         >>> torque[0.5].status  # fires evenly
         'zero, proved'

@@ -50,7 +50,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from crankpin.analysis.quantity import OrderBalance
+    from crankpin.analysis.by_order import OrderBalance
 
 
 BESIDE = 6.0

@@ -214,7 +214,7 @@ def curves(
         whole = Balance(result.engine, result.rpm, result.request.at_orders((1,)))
         look = {"color": styles[0]["color"], "linewidth": 0.8, "linestyle": ":"}
         text = ", ".join(filter(None, [label, "mean"]))
-        ax.axhline(getattr(whole, name).mean, label=text, gid=MEAN, **look)
+        ax.axhline(getattr(whole, name).cycle_mean, label=text, gid=MEAN, **look)
     if first:
         dress(ax, result.theta_deg)
         label_y(ax, with_unit(name))

@@ -58,12 +58,14 @@ def test_each_point_is_the_balance_of_its_engine(name: str, swept: str) -> None:
             rpm = at["rpm"] if "rpm" in at else s.fixed["rpm"]
             alone = s.engine_at(**at).balance(rpm, orders=s.orders)
             # Cylinders add up in the mean where orders cancel.
-            scale = alone.read("crank_torque.gas", "peak").max() + abs(alone.crank_torque.mean)
+            scale = alone.read("crank_torque.gas", "peak").max() + abs(
+                alone.crank_torque.cycle_mean
+            )
             scale += alone.read("torque", "peak").max()
             for part in PARTS:
-                close(s.read(part, "phasors")[place], alone.read(part, "phasors"), scale)
+                close(s.read(part, "values")[place], alone.read(part, "values"), scale)
                 close(s.read(part, "total_peak")[place], alone.read(part, "total_peak"), 6 * scale)
-                close(s.read(part, "mean")[place], alone.read(part, "mean"), scale)
+                close(s.read(part, "cycle_mean")[place], alone.read(part, "cycle_mean"), scale)
                 # A balance takes the larger of the two torques' bounds for both.
                 found, most = s.read(part, "zero_bound")[place], alone.read(part, "zero_bound")
                 assert (found <= most * (1.0 + 1e-9)).all()
@@ -117,7 +119,7 @@ def test_mean_torque_counts_in_totals_and_waveforms_of_orders_that_vanish() -> N
     s = cp.sweep(engine("i4"), rpm=[600.0, 5000.0], orders=[7.5])
     mean = np.mean(gas_torque(np.arange(0.0, 720.0, 0.25), engine("i4"), CYLINDER.rod_ratio))
     # Trapezia of a smooth period of a quarter of a degree; the table itself is linear or cubic.
-    np.testing.assert_allclose(s.crank_torque.mean, [mean] * 2, rtol=1e-6)
+    np.testing.assert_allclose(s.crank_torque.cycle_mean, [mean] * 2, rtol=1e-6)
     np.testing.assert_allclose(s.total.torque.peak, [abs(mean)] * 2, rtol=1e-6)
     np.testing.assert_allclose(s.waveform([0.0, 30.0]).torque, -mean, rtol=1e-6)
 
@@ -129,7 +131,7 @@ def test_orders_of_unfired_engines_beside_fired_ones() -> None:
     close(s.torque.phasor[0, 1], alone.torque.phasor, alone.torque.peak.max())
     assert not s.torque.gas.peak[0].any()
     assert s.torque.gas[2].peak[1].all()
-    assert (s.torque.mean[0] == 0.0).all()
+    assert (s.torque.cycle_mean[0] == 0.0).all()
 
 
 def test_the_speed_of_least_torque_of_an_order_is_that_of_its_phasors() -> None:

@@ -81,8 +81,8 @@ def test_torque_is_that_of_the_pressure_between_the_cycles(name: str, missing: i
             crank, block = again.phasors(on_crank, HALVES), again.phasors(on_block, HALVES)
             assert np.allclose(s.crank_torque.gas.phasor[k, j], crank, **close)
             assert np.allclose(s.torque.gas.phasor[k, j], block, **close)
-            assert np.allclose(s.crank_torque.mean[k, j], on_crank.mean(), **close)
-            whole = crank + again.phasors(inertia.crank_torque, HALVES)
+            assert np.allclose(s.crank_torque.cycle_mean[k, j], on_crank.mean(), **close)
+            whole = crank + again.phasors(np.asarray(inertia.crank_torque), HALVES)
             assert np.allclose(s.crank_torque.peak[k, j], abs(whole), **close)
             assert np.allclose(exact.read("crank_torque.gas")[k, j], on_crank, **close)
             assert np.allclose(exact.torque[k, j], on_block + inertia.torque, **close)
@@ -110,9 +110,9 @@ def test_each_point_is_the_balance_of_its_engine(swept: str) -> None:
         assert fired.crankcase == CRANKCASE
         alone = fired.balance({**s.fixed, **at}["rpm"], orders=HALVES)
         assert s.sel(**at).engine == fired
-        scale = alone.read("crank_torque.gas", "peak").max() + abs(alone.crank_torque.mean)
+        scale = alone.read("crank_torque.gas", "peak").max() + abs(alone.crank_torque.cycle_mean)
         for part in ("torque", "torque.gas", "torque.inertia", "crank_torque", "crank_torque.gas"):
-            for what in ("phasors", "peak", "total_peak", "mean"):
+            for what in ("values", "peak", "total_peak", "cycle_mean"):
                 found, expected = s.read(part, what)[place], alone.read(part, what)
                 # A cycle between four is a polynomial through sums of theirs: roundings of the sum
                 # of twelve orders of six or eight cylinders.
@@ -132,8 +132,8 @@ def test_maps_that_agree_at_one_point_differ_at_others(options: dict[str, Any]) 
     for k, j in np.ndindex(2, 2):
         fired = s.engine_at(rpm=s.coords["rpm"][k], load=s.coords["load"][j])
         alone = fired.balance(float(s.coords["rpm"][k]), orders=s.orders)
-        scale = alone.read("crank_torque.gas", "peak").max() + abs(alone.crank_torque.mean)
-        for what in ("phasors", "mean"):
+        scale = alone.read("crank_torque.gas", "peak").max() + abs(alone.crank_torque.cycle_mean)
+        for what in ("values", "cycle_mean"):
             found, expected = s.read("crank_torque", what)[k, j], alone.read("crank_torque", what)
             # As above.
             np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-11 * scale)
@@ -183,7 +183,7 @@ def test_a_map_of_one_cycle_is_that_cycle() -> None:
     fired = engine("i4").with_cycle(cycle(2000.0, 1.0), crankcase=CRANKCASE)
     same = cp.sweep(fired, rpm=2000, orders=[2, 4])
     assert (s.torque.phasor == same.torque.phasor).all()
-    assert s.torque.mean == same.torque.mean
+    assert s.torque.cycle_mean == same.torque.cycle_mean
 
 
 @pytest.mark.parametrize(

@@ -211,7 +211,7 @@ def test_memory_that_is_given(exact: bool) -> None:
 def test_what_is_refused() -> None:
     s = cp.sweep(V6, rpm=1000, rod_ratio=np.linspace(0.1, 0.5, 100_000), torque=False)
     with pytest.raises(cp.InputError, match=r"sweep.*split theta_deg"):
-        _ = s.waveform(np.arange(7200)).force
+        _ = s.waveform(np.arange(7200)).force.xy
     with pytest.raises(cp.InputError, match="torque"):
         _ = s.waveform([0.0]).torque
     with pytest.raises(cp.InputError, match="theta_deg"):

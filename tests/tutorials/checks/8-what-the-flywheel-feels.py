@@ -9,7 +9,7 @@ assert cp.star_diagram(i4).major == (2, 4, 6, 8, 10, 12)
 
 # %% after cell-13
 assert even[0.5].crank_torque.status == "zero, proved"
-assert np.isclose(uneven.crank_torque.mean, 0.75 * even.crank_torque.mean)
+assert np.isclose(uneven.crank_torque.cycle_mean, 0.75 * even.crank_torque.cycle_mean)
 
 # %% after cell-17
 for rpm in (3000, 6000):

@@ -173,7 +173,7 @@ def static(
                 "the engine has no cycle and so no mean torque: give N·m, or engine.with_cycle(…)"
             )
             raise inputs.rejected("torque", "engine", hint)
-        leaving = powertrain.engine.balance(rpm, orders=[1]).crank_torque.mean
+        leaving = powertrain.engine.balance(rpm, orders=[1]).crank_torque.cycle_mean
     ratio = inputs.finite("gear_ratio", gear_ratio)
     if ratio == 0.0:
         raise inputs.rejected(

@@ -35,8 +35,11 @@ def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Datas
     first = {name: float(np.ravel(values)[0]) for name, values in whole.axes.items()}
     common = changed(whole, axes=first, request=whole._of_parts)
     variables: dict[str, Any] = {}
-    for name, quantity, what, trailing in export.variables(quantities, means=whole._has_means):
-        dims = (*lengths, *trailing)
+    listed = [whole._quantity(name) for name in quantities]
+    for quantity, what in [
+        (each, what) for each in listed for what in whole._in_datasets(each.name)
+    ]:
+        dims = quantity._dims_of(what)
         kind = np.complex128 if what in export.COMPLEX else np.float64
         slices = [part for dim in lengths for part in (axes[dim], (dim,))]
         if whole.orders:
@@ -44,10 +47,10 @@ def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Datas
                 _block,
                 dims,
                 *slices,
-                new_axes={dim: sizes[dim] for dim in trailing},
+                new_axes={dim: sizes[dim] for dim in dims if dim not in lengths},
                 swept=tuple(lengths),
                 common=common,
-                quantity=quantity,
+                quantity=quantity.name,
                 what=what,
                 # Slices of one axis along the one index that it has.
                 concatenate=True,
@@ -57,9 +60,8 @@ def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Datas
         else:
             shape = tuple(sizes[dim] for dim in dims)
             values = dask.zeros(shape, dtype=kind, chunks=tuple(by_name[dim] for dim in dims))
-        variables[name] = (dims, values, export.units(quantity))
-    coords = {**whole.coords, "order": whole.orders}
-    return export.dataset(whole, quantities, coords, variables)
+        variables[export.variable(quantity.name, what)] = values
+    return export.dataset(whole, listed, variables)
 
 
 def _block(

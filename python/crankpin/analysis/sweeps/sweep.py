@@ -21,6 +21,7 @@ from crankpin._support.tables import Column, Table
 from crankpin.analysis import export
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder
+from crankpin.analysis.export import VALUES
 from crankpin.analysis.request import ENGINE_HINT, Request, check_request, engine_core
 from crankpin.analysis.sweeps import dask
 from crankpin.analysis.sweeps.gas import GasMap
@@ -323,9 +324,9 @@ class Sweep(ByOrder[Any]):
         """Return the same sweep by another request."""
         return changed(self, request=check_request(request, "crankpin.sweep"))
 
-    def _compute(self, quantity: str, what: str) -> NDArray[Any]:
+    def _about_axis(self, quantity: str, what: str) -> NDArray[Any]:
         with progress_bar.shown(self.progress, f"{quantity}, {what}") as report:
-            if what == "phasors":
+            if what == VALUES:
                 return self._core.phasors(quantity, False, report)
             if what in labels.TURNING:
                 both = read_only(self._core.phasors(quantity, True, report))
@@ -339,7 +340,7 @@ class Sweep(ByOrder[Any]):
                 "total_peak": "length of sum" if planar else "sum",
                 "total_peak_xy": "sum",
                 "zero_bound": "zero bound",
-                "mean": "mean",
+                "cycle_mean": "mean",
             }
             return self._core.peaks(quantity, figures[what], report)
 
@@ -438,7 +439,9 @@ class Sweep(ByOrder[Any]):
     def _places(self, selection: Mapping[str, Any]) -> dict[str, int]:
         """Return the place of each selected value in its dimension."""
         return {
-            name: _place(name, value, self.coords[inputs.one_of("dimension", name, self.dims)])
+            name: export.place_of(
+                name, value, self.coords[inputs.one_of("dimension", name, self.dims)]
+            )
             for name, value in selection.items()
         }
 
@@ -476,7 +479,7 @@ class Sweep(ByOrder[Any]):
         )
         for name, value in selection.items():
             values = at[inputs.one_of("dimension", name, list(at))]
-            at[name] = [values[_place(name, value, values)]]
+            at[name] = [values[export.place_of(name, value, values)]]
         for name, values in at.items():
             if len(values) > 1 and (name != "rpm" or self.gas_map is not None):
                 raise inputs.faulty(
@@ -578,7 +581,7 @@ class Sweep(ByOrder[Any]):
         if self.progress is not False:
             hint = "use dask.diagnostics.ProgressBar"
             raise inputs.faulty("progress", "cannot be combined with to_dask", hint)
-        return dask.dataset(self, chunks, self.request.named(quantities, self.causes))
+        return dask.dataset(self, chunks, self._chosen(quantities))
 
     @overload
     def plot(
@@ -704,24 +707,6 @@ class Sweep(ByOrder[Any]):
         swept = ", ".join(f"{name}: {len(values)}" for name, values in self.coords.items())
         loads = f", {self.loads_counted}" if self.loads_counted else ""
         return f"<Sweep over ({swept})> {self._title()}{loads}"
-
-
-def _place(name: str, value: object, values: Any) -> int:  # noqa: ANN401 - names or numbers
-    """Return the place of a value among the swept ones."""
-    if name == "engine":
-        names = list(values)
-        return names.index(inputs.one_of("engine", value, names))
-    number = inputs.number(name, value)
-    swept = np.asarray(values)
-    places = np.flatnonzero(swept == number)
-    if not places.size:
-        raise inputs.rejected(
-            name,
-            value,
-            f"is not among the {len(values)} swept values, {swept.min():.10g} to "
-            f"{swept.max():.10g}; the nearest is {swept[np.abs(swept - number).argmin()]:.10g}",
-        )
-    return int(places[0])
 
 
 def _listed(engines: Engines) -> tuple[list[Engine], tuple[str, ...] | None]:

@@ -13,8 +13,6 @@ from crankpin import _core
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
 from crankpin._support.drawing import draw
-from crankpin._support.quantities import kind_of
-from crankpin._support.record import read_only
 from crankpin.analysis.waveform import OverAngle
 
 if TYPE_CHECKING:
@@ -29,7 +27,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.sweeps.sweep import Sweep
 
 
-class SweepWaveform(OverAngle):
+class SweepWaveform(OverAngle["NDArray[np.float64]"]):
     """Force, moment and torque over crank angle at every point of a sweep.
 
     Each is computed when it is first read, and kept. Dimensions are those of the sweep without
@@ -62,7 +60,7 @@ class SweepWaveform(OverAngle):
         if not hasattr(self.sweep, "_core"):
             raise inputs.rejected("sweep", self.sweep, "use Sweep.waveform")
         theta = inputs.copied(inputs.vector("theta_deg", self.theta_deg))
-        self.__dict__.update(theta_deg=theta, _angles=_core.CrankAngles(theta), _kept={})
+        self.__dict__.update(theta_deg=theta, _angles=_core.CrankAngles(theta))
         super().__post_init__()
 
     @property
@@ -96,10 +94,7 @@ class SweepWaveform(OverAngle):
         return self.request.bounds((0.0, 0.0, 0.0)) if self.exact else self.sweep.error_bound
 
     def _values(self, quantity: str) -> NDArray[np.float64]:
-        kept: dict[str, NDArray[np.float64]] = self.__dict__["_kept"]
-        if quantity not in kept:
-            return kept.setdefault(quantity, read_only(self.values(quantity)))
-        return kept[quantity]
+        return self.values(quantity)
 
     def values(
         self,
@@ -155,7 +150,7 @@ class SweepWaveform(OverAngle):
         x, y = self.request.aside
         whole, point, part = name.partition(".")
         if whole == "torque" and part != "gas" and (x != 0.0 or y != 0.0):
-            force = self._values(f"force{point}{part}")
+            force = self.read(f"force{point}{part}")
             values -= x * force[..., 1] - y * force[..., 0]
         return values
 
@@ -178,12 +173,7 @@ class SweepWaveform(OverAngle):
     def table(self) -> Table:
         """Table of the points: the largest magnitudes over crank angle."""
         title = self.sweep._title(f" at {len(self.theta_deg)} crank angles, {self._how}")
-        return self.sweep._by_point(title, self._largest)
-
-    def _largest(self, quantity: str) -> NDArray[np.float64]:
-        values = self.read(quantity)
-        sizes = np.hypot(*np.moveaxis(values, -1, 0)) if kind_of(quantity).planar else abs(values)
-        return np.asarray(sizes.max(axis=-1, initial=0.0))
+        return self.sweep._by_point(title, lambda name: self.read(name, "peak"))
 
     # --- pictures -------------------------------------------------------------------------------
 

@@ -16,7 +16,9 @@ from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import changed, read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import Balance
-from crankpin.analysis.by_order import ByOrder, total_peaks
+from crankpin.analysis.by_order import ByOrder
+from crankpin.analysis.export import VALUES
+from crankpin.analysis.labelled import total_peaks
 from crankpin.analysis.ranking import objectives
 from crankpin.analysis.request import check_request, engine_core
 from crankpin.analysis.tolerances.spreads import (
@@ -237,7 +239,7 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         self.evaluate()
         return vars(self)["_drawn"]  # type: ignore[no-any-return]
 
-    def _compute(self, quantity: str, what: str) -> NDArray[Any]:
+    def _about_axis(self, quantity: str, what: str) -> NDArray[Any]:
         planar = quantity in PLANE_VECTORS
         vectors, torques, peaks = self._drawn
         if what in ("forward", "backward"):
@@ -255,7 +257,7 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
             return np.stack(along, axis=-1)
         if what == "peak" and planar:
             return np.asarray(np.abs(vectors[quantity][..., 2:]).sum(axis=-1))
-        return phasors if what == "phasors" else np.asarray(np.abs(phasors))
+        return phasors if what == VALUES else np.asarray(np.abs(phasors))
 
     # --- statistics -----------------------------------------------------------------------------
 
