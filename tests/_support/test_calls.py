@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import pytest
 from crankpin._support import calls
+from support import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -39,7 +40,7 @@ FROM_BORE_STROKE: Any = cp.Cylinder.from_bore_stroke
 SWEEP: Any = cp.sweep
 
 
-@pytest.mark.parametrize("name", CALLABLES)
+@in_turn("name", CALLABLES)
 def test_slips_in_names_of_arguments_are_answered(name: str) -> None:
     function = CALLABLES[name]
     kinds = inspect.Parameter
@@ -93,12 +94,12 @@ def test_a_guided_call_takes_little_time() -> None:
     assert several < min(timeit.repeat(lambda: balance(rpm=3), number=100, repeat=5))
 
 
-@pytest.mark.parametrize("name", [name for name in RECORDS if name not in cp.__all__])
+@in_turn("name", [name for name in RECORDS if name not in cp.__all__])
 def test_results_have_no_replace(name: str) -> None:
     assert not hasattr(RECORDS[name], "replace")
 
 
-@pytest.mark.parametrize("kind", [cp.Unbalance, *RECORDS.values()])
+@in_turn("kind", [cp.Unbalance, *RECORDS.values()])
 def test_a_field_has_one_type(kind: type) -> None:
     for field in getattr(kind, "_fields", ()):
         types = {each.strip() for each in str(field.type).split("|")} - {"None"}

@@ -14,6 +14,7 @@ from crankpin._support import labels
 from crankpin._support.tables import Column, Table
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from support import in_turn
 from support.engines import I4, V6
 
 if TYPE_CHECKING:
@@ -92,7 +93,7 @@ def test_results_show_no_control_characters(what: str) -> None:
 @pytest.mark.parametrize("what", ["engine", "shaft", "ranking", "sweep", "counterweights"])
 def test_pictures_of_any_name_are_xml(what: str) -> None:
     pytest.importorskip("matplotlib")
-    from matplotlib import pyplot as plt  # noqa: PLC0415 - tests run without it
+    from matplotlib import pyplot as plt
 
     figure = RESULTS[what](NASTY).plot()
     figure = getattr(figure, "flat", [figure])[0].get_figure(root=True)
@@ -131,7 +132,7 @@ def test_errors_show_no_control_characters(what: str) -> None:
     assert harmless(str(raised.value))
 
 
-@pytest.mark.parametrize(
+@in_turn(
     "text",
     [
         *('=HYPERLINK("https://a.example";"b")', "+1+1", "-2+3", "@SUM(1)", "\t=1", "\r=1", " =1"),

@@ -19,15 +19,10 @@ from crankpin._support.tables import Column, Table
 from hypothesis import given
 from hypothesis import strategies as st
 from matplotlib import pyplot as plt
-from matplotlib.text import Text
-from promises.test_objects import OBJECTS
+from support import in_turn
+from support.objects import OBJECTS
+from support.shown_units import IMPERIAL, si_units
 
-SI = re.compile(
-    r"(?<![\w·/])(?:kg|g|mg|m|cm|mm|µm|N|kN|MN|Pa|bar|kPa|MPa)[²³]?(?:[·/](?:s²?|m²?|mm|rad))*"
-    r"(?![\w·/²³'])"
-)
-"""A unit of mass, length, force or pressure that is of the SI."""
-IMPERIAL = "oz, in, lbf, psi"
 MEASURED = {
     "kg": ["kg", "g", "lb", "oz"],
     "m": ["m", "mm", "in", "ft", "cm"],
@@ -175,7 +170,7 @@ def test_the_setting_ends_with_its_block_and_changes_no_result() -> None:
     assert "lbf" in repr(balance)
 
 
-@pytest.mark.parametrize("name", OBJECTS)
+@in_turn("name", OBJECTS)
 def test_no_text_has_other_units_than_those_set(name: str) -> None:
     if name == "Exercise":  # a sheet asks in units of its own, in which it checks answers
         return
@@ -187,21 +182,7 @@ def test_no_text_has_other_units_than_those_set(name: str) -> None:
                 texts += [frame.text(), frame.html(), value.to_csv(frame=key, units=IMPERIAL)]
     for text in texts:
         for line in re.sub("<[^>]*>", "|", text).splitlines():
-            words = re.sub(r"m·r[^ ]*", "", line)  # of formulas
-            assert not SI.search(words), line
-
-
-@pytest.mark.parametrize("name", [n for n in OBJECTS if hasattr(OBJECTS[n], "plot")])
-def test_no_picture_has_other_units_than_those_set(name: str) -> None:
-    if name == "Sweep of one":  # has none
-        return
-    with cp.units(IMPERIAL):
-        OBJECTS[name].plot()
-        figure = plt.gcf()
-        figure.canvas.draw()
-        for text in figure.findobj(Text):
-            words = re.sub(r"m·r[^ ]*", "", text.get_text())
-            assert not SI.search(words), words
+            assert not si_units(line), line
 
 
 def test_numbers_along_axes_are_those_of_the_unit() -> None:
@@ -299,7 +280,7 @@ def test_settings_without_a_block_last_until_that_which_is_around_them_ends() ->
     assert lengths() == "m"
 
 
-@pytest.mark.parametrize("seed", range(20))
+@in_turn("seed", range(20))
 def test_blocks_in_any_order_leave_no_setting(seed: int) -> None:
     """The innermost of those that go on is that which is shown."""
     chance = np.random.default_rng(seed)

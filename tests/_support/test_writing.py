@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 from crankpin import cli
 from crankpin._support import files
+from support import in_turn
 from support.engines import I4
 
 if TYPE_CHECKING:
@@ -55,7 +56,7 @@ PICTURES: dict[str, tuple[str, Callable[[Path], object]]] = {
 @contextlib.contextmanager
 def full_disk(after: int) -> Iterator[None]:
     """Let files grow to so many bytes: further ones are refused as on a full disk."""
-    import resource  # noqa: PLC0415 - of POSIX
+    import resource
 
     soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (after, hard))
@@ -114,7 +115,7 @@ def test_nothing_else_in_the_package_writes_files() -> None:
     assert not found
 
 
-@pytest.mark.parametrize("seed", range(30))
+@in_turn("seed", range(30))
 def test_what_is_written_reads_back_over_any_old_file(seed: int, tmp_path: Path) -> None:
     rng = np.random.default_rng(seed)
     file = tmp_path / "a"

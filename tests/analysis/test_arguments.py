@@ -8,6 +8,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from crankpin.cli import main
+from support import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -81,7 +82,7 @@ ALONE: dict[str, tuple[Callable[[], object], str]] = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("call", ALONE)
+@in_turn("call", ALONE)
 def test_an_argument_without_its_partner_is_rejected(call: str) -> None:
     ask, named = ALONE[call]
     with pytest.raises(cp.InputError, match=named):

@@ -16,6 +16,7 @@ import pytest
 from crankpin.analysis.contributions import contributions
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support import in_turn
 from support.several_cranks import Draft, fired_engine, random_engine
 
 if TYPE_CHECKING:
@@ -115,8 +116,8 @@ def with_rod(engine: cp.Engine, rod_ratio: float, offset: float) -> cp.Engine:
 # --- the bound ----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("offset", [0.0, 0.1])
-@pytest.mark.parametrize("name", cp.presets())
+@in_turn("offset", [0.0, 0.1])
+@in_turn("name", cp.presets())
 def test_the_bound_is_true_and_tight(name: str, offset: float) -> None:
     for rod_ratio in (0.1, 0.3, 0.6, 0.9, 0.99):
         engine = with_rod(cp.Engine.preset(name), rod_ratio, offset)
@@ -337,7 +338,7 @@ def on_the_second_crank(draft: Draft, count: int) -> Draft:
     return draft
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_fewest_orders_are_kept_of_several_cranks(seed: int) -> None:
     far = on_the_second_crank(Draft(seed, ratios=FAST), 1)
     # The torque of its force about the main crank is far larger than that of its rod.
@@ -350,7 +351,7 @@ def test_fewest_orders_are_kept_of_several_cranks(seed: int) -> None:
         check(b, bounds, allowed(engine, rtol), orders)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_the_lever_is_that_of_what_has_a_force(seed: int) -> None:
     """Of a pair that makes a moment alone, about a plane aside; one of no mass is far off."""
     draft = on_the_second_crank(Draft(seed), 3)
@@ -398,7 +399,7 @@ def largest_of_gas(engine: cp.Engine) -> float:
     return max(float(each.max()) for each in torques)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_fewest_orders_are_kept_of_gas(seed: int) -> None:
     engine = smoothly_fired(seed, 3e5 if seed % 2 else 0.0)
     orders = tuple(n / 2 for n in range(1, 2 * max(192, highest(engine)) + 1))
@@ -412,7 +413,7 @@ def test_fewest_orders_are_kept_of_gas(seed: int) -> None:
         check(b, bounds, most, orders)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_a_sweep_leaves_out_no_more_than_its_bound_wherever_a_point_stands(seed: int) -> None:
     """Of two engines at some rod ratios and speeds, in this order and in another."""
     make = smoothly_fired if seed % 2 else random_engine
@@ -445,7 +446,7 @@ def test_a_sweep_leaves_out_no_more_than_its_bound_wherever_a_point_stands(seed:
 # --- of each cylinder by itself -------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_samples_have_the_orders_of_each_cylinder_and_of_shafts(seed: int) -> None:
     engine = random_engine(seed, ratios=FAST)
     shaft = cp.Shaft(-5, [cp.Unbalance(1e-3, 0.1, 30.0)], x=0.1)

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from rederivation import bearings, rigid_rod
 from rederivation.rigid_rod import SliderCrank
+from support import in_turn
 from support.engines import CYLINDER, I4
 
 if TYPE_CHECKING:
@@ -454,7 +455,7 @@ def test_results_are_records_over_named_dimensions() -> None:
 
 
 @pytest.mark.parametrize("engine", [WEIGHTED, FIRED], ids=["inertia", "gas"])
-@pytest.mark.parametrize("seed", range(10))
+@in_turn("seed", range(10))
 def test_means_do_not_depend_on_the_order_of_angles(seed: int, engine: cp.Engine) -> None:
     rng = np.random.default_rng(seed)
     angles = rng.uniform(-720.0, 1440.0, rng.integers(1, 12))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import crankpin as cp
 import numpy as np
-import pytest
+from support import in_turn
 
 RPM = 3000.0
 ORDERS = tuple(half / 2 for half in range(1, 17))
@@ -53,7 +53,7 @@ def test_one_dead_cylinder_of_four() -> None:
     assert engine.replace(firing_order="1-3-4-2").firing().firing_order == "1-3-4-2"
 
 
-@pytest.mark.parametrize(("name", "seed"), ENGINES)
+@in_turn(("name", "seed"), ENGINES)
 def test_what_is_said_of_half_orders_is_what_a_balance_has(name: str, seed: int) -> None:
     engine = fired(cp.Engine.preset(name), seed)
     verdicts = engine.vanishing_orders(ORDERS).gas_torque
@@ -70,7 +70,7 @@ def test_what_is_said_of_half_orders_is_what_a_balance_has(name: str, seed: int)
         assert order not in verdicts.undecided
 
 
-@pytest.mark.parametrize(("name", "seed"), ENGINES)
+@in_turn(("name", "seed"), ENGINES)
 def test_the_star_of_an_engine_has_those_that_fire(name: str, seed: int) -> None:
     engine = fired(cp.Engine.preset(name), seed)
     star = cp.star_diagram(engine, orders=ORDERS)
@@ -89,7 +89,7 @@ def test_the_star_of_an_engine_has_those_that_fire(name: str, seed: int) -> None
     assert not np.any(star.vectors[:, dead])
 
 
-@pytest.mark.parametrize(("name", "seed"), ENGINES)
+@in_turn(("name", "seed"), ENGINES)
 def test_intervals_are_those_between_firings(name: str, seed: int) -> None:
     engine = fired(cp.Engine.preset(name), seed)
     firing = engine.firing()

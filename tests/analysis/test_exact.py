@@ -23,7 +23,7 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import crossplane
-from support import html_of
+from support import html_of, in_turn
 from support.engines import CYLINDER
 
 if TYPE_CHECKING:
@@ -74,7 +74,7 @@ def joined(pair: tuple[str, str]) -> str:
 # --- what vanishes ------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if name not in IRRATIONAL])
+@in_turn("name", [name for name in NAMES if name not in IRRATIONAL])
 def test_proofs_agree_with_floating_point_both_ways(name: str) -> None:
     engine = cp.Engine.preset(name)
     v = engine.vanishing_orders()
@@ -430,7 +430,7 @@ def test_sevenths_stay_cosines() -> None:
     assert float(in_units(form)) == pytest.approx(expected, rel=ROUNDING)
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if name not in IRRATIONAL])
+@in_turn("name", [name for name in NAMES if name not in IRRATIONAL])
 def test_closed_forms_are_the_numbers(name: str) -> None:
     engine = cp.Engine.preset(name)
     omega = 2 * math.pi * RPM / 60

@@ -8,9 +8,10 @@ import re
 import crankpin as cp
 import pytest
 from crankpin.analysis.exercises import TOPICS
+from support import in_turn
 
 SHEETS = range(25)
-sheets = pytest.mark.parametrize("seed", SHEETS)
+sheets = in_turn("seed", SHEETS)
 CLOSE = 1e-9
 """Formulae and library differ by rounding alone; a₂ by the terms that a series leaves out."""
 
@@ -30,7 +31,7 @@ def figures(sheet: cp.results.Exercise) -> dict[str, float]:
     return {"F": m / 1000 * r * omega**2, "m": m / 1000, "a2": second, "omega": omega}
 
 
-@pytest.mark.parametrize("topic", TOPICS)
+@in_turn("topic", TOPICS)
 @sheets
 def test_sheets_are_the_same_again_and_right_answers_are_right(topic: str, seed: int) -> None:
     sheet = cp.exercise(topic, seed)
@@ -75,7 +76,7 @@ def test_inline(seed: int) -> None:
     assert force > 0.1
 
 
-@pytest.mark.parametrize("topic", TOPICS)
+@in_turn("topic", TOPICS)
 @sheets
 def test_sheets_speak_to_pupils(topic: str, seed: int) -> None:
     sheet = cp.exercise(topic, seed)

@@ -20,7 +20,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import time_domain
-from support import html_of
+from support import html_of, in_turn
 from support.several_cranks import random_engine
 
 if TYPE_CHECKING:
@@ -444,14 +444,14 @@ def test_every_finding_is_true(engine: cp.Engine) -> None:
 
 
 @pytest.mark.filterwarnings("ignore:.*which vanishes without this hardware")
-@pytest.mark.parametrize("engine", [*PRESETS, *WITH_HARDWARE], ids=lambda engine: engine.title)
+@in_turn("engine", [*PRESETS, *WITH_HARDWARE])
 @pytest.mark.filterwarnings("ignore:mean piston speed")
 def test_every_finding_is_true_of_known_engines(engine: cp.Engine) -> None:
     check(engine)
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("seed", range(40))
+@in_turn("seed", range(40))
 def test_counterweights_deliver_what_is_promised_of_several_cranks(seed: int) -> None:
     """Cranks of either sense, as fast as the main one, some of them without cylinders."""
     engine = random_engine(seed, ratios=(1, -1))
@@ -464,7 +464,7 @@ def test_counterweights_deliver_what_is_promised_of_several_cranks(seed: int) ->
             CHECKS[each.kind](each, numbers)
 
 
-@pytest.mark.parametrize("seed", range(24))
+@in_turn("seed", range(24))
 def test_hardware_and_rests_are_true_of_several_cranks(seed: int) -> None:
     """Of the rest with orders so high that those of the fastest crank are among them."""
     engine = random_engine(seed)
@@ -644,7 +644,7 @@ SENTENCES: list[tuple[cp.Engine, float | None, str]] = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("engine", "rpm", "expected"), SENTENCES)
+@in_turn(("engine", "rpm", "expected"), SENTENCES)
 def test_words(engine: cp.Engine, rpm: float | None, expected: str) -> None:
     assert expected in str(engine.explain(rpm))
 

@@ -26,6 +26,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from matplotlib import pyplot as plt
 from rederivation import firing, ijesc
+from support import in_turn
 from support.built_engines import EVEN, UNEVEN
 from support.engines import CYLINDER
 
@@ -141,8 +142,8 @@ def test_cylinders_that_fire_together_overlap_once() -> None:
 LISTED = ["-".join(map(str, order)) for order in ijesc.FIRING_ORDERS]
 
 
-@pytest.mark.parametrize("order", LISTED)
-@pytest.mark.parametrize("v_angle", range(10, 180, 10))
+@in_turn("order", LISTED)
+@in_turn("v_angle", range(10, 180, 10))
 def test_every_choice_of_turns_of_the_ijesc_engine(order: str, v_angle: int) -> None:
     engine = cp.Engine.preset(f"ijesc-v6-{order}").with_bank_angle(v_angle, hold="pins")
     ways = engine.firings(order)
@@ -184,7 +185,7 @@ def test_at_60_degrees_two_ijesc_orders_fire_in_one_turn_and_rest_for_420() -> N
 # --- built engines --------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("name", "order"), EVEN.items())
+@in_turn(("name", "order"), EVEN.items())
 def test_presets_fire_evenly(name: str, order: str) -> None:
     fires = cp.Engine.preset(name).firing(order)
     assert fires.even
@@ -403,7 +404,7 @@ def typed_angles(order: str, intervals: list[int]) -> dict[int, int]:
     return dict(zip(numbers, np.cumsum([0, *intervals[:-1]]).tolist(), strict=True))
 
 
-@pytest.mark.parametrize("seed", range(300))
+@in_turn("seed", range(300))
 def test_engines_fire_at_the_intervals_that_were_typed(seed: int) -> None:
     order, intervals, strokes = random_sequence(seed)
     engine = cp.Engine.from_firing_order(

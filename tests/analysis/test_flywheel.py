@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from crankpin._support.record import changed
 from rederivation import flywheel as rederived
+from support import in_turn
 from support.engines import I4
 
 if TYPE_CHECKING:
@@ -345,7 +346,7 @@ def test_a_table_of_every_ten_degrees_is_one_of_a_turn() -> None:
     assert (steps.theta_deg[-1], steps.mean_torque) == (240.0, pytest.approx(4.5, rel=1e-12))  # type: ignore[comparison-overlap]
 
 
-@pytest.mark.parametrize("seed", range(20))
+@in_turn("seed", range(20))
 def test_a_table_is_read_as_a_cycle_reads_it(seed: int) -> None:
     """Closed, or open with equal steps; a piston's pressure is then its mean, too."""
     random = np.random.default_rng(seed)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from crankpin.analysis.geometry import assumed_bores, geometry, weights_on_crank, weights_on_shafts
 from crankpin.model.crankpins import bays, throws
+from support import in_turn
 from support.engines import CYLINDER
 
 STAGGERED = cp.Engine.vee(
@@ -17,8 +18,8 @@ RADIAL = cp.Engine.from_lists(
 )
 
 
-@pytest.mark.parametrize("name", cp.presets())
-@pytest.mark.parametrize("theta", [0.0, 37.0, -700.0])
+@in_turn("name", cp.presets())
+@in_turn("theta", [0.0, 37.0, -700.0])
 def test_pins_and_pistons_are_on_an_exact_slider_crank(name: str, theta: float) -> None:
     engine = cp.Engine.preset(name)
     at = geometry(engine, theta)

@@ -12,6 +12,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from crankpin.cli import main, registered
+from support import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -112,8 +113,8 @@ def in_words(text: str) -> str:
     return f"{text[0].upper()}{text[1:]}."
 
 
-@pytest.mark.parametrize("engine", WORDS)
-@pytest.mark.parametrize("name", [*RESULTS, *OF_GAS, *OF_DESIGN])
+@in_turn("engine", WORDS)
+@in_turn("name", [*RESULTS, *OF_GAS, *OF_DESIGN])
 def test_results_say_what_they_count(name: str, engine: str) -> None:
     if name in OF_GAS and engine == "bare":
         return  # neither is without a cycle, or knows any
@@ -269,8 +270,8 @@ def test_every_command_is_tested() -> None:
     assert set(registered()) == COMMANDS_SAY.keys() | COMMANDS_SILENT | {"design", "compare"}
 
 
-@pytest.mark.parametrize("engine", WORDS)
-@pytest.mark.parametrize("name", COMMANDS_SAY)
+@in_turn("engine", WORDS)
+@in_turn("name", COMMANDS_SAY)
 def test_commands_say_what_they_count(
     name: str, engine: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -279,7 +280,7 @@ def test_commands_say_what_they_count(
         words = "gas: example petrol, full load"  # without another cycle
     if engine != "bare" and name == "tolerances":
         return  # which do not count gas
-    file = tmp_path / "engine.toml"
+    file = tmp_path / f"{name}.toml"
     (mounted(made) if name == "mounts" else made).save(file)
     options = COMMANDS_SAY[name].split()
     assert main([name, str(file), *options]) == 0

@@ -16,6 +16,7 @@ import pytest
 from crankpin.view import mounted
 from crankpin.view.figures import figures
 from rederivation import periodic
+from support import in_turn
 from support.several_cranks import Draft
 
 if TYPE_CHECKING:
@@ -73,7 +74,7 @@ def engine(seed: int) -> cp.Engine:
     return four.with_cycle([cycle, None, cycle, cycle]) if seed % 4 else four
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_a_load_is_its_free_body_in_waveforms_balances_and_sweeps(seed: int) -> None:
     random = np.random.default_rng(seed)
     bare, loads = engine(seed), [drawn(random) for _ in range(2)]
@@ -111,7 +112,7 @@ def test_a_load_is_its_free_body_in_waveforms_balances_and_sweeps(seed: int) -> 
 
 
 @pytest.mark.parametrize("ratio", ["1/2", "-1/2", 1, -1, "3/2", "-3/2", 2])
-@pytest.mark.parametrize("seed", range(4))
+@in_turn("seed", range(4))
 def test_an_unbalance_is_the_load_that_states_its_force(seed: int, ratio: int | str) -> None:
     """On shafts of any speed, in every reading, and as a free body."""
     random = np.random.default_rng(seed)
@@ -172,7 +173,7 @@ def test_an_unbalance_is_the_load_that_states_its_force(seed: int, ratio: int | 
     )
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_an_engine_with_a_load_is_the_sum_of_both(seed: int) -> None:
     """In numbers and bounds, of orders given and chosen, and about any point."""
     random = np.random.default_rng(100 + seed)
@@ -201,7 +202,7 @@ def test_an_engine_with_a_load_is_the_sum_of_both(seed: int) -> None:
         assert np.abs(np.asarray(whole) - parts).max() < 1e-12 * size
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_loads_add_up_in_bearings_mounts_tolerances_and_words(seed: int) -> None:
     """Of two loads: with both, less with either, plus without is nothing, at half orders too."""
     random = np.random.default_rng(400 + seed)
@@ -231,7 +232,7 @@ def test_loads_add_up_in_bearings_mounts_tolerances_and_words(seed: int) -> None
         assert all(np.array_equal(stars[0].sums, star.sums) for star in stars)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_a_load_of_no_size_changes_names_alone(seed: int) -> None:
     random = np.random.default_rng(200 + seed)
     bare, load = engine(seed), drawn(random)
@@ -518,7 +519,7 @@ def on_mounts(engine: cp.Engine) -> cp.Powertrain:
     return cp.Powertrain(engine, body, mounts)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_pages_of_mounts_have_the_loads_of_a_response(seed: int) -> None:
     random = np.random.default_rng(seed)
     engine = cp.Engine.preset("i4")
@@ -553,7 +554,7 @@ def test_what_is_fitted_over_the_square_of_speed_leaves_other_orders_loads_out()
     assert weights == cp.bob_weight(engine).residual[1].force.peak
 
 
-@pytest.mark.parametrize("seed", range(40))
+@in_turn("seed", range(40))
 def test_weights_of_several_cranks_count_what_scales_as_they_do(seed: int) -> None:
     draft = Draft(seed, ratios=(1, -1))
     engine = draft.engine()
@@ -614,7 +615,7 @@ def test_what_is_ranked_by_force_names_the_loads_that_act_on_it() -> None:
     assert cp.rank([v6], rpm=3000, by="total.force.peak").loads_counted == ""
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_parts_of_a_sweep_are_those_of_its_balances(seed: int) -> None:
     random = np.random.default_rng(seed)
     loaded = engine(seed).with_loads([built(drawn(random), "pump"), built(drawn(random), "fan")])
@@ -636,7 +637,7 @@ def test_parts_of_a_sweep_are_those_of_its_balances(seed: int) -> None:
     assert dataset["force_pump_peak"].dims == ("rpm", "order")
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_parts_of_a_sweep_are_read_over_angle_as_in_waveforms(seed: int) -> None:
     random = np.random.default_rng(seed)
     loaded = engine(seed).with_loads([built(drawn(random), "pump"), built(drawn(random), "fan")])

@@ -16,10 +16,9 @@ from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
 import numpy as np
-import pandas as pd
 import pytest
-import xarray as xr
 from matplotlib import pyplot as plt
+from support import in_turn
 from support.engines import OFFSET
 
 if TYPE_CHECKING:
@@ -32,7 +31,7 @@ SCALAR = ("phasor", "peak", "zero_bound")
 NAMES = ("force", "moment", "torque", "crank_torque")
 
 
-@pytest.mark.parametrize("name", cp.presets())
+@in_turn("name", cp.presets())
 def test_default_peaks_are_those_of_the_waveform(name: str) -> None:
     """Sampled exactly at 0.05°, within the bound of omitted orders and the step's effect."""
     engine = cp.Engine.preset(name)
@@ -313,6 +312,8 @@ def test_negligible_orders_are_left_out_and_named() -> None:
 
 @pytest.mark.parametrize("result", [V6.balance(5000), cp.sweep(V6, rpm=[1000.0, 2000.0])])
 def test_phasors_survive_csv(result: Any) -> None:
+    import pandas as pd
+
     table = result.tidy().to_pandas()
     text = io.StringIO(result.tidy().to_csv())
     # The default of pandas 2 rounds the last digit; pandas 3 does not, and warns of the option.
@@ -327,6 +328,8 @@ def test_phasors_survive_csv(result: Any) -> None:
 
 @pytest.mark.parametrize("result", [V6.balance(5000), cp.sweep({"a b": V6}, rpm=[1000.0, 2000.0])])
 def test_datasets_survive_netcdf(result: Any, tmp_path: Path) -> None:
+    import xarray as xr
+
     dataset = result.to_xarray(split_complex=True)
     dataset.to_netcdf(tmp_path / "result.nc", engine="scipy")
     with xr.open_dataset(tmp_path / "result.nc", engine="scipy") as found:

@@ -12,6 +12,7 @@ import pytest
 from crankpin.analysis.contributions import contributions, phasors
 from crankpin.analysis.geometry import geometry, rotating_masses, weights_on_crank
 from crankpin.model.crankpins import crankpins
+from support import in_turn
 from support.several_cranks import Draft, fired_engine, random_engine, size
 
 if TYPE_CHECKING:
@@ -71,7 +72,7 @@ def test_throws_of_two_cranks_do_not_compare() -> None:
         cp.sweep(crossed, rpm=3000, bank_angle_deg=[60, 90], hold="pins")
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_pins_are_where_a_mass_on_them_pulls(seed: int) -> None:
     engine = random_engine(seed)
     still = engine.replace(rotating_mass=0.0, counterweights=(), shafts=())
@@ -88,14 +89,14 @@ def test_pins_are_where_a_mass_on_them_pulls(seed: int) -> None:
         assert abs(apart) < 1e-9 * max(1.0, size(engine, RPM) / (radius * RPM**2))
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_pins_say_as_much_as_top_dead_centres(seed: int) -> None:
     engine = random_engine(seed, ratios=(1, -1))  # faster cranks are at TDC several times a turn
     again = engine.replace(pin_deg=[repr(pin) for pin in engine.pin_deg.tolist()])
     same(again.balance(RPM, orders=ORDERS), engine.balance(RPM, orders=ORDERS), QUANTITIES)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_drawings_show_pins_and_weights_where_they_pull(seed: int) -> None:
     engine, theta = random_engine(seed), 77.0
     places = geometry(engine, theta)
@@ -132,7 +133,7 @@ def test_cylinders_on_two_cranks_share_no_bob_weight() -> None:
 
 
 @pytest.mark.parametrize("make", [random_engine, fired_engine])
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_parts_add_up_to_the_whole_about_any_point(
     seed: int, make: Callable[[int], cp.Engine]
 ) -> None:
@@ -152,7 +153,7 @@ def test_parts_add_up_to_the_whole_about_any_point(
         assert (np.abs(total - expected) <= bound).all(), name
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_what_a_kilogram_adds_is_linear(seed: int) -> None:
     engine = random_engine(seed)
     random = np.random.default_rng(seed)
@@ -188,7 +189,7 @@ def _vector(engine: cp.Engine, more: NDArray[np.float64]) -> NDArray[np.complex1
 # --- laws -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_a_mirrored_engine_mirrors(seed: int) -> None:
     draft = Draft(seed)
     draft.crank_of = [each % (len(draft.cranks) - 1) + 1 for each in draft.crank_of]
@@ -204,7 +205,7 @@ def test_a_mirrored_engine_mirrors(seed: int) -> None:
     assert np.abs(there.crank_torque - here.crank_torque).max() <= allowed
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_moving_all_axes_moves_levers_alone(seed: int) -> None:
     draft = Draft(seed)
     draft.crank_of = [each % (len(draft.cranks) - 1) + 1 for each in draft.crank_of]
@@ -217,7 +218,7 @@ def test_moving_all_axes_moves_levers_alone(seed: int) -> None:
     same(moved.about((x, y, draft.reference_z)), here, ("torque",))
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_two_halves_make_a_cylinder(seed: int) -> None:
     draft = Draft(seed)
     whole = draft.engine().balance(RPM, orders=ORDERS)
@@ -235,7 +236,7 @@ def test_two_halves_make_a_cylinder(seed: int) -> None:
     same(draft.engine().balance(RPM, orders=ORDERS), whole, QUANTITIES)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_a_crank_without_cylinders_changes_nothing(seed: int) -> None:
     draft = Draft(seed)
     before = draft.engine()
@@ -248,7 +249,7 @@ def test_a_crank_without_cylinders_changes_nothing(seed: int) -> None:
 
 
 @pytest.mark.parametrize("make", [random_engine, fired_engine])
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_a_balance_is_a_sweep_of_one_point(seed: int, make: Callable[[int], cp.Engine]) -> None:
     """Its orders and bounds; its figures within their rounding: each adds in its own order."""
     engine = make(seed)
@@ -275,7 +276,7 @@ def test_a_balance_is_a_sweep_of_one_point(seed: int, make: Callable[[int], cp.E
 
 
 @pytest.mark.parametrize("make", [random_engine, fired_engine])
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_bounds_hold_about_any_point(seed: int, make: Callable[[int], cp.Engine]) -> None:
     engine = make(seed)
     theta = np.linspace(0.0, 720.0, 289)
@@ -316,7 +317,7 @@ def test_the_bound_about_a_point_is_one_figure_everywhere() -> None:
 # --- the forward theorem --------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("seed", range(30))
+@in_turn("seed", range(30))
 def test_a_sample_of_tolerances_is_an_engine(seed: int) -> None:
     engine = random_engine(seed)
     masses = [each.reciprocating_mass for each in engine.cylinders]
@@ -350,7 +351,7 @@ def test_cylinders_on_two_cranks_share_no_pin_of_tolerances() -> None:
         cp.tolerances(draft.engine(), RPM, pin_deg=0.1, pins=[[one, other], *alone])
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_bob_weights_act_in_the_sense_of_their_cranks(seed: int) -> None:
     engine = random_engine(seed, ratios=(1, -1), offset=seed % 2 == 1)
     bob = cp.bob_weight(engine)
@@ -383,7 +384,7 @@ def test_a_bob_weight_on_a_crank_that_turns_against_the_main_one_meets_the_backw
     assert "what turns with the crank of each piston" in text
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_a_weight_on_a_crank_is_one_at_its_pin_turned(seed: int) -> None:
     """A free weight in the direction of a crankpin, and one at the pin, ahead by as much."""
     engine = random_engine(seed)
@@ -416,7 +417,7 @@ def test_weights_are_on_cranks_that_are_there() -> None:
         cp.counterweights(pair(ratio=2), planes={"web": (0.0, 1)})
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_the_fastest_piston_is_that_of_any_crank(seed: int) -> None:
     """Twice the distance between its dead centres in a turn of its own crank."""
     engine = random_engine(seed, ratios=(1, -1, 2, -3))
@@ -542,7 +543,7 @@ def test_what_counterweights_leave_is_said_of_one_sense_alone() -> None:
 
 
 @pytest.mark.parametrize("make", [random_engine, fired_engine])
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_what_is_said_does_not_fail(seed: int, make: Callable[[int], cp.Engine]) -> None:
     engine = make(seed)
     assert engine.explain(RPM).sentences
@@ -603,7 +604,7 @@ ANGLES = np.arange(-30.0, 720.0, 7.3)
 
 
 @pytest.mark.parametrize("make", [random_engine, fired_engine])
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_loads_of_bearings_and_walls_are_the_waveform(
     seed: int, make: Callable[[int], cp.Engine]
 ) -> None:
@@ -647,7 +648,7 @@ def test_loads_of_bearings_and_walls_are_the_waveform(
     assert np.abs(turned - shaken.crank_torque).max() <= ROUNDING * whole
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@in_turn("seed", SEEDS)
 def test_each_crank_is_loaded_as_that_of_an_engine_of_its_own(seed: int) -> None:
     """Faster by its ratio; one that turns against the main crank seen in a mirror."""
     engine = random_engine(seed)
@@ -719,7 +720,7 @@ def test_a_crank_that_is_not_there_cannot_be_cut() -> None:
     assert loads.frames["mains"].columns[1].values == (0, 0, 1, 1)
 
 
-@pytest.mark.parametrize("seed", range(30))
+@in_turn("seed", range(30))
 def test_bounds_of_zeros_are_those_of_the_sweep(seed: int) -> None:
     """Of each quantity its own terms: a force at an arm is none of the torque on the crank."""
     engine = random_engine(seed)

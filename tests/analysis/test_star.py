@@ -13,6 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import firing as rederived
+from support import in_turn
 from support.engines import CYLINDER
 
 if TYPE_CHECKING:
@@ -75,7 +76,7 @@ def test_a_mode_shape_weighs_the_cylinders() -> None:
 # --- laws ---------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", cp.presets())
+@in_turn("name", cp.presets())
 def test_even_firing_leaves_multiples_of_half_the_number_of_cylinders(name: str) -> None:
     engine = cp.Engine.preset(name)
     if not engine.firing_order or engine.strokes != 4 or name in ("vr5", "vr6", "w8", "w12", "w16"):

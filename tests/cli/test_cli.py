@@ -25,7 +25,7 @@ from crankpin._support.record import AbsentItemError
 from crankpin.cli import main
 from crankpin.cli.arguments import Given, error_in_options
 from matplotlib import pyplot as plt
-from support import DATA
+from support import DATA, in_turn
 
 IJESC = [
     "ijesc-v6-1-3-5-2-4-6",
@@ -484,7 +484,7 @@ def test_a_picture_that_cannot_be_written_leaves_no_figure(capsys: CAPTURE, tmp_
 # --- units ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@in_turn(
     ("text", "unit", "value"),
     [
         ("0.086", "m", 0.086),
@@ -579,7 +579,7 @@ def test_control_characters_do_not_reach_the_terminal(capsys: CAPTURE, tmp_path:
 # --- what goes wrong ----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@in_turn(
     ("argv", "said"),
     [
         ("balance v8-crosplane", "v8-crossplane"),

@@ -16,6 +16,7 @@ from cli.test_help_of_layouts import SOUND as OF_PARTS
 from cli.test_units_printed import LINES, car
 from crankpin.cli import ORDER, main, registered
 from crankpin.cli.arguments import Parser
+from support import in_turn
 
 CAPTURE = pytest.CaptureFixture[str]
 WORDS = {
@@ -192,7 +193,7 @@ def _files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("_files")
-@pytest.mark.parametrize("command", [name for name in ORDER if numeric(name)])
+@in_turn("command", [name for name in ORDER if numeric(name)])
 def test_numbers_are_read_or_rejected_by_name(command: str, capsys: CAPTURE) -> None:
     faults = list[str]()
     for flag in numeric(command):

@@ -14,6 +14,7 @@ import pytest
 from crankpin.cli import main
 from crankpin.cli.new import BUILDERS, LAYOUT
 from crankpin.model import presets
+from support import in_turn
 
 CAPTURE = pytest.CaptureFixture[str]
 LINES = {
@@ -115,7 +116,7 @@ def listed(kind: str) -> list[str]:
 KINDS = [*BUILDERS, *presets.aliases(), *presets.Presets()]
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@in_turn("kind", KINDS)
 def test_every_option_in_the_help_of_a_kind_is_taken(
     kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -131,7 +132,7 @@ def test_every_option_in_the_help_of_a_kind_is_taken(
         toml_of(kind, *(word for pair in beside for word in pair), *typed)
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@in_turn("kind", KINDS)
 def test_no_option_is_taken_that_the_help_of_a_kind_lacks(
     kind: str, capsys: CAPTURE, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

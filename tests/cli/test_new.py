@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from crankpin.cli import main
 from crankpin.cli.new import BUILDERS
+from support import in_turn
 
 CAPTURE = pytest.CaptureFixture[str]
 HARLEY = (
@@ -119,7 +120,7 @@ def test_json_and_names(capsys: CAPTURE) -> None:
 # --- kinds ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", cp.presets())
+@in_turn("name", cp.presets())
 def test_a_preset_is_a_kind(capsys: CAPTURE, name: str) -> None:
     preset = cp.Engine.preset(name)
     # The e-book's rotating mass belongs to its layout, as in Engine.preset(…, cylinder=…).

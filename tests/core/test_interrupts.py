@@ -15,6 +15,7 @@ import threading
 import crankpin as cp
 import numpy as np
 import pytest
+from support import in_turn
 
 pytestmark = pytest.mark.slow
 
@@ -137,7 +138,7 @@ def test_every_function_that_reports_progress_is_among_the_long_calls() -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="sends SIGINT")
-@pytest.mark.parametrize("name", LONG_CALLS)
+@in_turn("name", LONG_CALLS)
 def test_ctrl_c_stops_a_long_call(name: str) -> None:
     program = PROGRAM.format(call=LONG_CALLS[name])
     with subprocess.Popen(  # noqa: S603 - this interpreter

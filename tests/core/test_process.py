@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from fuzzing.sound import FIRED
 from fuzzing.surface import CALLED
-from support import long_calls
+from support import in_turn, long_calls
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -246,7 +246,7 @@ def test_a_panic_is_an_error_that_asks_to_report_it() -> None:
 RUST = Path(__file__).parents[2] / "rust" / "py" / "src"
 
 
-@pytest.mark.parametrize("file", sorted(RUST.glob("*.rs")), ids=lambda file: file.name)
+@in_turn("file", sorted(RUST.glob("*.rs")))
 def test_everything_that_python_calls_is_guarded_and_makes_arrays_that_can_fail(file: Path) -> None:
     text = file.read_text(encoding="utf-8")
     exported = re.findall(r"^ *#\[(?:pymethods|pyfunction)\b", text, re.MULTILINE)

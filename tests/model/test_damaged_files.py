@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from crankpin.cli import main
 from crankpin.model.cycle_files import PRESSURE_UNITS
+from support import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -186,8 +187,8 @@ def cases() -> Iterator[Any]:
             yield pytest.param(layout, change, False, id=f"{name}-{damage}")
 
 
-@pytest.mark.parametrize("reader", READERS)
-@pytest.mark.parametrize(("layout", "damage", "cell"), list(cases()))
+@in_turn("reader", READERS)
+@in_turn(("layout", "damage", "cell"), list(cases()))
 def test_no_damage_is_silent(
     tmp_path: Path, layout: Layout, damage: Callable[[Cells], Cells], cell: bool, reader: Any
 ) -> None:
@@ -199,14 +200,14 @@ def test_no_damage_is_silent(
         assert "column" in said
 
 
-@pytest.mark.parametrize("reader", READERS)
-@pytest.mark.parametrize("layout", list(LAYOUTS.values()), ids=list(LAYOUTS))
-@pytest.mark.parametrize("form", [
+@in_turn("reader", READERS)
+@in_turn("layout", list(LAYOUTS.values()))
+@in_turn("form", [
     {"encoding": "utf-8-sig"}, {"encoding": "utf-16"}, {"encoding": "utf-16-le"},
     {"encoding": "latin-1"}, {"comma": True}, {"separator": "\t"},
     {"separator": "\t", "comma": True},
     {"separator": ","}, {"separator": ",", "comma": True}, {"separator": "; "},
-], ids=str)  # fmt: skip
+])  # fmt: skip
 def test_forms_of_text_are_read_or_named(
     tmp_path: Path, layout: Layout, form: dict[str, Any], reader: Any
 ) -> None:
@@ -215,8 +216,8 @@ def test_forms_of_text_are_read_or_named(
     assert said.startswith("error: path" if ambiguous else "right"), said
 
 
-@pytest.mark.parametrize("typed", PRESSURE_UNITS)
-@pytest.mark.parametrize("head", PRESSURE_UNITS)
+@in_turn("typed", PRESSURE_UNITS)
+@in_turn("head", PRESSURE_UNITS)
 def test_pressure_under_another_unit_is_never_silent(tmp_path: Path, typed: str, head: str) -> None:
     layout = LAYOUTS["one"]._replace(head=["crank angle [deg]", f"p abs [{head}]"])
     scale = 1e5 / PRESSURE_UNITS[typed]
@@ -226,8 +227,8 @@ def test_pressure_under_another_unit_is_never_silent(tmp_path: Path, typed: str,
     assert said.startswith("right" if same else "warned"), said
 
 
-@pytest.mark.parametrize("reader", READERS)
-@pytest.mark.parametrize("layout", list(LAYOUTS.values()), ids=list(LAYOUTS))
+@in_turn("reader", READERS)
+@in_turn("layout", list(LAYOUTS.values()))
 @pytest.mark.parametrize("head", ["crank angle [deg]", "phi [rad]", "t [s]", "t [ms]"])
 def test_angles_under_another_unit_are_never_silent(
     tmp_path: Path, layout: Layout, head: str, reader: Any
@@ -246,7 +247,7 @@ SHELL = (
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("command", SHELL, ids=lambda each: "-".join(each[:1] + each[-2:-1]))
+@in_turn("command", SHELL)
 @pytest.mark.parametrize("k", [0, 1])
 @pytest.mark.parametrize("value", ["nan", "inf", "high", ""])
 def test_the_shell_names_line_and_column(

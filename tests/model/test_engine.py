@@ -19,6 +19,7 @@ import numpy as np
 import pytest
 from crankpin.analysis.sweeps.sweep import engine_titles
 from crankpin.model import presets as presets_module
+from support import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -567,7 +568,7 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
 }
 
 
-@pytest.mark.parametrize("name", MISTAKES)
+@in_turn("name", MISTAKES)
 def test_likely_mistakes_are_warned_of_once_by_name(name: str) -> None:
     call, words = MISTAKES[name]
     with pytest.warns(UserWarning, match=words) as caught:

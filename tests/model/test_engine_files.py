@@ -12,6 +12,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from crankpin.model import computed_cycles, engine_files
+from support import in_turn
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -51,7 +52,7 @@ ENGINES = {
 @cache
 def validator() -> Any:  # noqa: ANN401 - of a package without types
     """What checks files; its package takes seconds to import, for which other tests do not wait."""
-    from jsonschema import Draft202012Validator  # noqa: PLC0415
+    from jsonschema import Draft202012Validator
 
     return Draft202012Validator(SCHEMA)
 
@@ -77,7 +78,7 @@ def test_the_schema_accepts_what_is_written(name: str, tmp_path: Path) -> None:
     assert cp.Engine.load(tmp_path / "engine.json") == engine
 
 
-@pytest.mark.parametrize("name", cp.presets())
+@in_turn("name", cp.presets())
 def test_the_schema_accepts_presets(name: str) -> None:
     assert mistakes(json.loads(cp.Engine.preset(name).to_json())) == []
 
@@ -142,7 +143,7 @@ def test_the_schema_has_the_entries_that_the_reader_knows(place: str) -> None:
         assert f"unknown field `{entry}`" not in str(caught.value)
 
 
-@pytest.mark.parametrize(
+@in_turn(
     ("place", "entry", "value"),
     [
         ("", "schema", 2),

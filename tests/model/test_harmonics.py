@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import harmonics_mp, kinematics
-from support import DATA
+from support import DATA, in_turn
 
 TABLE = harmonics_mp.reference_table(DATA / "harmonics_50_digits.csv")
 ORDERS = list(range(1, 41))
@@ -34,9 +34,7 @@ def relative_errors(found: np.ndarray, exact: np.ndarray) -> np.ndarray:
     return errors
 
 
-@pytest.mark.parametrize(
-    "row", TABLE, ids=lambda row: f"{row.rod_ratio:g}-{row.offset_over_radius:g}"
-)
+@in_turn("row", TABLE)
 def test_orders_1_to_40_against_50_digits(row: harmonics_mp.ReferenceRow) -> None:
     errors = relative_errors(ours(row), np.array(row.coefficients()))
     # 45 units in the last place at order 40; ten times that where 1 − λ costs digits

@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 from crankpin.model import presets as presets_module
 from rederivation import crossplane, ebook, ijesc
-from support import DATA
+from support import DATA, in_turn
 from support.built_engines import EVEN, UNEVEN
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ def highest(engine: cp.Engine) -> NDArray[np.float64]:
 # --- every preset ---------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", NAMES)
+@in_turn("name", NAMES)
 def test_it_builds_balances_and_comes_back_from_its_file(name: str) -> None:
     engine = cp.Engine.preset(name)
     assert engine.name
@@ -92,7 +92,7 @@ def test_it_builds_balances_and_comes_back_from_its_file(name: str) -> None:
     assert cp.Engine.from_json(engine.to_json()) == engine
 
 
-@pytest.mark.parametrize("name", NAMES)
+@in_turn("name", NAMES)
 def test_names_and_conventions(name: str) -> None:
     engine, about = cp.Engine.preset(name), cp.presets().descriptions[name]
     assert name == name.lower()
@@ -146,7 +146,7 @@ def intervals(name: str, order: str) -> NDArray[np.float64]:
     return np.asarray(gaps)
 
 
-@pytest.mark.parametrize(("name", "order"), EVEN.items())
+@in_turn(("name", "order"), EVEN.items())
 def test_even_firing(name: str, order: str) -> None:
     # In this order all intervals are equal and fill two turns. Angles below 720 to a few ulp.
     count = order.count("-") + 1
@@ -303,9 +303,7 @@ ZERO = {  # orders of force, orders of moment
 }
 
 
-@pytest.mark.parametrize(
-    ("name", "force_orders", "moment_orders"), [(n, *o) for n, o in ZERO.items()]
-)
+@in_turn(("name", "force_orders", "moment_orders"), [(n, *o) for n, o in ZERO.items()])
 def test_what_cancels_is_exactly_zero(
     name: str, force_orders: list[int], moment_orders: list[int]
 ) -> None:
@@ -641,7 +639,7 @@ def test_vr_engines_keep_their_bores_offset() -> None:
         cp.Engine.preset("vr6", cylinder=cp.Cylinder(0.045, 0.05, 0.5))
 
 
-@pytest.mark.parametrize("name", NAMES)
+@in_turn("name", NAMES)
 def test_spacing_stretches_the_crank(name: str) -> None:
     preset, engine = cp.Engine.preset(name), cp.Engine.preset(name, spacing=0.25)
     throws = np.unique(engine.z)

@@ -15,7 +15,7 @@ from crankpin import Shaft, Unbalance
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import rotors, time_domain
-from support import engines
+from support import engines, in_turn
 from support.engines import CYLINDER
 
 if TYPE_CHECKING:
@@ -419,7 +419,7 @@ PRESETS = {name: cp.Engine.preset(name).replace(rotating_mass=0) for name in cp.
 CENTRED = [name for name, e in PRESETS.items() if not any(c.pin_offset for c in e.cylinders)]
 
 
-@pytest.mark.parametrize("name", CENTRED)
+@in_turn("name", CENTRED)
 def test_bob_weights_of_half_the_mass_remove_all_forward_parts_of_order_1(name: str) -> None:
     engine = PRESETS[name]
     balanced = engine.with_counterweights(bob_weights(engine))

@@ -17,6 +17,7 @@ from crankpin.plot.crank import PINS, UNBALANCES, WEIGHTS
 from crankpin.plot.section import MOVING
 from crankpin.plot.shapes import listed
 from matplotlib import pyplot as plt
+from support import in_turn
 from support.engines import CYLINDER
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ STAGGERED = cp.Engine.vee(
     name="V6 staggered",
 )
 ENGINES = [*map(cp.Engine.preset, cp.presets()), RADIAL, FITTED, STAGGERED]
-any_engine = pytest.mark.parametrize("engine", ENGINES, ids=lambda engine: engine.name)
+any_engine = in_turn("engine", ENGINES)
 
 
 def outlines(ax: Axes, gid: str) -> list[NDArray[np.complex128]]:
@@ -235,7 +236,7 @@ CROWDED = ("w12", "w16", "v16-45", "v14-9.13", "v4-narrow", "vr6", "i6")
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
+@in_turn(
     ("engine", "size", "font"),
     [(engine, (7.2, 5.6), 10.0) for engine in ENGINES]
     + [(engine, (3.4, 3.2), 7.0) for engine in (*map(cp.Engine.preset, CROWDED), RADIAL, FITTED)],

@@ -12,6 +12,7 @@ import pytest
 from crankpin.view.page import WEB
 from matplotlib import pyplot as plt
 from matplotlib.collections import PolyCollection
+from support import in_turn
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -129,7 +130,7 @@ def test_an_error_leaves_no_figure() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [n for n in cp.presets() if cp.Engine.preset(n).firing_order])
+@in_turn("name", [n for n in cp.presets() if cp.Engine.preset(n).firing_order])
 def test_all_presets_with_a_firing_order_are_drawn(name: str) -> None:
     firing = cp.Engine.preset(name).firing()
     ax = firing.plot()

@@ -1,63 +1,68 @@
-"""Is every picture right on dark at a column's width, in a grid, and on plain axes?"""
+"""Is every picture right on dark at a column's width, on plain axes and in a grid?"""
 
 from __future__ import annotations
 
+import functools
 import itertools
 from typing import TYPE_CHECKING, Any
 
-import matplotlib as mpl
+import crankpin as cp
 import numpy as np
 import pytest
+from crankpin._support import drawing
 from crankpin.plot.firing import STROKE_COLOURS
 from crankpin.plot.style import is_dark
 from matplotlib import colors
 from matplotlib import pyplot as plt
-from matplotlib.axes import Axes
-from support.looks import compared, in_a_grid, on_dark_column
+from matplotlib.text import Text
+from support.looks import compared, in_a_grid, on_dark_column, on_plain_axes
 from support.pictures import PICTURES
+from support.shown_units import IMPERIAL, si_units
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from matplotlib.text import Text
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", PICTURES)
 @compared
 def test_picture(name: str) -> Figure:
     return legible(on_dark_column(PICTURES[name]))
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", PICTURES)
-def test_picture_in_a_grid(name: str) -> None:
-    legible(in_a_grid(PICTURES[name]))
+def test_picture_on_plain_axes_and_in_a_grid(name: str) -> None:
+    """In units that are set: no text has others."""
+    for placed in (on_plain_axes, in_a_grid):
+        with cp.units(IMPERIAL):
+            figure = placed(PICTURES[name])
+            legible(figure)
+            for text in figure.findobj(Text):
+                assert not si_units(text.get_text()), text
+        plt.close(figure)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", PICTURES)
-def test_picture_on_plain_axes(name: str) -> None:
-    """On axes, or in a figure, that nobody gave a layout: there alone, and inside it."""
-    plot = PICTURES[name]
-    plt.rcParams["font.size"] = 9
-    parameters = dict(mpl.rcParams)
-    drawn = plot()
-    (made,) = map(plt.figure, plt.get_fignums())
-    assert np.ravel(drawn)[0].get_figure(root=True) is made
-    several = isinstance(drawn, np.ndarray)
-    assert several or isinstance(drawn, Axes)
-    plt.close("all")
-    figure = plt.figure(figsize=(5.0, 3.3))
-    if several:
-        assert {ax.get_figure(root=False) for ax in plot(figure=figure).flat} == {figure}
-    else:
-        ax = figure.subplots()
-        assert plot(ax=ax) is ax
-    assert plt.get_fignums() == [figure.number]
-    assert dict(mpl.rcParams) == parameters
-    legible(figure)
+def test_every_class_with_a_picture_is_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn = set()
+
+    @functools.singledispatch
+    def note(result: object, ax: object = None, figure: object = None, **_: object) -> None:
+        drawn.add(type(result))
+        raise NotDrawnError
+
+    painter = drawing.picture.dispatch
+    monkeypatch.setattr(drawing, "picture", note)
+    for plot in PICTURES.values():
+        with pytest.raises(NotDrawnError):
+            plot()
+    public = {getattr(module, name) for module in (cp, cp.results) for name in module.__all__}
+    assert {painter(each) for each in public if hasattr(each, "plot")} == set(map(painter, drawn))
+
+
+class NotDrawnError(Exception):
+    """Instead of a picture."""
 
 
 def legible(figure: Figure) -> Figure:

@@ -194,7 +194,7 @@ def test_gas_orders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_search(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("numba")
-    import search  # noqa: PLC0415 - needs numba
+    import search
 
     monkeypatch.setattr(search, "least", lambda run, **_: run() and 1e-6)
     search.tolerance(search.cases(search.ENGINES[:2]), tmp_path)

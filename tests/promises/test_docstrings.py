@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import crankpin as cp
 import pytest
+from support import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -158,12 +159,12 @@ def public() -> dict[str, Any]:
 PUBLIC = public()
 
 
-@pytest.mark.parametrize("name", PUBLIC)
+@in_turn("name", PUBLIC)
 def test_docstring_states_parameters_types_and_results(name: str) -> None:
     assert wrong_with(name, PUBLIC[name]) == []
 
 
-@pytest.mark.parametrize("name", cp.results.__all__)
+@in_turn("name", cp.results.__all__)
 def test_help_of_a_result_has_its_fields(name: str) -> None:
     kind = getattr(cp.results, name)
     fields = {field.name for field in kind._fields if not field.name.startswith("_")}

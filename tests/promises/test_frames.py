@@ -15,40 +15,25 @@ import pytest
 from crankpin._support.frames import Tabled
 from crankpin._support.tables import Item
 from crankpin.cli import main
-from promises.test_objects import OBJECTS
+from support import in_turn
+from support.objects import CHARACTERS, OBJECTS, RESULTS, UNTABLED
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-RESULTS = {name: value for name, value in OBJECTS.items() if isinstance(value, Tabled)}
-SWEPT = {
-    "OrderBalance of a sweep": OBJECTS["Sweep"][2],
-    "Quantity of a balance": OBJECTS["Balance, fired"].torque,
-    "Quantity of a sweep": OBJECTS["Sweep"].moment,
-    "Quantity of an order of a sweep": OBJECTS["Sweep"].force[2],
-    "Quantity of all orders": OBJECTS["Balance"].total.force,
-}
-every_result = pytest.mark.parametrize("name", [*RESULTS, *SWEPT])
-UNTABLED = {
-    "Cylinder", "Engine", "PortTiming", "Rod", "Shaft", "Unbalance", "ValveTiming", "InertiaTrack",
-    "Mount", "Powertrain", "RigidBody", "Actuator", "Subframe", "Receptance",
-    "PeriodicLoad",
-}  # fmt: skip
-"""Inputs."""
-CHARACTERS = "a0 \t\n\\{}$&#%_~^|<>\"'=+-°·²ω→–₂"
-"""What names may have, LaTeX obeys, or fonts of text lack."""
+every_result = in_turn("name", RESULTS)
 
 
 def result_of(name: str) -> Tabled:
     """The result of a name."""
-    found: Tabled = (RESULTS | SWEPT)[name]
+    found: Tabled = RESULTS[name]
     return found
 
 
 def test_every_class_is_frames_or_no_table() -> None:
     classes = {type(value).__name__ for value in OBJECTS.values()}
-    tabled = {type(value).__name__ for value in RESULTS.values()}
+    tabled = {type(value).__name__ for value in OBJECTS.values() if isinstance(value, Tabled)}
     assert classes - tabled == UNTABLED
 
 
@@ -129,7 +114,7 @@ def test_every_frame_and_every_dataset_is_written_as_netcdf_and_read_back(
     name: str, tmp_path: Path
 ) -> None:
     """Whatever heads and names are; complex numbers as their parts."""
-    import xarray as xr  # noqa: PLC0415 - of seconds
+    import xarray as xr
 
     result, path = result_of(name), tmp_path / "result.nc"
     for frame in (None, *result.frames):
@@ -148,7 +133,7 @@ def test_every_frame_and_every_dataset_is_written_as_netcdf_and_read_back(
 
 
 def test_names_that_netcdf_cannot_have_are_replaced_and_kept(tmp_path: Path) -> None:
-    import xarray as xr  # noqa: PLC0415 - of seconds
+    import xarray as xr
 
     names = ["fan 2/rev", "fan 2:rev", "fan_2_rev", "'quoted'", "ωt", "trailing ", "double"]
     loads = [cp.PeriodicLoad(name, on="block", force={1: 10.0 + 1j}) for name in names]
@@ -199,7 +184,7 @@ def test_latex_has_every_cell_between_rules(name: str) -> None:
         assert (table.loads == "") or f"{table.loads[1:6]}" in latex
 
 
-@pytest.mark.parametrize("seed", range(30))
+@in_turn("seed", range(30))
 def test_any_text_is_escaped_in_latex(seed: int) -> None:
     rng = np.random.default_rng(seed)
     words = ["".join(rng.choice([*CHARACTERS], 12)) for _ in range(4)]

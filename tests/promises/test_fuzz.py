@@ -55,6 +55,7 @@ from fuzzing.surface import (
 from fuzzing.values import DRAWN, FEW, HOSTILE
 from hypothesis import HealthCheck, example, given, seed, settings
 from hypothesis import strategies as st
+from support import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -140,7 +141,7 @@ def test_hostile_arguments(target: Target) -> None:
     assert not found, f"{len(found)} calls\n" + "\n".join(found[:20])
 
 
-@pytest.mark.parametrize("name", CLASSES)
+@in_turn("name", CLASSES)
 def test_properties_give_figures_or_say_why_not(name: str) -> None:
     for each in instances()[CLASSES[name]]:
         assert undefined(each) <= UNDEFINED.get(name, set())
@@ -165,7 +166,7 @@ def test_objects_of_other_classes_that_calls_return() -> None:
     assert not found, "\n".join(found[:20])
 
 
-@pytest.mark.parametrize("name", sorted({*cp.results.__all__} - HOLD_ANYTHING))
+@in_turn("name", sorted({*cp.results.__all__} - HOLD_ANYTHING))
 def test_results_cannot_be_made_of_anything(name: str) -> None:
     count = len(inspect.signature(CLASSES[name]).parameters)
     values: tuple[Any, ...] = (None, "text", 0, [], V6)
@@ -174,7 +175,7 @@ def test_results_cannot_be_made_of_anything(name: str) -> None:
             CLASSES[name](*[value] * count)
 
 
-@pytest.mark.parametrize("name", CLASSES)
+@in_turn("name", CLASSES)
 def test_operators_answer_or_raise_what_python_does(name: str) -> None:
     """What a value beside an operator raises before any code of the package ran is its own."""
     found = []

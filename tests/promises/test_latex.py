@@ -17,8 +17,7 @@ import numpy as np
 import pytest
 from crankpin._support.frames import Tabled
 from matplotlib.mathtext import MathTextParser
-from promises.test_frames import CHARACTERS
-from promises.test_objects import OBJECTS
+from support.objects import CHARACTERS, OBJECTS
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
 import numpy as np
-import pandas as pd
 import pytest
 from crankpin._support import inputs
 from crankpin._support.tables import Column, Table
-from promises.test_frames import RESULTS, SWEPT
+from support import in_turn
+from support.objects import RESULTS
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -22,20 +22,21 @@ I4 = cp.Engine.preset("i4")
 TEXTS = ("to_csv", "to_latex", "cells", "text", "html")
 
 
-@pytest.mark.parametrize("name", [*RESULTS, *SWEPT])
+@in_turn("name", RESULTS)
 def test_every_text_of_every_result_has_the_limit(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    result: Any = (RESULTS | SWEPT)[name]
+    result: Any = RESULTS[name]
     frames = dict(result.frames)  # before anything is too large
-    monkeypatch.setattr(inputs, "LARGEST_RESULT", 0)
-    for table in frames.values():
-        assert len(table) > 0
-        for door in TEXTS:
-            with pytest.raises(cp.InputError, match=r"the result would take .* limit of 0; "):
-                getattr(table, door)()
-        with pytest.raises(cp.InputError, match="the result would take"):
-            _ = table.columns[0].values
+    with monkeypatch.context() as patch:
+        patch.setattr(inputs, "LARGEST_RESULT", 0)
+        for table in frames.values():
+            assert len(table) > 0
+            for door in TEXTS:
+                with pytest.raises(cp.InputError, match=r"the result would take .* limit of 0; "):
+                    getattr(table, door)()
+            with pytest.raises(cp.InputError, match="the result would take"):
+                _ = table.columns[0].values
 
 
 # What a sweep of 10⁹ points, or of its crank angles, answers, with three gigabytes of memory.
@@ -161,6 +162,8 @@ def drawn(rng: np.random.Generator) -> tuple[Table, Table]:
 
 
 def test_tables_of_arrays_are_those_of_objects() -> None:
+    import pandas as pd
+
     rng = np.random.default_rng(5)
     for _ in range(400):
         arrays, objects = drawn(rng)

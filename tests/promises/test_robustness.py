@@ -43,6 +43,7 @@ from fuzzing.sound import (
     vee,
     waveform,
 )
+from support import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -296,7 +297,7 @@ def bad_name(case: tuple[Callable[..., Any], str, Any, str]) -> str:
     return f"{case[0].__qualname__}, {case[1]} = {case[3] or case[2]}"
 
 
-@pytest.mark.parametrize("case", BAD, ids=bad_name)
+@in_turn("case", BAD)
 def test_a_bad_argument_is_named_with_its_value_and_a_cure(
     case: tuple[Callable[..., Any], str, Any, str],
 ) -> None:
@@ -570,7 +571,7 @@ BAD_TOML = {
 }
 
 
-@pytest.mark.parametrize("name", BAD_JSON)
+@in_turn("name", BAD_JSON)
 def test_json_that_describes_no_engine(name: str) -> None:
     with pytest.raises(cp.InputError) as caught:
         cp.Engine.from_json(BAD_JSON[name])

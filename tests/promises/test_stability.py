@@ -19,6 +19,7 @@ from hypothesis import strategies as st
 from rederivation import kinematics
 from stability_cases import CASES, HARMONICS, Case, HarmonicCase
 from stability_mounts import MOUNTS
+from support import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -59,7 +60,7 @@ FAILS: dict[str, Callable[[HarmonicCase, float], bool]] = {
 EASY = {0.5, 0.999}
 
 
-@pytest.mark.parametrize("case", HARMONICS, ids=lambda case: case.name)
+@in_turn("case", HARMONICS)
 def test_harmonics(case: HarmonicCase) -> None:
     assert case.error(NAMED["crankpin"]) <= case.promise
     ratio = case.row.rod_ratio
@@ -68,7 +69,7 @@ def test_harmonics(case: HarmonicCase) -> None:
             assert fails(case.best(NAMED[name]), case.promise), name
 
 
-@pytest.mark.parametrize("case", HARMONICS, ids=lambda case: case.name)
+@in_turn("case", HARMONICS)
 def test_what_vanishes_in_harmonics_is_zero(case: HarmonicCase) -> None:
     """Without offset odd orders above 1; with it sines of even orders, cosines of odd ones."""
     row = case.row
@@ -86,9 +87,7 @@ def test_what_vanishes_in_harmonics_is_zero(case: HarmonicCase) -> None:
 # --- everything else ----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    "case", [*CASES, *MOUNTS], ids=lambda case: f"{case.group}: {case.condition}"
-)
+@in_turn("case", [*CASES, *MOUNTS])
 def test_promises(case: Case) -> None:
     assert case.ours() <= case.promise
     assert case.plain() > case.promise

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import pytest
+from support import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -152,7 +153,7 @@ def test_code_is_not_prose(suffix: str, source: str) -> None:
     assert found(source, suffix) == []
 
 
-@pytest.mark.parametrize("pattern", WORDS)
+@in_turn("pattern", WORDS)
 def test_no_hint_has_a_word_of_the_list(pattern: str) -> None:
     assert WORDS[pattern]
     assert found(WORDS[pattern], ".md") == []

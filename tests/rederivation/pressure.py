@@ -94,7 +94,7 @@ def wiebe(
 
     Returns pressure between intake closing and exhaust opening, heat released and heat lost, J.
     """
-    from scipy.integrate import solve_ivp  # noqa: PLC0415 - an extra
+    from scipy.integrate import solve_ivp
 
     f = figures
     r, rod, e = crank

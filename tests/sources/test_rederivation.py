@@ -13,7 +13,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 from rederivation import crossplane, ebook, harmonics_mp, ijesc, ito, kinematics, time_domain
-from support import DATA
+from support import DATA, in_turn
 
 TURN = np.linspace(0.0, 2.0 * np.pi, 721)
 
@@ -141,7 +141,7 @@ def test_trapezoid_rule_agrees_with_gauss_legendre_near_the_limit() -> None:
         assert abs(harmonics_mp.harmonics(lam, offset)[2][1] / value - 1) < mp.mpf("1e-50")
 
 
-@pytest.mark.parametrize("row", harmonics_mp.reference_table()[::5], ids=lambda row: str(row[:2]))
+@in_turn("row", harmonics_mp.reference_table()[::5])
 def test_fourier_transform_of_time_domain_gives_the_harmonics(
     row: harmonics_mp.ReferenceRow,
 ) -> None:

@@ -1,4 +1,4 @@
-"""Pictures compared with images, on dark at a column's width, and drawn in a grid.
+"""Pictures compared with images, on dark at a column's width, on plain axes and in a grid.
 
 After a change that is meant, and a look at every picture that differs:
 
@@ -11,10 +11,14 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
+import crankpin as cp
 import matplotlib as mpl
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+
+from support.reading import figure_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -61,8 +65,31 @@ def on_dark_column(plot: Callable[..., Any]) -> Figure:
     width, height = mpl.rcParams["figure.figsize"]
     mpl.rcParams["figure.figsize"] = (COLUMN, height * COLUMN / width)
     mpl.rcParams["font.size"] = 8
-    made: Figure = np.ravel(plot())[0].get_figure(root=True)
-    return made
+    parameters = dict(mpl.rcParams)
+    drawn: Any = plot()
+    several = has_several_panels(plot)
+    assert isinstance(drawn, np.ndarray if several else Axes)
+    figure: Figure = figure_of(drawn)
+    assert plt.get_fignums() == [figure.number]
+    assert dict(mpl.rcParams) == parameters
+    return figure
+
+
+def on_plain_axes(plot: Callable[..., Any]) -> Figure:
+    """Draw a picture on axes or in a figure without a layout: there alone, and inside."""
+    plt.rcParams["font.size"] = 9
+    parameters = dict(mpl.rcParams)
+    figure = plt.figure(figsize=(5.0, 3.3))
+    if has_several_panels(plot):
+        drawn = plot(figure=figure)
+        assert isinstance(drawn, np.ndarray)
+        assert {ax.get_figure(root=False) for ax in drawn.flat} == {figure}
+    else:
+        ax = figure.subplots()
+        assert plot(ax=ax) is ax
+    assert plt.get_fignums() == [figure.number]
+    assert dict(mpl.rcParams) == parameters
+    return figure
 
 
 def in_a_grid(plot: Callable[..., Any]) -> Figure:
@@ -70,10 +97,8 @@ def in_a_grid(plot: Callable[..., Any]) -> Figure:
 
     The two have neighbours, and an edge of the figure, on every side between them.
     """
-    drawn = plot()
-    plt.close("all")
     figure = plt.figure(figsize=(7.0, 5.0), layout="constrained")
-    if isinstance(drawn, np.ndarray):
+    if has_several_panels(plot):
         parts: Any = figure.subfigures(1, 2)
         for part in parts:
             assert {ax.get_figure(root=False) for ax in plot(figure=part).flat} == {part}
@@ -81,3 +106,14 @@ def in_a_grid(plot: Callable[..., Any]) -> Figure:
         for ax in figure.subplots(2, 2).diagonal():
             plot(ax=ax)
     return figure
+
+
+def has_several_panels(plot: Callable[..., Any]) -> bool:
+    """Whether a picture takes a figure; it rejects what is none before it draws."""
+    try:
+        plot(figure="none")
+    except TypeError:  # of a picture that is called with axes alone
+        return False
+    except cp.InputError as error:
+        return "one panel" not in str(error)
+    pytest.fail("a word is taken for a figure")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
@@ -147,6 +148,18 @@ def _scattered() -> Any:  # noqa: ANN401
     return ON_MOUNTS.designs(np.arange(600, 4001, 100.0), vary, orders=[2, 4])
 
 
+@cache
+def designed() -> cp.results.MountDesign:
+    """Mounts whose modes are between two frequencies."""
+    return cp.design_mounts(
+        MOUNTED,
+        vary=["stiffness", "y"],
+        bounds={"stiffness": (3e4, 6e5), "y": 0.05},
+        modes_between=(5, 25),
+        starts=1,
+    )
+
+
 ON_TILTED = MOUNTED.replace(
     body=MOUNTED.body.replace(
         inertia=[[8.1, 0.3, -0.6], [0.3, 7.6, -1.1], [-0.6, -1.1, 4.9]], products="tensor"
@@ -237,8 +250,8 @@ PICTURES: dict[str, Callable[..., Any]] = {
     ).plot(**place),
     "bearing-loads": LOADED.plot,
     "bearing-loads-curves": lambda **place: LOADED.plot(kind="curves", **place),
-    "bearing-loads-crankpin": lambda **place: LOADED.plot(
-        load="crankpin", numbers=[1], axes="rod", **place
+    "bearing-loads-crankpin": lambda ax=None: LOADED.plot(
+        ax, load="crankpin", numbers=[1], axes="rod"
     ),
     "bending": lambda **place: LOADED.plot(kind="bending", **place),
     "mount-modes": MOUNTED.modes().plot,
@@ -255,15 +268,9 @@ PICTURES: dict[str, Callable[..., Any]] = {
         MOUNTED.response(np.arange(600, 3001, 100)).at((0, 0.3, 0)).plot(kind="map", **place)
     ),
     "mount-spectrum": lambda **place: MOUNTED.response(800).plot(mount="rear", **place),
-    "mount-design": cp.design_mounts(
-        MOUNTED,
-        vary=["stiffness", "y"],
-        bounds={"stiffness": (3e4, 6e5), "y": 0.05},
-        modes_between=(5, 25),
-        starts=1,
-    ).plot,
+    "mount-design": lambda **place: designed().plot(**place),
     "mount-designs": lambda **place: _scattered().plot(order=2, **place),
-    "mount-robustness": MOUNTED.robustness(0.15, mass=0.02, cg=0.01).plot,
+    "mount-robustness": lambda **place: MOUNTED.robustness(0.15, mass=0.02, cg=0.01).plot(**place),
     "roll-axes": ON_TILTED.axes().plot,
     "designs": V10S.plot,
     "tolerances": SPREAD.plot,

@@ -9,9 +9,7 @@ import re
 from pathlib import Path
 from typing import Any
 
-import nbformat
 import pytest
-from nbclient import NotebookClient
 
 TUTORIALS = sorted((Path(__file__).parents[2] / "notebooks").glob("*.ipynb"))
 CHECKS = Path(__file__).parent / "checks"
@@ -19,9 +17,15 @@ TIMED = "6-speed-against-accuracy"
 """The tutorial whose outputs are measurements."""
 
 
+def read(file: Path) -> Any:  # noqa: ANN401 - a notebook
+    import nbformat
+
+    return nbformat.read(file, as_version=4)
+
+
 @pytest.mark.parametrize("file", TUTORIALS, ids=lambda file: file.stem)
 def test_a_tutorial_opens_with_what_will_be_seen(file: Path) -> None:
-    title, _, picture, *_ = nbformat.read(file, as_version=4).cells
+    title, _, picture, *_ = read(file).cells
     head, _, sentence = title.source.partition("\n\n")
     assert head.startswith("# ")
     assert sentence.startswith("**You will see** ")
@@ -32,7 +36,7 @@ def test_a_tutorial_opens_with_what_will_be_seen(file: Path) -> None:
 
 @pytest.mark.parametrize("file", TUTORIALS, ids=lambda file: file.stem)
 def test_a_tutorial_needs_the_package_alone_or_says_what_besides(file: Path) -> None:
-    cells = nbformat.read(file, as_version=4).cells
+    cells = read(file).cells
     reaches_out = any("../" in cell.source for cell in cells if cell.cell_type == "code")
     said = any("runs in a\nclone of the repository" in cell.source for cell in cells)
     assert reaches_out == said == (file.stem == TIMED)
@@ -41,7 +45,10 @@ def test_a_tutorial_needs_the_package_alone_or_says_what_besides(file: Path) -> 
 @pytest.mark.slow
 @pytest.mark.parametrize("file", TUTORIALS, ids=lambda file: file.stem)
 def test_tutorial(file: Path) -> None:
-    notebook = nbformat.read(file, as_version=4)
+    import nbformat  # of seconds, with what runs notebooks
+    from nbclient import NotebookClient
+
+    notebook = read(file)
     text = (CHECKS / f"{file.stem}.py").read_text(encoding="utf-8")
     pieces = re.split(r"^# %% after (\S+)\n", text, flags=re.MULTILINE)
     checks = dict(zip(pieces[1::2], pieces[2::2], strict=True))

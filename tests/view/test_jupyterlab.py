@@ -86,7 +86,7 @@ def notebook(tmp_path: Path) -> Iterator[str]:
 
 def _run(page: Page, cell: int, shows: Locator) -> None:
     """Run a cell; again if JupyterLab, still loading, took the keys for something else."""
-    from playwright.sync_api import expect  # noqa: PLC0415 - needed with a browser alone
+    from playwright.sync_api import expect
 
     prompt = page.locator(".jp-Notebook .jp-CodeCell .jp-InputPrompt").nth(cell)
     for _ in range(6):

@@ -13,6 +13,7 @@ import pytest
 from crankpin._support import units
 from crankpin.view.figures import figures
 from crankpin.view.page import WEB
+from support import in_turn
 from support.chromium import Open, values
 from support.engines import CYLINDER
 from support.view_engines import everything, radial, square_four
@@ -86,7 +87,7 @@ def test_no_text_goes_over_several_lines() -> None:
             assert line.count("`") % 2 == 0, f"{module.name}: {line}"
 
 
-@pytest.mark.parametrize("name", cp.presets())
+@in_turn("name", cp.presets())
 def test_is_at_most_100_kb_beside_its_figures(name: str, tmp_path: Path) -> None:
     engine, file = cp.Engine.preset(name), tmp_path / "engine.html"
     engine.save_html(file, rpm=10)

@@ -18,6 +18,7 @@ from crankpin.view.figures import Settings, figures
 from crankpin.view.gallery import speed_of
 from crankpin.view.terms import RodRatios
 from numpy.polynomial import chebyshev
+from support import in_turn
 from support.several_cranks import fired_engine, random_engine, size
 from support.view_engines import everything, radial
 
@@ -96,7 +97,7 @@ def assert_agree(page: Page, engine: cp.Engine, rpm: float = 3000.0) -> None:
 
 
 @pytest.mark.slow  # a browser
-@pytest.mark.parametrize("name", cp.presets())
+@in_turn("name", cp.presets())
 def test_presets(page: Page, name: str) -> None:
     assert_agree(page, cp.Engine.preset(name), speed_of(name, 3000.0))
 
@@ -234,7 +235,7 @@ def measured(engine: cp.Engine, step: float) -> cp.Engine:
 
 
 @pytest.mark.slow  # a browser
-@pytest.mark.parametrize("seed", range(40))
+@in_turn("seed", range(40))
 def test_torque_of_random_fired_engines(page: Page, seed: int) -> None:
     """At any angle, and at those of a cycle's points, where pressure bends."""
     engine = fired_engine(seed)
@@ -282,7 +283,7 @@ def pressure_of(cycle: dict[str, Any], theta: NDArray[np.float64]) -> NDArray[np
     return np.array(values)
 
 
-@pytest.mark.parametrize("engine", [*map(fired_engine, range(40)), *cp.presets().values()])
+@in_turn("engine", [*map(fired_engine, range(40)), *cp.presets().values()])
 def test_an_engine_is_drawn_from_its_own_places(engine: cp.Engine) -> None:
     drawn = figures(engine, 60.0, spectrum=None)
     cylinders = drawn["cylinders"]

@@ -20,7 +20,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import balance_shafts as rederived
 from rederivation import rotors, time_domain
-from support import html_of
+from support import html_of, in_turn
 from support.engines import CYLINDER, I4
 
 if TYPE_CHECKING:
@@ -727,7 +727,7 @@ def test_couples_whose_forces_are_rounding_stay_at_height_0(
     assert roll_left(free) == roll_left(fixed)
 
 
-@pytest.mark.parametrize("seed", range(250))
+@in_turn("seed", range(250))
 def test_free_places_leave_no_more_roll_torque_than_numpys_least_squares(seed: int) -> None:
     """Heights of shafts whose forces are parallel, nearly so, or neither."""
     rng = np.random.default_rng(seed)

@@ -12,7 +12,7 @@ from crankpin import Unbalance
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import first_order, time_domain
-from support import html_of
+from support import html_of, in_turn
 
 UNIT = cp.Cylinder(crank_radius=1.0, rod_length=4.0, reciprocating_mass=1.0)
 UNIT_SPEED = 60.0 / (2.0 * np.pi)
@@ -160,7 +160,7 @@ def test_what_stays_is_what_turning_masses_leave(name: str, factor: float) -> No
         assert bob.half_axes(quantity, [0.1, factor])[0][1] == longest
 
 
-@pytest.mark.parametrize("seed", range(20))
+@in_turn("seed", range(20))
 def test_what_cancels_is_zero_and_not_its_rounding(seed: int) -> None:
     """As the balance of the fitted engine has it, whose zeros are those of sums."""
     rng = np.random.default_rng(seed)

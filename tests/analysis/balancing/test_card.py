@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import crankpin as cp
 import numpy as np
 import pytest
+from support import in_turn
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -264,7 +265,7 @@ def test_bob_weights_without_rotating_masses_are_not_given_as_known(name: str) -
     assert not known.table.note
 
 
-@pytest.mark.parametrize("seed", range(20))
+@in_turn("seed", range(20))
 def test_a_crankshaft_at_its_bob_weights_takes_nothing(seed: int) -> None:
     """Also where rods beside each other share a pin and its oil, which is midway between them."""
     rng = np.random.default_rng(seed)

@@ -16,7 +16,7 @@ from crankpin.model import crankpins
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import first_order, time_domain
-from support import html_of
+from support import html_of, in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -224,7 +224,7 @@ def within(engine: cp.Engine) -> cp.Engine:
     )
 
 
-@pytest.mark.parametrize("name", UNLIKE)
+@in_turn("name", UNLIKE)
 @pytest.mark.parametrize("options", [{}, {"minimise": "largest"}, {"target": "internal"}])
 def test_turning_masses_leave_no_forward_part(name: str, options: dict[str, Any]) -> None:
     plane = 0.123
@@ -494,7 +494,7 @@ def lone_throws(engine: cp.Engine) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return force, z, np.array([(bay.bearings[1] - bay.bearings[0]) / 2 for bay in bays])
 
 
-@pytest.mark.parametrize("seed", range(40))
+@in_turn("seed", range(40))
 def test_weights_that_keep_sums_are_the_least_squares_of_numpy(seed: int) -> None:
     """Few directions and masses, so that sums vanish; some webs of a throw, or none.
 
@@ -780,7 +780,7 @@ def random_fit(seed: int) -> dict[str, Any]:
 
 
 @pytest.mark.filterwarnings("ignore:.*which vanishes without this hardware")
-@pytest.mark.parametrize("seed", [None, *range(120)])
+@in_turn("seed", [None, *range(120)])
 def test_weights_at_drilling_places_are_the_least_of_a_conic_solver(seed: int | None) -> None:
     """SciPy on the same question, in two steps: what is left, then the squares that leave it."""
     optimize = pytest.importorskip("scipy.optimize")
@@ -858,7 +858,7 @@ def test_a_full_plane_chooses_between_angles_that_see_as_much() -> None:
 
 
 @pytest.mark.filterwarnings("ignore:.*which vanishes without this hardware")
-@pytest.mark.parametrize("seed", range(200))
+@in_turn("seed", range(200))
 def test_full_planes_have_the_least_squares_of_all_that_leave_the_same(seed: int) -> None:
     """SciPy on the whole problem; a force at sixths of a turn, which residuals often bisect."""
     optimize = pytest.importorskip("scipy.optimize")
@@ -900,7 +900,7 @@ def test_full_planes_have_the_least_squares_of_all_that_leave_the_same(seed: int
 
 
 @pytest.mark.filterwarnings("ignore:.*which vanishes without this hardware")
-@pytest.mark.parametrize("seed", range(60))
+@in_turn("seed", range(60))
 def test_the_least_largest_of_planes_near_each_other_is_that_of_a_linear_program(seed: int) -> None:
     optimize = pytest.importorskip("scipy.optimize")
     rng = np.random.default_rng(seed)
@@ -935,7 +935,7 @@ def test_the_least_largest_of_planes_near_each_other_is_that_of_a_linear_program
     assert largest.largest == pytest.approx(program.fun, rel=1e-5)
 
 
-@pytest.mark.parametrize("seed", range(200))
+@in_turn("seed", range(200))
 def test_weights_in_planes_micrometres_apart_are_those_of_numpy(seed: int) -> None:
     rng = np.random.default_rng(seed)
     engine = (CROSSPLANE, I3, V6_90)[seed % 3]

@@ -14,6 +14,7 @@ from crankpin import _core
 from crankpin.analysis.design.families import Family, engines_of, families
 from crankpin.analysis.ranking import objectives
 from rederivation import design as brute
+from support import in_turn
 from support.designing import A2, RPM, UNIT, design, question
 from support.engines import OFFSET
 
@@ -72,8 +73,8 @@ def points(family: Any, count: int) -> list[list[Fraction]]:  # noqa: ANN401
     ]
 
 
-@pytest.mark.parametrize("by", BY)
-@pytest.mark.parametrize("asked", QUESTIONS.values(), ids=QUESTIONS)
+@in_turn("by", BY)
+@in_turn("asked", QUESTIONS.values())
 def test_its_objectives_are_the_library_s(asked: Any, by: str) -> None:  # noqa: ANN401
     family, found = merit(asked, by)
     listed = points(family, 3)
@@ -88,8 +89,8 @@ def test_its_objectives_are_the_library_s(asked: Any, by: str) -> None:  # noqa:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("by", [*BY, "[1].moment.peak_xy,[2].force.forward,total.moment.peak"])
-@pytest.mark.parametrize("asked", QUESTIONS.values(), ids=QUESTIONS)
+@in_turn("by", [*BY, "[1].moment.peak_xy,[2].force.forward,total.moment.peak"])
+@in_turn("asked", QUESTIONS.values())
 def test_gradients_are_finite_differences(asked: Any, by: str) -> None:  # noqa: ANN401
     family, found = merit(asked, by)
     for values in points(family, 3):

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from crankpin.analysis.mounts.phasors import least_largest, optimal
 from rederivation import active as again
+from support import in_turn
 
 PRESETS = ("single", "i4", "v6-60", "v8-crossplane")
 HEAD = cp.Actuator("head", (0, 0.3, 0.1), (0, 1, 0))
@@ -85,7 +86,7 @@ def test_one_channel_is_cancelled_perfectly_by_the_closed_form() -> None:
     assert c.response.body_force[2].peak > 0.1 * c.before.body_force[2].peak
 
 
-@pytest.mark.parametrize("seed", range(60))
+@in_turn("seed", range(60))
 def test_phasors_are_optimal_within_their_bounds(seed: int) -> None:
     """A dual bound from below meets what they leave."""
     draw = np.random.default_rng(seed)
@@ -111,7 +112,7 @@ def test_phasors_are_optimal_within_their_bounds(seed: int) -> None:
     assert again.dual_gap(target.astype(complex), effect, bounds, weight, found) < 1e-10
 
 
-@pytest.mark.parametrize("seed", range(24))
+@in_turn("seed", range(24))
 def test_the_largest_receiver_is_the_least_that_there_is(seed: int) -> None:
     """Weights of the receivers give a bound from below, which the largest meets (Lawson)."""
     draw = np.random.default_rng(seed)
@@ -422,7 +423,7 @@ def growth(
     return float(share.max()), float(np.abs(share).min())
 
 
-@pytest.mark.parametrize("seed", range(60))
+@in_turn("seed", range(60))
 def test_largest_gain_is_that_of_eigenvalues_or_nothing_damps_a_mode(seed: int) -> None:
     """Systems of few values: of mounts and actuator all, some or none are damped."""
     draw = np.random.default_rng(seed)

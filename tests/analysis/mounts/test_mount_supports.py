@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
+from support import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -263,7 +264,7 @@ def by_hand(p: cp.Powertrain) -> tuple[np.ndarray, np.ndarray]:
     return mass, stiffness
 
 
-@pytest.mark.parametrize("seed", range(20))
+@in_turn("seed", range(20))
 def test_twelve_modes_are_eigenvalues_of_both_bodies(seed: int) -> None:
     p = random_stages(seed)
     mass, stiffness = by_hand(p)

@@ -14,7 +14,7 @@ import pytest
 from crankpin.analysis.ranking import objectives
 from matplotlib import pyplot as plt
 from rederivation import ijesc
-from support import html_of
+from support import html_of, in_turn
 from support.engines import IJESC
 
 if TYPE_CHECKING:
@@ -162,7 +162,7 @@ ODD = SHARED.replace(
 
 
 @pytest.mark.parametrize("hold", ["pins", "firing"])
-@pytest.mark.parametrize("name", SAME)
+@in_turn("name", SAME)
 def test_a_function_agrees_with_the_name(name: str, hold: Any) -> None:
     engines = {"shared": SHARED, "odd": ODD, "split": cp.Engine.preset("v6-60")}
     given: dict[str, Any] = {"rpm": 5000, "hold": hold, "orders": [1, 2, 4, 6]}

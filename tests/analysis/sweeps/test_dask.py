@@ -9,8 +9,12 @@ import crankpin as cp
 import numpy as np
 import pytest
 
-pytest.importorskip("xarray")
-dask = pytest.importorskip("dask")
+
+@pytest.fixture(autouse=True)
+def _needs_dask() -> None:
+    pytest.importorskip("xarray")
+    pytest.importorskip("dask")
+
 
 V6, V8 = cp.Engine.preset("v6-60"), cp.Engine.preset("v8-crossplane")
 SINGLE = cp.Engine.from_lists(
@@ -102,6 +106,7 @@ def test_sweeps_of_other_engines_keep_apart() -> None:
     names = ["v6-60", "v6-90"]
     pairs = [[cp.Engine.preset(name), V8] for name in names]
     moments = [cp.sweep(each, rpm=[1000, 2000], orders=[1]).to_dask(1).moment for each in pairs]
+    dask = pytest.importorskip("dask")
     together = dask.compute(*moments, scheduler="synchronous")
     for found, engines in zip(together, pairs, strict=True):
         assert np.array_equal(found, cp.sweep(engines, rpm=[1000, 2000], orders=[1]).moment)

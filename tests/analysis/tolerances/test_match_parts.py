@@ -15,7 +15,7 @@ from crankpin.analysis.tolerances import match_parts as matching
 from crankpin.analysis.tolerances.match_parts import windows
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from support import html_of
+from support import html_of, in_turn
 from support.several_cranks import random_engine
 
 if TYPE_CHECKING:
@@ -303,7 +303,7 @@ def test_progress_is_reported_and_all_of_twelve_pistons_are_compared(
 # --- influences -----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("seed", range(30))
+@in_turn("seed", range(30))
 def test_influences_are_what_a_kilogram_more_adds_to_the_whole_engine(seed: int) -> None:
     engine = random_engine(seed)
     count, cylinders = len(engine), engine.cylinders

@@ -12,8 +12,7 @@ from crankpin._support import labels
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import tolerances as rederived
-from scipy import stats
-from support import html_of
+from support import html_of, in_turn
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -123,7 +122,7 @@ def test_samples_agree_with_the_rederivation_given_the_same_draws() -> None:
         np.testing.assert_allclose(peak, longest, rtol=1e-11)
 
 
-@pytest.mark.parametrize("name", cp.presets())
+@in_turn("name", cp.presets())
 def test_without_deviations_a_sample_is_the_nominal_balance(name: str) -> None:
     engine = cp.Engine.preset(name)
     t = cp.tolerances(engine, rpm=100, orders=[1, 2, 3, 4], samples=2, **NONE)
@@ -191,6 +190,8 @@ def test_a_spread_of_masses_makes_forces_of_known_variance() -> None:
     known = (levers**2).sum() * single**2
     assert np.mean(abs(t[1].moment.forward) ** 2) == pytest.approx(known, rel=0.03)
     # An inline-6 has equal moments of both directions: a line, whose length is Rayleigh's.
+    from scipy import stats  # of a third of a second
+
     expected = stats.rayleigh.ppf(0.95, scale=np.sqrt(3.0) * single)
     assert t.quantile(0.95, by="[1].force.forward") == pytest.approx(expected, rel=0.02)
 
