@@ -404,7 +404,7 @@ mod tests {
         let harmonic = cylinder.mechanism().force(&[order], &Cancel::new()).unwrap()[0];
         assert_eq!(form.no_harmonic, harmonic.norm() == 0.0);
         let length = if moment { form.spacing } else { 1.0 };
-        let unit = harmonic * (cylinder.first_order() * length);
+        let unit = harmonic * (cylinder.mass_radius() * length);
         let denominator = form.denominator as f64;
         let expected = [x, y, planar.forward, planar.backward()];
         for (k, (phasor, expected)) in form.phasors.iter().zip(expected).enumerate() {

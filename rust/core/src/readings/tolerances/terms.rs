@@ -125,8 +125,8 @@ impl Terms {
         mut write: impl FnMut(usize, &SampleSums),
     ) -> Result<()> {
         /// Harmonics of cylinders in all places that are kept at once: six lists of 128 samples each.
-        const AT_ONCE: usize = 4096;
-        let most = (AT_ONCE / self.places.len().max(1)).max(1);
+        const HARMONICS_AT_ONCE: usize = 4096;
+        let most = (HARMONICS_AT_ONCE / self.places.len().max(1)).max(1);
         for start in (0..self.orders.len()).step_by(most) {
             let range = start..self.orders.len().min(start + most);
             let sums = |k: usize, sums: &SampleSums| write(start + k, sums);
@@ -194,8 +194,8 @@ impl Terms {
             Some(ForcePart::Along) => {
                 let mass = around(cylinder.reciprocating_mass(), &drawn.masses[i]);
                 let first_order = product(mass, &radius);
-                let force = (first_order, cylinder.first_order());
-                let torque = (product(first_order, &radius), cylinder.second_moment());
+                let force = (first_order, cylinder.mass_radius());
+                let torque = (product(first_order, &radius), cylinder.mass_radius_squared());
                 (vec![(0, force), (1, torque), (2, torque)], of_cylinder)
             }
             None => {
