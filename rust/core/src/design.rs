@@ -26,7 +26,7 @@ use crate::source::{Repeats, Scaling};
 
 /// Weight of each objective relative to the one before it. A length that can vanish stays at zero under
 /// weights this small: its slope there is 1.
-const LATER: f64 = 1e-3;
+const NEXT_OBJECTIVE_WEIGHT: f64 = 1e-3;
 /// Points evaluated in one task.
 const STARTS_PER_TASK: usize = 16;
 
@@ -80,13 +80,13 @@ pub struct Variable {
 pub type Derived = (f64, Vec<f64>);
 
 /// Arithmetic of loads that turn: a sum is a list of phasors.
-struct Rotors<'a> {
+struct VaryingPhasors<'a> {
     phasors: Phasors,
     /// Turns of the direction and of the crankpin of each load, by variable.
     turns: &'a List<LoadIndex, [Vec<f64>; 2]>,
 }
 
-impl Arithmetic for Rotors<'_> {
+impl Arithmetic for VaryingPhasors<'_> {
     type Unit = Rotor;
     type Sum = Vec<Rotor>;
 
@@ -154,7 +154,7 @@ impl Objectives {
             |load: &Load| engine.cylinder_with(load.place.origin).map_or_else(fixed, of_cylinder);
         let all_turns = loads.list.map_to(of_load);
         let arithmetic =
-            Rotors { phasors: Phasors { reference: loads.reference }, turns: &all_turns };
+            VaryingPhasors { phasors: Phasors { reference: loads.reference }, turns: &all_turns };
 
         let all = orders_of(objectives, orders, &loads)?;
         let amplitudes = SourceAmplitudes::new(&loads.sources, true, &all, cancel)?;
@@ -185,7 +185,7 @@ impl Objectives {
     /// Weight of each objective.
     #[must_use]
     pub fn weights(&self) -> Vec<f64> {
-        std::iter::successors(Some(1.0), |weight| Some(weight * LATER))
+        std::iter::successors(Some(1.0), |weight| Some(weight * NEXT_OBJECTIVE_WEIGHT))
             .take(self.functions.len())
             .collect()
     }

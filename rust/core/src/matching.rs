@@ -20,9 +20,9 @@ const MOST_EXCHANGES: usize = 100_000_000;
 /// Kinds of parts: pistons and rods.
 const KINDS_OF_PARTS: usize = 2;
 /// An exchange counts as better if it lessens the remainders by more than this part of them.
-const BETTER: f64 = 1e-12;
+const LEAST_IMPROVEMENT: f64 = 1e-12;
 /// Exchanges that are worse by more than this part are not computed to rounding.
-const CLOSE: f64 = 1e-9;
+const ESTIMATE_MARGIN: f64 = 1e-9;
 /// No further start is made once a matching is above the bound by no more than this part of it.
 const AT_BOUND: f64 = 1e-8;
 
@@ -383,7 +383,7 @@ impl Matching {
             }
             // Of the updated sums, rounding alone could be better for ever.
             let value = self.value(&sequences);
-            if value >= last * (1.0 - BETTER) {
+            if value >= last * (1.0 - LEAST_IMPROVEMENT) {
                 for parts in &mut sequences {
                     parts.truncate(used);
                 }
@@ -469,7 +469,8 @@ impl<'a> Exchange<'a> {
             return false;
         }
         let known: f64 = sets[..changed].iter().map(|&set| self.lengths[set]).sum();
-        if matching.estimated(kind, slots, moved, self.remainders) > known * (1.0 + CLOSE) {
+        if matching.estimated(kind, slots, moved, self.remainders) > known * (1.0 + ESTIMATE_MARGIN)
+        {
             return false;
         }
         let mut before = 0.0;
@@ -483,7 +484,7 @@ impl<'a> Exchange<'a> {
             matching.add(trial, 1.0, kind, [place, moved[1 - k]]);
         }
         let after: f64 = self.trials[..changed].iter().map(|own| matching.measure.of(own)).sum();
-        let is_better = after < before * (1.0 - BETTER);
+        let is_better = after < before * (1.0 - LEAST_IMPROVEMENT);
         if is_better {
             self.swap(slots, &sets[..changed]);
         }

@@ -300,7 +300,7 @@ fn a_solution_is_the_balance_of_its_engine() {
                     assert_eq!(phases, bank.phases);
                 }
                 let engine = solution.engine(cylinder, spacing).unwrap();
-                let unit = cylinder.first_order() * omega * omega * spacing;
+                let unit = cylinder.mass_radius() * omega * omega * spacing;
                 check(&solution, &engine, unit, second_order);
             }
         }

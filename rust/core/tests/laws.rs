@@ -41,7 +41,7 @@ fn rolls(balance: &Balance) -> impl Iterator<Item = Complex64> {
 fn size(engine: &Engine) -> f64 {
     let omega = 3000.0 * TAU / 60.0;
     let each = |p: &Station| {
-        (p.cylinder.first_order() + p.rotating_mass * p.cylinder.crank_radius()) * (1.0 + p.z.abs())
+        (p.cylinder.mass_radius() + p.rotating_mass * p.cylinder.crank_radius()) * (1.0 + p.z.abs())
     };
     engine.stations().iter().map(each).sum::<f64>() * omega * omega
 }
@@ -204,7 +204,7 @@ proptest! {
                 let mechanism = c.mechanism();
                 let alone = mechanism.force(&[n], &Cancel::new()).unwrap()[0];
                 let phase = p.tdc.cis(-i64::from(n)) * square;
-                let along = alone * phase * c.first_order();
+                let along = alone * phase * c.mass_radius();
                 let turning = if n == 1 {
                     Crank::MAIN.pin(p.bank, p.tdc).cis(1) * (p.rotating_mass * radius * square)
                 } else {
@@ -222,7 +222,7 @@ proptest! {
                 moment[0] -= here[1] * lever;
                 moment[1] += here[0] * lever;
                 let torques = mechanism.torque(&[n], &Cancel::new()).unwrap();
-                let weight = c.first_order() * radius;
+                let weight = c.mass_radius() * radius;
                 roll += torques.roll[0] * phase * weight;
                 crank += torques.crank[0] * phase * weight;
                 terms[0] += size;
@@ -348,7 +348,7 @@ proptest! {
         let largest = engine
             .stations()
             .iter()
-            .map(|p| p.cylinder.first_order().max(p.rotating_mass * p.cylinder.crank_radius()))
+            .map(|p| p.cylinder.mass_radius().max(p.rotating_mass * p.cylinder.crank_radius()))
             .fold(0.0, f64::max);
         let omega = 3000.0 * TAU / 60.0;
         prop_assert!(chosen.error_bound.force <= rtol * largest * omega * omega);
@@ -481,16 +481,16 @@ fn bounds_of_what_is_left_out_are_the_sums_of_its_sizes() {
             let sum = |of: &dyn Fn(usize) -> f64| -> f64 {
                 (0..above.len()).rev().filter(|&k| left(&above[k])).map(of).sum()
             };
-            let force = 2.0 * cylinder.first_order() * square * sum(&|k| sizes[k].norm());
+            let force = 2.0 * cylinder.mass_radius() * square * sum(&|k| sizes[k].norm());
             let turning = sum(&|k| torques.roll[k].norm().max(torques.crank[k].norm()));
-            let turning = 2.0 * cylinder.first_order() * 0.05 * square * turning;
+            let turning = 2.0 * cylinder.mass_radius() * 0.05 * square * turning;
             // The rest above the last candidate is bounded, by a hundredth of the tolerance.
-            let slack = 1e-12 * force + 0.01 * rtol * square * cylinder.first_order();
+            let slack = 1e-12 * force + 0.01 * rtol * square * cylinder.mass_radius();
             let expected = [force, 0.1 * force, turning];
             for (found, expected) in chosen.error_bound.values().into_iter().zip(expected) {
                 assert!((found - expected).abs() <= slack);
             }
-            assert!(chosen.error_bound.force <= rtol * cylinder.first_order() * square);
+            assert!(chosen.error_bound.force <= rtol * cylinder.mass_radius() * square);
             assert!(chosen.omitted.iter().all(|order| !chosen.orders.contains(order)));
             assert!(chosen.omitted.windows(2).all(|pair| pair[0] < pair[1]));
             let last = chosen.omitted.last().unwrap().as_whole().unwrap();
@@ -513,7 +513,7 @@ fn orders_that_a_layout_cancels_are_not_omitted() {
     assert_eq!((balance.orders.len(), balance.omitted.len()), (0, 0));
     // Orders above those evaluated are bounded as if nothing cancelled.
     let square = (request.rpm * TAU / 60.0).powi(2);
-    assert!(balance.error_bound.force <= 1e-11 * cylinder.first_order() * square);
+    assert!(balance.error_bound.force <= 1e-11 * cylinder.mass_radius() * square);
     let pair = Engine::new("", "", vec![place(0.0, 90.0, 0.0), place(180.0, 90.0, 0.0)]).unwrap();
     let balance = auto(&pair, &request, 1e-6).unwrap();
     assert!(!balance.orders.is_empty() && !balance.omitted.is_empty());

@@ -37,8 +37,8 @@ fn of(engine: &Engine) -> Balance {
 fn size(engine: &Engine) -> f64 {
     let pistons = engine.stations().iter().map(|p| {
         let c = p.cylinder;
-        (c.first_order() + p.rotating_mass * c.crank_radius()) * (1.0 + p.z.abs())
-            + c.second_moment()
+        (c.mass_radius() + p.rotating_mass * c.crank_radius()) * (1.0 + p.z.abs())
+            + c.mass_radius_squared()
             + c.rod_inertia_excess().abs()
     });
     let on_crank = engine.counterweights().iter().map(|u| u.amount * (1.0 + u.z.abs()));
@@ -321,14 +321,14 @@ proptest! {
         let bob = plain.stations().iter().enumerate().flat_map(|(i, p)| {
             let c = p.cylinder;
             let rotating = p.rotating_mass * c.crank_radius();
-            [opposite(i, 0.5 * c.first_order(), p.z), opposite(i, rotating, p.z)]
+            [opposite(i, 0.5 * c.mass_radius(), p.z), opposite(i, rotating, p.z)]
         });
         let balanced = plain.with_counterweights(bob.collect()).unwrap();
         let [before, after] = [&plain, &balanced].map(of);
         let (mut force, mut moment) = (Complex64::default(), Complex64::default());
         for p in plain.stations() {
             let a1 = p.cylinder.mechanism().force(&[1], &Cancel::new());
-            let left = (a1.unwrap()[0] - 1.0) * (0.5 * p.cylinder.first_order() * square());
+            let left = (a1.unwrap()[0] - 1.0) * (0.5 * p.cylinder.mass_radius() * square());
             force += left * Crank::MAIN.pin(p.bank, p.tdc).cis(1);
             moment += Complex64::i() * p.z * left * Crank::MAIN.pin(p.bank, p.tdc).cis(1);
         }
@@ -469,7 +469,7 @@ fn inline_four() -> (Engine, Cylinder) {
 fn lanchester(a: [f64; 2], b: [f64; 2]) -> (Engine, Balance) {
     let (i4, cylinder) = inline_four();
     let a2 = cylinder.mechanism().force(&[2], &Cancel::new()).unwrap()[0];
-    let amount = cylinder.first_order() * a2.re / 2.0;
+    let amount = cylinder.mass_radius() * a2.re / 2.0;
     // The force points up at the first top dead centre, the weights down.
     let down =
         Unbalance { amount, angle: angle(270.0), z: 0.15, pin: None, crank: CrankIndex::MAIN };
@@ -491,9 +491,9 @@ fn second_order() -> (f64, f64, f64) {
     let b2 = -torque.im;
     let a2 = mechanism.force(&[2], &Cancel::new()).unwrap()[0].re;
     let found = by_orders(&i4, &REQUEST, &[2]);
-    let expected = Complex64::new(0.0, -4.0 * cylinder.second_moment() * b2 * square());
+    let expected = Complex64::new(0.0, -4.0 * cylinder.mass_radius_squared() * b2 * square());
     same(found.wrenches[0].torque.roll, expected, expected.norm());
-    let force = 4.0 * cylinder.first_order() * a2 * square();
+    let force = 4.0 * cylinder.mass_radius() * a2 * square();
     same(found.xy(Vector::Force, 0)[1], force.into(), force);
     (b2, a2, force / 2.0)
 }
@@ -536,7 +536,7 @@ fn one_counter_rotating_shaft_leaves_a_rolling_couple() {
         z: 0.0,
         rotating_mass: 0.0,
     };
-    let amount = 0.5 * cylinder.first_order();
+    let amount = 0.5 * cylinder.mass_radius();
     let bob = Unbalance { amount, angle: HALF, z: 0.0, pin: Some(0), crank: CrankIndex::MAIN };
     let down =
         Unbalance { amount, angle: angle(270.0), z: 0.0, pin: None, crank: CrankIndex::MAIN };

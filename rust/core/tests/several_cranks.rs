@@ -9,7 +9,7 @@ use common::{InArrays, angle};
 use crankpin_core::balance::{Balance, Request, Vector};
 use crankpin_core::engine::{CrankIndex, Details, Gas, Origin};
 use crankpin_core::exact::vanishing::{QUANTITIES, Verdict, vanishing};
-use crankpin_core::flywheel::{CrankDrive, CycleGrid, Evenness};
+use crankpin_core::flywheel::{CrankDrive, CycleGrid, FlywheelTarget};
 use crankpin_core::index::ListIndex;
 use crankpin_core::pressure::Given;
 use crankpin_core::quantity::{Part, Quantity};
@@ -225,7 +225,7 @@ proptest! {
         let drive = CrankDrive {
             grid: &grid, torque: &none, load: &none, engine: Some(&engine), rpm: REQUEST.rpm,
         };
-        let run = drive.speed(Evenness::Inertia(1e6), &cancel).unwrap();
+        let run = drive.speed(FlywheelTarget::Inertia(1e6), &cancel).unwrap();
         let exact = waveform::exact(&engine, &REQUEST, &grid.edges_deg, &cancel).unwrap();
         let expected = exact.crank_torque.unwrap();
         let size = expected.iter().fold(0.0, |size: f64, value| size.max(value.abs()));

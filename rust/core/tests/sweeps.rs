@@ -757,10 +757,11 @@ impl Worst {
             let mut here = [0.0; 4];
             for p in there.stations() {
                 let (c, mechanism) = (p.cylinder, p.cylinder.mechanism());
-                let force = c.first_order() * mechanism.force_beyond(last).unwrap();
+                let force = c.mass_radius() * mechanism.force_beyond(last).unwrap();
                 let torque = mechanism.torque_beyond(last).unwrap();
                 let swing = mechanism.swing_torque_beyond(last).unwrap();
-                let torque = c.second_moment() * torque + c.rod_inertia_excess().abs() * swing;
+                let torque =
+                    c.mass_radius_squared() * torque + c.rod_inertia_excess().abs() * swing;
                 let added = [force, force * (p.z - REFERENCE).abs(), torque, torque];
                 here.iter_mut().zip(added).for_each(|(here, added)| *here += added);
             }
@@ -793,9 +794,9 @@ fn last(engines: &[Arc<Engine>], axes: &SweepAxes, rtol: f64, torque: bool) -> u
             let c = &p.cylinder;
             // Parts of what the tolerance is relative to.
             let [of_force, _, of_torque] = scales(engine, REFERENCE);
-            let force = c.first_order() / of_force;
-            let [masses, rod] =
-                [c.second_moment(), c.rod_inertia_excess().abs()].map(|weight| weight / of_torque);
+            let force = c.mass_radius() / of_force;
+            let [masses, rod] = [c.mass_radius_squared(), c.rod_inertia_excess().abs()]
+                .map(|weight| weight / of_torque);
             let part = 0.01 * rtol / loads(engine, torque) as f64;
             let mechanism = c.mechanism();
             let enough = |n: &u32| {
@@ -925,7 +926,7 @@ fn cancelling_at(ratio: f64, offset: f64) -> [Arc<Engine>; 2] {
     let [masses, rod] = [harmonics::torque::torque, harmonics::rod::torque].map(|torque| {
         torque(&Proportions::new(ratio, 0.0).unwrap(), &[3], &cancel).unwrap().roll[0]
     });
-    let inertia = -(masses / rod).re * cylinder.second_moment();
+    let inertia = -(masses / rod).re * cylinder.mass_radius_squared();
     let cylinder = cylinder.with_rod_inertia_excess(inertia).unwrap();
     let one = vec![Station { cylinder, ..pair[0] }];
     [pair, one].map(|stations| Arc::new(Engine::new("", "", stations).unwrap()))

@@ -121,7 +121,7 @@ pub fn fit_weights(
         let (planes, bounds, angles) = (planes.as_slice(), bounds.as_slice(), angles.as_deref());
         let fit = counterweights::Fit { planes, bounds, angles, force, moment, length, minimise };
         let bays = match target {
-            "external" => return counterweights::external(core, &fit, cancel),
+            "external" => return counterweights::fit_counterweights(core, &fit, cancel),
             "internal" => counterweights::bays(core),
             _ => counterweights::half_cranks(core)?,
         };

@@ -13,7 +13,7 @@ use crankpin_core::engine::{
 };
 use crankpin_core::index::ListIndex;
 use crankpin_core::layout::{
-    Fan, FiringOrder, FiringRule, Inline, Numbering, Side, Spacing, Strokes, Vee,
+    FiringOrder, FiringRule, Inline, MultiBankLayout, Numbering, Side, Spacing, Strokes, Vee,
 };
 use crankpin_core::{Complex64, Error, limits};
 use crankpin_macros::guarded;
@@ -189,13 +189,13 @@ impl<'py> FromPyObject<'_, 'py> for VeeLayout {
 }
 
 /// Where the cylinders of an engine with several banks sit.
-struct FanLayout(Fan);
+struct FanLayout(MultiBankLayout);
 
 impl<'py> FromPyObject<'_, 'py> for FanLayout {
     type Error = PyErr;
 
     fn extract(layout: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        Ok(Self(Fan {
+        Ok(Self(MultiBankLayout {
             banks: angles(entry(&layout, "banks")?),
             bank_stagger: entry(&layout, "bank_stagger")?,
             along: layout.extract::<InlineLayout>()?.0,
@@ -372,8 +372,8 @@ impl Engine {
     }
 
     #[staticmethod]
-    fn from_state(text: &str) -> PyResult<Self> {
-        file::from_state(text).or_raise().map(Self::from)
+    fn from_json_text(text: &str) -> PyResult<Self> {
+        file::from_json_text(text).or_raise().map(Self::from)
     }
 
     fn to_toml<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
@@ -571,7 +571,7 @@ impl Engine {
         let whole = Arc::new(self.0.without_gas());
         let firing = interrupt::run(py, |cancel| core::Firing::own(&whole, cancel))?;
         let cycles = cycles.iter().map(|cycle| Arc::clone(&cycle.0)).collect();
-        let gas = Gas { cycles, cycle_of, crankcase, later: firing.in_second_turn() };
+        let gas = Gas { cycles, cycle_of, crankcase, later: firing.fires_in_second_turn() };
         self.0.with_gas(gas).or_raise().map(Self::from)
     }
 
@@ -736,8 +736,8 @@ impl Engine {
     fn __reduce__<'py>(
         slf: &Bound<'py, Self>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let state = boundary::text(slf.py(), &file::to_state(&slf.get().0).or_raise()?)?;
-        Ok((slf.get_type().getattr("from_state")?, PyTuple::new(slf.py(), [state])?))
+        let state = boundary::text(slf.py(), &file::to_json_text(&slf.get().0).or_raise()?)?;
+        Ok((slf.get_type().getattr("from_json_text")?, PyTuple::new(slf.py(), [state])?))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Speed of a crank over a cycle.
 
 use crate::array::frozen;
-use crankpin_core::flywheel::{self, CrankDrive, Evenness};
+use crankpin_core::flywheel::{self, CrankDrive, FlywheelTarget};
 use crankpin_macros::guarded;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -63,7 +63,8 @@ impl CycleGrid {
         inertia: Option<f64>,
         irregularity: f64,
     ) -> PyResult<Speed<'py>> {
-        let evenness = inertia.map_or(Evenness::Irregularity(irregularity), Evenness::Inertia);
+        let evenness =
+            inertia.map_or(FlywheelTarget::Irregularity(irregularity), FlywheelTarget::Inertia);
         let engine = engine.map(|engine| &*engine.get().0);
         let (torque, load) = (torque.as_slice()?, load.as_slice()?);
         let found = interrupt::run(py, |cancel| {

@@ -7,7 +7,7 @@ use crate::array::frozen;
 use crankpin_core as core;
 use crankpin_core::engine::file;
 use crankpin_core::mount_designs::{DesignRequest, MountFigure, Variation, design_responses};
-use crankpin_core::mounted::{Derivative, Drive};
+use crankpin_core::mounted::{ActuatorForces, Derivative};
 use crankpin_core::mounts::{
     self, InertiaTrack, Mount, MountFigures, Products, Receiver, Receptance, RigidBody, Table,
 };
@@ -466,7 +466,7 @@ impl Powertrain {
         let (engine, powertrain) = (&engine.get().0, Arc::clone(&self.0));
         let found = if let Some((actuators, forces, engine_runs)) = &drive {
             let (forces, engine_runs) = (forces.as_slice()?, *engine_runs);
-            let drive = Drive { actuators, forces, engine_runs };
+            let drive = ActuatorForces { actuators, forces, engine_runs };
             interrupt::run(py, |cancel| {
                 core::mounted::Response::driven(engine, powertrain, rpm, &orders, &drive, cancel)
             })?

@@ -1,6 +1,6 @@
 //! Counterweights and balance shafts that fit an engine.
 
-use crankpin_core::balancing::counterweights::{Fit, Plane, Target, bays, external};
+use crankpin_core::balancing::counterweights::{Fit, Plane, Target, bays, fit_counterweights};
 use crankpin_core::balancing::shafts::{Remove, ShaftRequest, fit};
 use crankpin_core::balancing::weights::Minimise;
 use crankpin_core::engine::CrankIndex;
@@ -32,7 +32,7 @@ pub fn counterweights(arguments: &mut Arguments, _: &mut Columns) -> Result<Valu
         length: None,
         minimise,
     };
-    let fitted = external(&engine, &fit, &Cancel::new())?;
+    let fitted = fit_counterweights(&engine, &fit, &Cancel::new())?;
     let weights = fitted.list.iter().map(|one| one.unbalance);
     let all = engine.counterweights().iter().copied().chain(weights).collect();
     let mut answer = written(&engine.with_counterweights(all)?, powertrain.as_ref())?;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crankpin_core::engine::Details;
 use crankpin_core::engine::radial::Radial;
 use crankpin_core::layout::{
-    Fan, FiringOrder, FiringRule, Inline, Numbering, Side, Spacing, Strokes, Vee,
+    FiringOrder, FiringRule, Inline, MultiBankLayout, Numbering, Side, Spacing, Strokes, Vee,
 };
 use crankpin_core::{Angle, Cancel, Cylinder, Engine, Error, Firing, Result};
 use serde_json::Value;
@@ -20,7 +20,7 @@ enum Kind {
     Vee,
     Flat,
     Boxer,
-    Fan,
+    MultiBankLayout,
     Radial,
     FiringOrder,
 }
@@ -30,7 +30,7 @@ const KINDS: [(&str, Kind); 7] = [
     ("vee", Kind::Vee),
     ("flat", Kind::Flat),
     ("boxer", Kind::Boxer),
-    ("fan", Kind::Fan),
+    ("fan", Kind::MultiBankLayout),
     ("radial", Kind::Radial),
     ("firing_order", Kind::FiringOrder),
 ];
@@ -47,7 +47,7 @@ pub fn build(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
         Kind::Vee | Kind::Flat | Kind::Boxer => {
             (vee(arguments, kind)?.engine(cylinder)?, order.unwrap_or_default())
         }
-        Kind::Fan => (fan(arguments)?.engine(cylinder)?, order.unwrap_or_default()),
+        Kind::MultiBankLayout => (fan(arguments)?.engine(cylinder)?, order.unwrap_or_default()),
         Kind::Radial => {
             let radial = radial(arguments)?;
             let even = || radial.firing_order(strokes);
@@ -141,8 +141,8 @@ fn vee(arguments: &mut Arguments, kind: Kind) -> Result<Vee> {
     })
 }
 
-fn fan(arguments: &mut Arguments) -> Result<Fan> {
-    Ok(Fan {
+fn fan(arguments: &mut Arguments) -> Result<MultiBankLayout> {
+    Ok(MultiBankLayout {
         banks: arguments.angles("bank_deg")?.unwrap_or_default(),
         bank_stagger: arguments.or("bank_stagger", 0.0)?,
         along: inline(arguments)?,

@@ -181,7 +181,7 @@ pub fn with_cycle(arguments: &mut Arguments, columns: &mut Columns) -> Result<Va
         columns.column(given.pressure.iter().copied()),
     );
     let firing = firing_of(&engine)?;
-    let engine = engine.fired_by(cycle, firing.in_second_turn())?;
+    let engine = engine.fired_by(cycle, firing.fires_in_second_turn())?;
     let mut answer = written(&engine, powertrain.as_ref())?;
     answer["theta_deg"] = theta;
     answer["pressure"] = pressure;

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::least_squares::{Minimum, PENALTIES, minimum, stack};
-use super::weights::{PlacedWeight, Problem, REACHED, SOLVER_ROUNDING, Vectors, complex, sums};
+use super::weights::{PlacedWeight, Problem, SOLVED, SOLVER_ROUNDING, Vectors, complex, sums};
 use crate::Complex64;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
@@ -49,13 +49,13 @@ pub(super) fn least_squares(
     let seen = complex(&problem.rows.tr_mul(&residual));
     let sums = sums(found, bounds.len());
     let is_full: Vec<bool> = (0..bounds.len())
-        .map(|p| support[p] > BLIND && sums[p] >= bounds[p] * (1.0 - REACHED))
+        .map(|p| support[p] > UNSEEN_WEIGHT && sums[p] >= bounds[p] * (1.0 - SOLVED))
         .collect();
-    let is_full = if residual.norm() > REACHED { is_full } else { vec![false; bounds.len()] };
+    let is_full = if residual.norm() > SOLVED { is_full } else { vec![false; bounds.len()] };
     let may_change = |p: usize, k: usize| {
         let along = (directions[p][k].conj() * seen[p]).re;
         let is_used = || found.iter().any(|weight| (weight.plane, weight.angle) == (p, k));
-        !is_full[p] || along >= support[p] - BLIND || is_used()
+        !is_full[p] || along >= support[p] - UNSEEN_WEIGHT || is_used()
     };
     let kept: Vec<Vec<usize>> = (0..bounds.len())
         .map(|p| (0..directions[p].len()).filter(|&k| may_change(p, k)).collect())
@@ -75,7 +75,7 @@ pub(super) fn least_squares(
     let some = Problem {
         bounds: bounds.to_vec(),
         directions: Some(own.clone()),
-        ..problem.doing_the_same(found)
+        ..problem.with_equal_effect(found)
     };
     let least = squares(&some, &own, &start.collect::<Vec<_>>(), &is_full)?;
     let back =
@@ -84,7 +84,7 @@ pub(super) fn least_squares(
 }
 
 /// What a unit weight that sees nothing of a residual may see of it, by rounding.
-const BLIND: f64 = 10.0 * REACHED;
+const UNSEEN_WEIGHT: f64 = 10.0 * SOLVED;
 
 /// Of weights that do the same as those given, within bounds, those with the least sum of squares; none
 /// if they are not found to nine digits. Planes that are full keep the sums of their weights.
@@ -123,7 +123,7 @@ fn squares(
         });
         let promised = lambda.dot(&problem.target) - spent.sum::<f64>();
         let squares = (&sums * &best.x).norm_squared() / 2.0;
-        let is_least = squares - promised <= REACHED * squares.max(1.0);
+        let is_least = squares - promised <= SOLVED * squares.max(1.0);
         if is_least && best.missing <= SOLVER_ROUNDING {
             return Ok(Some(columns.weights(&best.x)));
         }

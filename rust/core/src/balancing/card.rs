@@ -1,7 +1,7 @@
 //! Card of a balancing shop: the bob weight of each crankpin, and the correction of a crankshaft.
 
 use super::bob_weight::bob_weight;
-use super::counterweights::{Fit, FittedWeight, Plane, Target, external};
+use super::counterweights::{Fit, FittedWeight, Plane, Target, fit_counterweights};
 use super::weights::Minimise;
 use crate::engine::crankpins::Crankpin;
 use crate::engine::{CrankIndex, Engine, Unbalance};
@@ -91,7 +91,7 @@ pub fn corrections(
         length: None,
         minimise: Minimise::Squares,
     };
-    let fitted = external(&engine, &fit, cancel)?;
+    let fitted = fit_counterweights(&engine, &fit, cancel)?;
     let correction = |FittedWeight { unbalance, plane, .. }: FittedWeight| {
         let mass = request.radii.map(|radii| unbalance.amount / radii[plane]);
         Correction {

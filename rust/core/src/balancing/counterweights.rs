@@ -8,7 +8,7 @@ use nalgebra::DMatrix;
 use super::bob_weight::with_bob_weights;
 use super::least_squares::least_squares;
 use super::shafts::unbalance;
-use super::weights::{Minimise, REACHED, WeightRequest, complex, least, vectors};
+use super::weights::{Minimise, SOLVED, WeightRequest, complex, least, vectors};
 use super::{TurningPart, VALUE_ROUNDING, turning, without_rounding};
 use crate::Complex64;
 use crate::engine::crankpins::Bay;
@@ -95,7 +95,7 @@ pub enum Keep {
 }
 
 /// Part of two figures below which their difference is rounding.
-const NOTHING: f64 = 1e-14;
+const CHANGE_ROUNDING: f64 = 1e-14;
 
 impl Fit<'_> {
     /// Indices of the planes on cranks of a ratio, by the index of their crank.
@@ -131,7 +131,7 @@ impl Fit<'_> {
                 let [left, exerted] = [left, exerted].map(part);
                 let change = left - exerted;
                 // Two figures that agree leave their rounding, not a weight.
-                let is_none = change.norm() <= NOTHING * (left.norm() + exerted.norm());
+                let is_none = change.norm() <= CHANGE_ROUNDING * (left.norm() + exerted.norm());
                 Some(if is_none { Complex64::default() } else { change })
             };
             Ok(left.iter().zip(&exerted).map(change).collect())
@@ -182,7 +182,7 @@ impl Fit<'_> {
 /// #     placements = [{ tdc_deg = 0, bank_deg = 90, z = 0 }]",
 /// # )?;
 /// use crankpin_core::Cancel;
-/// use crankpin_core::balancing::counterweights::{Fit, Plane, Target, external};
+/// use crankpin_core::balancing::counterweights::{Fit, Plane, Target, fit_counterweights};
 /// use crankpin_core::balancing::weights::Minimise;
 /// use crankpin_core::engine::CrankIndex;
 ///
@@ -195,11 +195,15 @@ impl Fit<'_> {
 ///     length: None,
 ///     minimise: Minimise::Squares,
 /// };
-/// let fitted = external(&single, &fit, &Cancel::new())?;
+/// let fitted = fit_counterweights(&single, &fit, &Cancel::new())?;
 /// assert!(fitted.exact && (fitted.list[0].unbalance.amount - 0.01).abs() < 1e-15); // half of m·r
 /// # Ok::<(), crankpin_core::Error>(())
 /// ```
-pub fn external(engine: &Engine, fit: &Fit, cancel: &Cancel) -> Result<FittedCounterweights> {
+pub fn fit_counterweights(
+    engine: &Engine,
+    fit: &Fit,
+    cancel: &Cancel,
+) -> Result<FittedCounterweights> {
     fit.check(engine)?;
     let (reference, length) = (engine.reference(None)?, fit.compared(engine)?);
     let mut all = FittedCounterweights { list: Vec::new(), exact: true, missing: 0.0 };
@@ -379,7 +383,7 @@ pub fn internal(
             length: Some(fit.length.unwrap_or_else(|| half(bay))),
             ..*fit
         };
-        let fitted = external(&engine.of_bay(bay)?, &own, cancel)?;
+        let fitted = fit_counterweights(&engine.of_bay(bay)?, &own, cancel)?;
         all.exact &= fitted.exact;
         all.missing = all.missing.max(fitted.missing);
         all.list.extend(fitted.list.into_iter().map(|one| FittedWeight {
@@ -449,7 +453,7 @@ fn changes(
                 size += one.abs();
             }
         }
-        sum.norm() > REACHED * size
+        sum.norm() > SOLVED * size
     }))
 }
 

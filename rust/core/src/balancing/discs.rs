@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::least_squares::RANK_TOLERANCE;
-use super::weights::{REACHED, SOLVER_ROUNDING, Vectors};
+use super::weights::{SOLVED, SOLVER_ROUNDING, Vectors};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::singular_values::SingularValues;
@@ -35,7 +35,7 @@ pub(super) fn nearest(
         let found = discs.weights(&multipliers);
         let mut sizes = found.row_iter().map(|weight| weight.norm()).zip(bounds);
         let full = |(size, bound): (f64, &f64)| size >= bound * (1.0 - 1e-14);
-        if left <= 1e-15 || left > REACHED && sizes.all(full) {
+        if left <= 1e-15 || left > SOLVED && sizes.all(full) {
             break;
         }
     }

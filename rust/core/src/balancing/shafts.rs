@@ -50,10 +50,10 @@ pub struct Fitted {
 }
 
 /// Rounding, relative to the engine's length, in the place of a single plane.
-const INSIDE: f64 = 1e-12;
+const PLACE_ROUNDING: f64 = 1e-12;
 /// How far from the crank axis free axes may be placed, in lengths of the engine: whatever is the
 /// larger of its length along the crank and that of a crank and a rod.
-const REACH: f64 = 10.0;
+const FARTHEST_AXIS: f64 = 10.0;
 /// Decimals of the angle of an unbalance, degrees: 1e-15 rad, less than its rounding error.
 const DECIMALS: f64 = 1e13;
 
@@ -129,7 +129,7 @@ fn place(
     for most in (0..=2).rev() {
         let places = least_squares(&rows, &target, most).solution;
         let furthest = places.amax();
-        if furthest > REACH * size(engine) {
+        if furthest > FARTHEST_AXIS * size(engine) {
             beyond = beyond.or(Some(furthest));
             continue;
         }
@@ -208,7 +208,7 @@ fn free_planes(engine: &Engine, wanted: &TurningPart, reference: f64) -> Vec<f64
     if wanted.force != Complex64::default() {
         let lever = wanted.moment / (Complex64::i() * wanted.force);
         let z = reference + lever.re;
-        if lever.im.abs() <= INSIDE * (last - first) && (first..=last).contains(&z) {
+        if lever.im.abs() <= PLACE_ROUNDING * (last - first) && (first..=last).contains(&z) {
             return vec![z];
         }
     }
@@ -249,7 +249,7 @@ fn fitted(ratio: SpeedRatio, unbalances: Vec<Unbalance>, reference: f64) -> Fitt
 /// infinite rod the crank alone counts.
 fn size(engine: &Engine) -> f64 {
     let [first, last] = engine.ends();
-    engine.gears().iter().map(Cylinder::reach).fold(last - first, f64::max)
+    engine.distinct_cylinders().iter().map(Cylinder::reach).fold(last - first, f64::max)
 }
 
 #[cfg(test)]

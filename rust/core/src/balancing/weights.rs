@@ -74,18 +74,18 @@ pub struct FittedWeights {
 pub(super) type Vectors = DMatrix<f64>;
 
 /// Part of the target that the nearest weights may miss; part of a minimum that may be missing.
-pub(super) const REACHED: f64 = 1e-9;
+pub(super) const SOLVED: f64 = 1e-9;
 /// Part of the target that is made up by weights with room for it: the least largest weights miss so much
 /// where a plane hardly sees what is missing.
-const EDGE: f64 = 1e-7;
+const UNREACHED_AT_BOUNDS: f64 = 1e-7;
 /// Room of such weights, relative to the target and to their bounds.
-const ROOM: f64 = 1e-6;
+const ROOM_FOR_COMPENSATION: f64 = 1e-6;
 /// What solvers may leave of their equations, in figures of order 1.
 pub(super) const SOLVER_ROUNDING: f64 = 1e-12;
 /// Targets below this are none.
 const LEAST_TARGET: f64 = 1e-200;
 /// Bounds above this multiple of the target bind nowhere; those below its inverse leave nothing.
-const UNBOUNDED: f64 = 1e9;
+const UNBOUNDED_FROM: f64 = 1e9;
 
 /// The least weights among those that come nearest to the target.
 ///
@@ -112,7 +112,7 @@ pub fn least(request: &WeightRequest, cancel: &Cancel) -> Result<FittedWeights> 
     let moment = request.moment.map(|moment| -Complex64::i() * moment / request.length);
     let target: Vec<Complex64> = [request.force, moment].into_iter().flatten().collect();
     let scale = target.iter().map(|part| part.norm()).fold(0.0, f64::max);
-    let room = |plane: &usize| request.bounds[*plane] > scale / UNBOUNDED;
+    let room = |plane: &usize| request.bounds[*plane] > scale / UNBOUNDED_FROM;
     let kept: Vec<usize> = (0..request.z.len()).filter(room).collect();
     if scale <= LEAST_TARGET || kept.is_empty() {
         let reached = scale <= LEAST_TARGET;
@@ -183,7 +183,8 @@ impl<'a> Problem<'a> {
             let is_force = row == 0 && request.force.is_some();
             if is_force { 1.0 } else { (request.z[kept[k]] - request.reference) / request.length }
         });
-        let bound = |&plane: &usize| Some(request.bounds[plane] / scale).filter(|&b| b < UNBOUNDED);
+        let bound =
+            |&plane: &usize| Some(request.bounds[plane] / scale).filter(|&b| b < UNBOUNDED_FROM);
         let bounds = kept.iter().map(|plane| bound(plane).unwrap_or(f64::INFINITY)).collect();
         let unit = |&angle: &f64| Complex64::from_polar(1.0, angle);
         let directions = request.angles.map(|angles| {
@@ -218,7 +219,7 @@ impl Problem<'_> {
         let mut bounds = self.bounds.clone();
         if minimise == Minimise::Largest {
             // At any angle a plane that hardly sees what is missing is known to more digits as it is.
-            let same = self.directions.is_some().then(|| self.doing_the_same(&found));
+            let same = self.directions.is_some().then(|| self.with_equal_effect(&found));
             let (problem, target) = match &same {
                 Some(same) => (same, &same.target),
                 None => (self, &self.target),
@@ -242,7 +243,7 @@ impl Problem<'_> {
 
     /// The problem of weights that exert what these do, which may be written in any equations that say
     /// so: in orthonormal ones, however near to each other the planes are.
-    pub fn doing_the_same(&self, weights: &[PlacedWeight]) -> Self {
+    pub fn with_equal_effect(&self, weights: &[PlacedWeight]) -> Self {
         let values = SingularValues::of(&self.rows);
         let rows = values.right.rows(0, values.rank(RANK_TOLERANCE)).into_owned();
         let (bounds, directions) = (self.bounds.clone(), self.directions.clone());
@@ -292,10 +293,10 @@ impl Problem<'_> {
         let exerted = self.exerted(weights);
         let residual = target - &exerted;
         let further = self.support(&residual).into_iter().zip(bounds).map(|(support, bound)| {
-            let is_rounding = bound.is_infinite() && support <= REACHED;
+            let is_rounding = bound.is_infinite() && support <= SOLVED;
             if is_rounding { 0.0 } else { support * bound }
         });
-        residual.norm() <= REACHED || further.sum::<f64>() - exerted.dot(&residual) <= REACHED
+        residual.norm() <= SOLVED || further.sum::<f64>() - exerted.dot(&residual) <= SOLVED
     }
 
     pub fn not_found(&self, which: &str) -> Error {
@@ -318,13 +319,13 @@ impl Problem<'_> {
             let bounds = self.capped(cap);
             let residual = wanted - self.exerted(&self.nearest(wanted, &bounds)?);
             let size = residual.norm();
-            if size <= 1e-3 * REACHED {
+            if size <= 1e-3 * SOLVED {
                 return Ok(bounds);
             }
             let next = self.cap(&self.support(&residual), wanted.dot(&residual));
             if next <= cap {
                 // No more digits.
-                return if size <= REACHED { Ok(bounds) } else { self.relaxed(wanted, cap, size) };
+                return if size <= SOLVED { Ok(bounds) } else { self.relaxed(wanted, cap, size) };
             }
             cap = next;
         }
@@ -342,14 +343,14 @@ impl Problem<'_> {
     fn relaxed(&self, wanted: &Vectors, cap: f64, missed: f64) -> Result<Vec<f64>> {
         let serves = |cap: f64| -> Result<bool> {
             let found = self.nearest(wanted, &self.capped(cap))?;
-            Ok((wanted - self.exerted(&found)).norm() <= 1e-3 * REACHED)
+            Ok((wanted - self.exerted(&found)).norm() <= 1e-3 * SOLVED)
         };
         let mut low = cap;
         // The cap is proved to be no more than the least: bounds further above it might not be it.
-        for part in [REACHED, 1e-8, EDGE, 1e-6] {
+        for part in [SOLVED, 1e-8, UNREACHED_AT_BOUNDS, 1e-6] {
             let mut high = cap * (1.0 + part);
             if serves(high)? {
-                while high - low > REACHED * high {
+                while high - low > SOLVED * high {
                     let middle = f64::midpoint(low, high);
                     *(if serves(middle)? { &mut high } else { &mut low }) = middle;
                 }
@@ -357,7 +358,11 @@ impl Problem<'_> {
             }
             low = high;
         }
-        if missed <= EDGE { Ok(self.capped(cap)) } else { Err(self.not_found("least")) }
+        if missed <= UNREACHED_AT_BOUNDS {
+            Ok(self.capped(cap))
+        } else {
+            Err(self.not_found("least"))
+        }
     }
 
     /// Least cap on all bounds with Σ min(boundₚ, cap)·supportₚ = wanted.
@@ -393,14 +398,15 @@ impl Problem<'_> {
             }
         }
         let missing = self.missing(weights);
-        if missing.norm() > EDGE {
+        if missing.norm() > UNREACHED_AT_BOUNDS {
             return false;
         }
         let room = |weight: &PlacedWeight| {
             let left = (self.bounds[weight.plane] - sums[weight.plane]) / counts[weight.plane];
             if self.directions.is_some() { left.min(weight.vector.norm()) } else { left }
         };
-        let free: Vec<usize> = (0..weights.len()).filter(|&k| room(&weights[k]) > ROOM).collect();
+        let free: Vec<usize> =
+            (0..weights.len()).filter(|&k| room(&weights[k]) > ROOM_FOR_COMPENSATION).collect();
         let free_weights = free.iter().map(|&k| weights[k]);
         let all = least_squares(&self.rows, &Vectors::zeros(self.target.nrows(), 1), 2).rank;
         let (change, is_proved): (Vec<Complex64>, bool) = if self.directions.is_none() {

@@ -10,7 +10,7 @@ use crate::numbers::ratio::SpeedRatio;
 const SAMPLES: usize = 12;
 /// Part of the highest sample below which there is no peak to consider: samples are short of a peak by
 /// 1 − cos(π/12) at most.
-const HIGH: f64 = 0.9;
+const LOWEST_SAMPLE_AT_PEAK: f64 = 0.9;
 /// Part of the largest possible sum below which rounding makes the peaks.
 const LEAST_PEAK: f64 = 1e-9;
 
@@ -182,7 +182,8 @@ impl ObjectiveFunction {
             .collect();
         let size: f64 = phasors.iter().map(|each| each.value.norm()).sum();
         let highest = squares.iter().copied().fold(0.0, f64::max);
-        let least = (HIGH * HIGH * highest).max((LEAST_PEAK * size).powi(2));
+        let least = (LOWEST_SAMPLE_AT_PEAK * LOWEST_SAMPLE_AT_PEAK * highest)
+            .max((LEAST_PEAK * size).powi(2));
         let mut at: Vec<usize> = (0..count)
             .filter(|&k| {
                 let (before, after) = (squares[(k + count - 1) % count], squares[(k + 1) % count]);

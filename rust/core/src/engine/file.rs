@@ -522,12 +522,12 @@ pub fn mounted_to_json(engine: &Engine, powertrain: Option<&Powertrain>) -> Resu
 }
 
 /// The engine as data, of any size, for copies that no person reads.
-pub fn to_state(engine: &Engine) -> Result<String> {
+pub fn to_json_text(engine: &Engine) -> Result<String> {
     serde_json::to_string(&EngineFile::of(engine)?).map_err(|e| unreadable("JSON", &e))
 }
 
-/// The engine that [`to_state`] wrote.
-pub fn from_state(text: &str) -> Result<Engine> {
+/// The engine that [`to_json_text`] wrote.
+pub fn from_json_text(text: &str) -> Result<Engine> {
     of_json(text)?.engine()
 }
 
@@ -727,7 +727,7 @@ mod tests {
         fn engine_files_read_back_as_equal_engines(engine in engines()) {
             prop_assert_eq!(&from_toml(&to_toml(&engine).unwrap()).unwrap(), &engine);
             prop_assert_eq!(&from_json(&to_json(&engine).unwrap()).unwrap(), &engine);
-            prop_assert_eq!(&from_state(&to_state(&engine).unwrap()).unwrap(), &engine);
+            prop_assert_eq!(&from_json_text(&to_json_text(&engine).unwrap()).unwrap(), &engine);
         }
 
         #[test]
@@ -938,7 +938,7 @@ mod tests {
                 }
                 assert_eq!(from_toml(&to_toml(&engine).unwrap()).unwrap(), engine);
                 assert_eq!(from_json(&to_json(&engine).unwrap()).unwrap(), engine);
-                assert_eq!(from_state(&to_state(&engine).unwrap()).unwrap(), engine);
+                assert_eq!(from_json_text(&to_json_text(&engine).unwrap()).unwrap(), engine);
             }
         }
         let example = Cycle::clone(&full_load(ExampleKind::Diesel, Strokes::Four).unwrap());

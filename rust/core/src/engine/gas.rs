@@ -34,7 +34,7 @@ impl Engine {
 
     /// The same engine with pressure in its cylinders, or without where no cylinder has a cycle.
     ///
-    /// [`crate::Firing::in_second_turn`] is what an engine's firing order says.
+    /// [`crate::Firing::fires_in_second_turn`] is what an engine's firing order says.
     pub fn with_gas(&self, gas: Gas) -> Result<Self> {
         check_each_cylinder("cycle", gas.cycle_of.len(), self.stations.len())?;
         check_each_cylinder("later", gas.later.len(), self.stations.len())?;

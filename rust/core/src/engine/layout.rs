@@ -193,7 +193,7 @@ impl Vee {
 ///
 /// Cylinders are numbered bank by bank, each from the front to the flywheel.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Fan {
+pub struct MultiBankLayout {
     /// Directions of the banks from +x.
     pub banks: Vec<Angle>,
     /// How far each bank stands behind the one before it, m.
@@ -202,7 +202,7 @@ pub struct Fan {
     pub along: Inline,
 }
 
-impl Fan {
+impl MultiBankLayout {
     /// The engine with this cylinder throughout.
     pub fn engine(&self, cylinder: Cylinder) -> Result<Engine> {
         let Inline { throws, spacing, rotating_mass, first_tdc } = &self.along;

@@ -1,4 +1,4 @@
-//! An engine: running gears and banks, the places of the cylinders that have them, and shafts.
+//! An engine: cylinders that differ, and banks, the places of the cylinders that have them, and shafts.
 //!
 //! Cylinders refer to their running gear and their bank by index, so that being alike is no matter
 //! of comparing numbers and a vee at 0° stays a vee.
@@ -44,7 +44,7 @@ list_index! {
 
 list_index! {
     /// Index of a running gear, among those of an engine that differ.
-    pub GearIndex
+    pub DistinctCylinderIndex
 }
 
 impl CrankIndex {
@@ -127,10 +127,10 @@ pub struct Engine {
     firing_order: String,
     strokes: Strokes,
     stations: Vec<Station>,
-    /// Running gears that differ, in the order in which cylinders have them.
-    gears: List<GearIndex, Cylinder>,
+    /// Cylinders that differ, in the order in which cylinders have them.
+    distinct_cylinders: List<DistinctCylinderIndex, Cylinder>,
     /// Index of each cylinder's running gear.
-    gear_of: Vec<GearIndex>,
+    distinct_cylinder_of: Vec<DistinctCylinderIndex>,
     /// Force of every cylinder, masses and radius in it, in place of that of its slider-crank.
     spectrum: Option<Spectrum>,
     /// Index of each cylinder's bank, in the order in which cylinders have them.
@@ -190,7 +190,8 @@ impl Engine {
             limits::not_negative(&format!("rotating_mass[{i}]"), station.rotating_mass)?;
             (station.tdc, station.bank) = (station.tdc.reduced(), station.bank.reduced());
         }
-        let (gears, gear_of) = distinct(stations.iter().map(|station| station.cylinder));
+        let (distinct_cylinders, distinct_cylinder_of) =
+            distinct(stations.iter().map(|station| station.cylinder));
         let engine = Self {
             name: String::new(),
             source: String::new(),
@@ -198,8 +199,8 @@ impl Engine {
             strokes: Strokes::Four,
             right: right_bank(&stations, bank_keys),
             stations,
-            gears,
-            gear_of,
+            distinct_cylinders,
+            distinct_cylinder_of,
             spectrum: None,
             bank_of: distinct::<usize, _>(bank_keys.iter()).1,
             cranks: List::new(vec![Crank::MAIN]),
@@ -252,16 +253,16 @@ impl Engine {
         &self.stations
     }
 
-    /// Running gears that differ; cylinders refer to them by index.
+    /// Cylinders that differ; cylinders refer to them by index.
     #[must_use]
-    pub fn gears(&self) -> &List<GearIndex, Cylinder> {
-        &self.gears
+    pub fn distinct_cylinders(&self) -> &List<DistinctCylinderIndex, Cylinder> {
+        &self.distinct_cylinders
     }
 
     /// Index of a cylinder's running gear.
     #[must_use]
-    pub fn gear_of(&self, cylinder: usize) -> GearIndex {
-        self.gear_of[cylinder]
+    pub fn distinct_cylinder_of(&self, cylinder: usize) -> DistinctCylinderIndex {
+        self.distinct_cylinder_of[cylinder]
     }
 
     /// How a cylinder's piston moves.
@@ -497,7 +498,7 @@ impl Engine {
     /// Largest crank radius of any cylinder, m.
     #[must_use]
     pub fn largest_crank_radius(&self) -> f64 {
-        self.gears.iter().map(Cylinder::crank_radius).fold(0.0, f64::max)
+        self.distinct_cylinders.iter().map(Cylinder::crank_radius).fold(0.0, f64::max)
     }
 
     /// The same engine with its whole crank turned so that the first cylinder is at top dead
@@ -732,7 +733,7 @@ mod tests {
         let engine = vee(60.0, 120.0).named("V2", "a drawing").unwrap();
         assert_eq!((engine.name(), engine.source()), ("V2", "a drawing"));
         assert_eq!((engine.middle(), engine.largest_crank_radius()), (0.05, 0.05));
-        assert_eq!((engine.stations().len(), engine.gears().len()), (2, 1));
+        assert_eq!((engine.stations().len(), engine.distinct_cylinders().len()), (2, 1));
         assert_eq!([0, 1].map(|i| engine.bank_of(i)), [0, 1]);
         assert_eq!(engine.firing_as("1-2", Strokes::Four).unwrap().firing_order(), "1-2");
         let both = engine.stations().to_vec();

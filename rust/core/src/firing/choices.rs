@@ -122,7 +122,7 @@ impl Firing {
         let engine = self.engine().firing_as(order.as_str(), self.strokes())?;
         let most_even = Self::named(self.engine(), &order.parse()?, self.strokes(), cancel)?;
         let is_chosen = most_even.later() != self.later();
-        engine.with_turns(is_chosen.then(|| self.in_second_turn()))
+        engine.with_turns(is_chosen.then(|| self.fires_in_second_turn()))
     }
 
     /// The schedule by which an engine fires: that of its gas or of the turns that were chosen, the most
@@ -134,7 +134,7 @@ impl Firing {
             let of_turns = |later: &[bool]| {
                 // Whichever turn is called the first.
                 let same = |firing_of_order: &Self| {
-                    let second = firing_of_order.in_second_turn();
+                    let second = firing_of_order.fires_in_second_turn();
                     let turned: Vec<bool> = firing(engine).map(|i| second[i] != later[i]).collect();
                     turned.iter().all(|each| *each == turned[0])
                 };
@@ -193,7 +193,9 @@ fn can_list(cylinders: usize, strokes: Strokes) -> bool {
 fn most_even_first(firings: &mut [Firing]) {
     firings.sort_unstable_by(|a, b| {
         let evenness = unevenness(a).cmp(&unevenness(b));
-        evenness.then_with(|| a.order().cmp(b.order())).then_with(|| a.is_later().cmp(b.is_later()))
+        evenness
+            .then_with(|| a.order().cmp(b.order()))
+            .then_with(|| a.fire_in_second_turn().cmp(b.fire_in_second_turn()))
     });
 }
 

@@ -130,10 +130,10 @@ impl Firing {
     /// True for cylinders that fire in the second turn after the first cylinder's firing.
     #[must_use]
     pub fn later(&self) -> Vec<bool> {
-        self.is_later().collect()
+        self.fire_in_second_turn().collect()
     }
 
-    pub(super) fn is_later(&self) -> impl Iterator<Item = bool> {
+    pub(super) fn fire_in_second_turn(&self) -> impl Iterator<Item = bool> {
         self.times.iter().map(|&time| time >= Angle::TURN)
     }
 
@@ -147,7 +147,7 @@ impl Firing {
 
     /// Whether each cylinder fires at its top dead centre in the second turn of the cycle, by number.
     #[must_use]
-    pub fn in_second_turn(&self) -> Vec<bool> {
+    pub fn fires_in_second_turn(&self) -> Vec<bool> {
         let stations = self.engine.stations();
         let first = &stations[0];
         let second = |(place, time): (&Station, &Angle)| {
@@ -163,7 +163,7 @@ impl Firing {
     /// Crank angle of each cylinder's firing top dead centre, by number, within a cycle.
     #[must_use]
     pub fn phases(&self) -> Vec<Angle> {
-        let places = self.engine.stations().iter().zip(self.in_second_turn());
+        let places = self.engine.stations().iter().zip(self.fires_in_second_turn());
         places.map(|(place, second)| place.tdc.reduced() + turn_if(second)).collect()
     }
 

@@ -81,9 +81,9 @@ impl LoadList {
         let (list, sources, group_of) = (List::default(), List::default(), List::default());
         let mut loads = Self { list, sources, groups, group_of, reference };
         let ratio = |i: usize| engine.cranks()[engine.crank_of(i)].ratio;
-        let mechanisms = engine.gears().map_to(Cylinder::mechanism);
+        let mechanisms = engine.distinct_cylinders().map_to(Cylinder::mechanism);
         let mechanism = |i: usize| {
-            let mechanism = Arc::clone(&mechanisms[engine.gear_of(i)]);
+            let mechanism = Arc::clone(&mechanisms[engine.distinct_cylinder_of(i)]);
             DrivenMechanism { mechanism, ratio: ratio(i) }
         };
         let along_bore = |i: usize| Place::along_bore(engine, i);
@@ -94,7 +94,7 @@ impl LoadList {
                 loads.push(along_bore(i), force, 1.0, 0.0);
             } else {
                 let cylinder = &engine.stations()[i].cylinder;
-                let (weight, roll) = (cylinder.first_order(), cylinder.second_moment());
+                let (weight, roll) = (cylinder.mass_radius(), cylinder.mass_radius_squared());
                 loads.push(along_bore(i), PistonInertia(mechanism(i)), weight, roll);
             }
         }

@@ -191,19 +191,22 @@ impl Cylinder {
 
     /// m·r, the size of the first-order force over ω², kg·m.
     #[must_use]
-    pub fn first_order(&self) -> f64 {
+    pub fn mass_radius(&self) -> f64 {
         self.reciprocating_mass * self.crank_radius
     }
 
     /// m·r², the size of the torques over ω², kg·m².
     #[must_use]
-    pub fn second_moment(&self) -> f64 {
-        self.first_order() * self.crank_radius
+    pub fn mass_radius_squared(&self) -> f64 {
+        self.mass_radius() * self.crank_radius
     }
 
     /// Weights of its torques.
     pub(crate) fn torque_weights(&self) -> [(TorqueKey, f64); 2] {
-        [(TorqueKey::Masses, self.second_moment()), (TorqueKey::Swing, self.rod_inertia_excess)]
+        [
+            (TorqueKey::Masses, self.mass_radius_squared()),
+            (TorqueKey::Swing, self.rod_inertia_excess),
+        ]
     }
 }
 

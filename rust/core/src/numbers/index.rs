@@ -79,7 +79,7 @@ pub(crate) use list_index;
 ///
 /// ```compile_fail,E0308
 /// fn speed(engine: &crankpin_core::Engine) -> crankpin_core::SpeedRatio {
-///     engine.cranks()[engine.gear_of(0)].ratio
+///     engine.cranks()[engine.distinct_cylinder_of(0)].ratio
 /// }
 /// ```
 #[derive(Clone, PartialEq)]

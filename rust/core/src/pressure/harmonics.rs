@@ -69,7 +69,7 @@ const NODES_AT_ONCE: usize = 512;
 const SUMMED_SIDE_BY_SIDE: usize = 8;
 type PartialSums = [f64; SUMMED_SIDE_BY_SIDE];
 /// Orders after which powers are computed afresh: rounding grows with each multiplication.
-const FRESH: usize = 32;
+const ORDERS_PER_POWER: usize = 32;
 /// Part of the total within which the quadrature of a squared slope or bend is exact.
 const QUADRATURE: f64 = 1e-12;
 /// Part of the largest pressure, or slope of it, below which a jump is rounding.
@@ -478,7 +478,7 @@ impl Powers {
         for (i, (&order, sum)) in halves.iter().zip(sums).enumerate() {
             let gap = order - before;
             before = order;
-            *sum += if gap > 2 || i % FRESH == 0 {
+            *sum += if gap > 2 || i % ORDERS_PER_POWER == 0 {
                 self.wave.fill(theta_deg, order);
                 cancel.check()?;
                 self.sum::<false>(weighted)

@@ -9,7 +9,7 @@ const CUBIC: usize = 3;
 const HIGHEST_DEGREE: usize = 32;
 
 /// Difference of the ends of a closed grid, over the range of pressure, up to which they are one point.
-const DRIFT: f64 = 0.05;
+const LARGEST_CLOSING_ERROR: f64 = 0.05;
 
 /// Polynomials of one degree on adjoining panels of a period, as Chebyshev series.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,7 +49,7 @@ impl Panels {
             let (low, high) = values
                 .iter()
                 .fold((f64::INFINITY, 0.0_f64), |(low, high), &p| (low.min(p), high.max(p)));
-            if (after - before).abs() > DRIFT * (high - low) {
+            if (after - before).abs() > LARGEST_CLOSING_ERROR * (high - low) {
                 let hint = format!(
                     "the grid is closed, and a period earlier pressure is {after:?}; leave the \
                      last point out if pressure jumps there"

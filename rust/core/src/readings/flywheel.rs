@@ -99,7 +99,7 @@ impl CycleGrid {
 
 /// Moment of inertia of all that turns with the crank, given or wanted.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Evenness {
+pub enum FlywheelTarget {
     /// This moment of inertia, kg·m².
     Inertia(f64),
     /// The least that keeps the irregularity, (largest − least)/mean speed, down to this.
@@ -149,21 +149,21 @@ pub struct SpeedFluctuation {
 
 impl CrankDrive<'_> {
     /// Speed over the cycle.
-    pub fn speed(&self, evenness: Evenness, cancel: &Cancel) -> Result<SpeedFluctuation> {
+    pub fn speed(&self, evenness: FlywheelTarget, cancel: &Cancel) -> Result<SpeedFluctuation> {
         let omega = angular_speed(self.rpm)?;
         if omega == 0.0 {
             return Err(Error::figure("rpm", self.rpm, "give a speed above 0"));
         }
         let motion = WorkCurve::new(self, omega, cancel)?;
         let (inertia, run) = match evenness {
-            Evenness::Inertia(inertia) => {
+            FlywheelTarget::Inertia(inertia) => {
                 limits::inertia("inertia", inertia)?;
                 if inertia < 0.0 {
                     return Err(Error::figure("inertia", inertia, "give zero or more"));
                 }
                 (inertia, motion.run(inertia, cancel)?)
             }
-            Evenness::Irregularity(wanted) => motion.inertia_for(wanted, cancel)?,
+            FlywheelTarget::Irregularity(wanted) => motion.inertia_for(wanted, cancel)?,
         };
         let mean_inertia = inertia + motion.mean_moving();
         let over = mean_inertia * omega * omega;
@@ -561,7 +561,7 @@ mod tests {
         grid: &CycleGrid,
         torque: &[f64],
         engine: Option<&Engine>,
-        how: Evenness,
+        how: FlywheelTarget,
     ) -> SpeedFluctuation {
         let load = vec![0.0; torque.len()];
         let drive = CrankDrive { grid, torque, load: &load, engine, rpm: 300.0 };
@@ -581,7 +581,7 @@ mod tests {
         // ∫A sin 2θ dθ swings by A. ω² = ω₀² − (A/J) cos 2θ, of which √(1 ± A/(Jω₀²)) are the ends.
         let grid = grid(&[]);
         let torque = at(&grid, |theta| 100.0 + 40.0 * (2.0 * theta).sin());
-        let found = run(&grid, &torque, None, Evenness::Inertia(2.0));
+        let found = run(&grid, &torque, None, FlywheelTarget::Inertia(2.0));
         // Cubics over half a degree: (2·0.0087)⁴/384 of what waves, 2.4e-10.
         assert!((found.energy - 40.0).abs() < 40.0 * 3e-10, "{}", found.energy);
         assert!((found.mean_torque - 100.0).abs() < 1e-10);
@@ -605,7 +605,7 @@ mod tests {
                 &grid,
                 |theta| if (100.1..220.1).contains(&theta.to_degrees()) { 30.0 } else { 15.0 },
             );
-        let found = run(&grid, &torque, None, Evenness::Inertia(1.0));
+        let found = run(&grid, &torque, None, FlywheelTarget::Inertia(1.0));
         assert!((found.energy - 10.0 * 2.0 * PI / 3.0).abs() < 1e-11, "{}", found.energy);
         assert!((found.acceleration - 10.0).abs() < 1e-11);
     }
@@ -618,7 +618,7 @@ mod tests {
                 &grid,
                 &vec![0.0; grid.nodes_deg.len()],
                 Some(&engine),
-                Evenness::Inertia(0.05),
+                FlywheelTarget::Inertia(0.05),
             );
             let energies: Vec<f64> = found
                 .speed
@@ -646,8 +646,8 @@ mod tests {
         let (grid, engine) = (grid(&[]), single(0.0));
         let torque = at(&grid, |theta| 20.0 + 30.0 * theta.sin() - 8.0 * (3.0 * theta).cos());
         for wanted in [0.3, 0.05, 1e-4, 6e-5, 1e-5, 3.7e-6, 1e-7, 1e-9] {
-            let fit = run(&grid, &torque, Some(&engine), Evenness::Irregularity(wanted));
-            let again = run(&grid, &torque, Some(&engine), Evenness::Inertia(fit.inertia));
+            let fit = run(&grid, &torque, Some(&engine), FlywheelTarget::Irregularity(wanted));
+            let again = run(&grid, &torque, Some(&engine), FlywheelTarget::Inertia(fit.inertia));
             assert!(
                 (again.irregularity / wanted - 1.0).abs() < 1e-11_f64.max(WORK_ROUNDING / wanted)
             );
@@ -662,11 +662,15 @@ mod tests {
         let load = vec![0.0; torque.len()];
         let drive =
             CrankDrive { grid: &grid, torque: &torque, load: &load, engine: None, rpm: 300.0 };
-        for how in [Evenness::Inertia(0.1), Evenness::Inertia(0.0), Evenness::Irregularity(0.9)] {
+        for how in [
+            FlywheelTarget::Inertia(0.1),
+            FlywheelTarget::Inertia(0.0),
+            FlywheelTarget::Irregularity(0.9),
+        ] {
             assert!(drive.speed(how, &Cancel::new()).is_err());
         }
         let cancel = Cancel::new();
         cancel.raise();
-        assert_eq!(drive.speed(Evenness::Inertia(1e3), &cancel), Err(Error::Cancelled));
+        assert_eq!(drive.speed(FlywheelTarget::Inertia(1e3), &cancel), Err(Error::Cancelled));
     }
 }

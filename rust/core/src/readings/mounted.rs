@@ -628,6 +628,6 @@ impl Derivative {
 }
 
 mod driven;
-pub use self::driven::Drive;
+pub use self::driven::ActuatorForces;
 #[cfg(test)]
 mod tests;

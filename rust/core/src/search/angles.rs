@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use super::families::Distinct;
+use super::families::FamiliesByAngle;
 use super::family::{Families, Family};
 use crate::engine::Hold;
 use crate::numbers::cancel::Cancel;
@@ -54,7 +54,7 @@ impl Angles {
     /// Of families that have at least the angles in the window, degrees.
     pub(super) fn new(
         context: Families<'_>,
-        Distinct { families, others }: Distinct,
+        FamiliesByAngle { families, others }: FamiliesByAngle,
         hold: Hold,
         window: [f64; 2],
     ) -> Result<Self> {

@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use super::Search;
 use super::angles::{AngleSource, Angles};
 use super::enumerate::{classes, refuse_too_large};
-use super::families::Member;
+use super::families::ClassMember;
 use super::family::{Families, Family};
 use super::images::Image;
 use super::moments::{Moments, NEAR, near};
@@ -23,7 +23,7 @@ use crate::numbers::{memory, pool};
 /// Second-order moments, doubled, that are closer count as one.
 const EQUAL_MOMENTS: f64 = 1e-9;
 /// Makes them positive, in these units.
-const SHIFT: f64 = 1e12;
+const POSITIVE_SHIFT: f64 = 1e12;
 
 /// Place of the arrangement that counts for those of its Z, and a second-order moment in units.
 type Key = (u32, [u64; 2]);
@@ -155,9 +155,9 @@ impl Pairs<'_> {
 /// Banks of equal Z, where second-order moments do not follow from it: one of each moment, in ascending
 /// order of these.
 #[derive(Debug)]
-pub(super) struct Equals(Vec<TurnedBank>);
+pub(super) struct EqualBanks(Vec<TurnedBank>);
 
-impl Equals {
+impl EqualBanks {
     fn new(families: Families<'_>, cancel: &Cancel) -> Result<Self> {
         let count = AtomicUsize::new(0);
         let found = pool::map(cancel, families.entries.ranges(), |(start, range)| {
@@ -186,18 +186,18 @@ impl Equals {
     /// The images of an arrangement that have the Z of another one, turned.
     fn add(
         families: Families<'_>,
-        of: Member,
-        member: Member,
+        of: ClassMember,
+        member: ClassMember,
         to: &mut Vec<(Key, TurnedBank)>,
     ) -> Result<()> {
         let moments = families.moments;
-        let known = |member: Member| (families.packed(member.place), member.argument);
+        let known = |member: ClassMember| (families.packed(member.place), member.argument);
         let near = near(moments.twice(known(of).0).norm());
         for image in moments.images.all() {
             if let Some(turned) = moments.turned_to(known(of), known(member), image, near) {
                 let bank = TurnedBank::new(families, member.place).seen(moments, image, turned);
                 let rounded = [bank.second.re, bank.second.im]
-                    .map(|part| (part / EQUAL_MOMENTS + SHIFT + 0.5) as u64);
+                    .map(|part| (part / EQUAL_MOMENTS + POSITIVE_SHIFT + 0.5) as u64);
                 memory::push(to, ((of.place, rounded), TurnedBank { of: of.place, ..bank }))?;
             }
         }
@@ -294,13 +294,13 @@ impl Search {
     }
 
     /// Banks of equal Z, unless second-order moments follow from that; found once.
-    fn equals(&self, cancel: &Cancel) -> Result<Option<&Equals>> {
+    fn equals(&self, cancel: &Cancel) -> Result<Option<&EqualBanks>> {
         if self.bank().parts % 2 == 1 {
             return Ok(None);
         }
         if self.equals.get().is_none() {
             // Another thread may have set the same.
-            drop(self.equals.set(Equals::new(self.families(), cancel)?));
+            drop(self.equals.set(EqualBanks::new(self.families(), cancel)?));
         }
         Ok(self.equals.get())
     }

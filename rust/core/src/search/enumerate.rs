@@ -25,12 +25,12 @@ const UNINTERRUPTED: usize = 3;
 
 /// An arrangement and the number of its images, by the key of its |Z|².
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Entry {
+pub(super) struct KeyedArrangement {
     pub key: u64,
     pub packed: Packed,
 }
 
-impl Entry {
+impl KeyedArrangement {
     pub(super) fn image_count(self) -> u64 {
         self.packed & 15
     }
@@ -39,7 +39,7 @@ impl Entry {
 /// The first of each set of images, sorted within ranges of keys.
 #[derive(Debug)]
 pub(super) struct Entries {
-    pub all: Vec<Entry>,
+    pub all: Vec<KeyedArrangement>,
     /// Where each range starts, and the end.
     starts: Vec<usize>,
 }
@@ -71,7 +71,7 @@ impl Entries {
     }
 
     /// Ranges of entries that share no class.
-    pub(super) fn ranges(&self) -> Vec<(usize, &[Entry])> {
+    pub(super) fn ranges(&self) -> Vec<(usize, &[KeyedArrangement])> {
         self.starts.windows(2).map(|ends| (ends[0], &self.all[ends[0]..ends[1]])).collect()
     }
 }
@@ -85,7 +85,7 @@ pub(super) fn refuse_too_large(argument: &str, bytes: u128, hint: &'static str) 
 }
 
 /// Arrangements of equal |Z|.
-pub(super) fn classes(range: &[Entry]) -> impl Iterator<Item = &[Entry]> {
+pub(super) fn classes(range: &[KeyedArrangement]) -> impl Iterator<Item = &[KeyedArrangement]> {
     range.chunk_by(|a, b| a.key == b.key)
 }
 
@@ -171,7 +171,7 @@ impl<'a> Walk<'a> {
         &self,
         node: &Node,
         cancel: &Cancel,
-        found: &mut impl FnMut(Entry) -> Result<()>,
+        found: &mut impl FnMut(KeyedArrangement) -> Result<()>,
     ) -> Result<()> {
         let left = self.pairs_left(node);
         if left == 1 {
@@ -261,13 +261,13 @@ impl<'a> Walk<'a> {
 
     /// A central throw has no weight.
     #[inline]
-    fn leaf(&self, node: &Node, pair: &Pair) -> Entry {
+    fn leaf(&self, node: &Node, pair: &Pair) -> KeyedArrangement {
         let mut packed = self.packed(node, pair);
         if self.throws % 2 == 1 {
             packed |= (pair.pool.centre() as u64) << (4 * (self.throws / 2) + 4);
         }
         let images = self.images.count() / (1 + pair.tied.count_ones());
-        Entry { key: self.key(node, pair), packed: packed | u64::from(images) }
+        KeyedArrangement { key: self.key(node, pair), packed: packed | u64::from(images) }
     }
 }
 

@@ -7,8 +7,8 @@
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use super::enumerate::{Entry, classes, refuse_too_large};
-use super::family::{Families, Family, Same};
+use super::enumerate::{KeyedArrangement, classes, refuse_too_large};
+use super::family::{ExactComparison, Families, Family};
 use super::images::Image;
 use super::moments::{NEAR, fold, near};
 use super::ranges::{self, Ranges};
@@ -19,23 +19,23 @@ use crate::numbers::memory;
 use crate::numbers::pool;
 
 /// |2Z| below which rounding asks for more than [`NEAREST_FOLDED`].
-const SMALL: f64 = 0.1;
+const SMALL_MOMENT: f64 = 0.1;
 /// How near folded angles may be by rounding alone, unless |Z| is small.
-const NEAREST_FOLDED: f64 = NEAR / SMALL;
+const NEAREST_FOLDED: f64 = NEAR / SMALL_MOMENT;
 /// Families between two checks for cancellation: each takes 1 µs, or two.
 const FAMILIES_PER_CHECK: usize = 4096;
 
 /// Families ascending by their folded angles, each angle once; and those whose angle is one of these,
 /// [`NEAREST_FOLDED`] to it.
 #[derive(Debug, Default, PartialEq)]
-pub(super) struct Distinct {
+pub(super) struct FamiliesByAngle {
     pub families: Vec<Family>,
     pub others: Vec<Family>,
 }
 
 /// An arrangement of a class.
 #[derive(Clone, Copy)]
-pub(super) struct Member {
+pub(super) struct ClassMember {
     pub place: u32,
     /// Of Z.
     pub argument: f64,
@@ -45,7 +45,7 @@ pub(super) struct Member {
 
 impl Families<'_> {
     /// Those whose folded angle is wanted.
-    pub(super) fn all(self, wanted: &WindowTarget, cancel: &Cancel) -> Result<Distinct> {
+    pub(super) fn all(self, wanted: &WindowTarget, cancel: &Cancel) -> Result<FamiliesByAngle> {
         let ranges = ranges::count(self.entries.all.len() as u128);
         let per_radian = ranges as f64 / (0.5 * self.moments.turn);
         let range = |family: Family| ((family.folded() * per_radian) as usize).min(ranges - 1);
@@ -83,8 +83,8 @@ impl Families<'_> {
             }
             !family.small
         });
-        let mut all = Distinct::default();
-        let mut same = Same::new(self);
+        let mut all = FamiliesByAngle::default();
+        let mut same = ExactComparison::new(self);
         all.join(families, &mut same, cancel)?;
         self.insert(&mut all, &small, &mut same)?;
         all.others.sort_unstable();
@@ -92,7 +92,12 @@ impl Families<'_> {
     }
 
     /// Insert families of small |Z|, of which there are few: rounding may have put them anywhere near.
-    fn insert(self, to: &mut Distinct, families: &[Family], same: &mut Same<'_>) -> Result<()> {
+    fn insert(
+        self,
+        to: &mut FamiliesByAngle,
+        families: &[Family],
+        same: &mut ExactComparison<'_>,
+    ) -> Result<()> {
         let mut new: Vec<Family> = Vec::new();
         for &family in families {
             let size = self.moments.twice(self.packed(family.first)).norm();
@@ -116,9 +121,9 @@ impl Families<'_> {
     pub(super) fn sorted_out(
         self,
         start: usize,
-        class: &[Entry],
-        members: &mut Vec<Member>,
-        mut each: impl FnMut(Member, Member) -> Result<()>,
+        class: &[KeyedArrangement],
+        members: &mut Vec<ClassMember>,
+        mut each: impl FnMut(ClassMember, ClassMember) -> Result<()>,
     ) -> Result<()> {
         members.clear();
         // Rows of a remainder that is zero are zero: the key is 0, and the class is the first.
@@ -127,7 +132,7 @@ impl Families<'_> {
         }
         for (i, &entry) in class.iter().enumerate() {
             let argument = self.moments.twice(entry.packed).arg();
-            members.push(Member { place: (start + i) as u32, argument, folded: 0.0 });
+            members.push(ClassMember { place: (start + i) as u32, argument, folded: 0.0 });
         }
         if let &mut [only] = members.as_mut_slice() {
             return each(only, only);
@@ -138,7 +143,7 @@ impl Families<'_> {
         members.sort_unstable_by(|a, b| a.folded.total_cmp(&b.folded).then(a.place.cmp(&b.place)));
         let near = near(self.moments.twice(class[0].packed).norm());
         let known =
-            |member: &Member| (class[member.place as usize - start].packed, member.argument);
+            |member: &ClassMember| (class[member.place as usize - start].packed, member.argument);
         let mut distinct = 0;
         for i in 0..members.len() {
             let member = members[i];
@@ -163,7 +168,11 @@ impl Families<'_> {
     /// An arrangement with itself, or reversed, has the same angles in every class: they are left to
     /// [`Self::common`].
     #[inline]
-    fn class(self, members: &[Member], mut found: impl FnMut(Family) -> Result<()>) -> Result<()> {
+    fn class(
+        self,
+        members: &[ClassMember],
+        mut found: impl FnMut(Family) -> Result<()>,
+    ) -> Result<()> {
         let Some(first) = members.first() else { return Ok(()) };
         let size = self.moments.twice(self.packed(first.place)).norm();
         for (a, first) in members.iter().enumerate() {
@@ -174,7 +183,7 @@ impl Families<'_> {
                     }
                     let angle = PI + self.moments.seen(second.argument, image) - first.argument;
                     let folded = fold(angle, self.moments.turn);
-                    let small = size < SMALL;
+                    let small = size < SMALL_MOMENT;
                     found(Family::new(folded, [first.place, second.place], image, small))?;
                 }
             }
@@ -188,7 +197,7 @@ impl Families<'_> {
         let start = others.partition_point(|other| other.folded() < folded - NEAREST_FOLDED);
         let close =
             others[start..].iter().take_while(|other| other.folded() <= folded + NEAREST_FOLDED);
-        let mut same = Same::new(self);
+        let mut same = ExactComparison::new(self);
         let mut equal = memory::collected([family].into_iter())?;
         for &other in close {
             if same.angle(family, other) {
@@ -215,9 +224,14 @@ impl Families<'_> {
     }
 }
 
-impl Distinct {
+impl FamiliesByAngle {
     /// Take ascending families.
-    fn join(&mut self, families: Vec<Family>, same: &mut Same<'_>, cancel: &Cancel) -> Result<()> {
+    fn join(
+        &mut self,
+        families: Vec<Family>,
+        same: &mut ExactComparison<'_>,
+        cancel: &Cancel,
+    ) -> Result<()> {
         let mut distinct = 0;
         self.families = families;
         for k in 0..self.families.len() {
@@ -242,7 +256,8 @@ impl Distinct {
 
 /// Families are gathered, sorted and joined.
 fn refuse_too_many(families: usize, entries: usize) -> Result<()> {
-    let bytes = (3 * families * size_of::<Family>() + entries * size_of::<Entry>()) as u128;
+    let bytes =
+        (3 * families * size_of::<Family>() + entries * size_of::<KeyedArrangement>()) as u128;
     let hint = "ask for those within a narrower window, or for the counts alone";
     refuse_too_large("bank angles", bytes, hint)
 }
@@ -300,7 +315,7 @@ mod tests {
                     families.class(&members, push).unwrap();
                 }
                 all.extend(families.common());
-                let mut same = Same::new(families);
+                let mut same = ExactComparison::new(families);
                 for (i, &a) in all.iter().enumerate().take(60) {
                     for &b in &all[i..] {
                         let near = (a.folded() - b.folded()).abs() < APART;
@@ -315,7 +330,7 @@ mod tests {
     fn arrangements_are_the_same_where_a_turn_and_an_image_make_them_so() {
         for bank in banks() {
             with_entries(bank, |moments, entries| {
-                let of = |entry: &Entry| {
+                let of = |entry: &KeyedArrangement| {
                     let z = moments.twice(entry.packed);
                     (entry.packed, z.norm(), z.arg())
                 };
@@ -375,7 +390,7 @@ mod tests {
 
     #[test]
     fn what_is_not_small_is_close_wherever_rounding_put_it() {
-        assert_eq!(near(SMALL), NEAREST_FOLDED);
+        assert_eq!(near(SMALL_MOMENT), NEAREST_FOLDED);
     }
 
     /// |Z| nearly vanishes in some classes.
@@ -394,7 +409,7 @@ mod tests {
         ]
     }
 
-    fn of_class(families: Families<'_>, class: &[Entry]) -> (usize, Vec<Family>) {
+    fn of_class(families: Families<'_>, class: &[KeyedArrangement]) -> (usize, Vec<Family>) {
         let start = families.entries.all.iter().position(|e| e == &class[0]).unwrap();
         let (mut members, mut found) = (Vec::new(), Vec::new());
         families.sorted_out(start, class, &mut members, |_, _| Ok(())).unwrap();
@@ -411,7 +426,7 @@ mod tests {
         for bank in banks().into_iter().chain(small_banks()) {
             with_entries(bank, |moments, entries| {
                 for class in classes(&entries.all) {
-                    let z = |entry: &Entry| moments.twice(entry.packed);
+                    let z = |entry: &KeyedArrangement| moments.twice(entry.packed);
                     let size = z(&class[0]).norm();
                     let mut folded: Vec<f64> =
                         class.iter().map(|entry| moments.folded(z(entry).arg())).collect();
@@ -425,7 +440,7 @@ mod tests {
                     let pairs = count * count.saturating_sub(1) / 2 * images;
                     // Itself and itself reversed are common to all.
                     assert_eq!(found.len(), pairs + count * (images - 2));
-                    assert!(found.iter().all(|family| family.small == (size < SMALL)));
+                    assert!(found.iter().all(|family| family.small == (size < SMALL_MOMENT)));
                 }
             });
         }
@@ -442,8 +457,10 @@ mod tests {
                     .take(200)
                     .collect();
                 found.sort();
-                let mut joined = Distinct::default();
-                joined.join(found.clone(), &mut Same::new(families), &Cancel::new()).unwrap();
+                let mut joined = FamiliesByAngle::default();
+                joined
+                    .join(found.clone(), &mut ExactComparison::new(families), &Cancel::new())
+                    .unwrap();
                 let mut both = [joined.families.clone(), joined.others].concat();
                 both.sort();
                 assert_eq!(both, found);
@@ -464,9 +481,9 @@ mod tests {
                     .collect();
                 assert!(!small.is_empty());
                 let inserted = |to: &[Family], new: &[Family]| {
-                    let mut to = Distinct { families: to.to_vec(), others: Vec::new() };
+                    let mut to = FamiliesByAngle { families: to.to_vec(), others: Vec::new() };
                     let count = to.families.len() + new.len();
-                    families.insert(&mut to, new, &mut Same::new(families)).unwrap();
+                    families.insert(&mut to, new, &mut ExactComparison::new(families)).unwrap();
                     assert_eq!(to.families.len() + to.others.len(), count);
                     // Beside the one whose angle they have, wherever rounding put them.
                     for other in &to.others {

@@ -3,7 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::enumerate::{Entries, Entry, LARGEST_SEARCH};
+use super::enumerate::{Entries, KeyedArrangement, LARGEST_SEARCH};
 use super::images::{Image, Packed};
 use super::moments::Moments;
 
@@ -22,7 +22,7 @@ pub(super) struct Family {
 }
 
 /// Places fit into 32 bits.
-const _: () = assert!(LARGEST_SEARCH / size_of::<Entry>() as u128 <= 1 << 32);
+const _: () = assert!(LARGEST_SEARCH / size_of::<KeyedArrangement>() as u128 <= 1 << 32);
 
 impl Family {
     pub(super) fn new(folded: f64, [first, second]: [u32; 2], image: Image, small: bool) -> Self {
@@ -96,7 +96,7 @@ impl Families<'_> {
 }
 
 /// Combinations of roots of unity that are multiplied out, in memory that is used again.
-pub(super) struct Same<'a> {
+pub(super) struct ExactComparison<'a> {
     families: Families<'a>,
     of_a: Quotient,
     of_b: Quotient,
@@ -116,7 +116,7 @@ struct Quotient {
     denominator: Vec<i64>,
 }
 
-impl<'a> Same<'a> {
+impl<'a> ExactComparison<'a> {
     pub(super) fn new(families: Families<'a>) -> Self {
         Self {
             families,

@@ -25,9 +25,9 @@ use std::sync::OnceLock;
 
 pub use self::angles::Angles;
 pub use self::best::Criterion;
-use self::best::Equals;
+use self::best::EqualBanks;
 pub use self::enumerate::LARGEST_SEARCH;
-use self::enumerate::{Entries, Entry, classes};
+use self::enumerate::{Entries, KeyedArrangement, classes};
 use self::family::Families;
 use self::magnitude::Magnitude;
 use self::moments::Moments;
@@ -61,7 +61,7 @@ pub struct Search {
     qualifying: u128,
     balanced: u128,
     hold: Hold,
-    equals: OnceLock<Equals>,
+    equals: OnceLock<EqualBanks>,
 }
 
 /// A pair of banks and the angle between them.
@@ -88,7 +88,7 @@ impl Search {
         let magnitude = Magnitude::new(&moments.bank, &moments.ring)?;
         let entries = Entries::new(&moments.bank, &magnitude, &moments.images, cancel)?;
         let turns = u128::from(moments.bank.turns);
-        let pairs = |class: &[Entry]| {
+        let pairs = |class: &[KeyedArrangement]| {
             let images: u64 = class.iter().map(|entry| entry.image_count()).sum();
             (u128::from(images) * turns).pow(2)
         };
@@ -104,7 +104,7 @@ impl Search {
     }
 
     /// The arrangements without any first-order moment.
-    fn zero_class(&self) -> &[Entry] {
+    fn zero_class(&self) -> &[KeyedArrangement] {
         // Rows of a remainder that is zero are zero: the key is 0, and the class is the first.
         let first = classes(&self.entries.all).next();
         first.filter(|class| self.moments.vanishes(class[0].packed)).unwrap_or_default()
@@ -331,7 +331,7 @@ mod tests {
                 let [forward, backward] = [0, 1].map(|k| right.moment[k].value.norm());
                 // Sums of 7 terms of at most 3.
                 assert!((forward - backward).abs() < 1e-15);
-                4.0 * backward / (cylinder.first_order() * 0.1)
+                4.0 * backward / (cylinder.mass_radius() * 0.1)
             };
             let sizes: Vec<f64> = (0..entries.len()).map(size).collect();
             for (j, (&entry, &size)) in entries.iter().zip(&sizes).enumerate() {

@@ -190,11 +190,11 @@ pub fn kinematics(engine: &Engine, reference: f64, θ: f64) -> ([f64; 6], [f64; 
         let h = (rod * rod - u * u).sqrt();
         let velocity = -sin - u * cos / h;
         let acceleration = -cos - (cos * cos - u * sin) / h - (u * cos).powi(2) / h.powi(3);
-        let along = -c.first_order() * acceleration;
+        let along = -c.mass_radius() * acceleration;
         let turning = Complex64::cis(pin + θ) * (p.rotating_mass * r);
         let force = bank * along + turning;
         // A force across the bore at the piston, and one along it at the crank: r × F.
-        let weight = c.first_order() * r * acceleration;
+        let weight = c.mass_radius() * r * acceleration;
         // sin φ = u/(l/r): how the rod swings.
         let swing = cos / h;
         let bend = (u * swing * swing - sin) / h;
@@ -207,7 +207,7 @@ pub fn kinematics(engine: &Engine, reference: f64, θ: f64) -> ([f64; 6], [f64; 
             weight * (velocity + offset) + inertia * (1.0 + swing),
             -weight * velocity - inertia * swing,
         ];
-        let moved = c.first_order() * 3.0 + turning.norm();
+        let moved = c.mass_radius() * 3.0 + turning.norm();
         let torque = 5.0 * moved * r + 3.0 * c.rod_inertia_excess().abs();
         let levered = moved * (p.z.abs() + reference.abs());
         let size = [moved, moved, levered, levered, torque, torque];
@@ -256,7 +256,7 @@ pub fn scales(engine: &Engine, reference: f64) -> [f64; 3] {
     };
     for p in engine.stations() {
         let (c, r) = (p.cylinder, p.cylinder.crank_radius());
-        add(c.first_order(), r, p.z);
+        add(c.mass_radius(), r, p.z);
         add(p.rotating_mass * r, radius, p.z);
     }
     for weight in engine.counterweights() {

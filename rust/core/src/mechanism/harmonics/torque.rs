@@ -75,7 +75,7 @@ pub fn over_second_moment(
     orders: &[u32],
     cancel: &Cancel,
 ) -> Result<TorqueHarmonics> {
-    let (mechanism, masses) = (cylinder.mechanism(), cylinder.second_moment());
+    let (mechanism, masses) = (cylinder.mechanism(), cylinder.mass_radius_squared());
     let mut sum = mechanism.torque(orders, cancel)?;
     if !cylinder.has_rod_inertia() {
         return Ok(sum);

@@ -118,7 +118,7 @@ impl DrivenRod {
         let (cylinder, place) = (&engine.stations()[i].cylinder, Place::along_bore(engine, i));
         let (radius, length) = (cylinder.crank_radius(), cylinder.rod_length());
         let rotating = details.big_end(length)? * radius;
-        let piston = details.piston_mass.map_or(cylinder.first_order(), |mass| mass * radius);
+        let piston = details.piston_mass.map_or(cylinder.mass_radius(), |mass| mass * radius);
         let square = square * place.speed_squared();
         let ahead = Complex64::new(0.0, f64::from(place.ratio.sense()));
         Ok(Self {
@@ -128,7 +128,7 @@ impl DrivenRod {
             phase: place.ratio.cis(place.phase, -place.ratio.sense()),
             axes: [place.unit, place.unit * ahead],
             z: place.z,
-            reciprocating: cylinder.first_order() * square,
+            reciprocating: cylinder.mass_radius() * square,
             piston: piston * square,
             rotating: rotating * square,
             couple: cylinder.rod_inertia_excess() * square / length,

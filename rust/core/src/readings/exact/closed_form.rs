@@ -12,6 +12,7 @@ use super::{ExactLoads, Levers, too_long, whole};
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::load::{Load, LoadIndex, LoadList, Wanted, superpose};
+use crate::mechanism::exact::ExactHarmonic;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -156,28 +157,7 @@ pub fn closed_form(
     if order.as_whole().is_none() {
         return Err(refused("order", order, "a whole order: pistons have no others"));
     }
-    let ExactLoads { mut loads, motions, .. } = ExactLoads::new(engine, reference_z)?;
-    if motions.iter().any(|motion| motion.speed != SpeedRatio::ONE.halves_of_speed()) {
-        let hint = "cylinders on cranks as fast as the main one";
-        return Err(refused("cranks", "of different speeds", hint));
-    }
-    let [motion] = &*motions else {
-        return Err(refused("cylinders", "of different proportions", "rods and offsets alike"));
-    };
-    loads.list.retain(|load| load.parts.force.is_some() && load.acts_at(order));
-    let (unit, weights) = weights(&loads.list, cancel)?;
-    if loads.list.len() > engine.stations().len() {
-        if order > Order::FIRST {
-            let hint =
-                "no unbalance at an order above 1, to whose harmonic it has no rational ratio";
-            return Err(refused("shafts", format!("of order {order}"), hint));
-        }
-        if motion.mechanism.exact_force(1).rest.exists() {
-            let offset = engine.stations()[0].cylinder.pin_offset();
-            let hint = "no rotating mass at order 1, whose phase is another, or no offset";
-            return Err(refused("pin_offset", offset, hint));
-        }
-    }
+    let (loads, (unit, weights), known) = one_harmonic(engine, order, reference_z, cancel)?;
     let (levers, spacing) = if moment {
         levers(engine, &loads, reference_z, cancel)?
     } else {
@@ -186,27 +166,9 @@ pub fn closed_form(
     let product =
         |(weight, lever): (&Ratio, &Ratio)| weight.checked_mul(lever).ok_or_else(too_long);
     let products = weights.iter().zip(&levers).map(product).collect::<Result<Vec<_>>>()?;
-    let mut parts = Vec::with_capacity(loads.list.len());
-    for ((load, weight), lever) in loads.list.iter().zip(weights).zip(levers) {
-        let place = &load.place;
-        let motion = match (load.has_part(true), load.has_part(false)) {
-            (true, true) => LoadMotion::Along,
-            (true, false) => LoadMotion::Forward,
-            _ => LoadMotion::Backward,
-        };
-        let speed = Ratio::new(place.ratio.halves().into(), 2);
-        let weight = weight.checked_mul(&(speed * speed)).ok_or_else(too_long)?;
-        let argument = if motion == LoadMotion::Along { "bank_deg" } else { "angle_deg" };
-        let direction = part_of_turn(argument, place.direction)?;
-        parts.push(LoadPart {
-            weight,
-            lever,
-            motion,
-            direction,
-            phase: part_of_turn("tdc_deg", place.phase)?,
-        });
-    }
-    let known = motion.mechanism.exact_force(motion.own_order(order));
+    let parts = loads.list.iter().zip(weights).zip(levers);
+    let parts = parts.map(|((load, weight), lever)| load_part(load, weight, lever));
+    let parts = parts.collect::<Result<_>>()?;
     let no_harmonic = !known.crank && !known.rest.exists();
     let (denominator, [forward, backward_conj]) = sums(&loads, order, &products, moment, cancel)?;
     // x = f + b*, y = −i(f − b*), b* conjugate.
@@ -224,6 +186,59 @@ pub fn closed_form(
     let period = forward.period();
     let loads = given_loads(engine, order, moment, reference_z, cancel)?;
     Ok(ClosedForm { unit, spacing, no_harmonic, parts, period, denominator, phasors, loads })
+}
+
+/// Loads with forces of an order, where all are rational multiples of one harmonic: with the unit and the
+/// multiples, and what is known of the harmonic.
+fn one_harmonic(
+    engine: &Engine,
+    order: Order,
+    reference_z: Option<f64>,
+    cancel: &Cancel,
+) -> Result<(LoadList, (usize, Vec<Ratio>), ExactHarmonic)> {
+    let ExactLoads { mut loads, motions, .. } = ExactLoads::new(engine, reference_z)?;
+    if motions.iter().any(|motion| motion.speed != SpeedRatio::ONE.halves_of_speed()) {
+        let hint = "cylinders on cranks as fast as the main one";
+        return Err(refused("cranks", "of different speeds", hint));
+    }
+    let [motion] = &*motions else {
+        return Err(refused("cylinders", "of different proportions", "rods and offsets alike"));
+    };
+    loads.list.retain(|load| load.parts.force.is_some() && load.acts_at(order));
+    let multiples = weights(&loads.list, cancel)?;
+    if loads.list.len() > engine.stations().len() {
+        if order > Order::FIRST {
+            let hint =
+                "no unbalance at an order above 1, to whose harmonic it has no rational ratio";
+            return Err(refused("shafts", format!("of order {order}"), hint));
+        }
+        if motion.mechanism.exact_force(1).rest.exists() {
+            let offset = engine.stations()[0].cylinder.pin_offset();
+            let hint = "no rotating mass at order 1, whose phase is another, or no offset";
+            return Err(refused("pin_offset", offset, hint));
+        }
+    }
+    let known = motion.mechanism.exact_force(motion.own_order(order));
+    Ok((loads, multiples, known))
+}
+
+/// A load over the unit, times the square of its speed.
+fn load_part(load: &Load, weight: Ratio, lever: Ratio) -> Result<LoadPart> {
+    let place = &load.place;
+    let motion = match (load.has_part(true), load.has_part(false)) {
+        (true, true) => LoadMotion::Along,
+        (true, false) => LoadMotion::Forward,
+        _ => LoadMotion::Backward,
+    };
+    let speed = Ratio::new(place.ratio.halves().into(), 2);
+    let argument = if motion == LoadMotion::Along { "bank_deg" } else { "angle_deg" };
+    Ok(LoadPart {
+        weight: weight.checked_mul(&(speed * speed)).ok_or_else(too_long)?,
+        lever,
+        motion,
+        direction: part_of_turn(argument, place.direction)?,
+        phase: part_of_turn("tdc_deg", place.phase)?,
+    })
 }
 
 /// Indices of the periodic loads whose force, or moment about a plane, has an order.
@@ -389,7 +404,7 @@ mod tests {
         let harmonic = cylinder.mechanism().force(&[order], &Cancel::new()).unwrap()[0];
         assert_eq!(form.no_harmonic, harmonic.norm() == 0.0);
         let length = if moment { form.spacing } else { 1.0 };
-        let unit = harmonic * (cylinder.first_order() * length);
+        let unit = harmonic * (cylinder.mass_radius() * length);
         let denominator = form.denominator as f64;
         let expected = [x, y, planar.forward, planar.backward()];
         for (k, (phasor, expected)) in form.phasors.iter().zip(expected).enumerate() {

@@ -35,7 +35,7 @@ use crate::wrench::Wrench;
 /// Highest order whose cancelling is explained.
 const HIGHEST: u32 = 12;
 /// Orders are mentioned from this part of one piston's first-order force, at the longest lever.
-const MATTERS: f64 = 0.01;
+const SMALLEST_MENTIONED: f64 = 0.01;
 /// Orders of gas torque that are mentioned.
 const GAS_ORDERS: usize = 2;
 /// Tolerance by which the orders of a balance are chosen.
@@ -154,7 +154,11 @@ fn strongest(engine: &Engine, cancel: &Cancel) -> Result<(f64, Part)> {
         let largest = if load.is_turning() { &mut throws } else { &mut pistons };
         *largest = largest.max(size);
     }
-    Ok(if pistons > MATTERS * throws { (pistons, Part::Piston) } else { (throws, Part::Throw) })
+    Ok(if pistons > SMALLEST_MENTIONED * throws {
+        (pistons, Part::Piston)
+    } else {
+        (throws, Part::Throw)
+    })
 }
 
 fn longest_lever(engine: &Engine) -> Result<f64> {
@@ -221,7 +225,7 @@ fn roll_beside(engine: &Engine, rpm: f64, unit: f64, cancel: &Cancel) -> Result<
     let square = angular_speed(rpm)?.powi(2);
     let RollOfAxes { whole, beside, kept } = roll_of_axes(engine, cancel)?;
     let [whole, beside, kept] = [whole, beside, kept].map(|torque| torque * square);
-    let matters = whole.min(beside) > MATTERS * unit * furthest;
+    let matters = whole.min(beside) > SMALLEST_MENTIONED * unit * furthest;
     Ok(matters.then_some(Finding::Roll { peak: whole, kept }))
 }
 
@@ -231,7 +235,7 @@ fn bob_weights(engine: &Engine) -> Option<Finding> {
     let is_of_crank = |ratio: SpeedRatio| engine.cranks().iter().any(|crank| crank.ratio == ratio);
     // Other cranks have their first order elsewhere.
     let fast = engine.cranks().iter().any(|crank| !crank.ratio.is_crank_speed());
-    if !engine.gears().iter().all(is_of_crank_alone)
+    if !engine.distinct_cylinders().iter().all(is_of_crank_alone)
         || fast
         || engine.shafts().iter().any(|shaft| is_of_crank(shaft.ratio))
     {

@@ -15,9 +15,9 @@ use crate::readings::balance::Vector;
 const LISTED: usize = 4;
 /// Forward and backward parts that differ by less make a straight line; one that is less of both is no
 /// part, and the vector's tip draws a circle.
-const LINE: f64 = 1e-9;
+const EQUAL_PARTS: f64 = 1e-9;
 /// Levers from here on, m, are given in metres: in millimetres they have more than three digits.
-const LONG: f64 = 0.9995;
+const SHORTEST_IN_METRES: f64 = 0.9995;
 /// Peaks that differ by less are as large in three digits, or nearly.
 const SAME: f64 = 0.005;
 /// Bounds and means below this part of what they are relative to are not mentioned.
@@ -131,7 +131,7 @@ impl Explanation {
             Finding::Remedy { vector, order, kept, shafts, weights } => {
                 let what = format!("the {} of {}", words(*vector), orders(&[*order]));
                 let least = format!("down to {}", self.size(*kept, *vector, false, wording));
-                let is_all = *kept <= LINE * self.unit;
+                let is_all = *kept <= EQUAL_PARTS * self.unit;
                 self.remedy(&what, *order, shafts, *weights, &least, is_all)
             }
             Finding::BobWeights { one_sense } => {
@@ -147,7 +147,7 @@ impl Explanation {
             }
             Finding::Roll { peak, kept } => {
                 let size = |torque: f64| self.size(torque, Vector::Moment, false, wording);
-                let left = if *kept <= LINE * *peak {
+                let left = if *kept <= EQUAL_PARTS * *peak {
                     "could remove it".to_owned()
                 } else if *kept < (1.0 - SAME) * *peak {
                     format!("could bring it down to {}", size(*kept))
@@ -218,7 +218,8 @@ impl Explanation {
         }
         let (force, share) = (self.unit_force(), value / self.unit);
         if vector == Vector::Moment {
-            let (length, unit) = if share >= LONG { (share, "m") } else { (1e3 * share, "mm") };
+            let (length, unit) =
+                if share >= SHORTEST_IN_METRES { (share, "m") } else { (1e3 * share, "mm") };
             return format!("{force} at a lever of {}", wording.figure(length, unit, up));
         }
         if (share - 1.0).abs() <= SAME {
@@ -438,7 +439,7 @@ impl Explanation {
 /// How a vector moves.
 fn shape([forward, backward]: [f64; 2], tilt_deg: f64, vector: Vector) -> String {
     let turning = format!("turning {} the crank", sense(forward > backward));
-    let least = LINE * (forward + backward);
+    let least = EQUAL_PARTS * (forward + backward);
     if forward.min(backward) <= least {
         return format!("constant in size, {turning}");
     }

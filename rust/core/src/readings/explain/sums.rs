@@ -1,6 +1,6 @@
 //! What each part of an engine adds to force or moment, and the findings that follow from it.
 
-use super::MATTERS;
+use super::SMALLEST_MENTIONED;
 use super::finding::{Acting, Finding, Reason, Weights};
 use crate::Complex64;
 use crate::engine::{CrankIndex, Engine, Origin};
@@ -104,7 +104,7 @@ impl<'a> Sums<'a> {
 
     /// Whether an order is worth mention.
     fn shakes(&self, k: usize) -> bool {
-        self.peaks[k] > MATTERS * self.size && self.peaks[k] > 0.0
+        self.peaks[k] > SMALLEST_MENTIONED * self.size && self.peaks[k] > 0.0
     }
 
     /// Places of the orders that are worth mention.
@@ -125,7 +125,7 @@ impl<'a> Sums<'a> {
     /// Whether pistons make an order, of which this is the force.
     pub fn is_made(&self, k: usize) -> bool {
         let made: f64 = self.cylinders.iter().flat_map(|of_orders| sizes(of_orders[k])).sum();
-        made > MATTERS * self.size
+        made > SMALLEST_MENTIONED * self.size
     }
 
     /// Whether the sums of an order at these places, of those along x, along y, forward and backward, are proved
@@ -143,7 +143,7 @@ impl<'a> Sums<'a> {
     fn hardware_of(&self, k: usize) -> Result<Option<Finding>> {
         let acts = |added: &Option<Vec<Parts>>| {
             let added = added.as_ref()?[k];
-            (sizes(added).iter().sum::<f64>() > MATTERS * self.size).then_some(added)
+            (sizes(added).iter().sum::<f64>() > SMALLEST_MENTIONED * self.size).then_some(added)
         };
         let (acting, added) = match self.hardware.each_ref().map(acts) {
             [None, None] => return Ok(None),
@@ -182,7 +182,7 @@ impl<'a> Sums<'a> {
             [(SpeedRatio::at(order, true), forward), (SpeedRatio::at(order, false), backward)];
         // A part that would not be mentioned alone is not worth hardware of its own; a weight on a crank
         // turns with it.
-        let worth = parts.map(|(_, part)| part > MATTERS * self.size);
+        let worth = parts.map(|(_, part)| part > SMALLEST_MENTIONED * self.size);
         if worth == [false; 2] {
             return None;
         }

@@ -210,7 +210,7 @@ fn an_engine_fires_as_its_gas_does() {
         let bored = crate::engine::Details { bore: Some(0.08), ..Default::default() };
         let cycle = Arc::new(crate::Cycle::new(given).unwrap());
         let fired = twin.with_details(vec![bored; 2]).unwrap();
-        let fired = Arc::new(fired.fired_by(cycle, way.in_second_turn()).unwrap());
+        let fired = Arc::new(fired.fired_by(cycle, way.fires_in_second_turn()).unwrap());
         let own = Firing::own(&fired, &Cancel::new()).unwrap();
         assert_eq!((own.intervals(), own.later()), (way.intervals(), way.later()));
         let texts = sentences((*fired).clone(), Some(3000.0)).join("\n");

@@ -14,7 +14,7 @@ use super::Response;
 
 /// Forces of actuators on a powertrain.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Drive<'a> {
+pub struct ActuatorForces<'a> {
     /// Place, m, and direction of each.
     pub actuators: &'a [[[f64; 3]; 2]],
     /// Their peak phasors, N, at each speed and order: a row each.
@@ -30,7 +30,7 @@ impl Response {
         powertrain: Arc<Powertrain>,
         rpm: &[f64],
         orders: &Orders,
-        drive: &Drive,
+        drive: &ActuatorForces,
         cancel: &Cancel,
     ) -> Result<Self> {
         let mut response = Self::at_rest(engine, powertrain, rpm, orders, cancel)?;
@@ -87,7 +87,7 @@ mod tests {
             let forces: Vec<Complex64> =
                 (0..8).map(|_| Complex64::new(number(), number()) * 1e3).collect();
             let driven = |forces: &[Complex64], engine_runs| {
-                let drive = Drive { actuators: &actuators, forces, engine_runs };
+                let drive = ActuatorForces { actuators: &actuators, forces, engine_runs };
                 let on_mounts = Arc::clone(&on_mounts);
                 Response::driven(&engine, on_mounts, &rpm, &orders, &drive, &cancel)
             };

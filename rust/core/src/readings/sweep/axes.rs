@@ -90,7 +90,7 @@ impl SweepAxes {
     ) -> Result<[Option<f64>; 2]> {
         let (ratios, offsets) = (self.rod_ratio.as_deref(), self.pin_offset.as_deref());
         let (extreme_ratios, extreme_offsets) = (ends(ratios, cancel)?, ends(offsets, cancel)?);
-        for cylinder in engines.iter().flat_map(|engine| engine.gears()) {
+        for cylinder in engines.iter().flat_map(|engine| engine.distinct_cylinders()) {
             let at = |ratio, offset| cylinder.mechanism_with(ratio, offset).map(drop);
             let at_extreme_offsets =
                 |ratio| extreme_offsets.iter().try_for_each(|&offset| at(ratio, offset));

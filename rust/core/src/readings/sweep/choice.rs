@@ -26,7 +26,7 @@
 use std::sync::Arc;
 
 use super::harmonics::of;
-use super::layout::{Layout, LayoutSum, Swung};
+use super::layout::{BanksTurned, Layout, LayoutSum};
 use super::{Selection, Sweep, SweepAxes};
 use crate::Complex64;
 use crate::engine::Engine;
@@ -197,7 +197,7 @@ impl Sweep {
             found.map_or(SizeFactor::AtMost(0.0), |&(_, place)| known[place].2[on_crank][order])
         };
         let size = |(k, sums): (usize, &Vec<LayoutSum>)| {
-            let (mut size, mut fixed, mut rounding) = (0.0, [Swung::default(); 2], 0.0);
+            let (mut size, mut fixed, mut rounding) = (0.0, [BanksTurned::default(); 2], 0.0);
             for sum in sums {
                 match factor(sum.harmonic, k) {
                     SizeFactor::Fixed(amplitude) => {
@@ -295,8 +295,8 @@ enum SizeFactor {
 }
 
 /// Largest size at any bank angle of both parts together; zero where rounding is all there is.
-fn span(parts: &[Swung; 2], rounding: f64) -> f64 {
-    let part = |&Swung { cos, sin, rest }: &Swung| {
+fn span(parts: &[BanksTurned; 2], rounding: f64) -> f64 {
+    let part = |&BanksTurned { cos, sin, rest }: &BanksTurned| {
         let sin = Complex64::i() * sin;
         0.5 * ((cos + sin).norm() + (cos - sin).norm()) + rest.norm()
     };
@@ -366,12 +366,15 @@ mod tests {
     #[test]
     fn a_span_is_the_largest_size_at_any_bank_angle() {
         let complex = |re, im| Complex64::new(re, im);
-        let part =
-            Swung { cos: complex(1.0, 2.0), sin: complex(-0.5, 1.5), rest: complex(0.0, 0.0) };
+        let part = BanksTurned {
+            cos: complex(1.0, 2.0),
+            sin: complex(-0.5, 1.5),
+            rest: complex(0.0, 0.0),
+        };
         let at = |angle: f64| (part.cos * angle.cos() + part.sin * angle.sin()).norm();
         let largest = (0..3600).map(|k| at(f64::from(k).to_radians() / 10.0)).fold(0.0, f64::max);
         let span = |rest: Complex64, rounding| {
-            super::span(&[Swung { rest, ..part }, Swung::default()], rounding)
+            super::span(&[BanksTurned { rest, ..part }, BanksTurned::default()], rounding)
         };
         let of_part = span(Complex64::default(), 0.0);
         // Cosines within a twentieth of a degree of the largest.

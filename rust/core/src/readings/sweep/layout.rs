@@ -18,7 +18,7 @@ use crate::wrench::rounding;
 pub(super) struct LayoutSum {
     pub harmonic: Harmonic,
     /// Forward part and conjugate of the backward part, or torque and nothing.
-    pub parts: [Swung; 2],
+    pub parts: [BanksTurned; 2],
     /// Bound of the rounding error.
     pub bound: f64,
 }
@@ -26,7 +26,7 @@ pub(super) struct LayoutSum {
 /// A sum with the two banks at `bisector ∓ γ`: cos·cos(|m|γ/2) + sin·sin(|m|γ/2) + rest, m being the
 /// multiple of half an angle by which the part turns with its bank.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Swung {
+pub(super) struct BanksTurned {
     pub cos: Complex64,
     pub sin: Complex64,
     /// Of loads that belong to no bank.

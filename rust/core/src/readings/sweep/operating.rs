@@ -66,7 +66,7 @@ impl Nodes {
 }
 
 /// Rows of each scaling, and what they become at each speed and load.
-pub(super) struct Operating<'a, T> {
+pub(super) struct RowsAtSpeeds<'a, T> {
     sweep: &'a Sweep,
     scaled: Vec<ScaledRows<T>>,
     width: usize,
@@ -131,7 +131,7 @@ impl Sweep {
         quantity: Quantity,
         width: usize,
         evaluate: impl Fn(Selection, &mut [T], f64) -> Result<()>,
-    ) -> Result<Operating<'_, T>> {
+    ) -> Result<RowsAtSpeeds<'_, T>> {
         let scaled = |scaling: Scaling| {
             let selection = Selection { quantity, scaling: Some(scaling) };
             let mut rows = memory::zeros(self.rows_of(selection) * width)?;
@@ -141,7 +141,7 @@ impl Sweep {
             Ok(ScaledRows { rows, factors, by_cycle: self.cycles_of(selection) > 1 })
         };
         let scaled = self.scalings(quantity).into_iter().map(scaled).collect::<Result<_>>()?;
-        Ok(Operating { sweep: self, scaled, width })
+        Ok(RowsAtSpeeds { sweep: self, scaled, width })
     }
 
     /// Number of rows of a selection without speed and load.
@@ -190,7 +190,7 @@ impl Sweep {
     }
 }
 
-impl<T: Number> Operating<'_, T> {
+impl<T: Number> RowsAtSpeeds<'_, T> {
     /// Writes every row at every speed and load.
     pub fn write(&self, out: &mut [T], cancel: &Cancel) -> Result<()> {
         self.each(
@@ -319,7 +319,7 @@ fn add_scaled<T: Number>(out: &mut [T], row: &[T], weight: f64) {
     out.iter_mut().zip(row).for_each(|(out, &value)| *out = *out + value * weight);
 }
 
-impl Operating<'_, Complex64> {
+impl RowsAtSpeeds<'_, Complex64> {
     /// Writes the magnitudes of every row.
     pub fn magnitudes(&self, out: &mut [f64], cancel: &Cancel) -> Result<()> {
         self.each(
@@ -359,7 +359,7 @@ impl Operating<'_, Complex64> {
     /// Writes `width` numbers of every row of phasors and its mean.
     pub fn extremes(
         &self,
-        means: &Operating<'_, f64>,
+        means: &RowsAtSpeeds<'_, f64>,
         width: usize,
         out: &mut [f64],
         cancel: &Cancel,

@@ -14,7 +14,7 @@ use crate::source::over_angle::{AngleBlock, Columns, Quantities};
 use crate::source::{Source, at_point};
 
 /// An engine at one bank angle.
-pub(super) struct Placed {
+pub(super) struct EngineAtBankAngle {
     pub kinematics: Kinematics,
     /// Names of the groups of its sums.
     names: List<GroupIndex, Arc<str>>,
@@ -24,7 +24,7 @@ pub(super) struct Placed {
 
 impl Sweep {
     /// An engine with one of the swept bank angles.
-    pub(super) fn placed(&self, engine: usize, angle: usize) -> Result<Placed> {
+    pub(super) fn placed(&self, engine: usize, angle: usize) -> Result<EngineAtBankAngle> {
         let loads: &LoadList = match &self.axes.bank_angle {
             Some((angles, hold)) => {
                 let angle = Angle::from_degrees(angles[angle])?;
@@ -34,7 +34,7 @@ impl Sweep {
             None => &self.loads[engine],
         };
         let names = loads.groups.map_to(|group| Arc::clone(&group.name));
-        Ok(Placed { kinematics: Kinematics::new(loads), names, points: Vec::new() })
+        Ok(EngineAtBankAngle { kinematics: Kinematics::new(loads), names, points: Vec::new() })
     }
 
     /// Sources of the sums at a point of a quantity.
@@ -57,7 +57,7 @@ impl Sweep {
     }
 }
 
-impl Placed {
+impl EngineAtBankAngle {
     /// Writes the values of every row, times a factor, at a block of crank angles; of torque that of
     /// inertia or that of pressure.
     #[inline(always)]

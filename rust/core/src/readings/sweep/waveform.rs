@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::placed::Placed;
+use super::placed::EngineAtBankAngle;
 use super::tiles::{OrderWave, TILE, Tiles};
 use super::{Selection, Statistic, Sweep};
 use crate::Complex64;
@@ -136,7 +136,7 @@ impl Sweep {
         rows.fill(
             out,
             |rows_of| {
-                let mut placed: Vec<Placed> = Vec::new();
+                let mut placed: Vec<EngineAtBankAngle> = Vec::new();
                 let mut last = None;
                 for row in rows_of {
                     let (place, point) = (row / points, row % points);

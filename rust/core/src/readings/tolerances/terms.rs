@@ -125,8 +125,8 @@ impl Terms {
         mut write: impl FnMut(usize, &SampleSums),
     ) -> Result<()> {
         /// Harmonics of cylinders in all places that are kept at once: six lists of 128 samples each.
-        const AT_ONCE: usize = 4096;
-        let most = (AT_ONCE / self.places.len().max(1)).max(1);
+        const HARMONICS_AT_ONCE: usize = 4096;
+        let most = (HARMONICS_AT_ONCE / self.places.len().max(1)).max(1);
         for start in (0..self.orders.len()).step_by(most) {
             let range = start..self.orders.len().min(start + most);
             let sums = |k: usize, sums: &SampleSums| write(start + k, sums);
@@ -145,76 +145,14 @@ impl Terms {
         mut write: impl FnMut(usize, &SampleSums),
     ) -> Result<()> {
         let orders = &self.orders[range];
-        let [masses, rotating, radii, angles, places, rods] = Parameter::ALL
-            .map(|figure| columns(deviations[figure as usize], self.count(figure), first));
-        let nominal = |of: &(Cylinder, SpeedRatio)| {
-            let lengths = (&[of.0.crank_radius()][..], &[of.0.rod_length()][..]);
-            amplitudes(of, self.torque, lengths, orders, cancel)
-        };
-        let nominal: List<DrivenIndex, SampleAmplitudes> =
-            self.mechanisms.iter().map(nominal).collect::<Result<_>>()?;
-        let mut one = SampleAmplitudes::default();
-        one[0] = vec![[vec![1.0], vec![0.0]]; orders.len()];
-        let deviates = |figure: Parameter| !deviations[figure as usize].is_empty();
-        let harmonics = |(i, Station { cylinder, .. }): (usize, &Station)| {
-            cancel.check()?;
-            let radius = around(cylinder.crank_radius(), &radii[self.pin_of[i]]);
-            let rod = around(cylinder.rod_length(), &rods[i]);
-            let of = &self.mechanisms[self.mechanism_of[i]];
-            amplitudes(of, self.torque, (&radius, &rod), orders, cancel)
-        };
-        let changed: Vec<SampleAmplitudes> =
-            if deviates(Parameter::CrankRadius) || deviates(Parameter::RodLength) {
-                self.places.iter().enumerate().map(harmonics).collect::<Result<_>>()?
-            } else {
-                Vec::new()
-            };
-        let turns = if deviates(Parameter::Pin) {
-            turns(&angles, &self.ratio_of, orders)
-        } else {
-            Vec::new()
-        };
-        let reference = self.loads.reference;
-        let drawn = |(&Deviating { pin, cylinder }, load): (&Deviating, &Load)| {
-            let turns = turns.get(pin).map(|turns| &turns[..]);
-            let fixed = |value: f64| ([value; SAMPLES_AT_ONCE], value);
-            let one = [&one; 2];
-            let Some(i) = cylinder else {
-                let lever = fixed(load.place.lever(reference));
-                let parts = vec![(0, fixed(load.weight))];
-                return Drawn { parts, lever, amplitudes: one, turns };
-            };
-            let place = &self.places[i];
-            let Station { cylinder, rotating_mass, z, .. } = *place;
-            let radius = around(cylinder.crank_radius(), &radii[pin]);
-            let lever = (around(-reference, &around(z, &places[i])), z - reference);
-            let of_cylinder = &nominal[self.mechanism_of[i]];
-            let of_cylinder = [changed.get(i).unwrap_or(of_cylinder), of_cylinder];
-            let (parts, amplitudes) = match load.parts.force {
-                Some(ForcePart::Along) => {
-                    let mass = around(cylinder.reciprocating_mass(), &masses[i]);
-                    let first_order = product(mass, &radius);
-                    let force = (first_order, cylinder.first_order());
-                    let torque = (product(first_order, &radius), cylinder.second_moment());
-                    (vec![(0, force), (1, torque), (2, torque)], of_cylinder)
-                }
-                None => {
-                    let torque = fixed(cylinder.rod_inertia_excess());
-                    (vec![(3, torque), (4, torque)], of_cylinder)
-                }
-                Some(ForcePart::Turning) => {
-                    let unbalance = product(around(rotating_mass, &rotating[i]), &radius);
-                    (vec![(0, (unbalance, rotating_mass * cylinder.crank_radius()))], one)
-                }
-            };
-            Drawn { parts, lever, amplitudes, turns }
-        };
+        let drawn = DrawnParts::new(self, deviations, first, orders, cancel)?;
         let loads = self.deviating.iter().zip(&self.loads.list);
-        let loads: List<LoadIndex, Drawn> = loads.map(drawn).collect();
+        let loads: List<LoadIndex, Drawn> = loads.map(|of| self.drawn(&drawn, of)).collect();
         let wanted = Wanted { planar: true, roll: self.torque, by_bank: false };
         for (k, &order) in orders.iter().enumerate() {
             cancel.check()?;
-            let arithmetic = Samples { loads: &loads, k, phasors: Phasors { reference } };
+            let phasors = Phasors { reference: self.loads.reference };
+            let arithmetic = Samples { loads: &loads, k, phasors };
             let mut sums = SampleSums { force: [ZEROS; 2], moment: [ZEROS; 2], torque: [ZEROS; 2] };
             for term in superpose(&arithmetic, &self.loads.list, order, wanted) {
                 // Empty where nothing was added: an unbalance turns one way.
@@ -231,6 +169,101 @@ impl Terms {
             write(k, &sums);
         }
         Ok(())
+    }
+
+    /// A load with its parts as they were drawn.
+    fn drawn<'a>(
+        &self,
+        drawn: &'a DrawnParts,
+        (&Deviating { pin, cylinder }, load): (&Deviating, &Load),
+    ) -> Drawn<'a> {
+        let turns = drawn.turns.get(pin).map(|turns| &turns[..]);
+        let (fixed, reference) =
+            (|value: f64| ([value; SAMPLES_AT_ONCE], value), self.loads.reference);
+        let one = [&drawn.one; 2];
+        let Some(i) = cylinder else {
+            let lever = fixed(load.place.lever(reference));
+            return Drawn { parts: vec![(0, fixed(load.weight))], lever, amplitudes: one, turns };
+        };
+        let Station { cylinder, rotating_mass, z, .. } = self.places[i];
+        let radius = around(cylinder.crank_radius(), &drawn.radii[pin]);
+        let lever = (around(-reference, &around(z, &drawn.places[i])), z - reference);
+        let nominal = &drawn.nominal[self.mechanism_of[i]];
+        let of_cylinder = [drawn.changed.get(i).unwrap_or(nominal), nominal];
+        let (parts, amplitudes) = match load.parts.force {
+            Some(ForcePart::Along) => {
+                let mass = around(cylinder.reciprocating_mass(), &drawn.masses[i]);
+                let first_order = product(mass, &radius);
+                let force = (first_order, cylinder.mass_radius());
+                let torque = (product(first_order, &radius), cylinder.mass_radius_squared());
+                (vec![(0, force), (1, torque), (2, torque)], of_cylinder)
+            }
+            None => {
+                let torque = fixed(cylinder.rod_inertia_excess());
+                (vec![(3, torque), (4, torque)], of_cylinder)
+            }
+            Some(ForcePart::Turning) => {
+                let unbalance = product(around(rotating_mass, &drawn.rotating[i]), &radius);
+                (vec![(0, (unbalance, rotating_mass * cylinder.crank_radius()))], one)
+            }
+        };
+        Drawn { parts, lever, amplitudes, turns }
+    }
+}
+
+/// Deviations of some samples by cylinder or pin, and what follows from them at some orders.
+struct DrawnParts {
+    masses: Vec<Reals>,
+    rotating: Vec<Reals>,
+    radii: Vec<Reals>,
+    places: Vec<Reals>,
+    /// Amplitudes without deviations.
+    nominal: List<DrivenIndex, SampleAmplitudes>,
+    /// Of each cylinder with them; empty where they are the nominal ones.
+    changed: Vec<SampleAmplitudes>,
+    /// Of an unbalance.
+    one: SampleAmplitudes,
+    /// By pin and order; empty where no pin deviates.
+    turns: Vec<Vec<Complexes>>,
+}
+
+impl DrawnParts {
+    fn new(
+        terms: &Terms,
+        deviations: &Deviations,
+        first: usize,
+        orders: &[Order],
+        cancel: &Cancel,
+    ) -> Result<Self> {
+        let [masses, rotating, radii, angles, places, rods] = Parameter::ALL
+            .map(|figure| columns(deviations[figure as usize], terms.count(figure), first));
+        let deviates = |figure: Parameter| !deviations[figure as usize].is_empty();
+        let nominal = terms.mechanisms.iter().map(|of| {
+            let lengths = (&[of.0.crank_radius()][..], &[of.0.rod_length()][..]);
+            amplitudes(of, terms.torque, lengths, orders, cancel)
+        });
+        let changed = terms.places.iter().enumerate().map(|(i, Station { cylinder, .. })| {
+            cancel.check()?;
+            let radius = around(cylinder.crank_radius(), &radii[terms.pin_of[i]]);
+            let rod = around(cylinder.rod_length(), &rods[i]);
+            let of = &terms.mechanisms[terms.mechanism_of[i]];
+            amplitudes(of, terms.torque, (&radius, &rod), orders, cancel)
+        });
+        let has_changed = deviates(Parameter::CrankRadius) || deviates(Parameter::RodLength);
+        let changed = changed.take(if has_changed { terms.places.len() } else { 0 });
+        let has_turns = deviates(Parameter::Pin);
+        let mut one = SampleAmplitudes::default();
+        one[0] = vec![[vec![1.0], vec![0.0]]; orders.len()];
+        Ok(Self {
+            nominal: nominal.collect::<Result<_>>()?,
+            changed: changed.collect::<Result<_>>()?,
+            one,
+            turns: if has_turns { turns(&angles, &terms.ratio_of, orders) } else { Vec::new() },
+            masses,
+            rotating,
+            radii,
+            places,
+        })
     }
 }
 

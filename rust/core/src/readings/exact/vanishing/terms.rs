@@ -19,7 +19,7 @@ use crate::source::{Column, ExactFactor, Repeats};
 
 list_index! {
     /// Index of a running gear with the speed of its crank, whichever its sense, among those that differ.
-    pub(in crate::readings::exact) DrivenGearIndex
+    pub(in crate::readings::exact) DrivenCylinderIndex
 }
 
 /// Harmonic by which a sum is multiplied; of pin offsets the odd parts apart.
@@ -33,7 +33,7 @@ pub(super) enum Channel {
     /// Torque of a motion; whether its odd part.
     Torque(MotionIndex, TorqueKey, bool),
     /// All torque of a running gear; whether its odd part.
-    Gear(DrivenGearIndex, bool),
+    Gear(DrivenCylinderIndex, bool),
 }
 
 /// Lists of weights that have no rational relation to each other's.
@@ -108,9 +108,9 @@ pub(super) struct Proof {
     /// For each motion the first of its size but for the sign of the offset.
     mirrored: List<MotionIndex, MotionIndex>,
     /// Running gears that differ, each with the speed of its crank, whichever its sense.
-    pub gears: List<DrivenGearIndex, (Cylinder, u32)>,
+    pub gears: List<DrivenCylinderIndex, (Cylinder, u32)>,
     /// Running gear of each load of a cylinder, and the first of its size but for the sign of the offset.
-    gear_of: List<LoadIndex, Option<[DrivenGearIndex; 2]>>,
+    distinct_cylinder_of: List<LoadIndex, Option<[DrivenCylinderIndex; 2]>>,
 }
 
 impl Proof {
@@ -149,10 +149,13 @@ impl Proof {
         let mirrored = motions.first_equal(|motion| (motion.key.figures.clone(), motion.speed));
         let driven = |i: usize| {
             let crank = engine.cranks()[engine.crank_of(i)];
-            (engine.gears()[engine.gear_of(i)], crank.ratio.halves_of_speed())
+            (
+                engine.distinct_cylinders()[engine.distinct_cylinder_of(i)],
+                crank.ratio.halves_of_speed(),
+            )
         };
         let (gears, of_cylinder) =
-            distinct::<DrivenGearIndex, _>((0..engine.stations().len()).map(driven));
+            distinct::<DrivenCylinderIndex, _>((0..engine.stations().len()).map(driven));
         let first_of_size = gears.first_equal(|(gear, speed)| {
             let inertia = gear.rod_inertia_excess();
             let offset = gear.pin_offset().abs();
@@ -160,7 +163,8 @@ impl Proof {
             ([gear.crank_radius(), gear.rod_length(), offset, mass, inertia], *speed)
         });
         let of_size = |i: usize| [of_cylinder[i], first_of_size[of_cylinder[i]]];
-        let gear_of = loads.list.map_to(|load| load.place.origin.cylinder().map(of_size));
+        let distinct_cylinder_of =
+            loads.list.map_to(|load| load.place.origin.cylinder().map(of_size));
         Ok(Self {
             roots: FormalSum::new(&loads, cancel)?,
             bores: parts_of_turn(bores, false, cancel)?,
@@ -172,7 +176,7 @@ impl Proof {
             mirrored,
             motions,
             motion_of,
-            gear_of,
+            distinct_cylinder_of,
             gears,
             loads,
         })
@@ -255,7 +259,7 @@ impl Proof {
             (Column::Roll, _) if view.gears => {
                 // Once for each gear: with the force.
                 let has_force = self.loads.list[share.load].parts.force.is_some();
-                let of_gear = self.gear_of[share.load].filter(|_| has_force);
+                let of_gear = self.distinct_cylinder_of[share.load].filter(|_| has_force);
                 let of = |of_gear| self.torque_channels(at, order, view, Channel::Gear, of_gear);
                 of_gear.map_or_else(Vec::new, of)
             }

@@ -517,7 +517,7 @@ fn rod_inertia_that_nearly_cancels_torque_is_never_a_false_proof() {
     let cancel = crate::Cancel::new();
     let [masses, rod] = [mechanism.torque(&[1], &cancel), mechanism.swing_torque(&[1], &cancel)]
         .map(|torque| torque.unwrap().roll[0]);
-    let cancelling = -(masses / rod).re * single(0.0).stations()[0].cylinder.second_moment();
+    let cancelling = -(masses / rod).re * single(0.0).stations()[0].cylinder.mass_radius_squared();
     // To four digits it is that of the rod at hand.
     assert!((cancelling / -2.558e-4 - 1.0).abs() < 1e-3, "{cancelling}");
     for inertia in [-2.558e-4, 2.558e-4, cancelling * (1.0 + 1e-5), cancelling * (1.0 - 1e-5)] {
