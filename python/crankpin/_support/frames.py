@@ -272,11 +272,11 @@ class Tabled(Record):
         OSError
             If the file cannot be written.
         """
+        from crankpin._support import latex  # noqa: PLC0415 - few results become LaTeX
+
         table = self.frames[frame]._in(unit_names.current())
         cells = table.cells()
         columns = "".join("l" if column.is_text else "r" for column in table.columns)
-        from crankpin._support import latex  # noqa: PLC0415 - few results become LaTeX
-
         text = latex.table(table.title, table.header, cells, table._notes(), columns)
         return _written(text, path, ".tex")
 
