@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import pytest
 from crankpin._support import inputs
 from crankpin._support.parameters import parameter
+from crankpin.analysis.prepared_trace import prepare_trace
 from crankpin.cli import ORDER, registered
 from crankpin.cli.arguments import READERS, Given
 from crankpin.cli.naming import error_in_options
@@ -88,8 +89,6 @@ def test_a_value_of_a_list_and_one_left_out_are_said() -> None:
 
 
 def test_values_are_read_as_their_function_declares_them() -> None:
-    from crankpin.analysis.prepared_trace import prepare_trace  # noqa: PLC0415
-
     typed = {
         "loss_angle": "0.6°", "lowpass_order": None, "intake_pressure": "0.95bar",
         "leave_out": "1,3", "spikes": "replace", "exponent": "fit", "compression_ratio": "10,5",
