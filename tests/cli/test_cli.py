@@ -23,7 +23,9 @@ from crankpin import cli
 from crankpin._support import inputs
 from crankpin._support.record import AbsentItemError
 from crankpin.cli import main
-from crankpin.cli.arguments import Given, error_in_options
+from crankpin.cli.arguments import Given
+from crankpin.cli.naming import error_in_options
+from crankpin.cli.options import option
 from matplotlib import pyplot as plt
 from support import DATA, in_turn
 
@@ -588,7 +590,7 @@ def test_control_characters_do_not_reach_the_terminal(capsys: CAPTURE, tmp_path:
         ("balance i4 --rpm fast", "--rpm = fast: give a number"),
         ("balance i4 --rpm inf", "--rpm = inf: give a finite number"),
         ("balance i4 --rpm 1e999999999", "give a finite number"),
-        ("balance i4 --rpm -5", "rpm = -5.0: give zero or more; the crank turns counter-clockwise"),
+        ("balance i4 --rpm -5", "--rpm = -5: give zero or more; the crank turns counter-clockwise"),
         ("balance i4 --orders 1,x", "--orders = 1,x: give multiples of crank speed"),
         ("balance i4 --orders 1.25", "--orders = 1.25: give multiples of crank speed"),
         ("balance i4 --orders 0", "orders"),
@@ -621,9 +623,9 @@ def test_control_characters_do_not_reach_the_terminal(capsys: CAPTURE, tmp_path:
         ("balance inline-4", 'did you mean "i4"?'),
         ("balance v6", "balance takes one engine of v6-60, v6-90, v6-90-odd-fire, v6-120"),
         ("rank v6-60 --orders all", "--orders = all"),
-        ("rank v6-60 --by shake", "by = 'shake': give"),
+        ("rank v6-60 --by shake", "--by = shake: give"),
         ("rank v6-60 --orders 1,2 --by [3].moment.peak", "by = "),
-        ("rank v6-60 --bank-angle own --refine", "refine = True"),
+        ("rank v6-60 --bank-angle own --refine", "--refine is set: searches between"),
         ("rank v6-60 v6-90 --bank-angle 0:180:0.0002", "1800002 points to rank"),
         ("rank i4 --bank-angle 60", "bank"),
         ("balance i4 --rpm=--", "--rpm = --: give a value"),
@@ -635,7 +637,7 @@ def test_control_characters_do_not_reach_the_terminal(capsys: CAPTURE, tmp_path:
         ("sweep v6-60 --rpm 1000-6000", "such as 1000:6000:1000"),
         ("counterweights i3 --planes -0.1,0.4", "begins with a minus as --planes=-"),
         ("firing i4 --firing-order 1-3-4", "--firing-order = 1-3-4: 2 is missing"),
-        ("view i4 -o i4.txt", "--out = 'i4.txt': a page ends in .html"),
+        ("view i4 -o i4.txt", "--out = i4.txt: a page ends in .html"),
         ("sweep v-twin-90 --bank-angle 45", "nothing to sweep: all options have one value; give"),
         ("bob-weight harley", 'NAME = "harley": no such preset; crankpin new makes engines'),
         ("tolerances v6-60", "no part deviates; give a spread, --reciprocating-mass, "),
@@ -675,15 +677,17 @@ def test_engines_are_ranked_as_they_are_unless_angles_are_given(capsys: CAPTURE)
 
 def test_an_error_named_as_in_a_shell_keeps_its_fields() -> None:
     hint = 'give hold="pins", or rpm=[1, 2]; see bank_angle'
+    options = [option("--bank-angle"), option("--hold"), option("--rpm")]
     error = error_in_options(
         inputs.rejected("bank_angle_deg[1]", 190.0, hint, AbsentItemError),
+        options,
         {"bank_angle": "190", "hold": None, "rpm": None},
     )
     assert type(error) is AbsentItemError
     assert (error.argument, error.value) == ("--bank-angle[1]", "190.0")
     assert error.hint == "give --hold pins, or --rpm 1,2; see --bank-angle"
     assert str(error) == f"{error.argument} = {error.value}: {error.hint}"
-    assert error_in_options(cp.InputError("a sentence"), {}).args == ("a sentence",)
+    assert error_in_options(cp.InputError("a sentence"), options, {}).args == ("a sentence",)
 
 
 @pytest.mark.filterwarnings("default")
@@ -780,11 +784,11 @@ def test_phases_are_those_of_the_phasors(capsys: CAPTURE) -> None:
 
 
 def test_errors_name_what_a_shell_user_typed(capsys: CAPTURE) -> None:
-    assert refused(capsys, "mounts", "i4").startswith("FILE = 'i4': an engine file ends in")
-    assert refused(capsys, "mounts-fit", "i4", "--x", "1mm").startswith("FILE = 'i4': ")
+    assert refused(capsys, "mounts", "i4").startswith("FILE = i4: an engine file ends in")
+    assert refused(capsys, "mounts-fit", "i4", "--x", "1mm").startswith("FILE = i4: ")
     line = ["new", "firing-order", "--firing-order", "1-3-4-2"]
     said = refused(capsys, *line, "--odd-bank", "left")
-    assert said.startswith("--odd-bank = 'left': needs --bank-angle; give --bank-angle")
+    assert said.startswith("--odd-bank = left: needs --bank-angle; give --bank-angle")
     assert refused(capsys, *line, "--shared-pins").endswith("needs --bank-angle")
 
 

@@ -89,7 +89,7 @@ def test_a_speed_of_zero_is_zero(capsys: pytest.CaptureFixture[str]) -> None:
     try:
         said = f"{cp.balancer_options(cp.Engine.preset('i4'), rpm=0)}\n"
     except cp.InputError as error:
-        said = str(error).partition(" = ")[2]
+        said = str(error.hint)
     main(["shafts", "i4", "--rpm", "0"])
     out, err = capsys.readouterr()
     assert said in out + err
@@ -103,8 +103,8 @@ def test_a_speed_of_zero_is_zero(capsys: pytest.CaptureFixture[str]) -> None:
         (["i4", "--quantity", "force"], "--quantity needs --ratios"),
         (["i4", "--ratios", "2", "--rpm", "3"], "--rpm is of the comparison without --ratios"),
         (["i4", "--ratios", "2", "--target", "a=1"], "--target is of the comparison"),
-        (["i4", "--ratios", "half"], "--ratios = 'half': give a multiple of 1/2"),
-        (["i4", "--ratios", "0"], "ratios = '0': give a multiple of 1/2 other than 0"),
+        (["i4", "--ratios", "half"], "--ratios = half: give a multiple of 1/2"),
+        (["i4", "--ratios", "0"], "--ratios = 0: give a multiple of 1/2 other than 0"),
         (["i4", "--ratios", "2", "--planes", "a"], "--planes = a: give a number"),
         (["i4", "--ratios", "2", "--x", "1,2"], "x has 2 entries"),
         (["i4", "--target", "total.force.peak"], "--target = total.force.peak: give OBJECTIVE"),

@@ -49,8 +49,8 @@ def test_a_picture_is_written(tmp_path: Path) -> None:
         (["--samples", "many"], "--samples = many: give a whole number"),
         (["--samples", "100000000"], "--samples = 100000000: give 10000000 at most"),
         (["--pin", "x"], "--pin = x: give a number"),
-        (["--z=-1"], "z = -1.0: give a spread that is zero or more"),
-        (["--by", "beauty"], "by = 'beauty'"),
+        (["--z=-1"], "--z = -1: give a spread that is zero or more"),
+        (["--by", "beauty"], "--by = beauty"),
         (["--plot", "t.txt"], "--plot = t.txt"),
     ],
 )

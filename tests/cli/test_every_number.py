@@ -15,7 +15,7 @@ import pytest
 from cli.test_help_of_layouts import SOUND as OF_PARTS
 from cli.test_units_printed import LINES, car
 from crankpin.cli import ORDER, main, registered
-from crankpin.cli.arguments import Parser
+from crankpin.cli.options import Parser
 from support import in_turn
 
 CAPTURE = pytest.CaptureFixture[str]

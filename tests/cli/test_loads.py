@@ -234,7 +234,7 @@ def test_hints_can_be_followed(capsys: CAPTURE, tmp_path: Path) -> None:
         ("torque i4 --crankcase 1.2bars", "--crankcase = 1.2bars: give a number"),
         ("torque i4 --orders 0.25", "--orders = 0.25: give multiples of crank speed"),
         ("bearings i4 --load piston", "--load"),
-        ("bearings i4 --cycle petrol --bore 0", "--bore = 0.0: give metres above zero"),
+        ("bearings i4 --cycle petrol --bore 0", "--bore = 0: give metres above zero"),
     ],
 )
 def test_errors_name_the_option(capsys: CAPTURE, typed: str, message: str) -> None:
@@ -270,7 +270,7 @@ def test_a_trace_is_read_prepared_and_saved(capsys: CAPTURE, tmp_path: Path) -> 
     assert "loss angle 1°, given" in with_motored
     assert "Bores that are not known" not in with_motored  # the preset has one
     assert main(["trace", "i4", str(file), "--bore", "0"]) == 2
-    assert capsys.readouterr().err.startswith("crankpin: error: --bore = 0.0: ")
+    assert capsys.readouterr().err.startswith("crankpin: error: --bore = 0: ")
     assert main(["trace", "i4", str(file), "--exponent", "1.3"]) == 2
     assert "--compression-ratio" in capsys.readouterr().err
 

@@ -271,7 +271,7 @@ def test_a_firing_order_that_the_crank_does_not_allow_is_dropped(capsys: CAPTURE
         ("new lists --banks 90 --z 0", "new lists needs --tdc or --pins; see crankpin new --help"),
         (
             "new v6 --stroke 80mm --rod-length 150mm --piston-mass 1 --rod-mass 1 --rod-centre .2",
-            "--rod-centre = 0.2: give metres, 0 to length = 0.15",
+            "--rod-centre = .2: give metres, 0 to length = 0.15",
         ),
         (
             "new v8 --cylinders 8",

@@ -122,12 +122,12 @@ def test_errors_name_what_was_typed(capsys: pytest.CaptureFixture[str]) -> None:
     masses = ",".join(f"{each}" for each in (828, 833, 831, 829, 834, 830, 827, 832))
     for typed, said in (
         (f"two-plane --amounts 4200,2600 --angles 35 {two}", "--angles has 1 figure: give two"),
-        (f"two-plane --amounts=-1,2 --angles 35,36 {two}", "--amounts = array"),
+        (f"two-plane --amounts=-1,2 --angles 35,36 {two}", "--amounts = -1,2: give zero or more"),
         (
             f"match {v8} --pistons {masses} --units g --big-ends {masses}",
             "--small-ends is left out: ",
         ),
-        (f"firing {v8} --firing-order L1-R2-L4", "--firing-order = 'L1-R2-L4': name each of"),
+        (f"firing {v8} --firing-order L1-R2-L4", "--firing-order = L1-R2-L4: name each of"),
         (f"compare {v8}", "NAME stands for 1 engine: "),
         ("new radial --cylinders 9 --rows 2", "--cylinders = 9: give a multiple of rows, 2"),
         (f"flywheel {v8}", "--irregularity is left out: give one of --inertia …"),

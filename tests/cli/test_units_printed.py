@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import crankpin as cp
 import pytest
 from crankpin.cli import ORDER, main, registered
-from crankpin.cli.arguments import Parser
+from crankpin.cli.options import Parser
 from support import in_turn
 from support.shown_units import IMPERIAL, si_units
 

@@ -111,10 +111,10 @@ def test_pictures_are_written(capsys: CAPTURE, tmp_path: Path, command: str) -> 
             ["counterweights", "v6-90", "--angles", "x"],
             "--angles = x: give one number, a list a,b,c or a range",
         ),
-        (["counterweights", "v6-90", "--bound", "-1"], "--bound = -1.0: give a mass·radius"),
+        (["counterweights", "v6-90", "--bound", "-1"], "--bound = -1: give a mass·radius"),
         (["counterweights", "ijesc-v6"], "NAME = ijesc-v6: counterweights takes one engine"),
         (["bob-weight", "v6-90", "--factor", "fifty"], "--factor = fifty: give a number"),
-        (["bob-weight", "v6-90", "--factor", "50"], "--factor = 50.0: give a share"),
+        (["bob-weight", "v6-90", "--factor", "50"], "--factor = 50: give a share"),
         (["bob-weight", "v6-90", "--plot", "x.txt"], "--plot = x.txt: a picture's name"),
     ],
 )

@@ -46,7 +46,8 @@ def test_a_balance_loads_what_it_needs() -> None:
 def test_a_command_loads_no_other_command() -> None:
     modules = loaded("from crankpin.cli import main; main(['balance', 'i4'])")
     commands = {name for name in modules if name.startswith("crankpin.cli.")}
-    assert commands == {f"crankpin.cli.{name}" for name in ("arguments", "outputs", "shaking")}
+    shared = ("arguments", "naming", "options", "outputs")
+    assert commands == {f"crankpin.cli.{name}" for name in (*shared, "shaking")}
 
 
 @pytest.mark.parametrize("module", [cp, results], ids=lambda module: module.__name__)

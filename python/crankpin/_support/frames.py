@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, overload
 
 import numpy as np
 
-from crankpin._support import files, inputs, labels, latex, optional
+from crankpin._support import files, inputs, labels, optional
 from crankpin._support import units as unit_names
 from crankpin._support.record import AbsentItemError, Record, changed
 from crankpin._support.warnings import without_controls
@@ -272,6 +272,8 @@ class Tabled(Record):
         OSError
             If the file cannot be written.
         """
+        from crankpin._support import latex  # noqa: PLC0415 - few results become LaTeX
+
         table = self.frames[frame]._in(unit_names.current())
         cells = table.cells()
         columns = "".join("l" if column.is_text else "r" for column in table.columns)

@@ -21,15 +21,13 @@ bank_deg : sequence of number or str, shape (n_cylinders,)
 z : array_like, shape (n_cylinders,)
     Places along the crank, from the front to the flywheel, m.
 tdc_deg : sequence of number or str, shape (n_cylinders,)
-    Crank angles at which each crankpin points along its bore, degrees; exactly one of
+    Crank angles at which each crankpin points along its bore, degrees. Exactly one of
     ``tdc_deg`` and ``pin_deg`` is given.
 pin_deg : sequence of number or str, shape (n_cylinders,)
     Directions of the crankpins from +x at θ = 0, degrees, in place of ``tdc_deg``.
 throws_deg : sequence of number or str, shape (n_throws,)
     Crankpins in the direction of rotation, relative to each other, front to flywheel, degrees. In a
     vee they are those of the right bank. A throw 120° ahead is at top dead centre 120° *earlier*.
-spacing : float or array_like
-    Distance between neighbouring throws, m, or of each from the one before it.
 numbering : {"alternating", "by-bank"}
     ``"alternating"`` along the crank from bank to bank, or ``"by-bank"``.
 odd_bank : {"right", "left"}
@@ -54,10 +52,10 @@ reference_z : float
 first_tdc_deg : number or str
     Crank angle at which cylinder 1 is at top dead centre, degrees.
 firing_order : str or sequence of int
-    Firing order of the engine, such as ``"1-3-2"``, if it is known: :meth:`firing` uses it,
-    and files keep it. Dashes of any kind, spaces or nothing stand between cylinders, ``+``
-    between those that fire together; ``"A1-B1-A2"`` counts in each bank, A that of cylinder
-    1, and ``"1L-1R"`` in the left and the right one.
+    Firing order of the engine, such as ``"1-3-4-2"``, with ``+`` between cylinders that fire
+    together: ``"1+4-2+3"``. :meth:`firing` uses it, and files keep it. Dashes of any kind, spaces
+    or nothing stand between cylinders; ``"A1-B1-A2"`` counts in each bank, A that of cylinder 1,
+    and ``"1L-1R"`` in the left and the right one.
 strokes : {4, 2}
     Strokes of a cycle, 4 or 2.
 name : str
@@ -103,6 +101,63 @@ class Entry(NamedTuple):
     words: str
     """What stands behind the name: type and default; of results the whole head."""
     text: str
+
+
+_ROLE = re.compile(r":\w+:`~?([^`]*)`")
+_UNIT = re.compile(r", (kg·m²|kg·m|kg|g·mm|m|N·m|N/m|N|Pa|Hz|rpm|degrees)(?![\w·/²])")
+
+
+class Parameter(NamedTuple):
+    """A parameter as its function declares it: by signature and docstring."""
+
+    type: str
+    """Type in words."""
+    text: str
+    """First sentence, without roles and default."""
+    unit: str
+    """Unit of numbers, as the text states it; may be empty."""
+    default: str
+    """Default in words; empty where there is none, or it is None or False."""
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """Words that are taken, of a set of them or besides numbers."""
+        return tuple(re.findall(r'"([^"]*)"', self.type))
+
+    @property
+    def choices(self) -> tuple[str, ...]:
+        """All that is taken, if that is a set; else empty."""
+        if (listed := re.match(r"\{([^{}]*)\}(?= or sequence of these|$)", self.type)) is None:
+            return self.words if re.fullmatch(r'"\w+"', self.type) else ()
+        return self.words or tuple(listed[1].split(", "))
+
+
+@functools.cache
+def parameter(function: Any, name: str) -> Parameter:  # noqa: ANN401 - a function
+    """Return what a function declares of one of its parameters."""
+    if function.__doc__ is None:
+        hint = "commands are made of docstrings, which python -OO drops; run python without it"
+        raise ImportError(hint)
+    head, text = entries(function.__doc__)[name]
+    plain = _ROLE.sub(r"\1", " ".join(text.split()))
+    stated = re.search(r"\b[Bb]y default (.*?)(?=[.;](?:\s|$))", plain)
+    value = inspect.signature(function).parameters[name].default
+    unit = _UNIT.search(plain)
+    return Parameter(
+        _DEFAULT.sub("", head),
+        re.split(r"\.(?:\s|$)", _STATED.sub("", plain), maxsplit=1)[0],
+        unit[1] if unit else "",
+        stated[1] if stated else _plain(value),
+    )
+
+
+def _plain(value: object) -> str:
+    """Return a default in words; empty for none."""
+    if value is None or isinstance(value, bool) or value is inspect.Parameter.empty:
+        return ""
+    if isinstance(value, (tuple, list)):
+        return ",".join(map(_plain, value))
+    return f"{value:g}" if isinstance(value, float) else str(value)
 
 
 def documented(*homes: object) -> Callable[[Function], Function]:

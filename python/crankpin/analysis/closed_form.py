@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import inputs, labels, latex, optional, units
+from crankpin._support import inputs, labels, optional, units
 from crankpin._support.frames import Tabled
 from crankpin._support.quantities import COMPONENTS, QUANTITIES
 from crankpin._support.tables import Table
@@ -427,6 +427,8 @@ class ClosedForm(Tabled):
             if terms:
                 rows.append(f"&= {sp.latex(getattr(self, f'{axis}_sum'))}")
         rows.append(rf"\max |{letter}| &= {sp.latex(self.peak)}")
+        from crankpin._support import latex  # noqa: PLC0415 - few forms are printed as LaTeX
+
         rows.append(f"&{latex.in_mathematics(self.units_text)}")
         body = " \\\\ ".join(rows)
         return rf"$\displaystyle \begin{{aligned}} {body} \end{{aligned}}$"

@@ -72,11 +72,11 @@ def flywheel(
     rpm : float
         Mean crank speed, rpm: turns over the time that they take.
     inertia : float, optional
-        Moment of inertia of all that turns with the crank, kg·m²: crankshaft, flywheel, big ends of
+        Moment of inertia of all that turns with the crank, kg·m². Crankshaft, flywheel, big ends of
         the rods and what is driven; without pistons, small ends and the rods' swing.
     irregularity : float, optional
-        Largest less smallest speed, over the mean speed, to find the moment of inertia for, in
-        place of ``inertia``.
+        Irregularity to find the moment of inertia for, in place of ``inertia``: largest less
+        smallest speed, over the mean speed.
     load : callable or pair of array_like, optional
         Torque of the load over crank angle, as ``drive``; by default constant. At a constant mean
         speed its mean is that of the drive: only its variation about its mean counts.

@@ -86,30 +86,33 @@ def prepare_trace(
         centre is found: pressure peaks before it by the loss angle. A polynomial of degree 6
         through the points within 20° of the largest has that peak.
     loss_angle_deg : float, optional
-        Thermodynamic loss angle, degrees; by default 0.7, engines have 0.4 to 1.0.
+        Loss angle, from the motored peak to the top dead centre, degrees; by default 0.7. Engines
+        have 0.4 to 1.0.
     tdc_deg : float, optional
         Angle of the firing top dead centre as ``traces`` count, degrees, where it is known.
     lowpass_order : float, optional
-        Order of crank speed at which a low-pass filter halves the amplitude: Butterworth of order
+        Order of crank speed at which a low-pass filter halves the amplitude. Butterworth of order
         4, forwards and backwards, which shifts no phase, over all cycles in a row.
     intake_pressure : float, Cycle or Traces, optional
-        Absolute pressure of the intake, Pa, or that of a sensor in it by the same encoder. It is
+        Absolute pressure of the intake, Pa. A cycle or traces are those of a sensor in it by the
+        same encoder. It is
         that of the cylinder, on average, in the window about the lower dead centre before
         compression.
     exponent : float or "fit", optional
-        Exponent of a polytropic compression: offset by which pressure in the window best is
-        ``C·V⁻ⁿ``. With ``"fit"`` the exponent itself is fitted to the mean cycle, which needs a
-        trace of little noise.
+        Exponent of a polytropic compression, such as 1.3, or ``"fit"``. The offset is that by which
+        pressure in the window best is ``C·V⁻ⁿ``. With ``"fit"`` the exponent itself is fitted
+        to the mean cycle, which needs a trace of little noise.
     compression_ratio : float, optional
         Largest over smallest volume, for ``exponent``.
     window_deg : pair of float, optional
         Crank angles between which the reference is taken, degrees; by default -185 to -175 for the
         intake's pressure, -100 to -60 for a polytropic compression.
     leave_out : "odd" or iterable of int, optional
-        Cycles to leave out before all else, by index from 0, or those that ``traces.anomalies``
-        names, spikes excepted.
+        Cycles to leave out before all else, by index from 0, or ``"odd"``. Those are what
+        ``traces.anomalies`` names, spikes excepted.
     spikes : "replace", optional
-        Replaces spikes by the median over cycles plus the cycle's deviation from it, interpolated.
+        Whether to replace spikes: by the median over cycles plus the cycle's deviation from it,
+        interpolated.
         Spikes that are kept count in imep and orders; offsets are computed without them.
 
     Returns

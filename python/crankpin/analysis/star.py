@@ -215,9 +215,10 @@ def star_diagram(
     orders : number or sequence of numbers, optional
         Multiples of crank speed, halves among them in a four-stroke. By default all up to 12.
     mode_shape : array_like, shape (n_cylinders,), optional
-        Amplitude of a torsional mode at each cylinder, by number; by default 1 for each.
+        Amplitude of a torsional mode at each cylinder, by number; by default 1.
     firing_order : str or sequence of int, optional
-        Cylinder numbers, as ``"1-8-4-3-6-5-7-2"`` or a list; by default the engine's own order.
+        Firing order, such as ``"1-3-4-2"``; by default the engine's own. A list, or text with ``+``
+        between cylinders that fire together.
     strokes : {4, 2}, optional
         Strokes of a cycle, 4 or 2; by default the engine's own.
 

@@ -10,21 +10,15 @@ from typing import TYPE_CHECKING
 from crankpin._core import InputError, __version__
 from crankpin._support import lazy, units
 from crankpin.cli import outputs
-from crankpin.cli.arguments import (
-    COMMANDS,
-    PROG,
-    Given,
-    Parser,
-    error_in_options,
-    rejected,
-    warning_in_options,
-)
+from crankpin.cli.arguments import Given
+from crankpin.cli.naming import error_in_options, warning_in_options
+from crankpin.cli.options import COMMANDS, PROG, Parser, rejected
 from crankpin.model import checks
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
-    from crankpin.cli.arguments import Commands
+    from crankpin.cli.options import Commands
 
 ORDER = {
     "presets": "engines",
@@ -95,13 +89,13 @@ def _text(argv: Sequence[str] | None) -> str:
             outputs.write("")  # flushes the help while a broken pipe can still be answered
         raise
     with warnings.catch_warnings():
-        warnings.showwarning = _Warnings(vars(arguments))
+        warnings.showwarning = _Warnings(arguments)
         try:
             given = Given(arguments, typed)
             with units.units(vars(arguments).get("units") or ""):
                 printed = outputs.shown(given, arguments.run)
         except InputError as error:
-            raise error_in_options(error, vars(arguments)) from None
+            raise error_in_options(error, arguments.options, vars(arguments)) from None
         for each in given.said:
             outputs.say(each)
         return printed
@@ -110,13 +104,14 @@ def _text(argv: Sequence[str] | None) -> str:
 class _Warnings:
     """Replaces ``warnings.showwarning``: shows warnings, of those of units the first only."""
 
-    def __init__(self, options: Mapping[str, object]) -> None:
-        self._options, self._of_units = options, False
+    def __init__(self, arguments: argparse.Namespace) -> None:
+        self._arguments, self._of_units = arguments, False
 
     def __call__(self, message: Warning | str, *_: object, **__: object) -> None:
         of_units = checks.UNITS in str(message)
         if not (of_units and self._of_units):
-            outputs.say(f"warning: {warning_in_options(str(message), self._options)}")
+            options, typed = self._arguments.options, vars(self._arguments)
+            outputs.say(f"warning: {warning_in_options(str(message), options, typed)}")
         self._of_units |= of_units
 
 

@@ -12,8 +12,8 @@ from crankpin.analysis.comparison import LUMPED, compare
 from crankpin.analysis.exercises import TOPICS, exercise
 from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.star import star_diagram
-from crankpin.cli.arguments import command, option, rejected
 from crankpin.cli.loads import OF_A_FILE, fired
+from crankpin.cli.options import command, keyword, keywords, option, rejected
 from crankpin.cli.outputs import Shown, only
 from crankpin.model.cylinder import slider_crank_harmonics
 
@@ -56,12 +56,8 @@ def _compare(given: Given) -> Shown:
     "flywheel",
     "speed over a cycle with a flywheel, or the flywheel that keeps it even",
     "name --rpm",
-    option("--inertia", metavar="J", help="moment of inertia of all that turns, kg·m²"),
-    option(
-        "--irregularity",
-        metavar="X",
-        help="largest less smallest speed over the mean, 0.01 or 1%%, to find the inertia for",
-    ),
+    keyword(flywheel, "inertia", metavar="J"),
+    keyword(flywheel, "irregularity", metavar="X", more=", 0.01 or 1%"),
     "--cycle --firing-order --bore --crankcase",
     *OF_A_FILE,
     "--units",
@@ -71,12 +67,7 @@ def _compare(given: Given) -> Shown:
 )
 def _flywheel(given: Given) -> Shown:
     engine, note = fired(given, "flywheel")
-    found = flywheel(
-        engine,
-        rpm=given.number("--rpm", "rpm"),
-        inertia=given.optional("--inertia", "kg·m²"),
-        irregularity=given.optional("--irregularity"),
-    )
+    found = flywheel(engine, given.number("--rpm", "rpm"), **given.keywords(flywheel))
     return Shown(found.frames, found, note=note)
 
 
@@ -85,21 +76,13 @@ def _flywheel(given: Given) -> Shown:
     "phase vectors of a firing order and their sums, order by order",
     "name",
     option("--orders", default=None, help="such as 0.5,1,1.5 (default: all up to 12)"),
-    option("--mode-shape", metavar="A,B,…", help="amplitude of a torsional mode at each cylinder"),
-    "--firing-order",
-    option("--strokes", choices=("4", "2"), help="strokes of a cycle (default: the engine's own)"),
+    *keywords(star_diagram, "mode_shape firing_order strokes"),
     "--csv --plot",
     example="star i6 --orders 0.5,1.5,3 --mode-shape 1,0.95,0.86,0.73,0.57,0.39",
 )
 def _star(given: Given) -> Shown:
     orders = None if given.text("--orders") is None else given.orders()
-    star = star_diagram(
-        given.engine("star"),
-        orders,
-        mode_shape=given.numbers("--mode-shape"),
-        firing_order=given.text("--firing-order"),
-        strokes=None if given.text("--strokes") is None else int(given.text("--strokes")),
-    )
+    star = star_diagram(given.engine("star"), orders, **given.keywords(star_diagram))
     return Shown(star.frames, star)
 
 

@@ -1,34 +1,35 @@
-"""Arguments of commands: parsers, shared options, and values with units."""
+"""Arguments of commands: what was typed, read as values in the units of the library."""
 
 from __future__ import annotations
 
 import argparse
+import inspect
 import re
+from collections.abc import Callable
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, units
-from crankpin._support.quantities import QUANTITIES
+from crankpin._support.parameters import parameter
+from crankpin.cli.options import rejected
 from crankpin.model import checks, engine_files, presets
-from crankpin.model.cycle_files import ANGLE_UNITS, PRESSURE_UNITS
 from crankpin.model.engine import Engine
 from crankpin.model.loads import PeriodicLoad, of_rows
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Orders, Spectrum
     from crankpin.analysis.balance import Balance
-    from crankpin.cli.outputs import Shown
+    from crankpin.cli.options import Option
 
-PROG = "crankpin"
 MOST_ROWS = 1_000_000
 """Largest number of rows in a table."""
 PICTURES = (".pdf", ".png", ".svg")
@@ -46,168 +47,6 @@ UNITS: dict[str, units.Dimension] = {
 }
 """Unit that the library takes → what may be typed behind a number: any unit of that dimension."""
 
-
-# --- parsers ------------------------------------------------------------------------------------
-
-
-class Parser(argparse.ArgumentParser):
-    """A parser whose errors are an InputError in one line."""
-
-    refused: Callable[[argparse.Namespace], set[str]]
-    """Options that are rejected beside what was typed before them."""
-
-    def parse_known_args(  # type: ignore[override] # of two overloads
-        self, args: Sequence[str] | None = None, namespace: argparse.Namespace | None = None
-    ) -> tuple[argparse.Namespace, list[str]]:
-        """Reject, as the command that it is, words that it does not take."""
-        found, others = super().parse_known_args(args, namespace)
-        if others:
-            meant = inputs.nearest(others[0].partition("=")[0], self._option_string_actions)
-            hint = meant or f"; see {self.prog} --help"
-            if Path(others[0]).suffix.lower() == ".csv" and getattr(found, "csv", False):
-                hint = f"; --csv prints CSV, so write it to a file by: --csv > {others[0]}"
-            raise InputError(f"unrecognized arguments: {labels.cut(' '.join(others))}{hint}")
-        return found, []
-
-    def _check_value(self, action: argparse.Action, value: object) -> None:
-        """Reject a word that is none of the choices, as the library does."""
-        if action.choices is not None and value not in action.choices:
-            name = "/".join(action.option_strings) or str(action.metavar)
-            words = list(map(str, action.choices))
-            hint = "no such command" if action.nargs == argparse.PARSER else None
-            hint = hint or f"give {' or '.join(words)}"
-            meant = inputs.nearest(value, words) or f"; see {self.prog} --help"
-            raise rejected(name, str(value), f"{hint}{meant}")
-
-    def error(self, message: str) -> NoReturn:  # noqa: D102 - of the base class
-        flag = re.fullmatch(r"argument (?:-\w/)?(--[\w-]+): expected one argument", message)
-        minus = f"; write a value that begins with a minus as {flag[1]}=-…" if flag else ""
-        raise InputError(f"{message}{minus}; see {self.prog} --help")
-
-
-Commands: TypeAlias = "argparse._SubParsersAction[Parser]"
-"""Subparsers, to which a command adds its own."""
-Run: TypeAlias = "Callable[[Given], str | Shown]"
-"""Computes what a command prints."""
-
-OPTIONS: dict[str, dict[str, Any]] = {
-    "name": {"metavar": "NAME", "help": "a preset, or an engine file (.toml, .json)"},
-    "--add-load": {
-        "metavar": "LOAD",
-        "action": "append",
-        "help": "a periodic load that the engine has besides: NAME: on=shaft|block|both, "
-        "force=ORDER:N,… torque=ORDER:NM,… (8@-30 is 8 at a phase of −30°, 4-1j complex), and any "
-        "of z= direction= turning=yes phase= crank= ratio= x= y= cylinder= rpm= (with which it "
-        "grows from that speed on by its square; rpm=1000/2000 force=2:8/9 is a table); once for "
-        "each",
-    },
-    "--rpm": {"default": "3000", "help": "crank speed (default: %(default)s)"},
-    "--by": {
-        "metavar": "OBJECTIVE,…",
-        "default": "total.moment.peak",
-        "help": "what to minimise (default: %(default)s)",
-    },
-    "--hold": {
-        "choices": ("pins", "firing"),
-        "default": "pins",
-        "help": "what is held as the bank angle changes: the crankpins, or the crank angles of all "
-        "top dead centres (default: %(default)s)",
-    },
-    "--orders": {
-        "default": "auto",
-        "help": "such as 1,2,4 or 0.5,1,1.5, or auto for all that matter (default: %(default)s)",
-    },
-    "--rtol": {
-        "help": "with --orders auto: largest sum of the omitted orders, relative to m·r·ω² "
-        "(default: 1e-9)"
-    },
-    "--quantity": {
-        "choices": tuple(QUANTITIES),
-        "help": "quantity of the picture (default: moment, or force if all cylinders are at one z)",
-    },
-    "--reference-z": {
-        "metavar": "Z",
-        "help": "plane about which moments are taken, m (default: the engine's)",
-    },
-    "--about": {
-        "metavar": "X,Y,Z",
-        "help": "point about which moments and roll torque are taken, m: X,Y,Z or Z; X and Y are "
-        "from the axis of the main crank (default: that axis)",
-    },
-    "--spectrum": {
-        "metavar": "N=A,…",
-        "help": "one cylinder's force over ω² in each order, kg·m, in place of its slider-crank: "
-        "1=9.0,2=3.75",
-    },
-    "--cycle": {
-        "metavar": "FILE",
-        "help": "cylinder pressure over crank angle: a text file of columns under a header such as "
-        "angle [deg], absolute pressure [bar]; petrol or diesel for an example at full load, "
-        "petrol:30%% at part load, petrol:0 idling; none for no gas pressure (default: the "
-        "engine's own, or else petrol)",
-    },
-    "--firing-order": {
-        "help": "such as 1-3-4-2, with + for cylinders that fire together: 1+4-2+3 (default: the "
-        "engine's own, if it is known)"
-    },
-    "--pressure-unit": {
-        "metavar": "UNIT",
-        "help": f"{', '.join(PRESSURE_UNITS)} (default: what its header names)",
-    },
-    "--gauge": {
-        "action": "store_true",
-        "help": "pressure is above that of the atmosphere (default: what its header says)",
-    },
-    "--atmosphere": {
-        "metavar": "P",
-        "help": "pressure added to gauge pressure, Pa or 1.01bar (default: 101325)",
-    },
-    "--absolute": {"action": "store_true", "help": "pressure is absolute"},
-    "--angle-unit": {
-        "choices": tuple(ANGLE_UNITS),
-        "help": "unit of angles, or of times (default: what its header names, else deg)",
-    },
-    "--tdc": {
-        "metavar": "ANGLE",
-        "help": "angle of the firing top dead centre as the file counts, degrees (default: 0)",
-    },
-    "--columns": {
-        "metavar": "A,P,…",
-        "help": "columns of angle and pressure, those of further cycles after them, by number from "
-        "0 or name (default: 0,1 and all that are like 1); several cycles are averaged",
-    },
-    "--sheet": {"metavar": "NAME", "help": "sheet of a spreadsheet (default: the first)"},
-    "--recorded-rpm": {
-        "metavar": "RPM",
-        "help": "crank speed of a record over time of less than three cycles",
-    },
-    "--bore": {"help": "bore of all cylinders, m (default: the engine's, or else the stroke)"},
-    "--crankcase": {
-        "metavar": "P",
-        "help": "absolute pressure below the pistons, Pa or 1.01bar (default: that of the engine, "
-        "or 101325)",
-    },
-    "--seed": {"default": "0", "help": "seed of the random numbers (default: %(default)s)"},
-    "--controls": {
-        "metavar": "NAMES",
-        "help": "controls that the page has, such as rpm,crank_angle; none for the pictures alone",
-    },
-    "--units": {
-        "metavar": "UNIT,…",
-        "help": "units of numbers typed without one, and of all that is printed: g,mm or "
-        "lb,in,lbf; kg, g, lb, oz, m, mm, in, ft, N, kN, lbf, bar, psi, and products such as oz·in "
-        "or lbf·ft; a number may have its own: 86mm, 480g, 3.4in, 2oz, 180g·mm (default: kg,m)",
-    },
-    "--frame": {"help": "print this table alone (default: all; with --csv the first)"},
-    "--csv": {"action": "store_true", "help": "print CSV in place of the table"},
-    "--plot": {"metavar": "FILE", "help": "write a picture (.pdf, .png, .svg)"},
-    "--save": {
-        "metavar": "FILE",
-        "help": "write the engine with what was found, an engine file (.toml, .json)",
-    },
-    "--force": {"action": "store_true", "help": "replace an existing engine file"},
-}
-"""Options of several commands."""
 
 LOAD_FIELDS = {
     "on": ("on", ""),
@@ -227,186 +66,6 @@ LOAD_FIELDS = {
 """Field of ``--add-load`` → argument of :class:`PeriodicLoad` and its unit; empty of a word."""
 
 
-OPPOSITES = {"gauge": "absolute"}
-"""Argument of the library that may be False → the option that sets it."""
-RENAMED = {
-    "path": "out", "to_crankpin": "rod_centre", "cylinder": "misfire", "amount_g_mm": "amounts",
-    "angle_deg": "angles", "measured_z": "measured", "correction_z": "correct", "point": "at",
-    "rods": "small_ends", "cycles": "leave_out",
-}  # fmt: skip
-"""Argument of the library → the option of a command that has it under another name."""
-
-
-BUILDER = re.compile(
-    r"\bEngine\.(?:from_)?(lists|banks|firing_order|inline|vee|flat|boxer|radial)\b"
-)
-"""A builder of the library, by the name of its kind."""
-
-
-class Help(argparse._HelpAction):
-    """Help without the options that are rejected beside what is typed before it."""
-
-    def __call__(
-        self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, *_: object
-    ) -> None:
-        """Print the help of what was typed."""
-        refused = parser.refused(namespace) if isinstance(parser, Parser) else set()
-        for action in parser._actions:
-            if refused & {*action.option_strings}:
-                action.help = argparse.SUPPRESS
-        super().__call__(parser, namespace, None)
-
-
-class Option(NamedTuple):
-    """An option as argparse takes it."""
-
-    names: tuple[str, ...]
-    settings: dict[str, Any]
-    group: str
-    """Title of its group in the help; empty for none."""
-
-
-def option(*names: str, group: str = "", **settings: object) -> Option:
-    """Return an option of one command, or of :data:`OPTIONS` with other settings."""
-    return Option(names, OPTIONS.get(names[0], {}) | settings, group)
-
-
-COMMANDS: dict[str, Callable[[Commands], None]] = {}
-"""Name of each command → the function that adds its parser."""
-
-
-def command(
-    name: str,
-    what: str,
-    *options: str | Option,
-    example: str,
-    note: str = "",
-    refused: Callable[[argparse.Namespace], set[str]] = lambda _: set(),
-) -> Callable[[Run], Run]:
-    """Make a function a command; several options of :data:`OPTIONS` are named in one text.
-
-    ``refused`` names options that the help leaves out beside what is typed before it.
-    """
-    listed = list[Option]()
-    for each in options:
-        if isinstance(each, Option):
-            listed.append(each)
-        else:
-            listed += (Option((flag,), OPTIONS[flag], "") for flag in each.split())
-    if "name" in " ".join(each for each in options if isinstance(each, str)).split():
-        listed.append(Option(("--add-load",), OPTIONS["--add-load"], ""))
-
-    def register(run: Run) -> Run:
-        def add(commands: Commands) -> None:
-            parser = commands.add_parser(
-                name,
-                help=what,
-                description=f"{what[0].upper()}{what[1:]}.",
-                epilog=f"{note}\n\nexample:\n  {PROG} {example}".strip(),
-                formatter_class=argparse.RawDescriptionHelpFormatter,
-                add_help=False,
-            )
-            parser.refused = refused
-            words = "show this help message and exit"
-            parser.add_argument("-h", "--help", action=Help, help=words)
-            parser.set_defaults(run=run)
-            groups: dict[str, argparse._ActionsContainer] = {"": parser}
-            for names, settings, group in listed:
-                if group not in groups:
-                    groups[group] = parser.add_argument_group(group)
-                groups[group].add_argument(*names, **settings)
-
-        COMMANDS[name] = add
-        return run
-
-    return register
-
-
-# --- values -------------------------------------------------------------------------------------
-
-
-def rejected(option: str, text: str, hint: str) -> InputError:
-    """Return the error of an option: its name, what was typed and a hint."""
-    return inputs.faulty(option, f"= {labels.cut(text)}", hint)
-
-
-def error_in_options(error: InputError, typed: Mapping[str, object]) -> InputError:
-    """Return an error of the library with its argument and hint named as in a shell.
-
-    Parameters
-    ----------
-    error
-        The error.
-    typed
-        Values of all options of the command; None for those that are left out.
-    """
-    if error.argument is None or error.hint is None:
-        return error
-    value = str(error)[len(error.argument) : -len(error.hint)]
-    # One that is left out is named only where that is the fault.
-    among = _options(typed, left_out=error.value == "None")
-    error.argument = re.sub(r"^\w+", lambda word: _option(word[0], among), error.argument)
-    if error.value == "None" and error.argument.startswith("--"):  # None was not typed
-        value = " is left out: "
-    all_options = _options(typed, left_out=True)
-    # Names of several words that stand alone.
-    bare = r"(?<![\w.(-])[a-z]+(_[a-z]+)+(?![\w(=.])"
-    hint = _hint_in_options(error.hint, typed)
-    error.hint = re.sub(bare, lambda word: _option(word[0], all_options), hint)
-    error.args = (error.argument + value + error.hint,)
-    return error
-
-
-def warning_in_options(message: str, typed: Mapping[str, object]) -> str:
-    """Return a warning of the library with the names of arguments and units of the shell."""
-    # What a new engine is made of is an option or its default; of others it may be in the file.
-    known = _options(typed, left_out="kind" in typed)
-    if typed.get("piston_mass") is not None:  # Of which the reciprocating mass is computed.
-        known.discard("reciprocating_mass")
-    begins = r"(?:(?<=^)|(?<=; ))\w+(?=(?: =| is| has|\[))"
-    said = re.sub(begins, lambda word: _option(word[0], known), message)
-    said = _hint_in_options(said, typed)
-    if said == message and "kind" not in known:  # a figure of an engine file, which has no units
-        return message
-    asked = "plain numbers are metres and kilograms; type units, such as 86mm or 480g"
-    return said.replace(checks.UNITS, asked)
-
-
-def _options(typed: Mapping[str, object], *, left_out: bool) -> set[str]:
-    """Return the names of options that were typed, or of all."""
-    among = {name for name, value in typed.items() if left_out or value is not None}
-    return among - {"name", "names"}
-
-
-def _option(argument: str, among: set[str]) -> str:
-    """Return the option among some that gives an argument, else the argument."""
-    names = (argument, argument.removesuffix("_deg"), RENAMED.get(argument, argument))
-    return next((f"--{each.replace('_', '-')}" for each in names if each in among), argument)
-
-
-def _hint_in_options(text: str, typed: Mapping[str, object]) -> str:
-    """Return a text with arguments, ``orders=[1, 2]``, as they are typed in a shell."""
-    options = _options(typed, left_out=True)
-
-    def hint(found: re.Match[str]) -> str:
-        name, value = found.groups()
-        if value in ("True", "False"):
-            name = name if value == "True" else OPPOSITES.get(name, "")
-            named = _option(name, options)
-            return named if named != name else found[0]
-        plain = re.sub(r'[\[\]()"]|(?<=,) ', "", value)
-        named = _option(name, options)
-        return f"{named} {plain}" if named != name else found[0]
-
-    pattern = r'(?<![\w.(-])(\w+)=(\([^()]*\)|\[[^\[\]]*\]|"[^"]*"|[^\s,;()]+)'
-    return re.sub(BUILDER, _kind, re.sub(pattern, hint, text))
-
-
-def _kind(builder: re.Match[str]) -> str:
-    """Return the command that builds an engine as a method does."""
-    return f"{PROG} new {builder[1].replace('_', '-')}"
-
-
 class Given:
     """Arguments of a command, read as values in the library's units.
 
@@ -416,6 +75,8 @@ class Given:
     def __init__(self, arguments: argparse.Namespace, typed: Sequence[str] = ()) -> None:
         self.typed = tuple(typed)
         """The words of the command line."""
+        self.options: Sequence[Option] = vars(arguments).get("options", ())
+        """Options of the command."""
         self._typed = vars(arguments)
         for name, text in self._typed.items():
             if isinstance(text, str) and "\0" in text:
@@ -488,6 +149,11 @@ class Given:
     ) -> list[float]:
         """Return the numbers of a text, separated by commas."""
         return self._read(flag, text, unit, "list", what, infinite=infinite)[0]
+
+    def one_or_several(self, flag: str, unit: str = "") -> float | list[float]:
+        """Return a number, which counts for all, or a list."""
+        numbers = self.listed(flag, self.text(flag), unit)
+        return numbers if len(numbers) > 1 else numbers[0]
 
     def whole(self, flag: str) -> int:
         """Return a whole number."""
@@ -628,6 +294,43 @@ class Given:
             amplitudes[order] = self.one("--spectrum", amplitude, "kg·m")
         return amplitudes
 
+    def keywords(self, function: Callable[..., Any]) -> dict[str, Any]:
+        """Return the arguments of a function that were typed, read as it declares them."""
+        plain = inspect.unwrap(function)
+        return {
+            each.argument: self.value(each)
+            for each in self.options
+            if each.function is plain and self._typed[each.dest] not in (None, False)
+        }
+
+    def value(self, option: Option) -> Any:  # noqa: ANN401 - of any type
+        """Return the value of an option in the type that its function declares."""
+        if option.read is not None:
+            return option.read(self, option.label)
+        text, declared = self._typed[option.dest], parameter(option.function, option.argument)
+        if declared.type == "bool":  # of another name it sets the argument to False
+            return option.dest == option.argument
+        if text in declared.words:
+            return text
+        read = next(read for words, read in READERS if re.search(words, declared.type))
+        return read(self, option.label, {"degrees": "°"}.get(declared.unit, declared.unit))
+
+    def angle(self, flag: str, unit: str = "°") -> str:
+        """Return an angle as text, which may be a fraction."""
+        text = self.text(flag)
+        if "," in text:  # of a decimal, or one too many
+            text = repr(self.one(flag, text, unit))
+        return self.angles(flag, text=text)[0]
+
+    def angles(self, flag: str, _: str = "°", *, text: str | None = None) -> list[str]:
+        """Return angles as text, which may be fractions."""
+        text = self.text(flag) if text is None else text
+        typed = [each.strip().removesuffix("deg").rstrip("°") for each in text.split(",")]
+        angles = [inputs.angle(flag, each) for each in typed]
+        decimals = [float(each) for each in typed if "." in each and "/" not in each]
+        checks.radians(flag, text, decimals)
+        return angles
+
     def frame(self) -> str | None:
         """Return the table to print, if one is named."""
         return self._typed.get("frame")
@@ -655,3 +358,16 @@ class Given:
             hint = "it is there already; give another name, or --force to replace it"
             raise rejected(flag, str(file), hint)
         return file
+
+
+READERS: tuple[tuple[str, Callable[[Given, str, str], Any]], ...] = (
+    (r"^sequence of number or str", Given.angles),
+    (r"^number(,| or) str", Given.angle),
+    (r"^(str|path)", lambda given, flag, _: given.text(flag)),
+    (r"sequence of int|iterable of int", lambda given, flag, _: given.whole_numbers(flag)),
+    (r"^(int|\{\d)", lambda given, flag, _: given.whole(flag)),
+    (r"^array_like$", lambda given, flag, unit: given.one_or_several(flag, unit)),
+    (r"^(array_like|pair of float|sequence of float)", Given.numbers),
+    (r"", Given.number),
+)
+"""Pattern of a type in words → what reads a value of it."""

@@ -9,14 +9,14 @@ import numpy as np
 
 from crankpin._support import labels
 from crankpin._support.tables import Table
-from crankpin.cli.arguments import command, option, rejected
+from crankpin.cli.options import command, keyword, option, rejected
 from crankpin.cli.outputs import Shown, only
+from crankpin.model.engine import Engine
 from crankpin.model.presets import Presets
 from crankpin.view.gallery import save_gallery
 
 if TYPE_CHECKING:
     from crankpin.cli.arguments import Given
-    from crankpin.model.engine import Engine
 
 MOST_SHOWN = 20
 """Largest number of firing orders in a table; CSV has all."""
@@ -77,13 +77,16 @@ def _firing_orders(engine: Engine, strokes: int | None, *, csv: bool) -> Shown:
     "view",
     "a page in which an engine turns: one file, for any browser",
     "name",
-    option("-o", "--out", metavar="FILE", required=True, help="the page to write (.html)"),
-    option("--rpm", help="crank speed at first (default: %(default)s)"),
     option(
-        "--compact",
-        action="store_true",
-        help="the cross-section and one vector alone, for a slide or a frame of 640 by 360 pixels",
+        "-o",
+        "--out",
+        argument="path",
+        metavar="FILE",
+        required=True,
+        help="the page to write (.html)",
     ),
+    option("--rpm", help="crank speed at first (default: %(default)s)"),
+    keyword(Engine.save_html, "compact"),
     "--controls --reference-z --spectrum --units",
     example="view v8-crossplane --out v8.html",
 )
@@ -95,7 +98,7 @@ def _view(given: Given) -> str:
         file,
         rpm=given.number("--rpm", "rpm"),
         spectrum=given.spectrum(),
-        compact=given.text("--compact"),
+        **given.keywords(Engine.save_html),
         controls=given.names("--controls"),
     )
     return f"{file}: {file.stat().st_size / 1e3:.0f} kB\n"
@@ -104,7 +107,9 @@ def _view(given: Given) -> str:
 @command(
     "gallery",
     "a page for each preset, and one with pictures that links them",
-    option("-o", "--out", metavar="DIR", required=True, help="the folder to write to"),
+    option(
+        "-o", "--out", argument="path", metavar="DIR", required=True, help="the folder to write to"
+    ),
     option("--rpm", help="crank speed at first (default: %(default)s)"),
     example="gallery --out engines",
 )

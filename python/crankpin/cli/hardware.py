@@ -4,21 +4,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from crankpin._support import inputs
-from crankpin.analysis.balancing.balance_shafts import REMOVE, balance_shafts
+from crankpin.analysis.balancing.balance_shafts import balance_shafts
 from crankpin.analysis.balancing.balancer_options import DEFAULT, balancer_options
 from crankpin.analysis.balancing.bob_weight import bob_weight
 from crankpin.analysis.balancing.counterweights import counterweights
-from crankpin.cli.arguments import command, option, rejected
+from crankpin.cli.options import command, keyword, keywords, option, rejected
 from crankpin.cli.outputs import Shown
 
 if TYPE_CHECKING:
     from crankpin.analysis.balancing.planes import Planes
-    from crankpin.cli.arguments import Given, Option
+    from crankpin.cli.arguments import Given
+    from crankpin.cli.options import Option
     from crankpin.model.engine import Engine
 
+PLANES = "ends|webs|Z,…|NAME=Z,…"
 OF_A_FIT = ("--x", "--y", "--planes", "--bearings", "--remove", "--quantity")
 """Options that need ``--ratios``."""
 OF_OPTIONS = ("--rpm", "--by", "--target")
@@ -29,32 +29,24 @@ OF_OPTIONS = ("--rpm", "--by", "--target")
     "counterweights",
     "counterweights that remove the most of the forward part of order 1",
     "name",
-    option(
-        "--planes",
-        default="webs",
-        metavar="ends|webs|Z,…|NAME=Z,…",
+    keyword(
+        counterweights,
+        "planes",
+        read=lambda given, _: planes_of(given),
+        metavar=PLANES,
         help="where weights can be: at the first and last cylinder, at both webs of every throw, "
-        "or at places in m; --planes=-0.1,0.4 if the first is below zero (default: %(default)s)",
+        "or at places in m; --planes=-0.1,0.4 if the first is below zero (default: webs)",
     ),
-    option(
-        "--target",
-        choices=("external", "internal"),
-        default="external",
-        help="relieve the mounts, or every throw's own main bearings (default: %(default)s)",
+    keyword(counterweights, "target"),
+    keyword(counterweights, "factor", more=", 0.5 or 50%"),
+    *keywords(counterweights, "minimise bound"),
+    keyword(
+        counterweights,
+        "angles_deg",
+        read=lambda given, flag: given.range(flag, "°"),
+        metavar="RANGE",
+        more=": 0,90,180,270 or 0:345:15",
     ),
-    option(
-        "--factor",
-        help="share of the reciprocating mass to balance, as of a bob weight, 0.5 or 50%% (default:"
-        " whatever removes all of the forward part)",
-    ),
-    option(
-        "--minimise",
-        choices=("squares", "largest"),
-        default="squares",
-        help="what to minimise among weights that do the same (default: %(default)s)",
-    ),
-    option("--bound", help="largest mass·radius of a plane, kg·m"),
-    option("--angles", metavar="RANGE", help="drilling places, degrees: 0,90,180,270 or 0:345:15"),
     "--reference-z --units",
     option("--frame", choices=("table", "residual")),
     "--csv --plot --save --force",
@@ -63,16 +55,8 @@ OF_OPTIONS = ("--rpm", "--by", "--target")
     "Residuals are in kg·m and kg·m², to be multiplied by ω².",
 )
 def _counterweights(given: Given) -> Shown:
-    angles = given.range("--angles", "°")
-    fit = counterweights(
-        given.engine("counterweights"),
-        planes=planes_of(given),
-        target=given.text("--target"),
-        factor=given.optional("--factor"),
-        minimise=given.text("--minimise"),
-        bound=given.optional("--bound", "kg·m"),
-        angles_deg=None if angles is None else np.atleast_1d(angles).tolist(),
-    )
+    engine = given.engine("counterweights")
+    fit = counterweights(engine, **given.keywords(counterweights))
     return Shown(fit.frames, fit, engine=fit.fitted)
 
 
@@ -101,14 +85,10 @@ def mass(flag: str, what: str) -> Option:
     "bob-weight",
     "bob weight of each crankpin in grams, and residuals by balance factor",
     "name",
-    option(
-        "--factor",
-        default="0.5",
-        help="part of the reciprocating mass, 0.5 or 50%% (default: %(default)s)",
-    ),
+    *keywords(bob_weight, "factor"),
     mass("--rotating-mass", "big end, bolts and bearing shells"),
     mass("--reciprocating-mass", "piston, pin, rings and small end"),
-    mass("--oil", "oil of a crankpin (default: 0)"),
+    *keywords(bob_weight, "oil"),
     "--units",
     option("--frame", choices=("table", "factors")),
     "--csv --plot --save --force",
@@ -122,13 +102,26 @@ def _bob_weight(given: Given) -> Shown:
         engine = engine.replace(cylinder=cylinders)
     if (turning := given.optional("--rotating-mass", "kg")) is not None:
         engine = engine.replace(rotating_mass=turning)
-    bob = bob_weight(engine, given.number("--factor"), given.optional("--oil", "kg") or 0.0)
+    bob = bob_weight(engine, **given.keywords(bob_weight))
     return Shown(bob.frames, bob, engine=bob.fitted)
 
 
+def _coordinates(given: Given, flag: str) -> float | list[float | None]:
+    """Return one number for all shafts, or one for each, None where it is left out."""
+    text = given.text(flag)
+    if "," not in text:
+        return given.number(flag, "m")
+    parts = text.split(",")
+    if all(part.strip() for part in parts):
+        return [*given.listed(flag, text, "m")]
+    return [given.one(flag, part, "m") if part.strip() else None for part in parts]
+
+
 def _axis(flag: str, where: str) -> Option:
-    return option(
-        flag,
+    return keyword(
+        balance_shafts,
+        flag.removeprefix("--"),
+        read=_coordinates,
         metavar="M,…",
         help=f"distances of the shafts {where} the crank axis, m: one for all or one for each, "
         "free where left out: where they cancel roll torque (default: free)",
@@ -139,15 +132,19 @@ def _axis(flag: str, where: str) -> Option:
     "shafts",
     "balance shafts fitted to an engine, or sets of hardware compared",
     "name",
-    option("--ratios", metavar="N,…", help="speed of each shaft over crank speed: -1, 2,-2 or 1/2"),
+    keyword(
+        balance_shafts,
+        "ratios",
+        read=lambda given, flag: given.names(flag),
+        metavar="N,…",
+        help="speed of each shaft over crank speed: -1, 2,-2 or 1/2",
+    ),
     _axis("--x", "to the right of"),
     _axis("--y", "above"),
-    option("--planes", metavar="Z,…", help="places of the unbalances along the crank, m"),
-    option("--bearings", metavar="Z,Z", help="places of the bearings, m"),
-    option("--remove", choices=REMOVE, help="what the shafts remove (default: both)"),
-    option(
-        "--rpm",
-        default=None,
+    *keywords(balance_shafts, "planes bearings remove"),
+    keyword(
+        balance_shafts,
+        "rpm",
         help="crank speed of the comparison (default: 3000), or with --ratios that at which shafts "
         "cancel torque of gas pressure",
     ),
@@ -186,16 +183,7 @@ def _shafts(given: Given) -> Shown:
 
 
 def _fit(engine: Engine, given: Given) -> Shown:
-    fit = balance_shafts(
-        engine,
-        given.text("--ratios").split(","),
-        x=_coordinates(given, "--x"),
-        y=_coordinates(given, "--y"),
-        planes=given.numbers("--planes", "m"),
-        bearings=given.numbers("--bearings", "m"),
-        remove=given.text("--remove") or "both",
-        rpm=given.optional("--rpm", "rpm"),
-    )
+    fit = balance_shafts(engine, **given.keywords(balance_shafts))
     return Shown(fit.frames, fit, {"quantity": given.quantity([engine])}, fit.fitted)
 
 
@@ -214,17 +202,6 @@ def _compare(engine: Engine, given: Given) -> Shown:
     )
     # Without a set that reaches the target there is no engine to be saved, which is an error.
     return Shown(options.frames, options, engine=options.fitted if saved else None)
-
-
-def _coordinates(given: Given, flag: str) -> float | list[float | None] | None:
-    """Return one number for all shafts, or one for each, None where it is left out."""
-    text = given.text(flag)
-    if text is None or "," not in text:
-        return given.optional(flag, "m")
-    parts = text.split(",")
-    if all(part.strip() for part in parts):
-        return [*given.listed(flag, text, "m")]
-    return [given.one(flag, part, "m") if part.strip() else None for part in parts]
 
 
 def _targets(given: Given) -> tuple[dict[str, float] | None, bool]:

@@ -14,7 +14,7 @@ from crankpin._support.record import changed
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.bearings import AXES, bearing_loads
 from crankpin.analysis.prepared_trace import prepare_trace
-from crankpin.cli.arguments import command, option, rejected
+from crankpin.cli.options import command, keywords, option, rejected
 from crankpin.cli.outputs import Shown, in_short, left_out, only
 from crankpin.model.computed_cycles import EXAMPLES
 from crankpin.model.cycle import Cycle
@@ -32,7 +32,11 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 OF_A_FILE = tuple(
-    option(flag, group="the file of --cycle")
+    option(
+        flag,
+        group="the file of --cycle",
+        argument="gauge" if flag == "--absolute" else "",  # which it sets to False
+    )
     for flag in [
         "--pressure-unit",
         "--gauge",
@@ -193,17 +197,10 @@ def _with_bores(engine: Engine, bore: float | None) -> tuple[list[Cylinder], str
         "several cylinders in one file that of each, their columns of pressure in --columns",
     ),
     option("--motored", metavar="FILE", help="the same without combustion, which finds the TDC"),
-    option("--loss-angle", metavar="ANGLE", help="from the motored peak to the TDC (default: 0.7)"),
-    option(
-        "--lowpass-order", metavar="ORDER", help="order at which a low-pass halves the amplitude"
+    *keywords(
+        prepare_trace,
+        "loss_angle_deg lowpass_order intake_pressure leave_out spikes exponent compression_ratio",
     ),
-    option("--intake-pressure", metavar="P", help="absolute pressure of the intake, Pa or 0.95bar"),
-    option(
-        "--leave-out", metavar="N,…", help="cycles to leave out, from 0, or odd for those named"
-    ),
-    option("--spikes", choices=("replace",), help="replace spikes by the median over cycles"),
-    option("--exponent", metavar="N", help="of a polytropic compression, such as 1.3, or fit"),
-    option("--compression-ratio", metavar="R", help="largest over smallest volume"),
     "--units --csv --plot --save --force",
     example="trace i4 run7.csv --bore 86mm --intake-pressure 0.95bar --save run7.toml",
     note="--save writes the engine with the mean of the prepared cycles.",
@@ -225,20 +222,8 @@ def _trace(given: Given) -> Shown:
 
     traces, motored = loaded("file", given.text("file")), given.text("--motored")
     without_fire = loaded("--motored", motored) if motored else [None] * len(traces)
-    left, exponent = given.text("--leave-out"), given.text("--exponent")
     prepared = [
-        prepare_trace(
-            each,
-            cylinder,
-            motored=by_motoring,
-            leave_out=left if left in (None, "odd") else given.whole_numbers("--leave-out"),
-            spikes=given.text("--spikes"),
-            loss_angle_deg=given.optional("--loss-angle", "°"),
-            lowpass_order=given.optional("--lowpass-order"),
-            intake_pressure=given.optional("--intake-pressure", "Pa"),
-            exponent=exponent if exponent in (None, "fit") else given.number("--exponent"),
-            compression_ratio=given.optional("--compression-ratio"),
-        )
+        prepare_trace(each, cylinder, motored=by_motoring, **given.keywords(prepare_trace))
         for each, cylinder, by_motoring in zip(traces, cylinders, without_fire, strict=False)
     ]
     cycles = [each.cycle for each in prepared]

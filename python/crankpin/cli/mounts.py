@@ -11,7 +11,8 @@ from crankpin._support import inputs
 from crankpin._support.frames import FIRST, Frames
 from crankpin.analysis.mounts.design_mounts import KINDS, design_mounts
 from crankpin.analysis.mounts.powertrain import Powertrain
-from crankpin.cli.arguments import MOST_ROWS, PROG, command, option, rejected
+from crankpin.cli.arguments import MOST_ROWS
+from crankpin.cli.options import PROG, command, keyword, keywords, option, rejected
 from crankpin.cli.outputs import Shown
 from crankpin.model import engine_files
 
@@ -20,41 +21,47 @@ if TYPE_CHECKING:
 
 AT_REST = ("--torque", "--gear", "--gravity", "--robustness")
 """Options of what is computed without a response."""
+FILE = option(
+    "name", argument="path", metavar="FILE", help="an engine file with [powertrain] (.toml, .json)"
+)
 PICTURES = ("cuts", "map", "waterfall", "spectrum")
 
 
 def _powertrain(given: Given) -> Powertrain:
     """Return what FILE has."""
-    return Powertrain.load(engine_files.checked(given.text("name"), "FILE"))
+    return Powertrain.load(engine_files.checked(given.text("name")))
 
 
 @command(
     "mounts",
     "an engine on its mounts: modes, axes, sag; with --rpm forces and motion by order",
-    option("name", metavar="FILE", help="an engine file with [powertrain] (.toml, .json)"),
+    FILE,
     option(
         "--rpm",
         metavar="RANGE",
         default=None,
         help="crank speeds, for the response to the engine's orders (default: modes and axes)",
     ),
-    option("--frequency", help="frequency at which modes take stiffness that depends on it, Hz"),
-    option(
-        "--torque",
-        metavar="N·M",
-        help="mean torque of the crank at rest, N·m, or engine for that of its cycle (default: 0)",
-    ),
-    option("--gear", metavar="RATIO", help="crank speed over that of the shaft that takes it"),
-    option("--gravity", metavar="X,Y,Z", help="acceleration at rest, m/s² (default: 0,-9.80665,0)"),
+    keyword(Powertrain.modes, "frequency"),
+    keyword(Powertrain.static, "torque", metavar="N·M"),
+    keyword(Powertrain.static, "gear_ratio", "--gear", metavar="RATIO"),
+    keyword(Powertrain.static, "gravity", metavar="X,Y,Z"),
     option(
         "--robustness",
+        argument="stiffness",
         metavar="SHARE",
         help="tolerance of all stiffnesses, such as 0.1: bounds of frequencies, least purity found",
     ),
-    option("--misfire", metavar="CYLINDER", help="number of a cylinder that does not fire"),
+    option(
+        "--misfire",
+        argument="cylinder",
+        metavar="CYLINDER",
+        help="number of a cylinder that does not fire",
+    ),
     "--orders --rtol",
     option(
         "--at",
+        argument="point",
         metavar="X,Y,Z",
         help="point of which the motion is printed and drawn, m, or the name of a receiver",
     ),
@@ -73,6 +80,7 @@ def _powertrain(given: Given) -> Powertrain:
     ),
     option(
         "--html",
+        argument="path",
         metavar="FILE",
         help="write a page too, in which the mounts can be dragged (.html); --rpm is its speed at "
         "first (default: 800)",
@@ -133,14 +141,8 @@ def _at_rest(given: Given, powertrain: Powertrain) -> Shown:
     modes = powertrain.modes(frequency)
     makers: dict[str, Any] = {name: partial(modes.frames.get, name) for name in modes.frames}
     if not modes.free:
-        axes, options = powertrain.axes(frequency), dict[str, Any]()
-        if (typed := given.text("--torque")) is not None:
-            options["torque"] = typed if typed == "engine" else given.optional("--torque")
-        if (ratio := given.optional("--gear")) is not None:
-            options["gear_ratio"] = ratio
-        if (gravity := given.numbers("--gravity")) is not None:
-            options["gravity"] = gravity
-        static = powertrain.static(**options)
+        axes = powertrain.axes(frequency)
+        static = powertrain.static(**given.keywords(Powertrain.static))
         makers |= {"axes": lambda: axes.table, "static": lambda: static.table}
     if (share := given.optional("--robustness")) is not None:
         robust = powertrain.robustness(share, frequency=frequency)
@@ -151,7 +153,7 @@ def _at_rest(given: Given, powertrain: Powertrain) -> Shown:
 @command(
     "mounts-fit",
     "mounts that decouple roll, place natural frequencies and lower forces, within bounds",
-    option("name", metavar="FILE", help="an engine file with [powertrain] (.toml, .json)"),
+    FILE,
     option(
         "--by",
         default="decoupling",
@@ -159,11 +161,8 @@ def _at_rest(given: Given, powertrain: Powertrain) -> Shown:
         "body_force[N] of an order N "
         "(default: %(default)s)",
     ),
-    option(
-        "--rpm",
-        metavar="RANGE",
-        default=None,
-        help="crank speeds at which the forces of --by count",
+    keyword(
+        design_mounts, "rpm", read=lambda given, flag: given.range(flag, "rpm"), metavar="RANGE"
     ),
     option(
         "--vary",
@@ -187,26 +186,9 @@ def _at_rest(given: Given, powertrain: Powertrain) -> Shown:
         )
         for axis in "xyz"
     ),
-    option(
-        "--ratio",
-        metavar="LOW,HIGH",
-        help="stiffness of the first axis over that of the others, such as 3,10",
-        group="requirements",
-    ),
-    option(
-        "--modes-between",
-        metavar="LOW,HIGH",
-        help="frequencies between which all modes are, Hz",
-        group="requirements",
-    ),
-    option(
-        "--roll-frequency",
-        metavar="HZ",
-        help="frequency of roll about the torque roll axis (default: as it is)",
-        group="requirements",
-    ),
-    option("--starts", default="8", help="starts of the optimiser (default: %(default)s)"),
-    "--seed --units",
+    *keywords(design_mounts, "ratio modes_between roll_frequency", group="requirements"),
+    *keywords(design_mounts, "starts seed"),
+    "--units",
     option("--frame", choices=(FIRST, "mounts")),
     "--csv",
     option("--save", help="write engine, body and the mounts designed, an engine file"),
@@ -231,12 +213,7 @@ def _fit(given: Given) -> Shown:
         given.text("--by").split(","),
         vary=_varied(given.text("--vary"), list(bounds)),
         bounds=bounds,
-        ratio=given.numbers("--ratio"),
-        roll_frequency=given.optional("--roll-frequency"),
-        modes_between=given.numbers("--modes-between"),
-        rpm=given.range("--rpm", "rpm"),
-        starts=given.whole("--starts"),
-        seed=given.whole("--seed"),
+        **given.keywords(design_mounts),
     )
     return Shown(found.frames, found, engine=found.fitted)
 

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 from crankpin._support import inputs, units
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.mounts.powertrain import Powertrain
-from crankpin.cli.arguments import PROG, command, option, rejected
-from crankpin.model import checks, engine_files, presets
+from crankpin.cli.options import PROG, command, keyword, option, rejected
+from crankpin.model import engine_files, presets
 from crankpin.model.cylinder import Cylinder, Rod
 from crankpin.model.data import allowed
 from crankpin.model.engine import Engine
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
     from crankpin.cli.arguments import Given
+    from crankpin.cli.options import Option
 
 BUILDERS = {
     "inline": "inline",
@@ -40,44 +41,75 @@ BUILDERS = {
 }
 """Kind → the builder of :class:`Engine` that takes all of its layout from options."""
 
-LAYOUT: dict[str, tuple[str, str, str]] = {
-    "--bank-angle": ("bank_angle_deg", "angle", "angle between the banks, degrees"),
-    "--throws": ("throws_deg", "angles", "crankpins in the direction of rotation, degrees"),
-    "--pin-split": (
-        "pin_split_deg",
-        "split",
-        "left pin minus right pin, degrees, or even for even firing",
-    ),
-    "--spacing": (
-        "spacing",
-        "spacing",
-        "distance of neighbouring throws, or rows, or of each (default: in proportion to the bore)",
-    ),
-    "--bank-stagger": ("bank_stagger", "m", "distance of the left bank behind the right"),
-    "--odd-bank": ("odd_bank", "text", "bank of cylinder 1 from the flywheel: right or left"),
-    "--numbering": ("numbering", "text", "alternating, or by-bank"),
-    "--absent": ("absent", "wholes", "cylinders that a vee lacks, such as 6 of a V5"),
-    "--cylinders": ("cylinders", "whole", "number of cylinders of a radial"),
-    "--rows": ("rows", "whole", "rows of a radial"),
-    "--firing-order": (
-        "firing_order",
-        "text",
-        "such as 1-3-4-2, with + for cylinders that fire together: 1+4-2+3",
-    ),
-    "--intervals": ("intervals_deg", "angles", "of firing-order: firing intervals, degrees"),
-    "--strokes": ("strokes", "whole", "strokes of a cycle, 4 or 2"),
-    "--tdc": ("tdc_deg", "angles", "of lists: crank angles of top dead centre, degrees"),
-    "--pins": ("pin_deg", "angles", "of lists, for --tdc: directions of the crankpins, degrees"),
-    "--banks": (
-        "bank_deg",
-        "angles",
-        "of lists, of each cylinder, and of banks: directions of the bores, degrees; 90 is upright",
-    ),
-    "--crank": ("crank", "wholes", "of lists: crankshaft of each cylinder, 0 the main one"),
-    "--cranks": ("cranks", "cranks", "of lists: further crankshafts, X:Y:RATIO,…, m"),
-    "--z": ("z", "metres", "of lists: places along the crank, from the front"),
+SHAPE = "layout (default: that of the preset)"
+
+
+def _of_shape(
+    function: Callable[..., Any],
+    argument: str,
+    flag: str = "",
+    **settings: Any,  # noqa: ANN401 - of options
+) -> Option:
+    """Return the option of a builder's argument, which names the builders if these are few."""
+    takes = {
+        name: kind
+        for kind, name in reversed(BUILDERS.items())
+        if argument in inspect.signature(getattr(Engine, name)).parameters
+    }
+    one = keyword(function, argument, flag, group=SHAPE, default="", **settings)
+    if len(takes) < 3:
+        one.settings["help"] = (
+            f"of {' and '.join(reversed(takes.values()))}: {one.settings['help']}"
+        )
+    return one
+
+
+def _pin_split(given: Given, flag: str) -> str:
+    """Return a pin split as text, or even."""
+    return "even" if given.text(flag) == "even" else given.angle(flag)
+
+
+def _cranks(given: Given, flag: str) -> list[tuple[float, float, int]]:
+    """Return further crankshafts: the axis of each, m, and its ratio."""
+    return [_crank(given, flag, each.split(":")) for each in given.text(flag).split(",")]
+
+
+def _crank(given: Given, flag: str, parts: list[str]) -> tuple[float, float, int]:
+    if len(parts) != 3 or not parts[2].strip().lstrip("+-").isdecimal():
+        raise rejected(flag, given.text(flag), "give X:Y:RATIO, such as 0.2:0:-1")
+    x, y = (given.one(flag, each, "m") for each in parts[:2])
+    return x, y, int(parts[2])
+
+
+LAYOUT = {
+    each.label: each
+    for each in (
+        _of_shape(Engine.vee, "bank_angle_deg"),
+        _of_shape(Engine.vee, "throws_deg"),
+        _of_shape(Engine.vee, "pin_split_deg", read=_pin_split, more=", or even for even firing"),
+        _of_shape(
+            Engine.vee,
+            "spacing",
+            read=lambda given, flag: given.range(flag, "m"),
+            metavar="LENGTH,…",
+            more=" (default: in proportion to the bore)",
+        ),
+        *(_of_shape(Engine.vee, name) for name in ("bank_stagger", "odd_bank", "numbering")),
+        _of_shape(Engine.vee, "absent"),
+        _of_shape(Engine.radial, "cylinders"),
+        _of_shape(Engine.radial, "rows"),
+        _of_shape(Engine.vee, "firing_order"),
+        _of_shape(Engine.from_firing_order, "intervals_deg"),
+        _of_shape(Engine.vee, "strokes"),
+        _of_shape(Engine.from_lists, "tdc_deg"),
+        _of_shape(Engine.from_lists, "pin_deg", "--pins"),
+        _of_shape(Engine.from_lists, "bank_deg", "--banks"),
+        _of_shape(Engine.from_lists, "crank"),
+        _of_shape(Engine.from_lists, "cranks", read=_cranks, metavar="X:Y:RATIO,…"),
+        _of_shape(Engine.from_lists, "z"),
+    )
 }
-"""Option → argument of a builder, how it is read, and its help."""
+"""Option → the argument of a builder that it gives."""
 
 LENGTHS = {
     "--bore": "diameter of the bore",
@@ -124,7 +156,8 @@ def _parameters(base: presets.Layout) -> Mapping[str, inspect.Parameter]:
 
 def _flags(base: presets.Layout) -> dict[str, str]:
     """Return the options of a layout that it takes, with the argument of its builder."""
-    return {flag: name for flag, (name, *_) in LAYOUT.items() if name in _names(base)}
+    taken = _names(base)
+    return {flag: each.argument for flag, each in LAYOUT.items() if each.argument in taken}
 
 
 def _names(base: presets.Layout) -> set[str]:
@@ -143,33 +176,28 @@ def _wrapped(names: Iterable[str]) -> str:
 
 PARTS = "parts of one cylinder, or A,B,… of each (default: a nominal half litre)"
 ON_MOUNTS = "body and mounts, for crankpin mounts"
-SHAPE = "layout (default: that of the preset)"
-METAVARS = {
-    "angles": "A,B,…", "metres": "Z,…", "whole": "N", "wholes": "N,…", "text": "TEXT", "m": "M",
-    "spacing": "M,…", "cranks": "X:Y:N,…",
-}  # fmt: skip
-"""Parser of an option → name of its value; others are one angle."""
 
 
 @command(
     "new",
     "make an engine file: a layout by its usual name, and weighed parts",
     option("kind", metavar="KIND", help="such as v-twin, v6, boxer-4, radial, inline"),
-    *(option(flag, group=PARTS, metavar="LENGTH,…", help=what) for flag, what in LENGTHS.items()),
+    *(
+        option(
+            flag,
+            group=PARTS,
+            argument="to_crankpin" if flag == "--rod-centre" else "",
+            metavar="LENGTH,…",
+            help=what,
+        )
+        for flag, what in LENGTHS.items()
+    ),
     *(option(flag, group=PARTS, metavar="MASS,…", help=what) for flag, what in MASSES.items()),
     option(
         "--dummy", group=PARTS, metavar="N,…", help="dummy pistons, which balance and do not fire"
     ),
-    *(
-        option(flag, group=SHAPE, metavar=METAVARS.get(how, "A"), help=what)
-        for flag, (_, how, what) in LAYOUT.items()
-    ),
-    option(
-        "--shared-pins",
-        group=SHAPE,
-        action="store_true",
-        help="of firing-order: pins that are shared, whatever the intervals of a vee are then",
-    ),
+    *LAYOUT.values(),
+    _of_shape(Engine.from_firing_order, "shared_pins"),
     option(
         "--body",
         group=ON_MOUNTS,
@@ -186,7 +214,11 @@ METAVARS = {
     option("--name", help="name of the engine (default: that of its kind)"),
     "--add-load --units",
     option(
-        "-o", "--out", metavar="FILE", help="the engine file (.toml, .json); without it, print TOML"
+        "-o",
+        "--out",
+        argument="path",
+        metavar="FILE",
+        help="the engine file (.toml, .json); without it, print TOML",
     ),
     "--force",
     example="new v-twin --bank-angle 45 --bore 88.9mm --stroke 96.8mm --rod-length 189mm "
@@ -356,13 +388,13 @@ def _changes(given: Given, kind: str, base: presets.Layout) -> dict[str, Any]:
     """Return the arguments of the builder that options give."""
     takes, flags = _parameters(base), _flags(base)
     changes = dict[str, Any]()
-    for flag, (name, how, _) in LAYOUT.items():
+    for flag, each in LAYOUT.items():
         if given.text(flag) is None:
             continue
         if flag not in flags:
             hint = f"does not apply to {kind}, which takes {', '.join(flags)}"
             raise rejected(flag, given.text(flag), hint)
-        changes[name] = _read(given, flag, how)
+        changes[each.argument] = given.value(each)
     if given.text("--shared-pins"):
         if "shared_pins" not in _names(base):
             hint = "pins follow from a firing order in new firing-order alone; leave it out"
@@ -381,37 +413,6 @@ def _changes(given: Given, kind: str, base: presets.Layout) -> dict[str, Any]:
         hint = f"new {kind} needs {', '.join(needed)}; see {PROG} new --help"
         raise rejected("KIND", kind, hint)
     return changes
-
-
-def _read(given: Given, flag: str, how: str) -> Any:  # noqa: ANN401 - as the builder takes it
-    """Return the value of an option; angles stay text, which may be a fraction."""
-    text = given.text(flag)
-    if how == "text" or (how == "split" and text == "even"):
-        return text
-    readers: dict[str, Callable[[], Any]] = {
-        "m": lambda: given.number(flag, "m"),
-        "metres": lambda: given.numbers(flag, "m"),
-        "spacing": lambda: given.range(flag, "m"),
-        "whole": lambda: given.whole(flag),
-        "wholes": lambda: given.whole_numbers(flag),
-        "cranks": lambda: [_crank(given, flag, each.split(":")) for each in text.split(",")],
-    }
-    if how in readers:
-        return readers[how]()
-    if how != "angles" and "," in text:  # of a decimal, or one too many
-        text = repr(given.one(flag, text, "°"))
-    typed = [each.strip().removesuffix("deg").rstrip("°") for each in text.split(",")]
-    angles = [inputs.angle(flag, each) for each in typed]
-    checks.radians(flag, text, [float(each) for each in typed if "." in each and "/" not in each])
-    return angles if how == "angles" else angles[0]
-
-
-def _crank(given: Given, flag: str, parts: list[str]) -> tuple[float, float, int]:
-    """Return a further crankshaft: its axis, m, and its ratio."""
-    if len(parts) != 3 or not parts[2].strip().lstrip("+-").isdecimal():
-        raise rejected(flag, given.text(flag), "give X:Y:RATIO, such as 0.2:0:-1")
-    x, y = (given.one(flag, each, "m") for each in parts[:2])
-    return x, y, int(parts[2])
 
 
 def _split(base: presets.Layout, changes: dict[str, Any]) -> dict[str, str]:

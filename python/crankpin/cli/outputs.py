@@ -23,7 +23,8 @@ if TYPE_CHECKING:
     from crankpin.analysis.balance import Balance
     from crankpin.analysis.mounts.powertrain import Powertrain
     from crankpin.analysis.sweeps.sweep import Sweep
-    from crankpin.cli.arguments import Given, Run
+    from crankpin.cli.arguments import Given
+    from crankpin.cli.options import Run
     from crankpin.model.engine import Engine
 
 

@@ -16,20 +16,15 @@ from crankpin._support.record import changed
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.ranking.rank import rank
 from crankpin.analysis.sweeps.sweep import Sweep, engine_titles, sweep
-from crankpin.cli.arguments import MOST_ROWS, PROG, command, option
+from crankpin.cli.arguments import MOST_ROWS, Given
+from crankpin.cli.options import PROG, command, keyword, option
 from crankpin.cli.outputs import Shown, in_short, left_out, only
 
 if TYPE_CHECKING:
     from crankpin.analysis.balance import Balance
-    from crankpin.cli.arguments import Given
 
-SWEPT = {
-    "bank_angle_deg": ("--bank-angle", "°"),
-    "rod_ratio": ("--rod-ratio", ""),
-    "pin_offset": ("--pin-offset", "m"),
-    "rpm": ("--rpm", "rpm"),
-}
-"""Swept dimension → its option and unit."""
+SWEPT = ("--bank-angle", "--rod-ratio", "--pin-offset", "--rpm")
+"""Options of dimensions that are swept."""
 
 
 PHASES = (
@@ -105,9 +100,10 @@ def _explain(given: Given) -> str:
         help="presets, engine files (.toml, .json), or families of presets: ijesc-v6 stands for "
         "all whose names begin with ijesc-v6-",
     ),
-    option("--bank-angle", metavar="RANGE", help="bank angles, degrees"),
-    option("--rod-ratio", metavar="RANGE", help="crank radius / rod length"),
-    option("--pin-offset", metavar="RANGE", help="pin offsets, m"),
+    *(
+        keyword(sweep, name, read=partial(Given.range, unit=unit), metavar="RANGE")
+        for name, unit in [("bank_angle_deg", "°"), ("rod_ratio", ""), ("pin_offset", "m")]
+    ),
     option("--rpm", metavar="RANGE", help="crank speeds (default: %(default)s)"),
     "--hold --orders --rtol",
     option(
@@ -122,14 +118,13 @@ def _explain(given: Given) -> str:
 )
 def _sweep(given: Given) -> Shown:
     engines = given.engines()
-    typed: dict[str, Any] = {dim: given.range(flag, unit) for dim, (flag, unit) in SWEPT.items()}
-    axes = {dim: values for dim, values in typed.items() if values is not None}
+    axes = given.keywords(sweep) | {"rpm": given.range("--rpm", "rpm")}
     if not any(np.ndim(values) for values in axes.values()):
         vees = all(len(engine.banks) == 2 for engine in engines.values())
         if "bank_angle_deg" not in axes and vees:
             axes["bank_angle_deg"] = np.arange(10.0, 171.0, 10.0)
         elif len(engines) == 1:
-            flags = ", ".join(flag for flag, _ in SWEPT.values() if vees or "bank" not in flag)
+            flags = ", ".join(flag for flag in SWEPT if vees or "bank" not in flag)
             hint = f"give one of {flags} as START:STOP:STEP or a,b,c"
             hint = f"all options have one value; {hint}"
             raise inputs.faulty("sweep", "has nothing to sweep", hint)
@@ -224,7 +219,7 @@ def _how(result: Sweep, given: Given) -> str:
         help="degrees to choose from, or own for each engine's own (default: own)",
     ),
     "--hold",
-    option("--refine", action="store_true", help="look between these angles too"),
+    keyword(rank, "refine"),
     "--rpm --orders --rtol --reference-z --spectrum --units --csv --plot",
     option("--save", help="write the best engine at its best bank angle (.toml, .json)"),
     "--force",
@@ -249,7 +244,7 @@ def _rank(given: Given) -> Shown:
         hold=None if own else given.text("--hold"),
         by=given.text("--by"),
         spectrum=given.spectrum(),
-        refine=given.text("--refine"),
+        **given.keywords(rank),
         **given.chosen(),
     )
     return Shown(ranking.frames, ranking, engine=ranking[0].engine)

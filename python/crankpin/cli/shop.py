@@ -10,12 +10,12 @@ import numpy as np
 from crankpin._support import inputs
 from crankpin._support.record import changed
 from crankpin._support.tables import Column
-from crankpin.analysis.balancing.bob_weight import bob_weight
+from crankpin.analysis.balancing.bob_weight import BobWeight, bob_weight
 from crankpin.analysis.balancing.card import PARTS, RODS
 from crankpin.analysis.balancing.two_plane import G_MM, two_plane_correction
 from crankpin.analysis.tolerances.match_parts import match_parts
-from crankpin.cli.arguments import command, option, rejected
 from crankpin.cli.hardware import planes_of
+from crankpin.cli.options import command, keyword, keywords, option, rejected
 from crankpin.cli.outputs import Shown, only
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ FLAGS = {part: f"--{part.replace(' ', '-')}" for part in PARTS}
         )
         for part, flag in FLAGS.items()
     ),
-    option("--oil", metavar="MASS", help="oil of a crankpin (default: 0)"),
+    keyword(bob_weight, "oil"),
     option(
         "--factor",
         metavar="K,…",
@@ -66,17 +66,13 @@ FLAGS = {part: f"--{part.replace(' ', '-')}" for part in PARTS}
         metavar="ends|webs|Z,…|NAME=Z,…",
         help="where metal can be added or drilled away (default: no correction is printed)",
     ),
-    option("--radius", metavar="LENGTH,…", help="radius of the weights or holes in each plane"),
-    option(
-        "--balanced-to",
-        metavar="MASS,…",
-        help="bob weight to which the crankshaft is balanced now (default: its counterweights are "
-        "the engine's)",
-    ),
+    *keywords(BobWeight.card, "radius balanced_to"),
     "--units",
     option("--frame", choices=("table", "bob weights", "residual", "correction")),
     "--csv",
-    option("-o", "--out", metavar="FILE", help="write a page to be printed (.html)"),
+    option(
+        "-o", "--out", argument="path", metavar="FILE", help="write a page to be printed (.html)"
+    ),
     example="card v8-crossplane --piston 470g --pin 118g --locks 2g --rings 60g --small-end 180g "
     "--big-end 430g --bearings 42g --oil 4g --factor 48%,50%,52% --rpm 6000 -o card.html",
     note="Print the page in a browser, on paper or as PDF. Angles are those at θ = 0 from +x.",
@@ -88,21 +84,23 @@ def _card(given: Given) -> Shown:
         if masses is not None and len(masses) not in (1, len(engine)):
             hint = f"give one mass, or {len(engine)}"
             raise rejected(FLAGS[part], given.text(FLAGS[part]), hint)
-    parts = {part: _each(masses) for part, masses in typed.items() if masses is not None}
+    parts = {
+        part: masses if len(masses) > 1 else masses[0]
+        for part, masses in typed.items()
+        if masses is not None
+    }
     factors = given.listed("--factor", given.text("--factor"))
-    bob = bob_weight(engine, factors[0], given.optional("--oil", "kg") or 0.0, parts=parts)
+    bob = bob_weight(engine, factors[0], parts=parts, **given.keywords(bob_weight))
     sides = given.text("--sides").split(",")
     if len(sides) != 2:
         raise rejected("--sides", given.text("--sides"), "give two words, such as exhaust,intake")
-    radius, balanced_to = given.numbers("--radius", "m"), given.numbers("--balanced-to", "kg")
     planes = None if given.text("--planes") is None else planes_of(given)
     card = bob.card(
         factors,
         rpm=given.number("--rpm", "rpm"),
         sides=(sides[0].strip(), sides[1].strip()),
         planes=planes,
-        radius=None if radius is None else _each(radius),
-        balanced_to=None if balanced_to is None else _each(balanced_to),
+        **given.keywords(BobWeight.card),
     )
     if given.frame() not in (None, *card.frames):
         raise inputs.faulty("--frame", "= correction", "needs --planes")
@@ -113,23 +111,26 @@ def _card(given: Given) -> Shown:
     return Shown(card.frames, card, note=note)
 
 
-def _each(numbers: list[float]) -> Any:  # noqa: ANN401 - a number or a list
-    """Return a single number, which counts for all, unchanged."""
-    return numbers if len(numbers) > 1 else numbers[0]
-
-
 @command(
     "two-plane",
     "corrections in two planes of an unbalance that a machine measured in two others",
-    option(
+    keyword(
+        two_plane_correction,
+        "amount_g_mm",
         "--amounts",
+        read=lambda given, _: _amounts(given),
         metavar="U,U",
         required=True,
         help="unbalances measured, in g·mm unless they have a unit: 4200,2600 or 5.8oz·in,3.6oz·in",
     ),
-    option("--angles", metavar="A,A", required=True, help="where it is heavy, degrees"),
-    option("--measured", metavar="Z,Z", required=True, help="planes of measurement, m"),
-    option("--correct", metavar="Z,Z", required=True, help="planes of correction, m"),
+    *(
+        keyword(two_plane_correction, name, flag, metavar=metavar, required=True)
+        for name, flag, metavar in [
+            ("angle_deg", "--angles", "A,A"),
+            ("measured_z", "--measured", "Z,Z"),
+            ("correction_z", "--correct", "Z,Z"),
+        ]
+    ),
     option("--radius", metavar="LENGTH,…", help="radius of weights or holes in each plane"),
     "--units --csv",
     example="two-plane --amounts 4200,2600 --angles 35,310 --measured 0,335mm "
@@ -138,16 +139,7 @@ def _each(numbers: list[float]) -> Any:  # noqa: ANN401 - a number or a list
     "amounts are in g·mm, as machines show them, and plain lengths in m.",
 )
 def _two_plane(given: Given) -> Shown:
-    typed = given.text("--amounts")
-    plain = given.text("--units") is None
-    parts = [f"{each}g·mm" if plain and _is_plain(each) else each for each in typed.split(",")]
-    amounts = [given.one("--amounts", each, "kg·m") / G_MM for each in parts]
-    fix = two_plane_correction(
-        np.round(amounts, 9),
-        given.listed("--angles", given.text("--angles"), "°"),
-        measured_z=given.listed("--measured", given.text("--measured"), "m"),
-        correction_z=given.listed("--correct", given.text("--correct"), "m"),
-    )
+    fix = two_plane_correction(**given.keywords(two_plane_correction))
     table = fix.table
     if (radius := given.numbers("--radius", "m")) is not None:
         if len(radius) > 2 or min(radius) <= 0.0:
@@ -156,6 +148,14 @@ def _two_plane(given: Given) -> Shown:
         weight = Column("weight", grams, "g")
         table = changed(table, columns=(*table.columns, weight))
     return Shown(only(table), fix)
+
+
+def _amounts(given: Given) -> Any:  # noqa: ANN401 - an array
+    """Return unbalances, g·mm."""
+    plain = given.text("--units") is None
+    typed = given.text("--amounts").split(",")
+    parts = [f"{each}g·mm" if plain and _is_plain(each) else each for each in typed]
+    return np.round([given.one("--amounts", each, "kg·m") / G_MM for each in parts], 9)
 
 
 def _is_plain(text: str) -> bool:
@@ -167,24 +167,19 @@ def _is_plain(text: str) -> bool:
     "match",
     "which measured piston and rod goes into which cylinder",
     "name",
-    option("--pistons", metavar="MASS,…", required=True, help="measured pistons with pins"),
-    option("--small-ends", metavar="MASS,…", help="measured small ends of the rods"),
-    option("--big-ends", metavar="MASS,…", help="measured big ends of the rods, in the same order"),
+    keyword(match_parts, "pistons", required=True),
     option(
-        "--by",
-        choices=("balance", "spread"),
-        default="balance",
-        help="what remains of order 1 and 2, or heaviest less lightest (default: %(default)s)",
+        "--small-ends", argument="rods", metavar="MASS,…", help="measured small ends of the rods"
     ),
-    option("--sets", metavar="N", help="number of engines (default: as many as parts suffice for)"),
-    "--seed --units --csv",
+    option("--big-ends", metavar="MASS,…", help="measured big ends of the rods, in the same order"),
+    *keywords(match_parts, "by sets seed"),
+    "--units --csv",
     option("--save", help="write the first engine with its parts (.toml, .json)"),
     "--force",
     example="match v8-crossplane --pistons 470g,473g,471g,469g,474g,470g,467g,472g",
     note="Fit the counterweights first (counterweights … --save): what they remove does not count.",
 )
 def _match(given: Given) -> Shown:
-    pistons = given.listed("--pistons", given.text("--pistons"), "kg")
     ends = [given.numbers(flag, "kg") for flag in ("--small-ends", "--big-ends")]
     rods = None
     if any(each is not None for each in ends):
@@ -196,12 +191,5 @@ def _match(given: Given) -> Shown:
             hint = f"give as many --big-ends as --small-ends, {len(small)}"
             raise inputs.faulty("--big-ends", f"has {len(big)} masses", hint)
         rods = list(zip(small, big, strict=True))
-    match = match_parts(
-        given.engine("match"),
-        pistons,
-        rods,
-        by=given.text("--by"),
-        sets=None if given.text("--sets") is None else given.whole("--sets"),
-        seed=given.whole("--seed"),
-    )
+    match = match_parts(given.engine("match"), rods=rods, **given.keywords(match_parts))
     return Shown(match.frames, match, engine=match.engines[0])

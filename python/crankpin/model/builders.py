@@ -198,6 +198,8 @@ class Builders(EngineData):
         ----------
         bank_angle_deg : number or str
             Angle between the banks, degrees, 0 to 180.
+        spacing : float or array_like
+            Distance between neighbouring throws, m, or of each from the one before it.
         pin_split_deg : number or str, default 0.0
             Left pin minus right pin, in the direction of rotation, degrees; 0 for shared pins.
             Even firing needs bank angle − firing interval: −60 for a 60° V6, −30 for a 90° V6.
@@ -494,8 +496,9 @@ class Builders(EngineData):
             2017, by which the cylinders of each bank, in the order in which they fire, lag by equal
             parts of a turn (0°, 120°, 240° in a V6) from the same crank angle in both banks.
         intervals_deg : sequence of number or str, optional
-            With ``rule="even"``: crank angles from each cylinder of the order to the next, and from
-            the last to the first, in place of equal ones; 0 between those joined by ``+``. The
+            Firing intervals, degrees, in place of equal ones: crank angles from each cylinder of
+            the order to the next, and from the last to the first. They need ``rule="even"``, and
+            are 0 between those joined by ``+``. The
             engine keeps the turns in which its cylinders fire, as in twins that fire 30° apart.
         strokes : {4, 2}, default 4
             4 or 2: intervals add up to 720 or 360.

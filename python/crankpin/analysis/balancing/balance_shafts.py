@@ -66,16 +66,16 @@ def balance_shafts(
         cylinder, or ten times crank radius and rod length together where these are longer, the
         torque stays, with a warning.
     planes : sequence of float, or sequence of these or None, optional
-        Places of the unbalances along the crank, m: for all shafts, such as ``[0.0, 0.3]``, or a
+        Places of the unbalances along the crank, m. For all shafts, such as ``[0.0, 0.3]``, or a
         list of these, one for each shaft. None is free: a single plane where that is enough, the
         first and last cylinder elsewhere.
     bearings : sequence of float, or sequence of these or None, optional
-        Places of the two bearings along the crank, m, as ``planes``; by default the first and last
+        Places of the two bearings along the crank, m; by default the first and last
         cylinder.
     remove : {"both", "force", "moment"} or sequence of these, default "both"
-        ``"both"``, ``"force"`` (by an unbalance that makes no moment about the
-        engine's ``reference_z``) or ``"moment"`` (by a couple, without force): for all shafts, or a
-        list with one for each. Shafts of the same ratio have the same.
+        What the shafts remove: force by an unbalance that makes no moment about the engine's
+        reference plane, moment by a couple without force. One for all shafts, or a list with one
+        for each. Shafts of the same ratio have the same.
     rpm : float, optional
         Crank speed, rpm, needed for a fired engine: its roll torque of gas pressure does not
         scale with the square of the speed as that of shafts does, so that places cancel the

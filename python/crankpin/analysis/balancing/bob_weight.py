@@ -67,7 +67,7 @@ def bob_weight(
         The engine; ``rotating_mass`` is what turns with the pin and is not part of the crankshaft:
         big ends, bolts, bearing shells. Its counterweights are replaced.
     factor : float, default 0.5
-        Share κ of the reciprocating mass, 0 to 10; 0.5 is "50 % balance factor".
+        Share κ of the reciprocating mass, 0 to 10; 0.5 is a balance factor of 50 %.
     oil : float, default 0.0
         Oil in the bearings and the bore of a crankpin, kg of each pin.
     parts : mapping of str to array_like, optional
@@ -390,7 +390,7 @@ class BobWeight(Tabled):
         planes : {"webs", "ends"}, sequence of float or mapping of str to float, optional
             Where metal can be added or drilled away, as in :func:`crankpin.counterweights`.
         radius : array_like, optional
-            Radius of the weight or hole, m: of all planes, or one for each.
+            Radius of the weights or holes, m: of all planes, or one for each.
         balanced_to : array_like, optional
             Bob weight to which the crankshaft is balanced now, kg: of all crankpins, or one for
             each; by default its counterweights are those of the engine.

@@ -66,28 +66,29 @@ def counterweights(
         z, m; or a mapping name → z. Those are on the main crank; ``(z, crank)`` in place of z is on
         another, by its index.
     target : {"external", "internal", "half cranks"}, default "external"
-        ``"external"``: force and moment of the whole engine. ``"internal"``: force and moment that
-        each throw exerts on its own two main bearings, by weights between these, which relieves
-        bearings and crankshaft. ``"half cranks"``: the same of each half of a crank, in front of
-        the main bearing in its middle and behind it.
+        ``"external"`` relieves the mounts, ``"internal"`` every throw's own main bearings, ``"half
+        cranks"`` those of each half of a crank. External are force and moment of the whole engine;
+        internal those that each throw exerts on its own two main bearings, by weights between
+        these, which relieves bearings and crankshaft, or each half of a crank, in front of the main
+        bearing in its middle and behind it.
     keep : {"vanishing"} or sequence of {"force", "moment"}, default "vanishing"
         Sums of the whole engine that weights of throws or half cranks do not change: those that
         vanish, so that a balanced engine stays so, or those named; an empty list for none.
     factor : float or mapping of str to float or None, optional
-        Share of the reciprocating mass that is balanced, besides all rotating mass, as by
-        :func:`crankpin.bob_weight`: 0.52 leaves 4 % of the pistons' forward part turned round. By
-        default all of the forward part is removed, as 0.5 does without pin offset. A number for
-        both, or a mapping with ``"force"``, ``"moment"`` or both; what it leaves out does not
-        matter. In a mapping None is the default: all of the forward part.
+        Share of the reciprocating mass that is balanced, besides all rotating mass; by default
+        what removes all of the forward part, 0.5 without pin offset. As by
+        :func:`crankpin.bob_weight`, 0.52 leaves 4 % of the pistons' forward part turned round. A
+        number for both, or a mapping with ``"force"``, ``"moment"`` or both; what it leaves out
+        does not matter. In a mapping None is the default: all of the forward part.
     minimise : {"squares", "largest"}, default "squares"
-        Of weights that leave as little: ``"squares"`` for the least sum of squares of the planes'
-        mass·radius, ``"largest"`` for the least largest.
+        Among weights that leave as little ``"squares"`` minimises the sum of squares of the planes'
+        mass·radius, ``"largest"`` the largest.
     bound : float or mapping of str to float, optional
-        Largest mass·radius of a plane, kg·m: a number, or a mapping name → number with the planes
+        Largest mass·radius of a plane, kg·m. A number, or a mapping name → number with the planes
         that have one.
     angles_deg : sequence of number or str, or mapping of str to these, optional
-        Angles at which a plane can have weights, degrees from +x at θ = 0: a list for all planes,
-        or a mapping name → list, at most 10 000 in all; any angle by default. The mass·radius of
+        Angles at which a plane can have weights, degrees from +x at θ = 0; by default any. A list
+        for all planes, or a mapping name → list, at most 10 000 in all. The mass·radius of
         a plane is then the sum of its weights'.
     length : float, optional
         Where weights cannot remove both, they leave the least ``|force|² + |moment/length|²``, m.

@@ -31,7 +31,7 @@ def two_plane_correction(
     amount_g_mm : array_like, shape (2,)
         Unbalances measured in two planes, g·mm.
     angle_deg : array_like, shape (2,)
-        Their directions, where the crankshaft is heavy, degrees in the direction of rotation.
+        Directions in which the crankshaft is heavy, degrees in the direction of rotation.
     measured_z : array_like, shape (2,)
         Places of the planes of measurement along the crank, m.
     correction_z : array_like, shape (2,)

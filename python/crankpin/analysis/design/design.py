@@ -100,20 +100,20 @@ def design(
     same_split : bool, default True
         False for a split of each throw's own.
     throws_deg : sequence of number or str, or "free", optional
-        Throws to be put in the best order, degrees, one for each; by default equally spaced
-        ones, and of an even number also half as many directions, each twice (0-180-180-0).
-        ``"free"`` for throws of any angles.
+        Throws to be put in the best order, degrees, or ``"free"`` for any angles; by default
+        equally spaced ones. These are, of an even number, also half as many directions, each twice
+        (0-180-180-0).
     even_firing : bool, default False
-        True for an engine that must fire evenly. That determines the throws, and, on shared
+        True for only cranks that fire evenly. That determines the throws, and, on shared
         pins, the bank angles.
     intervals_deg : sequence of number or str, optional
-        Firing intervals that the engine must allow, one after another, degrees, which add up to
-        720, in place of ``even_firing``.
+        Firing intervals that the engine must allow, one after another, degrees, in place of
+        ``even_firing``; they add up to 720.
     strokes : {4, 2}, default 4
         4 or 2: strokes of a cycle.
     counterweights : bool, default False
-        True if counterweights are allowed: the forward part of the first order does not count, and
-        each crankpin gets the weight that removes its cylinders' share.
+        True for counterweights on each crankpin that remove its cylinders' share of the forward
+        part of the first order, which does not count then.
     shafts : sequence of int, optional
         Speed ratios of balance shafts that are allowed, such as ``[-1]`` or ``[2, -2]``: each
         removes the part of its order that turns with it, force and moment. They are put on the

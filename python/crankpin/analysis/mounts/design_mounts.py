@@ -210,13 +210,13 @@ def design_mounts(
         ``{"stiffness": {"left": (5e4, 3e5), "right": (5e4, 6e5)}}``.
     ratio : pair of float, optional
         Lowest and highest stiffness of the first axis (compression) over that of the other two
-        (shear) that a rubber maker can build, such as ``(3, 10)``.
+        (shear) that a rubber maker can build, such as 3 and 10.
     roll_frequency : float, optional
         Frequency of roll about the torque roll axis, Hz; by default that which it has.
     modes_between : pair of float, optional
-        Lowest and highest frequency for all modes, Hz, a subframe's too: a requirement.
+        Lowest and highest frequency for all modes, Hz, a subframe's too.
     rpm : array_like, optional
-        Crank speeds of the forces; required with them.
+        Crank speeds of the forces, rpm; required with them.
     starts : int, default 8
         Starts of the optimiser: the powertrain as it is, the linear solution, and random ones.
     seed : int, default 0

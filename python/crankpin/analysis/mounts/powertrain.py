@@ -153,15 +153,15 @@ class Powertrain(Input):
         Parameters
         ----------
         torque : float or "engine", default 0.0
-            Mean torque of the crank, N·m, in its sense of rotation; ``"engine"``: that of the
+            Mean torque of the crank, N·m, in its sense of rotation, or ``"engine"`` for that of the
             engine's cycle.
         gear_ratio : float, default 1.0
             Speed of the crank over that of the shaft on which torque leaves the unit, parallel to
-            the crank: below zero if it turns against it. 1 for a bare engine; the whole ratio of
+            the crank; below zero if it turns against it. 1 for a bare engine; the whole ratio of
             gearbox and final drive where both are on the same mounts, as of a transverse
             powertrain: 10 to 15 in first gear.
         gravity : sequence of float, default (0.0, -9.80665, 0.0)
-            Acceleration of gravity in the engine's axes, m/s²: of an inclined engine another
+            Acceleration of gravity in the engine's axes, m/s². Of an inclined engine it has another
             direction.
         rpm : float, default 1000.0
             Crank speed at which the mean torque of the engine is read, rpm.

@@ -183,10 +183,11 @@ def match_parts(
     rods : array_like, shape (n_rods, 2), optional
         Measured masses of the rods' small and big ends, kg.
     by : {"balance", "spread"}, default "balance"
-        ``"balance"``: what remains of ``orders`` in the engine, forward and backward parts of force
-        and moment, in kg·m (over ω²), moments over half the distance from the first to the last
-        cylinder (none where that is zero); the root of the sum of squares is minimised.
-        ``"spread"``: the difference between the heaviest and the lightest piston with small end.
+        ``"balance"`` minimises the residual of the engine, ``"spread"`` the difference between the
+        heaviest and the lightest piston with small end. The residual is the root of the sum of
+        squares of forward and backward parts of force and moment of ``orders``, in kg·m (over ω²),
+        moments over half the distance from the first to the last cylinder (none where that is
+        zero).
     sets : int, optional
         Number of engines to be filled; by default as many as the parts suffice for. Of several
         engines the sum of the objective is minimised.

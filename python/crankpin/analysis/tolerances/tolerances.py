@@ -73,7 +73,7 @@ def tolerances(
     rod_length : array_like, default 0.0
         Spread of each rod's length between its centres, m.
     distribution : {"normal", "uniform"}, default "normal"
-        ``"normal"``: spreads are standard deviations. ``"uniform"``: spreads are half widths.
+        ``"normal"`` takes spreads as standard deviations, ``"uniform"`` as half widths.
     pins : sequence of sequence of int, optional
         Numbers of the cylinders on each crankpin, such as ``[[1, 2], [3, 4]]``. By default
         cylinders of different banks share one if their pins point the same way and have one
@@ -81,7 +81,7 @@ def tolerances(
     samples : int, default 10000
         Number of samples.
     seed : int, SeedSequence or Generator, default 0
-        Seed of the random numbers, 0 to 2⁶⁴ − 1; or a NumPy ``SeedSequence`` or ``Generator``, of
+        Seed of the random numbers, 0 to 2⁶⁴ − 1. Or a NumPy ``SeedSequence`` or ``Generator``, of
         which one number is drawn as seed. Sample k has the same bits whatever the number of
         samples, of threads, and of other figures that spread. Normal deviations are those of
         :class:`numpy.random.Generator`, at most 12.3 spreads.
