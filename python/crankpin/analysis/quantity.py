@@ -184,12 +184,12 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
         """Multiples of crank speed; empty where there are none."""
         if self.order is not None and self.order != ALL:
             return (self.order,)
-        return self.result._orders if self._by_order else ()
+        return self.result._orders if "order" in self.result._dims(self.name) else ()
 
     @property
     def _by_order(self) -> bool:
-        """True if the array has phasors by order."""
-        return "order" in self.result._dims(self.name)
+        """True if the array has the dimension ``order``."""
+        return self.order is None and "order" in self.result._dims(self.name)
 
     @property
     def dims(self) -> tuple[str, ...]:
@@ -220,6 +220,15 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
     def magnitude(self) -> NDArray[np.float64]:
         """Lengths of vectors, or magnitudes, over crank angle, in ``unit``: (…, n_theta)."""
         return self._read("magnitude")  # type: ignore[no-any-return]
+
+    @property
+    def mean_magnitude(self) -> Values:
+        """Mean of ``magnitude`` over the crank angles, in ``unit``: (…).
+
+        Each angle counts for the distance between its neighbours (trapezoidal rule), in whichever
+        order angles are given.
+        """
+        return self._read("mean_magnitude")  # type: ignore[no-any-return]
 
     @property
     def xy(self) -> NDArray[Element]:
@@ -301,7 +310,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
     @property
     def phasor(self) -> NDArray[np.complex128]:
         """Peak phasors of what is no vector, in ``unit``: (…, n_orders)."""
-        if self.kind.axes or not self._by_order:
+        if self.kind.axes or not self.orders:
             raise self._absent("phasor", f"{self.name} has values by axis; use xy, x or y")
         return self._read(VALUES)  # type: ignore[no-any-return]
 
@@ -485,13 +494,15 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
         InputError
             If there is no such order, name or place.
         """
-        if isinstance(key, str) and key != ALL:
+        whole: Quantity[Any, Any, Any] = self
+        if isinstance(key, str):
             for name, values in self.coords.items():
                 if isinstance(values, tuple) and key in values and isinstance(values[0], str):
                     return self.sel(**{name: key})
+            if key == ALL and self.orders:
+                return changed(whole, order=ALL)
         by_place = isinstance(key, (slice, tuple, list)) or key is ... or np.ndim(key) > 0
         if self._by_order and not by_place:
-            whole: Quantity[Any, Any, Any] = self
             return changed(whole, order=order_key(key))
         array = np.asarray(self)
         try:
@@ -572,6 +583,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
         """
         if self.order == ALL or (isinstance(other, Quantity) and other.order == ALL):
             return isinstance(other, Quantity) and Record.__eq__(self, other)
+        if getattr(other, "__array_ufunc__", ...) is None:
+            return NotImplemented  # it compares itself with arrays
         try:
             return np.equal(self, other)  # type: ignore[call-overload] # of anything
         except (TypeError, ValueError, OverflowError):
@@ -624,7 +637,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
     @property
     def words(self) -> str:
         """Name in texts."""
-        return self.result._words(self)
+        return self.result._words_of(self)
 
     @property
     def _which(self) -> str:
@@ -641,8 +654,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
         text = f"<Quantity {labels.printable(self.words)}{self._which}"
         loads = f", {self.loads_counted}" if self.loads_counted else ""
         if not dims:
-            highest: Any = self.peak if self._by_order else np.asarray(self)[()]
-            peak = "peak " if self._by_order else ""
+            highest: Any = self.peak if self.orders else np.asarray(self)[()]
+            peak = "peak " if self.orders else ""
             return f"{text}: {peak}{units.figure(highest, self.unit, 5)}{loads}>"
         known = self.result._coordinates(self.name)
         over = ", ".join(f"{d}: {len(known[d])}" for d in dims)
