@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Generic, Literal, Self, TypeAlias, overload
 
 import numpy as np
@@ -188,8 +187,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
 
     @property
     def _by_order(self) -> bool:
-        """True if the array has the dimension ``order``."""
-        return self.order is None and "order" in self.result._dims(self.name)
+        """True if a number as key is an order: of every order, and of all together."""
+        return self.order in (None, ALL) and "order" in self.result._dims(self.name)
 
     @property
     def dims(self) -> tuple[str, ...]:
@@ -206,7 +205,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
     def coords(self) -> Mapping[str, Any]:
         """Dimension → its values, in the sequence of ``dims``."""
         known = self.result._coordinates(self.name)
-        return MappingProxyType({name: known[name] for name in self.dims})
+        coords: Mapping[str, Any] = read_only({name: known[name] for name in self.dims})
+        return coords
 
     @property
     def peak(self) -> Values:
@@ -382,7 +382,10 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
     @property
     def error_bound(self) -> float:
         """Upper bound on what the omitted orders add at any crank angle, in ``unit``."""
-        return self.result.error_bound[self.name.partition(".")[0]]
+        bounds, whole = self.result.error_bound, self.name.partition(".")[0]
+        if whole not in bounds:
+            raise self._absent("error_bound", "it has no bound of its own")
+        return bounds[whole]
 
     @property
     def status(self) -> str:
@@ -550,7 +553,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
     # --- an array -------------------------------------------------------------------------------
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Element]:  # noqa: ANN401
-        return np.array(self._read(VALUES), dtype=dtype, copy=copy)
+        array = np.array(self._read(VALUES), dtype=dtype, copy=copy)
+        return array if array.ndim or copy else read_only(array)
 
     def __array_ufunc__(
         self,
@@ -654,8 +658,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
         text = f"<Quantity {labels.printable(self.words)}{self._which}"
         loads = f", {self.loads_counted}" if self.loads_counted else ""
         if not dims:
-            highest: Any = self.peak if self.orders else np.asarray(self)[()]
-            peak = "peak " if self.orders else ""
+            peak = "peak " if "peak" in self.result._readings(self.name) else ""
+            highest: Any = self.peak if peak else np.asarray(self)[()]
             return f"{text}: {peak}{units.figure(highest, self.unit, 5)}{loads}>"
         known = self.result._coordinates(self.name)
         over = ", ".join(f"{d}: {len(known[d])}" for d in dims)

@@ -108,7 +108,7 @@ class DesignResponses(Labelled):
     @property
     def coords(self) -> Mapping[str, Any]:
         """Dimension → its values: the index of each design."""
-        return {"design": np.arange(len(self))}
+        return {"design": read_only(np.arange(len(self)))}
 
     @property
     def _own_coords(self) -> Mapping[str, Any]:
