@@ -118,7 +118,9 @@ class DesignResponses(Labelled):
 
     @property
     def _names(self) -> tuple[str, ...]:
-        without = () if self.with_mount_force else ("mount_force", "mount_force_rms")
+        without: tuple[str, ...] = (
+            () if self.with_mount_force else ("mount_force", "mount_force_rms")
+        )
         without += () if self.points else ("velocity", "velocity_rms")
         return tuple(name for name in DESIGNS if name not in without)
 

@@ -663,7 +663,7 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         z = self.request.reference_z
         return None if z is None else (*self.request.aside, z)
 
-    def sel(self, *, rpm: float) -> Self:
+    def sel(self, *, rpm: float) -> Self:  # type: ignore[override] # of its one dimension
         """Return the response at one of the speeds.
 
         Parameters
