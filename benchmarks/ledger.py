@@ -112,7 +112,7 @@ def calls() -> dict[str, Callable[[], object]]:
         "sweep, exact waveforms": lambda: (
             cp.sweep(v8, rpm=np.linspace(1000, 6000, 2), rod_ratio=ratios[:25])
             .waveform(theta, exact=True)
-            .force
+            .read("force")
         ),
         "harmonics": lambda: cp.slider_crank_harmonics(many, (2, 4, 6, 8)),
         "harmonics, pin offset": lambda: cp.slider_crank_harmonics(many[::20], range(1, 9), 0.01),
@@ -123,7 +123,7 @@ def calls() -> dict[str, Callable[[], object]]:
         ),
         "arrangements of a V-18": lambda: cp.search_arrangements(18).bank_angles_deg,
         "counterweights": lambda: cp.counterweights(v8, planes=(0.0, 0.4)),
-        "mounts, response": lambda: powertrain.response(3000, orders=orders).load,
+        "mounts, response": lambda: powertrain.response(3000, orders=orders).read("load"),
         "mounts, fifty designs": lambda: (
             powertrain.designs(map_speeds, designs, orders=orders).body_force
         ),

@@ -90,7 +90,7 @@ def case(count: int, viscous: float) -> Case:
 
 def ours(of: Case) -> Real:
     """Evaluate with crankpin."""
-    return of.powertrain.designs(RPM, of.vary, orders=ORDERS).body_force
+    return of.powertrain.designs(RPM, of.vary, orders=ORDERS).read("body_force")
 
 
 def solved(of: Case) -> Real:

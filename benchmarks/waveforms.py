@@ -68,7 +68,7 @@ def swept(of: Scene, rtol: float) -> cp.results.Sweep:
 def ours(of: Scene, rtol: float) -> Result:
     """Choose orders and sum them, into new memory."""
     w = swept(of, rtol).waveform(of.theta_deg, exact=False)
-    return w.force, w.moment
+    return w.read("force"), w.read("moment")
 
 
 def ours_into(of: Scene, rtol: float, out: list[Array]) -> Result:
@@ -81,7 +81,7 @@ def ours_exact(of: Scene) -> Result:
     """Kinematics, into new memory."""
     s = cp.sweep(of.engine, rpm=of.rpm, rod_ratio=of.ratios, torque=False, orders=[1, 2, 4, 6])
     w = s.waveform(of.theta_deg, exact=True)
-    return w.force, w.moment
+    return w.read("force"), w.read("moment")
 
 
 def accuracy(of: Scene) -> Callable[[Result], float]:

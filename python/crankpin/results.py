@@ -37,7 +37,6 @@ if TYPE_CHECKING:
     )
     from crankpin.analysis.mounts.robustness import MountRobustness
     from crankpin.analysis.mounts.static_state import StaticState
-    from crankpin.analysis.mounts.vectors import VectorQuantity
     from crankpin.analysis.operating_map import OperatingMap
     from crankpin.analysis.prepared_trace import PreparedTrace
     from crankpin.analysis.quantity import Quantity
@@ -97,7 +96,6 @@ __all__ = [
     "TorsionalExcitation",
     "TwoPlaneCorrection",
     "VanishingOrders",
-    "VectorQuantity",
     "VelocityFeedback",
     "Verdicts",
     "Waveform",
@@ -136,7 +134,6 @@ _HOMES = {
     ),
     "crankpin.analysis.mounts.robustness": ("MountRobustness",),
     "crankpin.analysis.mounts.static_state": ("StaticState",),
-    "crankpin.analysis.mounts.vectors": ("VectorQuantity",),
     "crankpin.analysis.operating_map": ("OperatingMap",),
     "crankpin.analysis.prepared_trace": ("PreparedTrace",),
     "crankpin.analysis.by_order": ("OrderBalance",),

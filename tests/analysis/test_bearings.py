@@ -260,7 +260,7 @@ def test_steps_of_a_degree_miss_less_than_a_thousandth_of_a_peak(
         cp.bearing_loads(fired, rpm, np.arange(0.0, 720.0, step)) for step in (1.0, 0.02)
     )
     for load in ("main", "crankpin", "wrist_pin", "side_thrust"):
-        missed = 1.0 - coarse.peak(load) / fine.peak(load)
+        missed = 1.0 - coarse.read(load, "peak") / fine.read(load, "peak")
         assert np.all((missed >= 0.0) & (missed < 1e-3))
 
 
@@ -389,12 +389,12 @@ def test_peaks_and_means_are_over_the_crank_angles() -> None:
     yoke = cp.Engine.inline(cylinder, throws_deg=[0], spacing=0.1)
     loads = cp.bearing_loads(yoke, RPM)
     force = 0.5 * 0.05 * OMEGA**2
-    np.testing.assert_allclose(loads.peak("crankpin"), force, rtol=1e-9)
+    np.testing.assert_allclose(loads.crankpin.peak, force, rtol=1e-9)
     # Trapezoids of one degree leave (π/180)²/12 of it, and the rod 1e-10.
-    np.testing.assert_allclose(loads.mean("crankpin"), 2.0 / np.pi * force, rtol=3e-5)
+    np.testing.assert_allclose(loads.crankpin.mean_magnitude, 2.0 / np.pi * force, rtol=3e-5)
     one = cp.bearing_loads(yoke, RPM, [60.0])
-    np.testing.assert_allclose(one.mean("main"), force / 4.0, rtol=1e-9)
-    assert cp.bearing_loads(yoke, RPM, []).mean("main").tolist() == [0.0, 0.0]
+    np.testing.assert_allclose(one.main.mean_magnitude, force / 4.0, rtol=1e-9)
+    assert cp.bearing_loads(yoke, RPM, []).main.mean_magnitude.tolist() == [0.0, 0.0]
     assert str(cp.bearing_loads(yoke, RPM, []).table)
 
 
@@ -405,7 +405,7 @@ def test_counterweights_relieve_bearings_and_leave_pins() -> None:
     np.testing.assert_array_equal(before.crankpin, after.crankpin)
     # Half the reciprocating and all of the rotating mass is gone from where two throws add up;
     # a bearing between opposite throws has their difference, which is the second order's alone.
-    relief = after.peak("main") / before.peak("main")
+    relief = after.main.peak / before.main.peak
     assert (relief[::2] < 0.3).all()
     np.testing.assert_allclose(relief[1::2], 1.0, rtol=1e-12)
     middle = i4.reference_z
@@ -430,7 +430,7 @@ def far_counterweight() -> object:
         (lambda: cp.bearing_loads("I4", RPM), "engine = 'I4': give a crankpin.Engine"),  # type: ignore[arg-type]
         (lambda: cp.bearing_loads(I4, -1.0), "rpm = -1.0: "),
         (lambda: cp.bearing_loads(I4, RPM, [np.nan]), "theta_deg = NaN: "),
-        (lambda: cp.bearing_loads(I4, RPM).read("moment"), "load = 'moment': "),
+        (lambda: cp.bearing_loads(I4, RPM).read("moment"), "quantity = 'moment': "),
         (lambda: cp.bearing_loads(I4, RPM).turned("side_thrust"), "load = 'side_thrust': "),
         (lambda: cp.bearing_loads(I4, RPM).turned(axes="bore"), "axes = 'bore': "),
         (lambda: cp.bearing_loads(I4, RPM).turned("main", "rod"), "axes = 'rod': "),
@@ -450,8 +450,8 @@ def test_results_are_records_over_named_dimensions() -> None:
     assert data.main.sel(main_bearing=2, axis="x").dims == ("theta_deg",)
     np.testing.assert_array_equal(data.side_thrust.sel(cylinder=3), loads.side_thrust[2])
     assert not loads.main.flags.writeable
-    assert loads.table["crankpin"].values == tuple(loads.peak("crankpin"))
-    assert loads.frames["mains"]["mean"].values == tuple(loads.mean("main"))
+    assert loads.table["crankpin"].values == tuple(loads.crankpin.peak)
+    assert loads.frames["mains"]["mean"].values == tuple(loads.main.mean_magnitude)
 
 
 @pytest.mark.parametrize("engine", [WEIGHTED, FIRED], ids=["inertia", "gas"])
@@ -464,15 +464,15 @@ def test_means_do_not_depend_on_the_order_of_angles(seed: int, engine: cp.Engine
     loads = cp.bearing_loads(engine, rpm, angles)
     ascending = cp.bearing_loads(engine, rpm, np.sort(angles))
     for load in ("crankpin", "wrist_pin", "main", "side_thrust", "rod_force", "gas_force"):
-        mean, peak = loads.mean(load), loads.peak(load)
+        mean, peak = loads.read(load, "mean_magnitude"), loads.read(load, "peak")
         # A dozen additions of rounding.
         assert np.all((mean >= 0.0) & (mean <= peak * (1.0 + 1e-14)))
-        np.testing.assert_allclose(mean, ascending.mean(load), rtol=1e-14)
+        np.testing.assert_allclose(mean, ascending.read(load, "mean_magnitude"), rtol=1e-14)
 
 
 def test_a_mean_over_angles_out_of_order_is_that_of_the_ascending() -> None:
     mixed, ascending = (
-        cp.bearing_loads(FIRED, 3000, angles).mean("main")
+        cp.bearing_loads(FIRED, 3000, angles).main.mean_magnitude
         for angles in ([0, 720, 360, 90], [0, 90, 360, 720])
     )
     np.testing.assert_array_equal(mixed, ascending)
@@ -507,10 +507,10 @@ def test_a_mean_does_not_depend_on_the_order_of_angles(seed: int) -> None:
     theta = np.append(theta, theta[: int(random.integers(0, 2))])
     loads = [cp.bearing_loads(engine, 3000, each) for each in (theta, random.permutation(theta))]
     for name in ("main", "crankpin"):
-        mean, other = (each.mean(name) for each in loads)
+        mean, other = (each.read(name, "mean_magnitude") for each in loads)
         # Sums of some thirty terms; the sequence of equal angles may differ.
         np.testing.assert_allclose(mean, other, rtol=1e-13)
-        largest = loads[0].magnitude(name).max(axis=1)
+        largest = loads[0].read(name, "magnitude").max(axis=1)
         assert (mean >= 0.0).all()
         assert (mean <= largest * (1.0 + 1e-13)).all()
 
@@ -582,17 +582,17 @@ def test_peaks_of_a_cycle_are_those_of_a_fine_grid(seed: int) -> None:
     grid = with_sides(np.arange(0.0, 720.0, 0.05), knots)
     coarse = cp.bearing_loads(engine, rpm, grid)
     for name in ("crankpin", "wrist_pin", "main", "side_thrust", "rod_force", "gas_force"):
-        for row, of_grid in enumerate(coarse.magnitude(name)):
+        for row, of_grid in enumerate(coarse.read(name, "magnitude")):
             theta, values, step = grid, of_grid, 0.05
             for _ in range(4):
                 near = theta[np.argsort(-values)[:20]]
                 closer = (near[:, None] + np.linspace(-step, step, 41)).ravel()
                 theta, step = with_sides(closer, knots), step / 20.0
-                values = cp.bearing_loads(engine, rpm, theta).magnitude(name)[row]
+                values = cp.bearing_loads(engine, rpm, theta).read(name, "magnitude")[row]
             # Steps of 3e-7 degrees beside tops 0.16° wide leave 3 (2e-7/0.08)²; sides of jumps are
             # 1e-9 degrees off where slopes are up to 30 times the load per degree.
-            assert loads.peak(name)[row] == pytest.approx(values.max(), rel=3e-8, abs=1e-6)
-            assert loads.peak(name)[row] >= values.max() * (1.0 - 1e-12) - 1e-6
+            assert loads.read(name, "peak")[row] == pytest.approx(values.max(), rel=3e-8, abs=1e-6)
+            assert loads.read(name, "peak")[row] >= values.max() * (1.0 - 1e-12) - 1e-6
     least, most = coarse.rod_force.min(axis=1), coarse.rod_force.max(axis=1)
     assert (loads.table["pulled"].values >= np.maximum(-least, 0.0) * (1.0 - 1e-12)).all()
     assert (loads.table["rod compressed"].values >= np.maximum(most, 0.0) * (1.0 - 1e-12)).all()
@@ -606,12 +606,12 @@ def test_the_peak_of_a_yoke_is_its_own_at_any_top_dead_centre() -> None:
         )
         loads = cp.bearing_loads(yoke, RPM)
         # Rounding of some ten operations.
-        np.testing.assert_allclose(loads.peak("wrist_pin"), force, rtol=1e-13)
-        np.testing.assert_allclose(loads.peak("main"), force / 2.0, rtol=1e-13)
+        np.testing.assert_allclose(loads.wrist_pin.peak, force, rtol=1e-13)
+        np.testing.assert_allclose(loads.main.peak, force / 2.0, rtol=1e-13)
         assert str(loads.table).splitlines()[0].endswith("largest loads of a cycle")
     given = cp.bearing_loads(yoke, RPM, np.arange(721.0))
     assert given != loads
-    np.testing.assert_allclose(given.peak("main"), given.magnitude("main").max(axis=1), rtol=0)
+    np.testing.assert_allclose(given.main.peak, given.main.magnitude.max(axis=1), rtol=0)
     assert str(given.table).splitlines()[0].endswith("largest loads at 721 crank angles")
 
 
@@ -647,12 +647,12 @@ def test_a_shared_crankpin_carries_all_of_its_rods(name: str) -> None:
     np.testing.assert_allclose(
         loads.whole_crankpin.sum(axis=0), loads.crankpin.sum(axis=0), rtol=1e-12, atol=1e-8
     )
-    peaks = loads.whole_crankpin_peak()
+    peaks = loads.whole_crankpin.peak
     fine = cp.bearing_loads(engine, 4000, np.arange(0.0, 720.0, 0.01))
     # Steps of 0.01° beside the peak of a curve, twice.
-    np.testing.assert_allclose(peaks, fine.whole_crankpin_peak(), rtol=1e-6)
+    np.testing.assert_allclose(peaks, fine.whole_crankpin.peak, rtol=1e-6)
     alone = [k for k, pin in enumerate(loads.crankpins) if len(pin) == 1]
-    of_rods = loads.peak("crankpin")[[loads.crankpins[k][0] - 1 for k in alone]]
+    of_rods = loads.crankpin.peak[[loads.crankpins[k][0] - 1 for k in alone]]
     np.testing.assert_allclose(peaks[alone], of_rods, rtol=1e-6)
     assert ("crankpins" in loads.frames) == (len(alone) < len(loads.crankpins))
 
@@ -682,15 +682,15 @@ def test_the_peak_of_a_shared_crankpin_is_that_of_a_fine_grid(seed: int) -> None
         ]
     )
     theta, step = with_sides(np.arange(0.0, 720.0, 0.02), knots), 0.02
-    largest = cp.bearing_loads(engine, rpm, theta).whole_crankpin_peak()
-    for pin, peak in enumerate(loads.whole_crankpin_peak()):
+    largest = cp.bearing_loads(engine, rpm, theta).whole_crankpin.peak
+    for pin, peak in enumerate(loads.whole_crankpin.peak):
         near, width = theta, step
         for _ in range(4):
             vectors = cp.bearing_loads(engine, rpm, near).whole_crankpin[pin]
             best = near[np.argsort(-np.hypot(*vectors.T))[:20]]
             near = with_sides((best[:, None] + np.linspace(-width, width, 41)).ravel(), knots)
             width /= 20.0
-        found = cp.bearing_loads(engine, rpm, near).whole_crankpin_peak()[pin]
+        found = cp.bearing_loads(engine, rpm, near).whole_crankpin.peak[pin]
         # As in the test of each rod's peaks.
         assert peak == pytest.approx(found, rel=3e-8)
         assert peak >= max(found, largest[pin]) * (1.0 - 1e-12)
@@ -698,7 +698,7 @@ def test_the_peak_of_a_shared_crankpin_is_that_of_a_fine_grid(seed: int) -> None
 
 def test_specific_loads_are_over_width_and_diameter() -> None:
     loads = cp.bearing_loads(I4, 6000)
-    expected = loads.peak("main") / (0.02 * 0.05)
+    expected = loads.main.peak / (0.02 * 0.05)
     np.testing.assert_allclose(loads.specific("main", width=0.02, diameter=0.05), expected)
     widths = [0.02, 0.02, 0.04, 0.02, 0.02]
     of_each = loads.specific("main", width=widths, diameter=0.05)

@@ -26,7 +26,7 @@ from support.several_cranks import random_engine
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from crankpin.analysis.findings import Finding
+    from crankpin.analysis.explain import Finding
 
 RPM = 3000.0
 OMEGA_SQUARED = (2 * np.pi * RPM / 60) ** 2

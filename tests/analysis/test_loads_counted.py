@@ -91,7 +91,7 @@ NOTHING_OF_GAS = {
     "MountModes", "MountRobustness", "RollAxes", "StaticState",
     "AdaptiveLaw", "VelocityFeedback",  # of any load
     "Arrangement", "BalancerOption", "Choice", "Design",  # items of results that say it
-    "OrderResponse", "VectorQuantity", "WorstForce",  # parts of a response, which says it
+    "OrderResponse", "WorstForce",  # parts of a response, which says it
     "Card", "ClosedForm",  # force and moment
     "Exercise", "Explanation",  # sentences, which say it themselves
 }  # fmt: skip

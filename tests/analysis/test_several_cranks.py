@@ -701,7 +701,7 @@ def test_each_crank_is_loaded_as_that_of_an_engine_of_its_own(seed: int) -> None
         for name, which in (("main", mains), ("crankpin", own), ("side_thrust", own)):
             # Peaks are found to 1e-9 of themselves.
             np.testing.assert_allclose(
-                loads.peak(name)[which], whole.peak(name), rtol=1e-8, atol=allowed
+                loads.read(name, "peak")[which], whole.read(name, "peak"), rtol=1e-8, atol=allowed
             )
         for cut in ("shear", "bending"):
             at = np.searchsorted(loads.z, expected.z)

@@ -58,7 +58,7 @@ def test_bearings_are_those_of_the_library(capsys: CAPTURE) -> None:
         framed = f"{typed} --frame {frame} --csv"
         head, *rows = csv.reader(io.StringIO(printed(capsys, framed)))
         column = head.index("largest N" if load == "main" else "crankpin N")
-        assert [float(row[column]) for row in rows] == loads.peak(load).tolist()
+        assert [float(row[column]) for row in rows] == loads.read(load, "peak").tolist()
 
 
 def test_bearings_count_gas_where_a_cycle_is_given(capsys: CAPTURE, tmp_path: Path) -> None:

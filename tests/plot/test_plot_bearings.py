@@ -83,7 +83,7 @@ def test_polar_diagrams_go_no_further_than_the_loads_and_the_origin() -> None:
 
 def test_curves_are_magnitudes_of_vectors_and_values_of_others() -> None:
     ax = LOADED.plot(kind="curves", load="wrist_pin")
-    np.testing.assert_array_equal(heights(ax), LOADED.magnitude("wrist_pin"))
+    np.testing.assert_array_equal(heights(ax), LOADED.wrist_pin.magnitude)
     ax = LOADED.plot(kind="curves", load="rod_force", numbers=[4])
     np.testing.assert_array_equal(heights(ax)[0], LOADED.rod_force[3])
     assert (heights(ax) < 0.0).any()

@@ -97,7 +97,9 @@ def arrays(value: Any) -> Iterator[tuple[str, np.ndarray]]:
         listed: Iterable[Any] = figure.values() if isinstance(figure, Mapping) else [figure]
         listed = figure if isinstance(figure, tuple) else listed
         for each in listed:
-            if isinstance(each, np.ndarray):
+            if isinstance(each, cp.results.Quantity) and each.order != "all":
+                yield name, np.asarray(each)
+            elif isinstance(each, np.ndarray):
                 yield name, each
 
 

@@ -220,7 +220,7 @@ OBJECTS = Made(
         "MountResponse": lambda: MOUNTED.response([900.0, 3000.0], orders=[1, 2]),
         "MountResponse at one speed": lambda: MOUNTED.response(3000.0, orders=[2, 4]),
         "OrderResponse": lambda: MOUNTED.response(3000.0)[2],
-        "VectorQuantity": lambda: MOUNTED.response(3000.0).body_force,
+        "Quantity of a response": lambda: MOUNTED.response(3000.0).body_force,
         "PointMotion": lambda: MOUNTED.response(3000.0).at((0.0, 0.3, 0.0)),
         "WorstForce": lambda: MOUNTED.response(3000.0).worst(),
         "Subframe": lambda: RAFT,

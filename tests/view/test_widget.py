@@ -279,7 +279,7 @@ def test_mounts_move_the_library_s_numbers() -> None:
     assert widget.powertrain == moved
     assert frequencies(widget) == moved.modes().frequency.tolist()
     motion = np.array(widget.core["parts"][0]["motion"]).view(complex)[:, 0]
-    np.testing.assert_array_equal(motion, moved.response(900, orders=[2]).motion[0])
+    np.testing.assert_array_equal(motion, moved.response(900, orders=[2]).motion[0, :])
     widget.order = "all"
     assert [part["order"] for part in widget.core["parts"]] == list(moved.response(900).orders)
     for name, value, message in [

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -27,6 +27,8 @@ class Kind(NamedTuple):
     """Dimensions that it has besides those of a result, such as ``cylinder``."""
     real: bool = False
     """True for what is no phasor, by order too: a power, a ratio."""
+    without: tuple[str, ...] = ()
+    """Dimensions of a result on which it does not depend."""
 
     @property
     def planar(self) -> bool:
@@ -114,4 +116,78 @@ LOADS = {
 COMPONENTS_OF_LOADS = ("F_x", "F_y", "F_z", "M_x", "M_y", "M_z")
 """Components of a load, and of the motion that answers to it."""
 
-_REGISTRY = QUANTITIES | LOADS
+INSIDE = LOADS | {
+    "whole_crankpin": Kind("whole_crankpin", "whole crankpin", *_ACROSS, "N", "kg·m",
+                           ("shared_pin",)),
+}  # fmt: skip
+"""The same, and the sum of the rods' forces on each crankpin."""
+
+_XYZ = ("|F_x|", "|F_y|", "|F_z|"), ("along x", "along y", "along z")
+_LOAD = ("|L|",), ("of a component",)
+MOUNTED = {
+    each.name: each
+    for each in (
+        Kind("body_force", "force on the body", *_XYZ, "N"),
+        Kind("mount_force", "force of a mount", *_XYZ, "N", dims=("mount",)),
+        Kind("ground_force", "force on the ground", *_XYZ, "N"),
+        Kind("load", "load of the engine", *_LOAD, "N, N·m", dims=("component",)),
+        Kind("support_load", "load on the body", *_LOAD, "N, N·m", dims=("component",)),
+        Kind("motion", "motion of the CG", *_LOAD, "m, rad", dims=("component",)),
+        Kind("subframe_motion", "motion of the subframe's CG", *_LOAD, "m, rad",
+             dims=("component",)),
+        Kind("transmissibility", "transmissibility", *_LOAD, "", dims=("component",), real=True),
+        Kind("transmissibility_db", "transmissibility", *_LOAD, "dB", dims=("component",),
+             real=True),
+        Kind("power_in", "mean power put in", ("P",), ("of an order",), "W", real=True),
+        Kind("power_lost", "mean power dissipated", ("P",), ("of an order",), "W",
+             dims=("mount",), real=True),
+        Kind("power_passed", "mean power passed on", ("P",), ("of an order",), "W", real=True),
+        Kind("displacement", "displacement", *_XYZ, "m"),
+        Kind("velocity", "velocity", *_XYZ, "m/s"),
+        Kind("acceleration", "acceleration", *_XYZ, "m/s²"),
+    )
+}  # fmt: skip
+"""Name of a quantity of a powertrain on its mounts → its entry."""
+
+_BY_CYLINDER: dict[str, Any] = {"dims": ("cylinder",), "real": True, "without": ("rpm", "order")}
+EXCITATIONS = {
+    each.name: each
+    for each in (
+        QUANTITIES["crank_torque"]._replace(dims=("cylinder",)),
+        Kind("mean_torque", "mean torque", ("T",), ("on the crank",), "N·m", **_BY_CYLINDER),
+        Kind("reciprocating_inertia", "mean moment of inertia of piston and rod", ("J",),
+             ("about the crank",), "kg·m²", **_BY_CYLINDER),
+        Kind("angular_frequency", "angular frequency", ("ω",), ("of an order",), "rad/s",
+             real=True),
+        Kind("tangential_pressure", "tangential pressure", ("|p|",), ("on the crank",), "Pa",
+             dims=("cylinder",), without=("rpm",)),
+    )
+}  # fmt: skip
+"""Name of a quantity of a torsional excitation → its entry."""
+
+POINTS = {name: kind._replace(components=("largest",), real=True) for name, kind in LOADS.items()}
+POINTS |= {
+    "irregularity": Kind("irregularity", "irregularity", ("δ",), ("of the speed",), "", real=True),
+    "swing_deg": Kind("swing_deg", "swing", ("swing",), ("of the crank",), "°", real=True),
+}
+"""Name of a quantity of an operating map → its entry."""
+
+_LARGEST = {
+    name: MOUNTED[name]._replace(real=True, words=f"largest {MOUNTED[name].words}")
+    for name in ("body_force", "mount_force", "velocity")
+}
+_LARGEST["velocity"] = _LARGEST["velocity"]._replace(dims=("point",))
+DESIGNS = {
+    "frequency": Kind("frequency", "natural frequency", ("f",), ("of a mode",), "Hz", "",
+                      ("mode",), real=True, without=("order",)),
+    **_LARGEST,
+    **{
+        f"{name}_rms": kind._replace(
+            name=f"{name}_rms", words=f"{kind.words}, rms of all orders", without=("order",)
+        )
+        for name, kind in _LARGEST.items()
+    },
+}  # fmt: skip
+"""Name of a quantity of many designs of mounts → its entry."""
+
+_REGISTRY = DESIGNS | POINTS | EXCITATIONS | QUANTITIES | INSIDE | MOUNTED

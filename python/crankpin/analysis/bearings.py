@@ -4,30 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, overload
 
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import inputs, labels, optional
+from crankpin._support import inputs, labels
 from crankpin._support.drawing import draw
-from crankpin._support.frames import Frames, Tabled
-from crankpin._support.parameters import documented
-from crankpin._support.quantities import LOADS
+from crankpin._support.quantities import INSIDE, LOADS
 from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import warn
 from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.geometry import direction
+from crankpin.analysis.labelled import Labelled
+from crankpin.analysis.quantity import Quantity
 from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import crankpins
 
 if TYPE_CHECKING:
-    import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
     from numpy.typing import ArrayLike, NDArray
 
+    from crankpin._support.frames import Frames
     from crankpin.model.engine import Engine
     from crankpin.model.shafts import Shaft
 
@@ -91,7 +91,7 @@ def bearing_loads(engine: Engine, rpm: float, theta_deg: ArrayLike | None = None
 
     The middle main bearing of an inline four carries two throws that point the same way:
 
-    >>> (loads.peak("main") / 1e3).round(1)
+    >>> (loads.main.peak / 1e3).round(1)
     array([5. , 2.4, 9.9, 2.4, 5. ])
     """
     loads = BearingLoads(engine, rpm, inputs.crank_angles(theta_deg), theta_deg is None)
@@ -99,7 +99,63 @@ def bearing_loads(engine: Engine, rpm: float, theta_deg: ArrayLike | None = None
     return loads
 
 
-class BearingLoads(Tabled):
+class InsideLoads:
+    """Mixin of what has loads inside an engine: over crank angle, or the largest of a point.
+
+    Shapes are those over crank angle; of an operating map they are (n_rpm, n_load, n).
+    """
+
+    def _quantity(self, name: str) -> Quantity[np.float64, NDArray[np.float64]]:
+        raise NotImplementedError
+
+    @property
+    def crankpin(self) -> Quantity[np.float64, NDArray[np.float64]]:
+        """Force of each rod on its crankpin along x and y, N: (n_cylinders, n_theta, 2).
+
+        Rods that share a crankpin have a bearing each.
+        """
+        return self._quantity("crankpin")
+
+    @property
+    def wrist_pin(self) -> Quantity[np.float64, NDArray[np.float64]]:
+        """Force of each rod on its wrist pin along x and y, N: (n_cylinders, n_theta, 2)."""
+        return self._quantity("wrist_pin")
+
+    @property
+    def main(self) -> Quantity[np.float64, NDArray[np.float64]]:
+        """Force of the crank on each main bearing along x and y, N: (n_mains, n_theta, 2).
+
+        Where they are is in ``main_z`` and ``main_crank``.
+        """
+        return self._quantity("main")
+
+    @property
+    def side_thrust(self) -> Quantity[np.float64, NDArray[np.float64]]:
+        """Force of each piston on its cylinder wall, N: (n_cylinders, n_theta).
+
+        Positive towards the side from which the crankpin swings after top dead centre, to which
+        gas pressure pushes the piston as it expands: F·tan φ, with the rod's moment of inertia.
+        """
+        return self._quantity("side_thrust")
+
+    @property
+    def rod_force(self) -> Quantity[np.float64, NDArray[np.float64]]:
+        """Force along each rod at its wrist pin, compression positive, N.
+
+        Of shape (n_cylinders, n_theta).
+        """
+        return self._quantity("rod_force")
+
+    @property
+    def gas_force(self) -> Quantity[np.float64, NDArray[np.float64]]:
+        """Gas force on each piston towards the crank, N: (n_cylinders, n_theta).
+
+        The same force acts on the cylinder head away from the crank.
+        """
+        return self._quantity("gas_force")
+
+
+class BearingLoads(InsideLoads, Labelled):
     """Loads inside an engine at given crank angles.
 
     Vectors are along x and y, fixed in the engine; :meth:`turned` gives them in the axes of the
@@ -125,14 +181,16 @@ class BearingLoads(Tabled):
     at_any_angle: bool = False
     """Whether peaks are those of the whole cycle, at any angle; else those at the crank angles."""
 
+    _along: ClassVar[tuple[str, ...]] = ("theta_deg",)
+
     def __post_init__(self) -> None:
         engine, rpm = engine_core(self.engine), inputs.number("rpm", self.rpm)
         theta = inputs.copied(inputs.vector("theta_deg", self.theta_deg))
         core = _core.BearingLoadsModel(engine, rpm)
-        values = dict(zip(LOADS, core.loads(theta), strict=True))
+        by_name = dict(zip(LOADS, core.loads(theta), strict=True))
         at_any_angle = inputs.flag("at_any_angle", self.at_any_angle)
         self.__dict__.update(rpm=rpm, theta_deg=theta, at_any_angle=at_any_angle)
-        self.__dict__.update(_model=core, _values=values)
+        self.__dict__.update(_model=core, _by_name=by_name)
         super().__post_init__()
 
     @property
@@ -144,50 +202,45 @@ class BearingLoads(Tabled):
         """Gas pressure that counts, in words: as :attr:`Engine.loads_counted`."""
         return self.engine.loads_counted
 
-    def read(self, load: str) -> NDArray[np.float64]:
-        """Return the values of a load by its name, read-only.
+    @property
+    def coords(self) -> Mapping[str, Any]:
+        """Dimension → its values: the crank angles."""
+        return {"theta_deg": self.theta_deg}
 
-        Parameters
-        ----------
-        load : str
-            ``"crankpin"``, ``"wrist_pin"``, ``"main"``, ``"side_thrust"``, ``"rod_force"`` or
-            ``"gas_force"``.
+    @property
+    def _own_coords(self) -> Mapping[str, Any]:
+        """Numbers of cylinders and main bearings, from 1; the cylinders on each crankpin."""
+        return {
+            "cylinder": np.arange(1, len(self.engine) + 1),
+            "main_bearing": np.arange(1, len(self.main_z) + 1),
+            "shared_pin": tuple("+".join(map(str, numbers)) for numbers in self.crankpins),
+        }
 
-        Returns
-        -------
-        ndarray of float, shape (n, n_theta) or (n, n_theta, 2)
-            Values, N.
+    @property
+    def _names(self) -> tuple[str, ...]:
+        return tuple(INSIDE)
 
-        Raises
-        ------
-        InputError
-            If there is no such load.
-        """
-        name = inputs.one_of("load", load, LOADS)
-        return self.__dict__["_values"][name]  # type: ignore[no-any-return]
+    @property
+    def _attributes(self) -> Mapping[str, Any]:
+        """Attributes of a dataset: name of the engine, and speed."""
+        return {"engine": self.engine.name, "rpm": self.rpm}
+
+    def _quantity(self, name: str) -> Quantity[np.float64, NDArray[np.float64]]:
+        return Quantity(self, name)
+
+    def _values(self, quantity: str) -> NDArray[np.float64]:
+        by_name: dict[str, NDArray[np.float64]] = self.__dict__["_by_name"]
+        if quantity == "whole_crankpin":
+            rods = by_name["crankpin"]
+            return np.array([sum(rods[k - 1] for k in pin) for pin in self.crankpins])
+        return by_name[quantity]
+
+    def _compute(self, quantity: str, what: str) -> NDArray[Any]:
+        if what == "peak" and self.at_any_angle:
+            return np.asarray(np.abs(self._extremes[quantity]).max(axis=1))
+        return super()._compute(quantity, what)
 
     # --- loads ----------------------------------------------------------------------------------
-
-    @property
-    def crankpin(self) -> NDArray[np.float64]:
-        """Force of each rod on its crankpin along x and y, N: (n_cylinders, n_theta, 2).
-
-        Rods that share a crankpin have a bearing each.
-        """
-        return self.read("crankpin")
-
-    @property
-    def wrist_pin(self) -> NDArray[np.float64]:
-        """Force of each rod on its wrist pin along x and y, N: (n_cylinders, n_theta, 2)."""
-        return self.read("wrist_pin")
-
-    @property
-    def main(self) -> NDArray[np.float64]:
-        """Force of the crank on each main bearing along x and y, N: (n_mains, n_theta, 2).
-
-        Where they are is in ``main_z`` and ``main_crank``.
-        """
-        return self.read("main")
 
     @property
     def main_z(self) -> NDArray[np.float64]:
@@ -199,60 +252,19 @@ class BearingLoads(Tabled):
         """Index of the crank of each main bearing, 0 for the main one: (n_mains,)."""
         return read_only(np.array([crank for crank, _ in self._core.mains()], dtype=np.intp))
 
-    @property
-    def side_thrust(self) -> NDArray[np.float64]:
-        """Force of each piston on its cylinder wall, N: (n_cylinders, n_theta).
-
-        Positive towards the side from which the crankpin swings after top dead centre, to which
-        gas pressure pushes the piston as it expands: F·tan φ, with the rod's moment of inertia.
-        """
-        return self.read("side_thrust")
-
-    @property
-    def rod_force(self) -> NDArray[np.float64]:
-        """Force along each rod at its wrist pin, compression positive, N.
-
-        Of shape (n_cylinders, n_theta).
-        """
-        return self.read("rod_force")
-
-    @property
-    def gas_force(self) -> NDArray[np.float64]:
-        """Gas force on each piston towards the crank, N: (n_cylinders, n_theta).
-
-        The same force acts on the cylinder head away from the crank.
-        """
-        return self.read("gas_force")
-
     @cached_property
     def crankpins(self) -> tuple[tuple[int, ...], ...]:
         """Numbers of the cylinders whose rods share each crankpin, from front to flywheel."""
         return tuple(each.cylinders for each in crankpins(self.engine))
 
-    @cached_property
-    def whole_crankpin(self) -> NDArray[np.float64]:
+    @property
+    def whole_crankpin(self) -> Quantity[np.float64, NDArray[np.float64]]:
         """Force of all rods together on each crankpin along x and y, N: (n_crankpins, n_theta, 2).
 
         What the pin itself carries, in the order of ``crankpins``; each rod's bearing carries its
         own part, ``crankpin``.
         """
-        rods = self.crankpin
-        return read_only(np.array([sum(rods[k - 1] for k in pin) for pin in self.crankpins]))
-
-    def whole_crankpin_peak(self) -> NDArray[np.float64]:
-        """Return the largest magnitude of the force on each crankpin as a whole, N.
-
-        Of the whole cycle, at any angle; where crank angles were given, at these.
-
-        Returns
-        -------
-        ndarray of float, shape (n_crankpins,)
-            Largest magnitudes, N.
-        """
-        if self.at_any_angle:
-            return self._extremes["whole_crankpin"][:, 1]
-        sizes = np.hypot(self.whole_crankpin[..., 0], self.whole_crankpin[..., 1])
-        return np.asarray(sizes.max(axis=1, initial=0.0))
+        return self._quantity("whole_crankpin")
 
     def specific(self, load: str, *, width: ArrayLike, diameter: ArrayLike) -> NDArray[np.float64]:
         """Return the largest load of each bearing over its projected area, Pa: (n,).
@@ -282,7 +294,7 @@ class BearingLoads(Tabled):
         array([4.2, 2. , 8.3, 2. , 4.2])
         """
         name = inputs.one_of("load", load, _VECTORS)
-        peaks = self.peak(name)
+        peaks = self._quantity(name).peak
         area = np.ones(len(peaks))
         for argument, given in (("width", width), ("diameter", diameter)):
             sizes = np.array(inputs.per_item(argument, given, len(peaks)))
@@ -375,53 +387,12 @@ class BearingLoads(Tabled):
             )
         return self._core.turned(name, chosen, self.theta_deg)
 
-    @documented(read)
-    def magnitude(self, load: str) -> NDArray[np.float64]:
-        """Return the magnitude of a load, N: (n, n_theta).
-
-        Returns
-        -------
-        ndarray of float, shape (n, n_theta)
-            Magnitudes, N.
-
-        Raises
-        ------
-        InputError
-            If there is no such load.
-        """
-        values = self.read(load)
-        sizes = np.hypot(values[..., 0], values[..., 1]) if load in _VECTORS else np.abs(values)
-        return np.asarray(sizes)
-
-    @documented(read)
-    def peak(self, load: str) -> NDArray[np.float64]:
-        """Return the largest magnitude of a load, N: (n,).
-
-        Of the whole cycle, at any angle; where crank angles were given, at these. Between two of
-        them it may be larger, by up to an eighth of the square of their distance in radians times
-        the second derivative there: at steps of 1°, of an engine fired by :meth:`Cycle.example`, by
-        less than 1e-3 of it.
-
-        Returns
-        -------
-        ndarray of float, shape (n,)
-            Largest magnitudes, N.
-
-        Raises
-        ------
-        InputError
-            If there is no such load.
-        """
-        low, high = self._range(load)
-        return np.maximum(np.abs(low), np.abs(high))
-
     def _range(self, load: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return the least and largest value of a load, of vectors the magnitude."""
-        name = inputs.one_of("load", load, LOADS)
+        """Return the least and largest value of a load that is no vector."""
         if self.at_any_angle:
-            low, high = self._extremes[name].T
+            low, high = self._extremes[load].T
             return low, high
-        values = self.magnitude(name) if name in _VECTORS else self.read(name)
+        values = self.read(load)
         if not len(self.theta_deg):
             return np.zeros(len(values)), np.zeros(len(values))
         return values.min(axis=-1), values.max(axis=-1)
@@ -429,30 +400,7 @@ class BearingLoads(Tabled):
     @cached_property
     def _extremes(self) -> dict[str, NDArray[np.float64]]:
         extremes = self._core.extremes(180 * self.engine.strokes)
-        return dict(zip([*LOADS, "whole_crankpin"], extremes, strict=True))
-
-    @documented(read)
-    def mean(self, load: str) -> NDArray[np.float64]:
-        """Return the mean magnitude of a load over the crank angles, N: (n,).
-
-        Each angle counts for the distance between its neighbours (trapezoidal rule), in whichever
-        order angles are given.
-
-        Returns
-        -------
-        ndarray of float, shape (n,)
-            Mean magnitudes, N.
-
-        Raises
-        ------
-        InputError
-            If there is no such load.
-        """
-        order = np.argsort(self.theta_deg, kind="stable")
-        values, theta = self.magnitude(load)[:, order], self.theta_deg[order]
-        if len(theta) < 2 or theta[0] == theta[-1]:
-            return values.mean(axis=-1) if len(theta) else np.zeros(len(values))
-        return np.asarray(np.trapezoid(values, theta, axis=-1) / (theta[-1] - theta[0]))
+        return dict(zip(INSIDE, extremes, strict=True))
 
     @cached_property
     def shares(self) -> NDArray[np.float64]:
@@ -562,21 +510,6 @@ class BearingLoads(Tabled):
 
     # --- tables and pictures ---------------------------------------------------------------------
 
-    def _dataset(self) -> xr.Dataset:
-        arrays: dict[str, Any] = {}
-        for name, kind in LOADS.items():
-            of = "main_bearing" if name == "main" else "cylinder"
-            dims = (of, "theta_deg", *(("axis",) if kind.planar else ()))
-            arrays[name] = (dims, self.read(name), {"units": kind.xarray_unit})
-        coords: Mapping[str, Any] = {
-            "main_bearing": ("main_bearing", np.arange(1, len(self.main) + 1)),
-            "cylinder": ("cylinder", np.arange(1, len(self.crankpin) + 1)),
-            **labels.coordinates({"theta_deg": self.theta_deg}),
-            "axis": ("axis", ["x", "y"]),
-        }
-        attributes = {"engine": self.engine.name, "rpm": self.rpm}
-        return optional.dataset(arrays, coords, attributes | labels.attributes(self.loads_counted))
-
     @overload
     def plot(
         self,
@@ -675,10 +608,10 @@ class BearingLoads(Tabled):
         least, most = self._range("rod_force")
         in_tension = [sum(to - begin for begin, to in each) for each in self.tension_deg]
         columns = {
-            "crankpin": self.peak("crankpin"),
-            "mean": self.mean("crankpin"),
-            "wrist pin": self.peak("wrist_pin"),
-            "side thrust": self.peak("side_thrust"),
+            "crankpin": self.crankpin.peak,
+            "mean": self.crankpin.mean_magnitude,
+            "wrist pin": self.wrist_pin.peak,
+            "side thrust": self.side_thrust.peak,
             "rod compressed": np.maximum(most, 0.0),
             "pulled": np.maximum(-least, 0.0),
         }
@@ -708,13 +641,10 @@ class BearingLoads(Tabled):
         return any(len(numbers) > 1 for numbers in self.crankpins)
 
     def _of_crankpins(self) -> Table:
-        shared = ["+".join(map(str, numbers)) for numbers in self.crankpins]
+        shared = self._own_coords["shared_pin"]
         return Table(
             "Crankpins as a whole, with the rods of all cylinders on them",
-            (
-                Column("cylinders", tuple(shared)),
-                Column("largest", self.whole_crankpin_peak(), "N"),
-            ),
+            (Column("cylinders", shared), Column("largest", self.whole_crankpin.peak, "N")),
             loads=self.loads_counted,
         )
 
@@ -733,7 +663,7 @@ class BearingLoads(Tabled):
         )
 
     def _of_mains(self) -> Table:
-        loads = {"largest": self.peak("main"), "mean": self.mean("main")}
+        loads = {"largest": self.main.peak, "mean": self.main.mean_magnitude}
         cranks = Column("crank", self.main_crank)
         return Table(
             "Main bearings, which share the loads between them by the lever rule",

@@ -242,14 +242,15 @@ class ByOrder(Keyed, Shaking["np.complex128", "NDArray[np.float64]", Value], Gen
         if coords:
             columns = export.points(coords, len(keys))
             columns += [
-                Column(ALL if key == ALL else f"order {key}", quantity[key].peak) for key in keys
+                Column(ALL if key == ALL else f"order {key}", changed(quantity, order=key).peak)
+                for key in keys
             ]
         elif self._has_means and not quantity.kind.planar:
             title, columns = words, self._columns_of_parts(quantity, keys)
         else:
             columns = [Column("order", keys)]
             columns += [
-                Column(head, tuple(_figure(quantity[key], what) for key in keys))
+                Column(head, tuple(_figure(quantity, key, what) for key in keys))
                 for head, what in _columns_of(quantity).items()
             ]
         row_units = (unit,) * len(columns[0]) if columns and title != words else ()
@@ -263,9 +264,11 @@ class ByOrder(Keyed, Shaking["np.complex128", "NDArray[np.float64]", Value], Gen
         parts = [quantity, *map(quantity.part, quantity.parts)]
         least = self._least_shown(np.asarray(quantity.peak))
         for part in parts:
-            peaks = [_figure(part[key], "peak") for key in keys]
+            peaks = [_figure(part, key, "peak") for key in keys]
             phases = [
-                None if key == ALL or not peak else float(np.angle(part[key].phasor, deg=True))
+                None
+                if key == ALL or not peak
+                else float(np.angle(changed(part, order=key).phasor, deg=True))
                 for key, peak in zip(keys, peaks, strict=True)
             ]
             name = "" if part is quantity else part.name.partition(".")[-1]
@@ -289,12 +292,12 @@ def _columns_of(quantity: Quantity) -> dict[str, str]:
     return {head: f"peak_xy.{k}" for k, head in enumerate(kind.symbols)} | parts
 
 
-def _figure(quantity: Quantity, what: str) -> float | None:
+def _figure(quantity: Quantity, order: Order | Literal["all"], what: str) -> float | None:
     """Return a figure of one order of a balance; None where all together have none."""
     name, _, axis = what.partition(".")
-    if quantity.order == ALL and not name.startswith("peak"):
+    if order == ALL and not name.startswith("peak"):
         return None
-    values = np.abs(getattr(quantity, name))
+    values = np.abs(getattr(changed(quantity, order=order), name))
     return float(values[int(axis)] if axis else values)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 import sys
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from crankpin import _core
 from crankpin._support import inputs, labels, units
@@ -13,10 +13,10 @@ from crankpin._support.frames import Tabled
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import mean_piston_speed
-from crankpin.analysis.findings import Finding
 from crankpin.analysis.request import engine_core
 
 if TYPE_CHECKING:
+    from crankpin._support.inputs import Order
     from crankpin.model.engine import Engine
 
 UNITS = ("m", "mm", *(
@@ -34,6 +34,27 @@ def explain(engine: Engine, rpm: float | None = None) -> Explanation:
     if speed is not None:
         inputs.warn_of_units(mean_piston_speed(engine, speed))
     return explanation
+
+
+class Finding(NamedTuple):
+    """A fact about an engine, before it is put into words."""
+
+    kind: str
+    """``"hardware"``, ``"shakes"``, ``"remedy"``, ``"bob weights"``, ``"cancels"``, ``"rest"``,
+    ``"inertia torque"``, ``"gas torque"``, ``"gas orders"``, ``"firing"``, ``"load"`` or
+    ``"articulated"``."""
+    quantity: str = ""
+    """``"force"``, ``"moment"``, or empty."""
+    orders: tuple[Order, ...] = ()
+    """Orders that it is about."""
+    values: tuple[float, ...] = ()
+    """Figures: N, N·m and degrees; without a speed forces and moments are over ω²."""
+    reason: str = ""
+    """Why it is so, or what does it."""
+    groups: tuple[tuple[int, ...], ...] = ()
+    """Numbers of the cylinders that cancel each other, or share a crankpin."""
+    proved: bool = False
+    """True if its zeros are proved, as by :meth:`Engine.vanishing_orders`."""
 
 
 class Explanation(Tabled):

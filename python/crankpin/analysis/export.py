@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 SMALLER = "sweep one axis in parts, or use to_dask"
 """Hint for results too large for memory."""
+AXES = ("axis", "component")
+"""Dimensions of the components of a vector or a load, the last ones."""
 VALUES = "values"
 """Name of the array itself: phasors of results by order, else values."""
 COMPLEX = (VALUES, "forward", "backward")
@@ -50,7 +52,7 @@ def reduced(dims: tuple[str, ...], what: str) -> tuple[str, ...]:
 def readings(kind: Kind, dims: tuple[str, ...]) -> tuple[str, ...]:
     """Return the names of the arrays of a quantity: of values over crank angle, or phasors."""
     if "theta_deg" in dims:
-        return (VALUES, "magnitude", "peak", *(("peak_xy",) if kind.axes else ()))
+        return (VALUES, "magnitude", "mean_magnitude", "peak", *(("peak_xy",) if kind.axes else ()))
     if "order" not in dims or kind.real:
         return (VALUES,)
     by_order = ("peak", "peak_xyz", "rms", "rms_xyz") if kind.axes else ("peak",)
@@ -140,7 +142,7 @@ def variable(quantity: str, what: str = VALUES) -> str:
 def union(quantities: Sequence[Quantity]) -> dict[str, Any]:
     """Return the coordinates of some quantities: those of all first, axes last."""
     known = {name: values for each in quantities for name, values in each.coords.items()}
-    return {name: known[name] for name in sorted(known, key=lambda name: name == "axis")}
+    return {name: known[name] for name in sorted(known, key=AXES.count)}
 
 
 def fitting(coords: Mapping[str, Any], *arrays: tuple[Iterable[str], int]) -> None:
@@ -176,15 +178,15 @@ def column(values: object) -> NDArray[Any]:
 def components(quantity: Quantity) -> Mapping[str, Mapping[str, NDArray[np.float64]]]:
     """Return the columns of each component of a quantity in long form."""
     values, kind = np.asarray(quantity), quantity.kind
-    axes = kind.axes if "axis" in quantity.dims else ()
+    axes = quantity.coords.get("axis") or quantity.coords.get("component") or ()
     if "order" not in quantity.result._dims(quantity.name) or kind.real or values.dtype.kind != "c":
         parts = np.moveaxis(values, -1, 0) if axes else values[np.newaxis]
-        names = kind.components if len(kind.components) == len(parts) else (kind.words,)
+        names = axes if "component" in quantity.dims else kind.components[-len(parts) :]
         return {name: {"value": part} for name, part in zip(names, parts, strict=True)}
     by_name = {"z": values}
     if axes:
         by_name = dict(zip(axes, np.moveaxis(values, -1, 0), strict=True))
-    if axes and kind.planar:
+    if "axis" in quantity.dims and kind.planar:
         by_name |= {part: getattr(quantity, part) for part in labels.TURNING}
     return {
         name: {"real": part.real, "imag": part.imag, "peak": np.abs(part)}
@@ -194,8 +196,8 @@ def components(quantity: Quantity) -> Mapping[str, Mapping[str, NDArray[np.float
 
 def long(quantities: Sequence[Quantity], loads: str, title: str = "Long form") -> Table:
     """Return values of each quantity and component, below each other."""
-    lengths = [tuple(d for d in each.dims if d != "axis") for each in quantities]
-    coords = {name: values for name, values in union(quantities).items() if name != "axis"}
+    lengths = [tuple(d for d in each.dims if d not in AXES) for each in quantities]
+    coords = {name: values for name, values in union(quantities).items() if name not in AXES}
     parts = [
         (each, dims, component, figures)
         for each, dims in zip(quantities, lengths, strict=True)

@@ -98,7 +98,7 @@ class Labelled(Tabled):
         """Return the entry of the registry."""
         return kind_of(quantity)
 
-    def _words(self, quantity: Quantity) -> str:
+    def _words_of(self, quantity: Quantity) -> str:
         """Return the name of a quantity in texts."""
         return quantity.kind.words
 
@@ -136,7 +136,8 @@ class Labelled(Tabled):
         kind = self._kind(quantity)
         swept = (name for name in self.dims if name not in self._along)
         axis = ("axis",) if kind.axes else ()
-        return export.reduced((*swept, *kind.dims, *self._along, *axis), what)
+        dims = (*swept, *kind.dims, *self._along, *axis)
+        return export.reduced(tuple(name for name in dims if name not in kind.without), what)
 
     def _coordinates(self, quantity: str) -> dict[str, Any]:
         """Return dimension → its values, of a quantity."""
@@ -198,6 +199,8 @@ class Labelled(Tabled):
         if what == VALUES:
             return self._values(quantity)
         values, dims = self.read(quantity), self._dims(quantity)
+        if what == "mean_magnitude":
+            return _mean(self.read(quantity, "magnitude"), np.asarray(self.coords["theta_deg"]))
         if "order" not in dims:
             return _over_angle(values, dims.index("theta_deg"), what, vector=dims[-1] == "axis")
         if dims[-1] == "axis":
@@ -460,6 +463,15 @@ def _over_angle(
         return np.asarray(np.abs(values).max(axis=along, initial=0.0))
     sizes = np.hypot(values[..., 0], values[..., 1]) if vector else np.abs(values)
     return np.asarray(sizes if what == "magnitude" else sizes.max(axis=along, initial=0.0))
+
+
+def _mean(values: NDArray[np.float64], theta_deg: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the mean over crank angles, the last dimension, by the trapezoidal rule."""
+    order = np.argsort(theta_deg, kind="stable")
+    values, theta = values[..., order], theta_deg[order]
+    if len(theta) < 2 or theta[0] == theta[-1]:
+        return values.mean(axis=-1) if len(theta) else np.zeros(values.shape[:-1])
+    return np.asarray(np.trapezoid(values, theta, axis=-1) / (theta[-1] - theta[0]))
 
 
 def total_peaks(

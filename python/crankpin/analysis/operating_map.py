@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from crankpin._support import inputs, labels
 from crankpin._support.drawing import draw
-from crankpin._support.frames import Tabled
-from crankpin._support.parameters import documented
-from crankpin._support.quantities import LOADS
+from crankpin._support.quantities import LOADS, POINTS
+from crankpin._support.record import AbsentError
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import mean_piston_speed
-from crankpin.analysis.bearings import BearingLoads, bearing_loads
+from crankpin.analysis.bearings import InsideLoads, bearing_loads
 from crankpin.analysis.flywheel import flywheel
+from crankpin.analysis.labelled import Labelled
+from crankpin.analysis.quantity import Quantity
 from crankpin.analysis.request import engine_core
 from crankpin.analysis.sweeps.gas import GasMap
 from crankpin.model import checks
@@ -27,8 +28,15 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
+    from crankpin._support.quantities import Kind
     from crankpin.model.cycle_map import CycleMap
     from crankpin.model.engine import Engine
+
+
+OF_WHEEL = {"irregularity": (100.0, "%"), "swing_deg": (1.0, "°")}
+"""Quantity of the flywheel → how it is shown: factor and unit."""
+OF_NUMBERS = {"cylinder": "crankpin", "main_bearing": "main"}
+"""Dimension of numbers from 1 → a load that has it."""
 
 
 def operating_map(
@@ -83,7 +91,7 @@ def operating_map(
     >>> cycles = [[cp.Cycle.example(load=load) for load in (0, 1)]] * 2
     >>> gas = cp.CycleMap([1000, 4000], [0, 1], cycles)  # the same at all speeds
     >>> found = cp.operating_map(i4, [1000, 4000], cycle=gas, load=[0, 1], inertia=0.15)
-    >>> (found.peak("main").max(axis=-1) / 1e3).round(1)  # kN, by speed and load
+    >>> (found.main.max(axis=-1) / 1e3).round(1)  # kN, by speed and load
     array([[ 2.6, 18.6],
            [ 4. , 17.7]])
     >>> (100 * found.irregularity).round(2)  # %
@@ -112,27 +120,26 @@ def operating_map(
             with suppressed():  # Warned of once, below.
                 loads = bearing_loads(fired, speed)
                 for name in LOADS:
-                    of_point = loads.peak(name)
+                    of_point = loads.read(name, "peak")
                     peaks.setdefault(name, np.zeros((*shape, len(of_point))))[j, k] = of_point
                 if inertia is not None:
                     found = flywheel(fired, speed, inertia=inertia)
                     wheel[:, j, k] = found.irregularity, found.swing_deg
     inputs.warn_of_units(mean_piston_speed(engine, float(np.abs(speeds).max())))
     checks.flywheel(engine._core, inputs.optional_number("inertia", inertia) or 0.0)
-    uneven, swing = (None, None) if inertia is None else wheel
-    load_axis = None if gas is None else points
+    arrays = peaks | ({} if inertia is None else dict(zip(OF_WHEEL, wheel.copy(), strict=True)))
+    if gas is None:
+        arrays = {name: values[:, 0] for name, values in arrays.items()}
     return OperatingMap(
         engine,
         speeds,
-        load_axis,
-        peaks,
-        None if uneven is None else uneven.copy(),
-        None if swing is None else swing.copy(),
+        None if gas is None else points,
+        arrays,
         engine.loads_counted if gas is None else gas.loads_counted([engine], [""]),
     )
 
 
-class OperatingMap(Tabled):
+class OperatingMap(InsideLoads, Labelled):
     """Largest bearing loads, and irregularity, over speed and load.
 
     Made by :func:`crankpin.operating_map`.
@@ -144,20 +151,16 @@ class OperatingMap(Tabled):
     """Crank speeds, rpm: (n_rpm,)."""
     load: NDArray[np.float64] | None
     """Loads: (n_load,); None where the engine has its own pressure."""
-    peaks: Mapping[str, NDArray[np.float64]]
-    """Largest loads by name, N: (n_rpm, n_load, n) each."""
-    irregularity: NDArray[np.float64] | None
-    """Largest less smallest speed over the mean speed: (n_rpm, n_load); None without inertia."""
-    swing_deg: NDArray[np.float64] | None
-    """Largest less smallest lead over an even rotation, degrees: (n_rpm, n_load); or None."""
+    arrays: Mapping[str, NDArray[np.float64]]
+    """Values of the quantities by name: (n_rpm, n_load, …); without cycles (n_rpm, …)."""
     gas: str
     """Gas pressure that counts, in words."""
 
     def __post_init__(self) -> None:
         engine_core(self.engine)
         inputs.vector("rpm", self.rpm)
-        if not isinstance(self.peaks, Mapping) or list(self.peaks) != list(LOADS):
-            raise inputs.rejected("peaks", self.peaks, "use crankpin.operating_map")
+        if not isinstance(self.arrays, Mapping) or list(self.arrays)[: len(LOADS)] != list(LOADS):
+            raise inputs.rejected("arrays", self.arrays, "use crankpin.operating_map")
         super().__post_init__()
 
     @property
@@ -165,21 +168,55 @@ class OperatingMap(Tabled):
         """Gas pressure that counts, in words: as :attr:`Engine.loads_counted`."""
         return self.gas
 
-    @documented(BearingLoads.read)
-    def peak(self, load: str) -> NDArray[np.float64]:
-        """Return the largest magnitude of a load at each point, N: (n_rpm, n_load, n).
+    @property
+    def coords(self) -> Mapping[str, Any]:
+        """Dimension → its values: speeds and, with cycles over load, loads."""
+        return {"rpm": self.rpm} | ({} if self.load is None else {"load": self.load})
 
-        Returns
-        -------
-        ndarray of float, shape (n_rpm, n_load, n)
-            Largest magnitudes, N.
+    @property
+    def _own_coords(self) -> Mapping[str, Any]:
+        counts = {name: self.arrays[of].shape[-1] for name, of in OF_NUMBERS.items()}
+        return {name: np.arange(1, count + 1) for name, count in counts.items()}
 
-        Raises
-        ------
-        InputError
-            If there is no such load.
+    @property
+    def _attributes(self) -> Mapping[str, Any]:
+        """Attributes of a dataset: name of the engine."""
+        return {"engine": self.engine.name}
+
+    @property
+    def _names(self) -> tuple[str, ...]:
+        return tuple(self.arrays)
+
+    def _kind(self, quantity: str) -> Kind:
+        return POINTS[quantity]
+
+    def _check(self, quantity: str) -> None:
+        if quantity in OF_WHEEL and quantity not in self.arrays:
+            hint = "give operating_map the inertia of all that turns"
+            raise inputs.faulty(quantity, "is not available", hint, AbsentError)
+        super()._check(quantity)
+
+    def _quantity(self, name: str) -> Quantity[np.float64]:
+        return Quantity(self, name)
+
+    def _values(self, quantity: str) -> NDArray[np.float64]:
+        return self.arrays[quantity]
+
+    @property
+    def irregularity(self) -> Quantity[np.float64]:
+        """Largest less smallest speed over the mean speed: (n_rpm, n_load).
+
+        An AttributeError without ``inertia``.
         """
-        return self.peaks[inputs.one_of("load", load, LOADS)]
+        return self._quantity("irregularity")
+
+    @property
+    def swing_deg(self) -> Quantity[np.float64]:
+        """Largest less smallest lead over an even rotation, degrees: (n_rpm, n_load).
+
+        An AttributeError without ``inertia``.
+        """
+        return self._quantity("swing_deg")
 
     def plot(
         self,
@@ -206,7 +243,7 @@ class OperatingMap(Tabled):
         ax : matplotlib.axes.Axes, optional
             Axes to draw on; by default new ones.
         quantity : str, default "main"
-            A load of :meth:`peak`, the largest of all bearings or cylinders, or
+            A load, the largest of all bearings or cylinders, or
             ``"irregularity"`` or ``"swing_deg"``.
         **style : dict, optional
             Properties of ``pcolormesh``, such as ``cmap``; of a curve ``label`` and properties of
@@ -238,13 +275,12 @@ class OperatingMap(Tabled):
         columns = [Column("speed", np.repeat(self.rpm, count[1]), "rpm")]
         if self.load is not None:
             columns.append(Column("load", np.tile(self.load, count[0])))
-        for name, each in self.peaks.items():
-            columns.append(Column(name.replace("_", " "), each.max(axis=-1), "N"))
-        for name, unit, values, scale in (
-            ("irregularity", "%", self.irregularity, 100.0),
-            ("swing", "°", self.swing_deg, 1.0),
-        ):
-            if values is not None:
-                columns.append(Column(name, scale * values, unit))
+        columns += [
+            Column(name.replace("_", " "), self.arrays[name].max(axis=-1), "N") for name in LOADS
+        ]
+        for name, (scale, unit) in OF_WHEEL.items():
+            if name in self.arrays:
+                head = name.removesuffix("_deg")
+                columns.append(Column(head, scale * self.arrays[name], unit))
         title = f"OperatingMap of {labels.name_of(self.engine)}: largest load of any bearing"
         return Table(title, tuple(columns), loads=self.loads_counted)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Generic, Literal, Self, TypeAlias, overload
 
 import numpy as np
@@ -184,12 +183,12 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
         """Multiples of crank speed; empty where there are none."""
         if self.order is not None and self.order != ALL:
             return (self.order,)
-        return self.result._orders if self._by_order else ()
+        return self.result._orders if "order" in self.result._dims(self.name) else ()
 
     @property
     def _by_order(self) -> bool:
-        """True if the array has phasors by order."""
-        return "order" in self.result._dims(self.name)
+        """True if a number as key is an order: of every order, and of all together."""
+        return self.order in (None, ALL) and "order" in self.result._dims(self.name)
 
     @property
     def dims(self) -> tuple[str, ...]:
@@ -206,7 +205,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
     def coords(self) -> Mapping[str, Any]:
         """Dimension → its values, in the sequence of ``dims``."""
         known = self.result._coordinates(self.name)
-        return MappingProxyType({name: known[name] for name in self.dims})
+        coords: Mapping[str, Any] = read_only({name: known[name] for name in self.dims})
+        return coords
 
     @property
     def peak(self) -> Values:
@@ -220,6 +220,15 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
     def magnitude(self) -> NDArray[np.float64]:
         """Lengths of vectors, or magnitudes, over crank angle, in ``unit``: (…, n_theta)."""
         return self._read("magnitude")  # type: ignore[no-any-return]
+
+    @property
+    def mean_magnitude(self) -> Values:
+        """Mean of ``magnitude`` over the crank angles, in ``unit``: (…).
+
+        Each angle counts for the distance between its neighbours (trapezoidal rule), in whichever
+        order angles are given.
+        """
+        return self._read("mean_magnitude")  # type: ignore[no-any-return]
 
     @property
     def xy(self) -> NDArray[Element]:
@@ -301,7 +310,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
     @property
     def phasor(self) -> NDArray[np.complex128]:
         """Peak phasors of what is no vector, in ``unit``: (…, n_orders)."""
-        if self.kind.axes or not self._by_order:
+        if self.kind.axes or not self.orders:
             raise self._absent("phasor", f"{self.name} has values by axis; use xy, x or y")
         return self._read(VALUES)  # type: ignore[no-any-return]
 
@@ -373,7 +382,10 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
     @property
     def error_bound(self) -> float:
         """Upper bound on what the omitted orders add at any crank angle, in ``unit``."""
-        return self.result.error_bound[self.name.partition(".")[0]]
+        bounds, whole = self.result.error_bound, self.name.partition(".")[0]
+        if whole not in bounds:
+            raise self._absent("error_bound", "it has no bound of its own")
+        return bounds[whole]
 
     @property
     def status(self) -> str:
@@ -485,13 +497,15 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
         InputError
             If there is no such order, name or place.
         """
-        if isinstance(key, str) and key != ALL:
+        whole: Quantity[Any, Any, Any] = self
+        if isinstance(key, str):
             for name, values in self.coords.items():
                 if isinstance(values, tuple) and key in values and isinstance(values[0], str):
                     return self.sel(**{name: key})
+            if key == ALL and self.orders:
+                return changed(whole, order=ALL)
         by_place = isinstance(key, (slice, tuple, list)) or key is ... or np.ndim(key) > 0
         if self._by_order and not by_place:
-            whole: Quantity[Any, Any, Any] = self
             return changed(whole, order=order_key(key))
         array = np.asarray(self)
         try:
@@ -539,7 +553,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
     # --- an array -------------------------------------------------------------------------------
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Element]:  # noqa: ANN401
-        return np.array(self._read(VALUES), dtype=dtype, copy=copy)
+        array = np.array(self._read(VALUES), dtype=dtype, copy=copy)
+        return array if array.ndim or copy else read_only(array)
 
     def __array_ufunc__(
         self,
@@ -572,6 +587,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
         """
         if self.order == ALL or (isinstance(other, Quantity) and other.order == ALL):
             return isinstance(other, Quantity) and Record.__eq__(self, other)
+        if getattr(other, "__array_ufunc__", ...) is None:
+            return NotImplemented  # it compares itself with arrays
         try:
             return np.equal(self, other)  # type: ignore[call-overload] # of anything
         except (TypeError, ValueError, OverflowError):
@@ -624,7 +641,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
     @property
     def words(self) -> str:
         """Name in texts."""
-        return self.result._words(self)
+        return self.result._words_of(self)
 
     @property
     def _which(self) -> str:
@@ -641,8 +658,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
         text = f"<Quantity {labels.printable(self.words)}{self._which}"
         loads = f", {self.loads_counted}" if self.loads_counted else ""
         if not dims:
-            highest: Any = self.peak if self._by_order else np.asarray(self)[()]
-            peak = "peak " if self._by_order else ""
+            peak = "peak " if "peak" in self.result._readings(self.name) else ""
+            highest: Any = self.peak if peak else np.asarray(self)[()]
             return f"{text}: {peak}{units.figure(highest, self.unit, 5)}{loads}>"
         known = self.result._coordinates(self.name)
         over = ", ".join(f"{d}: {len(known[d])}" for d in dims)

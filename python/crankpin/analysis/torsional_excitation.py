@@ -3,35 +3,38 @@
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support.drawing import draw
-from crankpin._support.frames import Tabled
-from crankpin._support.record import read_only
+from crankpin._support.quantities import EXCITATIONS, kind_of
+from crankpin._support.record import changed
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.contributions import contributions
+from crankpin.analysis.labelled import Labelled
+from crankpin.analysis.quantity import Quantity
 from crankpin.analysis.request import engine_core
 from crankpin.model.computed_cycles import area
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order
+    from crankpin._support.quantities import Kind
     from crankpin.model.engine import Engine
 
 HIGHEST = 12
 """Highest order by default, as in the tables of classification societies."""
 
 
-class TorsionalExcitation(Tabled):
+class TorsionalExcitation(Labelled):
     """Torque of each cylinder's gas and masses on the crank, per order, at a speed or several.
 
     Made by :func:`crankpin.torsional_excitation`.
@@ -43,56 +46,130 @@ class TorsionalExcitation(Tabled):
     """Crank speed, or speeds: (n_rpm,)."""
     orders: tuple[Order, ...]
     """Multiples of crank speed."""
-    gas: NDArray[np.complex128]
-    """Peak phasors of the torque of gas pressure, as of ``torque``, at any speed, N·m:
-    (n_cylinders, n_orders)."""
-    inertia: NDArray[np.complex128]
-    """Peak phasors of the torque of masses, N·m: (n_cylinders, n_orders), of several speeds
-    (n_rpm, n_cylinders, n_orders)."""
-    mean: NDArray[np.float64]
-    """Mean torque of each cylinder, N·m: (n_cylinders,)."""
+    _along: ClassVar[tuple[str, ...]] = ("order",)
+
+    @property
+    def coords(self) -> Mapping[str, Any]:
+        """Dimension → its values: the speeds, where there are several."""
+        return {"rpm": self.rpm} if isinstance(self.rpm, np.ndarray) else {}
+
+    @property
+    def _own_coords(self) -> Mapping[str, Any]:
+        return {"cylinder": np.arange(1, len(self.engine) + 1)}
+
+    @property
+    def _attributes(self) -> Mapping[str, Any]:
+        """Attributes of a dataset: name of the engine, and its speed."""
+        return {"engine": self.engine.name} | ({} if self.coords else {"rpm": self.rpm})
+
+    @property
+    def _names(self) -> tuple[str, ...]:
+        name, *others = EXCITATIONS
+        return (name, *self._parts(name), *others)
+
+    def _kind(self, quantity: str) -> Kind:
+        whole = quantity.partition(".")[0]
+        return kind_of(quantity)._replace(dims=EXCITATIONS[whole].dims)
+
+    def _parts(self, quantity: str) -> tuple[str, ...]:
+        return tuple(f"{quantity}.{each}" for each in self._named_parts(quantity))
+
+    def _named_parts(self, quantity: str) -> tuple[str, ...]:
+        return ("gas", "inertia") if quantity == "crank_torque" else ()
+
+    def _at_order(self, order: Order) -> TorsionalExcitation:
+        one: TorsionalExcitation = self._once(order, lambda: changed(self, orders=(order,)))
+        return one
+
+    def _quantity(self, name: str) -> Quantity[Any, Any, Any]:
+        return Quantity(self, name)
 
     @functools.cached_property
-    def torque(self) -> NDArray[np.complex128]:
-        """Peak phasors of ``Re(P exp(ikθ))``, θ the engine's crank angle, N·m.
+    def _phasors(self) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+        """Phasors of gas: (n_cylinders, n_orders), and of masses: (…, n_cylinders, n_orders)."""
+        speeds = np.ravel(self.rpm)
+        fastest = float(speeds[np.abs(speeds).argmax()])
+        with suppressed():  # Warned of where the excitation was made.
+            balance = self.engine.balance(fastest, orders=self.orders)
+        gas, inertia = (
+            np.concatenate(
+                [
+                    part.phasors
+                    for part in contributions(balance, f"crank_torque.{of}")[: len(self.engine)]
+                ]
+            )
+            for of in ("gas", "inertia")
+        )
+        # Torque of masses has the square of the speed as a factor.
+        scales = (speeds / fastest) ** 2 if fastest else np.ones(len(speeds))
+        return gas, np.multiply.outer(scales, inertia) if self.coords else inertia
 
-        Of shape (n_cylinders, n_orders), of several speeds (n_rpm, n_cylinders, n_orders). Positive
-        torque drives the crank. It is the sum of ``gas`` and ``inertia``.
+    def _values(self, quantity: str) -> NDArray[Any]:
+        gas, inertia = self._phasors
+        if quantity == "crank_torque.gas":
+            return np.array(np.broadcast_to(gas, inertia.shape))
+        if quantity == "mean_torque":
+            of_cylinders = zip(self.engine.cycles or (), self.engine.cylinders, strict=False)
+            means = [each.mean_torque(cylinder) if each else 0.0 for each, cylinder in of_cylinders]
+            return np.array(means or [0.0] * len(self.engine))
+        if quantity == "reciprocating_inertia":
+            return _core.mean_inertias(engine_core(self.engine))
+        if quantity == "angular_frequency":
+            omega = np.array([inputs.angular_speed(rpm) for rpm in np.ravel(self.rpm)])
+            outer = np.multiply.outer(omega, np.array(self.orders, dtype=np.float64))
+            return outer if self.coords else outer[0]  # type: ignore[no-any-return]
+        if quantity == "tangential_pressure":
+            return self._pressures()
+        return inertia if quantity == "crank_torque.inertia" else gas + inertia
+
+    @property
+    def crank_torque(self) -> Quantity[np.complex128]:
+        """Torque of each cylinder on the crank, N·m: (…, n_cylinders, n_orders).
+
+        Peak phasors of ``Re(P exp(ikθ))``, θ the engine's crank angle; positive torque drives the
+        crank. ``crank_torque.gas`` is that of gas pressure, the same at any speed,
+        ``crank_torque.inertia`` that of masses, with the square of the speed.
         """
-        return read_only(self.gas + self.inertia)
+        return self._quantity("crank_torque")
 
-    @functools.cached_property
-    def angular_frequency(self) -> NDArray[np.float64]:
+    @property
+    def mean_torque(self) -> Quantity[np.float64]:
+        """Mean torque of each cylinder, N·m: (n_cylinders,)."""
+        return self._quantity("mean_torque")
+
+    @property
+    def angular_frequency(self) -> Quantity[np.float64]:
         """Angular frequencies of the orders, rad/s: (n_orders,), of speeds (n_rpm, n_orders)."""
-        omega = np.array([inputs.angular_speed(rpm) for rpm in np.ravel(self.rpm)])
-        found = np.multiply.outer(omega, np.array(self.orders, dtype=np.float64))
-        return read_only(found if np.ndim(self.rpm) else found[0])
+        return self._quantity("angular_frequency")
 
-    @functools.cached_property
-    def reciprocating_inertia(self) -> NDArray[np.float64]:
+    @property
+    def reciprocating_inertia(self) -> Quantity[np.float64]:
         """Mean moment of inertia of each cylinder's piston and rod, kg·m²: (n_cylinders,).
 
         Its kinetic energy is, on average over a turn, that of a disk of this inertia on the main
         crank: near ½·m·r² of the reciprocating mass, on a crank of another speed times the square
         of its ratio. The rotating mass of the rod comes on top.
         """
-        return _core.mean_inertias(engine_core(self.engine))
+        return self._quantity("reciprocating_inertia")
 
     @property
-    def tangential_pressure(self) -> NDArray[np.complex128]:
+    def tangential_pressure(self) -> Quantity[np.complex128]:
         """Torque of gas over piston area and crank radius, Pa: (n_cylinders, n_orders).
 
         Phasors about each cylinder's own firing top dead centre, as class rules tabulate harmonics
         of the tangential pressure: ``a cos kθ + b sin kθ`` with a the real part and b minus the
         imaginary one. Zero for cylinders without gas pressure.
         """
+        return self._quantity("tangential_pressure")
+
+    def _pressures(self) -> NDArray[np.complex128]:
         scale = [
             1.0 / (area(each) * each.crank_radius) if fired else 0.0
             for each, fired in zip(self.engine.cylinders, self._fired, strict=True)
         ]
         angles = np.radians(self.engine.firing_deg) if any(self._fired) else np.zeros(len(scale))
         turned = np.exp(1j * np.multiply.outer(angles, np.array(self.orders, dtype=np.float64)))
-        return read_only(self.gas * turned * np.array(scale)[:, np.newaxis])
+        return np.asarray(self._phasors[0] * turned * np.array(scale)[:, np.newaxis])
 
     @property
     def _fired(self) -> list[bool]:
@@ -153,11 +230,11 @@ class TorsionalExcitation(Tabled):
         at = np.ravel(self.rpm).tolist()
         several = f"{min(at):.10g} to {max(at):.10g}" if np.ndim(self.rpm) else f"{at[0]:.10g}"
         title = f"TorsionalExcitation of {labels.name_of(self.engine)}: torque on the crank, "
-        shape = (-1, *self.gas.shape)
-        columns = [Column("frequency", self._of_rows(self.angular_frequency), "rad/s")]
+        torque = np.asarray(self.crank_torque)
+        columns = [Column("frequency", self._of_rows(np.asarray(self.angular_frequency)), "rad/s")]
         columns += [
-            Column("amplitude", np.abs(self.torque), "N·m"),
-            Column("phase", np.angle(self.torque.reshape(shape)), "rad"),
+            Column("amplitude", np.abs(torque), "N·m"),
+            Column("phase", np.angle(torque), "rad"),
         ]
         return self._by_row(f"{title}{several} rpm", columns)
 
@@ -169,10 +246,10 @@ class TorsionalExcitation(Tabled):
         Table
             A row for each speed, cylinder and order, as ``table``.
         """
-        gas = np.broadcast_to(self.gas, self.torque.shape)
+        parts = (self.crank_torque.gas, self.crank_torque.inertia)
         columns = [
-            Column(f"{name} {what}".strip(), of(part), unit)
-            for name, part in (("gas", gas), ("inertia", self.inertia))
+            Column(f"{name} {what}".strip(), of(np.asarray(part)), unit)
+            for name, part in zip(("gas", "inertia"), parts, strict=True)
             for what, of, unit in (("", np.abs, "N·m"), ("phase", np.angle, "rad"))
         ]
         return self._by_row("Torque of gas and of masses on the crank", columns)
@@ -230,13 +307,14 @@ class TorsionalExcitation(Tabled):
         dict
             Lists by name, as above.
         """
-        parts = {"": self.torque, "gas_": self.gas, "inertia_": self.inertia}
+        gas, inertia = self._phasors
+        parts = {"": gas + inertia, "gas_": gas, "inertia_": inertia}
         return {
             "rpm": self.rpm.tolist() if isinstance(self.rpm, np.ndarray) else self.rpm,
             "loads": self.loads_counted,
             "orders": list(self.orders),
             "angular_frequency": self.angular_frequency.tolist(),
-            "mean": self.mean.tolist(),
+            "mean": self.mean_torque.tolist(),
             "reciprocating_inertia": self.reciprocating_inertia.tolist(),
             **{f"{name}amplitude": np.abs(each).tolist() for name, each in parts.items()},
             **{f"{name}phase": np.angle(each).tolist() for name, each in parts.items()},
@@ -274,10 +352,10 @@ def torsional_excitation(
     >>> cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
     >>> i4 = cp.Engine.preset("i4", cylinder=cylinder).with_cycle(cp.Cycle.example())
     >>> excitation = cp.torsional_excitation(i4, rpm=3000, orders=[0.5, 2])
-    >>> abs(excitation.torque[:, 0]).round(1)
+    >>> abs(excitation.crank_torque[0.5]).round(1)
     array([99.2, 99.2, 99.2, 99.2])
     >>> over_speed = cp.torsional_excitation(i4, rpm=[1000, 3000, 5000], orders=[2])
-    >>> abs(over_speed.torque[:, 0, 0]).round(1)  # of cylinder 1
+    >>> abs(over_speed.crank_torque.sel(cylinder=1)[2]).round(1)  # of cylinder 1
     array([73.1, 32.6, 48.7])
     """
     engine_core(engine)
@@ -296,21 +374,4 @@ def torsional_excitation(
     for each in speeds.tolist():
         with suppressed():  # Warned of at the highest of them.
             inputs.angular_speed(each)
-    gas, inertia = (
-        np.concatenate(
-            [part.phasors for part in contributions(balance, f"crank_torque.{of}")[: len(engine)]]
-        )
-        for of in ("gas", "inertia")
-    )
-    # Torque of masses has the square of the speed as a factor.
-    scales = (speeds / fastest) ** 2 if fastest else np.ones(len(speeds))
-    of_cylinders = zip(cycles or (), engine.cylinders, strict=False)
-    means = [cycle.mean_torque(cylinder) if cycle else 0.0 for cycle, cylinder in of_cylinders]
-    return TorsionalExcitation(
-        engine,
-        speeds.copy() if several else balance.rpm,
-        balance.orders,
-        gas,
-        np.multiply.outer(scales, inertia) if several else inertia,
-        np.array(means or [0.0] * len(engine)),
-    )
+    return TorsionalExcitation(engine, speeds.copy() if several else balance.rpm, balance.orders)

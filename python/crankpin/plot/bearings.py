@@ -96,7 +96,7 @@ def curves(
 ) -> Axes:
     """Draw the magnitudes of bearing loads over crank angle; of other loads, their values."""
     kind = LOADS[inputs.one_of("load", load, LOADS)]
-    values = result.magnitude(load) if kind.planar else result.read(load)
+    values = result.read(load, "magnitude" if kind.planar else "values")
     places = _places(numbers, len(values))
     reject_figure(figure, "curves")
     ax = axes_or_new(ax)

@@ -11,9 +11,10 @@ from matplotlib.patches import Rectangle
 
 from crankpin._support import inputs, labels
 from crankpin._support.drawing import picture
+from crankpin._support.record import changed
 from crankpin.analysis.mounts.modes import COORDINATES, OF_SUBFRAME, PLACES, MountModes
 from crankpin.analysis.mounts.response import READ, MountResponse, PointMotion
-from crankpin.analysis.quantity import ALL
+from crankpin.analysis.quantity import ALL, Quantity
 from crankpin.model.supports import Receptance
 from crankpin.plot.layout import (
     add_legend,
@@ -47,7 +48,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Order, Orders
-    from crankpin.analysis.mounts.vectors import VectorQuantity
 
 MOST_CURVES = 5
 """Number of orders drawn over speed where they were not given: those of the largest peaks."""
@@ -100,13 +100,13 @@ def _modes(result: MountModes, ax: Axes | None = None, **style: object) -> Axes:
 class Drawn(NamedTuple):
     """A vector by order, in the unit in which it is drawn."""
 
-    vector: VectorQuantity
+    vector: Quantity
     unit: str = "N"
     factor: float = 1.0
 
     def read(self, order: Order | str | None, name: str = "peak") -> NDArray[np.float64]:
         """Return an array of the vector at an order, at ``"all"``, or of every order."""
-        return self.factor * np.asarray(getattr(self.vector[order], name))  # type: ignore[index]
+        return self.factor * np.asarray(getattr(changed(self.vector, order=order), name))
 
 
 @picture.register(MountResponse)
@@ -134,9 +134,7 @@ def _point(
     name = inputs.one_of("quantity", quantity, READ)
     given = {"orders": None if motion.order == ALL else motion.order} | options
     words = plain_text(f"{name} of {motion._words}")
-    return _picture(
-        motion.result, Drawn(motion._moved(name)[None], *READ[name]), words, ax, **given
-    )
+    return _picture(motion.result, Drawn(Quantity(motion, name), *READ[name]), words, ax, **given)
 
 
 def _picture(

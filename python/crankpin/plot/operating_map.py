@@ -9,7 +9,7 @@ import numpy as np
 from crankpin._support import inputs, labels
 from crankpin._support.drawing import picture
 from crankpin._support.quantities import LOADS
-from crankpin.analysis.operating_map import OperatingMap
+from crankpin.analysis.operating_map import OF_WHEEL, OperatingMap
 from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, note_zero, set_title
 from crankpin.plot.maps import colour_bar, scale_from_zero
 from crankpin.plot.style import SERIES, count_series, of_maps, series
@@ -53,15 +53,16 @@ def _operating_map(
 
 def _quantity(result: OperatingMap, quantity: str) -> tuple[str, str, NDArray[np.float64]]:
     """Return the words, the unit and the values of a quantity by speed and load."""
-    of_wheel = {"irregularity": (100.0, "%"), "swing_deg": (1.0, "°")}
-    name = inputs.one_of("quantity", quantity, (*LOADS, *of_wheel))
+    name = inputs.one_of("quantity", quantity, (*LOADS, *OF_WHEEL))
+    count = 1 if result.load is None else len(result.load)
     if name in LOADS:
         words = f"{LOADS[name].words} load" if LOADS[name].planar else LOADS[name].words
-        return f"largest {words}", "N", result.peak(name).max(axis=-1)
-    values = getattr(result, name)
-    if values is None:
+        values = result.read(name).max(axis=-1)
+        return f"largest {words}", "N", values.reshape(-1, count)
+    if name not in result.quantities:
         raise inputs.rejected("quantity", quantity, "needs the inertia of the operating map")
-    factor, unit = of_wheel[name]
+    values = result.read(name).reshape(-1, count)
+    factor, unit = OF_WHEEL[name]
     return name.removesuffix("_deg"), unit, factor * values
 
 

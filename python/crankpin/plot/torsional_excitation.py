@@ -52,7 +52,7 @@ def _torsional_excitation(
         )
         where = ""
     else:
-        fired = bool(result.gas[place].any())
+        fired = bool(result.crank_torque.gas[..., place, :].any())
         drawn = [chosen] if chosen else list(PARTS) if fired else ["inertia"]
         curves = {name: _amplitudes(result, name)[0, place] for name in drawn}
         _over_order(ax, result.orders, curves, label, logarithmic, style)
@@ -65,9 +65,9 @@ def _torsional_excitation(
 
 def _amplitudes(result: TorsionalExcitation, part: str) -> NDArray[np.float64]:
     """Return amplitudes by speed, cylinder and order."""
-    phasors = np.abs(getattr(result, part))
-    shape = (len(np.ravel(result.rpm)), *result.gas.shape)
-    return np.broadcast_to(phasors.reshape(-1, *result.gas.shape), shape)
+    torque = result.crank_torque if part == "torque" else result.crank_torque.part(part)
+    shape = (len(np.ravel(result.rpm)), len(result.engine), len(result.orders))
+    return np.reshape(np.abs(torque), shape)
 
 
 def _over_order(

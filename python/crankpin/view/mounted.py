@@ -149,7 +149,7 @@ def core_numbers(
         "parts": [
             {
                 "order": response.orders[k],
-                "motion": _pairs(response.motion[k]),
+                "motion": _pairs(response.motion[k, :]),
                 "force": _pairs(response.support_load[k, :3]),
             }
             for k in range(len(response.orders))

@@ -446,9 +446,7 @@ def test_a_balanced_six_stays_so_with_weights_in_four_webs(
     assert after[1].force.peak <= 1e-9
     assert after[1].moment.peak <= 1e-9
     assert fit.vanishes
-    before, relieved = (
-        cp.bearing_loads(engine, 3000).peak("main")[3] for engine in (SIX, fit.fitted)
-    )
+    before, relieved = (cp.bearing_loads(engine, 3000).main.peak[3] for engine in (SIX, fit.fitted))
     assert relieved < 0.9 * before
     assert fit.exact == (target == "half cranks")
 

@@ -35,13 +35,13 @@ def test_designs_are_powertrains_one_by_one(damping: float) -> None:
         one = d.at(k)
         r = one.response(RPM, orders=[0.5, 1, 2, 4])
         assert d.frequency[k] == pytest.approx(one.modes().frequency, rel=1e-14)
-        vectors = [r.body_force, *r.mount_force.values(), r.at(point).velocity]
-        largest = [d.body_force, *d.mount_force.values(), d.velocity[:, 0]]
-        rms = [d.body_force_rms, *d.mount_force_rms.values(), d.velocity_rms[:, 0]]
+        vectors = [r.body_force, *(r.mount_force[n] for n in p.names), r.at(point).velocity]
+        largest = [d.body_force, *(d.mount_force[n] for n in p.names), d.velocity[:, 0]]
+        rms = [d.body_force_rms, *(d.mount_force_rms[n] for n in p.names), d.velocity_rms[:, 0]]
         for vector, most, level in zip(vectors, largest, rms, strict=True):
             # What one factorisation with and one without pivots differ by.
             size = 1e-10 * vector.peak.max()
-            assert most[k] == pytest.approx(vector.peak_xyz.max(axis=0), abs=size)
+            assert most[k, ...] == pytest.approx(vector.peak_xyz.max(axis=0), abs=size)
             assert level[k] == pytest.approx(vector.total.rms_xyz.max(axis=0), abs=size)
     assert d == p.designs(RPM, vary, orders=[0.5, 1, 2, 4], mount_force=True, at=[point])
 

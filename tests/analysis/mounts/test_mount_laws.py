@@ -74,7 +74,7 @@ def test_points_orders_and_speeds_agree_however_they_are_read(seed: int) -> None
     at_cg = r.at(p.body.cg)
     assert at_cg.displacement.xyz == pytest.approx(r.motion[..., :3], abs=1e-18)
     one = r.sel(rpm=float(rpm[2]))
-    assert np.array_equal(one.motion, r.motion[2])
+    assert np.array_equal(one.motion, r.motion[2, ...])
     point = one.at((0.1, 0.2, 0.3))
     rate = 1j * 2.0 * np.pi / 60.0 * rpm[2] * np.array(r.orders)[:, None]
     assert point.velocity.xyz == pytest.approx(rate * point.displacement.xyz)
@@ -94,7 +94,7 @@ def test_points_orders_and_speeds_agree_however_they_are_read(seed: int) -> None
     assert one.total == one["all"]
     assert one.total.body_force.peak == one.body_force.total.peak
     worst = r.worst()
-    peaks_of_mounts = [vector.peak.max() for vector in r.mount_force.values()]
+    peaks_of_mounts = [r.mount_force[name].peak.max() for name in p.names]
     assert worst.force == max(peaks_of_mounts)
     assert r.mount_force[worst.mount][worst.order].peak.max() == worst.force
 
@@ -157,7 +157,7 @@ def test_moments_about_a_point_are_those_of_the_balance_and_of_the_mounts(seed: 
     moved = r.about(point)
     b = p.engine.balance(rpm[0], orders=[1, 2, 4]).about(point)
     moments = [[b[n].moment.x, b[n].moment.y, b[n].torque.phasor] for n in r.orders]
-    size = np.abs(moved.load[0]).max()
+    size = np.abs(moved.load[0, ...]).max()
     # Some roundings of forces times arms below a metre.
     np.testing.assert_allclose(moved.load[0, :, 3:], moments, rtol=0, atol=1e-13 * size)
     np.testing.assert_array_equal(moved.load[..., :3], r.load[..., :3])
@@ -202,7 +202,7 @@ def test_slow_motion_is_that_at_rest(seed: int) -> None:
     state = p.static(torque=-1.0)
     unit = np.append(state.wind_up, np.radians(state.wind_up_deg))
     # ωc/k: 4e-7 rad/s, 500 N·s/m and 5e4 N/m.
-    for load, motion in zip(r.load, r.motion, strict=True):
+    for load, motion in zip(r.load[:], r.motion[:], strict=True):
         size = np.abs(load[5] * unit).max()
         assert motion == pytest.approx(load[5] * unit, rel=0, abs=1e-7 * size)
 
@@ -235,8 +235,8 @@ def test_a_shown_response_computes_what_it_shows(monkeypatch: pytest.MonkeyPatch
         counted.append(len(rows))
         return whole(orders, rows)
 
-    monkeypatch.setattr("crankpin.analysis.mounts.vectors._core.peaks_of_vectors", counting)
-    vectors = 1 + len(r.mount_force)
+    monkeypatch.setattr("crankpin.analysis.labelled._core.peaks_of_vectors", counting)
+    vectors = 1 + len(r.powertrain.names)
     for shown, rows in ((repr, 30), (lambda each: each._repr_html_(), 60)):
         for result in (r, r[2], r.total):
             counted.clear()

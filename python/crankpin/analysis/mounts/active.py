@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from crankpin._support.inputs import Order, Orders
     from crankpin.analysis.mounts.powertrain import Powertrain
-    from crankpin.analysis.mounts.vectors import Source
+    from crankpin.analysis.mounts.response import Source
     from crankpin.analysis.request import Request
 
 Direction: TypeAlias = "tuple[float, float, float] | None"

@@ -446,7 +446,7 @@ class Question:
         if name == "body_force":
             peaks = np.ravel(response.body_force.peak)
         else:
-            peaks = np.ravel([vector.peak for vector in response.mount_force.values()])
+            peaks = np.ravel(np.moveaxis(response.read("mount_force", "peak"), -1, 0))
         largest = float(peaks.max())
         if not smooth or largest == 0.0:
             return largest

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import math
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from crankpin._support import inputs, labels
 from crankpin._support.drawing import draw
-from crankpin._support.frames import Tabled
-from crankpin._support.record import read_only
+from crankpin._support.quantities import DESIGNS
+from crankpin._support.record import AbsentError, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import mean_piston_speed
+from crankpin.analysis.labelled import Labelled
+from crankpin.analysis.quantity import Quantity
 from crankpin.analysis.request import Request, check_request
 from crankpin.model import checks
 from crankpin.model.mounts import _vector
@@ -25,6 +27,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order, Orders
+    from crankpin._support.quantities import Kind
     from crankpin.analysis.mounts.powertrain import Powertrain
     from crankpin.model.mounts import Mount
 
@@ -32,7 +35,7 @@ FIGURES = ("at", "tilt_deg", "stiffness", "dynamic_stiffness", "loss_factor", "d
 """Figures of a mount that can differ between designs."""
 
 
-class DesignResponses(Tabled):
+class DesignResponses(Labelled):
     """Natural frequencies and largest responses of many designs of a powertrain's mounts.
 
     Responses are reduced over speed as they are computed, so that a million designs fit in memory:
@@ -77,7 +80,7 @@ class DesignResponses(Tabled):
         super().__post_init__()
 
     def __len__(self) -> int:
-        return len(self.frequency)
+        return len(self.__dict__["_frequency"])
 
     @property
     def orders(self) -> tuple[Order, ...]:
@@ -100,54 +103,90 @@ class DesignResponses(Tabled):
         """Gas pressure that counts, in words: as :attr:`Engine.loads_counted`."""
         return self.powertrain.engine.loads_counted
 
+    _along: ClassVar[tuple[str, ...]] = ("order",)
+
     @property
-    def frequency(self) -> NDArray[np.float64]:
+    def coords(self) -> Mapping[str, Any]:
+        """Dimension → its values: the index of each design."""
+        return {"design": read_only(np.arange(len(self)))}
+
+    @property
+    def _own_coords(self) -> Mapping[str, Any]:
+        modes = np.arange(1, self.__dict__["_frequency"].shape[1] + 1)
+        points = np.arange(1, len(self.points) + 1)
+        return {"mode": modes, "mount": self.powertrain.names, "point": points}
+
+    @property
+    def _names(self) -> tuple[str, ...]:
+        without: tuple[str, ...] = (
+            () if self.with_mount_force else ("mount_force", "mount_force_rms")
+        )
+        without += () if self.points else ("velocity", "velocity_rms")
+        return tuple(name for name in DESIGNS if name not in without)
+
+    def _check(self, quantity: str) -> None:
+        if quantity in DESIGNS and quantity not in self._names:
+            hint = "give Powertrain.designs mount_force=True, or points"
+            raise inputs.faulty(quantity, "is not available", hint, AbsentError)
+        super()._check(quantity)
+
+    def _kind(self, quantity: str) -> Kind:
+        return DESIGNS[quantity]
+
+    def _quantity(self, name: str) -> Quantity[np.float64]:
+        return Quantity(self, name)
+
+    def _values(self, quantity: str) -> NDArray[np.float64]:
+        if quantity == "frequency":
+            return self.__dict__["_frequency"]  # type: ignore[no-any-return]
+        arrays = self.__dict__["_rms" if quantity.endswith("_rms") else "_largest"]
+        first = 1 + (len(self.powertrain.mounts) if self.with_mount_force else 0)
+        at = {"body": 0, "mount": slice(1, first), "velocity": slice(first, None)}
+        return arrays[:, at[quantity.partition("_")[0]]]  # type: ignore[no-any-return]
+
+    @property
+    def frequency(self) -> Quantity[np.float64]:
         """Natural frequencies, Hz, ascending: (n_designs, n_modes).
 
         NaN where a mount's stiffness depends on frequency and none was given.
         """
-        return self.__dict__["_frequency"]  # type: ignore[no-any-return]
+        return self._quantity("frequency")
 
     @property
-    def body_force(self) -> NDArray[np.float64]:
-        """Largest peak over speed of the force on the body, N: (n_designs, n_orders, n_axes)."""
-        return self.__dict__["_largest"][:, 0]  # type: ignore[no-any-return]
+    def body_force(self) -> Quantity[np.float64]:
+        """Largest peak over speed of the force on the body, N: (n_designs, n_orders, 3)."""
+        return self._quantity("body_force")
 
     @property
-    def body_force_rms(self) -> NDArray[np.float64]:
-        """Largest rms over speed of all orders of the force on the body, N: (n_designs, n_axes)."""
-        return self.__dict__["_rms"][:, 0]  # type: ignore[no-any-return]
+    def body_force_rms(self) -> Quantity[np.float64]:
+        """Largest rms over speed of all orders of the force on the body, N: (n_designs, 3)."""
+        return self._quantity("body_force_rms")
 
     @property
-    def mount_force(self) -> Mapping[str, NDArray[np.float64]]:
-        """Name of a mount → the same of its force: (n_designs, n_orders, n_axes)."""
-        return self._of_mounts("_largest")
+    def mount_force(self) -> Quantity[np.float64]:
+        """The same of the force of each mount, N: (n_designs, n_mounts, n_orders, 3).
+
+        The name of a mount is a key. An AttributeError without ``mount_force=True``.
+        """
+        return self._quantity("mount_force")
 
     @property
-    def mount_force_rms(self) -> Mapping[str, NDArray[np.float64]]:
-        """Name of a mount → the same of its force: (n_designs, n_axes)."""
-        return self._of_mounts("_rms")
-
-    def _of_mounts(self, key: str) -> Mapping[str, NDArray[np.float64]]:
-        names = self.powertrain.names if self.with_mount_force else ()
-        return MappingProxyType({n: self.__dict__[key][:, 1 + k] for k, n in enumerate(names)})
+    def mount_force_rms(self) -> Quantity[np.float64]:
+        """The same of the force of each mount, N: (n_designs, n_mounts, 3)."""
+        return self._quantity("mount_force_rms")
 
     @property
-    def velocity(self) -> NDArray[np.float64]:
+    def velocity(self) -> Quantity[np.float64]:
         """Largest peak over speed of the velocity of each point, m/s.
 
-        Of shape (n_designs, n_points, n_orders, n_axes).
+        Of shape (n_designs, n_points, n_orders, 3).
         """
-        return self.__dict__["_largest"][:, self._first_point :]  # type: ignore[no-any-return]
+        return self._quantity("velocity")
 
     @property
-    def velocity_rms(self) -> NDArray[np.float64]:
-        """Largest rms over speed of all orders, m/s: (n_designs, n_points, n_axes)."""
-        return self.__dict__["_rms"][:, self._first_point :]  # type: ignore[no-any-return]
-
-    @property
-    def _first_point(self) -> int:
-        return 1 + (len(self.powertrain.mounts) if self.with_mount_force else 0)
+    def velocity_rms(self) -> Quantity[np.float64]:
+        """Largest rms over speed of all orders, m/s: (n_designs, n_points, 3)."""
+        return self._quantity("velocity_rms")
 
     def at(self, design: int) -> Powertrain:
         """Return the powertrain of one design.
@@ -224,10 +263,10 @@ class DesignResponses(Tabled):
     def table(self) -> Table:
         """Natural frequencies, and the largest rms of the force on the body, of each design."""
         columns = [Column("design", np.arange(len(self)))]
-        for k, values in enumerate(self.frequency.T.tolist()):
+        for k, values in enumerate(self.read("frequency").T.tolist()):
             known = (None if math.isnan(each) else each for each in values)
             columns.append(Column(f"f{k + 1}", tuple(known), "Hz"))
-        for axis, values in zip("xyz", self.body_force_rms.T, strict=True):
+        for axis, values in zip("xyz", self.read("body_force_rms").T, strict=True):
             columns.append(Column(f"F_{axis} rms", values, "N"))
         name = labels.name_of(self.powertrain.engine)
         title = f"{name} on {len(self)} designs of its mounts: largest force on the body"

@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, TypeAlias
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support import inputs, labels, optional, units
+from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
+from crankpin._support.quantities import COMPONENTS_OF_LOADS, MOUNTED
 from crankpin._support.record import AbsentError, changed, read_only
 from crankpin._support.tables import Column, Item, Table
 from crankpin._support.warnings import warn
+from crankpin.analysis import export
 from crankpin.analysis.balance import mean_piston_speed
-from crankpin.analysis.mounts.vectors import Source, VectorQuantity, of_order
-from crankpin.analysis.quantity import ALL, Key, Keyed, order_key
+from crankpin.analysis.export import VALUES
+from crankpin.analysis.labelled import Labelled
+from crankpin.analysis.quantity import ALL, Key, Keyed, Quantity, order_key
 from crankpin.analysis.request import Request, check_request
 from crankpin.model import checks
 from crankpin.model.mounts import _vector
@@ -26,7 +29,6 @@ from crankpin.model.supports import Receptance, Subframe
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    import xarray as xr
     from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
@@ -35,10 +37,10 @@ if TYPE_CHECKING:
     from crankpin.analysis.mounts.powertrain import Powertrain
     from crankpin.model.actuators import Actuator
 
-LOADS = ("F_x", "F_y", "F_z", "M_x", "M_y", "M_z")
-"""Components of a load about the centre of gravity."""
-MOTIONS = {"displacement": "m", "velocity": "m/s", "acceleration": "m/s²"}
-"""Motion of a point → its unit."""
+Source: TypeAlias = tuple[Any, ...]
+"""Origin of a vector: ``("support",)``, ``("mount", index)``, ``("at", point, on, name)``."""
+MOTIONS = ("displacement", "velocity", "acceleration")
+"""Motions of a point."""
 READ = {"displacement": ("µm", 1e6), "velocity": ("mm/s", 1e3), "acceleration": ("m/s²", 1.0)}
 """Motion of a point → the unit in which it is read, and how many of it the unit of the array is."""
 HIGHEST = "> 180"
@@ -88,7 +90,7 @@ def _warn_of_free_motion(found: MountResponse) -> None:
         )
 
 
-class PointMotion(Tabled):
+class PointMotion(Labelled):
     """Motion of a point of the powertrain, or of what carries it.
 
     Made by :meth:`MountResponse.at`.
@@ -113,25 +115,51 @@ class PointMotion(Tabled):
         place = ", ".join(f"{shown.factor * float(x):.6g}" for x in self.point)
         return f"the point ({place}) {shown.unit}{on}"
 
-    def _moved(self, name: str) -> VectorQuantity:
-        words = f"{name} of {self._words}"
-        source = ("at", self.point, self.on, name)
-        return VectorQuantity(self.result, source, words, MOTIONS[name], self.order)
+    _along: ClassVar[tuple[str, ...]] = ("order",)
 
     @property
-    def displacement(self) -> VectorQuantity:
-        """Displacement along x, y and z, m."""
-        return self._moved("displacement")
+    def orders(self) -> tuple[Order, ...]:
+        """Multiples of crank speed."""
+        return self.result.orders
 
     @property
-    def velocity(self) -> VectorQuantity:
-        """Velocity along x, y and z, m/s."""
-        return self._moved("velocity")
+    def coords(self) -> Mapping[str, Any]:
+        """Dimension → its values: the speeds, where there are several."""
+        return self.result.coords
 
     @property
-    def acceleration(self) -> VectorQuantity:
-        """Acceleration along x, y and z, m/s²."""
-        return self._moved("acceleration")
+    def _names(self) -> tuple[str, ...]:
+        return tuple(MOTIONS)
+
+    def _quantity(self, name: str) -> Quantity[np.complex128]:
+        return Quantity(self, name, self.order)
+
+    def _words_of(self, quantity: Quantity) -> str:
+        return f"{quantity.kind.words} of {self._words}"
+
+    def _values(self, quantity: str) -> NDArray[np.complex128]:
+        return self.result._vectors(("at", self.point, self.on, quantity))
+
+    def _at_order(self, order: Order) -> PointMotion:
+        return changed(self, result=self.result._at_order(order))
+
+    def _table_of(self, quantity: Quantity) -> Table:
+        return self.result._table_of(quantity)
+
+    @property
+    def displacement(self) -> Quantity[np.complex128]:
+        """Displacement along x, y and z, m: (…, n_orders, 3)."""
+        return self._quantity("displacement")
+
+    @property
+    def velocity(self) -> Quantity[np.complex128]:
+        """Velocity along x, y and z, m/s: (…, n_orders, 3)."""
+        return self._quantity("velocity")
+
+    @property
+    def acceleration(self) -> Quantity[np.complex128]:
+        """Acceleration along x, y and z, m/s²: (…, n_orders, 3)."""
+        return self._quantity("acceleration")
 
     @property
     def grade(self) -> Any:  # noqa: ANN401 - a number at one speed
@@ -169,9 +197,9 @@ class PointMotion(Tabled):
             places, note = result._shown()
             columns = [Column("order", (*(result.orders[k] for k in places), ALL))]
         for name, (unit, factor) in READ.items():
-            moved: VectorQuantity = getattr(self, name)
+            moved = Quantity(self, name, order)
             if whole:
-                values = np.atleast_1d(moved[order].rms)
+                values = np.atleast_1d(moved.rms)
             else:
                 values = np.append(np.asarray(moved.rms)[places], moved.total.rms)
             columns.append(Column(f"{name} rms", factor * values, unit))
@@ -226,32 +254,93 @@ def _require_subframe(powertrain: Powertrain, name: str) -> None:
 class MountQuantities:
     """Mixin of a response and of one of its orders: the vectors that both have."""
 
-    def _key(self) -> tuple[MountResponse, Key]:
+    def _quantity(self, name: str) -> Quantity[Any, Any, Any]:
         raise NotImplementedError
 
     @property
-    def body_force(self) -> VectorQuantity:
-        """Sum of the mounts' forces on what carries them, N."""
-        result, order = self._key()
-        return VectorQuantity(result, ("support",), "force on the body", "N", order)
+    def body_force(self) -> Quantity[np.complex128]:
+        """Sum of the mounts' forces on what carries them, N: (…, n_orders, 3)."""
+        return self._quantity("body_force")
 
     @property
-    def mount_force(self) -> Mapping[str, VectorQuantity]:
-        """Name of a mount → its force on what carries it, N."""
-        result, order = self._key()
-        return MappingProxyType(
-            {
-                name: VectorQuantity(result, ("mount", k), f"force of mount {name!r}", "N", order)
-                for k, name in enumerate(result.powertrain.names)
-            }
-        )
+    def mount_force(self) -> Quantity[np.complex128]:
+        """Force of each mount on what carries it, N: (…, n_orders, n_mounts, 3).
+
+        The name of a mount is a key: ``mount_force["front"]``.
+        """
+        return self._quantity("mount_force")
 
     @property
-    def ground_force(self) -> VectorQuantity:
-        """Sum of the forces of a subframe's mounts on what carries them, N."""
-        result, order = self._key()
-        _require_subframe(result.powertrain, "ground_force")
-        return VectorQuantity(result, ("ground",), "force on the ground", "N", order)
+    def ground_force(self) -> Quantity[np.complex128]:
+        """Sum of the forces of a subframe's mounts on what carries them, N: (…, n_orders, 3)."""
+        return self._quantity("ground_force")
+
+    @property
+    def load(self) -> Quantity[np.complex128]:
+        """Load of the engine, force, N, and moment, N·m: (…, n_orders, n_loads).
+
+        Moments are about the CG, or the point of :meth:`MountResponse.about`.
+        """
+        return self._quantity("load")
+
+    @property
+    def motion(self) -> Quantity[np.complex128]:
+        """Displacement of the CG, m, and rotation, rad: (…, n_orders, n_loads)."""
+        return self._quantity("motion")
+
+    @property
+    def subframe_motion(self) -> Quantity[np.complex128]:
+        """Displacement of a subframe's CG, m, and rotation, rad: (…, n_orders, n_loads)."""
+        return self._quantity("subframe_motion")
+
+    @property
+    def support_load(self) -> Quantity[np.complex128]:
+        """Sum of the mounts' forces on what carries them, N, and moments, N·m.
+
+        Moments are about the CG, or the point of :meth:`MountResponse.about`. Of shape
+        (…, n_orders, n_loads).
+        """
+        return self._quantity("support_load")
+
+    @property
+    def transmissibility(self) -> Quantity[np.float64]:
+        """Load on what carries the mounts over that of the engine, of each component.
+
+        Magnitude of ``support_load`` over that of ``load``, NaN where the engine has no load in
+        that direction beside rounding: there mounts make some of loads in others.
+        Of shape (…, n_orders, n_loads).
+        """
+        return self._quantity("transmissibility")
+
+    @property
+    def transmissibility_db(self) -> Quantity[np.float64]:
+        """``transmissibility`` in decibels, 20 lg; below zero mounts isolate.
+
+        Of shape (…, n_orders, n_loads).
+        """
+        return self._quantity("transmissibility_db")
+
+    @property
+    def power_in(self) -> Quantity[np.float64]:
+        """Mean power that the engine puts into the motion, W: (…, n_orders)."""
+        return self._quantity("power_in")
+
+    @property
+    def power_lost(self) -> Quantity[np.float64]:
+        """Mean power that each mount dissipates, W: (…, n_orders, n_mounts)."""
+        return self._quantity("power_lost")
+
+    @property
+    def power_passed(self) -> Quantity[np.float64]:
+        """Mean power that the mounts pass to what carries them, W: (…, n_orders).
+
+        Zero where that does not move.
+        """
+        return self._quantity("power_passed")
+
+    def _of(self) -> tuple[MountResponse, Key]:
+        """Return the response, and the order."""
+        raise NotImplementedError
 
     def at(
         self, point: ArrayLike | str, on: Literal["powertrain", "support"] = "powertrain"
@@ -276,7 +365,7 @@ class MountQuantities:
         InputError
             If it is no point, no receiver has the name, or there is no subframe.
         """
-        result, order = self._key()
+        result, order = self._of()
         inputs.one_of("on", on, ("powertrain", SUPPORT))
         powertrain = result.powertrain
         if isinstance(point, str):
@@ -303,71 +392,31 @@ class OrderResponse(MountQuantities, Tabled):
     order: Order | Literal["all"]
     """Multiple of crank speed, or ``"all"``."""
 
-    def _key(self) -> tuple[MountResponse, Key]:
+    def _of(self) -> tuple[MountResponse, Key]:
         return self.result, self.order
+
+    def _quantity(self, name: str) -> Quantity[Any, Any, Any]:
+        return Quantity(self.result, name, self.order)
 
     @property
     def _brief(self) -> str:
-        return f"<OrderResponse{of_order(self.order)}: {self.body_force!r}>"
+        return f"<OrderResponse{self.body_force._which}: {self.body_force!r}>"
 
     @property
     def table(self) -> Table:
         """Peaks of the force on the body, and of each mount, at each speed."""
         body = self.body_force.table
         mounts = [
-            Column(name, vector.table["longest"].values, "N")
-            for name, vector in self.mount_force.items()
+            Column(name, np.atleast_1d(self.mount_force[name].peak), "N")
+            for name in self.result.powertrain.names
         ]
         title = self.result._title(
-            f"peaks of the force on the body, and of each mount,{of_order(self.order)}"
+            f"peaks of the force on the body, and of each mount,{self.body_force._which}"
         )
         return changed(body, title=title, columns=(*body.columns[:-1], *mounts))
 
     def _beginning(self, rows: int) -> Table | None:
         return self.result._first_rows(rows, lambda head: changed(self, result=head).table)
-
-    def _of(self, name: str) -> Any:  # noqa: ANN401 - a number at one speed
-        if self.order == ALL:
-            raise inputs.rejected("order", "all", f"give one order, such as r[2].{name}")
-        one = self.result._with_order(self.order)
-        values = getattr(one, name)
-        axis = len(one.dims)
-        return read_only(np.take(values, one.orders.index(self.order), axis=axis))
-
-    @property
-    def load(self) -> NDArray[np.complex128]:
-        """Load of the engine, N and N·m: (…, n_loads)."""
-        return self._of("load")  # type: ignore[no-any-return]
-
-    @property
-    def motion(self) -> NDArray[np.complex128]:
-        """Displacement of the CG, m, and rotation, rad: (…, n_loads)."""
-        return self._of("motion")  # type: ignore[no-any-return]
-
-    @property
-    def transmissibility(self) -> NDArray[np.float64]:
-        """Load on what carries the mounts over that of the engine: (…, n_loads)."""
-        return self._of("transmissibility")  # type: ignore[no-any-return]
-
-    @property
-    def transmissibility_db(self) -> NDArray[np.float64]:
-        """The same in decibels: (…, n_loads)."""
-        return self._of("transmissibility_db")  # type: ignore[no-any-return]
-
-    @property
-    def power_in(self) -> NDArray[np.float64]:
-        """Mean power that the engine puts in, W: (…,)."""
-        return self._of("power_in")  # type: ignore[no-any-return]
-
-    @property
-    def power_lost(self) -> NDArray[np.float64]:
-        """Mean power that each mount dissipates, W: (…, n_mounts)."""
-        return self._of("power_lost")  # type: ignore[no-any-return]
-
-    @property
-    def power_passed(self) -> NDArray[np.float64]:
-        """Mean power that the mounts pass to what carries them, W: (…,)."""
-        return self._of("power_passed")  # type: ignore[no-any-return]
 
 
 class WorstForce(Item):
@@ -400,7 +449,7 @@ class WorstForce(Item):
         )  # fmt: skip
 
 
-class MountResponse(MountQuantities, Keyed, Tabled):
+class MountResponse(MountQuantities, Keyed, Labelled):
     """Response of a powertrain on its mounts: forces on what carries it, motion, power.
 
     An order is a key: ``response[2].body_force``, ``response.body_force[2]``;
@@ -422,11 +471,16 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         core = self.powertrain._core.response(
             self.powertrain.engine._core, speeds, request.orders, request.rtol, *self._drive()
         )
-        self.__dict__.update(_response=core, _orders=tuple(core.orders), _cache={})
+        self.__dict__.update(_response=core, _own_orders=tuple(core.orders))
         super().__post_init__()
 
-    def _key(self) -> tuple[MountResponse, Key]:
+    _along: ClassVar[tuple[str, ...]] = ("order",)
+
+    def _of(self) -> tuple[MountResponse, Key]:
         return self, None
+
+    def _quantity(self, name: str) -> Quantity[Any, Any, Any]:
+        return Quantity(self, name)
 
     @property
     def _core(self) -> _core.Response:
@@ -435,7 +489,7 @@ class MountResponse(MountQuantities, Keyed, Tabled):
     @property
     def orders(self) -> tuple[Order, ...]:
         """Multiples of crank speed, of a fired engine halves too."""
-        return self.__dict__["_orders"]  # type: ignore[no-any-return]
+        return self.__dict__["_own_orders"]  # type: ignore[no-any-return]
 
     @property
     def omitted(self) -> tuple[Order, ...]:
@@ -456,9 +510,36 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         return MappingProxyType(dict(zip(names, bounds, strict=True)))
 
     @property
-    def dims(self) -> tuple[str, ...]:
-        """Names of the swept dimensions: ``("rpm",)`` or none."""
-        return ("rpm",) if isinstance(self.rpm, np.ndarray) else ()
+    def coords(self) -> Mapping[str, Any]:
+        """Dimension → its values: the speeds, where there are several."""
+        return {"rpm": self.rpm} if isinstance(self.rpm, np.ndarray) else {}
+
+    @property
+    def _own_coords(self) -> Mapping[str, Any]:
+        return {"mount": self.powertrain.names}
+
+    @property
+    def _names(self) -> tuple[str, ...]:
+        of_subframe = ("ground_force", "subframe_motion")
+        has_subframe = isinstance(self.powertrain.support, Subframe)
+        named = (name for name in MOUNTED if name not in MOTIONS)
+        return tuple(name for name in named if has_subframe or name not in of_subframe)
+
+    def _check(self, quantity: str) -> None:
+        if quantity in ("ground_force", "subframe_motion"):
+            _require_subframe(self.powertrain, quantity)
+        super()._check(quantity)
+
+    def _dims(self, quantity: str, what: str = VALUES) -> tuple[str, ...]:
+        kind = self._kind(quantity)
+        axis = ("axis",) if kind.axes else ()
+        return export.reduced((*self.dims, "order", *kind.dims, *axis), what)
+
+    def _words_of(self, quantity: Quantity) -> str:
+        mount = dict(quantity.selected).get("mount")
+        if mount is None:
+            return quantity.kind.words
+        return f"force of mount {self.powertrain.names[mount]!r}"
 
     @property
     def loads_counted(self) -> str:
@@ -469,35 +550,61 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         """Return values over speeds, or those of the one speed."""
         return values if self.dims else values[0]
 
-    def _read(self, key: Any, compute: Any) -> NDArray[Any]:  # noqa: ANN401 - a call
-        kept: dict[Any, NDArray[Any]] = self.__dict__["_cache"]
-        if key not in kept:
-            kept[key] = read_only(self._by_speed(compute()))
-        return kept[key]
+    def _values(self, quantity: str) -> NDArray[Any]:
+        if quantity == "body_force":
+            return self.read("support_load")[..., :3]
+        if quantity in ("transmissibility", "transmissibility_db"):
+            return self._ratio(quantity)
+        if quantity.startswith("power"):
+            power = self._once("power", lambda: self._by_speed(self._core.power()))
+            places: dict[str, Any] = {
+                "power_in": 0,
+                "power_passed": 1,
+                "power_lost": slice(2, None),
+            }
+            return power[..., places[quantity]]  # type: ignore[no-any-return]
+        core = self._core
+        compute: dict[str, Callable[[], NDArray[Any]]] = {
+            "mount_force": core.mount_forces,
+            "ground_force": lambda: core.ground_forces().sum(axis=-2),
+            "load": lambda: core.loads(self._point),
+            "support_load": lambda: core.support_loads(self._point),
+            "motion": core.motions,
+            "subframe_motion": core.subframe_motions,
+        }
+        return self._by_speed(compute[quantity]())
+
+    def _ratio(self, quantity: str) -> NDArray[np.float64]:
+        """Return the transmissibility, as a ratio or in decibels."""
+        if quantity == "transmissibility_db":
+            with np.errstate(divide="ignore"):  # nothing passes
+                return np.asarray(20.0 * np.log10(self.read("transmissibility")))
+        load = np.abs(self.read("load"))
+        ratio = np.full(load.shape, np.nan)
+        np.divide(np.abs(self.read("support_load")), load, out=ratio, where=load > 0.0)
+        return ratio
 
     def _vectors(self, source: Source) -> NDArray[np.complex128]:
         """Return peak phasors of a vector: (…, n_orders, 3)."""
         kind, *rest = source
         if kind == "at":
             point, on, name = rest
-            return self._read(source, lambda: self._core.at(point, name, on == SUPPORT))
-        if kind == "ground":
-            forces = self._core.ground_forces
-            return self._read("ground", lambda: forces().sum(axis=-2))
+            return self._once(  # type: ignore[no-any-return]
+                source, lambda: read_only(self._by_speed(self._core.at(point, name, on == SUPPORT)))
+            )
         if kind == "mount":
-            return self._read("mounts", self._core.mount_forces)[..., rest[0], :]
-        return self.support_load[..., :3]
+            return self.read("mount_force")[..., rest[0], :]
+        return self.read("body_force")
 
-    def _with_order(self, order: Any) -> MountResponse:  # noqa: ANN401 - an order
+    def _at_order(self, order: Order) -> MountResponse:
         """Return this response if it has an order, else the same of that order alone."""
         if order in self.orders:
             return self
-        kept: dict[Any, Any] = self.__dict__["_cache"]
-        key = ("order", order)
-        if key not in kept:
-            request = self.request.at_orders((order,))
-            kept[key] = changed(self, request=request, **self._of_order())
-        return kept[key]  # type: ignore[no-any-return]
+        request = self.request.at_orders((order,))
+        one: MountResponse = self._once(
+            ("order", order), lambda: changed(self, request=request, **self._of_order())
+        )
+        return one
 
     def __getitem__(self, order: Order | Literal["all"]) -> OrderResponse:
         """Return one order, or with ``"all"`` all of ``orders`` together."""
@@ -556,71 +663,7 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         z = self.request.reference_z
         return None if z is None else (*self.request.aside, z)
 
-    @property
-    def load(self) -> NDArray[np.complex128]:
-        """Load of the engine, force, N, and moment, N·m: (…, n_orders, n_loads).
-
-        Moments are about the CG, or the point of :meth:`about`.
-        """
-        return self._read("load", lambda: self._core.loads(self._point))
-
-    @property
-    def motion(self) -> NDArray[np.complex128]:
-        """Displacement of the CG, m, and rotation, rad: (…, n_orders, n_loads)."""
-        return self._read("motion", self._core.motions)
-
-    @property
-    def subframe_motion(self) -> NDArray[np.complex128]:
-        """Displacement of a subframe's CG, m, and rotation, rad: (…, n_orders, n_loads)."""
-        _require_subframe(self.powertrain, "subframe_motion")
-        return self._read("subframe", self._core.subframe_motions)
-
-    @property
-    def support_load(self) -> NDArray[np.complex128]:
-        """Sum of the mounts' forces on what carries them, N, and moments, N·m.
-
-        Moments are about the CG, or the point of :meth:`about`. Of shape (…, n_orders, n_loads).
-        """
-        return self._read("support", lambda: self._core.support_loads(self._point))
-
-    @property
-    def transmissibility(self) -> NDArray[np.float64]:
-        """Load on what carries the mounts over that of the engine, of each component.
-
-        Magnitude of ``support_load`` over that of ``load``, NaN where the engine has no load in
-        that direction beside rounding: there mounts make some of loads in others.
-        Of shape (…, n_orders, n_loads).
-        """
-        load = np.abs(self.load)
-        ratio = np.full(load.shape, np.nan)
-        np.divide(np.abs(self.support_load), load, out=ratio, where=load > 0.0)
-        return read_only(ratio)
-
-    @property
-    def transmissibility_db(self) -> NDArray[np.float64]:
-        """``transmissibility`` in decibels, 20 lg; below zero mounts isolate: (…, n_loads)."""
-        with np.errstate(divide="ignore"):  # nothing passes
-            return read_only(20.0 * np.log10(self.transmissibility))
-
-    @property
-    def power_in(self) -> NDArray[np.float64]:
-        """Mean power that the engine puts into the motion, W: (…, n_orders)."""
-        return self._read("power", self._core.power)[..., 0]
-
-    @property
-    def power_lost(self) -> NDArray[np.float64]:
-        """Mean power that each mount dissipates, W: (…, n_orders, n_mounts)."""
-        return self._read("power", self._core.power)[..., 2:]
-
-    @property
-    def power_passed(self) -> NDArray[np.float64]:
-        """Mean power that the mounts pass to what carries them, W: (…, n_orders).
-
-        Zero where that does not move.
-        """
-        return self._read("power", self._core.power)[..., 1]
-
-    def sel(self, *, rpm: float) -> Self:
+    def sel(self, *, rpm: float) -> Self:  # type: ignore[override] # of its one dimension
         """Return the response at one of the speeds.
 
         Parameters
@@ -638,13 +681,11 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         InputError
             If it is not among them.
         """
-        speed, speeds = inputs.number("rpm", rpm), np.atleast_1d(self.rpm)
-        if speed not in speeds:
-            nearest = speeds[np.abs(speeds - speed).argmin()]
-            hint = f"is not among the {len(speeds)} speeds given; the nearest is {nearest:.10g}"
-            raise inputs.rejected("rpm", rpm, hint)
-        index = int(np.flatnonzero(speeds == speed)[0])
-        return changed(self, rpm=speed, **(self._of_speed(index) if self.dims else {}))
+        speeds = np.atleast_1d(self.rpm)
+        index = export.place_of("rpm", rpm, speeds)
+        return changed(
+            self, rpm=float(speeds[index]), **(self._of_speed(index) if self.dims else {})
+        )
 
     def _of_speed(self, index: int | slice) -> dict[str, Any]:
         """Return what else changes where one of the speeds is taken, or some."""
@@ -739,9 +780,9 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         """
         inputs.one_of("quantity", quantity, ("mount_force", "body_force"))
         names = self.powertrain.names if quantity == "mount_force" else ("",)
-        each = [*self.mount_force.values()] if quantity == "mount_force" else [self.body_force]
         speeds = np.atleast_1d(self.rpm)
-        peaks = np.array([np.reshape(vector.peak, (len(speeds), -1)) for vector in each])
+        shape = (len(speeds), len(self.orders), len(names))
+        peaks = np.moveaxis(np.reshape(self.read(quantity, "peak"), shape), -1, 0)
         mount, speed, place = np.unravel_index(int(peaks.argmax()), peaks.shape)
         order = self.orders[place]
         frequency = float(order) * float(speeds[speed]) / 60.0
@@ -764,7 +805,7 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         places = list(range(len(self.orders)))
         if self.request.orders is not None:
             return places, ""
-        peaks = np.array([vector.peak for vector in self.mount_force.values()]).max(axis=0)
+        peaks = self.read("mount_force", "peak").max(axis=-1)
         kept = peaks > labels.NEGLIGIBLE * peaks.max()
         if not kept.any():
             return places, ""
@@ -802,7 +843,7 @@ class MountResponse(MountQuantities, Keyed, Tabled):
             frequency = [float(order) * float(self.rpm) / 60.0 for order in orders]
             columns = [Column("order", (*orders, ALL)), Column("f", (*frequency, None), "Hz")]
 
-        def peaks(vector: VectorQuantity, what: str) -> NDArray[np.float64]:
+        def peaks(vector: Quantity, what: str) -> NDArray[np.float64]:
             values = np.asarray(getattr(vector, what))
             if self.dims:
                 return values
@@ -811,8 +852,8 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         for axis, values in zip("xyz", peaks(force, "peak_xyz").T, strict=True):
             columns.append(Column(f"|F_{axis}|", values, "N"))
         columns.append(Column("|F|", peaks(force, "peak"), "N"))
-        for name, vector in self.mount_force.items():
-            of_mount = vector.total if self.dims else vector
+        for name in self.powertrain.names:
+            of_mount = self.mount_force[name].total if self.dims else self.mount_force[name]
             columns.append(Column(name, peaks(of_mount, "peak"), "N"))
         title = self._title("peaks of the force on the body, and of each mount")
         return Table(title, tuple(columns), note, loads=self.loads_counted)
@@ -887,8 +928,8 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         places, note = self._shown()
         columns = [Column("order", tuple(self.orders[k] for k in places))]
         each = (self.load, self.support_load, self.transmissibility, self.transmissibility_db)
-        pairs = zip(*(values[places].T for values in each), strict=True)
-        for name, (load, support, ratio, decibels) in zip(LOADS, pairs, strict=True):
+        pairs = zip(*(np.asarray(values)[places].T for values in each), strict=True)
+        for name, (load, support, ratio, decibels) in zip(COMPONENTS_OF_LOADS, pairs, strict=True):
             unit = "N" if name.startswith("F") else "N·m"
             if not np.any(load) and not np.any(support):
                 continue
@@ -906,7 +947,8 @@ class MountResponse(MountQuantities, Keyed, Tabled):
     def _of_power(self) -> Table:
         places, note = self._shown()
 
-        def listed(values: NDArray[np.float64]) -> tuple[float, ...]:
+        def listed(power: ArrayLike) -> tuple[float, ...]:
+            values = np.asarray(power)
             return (*values[places].tolist(), float(values.sum()))
 
         columns = [Column("order", (*(self.orders[k] for k in places), ALL))]
@@ -918,17 +960,32 @@ class MountResponse(MountQuantities, Keyed, Tabled):
         title = self._title("mean power that the engine puts in, and that each mount dissipates")
         return Table(title, tuple(columns), note, loads=self.loads_counted)
 
-    def _dataset(self) -> xr.Dataset:
-        swept = (*self.dims, "order")
-        forces = self._read("mounts", self._core.mount_forces)
-        arrays = {
-            "load": ((*swept, "component"), self.load, {"units": "N, N m"}),
-            "motion": ((*swept, "component"), self.motion, {"units": "m, rad"}),
-            "support_load": ((*swept, "component"), self.support_load, {"units": "N, N m"}),
-            "mount_force": ((*swept, "mount", "axis"), forces, {"units": "N"}),
-        }
-        coords: dict[str, Any] = {"rpm": self.rpm} if self.dims else {}
-        coords |= {"order": list(map(float, self.orders)), "component": list(LOADS)}
-        coords |= {"mount": list(self.powertrain.names), "axis": list("xyz")}
-        attributes = labels.attributes(self.loads_counted)
-        return optional.dataset(arrays, coords, attributes)
+    def _table_of(self, quantity: Quantity) -> Table:
+        """Return peaks along x, y and z, length of the longest vector, and the rms of the length.
+
+        By order at one speed, else at each speed of the order, or of all orders together.
+        """
+        free = [name for name in quantity.dims if name not in ("rpm", "order", "axis")]
+        if not quantity.kind.axes or free or "axis" in dict(quantity.selected):
+            return super()._table_of(quantity)
+        swept, order, note = "rpm" in quantity.dims, quantity.order, ""
+        vector = changed(quantity, order=ALL if order is None and swept else order)
+        if swept:
+            columns = [Column("rpm", np.asarray(self.rpm), digits=10)]
+        elif order is not None:
+            columns = [Column("order", (order,))]
+        else:
+            places, note = self._shown()
+            columns = [Column("order", (*(self.orders[k] for k in places), ALL))]
+        figures = np.column_stack(
+            [np.atleast_2d(vector.peak_xyz), np.atleast_1d(vector.peak), np.atleast_1d(vector.rms)]
+        )
+        if order is None and not swept:
+            whole = vector.total
+            figures = np.vstack([figures[places], [*whole.peak_xyz, whole.peak, whole.rms]])
+        heads = ("peak along x", "along y", "along z", "longest", "rms")
+        for head, values in zip(heads, figures.T, strict=True):
+            columns.append(Column(head, values, quantity.unit))
+        which = vector._which
+        title = self._title(f"{quantity.words}{which and f',{which}'}")
+        return Table(title, tuple(columns), note, loads=self.loads_counted)
