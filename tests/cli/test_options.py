@@ -8,13 +8,14 @@ from __future__ import annotations
 import inspect
 import re
 from argparse import Namespace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 from crankpin._support import inputs
 from crankpin._support.parameters import parameter
 from crankpin.analysis.prepared_trace import prepare_trace
-from crankpin.cli import ORDER, registered
+from crankpin.cli import ORDER, _homes, registered
 from crankpin.cli.arguments import READERS, Given
 from crankpin.cli.naming import error_in_options
 from crankpin.cli.options import Parser
@@ -52,6 +53,18 @@ def test_an_option_is_an_argument_of_its_function(command: str, option: Option) 
     assert option.read or any(re.search(words, declared.type) for words, _ in READERS)
     if "default" not in option.settings:  # that of the function counts
         assert parser(command).get_default(option.dest) in (None, False)
+
+
+def test_commands_are_those_of_the_modules_with_and_without_sources(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    assert {*registered()} == {*ORDER}
+
+    def absent(*_: object, **__: object) -> str:
+        raise OSError
+
+    monkeypatch.setattr(Path, "read_text", absent)
+    assert [*_homes()] == [*ORDER]
 
 
 @pytest.mark.parametrize("command", ORDER)

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import pkgutil
+import re
 import sys
 import warnings
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from crankpin._core import InputError, __version__
@@ -20,37 +23,32 @@ if TYPE_CHECKING:
 
     from crankpin.cli.options import Commands
 
-ORDER = {
-    "presets": "engines",
-    "new": "new",
-    "balance": "shaking",
-    "explain": "shaking",
-    "compare": "analyses",
-    "sweep": "shaking",
-    "rank": "shaking",
-    "firing": "engines",
-    "star": "analyses",
-    "torque": "loads",
-    "trace": "loads",
-    "flywheel": "analyses",
-    "bearings": "loads",
-    "mounts": "mounts",
-    "mounts-fit": "mounts",
-    "counterweights": "hardware",
-    "bob-weight": "hardware",
-    "card": "shop",
-    "two-plane": "shop",
-    "match": "shop",
-    "shafts": "hardware",
-    "design": "making",
-    "tolerances": "making",
-    "closed-form": "analyses",
-    "harmonics": "analyses",
-    "exercise": "analyses",
-    "view": "engines",
-    "gallery": "engines",
-}
-"""Command → the module that has it, which is imported where it is run; in the order of the help."""
+FIRST = ("presets", "new", "balance", "explain", "compare", "sweep", "rank", "firing", "star")
+"""Commands that the help lists before the others."""
+_NAMED = re.compile(r'^@command\(\s*"([\w-]+)"', re.MULTILINE)
+
+
+def _homes() -> dict[str, str]:
+    """Return the module of each command in the order of the help.
+
+    Read from the sources, so that a command imports its own module only; where there are none the
+    modules are imported.
+    """
+    homes = dict[str, str]()
+    for module in sorted(each.name for each in pkgutil.iter_modules(__path__)):
+        try:
+            source = Path(__file__).with_name(f"{module}.py").read_text(encoding="utf-8")
+        except OSError:
+            home = lazy.imported(f"{__name__}.{module}").__name__
+            names = [name for name, add in COMMANDS.items() if add.__module__ == home]
+        else:
+            names = _NAMED.findall(source)
+        homes |= dict.fromkeys(names, module)
+    return {name: homes[name] for name in (*FIRST, *homes)}
+
+
+ORDER = _homes()
+"""Command → the module that has it, in the order of the help."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:

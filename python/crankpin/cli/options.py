@@ -362,6 +362,7 @@ def command(
                     groups[each.group] = parser.add_argument_group(each.group)
                 groups[each.group].add_argument(*each.names, **each.settings)
 
+        add.__module__ = run.__module__
         COMMANDS[name] = add
         return run
 
