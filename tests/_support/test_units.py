@@ -14,7 +14,7 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 from crankpin._support import units
-from crankpin._support.frames import Tabled
+from crankpin._support.frames import Framed
 from crankpin._support.tables import Column, Table
 from hypothesis import given
 from hypothesis import strategies as st
@@ -177,7 +177,7 @@ def test_no_text_has_other_units_than_those_set(name: str) -> None:
     value = OBJECTS[name]
     with cp.units(IMPERIAL):
         texts = [repr(value)] if isinstance(value, (cp.Engine, cp.results.Explanation)) else []
-        if isinstance(value, Tabled):
+        if isinstance(value, Framed):
             for key, frame in value.frames.items():
                 texts += [frame.text(), frame.html(), value.to_csv(frame=key, units=IMPERIAL)]
     for text in texts:

@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import crankpin as cp
 import numpy as np
+from crankpin._support.drawing import Plot
 
 from fuzzing.kinds import FEW, KEYWORDS, KINDS, SEEDS, Beside
 
@@ -127,6 +128,8 @@ def members(kinds: Mapping[str, type]) -> Iterator[Target]:
             continue
         if isinstance(static, (classmethod, staticmethod)):
             yield Target(f"{kind.__name__}.{name}", name, (kind,), True, getattr(kind, name))
+        elif isinstance(static, Plot):
+            yield Target(f"{kind.__name__}.plot", name, (kind,), False, getattr(kind, name))
         elif inspect.isfunction(static):
             shared.setdefault(static, []).append(kind)
     for function, owners in shared.items():
@@ -140,6 +143,8 @@ TARGETS = [*functions(), *members(CLASSES)]
 EXCEPT = {
     "Engine": "made of what the core has: from_lists and other builders make engines",
     "Tolerances.about": "samples are about the engine's own plane",
+    "ClosedForm.plot": "a formula has no picture",
+    "WorstForce.plot": "one number has no picture",
     "Table.from_rows": "makes tables within the package, of what that computed",
 }
 """Targets that are not called, each with its reason."""

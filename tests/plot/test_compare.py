@@ -130,7 +130,7 @@ def test_axes_given_get_the_bars() -> None:
     assert {bar.get_linewidth() for group in ax.containers for bar in group} == {2.0}
     assert len(plt.get_fignums()) == 1
     with pytest.raises(cp.InputError, match="ax and figure cannot be combined"):
-        BANKS.plot(ax, figure=plt.gcf())  # type: ignore[call-overload]
+        BANKS.plot(ax, figure=plt.gcf())
 
 
 def test_a_narrow_figure_has_its_panels_below_each_other() -> None:

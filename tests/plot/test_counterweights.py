@@ -135,4 +135,4 @@ def test_options_that_do_not_fit_are_named(options: dict[str, Any], words: str) 
     with pytest.raises(cp.InputError, match="quantity = 'torque'"):
         cp.bob_weight(V8).plot(quantity="torque")
     with pytest.raises(cp.InputError, match="cannot be combined"):
-        FITTED.plot(plt.subplots()[1], figure=plt.figure())  # type: ignore[call-overload]
+        FITTED.plot(plt.subplots()[1], figure=plt.figure())

@@ -115,7 +115,7 @@ def test_the_star_has_every_crankpin_with_its_numbers(engine: cp.Engine) -> None
     for k, place in enumerate(at, start=1):
         # Annotations without text are arrows.
         labels = [label for label in ax.texts if label.get_text()]
-        nearest = min(labels, key=lambda label: _angle(complex(*label.xy), place))  # type: ignore[attr-defined]
+        nearest = min(labels, key=lambda label: _angle(complex(*label.xy), place))
         assert k in _numbers(nearest.get_text())
 
 
@@ -211,7 +211,7 @@ def test_the_side_view_has_counterweights_and_shafts_at_their_places() -> None:
     plates = outlines(ax, WEIGHTS)
     assert [middle(plate).real for plate in plates] == pytest.approx([0.0, 0.1, 0.2, 0.3])
     assert [np.sign(middle(plate).imag) for plate in plates] == [-1, 1, 1, -1]
-    texts = {text.get_text(): text.xy for text in ax.texts if "×" in text.get_text()}  # type: ignore[attr-defined]
+    texts = {text.get_text(): text.xy for text in ax.texts if "×" in text.get_text()}
     assert {text: y for text, (_, y) in texts.items()} == {"right +2×": -0.02, "−2×": 0.05}
 
 

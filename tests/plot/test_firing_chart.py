@@ -120,7 +120,7 @@ def test_it_takes_axes_timing_and_style() -> None:
         for bars in ax.collections[:8]
     )
     with pytest.raises(cp.InputError, match="ax = 3"):
-        V8.plot(3)  # type: ignore[arg-type]
+        V8.plot(3)  # type: ignore[call-overload]
 
 
 def test_an_error_leaves_no_figure() -> None:
@@ -134,7 +134,7 @@ def test_an_error_leaves_no_figure() -> None:
 def test_all_presets_with_a_firing_order_are_drawn(name: str) -> None:
     firing = cp.Engine.preset(name).firing()
     ax = firing.plot()
-    ax.get_figure(root=True).canvas.draw()  # type: ignore[union-attr]
+    ax.get_figure(root=True).canvas.draw()
     assert len(drawn(ax)["power"]) >= len(firing.engine)
 
 

@@ -181,7 +181,7 @@ def test_they_need_a_figure() -> None:
     with pytest.raises(
         cp.InputError, match=r'ax = .*: kind="phasors" has several panels; give figure='
     ):
-        I4.balance(3000).plot(ax, kind="phasors")  # type: ignore[call-overload]
+        I4.balance(3000).plot(ax, kind="phasors")
     figure = plt.figure()
     parts: Any = figure.subfigures(1, 2)
     part = parts[0]

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     ("plot", "says"),
     [
         (lambda: V6.balance(3000).plot(quantity="moments"), "quantity"),
-        (lambda: V6.balance(3000).plot(kind="bars"), "kind"),  # type: ignore[call-overload]
+        (lambda: V6.balance(3000).plot(kind="bars"), "kind"),
         (lambda: V6.balance(3000).plot(log=1), "log"),
         (lambda: V6.balance(3000).plot(kind="ellipses", quantity="torque"), "traces no curve"),
         (lambda: V6.waveform(3000).plot(quantity="Moment"), "quantity"),
@@ -43,14 +43,14 @@ if TYPE_CHECKING:
         (lambda: cp.sweep([V6, I4], rpm=1000).plot(kind="bars", x="engine"), "leave it out"),
         (lambda: cp.sweep(V6, rpm=1000).plot(), "sweep is of one point"),
         (lambda: cp.sweep(I4, rpm=3000).waveform([0.0]).plot(quantity="speed"), "quantity"),
-        (lambda: cp.sweep(I4, rpm=3000).waveform([0.0]).plot(kind="bars"), "kind"),  # type: ignore[call-overload]
+        (lambda: cp.sweep(I4, rpm=3000).waveform([0.0]).plot(kind="bars"), "kind"),
         (lambda: V6.balance(3000).plot(ax="left"), "give matplotlib axes"),  # type: ignore[call-overload]
-        (lambda: V6.balance(3000).plot(kind="ellipses", figure=3), "Figure or SubFigure"),  # type: ignore[call-overload]
-        (lambda: V6.balance(3000).plot(figure=Figure()), "one panel; give ax"),  # type: ignore[call-overload]
+        (lambda: V6.balance(3000).plot(kind="ellipses", figure=3), "Figure or SubFigure"),
+        (lambda: V6.balance(3000).plot(figure=Figure()), "one panel; give ax"),
         (lambda: V6.waveform(3000).plot(figure=Figure()), "one panel; give ax"),
         (lambda: V6.waveform(3000).plot(axes=Figure().subplots()), "axes = .*: .* no such option"),
         (
-            lambda: over_bank_angle().plot(Figure().subplots(), figure=Figure()),  # type: ignore[call-overload]
+            lambda: over_bank_angle().plot(Figure().subplots(), figure=Figure()),
             "cannot be combined",
         ),
         (
@@ -150,7 +150,7 @@ def test_the_style_sheet_in_use_gives_colours_and_sizes() -> None:
         legend = ax.get_legend()
         assert legend is not None
         assert legend.get_texts()[0].get_fontsize() == pytest.approx(7 * 0.833)
-        assert ax._left_title.get_fontsize() == 5.0  # type: ignore[attr-defined]
+        assert ax._left_title.get_fontsize() == 5.0
         assert figure_of(ax).get_size_inches().tolist() == mpl.rcParams["figure.figsize"]
 
 

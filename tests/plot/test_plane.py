@@ -81,7 +81,7 @@ def test_an_orbit_is_the_waveform_with_crank_angles_and_direction() -> None:
     np.testing.assert_array_equal(traced(ax), w.moment[:361, 0] + 1j * w.moment[:361, 1])
     later = V8.waveform(5000, theta_deg=np.arange(720.0, 1441.0)).plot(kind="orbit")
     np.testing.assert_allclose(traced(later), traced(ax), rtol=0, atol=1e-9)
-    labels = {text.get_text(): complex(*text.xy) for text in ax.texts if text.get_text()}  # type: ignore[attr-defined]
+    labels = {text.get_text(): complex(*text.xy) for text in ax.texts if text.get_text()}
     assert labels == {f"{k}°": complex(*w.moment[k]) for k in (0, 90, 180, 270)}
     (dots,) = [line for line in ax.lines if line.get_marker() == "o"]
     np.testing.assert_array_equal(dots.get_xdata(), w.moment[:360:30, 0])

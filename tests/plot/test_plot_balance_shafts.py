@@ -143,7 +143,7 @@ def test_drawn_where_told_with_style_and_label(name: str) -> None:
     colours = {to_rgb(line.get_color()) for line in ax.lines if line.get_gid() == "crankpin series"}
     assert colours == {to_rgb("green")}
     with pytest.raises(cp.InputError, match=r"^ax = 'here': give matplotlib axes"):
-        PLOTS[name]("here")  # type: ignore[arg-type]
+        PLOTS[name]("here")  # type: ignore[call-overload]
 
 
 @pytest.mark.slow

@@ -157,8 +157,8 @@ def test_what_is_not_there_is_rejected() -> None:
     rejected: list[tuple[Callable[[], object], str]] = [
         (lambda: excitation.plot(cylinder=5), "cylinder = 5: give 1 to 4"),
         (lambda: excitation.plot(cylinder=0), "cylinder = 0"),
-        (lambda: excitation.plot(part="oil"), "part = 'oil': give"),  # type: ignore[arg-type]
-        (lambda: bare.plot(quantity="power"), "quantity = 'power': give"),  # type: ignore[arg-type]
+        (lambda: excitation.plot(part="oil"), "part = 'oil': give"),
+        (lambda: bare.plot(quantity="power"), "quantity = 'power': give"),
         (
             lambda: bare.plot(quantity="irregularity"),
             "quantity = 'irregularity': needs the inertia",

@@ -92,7 +92,7 @@ def test_new_axes_and_errors() -> None:
     assert len(ax.patches) == len(T.shares.columns) - 2
     plt.close("all")
     with pytest.raises(cp.InputError, match=r'kind = .pie.: give "histogram", "ecdf" or "shares"'):
-        T.plot(kind="pie")  # type: ignore[arg-type]
+        T.plot(kind="pie")
     with pytest.raises(cp.InputError, match="by = "):
         T.plot(by="weight")
     assert not plt.get_fignums()

@@ -89,9 +89,9 @@ def test_on_given_axes_the_first_order_that_remains_is_drawn() -> None:
     assert "order 1.5" in titled(ODD.plot(plt.subplots()[1]))
     assert "order 3" in titled(cp.star_diagram(cp.Engine.preset("i6")).plot(plt.subplots()[1]))
     with pytest.raises(cp.InputError, match="ax and figure cannot be combined"):
-        ODD.plot(plt.subplots()[1], figure=plt.figure())  # type: ignore[call-overload]
+        ODD.plot(plt.subplots()[1], figure=plt.figure())
     with pytest.raises(cp.InputError, match=r"figure = .*: one order has one panel"):
-        ODD.plot(order=1.5, figure=plt.figure())  # type: ignore[call-overload]
+        ODD.plot(order=1.5, figure=plt.figure())
     with pytest.raises(cp.InputError, match="order = 13: choose from orders"):
         ODD.plot(order=13)
 

@@ -127,6 +127,8 @@ def wrong_with(name: str, thing: Any) -> list[str]:  # noqa: ANN401 - a class, f
 
 def members(kind: type) -> Iterator[tuple[str, Any]]:
     """Yield the public methods and properties of a class that this package defines."""
+    if hasattr(kind, "plot"):
+        yield f"{kind.__name__}.plot", kind.plot
     for base in kind.__mro__:
         if not base.__module__.startswith("crankpin"):
             continue

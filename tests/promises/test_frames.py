@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
-from crankpin._support.frames import Tabled
+from crankpin._support.frames import Framed
 from crankpin._support.tables import Item
 from crankpin.cli import main
 from support import in_turn
@@ -25,15 +25,15 @@ if TYPE_CHECKING:
 every_result = in_turn("name", RESULTS)
 
 
-def result_of(name: str) -> Tabled:
+def result_of(name: str) -> Framed:
     """The result of a name."""
-    found: Tabled = RESULTS[name]
+    found: Framed = RESULTS[name]
     return found
 
 
 def test_every_class_is_frames_or_no_table() -> None:
     classes = {type(value).__name__ for value in OBJECTS.values()}
-    tabled = {type(value).__name__ for value in OBJECTS.values() if isinstance(value, Tabled)}
+    tabled = {type(value).__name__ for value in OBJECTS.values() if isinstance(value, Framed)}
     assert classes - tabled == UNTABLED
 
 
@@ -231,7 +231,7 @@ def test_arrays_keep_their_dimensions_unless_a_frame_is_named(name: str) -> None
     ],
 )
 def test_the_command_line_has_every_frame(
-    typed: str, made: Callable[[cp.Engine], Tabled], capsys: pytest.CaptureFixture[str]
+    typed: str, made: Callable[[cp.Engine], Framed], capsys: pytest.CaptureFixture[str]
 ) -> None:
     result = made(cp.Engine.preset("v8-crossplane"))
     for frame, table in result.frames.items():

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import crankpin as cp
 import numpy as np
 import pytest
-from crankpin._support.frames import Tabled
+from crankpin._support.frames import Framed
 from matplotlib.mathtext import MathTextParser
 from support.objects import CHARACTERS, OBJECTS
 
@@ -35,7 +35,7 @@ def tables() -> dict[str, str]:
     found = {
         f"{name}: {frame}": value.to_latex(frame=frame)
         for name, value in OBJECTS.items()
-        if isinstance(value, Tabled)
+        if isinstance(value, Framed)
         for frame in value.frames
     }
     rng = np.random.default_rng(1)

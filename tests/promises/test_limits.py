@@ -45,7 +45,7 @@ import resource
 import crankpin as cp
 import numpy as np
 import pandas, xarray, matplotlib.pyplot
-from crankpin._support.frames import Tabled
+from crankpin._support.frames import Framed
 i4, points = cp.Engine.preset("i4"), np.linspace(0.2, 0.3, 31_623)
 sweep = cp.sweep(i4, rpm=1e4 * points, rod_ratio=points, orders=[2])
 results = [

@@ -635,11 +635,11 @@ BARE: dict[str, tuple[Callable[[], object], str]] = {
         lambda: cp.tolerances(I4, rpm=1000, z=1e-4, samples=200).evaluate(progress=[1]),  # type: ignore[arg-type]
         r"progress = \[1\]: give True",
     ),
-    "star": (lambda: cp.star_diagram(FIRED).plot(order="x"), "order = 'x': choose from orders"),  # type: ignore[call-overload]
-    "cycle": (lambda: cp.Cycle.example().plot(cylinder="x"), "cylinder = 'x': give a crankpin"),  # type: ignore[arg-type]
+    "star": (lambda: cp.star_diagram(FIRED).plot(order="x"), "order = 'x': choose from orders"),
+    "cycle": (lambda: cp.Cycle.example().plot(cylinder="x"), "cylinder = 'x': give a crankpin"),
     "timing": (lambda: cp.PortTiming("\ud800"), "transfer_opens_deg = .*: give degrees"),
     "sentences": (lambda: FIRED.explain(1000).html(count=-1), "count = -1: give a whole number"),
-    "dimension": (lambda: SWEPT.plot(x=[1]), r"x = \[1\]: give \"rpm\""),  # type: ignore[call-overload]
+    "dimension": (lambda: SWEPT.plot(x=[1]), r"x = \[1\]: give \"rpm\""),
     "chunks": (lambda: SWEPT.to_dask(chunks=[float("nan")]), "chunks = .*: give a number"),  # type: ignore[arg-type]
 }
 

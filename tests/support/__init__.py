@@ -14,7 +14,7 @@ import pytest
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
-    from crankpin._support.frames import Tabled
+    from crankpin._support.frames import Framed
 
     Test = Callable[..., None]
 
@@ -22,7 +22,7 @@ DATA = Path(__file__).parents[1] / "data"
 """Tables of the sources, and reference values."""
 
 
-def html_of(result: Tabled) -> str:
+def html_of(result: Framed) -> str:
     """Return what notebooks show of a result that is shown as tables."""
     text = result._repr_html_()
     assert text is not None

@@ -254,8 +254,8 @@ OBJECTS = Made(
 )
 
 UNTABLED = {
-    "Cylinder", "Engine", "PortTiming", "Rod", "Shaft", "Unbalance", "ValveTiming", "InertiaTrack",
-    "Mount", "Powertrain", "RigidBody", "Actuator", "Subframe", "Receptance",
+    "Cylinder", "PortTiming", "Rod", "Shaft", "Unbalance", "ValveTiming", "InertiaTrack",
+    "Mount", "RigidBody", "Actuator", "Subframe", "Receptance",
     "PeriodicLoad",
 }  # fmt: skip
 """Inputs, which are no frames."""

@@ -254,6 +254,10 @@ PICTURES: dict[str, Callable[..., Any]] = {
         ax, load="crankpin", numbers=[1], axes="rod"
     ),
     "bending": lambda **place: LOADED.plot(kind="bending", **place),
+    "powertrain": MOUNTED.plot,
+    "table-bars": lambda **place: MOUNTED.static(120.0).plot(**place),
+    "table-curves": cp.sweep(I4, rpm=range(1000, 6001, 500)).table.plot,
+    "table-words": lambda **place: V8.vanishing_orders().plot(**place),
     "mount-modes": MOUNTED.modes().plot,
     "mount-cuts": lambda **place: (
         MOUNTED.without(cylinder=3).response(range(500, 6001, 20)).plot(**place)

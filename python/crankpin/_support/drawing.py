@@ -6,16 +6,11 @@ import functools
 import inspect
 import re
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, overload
+from typing import Any
 
 import numpy as np
 
 from crankpin._support import inputs, lazy, optional
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure, SubFigure
-    from numpy.typing import NDArray
 
 _UNKNOWN = re.compile(r"(?:unexpected keyword|multiple values for) argument '(\w+)'")
 
@@ -40,6 +35,8 @@ def draw(result: object, ax: object = None, **options: object) -> Any:  # noqa: 
         raise inputs.rejected("figure", figure, "this picture has one panel; give ax")
     if ax is not None and figure is not None:
         raise inputs.faulty("ax and figure", "cannot be combined", "give one of them")
+    if options.get("label") is not None:
+        options["label"] = inputs.text("label", options["label"])
     before = plt.get_fignums()
     try:
         drawn = picture(result, ax, **options)
@@ -57,44 +54,97 @@ def draw(result: object, ax: object = None, **options: object) -> Any:  # noqa: 
     return drawn
 
 
-class TwoPanels:
-    """Base class of results whose picture has two panels, one above the other."""
+class Plot:
+    """Method ``plot`` of a class: it draws, with the options that its picture documents."""
 
-    @overload
-    def plot(self, ax: Axes, *, figure: None = None, **style: object) -> Axes: ...
+    __name__ = "plot"
 
-    @overload
-    def plot(
-        self, ax: None = None, *, figure: Figure | SubFigure | None = None, **style: object
-    ) -> NDArray[Any]: ...
+    def __init__(self, kind: type = object, result: object = None) -> None:
+        self._kind, self._result = kind, result
+        self.__qualname__ = f"{kind.__name__}.plot"
 
-    def plot(
-        self, ax: Axes | None = None, *, figure: Figure | SubFigure | None = None, **style: object
-    ) -> Axes | NDArray[Any]:
-        """Draw the two panels of the picture, or with ``ax`` one of them alone; return the axes.
+    def __get__(self, result: object, kind: type) -> Plot:
+        return Plot(kind, result)
 
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes for one panel alone; by default both are drawn in a new figure.
-        figure : Figure or SubFigure, optional
-            Figure or SubFigure for the panels.
-        **style : dict, optional
-            ``label`` and properties of matplotlib lines.
+    def __call__(self, *places: Any, **options: Any) -> Any:  # noqa: ANN401 - as `draw`
+        return draw(*([] if self._result is None else [self._result]), *places, **options)
 
-        Returns
-        -------
-        matplotlib.axes.Axes or ndarray of Axes
-            The axes; of both panels an array.
+    @property
+    def __signature__(self) -> inspect.Signature:
+        """Signature: the axes, the figure of several panels, and the options of the picture."""
+        drawing = _drawing(self._kind)
+        keywords = [*inspect.signature(drawing).parameters.values()][1:]
+        of_all = [name for name in FIRST if any(name == each.name for each in keywords)]
+        places = [inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)]
+        places = places if self._result is None else []
+        parameters = [
+            *places,
+            inspect.Parameter("ax", inspect.Parameter.POSITIONAL_OR_KEYWORD, default=None),
+            *(
+                each.replace(kind=inspect.Parameter.KEYWORD_ONLY)
+                for each in sorted(keywords, key=lambda each: each.name not in of_all)
+                if each.name != "ax" and each.kind is not each.VAR_KEYWORD
+            ),
+            inspect.Parameter("style", inspect.Parameter.VAR_KEYWORD),
+        ]
+        drawn = f"Axes{' | NDArray[Any]' * ('figure' in of_all)}"
+        return inspect.Signature(parameters, return_annotation=drawn)
 
-        Raises
-        ------
-        InputError
-            If ``ax`` and ``figure`` are both given.
-        ImportError
-            If matplotlib is not installed.
-        """
-        return draw(self, ax, figure=figure, **style)  # type: ignore[no-any-return]
+    @property
+    def __doc__(self) -> str:  # type: ignore[override] # composed when it is read
+        """Docstring of the drawing function, with the entries that all pictures share."""
+        written = inspect.getdoc(_drawing(self._kind)) or ""
+        head, *parts = SECTION.split(written)
+        sections = dict(zip(parts[::2], parts[1::2], strict=True))
+        parameters = self.__signature__.parameters
+        several = "figure" in parameters
+        entries = {"**style" if name == "style" else name: "" for name in parameters}
+        entries.pop("self", None)
+        entries |= {name: text for name, text in SHARED.items() if name in entries}
+        for entry in re.split(r"\n(?=\S)", sections.pop("Parameters", "").strip()):
+            entries |= {entry.partition(" : ")[0]: entry} if entry else {}
+        texts = {
+            "Parameters": "\n".join(filter(None, entries.values())),
+            "Returns": RETURNED[several],
+            "Raises": RAISED[several],
+        }
+        texts |= {title: text.strip("\n") for title, text in sections.items()}
+        body = (f"{title}\n{'-' * len(title)}\n{text}" for title, text in texts.items())
+        return "\n\n".join([head.strip(), *body])
+
+
+SECTION = re.compile(r"^([A-Z]\w+)\n-{3,}\n", re.MULTILINE)
+"""Title of a section of a docstring."""
+FIRST = ("figure", "kind")
+"""Options that stand before all others in signatures."""
+SHARED = {
+    "ax": "ax : matplotlib.axes.Axes, optional\n    Axes to draw on; by default new ones.",
+    "figure": "figure : Figure or SubFigure, optional\n"
+    "    Figure or SubFigure for several panels; by default a new one.",
+    "label": "label : str, optional\n    Entry of a legend, for several results on the same axes.",
+    "**style": "**style : dict, optional\n"
+    "    Colour, line width and other properties of what is drawn, as matplotlib takes them.",
+}
+"""Parameter → its entry in the docstring of a picture that documents it in no other way."""
+RETURNED = (
+    "matplotlib.axes.Axes\n    The axes.",
+    "matplotlib.axes.Axes or ndarray of Axes\n    The axes; of several panels an array.",
+)
+"""What pictures of one panel, and those of several, return."""
+RAISED = tuple(
+    f"InputError\n    If an option is out of range{combined}.\n"
+    "ImportError\n    If matplotlib is not installed."
+    for combined in ("", ", or ``ax`` and ``figure`` are combined")
+)
+
+
+def _drawing(kind: type) -> Callable[..., Any]:
+    """Return the function that draws a class; without matplotlib a description of any."""
+    try:
+        lazy.imported(PICTURES)
+    except ImportError:
+        return picture.dispatch(object)
+    return picture.dispatch(kind)
 
 
 @functools.singledispatch

@@ -6,12 +6,13 @@ import csv
 import io
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
 from crankpin._support import files, inputs, labels, optional
 from crankpin._support import units as unit_names
+from crankpin._support.drawing import Plot
 from crankpin._support.record import AbsentItemError, Record, changed
 from crankpin._support.warnings import without_controls
 
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 
     import pandas as pd
     import xarray as xr
+    from matplotlib.axes import Axes
 
     from crankpin._support.tables import Table
 
@@ -84,8 +86,8 @@ class Frames(Mapping[str, "Table"]):
         return "".join(each.html(rows) for each in self._shown(rows))
 
 
-class Tabled(Record):
-    """Base class of results, which are named frames: tables of columns with units."""
+class Framed:
+    """Mixin of what is named frames, tables of columns with units, and has a picture."""
 
     @property
     def table(self) -> Table:
@@ -115,6 +117,43 @@ class Tabled(Record):
 
     def _repr_html_(self) -> str | None:
         return None if self._brief else self.frames._repr_html_()
+
+    if TYPE_CHECKING:
+
+        @overload
+        def plot(self, ax: Axes, **options: object) -> Axes: ...
+
+        @overload
+        def plot(self, ax: None = None, **options: object) -> Any: ...  # noqa: ANN401
+
+        def plot(self, ax: Axes | None = None, **options: object) -> Any:
+            """Draw it; return the axes."""
+
+    else:
+        plot = Plot()
+
+    def tidy(self, *columns: str) -> Table:
+        """Return the numbers of the table in long form, a row for each.
+
+        Columns are those that distinguish the rows, then quantity (where these have quantities,
+        component), value and unit.
+
+        Parameters
+        ----------
+        *columns : str, optional
+            Columns of the table whose numbers are listed; by default all that hold numbers.
+
+        Returns
+        -------
+        Table
+            The rows; its ``to_pandas`` and ``to_csv`` write them.
+
+        Raises
+        ------
+        InputError
+            If there is no such column of numbers.
+        """
+        return self.table._long(columns)
 
     def _exported(self, frame: str, units: str) -> Table:
         """Return a frame in units that an export asks for."""
@@ -279,6 +318,10 @@ class Tabled(Record):
         columns = "".join("l" if column.is_text else "r" for column in table.columns)
         text = latex.table(table.title, table.header, cells, table._notes(), columns)
         return _written(text, path, ".tex")
+
+
+class Tabled(Framed, Record):
+    """Base class of results, which are named frames and have a picture."""
 
 
 def in_units(dataset: xr.Dataset, setting: unit_names.Setting) -> xr.Dataset:

@@ -10,7 +10,7 @@ import textwrap
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from types import MappingProxyType
-from typing import Any, ClassVar, Generic, Self, TypeVar, dataclass_transform, overload
+from typing import Any, ClassVar, Generic, Literal, Self, TypeVar, dataclass_transform, overload
 
 import numpy as np
 
@@ -92,7 +92,14 @@ class FieldsDocumented:
                     yield name, written, inspect.cleandoc(about)
 
 
-@dataclass_transform(frozen_default=True, eq_default=False, field_specifiers=(dataclasses.field,))
+def computed(*, init: Literal[False] = False) -> Any:  # noqa: ANN401 - as of any field
+    """Declare a field that a record computes: no argument, neither compared nor pickled."""
+    return dataclasses.field(init=init, compare=False, repr=False)
+
+
+@dataclass_transform(
+    frozen_default=True, eq_default=False, field_specifiers=(dataclasses.field, computed)
+)
 class Record:
     """Base class whose subclasses are frozen dataclasses with read-only arrays.
 

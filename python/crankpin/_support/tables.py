@@ -26,6 +26,8 @@ COUNTED = (
     "pin_offset", "load", "theta_deg", "after/before", "at most",
 )  # fmt: skip
 """Columns without unit in tables whose rows have units."""
+OF_ROWS = (*COUNTED, "set", "piston", "plane", "design", "speed", "z")
+"""Columns whose numbers are names of rows."""
 BYTES = 64
 """Memory of a number or a short text as an object of Python."""
 IN_PARTS = "read the arrays, select some of the rows, or write CSV to a file"
@@ -376,6 +378,42 @@ class Table(Tabled):
             yield f"{TINY}: not zero, but too small to matter."
         if self.loads:
             yield labels.in_words(self.loads)
+
+    def _long(self, names: Sequence[str]) -> Table:
+        """Return the numbers of some columns, or all, below each other, with the other columns."""
+        numbers = self._numbers()
+        for name in names:
+            inputs.one_of("columns", name, numbers, AbsentItemError)
+        chosen = {name: numbers[name] for name in names} or numbers
+        beside = [each for head, each in self._distinct(units=False) if head not in numbers]
+        count = len(self)
+
+        def repeated(each: Column) -> Column:
+            return changed(each, data=tuple(each._listed()) * len(chosen))
+
+        units_of = [each.unit for each in chosen.values() for _ in range(count)]
+        if self.row_units:
+            units_of = [
+                unit or own
+                for unit, own in zip(units_of, self.row_units * len(chosen), strict=True)
+            ]
+        values = tuple(value for each in chosen.values() for value in each._listed())
+        quantities = tuple(name for name in chosen for _ in range(count))
+        columns = (
+            *map(repeated, beside),
+            Column("component" if "quantity" in self else "quantity", quantities),
+            Column("value", values, digits=10),
+            Column("unit", tuple(units_of)),
+        )
+        return Table("Long form", columns, loads=self.loads, row_units=tuple(units_of))
+
+    def _numbers(self) -> dict[str, Column]:
+        """Return the columns of numbers by name, without those that name rows."""
+        return {
+            head: each
+            for head, each in self._distinct(units=False)
+            if not each.is_text and each.name not in OF_ROWS
+        }
 
     def _distinct(self, *, units: bool = True) -> Iterable[tuple[str, Column]]:
         """Yield the columns with heads that are distinct."""

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, Self, overload
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
-from crankpin._support.drawing import draw
 from crankpin._support.quantities import QUANTITIES, kind_of
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
@@ -22,8 +21,6 @@ from crankpin.model.loads import of_speed_squared
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure, SubFigure
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Order, Orders, Spectrum
@@ -226,91 +223,6 @@ class Balance(ByOrder[float]):
         with suppressed():  # Warned of where the balance was made.
             explanation = self.engine.replace(reference_z=self.reference_z).explain(self.rpm)
         return f"{table}{explanation.html(count=EXPLAINED)}"
-
-    @overload
-    def plot(
-        self,
-        ax: Axes,
-        *,
-        figure: None = None,
-        kind: Literal["spectrum", "ellipses"] = "spectrum",
-        quantity: str | None = None,
-        **options: object,
-    ) -> Axes: ...
-
-    @overload
-    def plot(
-        self,
-        ax: None = None,
-        *,
-        figure: None = None,
-        kind: Literal["spectrum"] = "spectrum",
-        quantity: str | None = None,
-        **options: object,
-    ) -> Axes: ...
-
-    @overload
-    def plot(
-        self,
-        ax: None = None,
-        *,
-        figure: Figure | SubFigure | None = None,
-        kind: Literal["ellipses", "phasors"],
-        quantity: str | None = None,
-        **options: object,
-    ) -> NDArray[Any]: ...
-
-    def plot(
-        self,
-        ax: Axes | None = None,
-        *,
-        figure: Figure | SubFigure | None = None,
-        kind: Literal["spectrum", "ellipses", "phasors"] = "spectrum",
-        quantity: str | None = None,
-        **options: object,
-    ) -> Axes | NDArray[Any]:
-        """Draw the orders; return the axes.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones. ``"ellipses"`` draws all orders on them.
-        figure : Figure or SubFigure, optional
-            Figure or SubFigure for the panels of ``"ellipses"`` or ``"phasors"``; by default a new
-            one.
-        kind : {"spectrum", "ellipses", "phasors"}, default "spectrum"
-            ``"spectrum"``: peaks along (about) x and y over order, exact zeros as hollow circles,
-            up to the last order that matters, or of all orders given; ``"ellipses"``: the ellipse
-            that force or moment traces in each of the four largest orders, with its direction and,
-            as a dot, the place at θ = 0; ``"phasors"``: what cylinders, counterweights and shafts
-            add to each order, head to tail, and their sum.
-        quantity : str, optional
-            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment, or
-            else the first that is not zero.
-        **options : dict, optional
-            ``log=True`` for a logarithmic spectrum; ``orders=`` of phasors, by default those given
-            to the balance, or else 1 and 2; ``label``, for a legend of several results on
-            the same axes; colour, line width and other properties of matplotlib lines.
-
-        Returns
-        -------
-        matplotlib.axes.Axes, or numpy.ndarray of them
-            The axes; of ``"ellipses"`` without ``ax``, and of ``"phasors"``, an array of panels.
-
-        Raises
-        ------
-        InputError
-            If ``ax`` and ``figure`` are both given, or there is no such picture of the quantity.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> b = cp.Engine.preset("v6-60").balance(rpm=6000)
-        >>> ax = b.plot(quantity="torque", log=True, color="black")
-        >>> b.plot(kind="ellipses").shape
-        (2, 2)
-        """
-        return draw(self, ax, figure=figure, kind=kind, quantity=quantity, **options)  # type: ignore[no-any-return]
 
     @property
     def table(self) -> Table:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, overload
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
-from crankpin._support.drawing import draw
 from crankpin._support.quantities import INSIDE, LOADS
 from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
@@ -23,8 +22,6 @@ from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import crankpins
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure, SubFigure
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.frames import Frames
@@ -509,96 +506,6 @@ class BearingLoads(InsideLoads, Labelled):
         return kept[cut]  # type: ignore[no-any-return]
 
     # --- tables and pictures ---------------------------------------------------------------------
-
-    @overload
-    def plot(
-        self,
-        ax: Axes,
-        *,
-        figure: None = None,
-        kind: Literal["polar", "curves", "bending"] = "polar",
-        **options: object,
-    ) -> Axes: ...
-
-    @overload
-    def plot(
-        self,
-        ax: None = None,
-        *,
-        figure: None = None,
-        kind: Literal["curves", "bending"],
-        **options: object,
-    ) -> Axes: ...
-
-    @overload
-    def plot(
-        self,
-        ax: None = None,
-        *,
-        figure: Figure | SubFigure,
-        kind: Literal["polar"] = "polar",
-        **options: object,
-    ) -> NDArray[Any]: ...
-
-    @overload
-    def plot(
-        self,
-        ax: None = None,
-        *,
-        figure: None = None,
-        kind: Literal["polar"] = "polar",
-        **options: object,
-    ) -> Any: ...  # noqa: ANN401 - panels, or of one bearing the axes
-
-    def plot(
-        self,
-        ax: Axes | None = None,
-        *,
-        figure: Figure | SubFigure | None = None,
-        kind: Literal["polar", "curves", "bending"] = "polar",
-        **options: object,
-    ) -> Axes | NDArray[Any]:
-        """Draw loads; return the axes.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones.
-        figure : Figure or SubFigure, optional
-            Figure or SubFigure for the panels of ``"polar"``; by default a new one.
-        kind : {"polar", "curves", "bending"}, default "polar"
-            ``"polar"``: the tip of a load, a panel for each bearing in colours of the crank angle,
-            or with ``ax`` or a colour of yours with crank angles beside it. ``"curves"``:
-            magnitudes over crank angle. ``"bending"``: largest bending moment along z.
-        **options : dict, optional
-            Of ``"polar"`` and ``"curves"``: ``load``, as in :meth:`read`, by default the main
-            bearings, and ``numbers`` of bearings or cylinders, from 1, by default all; of
-            ``"polar"``: ``axes``, as in :meth:`turned`; of ``"bending"``: ``part``, as there, by
-            default both. Of all: ``label``, for a legend of several results on the same axes;
-            colour, line width and other properties of matplotlib lines.
-
-        Returns
-        -------
-        matplotlib.axes.Axes or ndarray of Axes
-            The axes; of several bearings the panels, (n_rows, n_columns).
-
-        Raises
-        ------
-        InputError
-            If ``ax`` and ``figure`` are both given, or there is no such picture.
-        ImportError
-            If matplotlib is not installed.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> loads = cp.bearing_loads(cp.Engine.preset("i4"), rpm=6000)
-        >>> loads.plot().shape
-        (2, 3)
-        >>> ax = loads.plot(load="crankpin", numbers=[1], axes="crank")
-        >>> ax = loads.plot(kind="bending", part="crankcase")
-        """
-        return draw(self, ax, figure=figure, kind=kind, **options)  # type: ignore[no-any-return]
 
     @property
     def table(self) -> Table:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final, Literal, overload
+from typing import TYPE_CHECKING, Any, Final, Literal
 
 import numpy as np
 
 from crankpin._support import inputs, labels
-from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.parameters import documented
 from crankpin._support.quantities import QUANTITIES
@@ -18,8 +17,6 @@ from crankpin.analysis.quantity import ALL
 from crankpin.analysis.request import ENGINE_HINT, engine_core
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure, SubFigure
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Order, Orders, Spectrum
@@ -188,59 +185,6 @@ class Comparison(Tabled):
             If there is no such quantity.
         """
         return read_only(_change(*self._peaks(quantity)))
-
-    @overload
-    def plot(
-        self, ax: Axes, *, figure: None = None, quantity: str | None = None, **style: object
-    ) -> Axes: ...
-
-    @overload
-    def plot(
-        self,
-        ax: None = None,
-        *,
-        figure: Figure | SubFigure | None = None,
-        quantity: str | None = None,
-        **style: object,
-    ) -> NDArray[Any]: ...
-
-    def plot(
-        self,
-        ax: Axes | None = None,
-        *,
-        figure: Figure | SubFigure | None = None,
-        quantity: str | None = None,
-        **style: object,
-    ) -> Axes | NDArray[Any]:
-        """Draw peaks of both engines over order, and the curves that force or moment trace.
-
-        Above each order stands by how much it fell or rose. A torque is drawn over crank angle.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; the peaks alone then.
-        figure : Figure or SubFigure, optional
-            Figure or SubFigure for both panels; by default a new one.
-        quantity : str, optional
-            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment, or
-            else the first that is not zero.
-        **style : dict, optional
-            Passed on to the bars, such as ``linewidth=``.
-
-        Returns
-        -------
-        matplotlib.axes.Axes or ndarray of Axes
-            The axes; without ``ax`` an array: (1, 2), or (2, 1) in a narrow figure.
-
-        Raises
-        ------
-        InputError
-            If ``ax`` and ``figure`` are both given, or there is no such quantity.
-        ImportError
-            If matplotlib is not installed.
-        """
-        return draw(self, ax, figure=figure, quantity=quantity, **style)  # type: ignore[no-any-return]
 
     def _shown_orders(self, quantity: str) -> list[int]:
         """Return places of the orders that tables and pictures show: those that are not negligible.

@@ -11,7 +11,6 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels, tables
-from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.parameters import documented
 from crankpin._support.record import read_only
@@ -21,7 +20,6 @@ from crankpin.model.builders import banks_of_order, vee_layout_of
 from crankpin.model.data import EngineData
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Angle, Angles
@@ -292,38 +290,6 @@ class Firing(Tabled):
         return MappingProxyType({"transfer": transfer, "exhaust": exhaust})
 
     # --- tables and pictures --------------------------------------------------------------------
-
-    def plot(
-        self, ax: Axes | None = None, *, timing: Timing | None = None, **style: object
-    ) -> Axes:
-        """Draw strokes, and with a timing open valves or ports, over a cycle; return the axes.
-
-        A row for each cylinder, bank by bank: its strokes with a mark where it fires, and below
-        them intake valves (transfer ports) and exhausts. Exhausts that are open at one time in
-        one bank are hatched.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones.
-        timing : ValveTiming or PortTiming, optional
-            When valves or ports open and close; by default they are not drawn.
-        **style : dict, optional
-            Passed on to the bars, such as ``edgecolor=``.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The axes.
-
-        Raises
-        ------
-        InputError
-            If the timing is that of other strokes.
-        ImportError
-            If matplotlib is not installed.
-        """
-        return draw(self, ax, timing=timing, **style)  # type: ignore[no-any-return]
 
     def _gap_in_bank(self) -> NDArray[np.float64]:
         """Crank angle to the next firing in the same bank, in firing order."""

@@ -10,7 +10,6 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
-from crankpin._support.drawing import TwoPanels
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.request import engine_core
@@ -192,7 +191,7 @@ def flywheel(
     )
 
 
-class Flywheel(TwoPanels, Tabled):
+class Flywheel(Tabled):
     """Speed of a crank over a cycle, with the moment of inertia that turns with it.
 
     ``plot`` draws torque over the cycle with its mean, and below it the speed, which stands alone

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from crankpin._support import inputs, labels
-from crankpin._support.drawing import draw
 from crankpin._support.quantities import LOADS, POINTS
 from crankpin._support.record import AbsentError
 from crankpin._support.tables import Column, Table
@@ -25,7 +24,6 @@ from crankpin.model import checks
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.quantities import Kind
@@ -217,56 +215,6 @@ class OperatingMap(InsideLoads, Labelled):
         An AttributeError without ``inertia``.
         """
         return self._quantity("swing_deg")
-
-    def plot(
-        self,
-        ax: Axes | None = None,
-        *,
-        quantity: Literal[
-            "main",
-            "crankpin",
-            "wrist_pin",
-            "side_thrust",
-            "rod_force",
-            "gas_force",
-            "irregularity",
-            "swing_deg",
-        ] = "main",
-        **style: object,
-    ) -> Axes:
-        """Draw a quantity over speed and load; return the axes.
-
-        A map, or a curve where there is one load or one speed.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones.
-        quantity : str, default "main"
-            A load, the largest of all bearings or cylinders, or
-            ``"irregularity"`` or ``"swing_deg"``.
-        **style : dict, optional
-            Properties of ``pcolormesh``, such as ``cmap``; of a curve ``label`` and properties of
-            matplotlib lines.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The axes.
-
-        Raises
-        ------
-        InputError
-            If there is no such quantity, or none without ``inertia``.
-        ImportError
-            If matplotlib is not installed.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> ax = cp.operating_map(cp.Engine.preset("i4"), range(1000, 7000, 500)).plot()
-        """
-        return draw(self, ax, quantity=quantity, **style)  # type: ignore[no-any-return]
 
     @property
     def table(self) -> Table:

@@ -9,7 +9,6 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels, lazy, units
-from crankpin._support.drawing import TwoPanels
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.record import item_key
 from crankpin._support.tables import Column, Table
@@ -254,7 +253,7 @@ def _warn(found: PreparedTrace, reference: float | None) -> None:
         )
 
 
-class PreparedTrace(TwoPanels, Tabled):
+class PreparedTrace(Tabled):
     """Measured pressure before and after each step of its preparation.
 
     ``plot`` draws the mean before and after, in the band of cycles, and below it the change; on

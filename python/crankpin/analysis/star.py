@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
-from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
@@ -22,8 +21,6 @@ from crankpin.analysis.vanishing import Verdicts
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from matplotlib.axes import Axes
-    from matplotlib.figure import FigureBase
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order, Orders
@@ -139,63 +136,6 @@ class StarDiagram(Keyed, Tabled):
     def loads_counted(self) -> str:
         """Gas pressure of a fired engine, in words; empty where no cycle is known."""
         return self.engine._core.gas_counted if self.engine.fired else ""
-
-    @overload
-    def plot(
-        self, ax: Axes, *, figure: None = None, order: Order | None = None, **style: object
-    ) -> Axes: ...
-
-    @overload
-    def plot(
-        self, ax: None = None, *, figure: None = None, order: Order, **style: object
-    ) -> Axes: ...
-
-    @overload
-    def plot(
-        self,
-        ax: None = None,
-        *,
-        figure: FigureBase | None = None,
-        order: None = None,
-        **style: object,
-    ) -> NDArray[Any]: ...
-
-    def plot(
-        self,
-        ax: Axes | None = None,
-        *,
-        figure: FigureBase | None = None,
-        order: Order | None = None,
-        **style: object,
-    ) -> Axes | NDArray[Any]:
-        """Draw the vectors of the orders from the centre, with their sums.
-
-        A panel for each star: orders whose vectors are the same share one.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw one order on: the first whose sum remains and which is no major order.
-        figure : Figure or SubFigure, optional
-            Figure or SubFigure for the panels; by default a new one.
-        order : number, optional
-            One of ``orders``, to draw it alone.
-        **style : dict, optional
-            Passed on to the vectors, such as ``color=``.
-
-        Returns
-        -------
-        matplotlib.axes.Axes or ndarray of Axes
-            The axes; of several panels an array.
-
-        Raises
-        ------
-        InputError
-            If ``ax`` and ``figure`` are both given, or the order is none of ``orders``.
-        ImportError
-            If matplotlib is not installed.
-        """
-        return draw(self, ax, figure=figure, order=order, **style)  # type: ignore[no-any-return]
 
 
 def star_diagram(

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
-from crankpin._support.drawing import draw
 from crankpin._support.quantities import EXCITATIONS, kind_of
 from crankpin._support.record import changed
 from crankpin._support.tables import Column, Table
@@ -23,7 +22,6 @@ from crankpin.model.computed_cycles import area
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order
@@ -175,54 +173,6 @@ class TorsionalExcitation(Labelled):
     def _fired(self) -> list[bool]:
         cycles = self.engine.cycles
         return [each is not None for each in cycles or [None] * len(self.engine)]
-
-    def plot(
-        self,
-        ax: Axes | None = None,
-        *,
-        cylinder: int = 1,
-        part: Literal["gas", "inertia", "torque"] | None = None,
-        log: bool | None = None,
-        **style: object,
-    ) -> Axes:
-        """Draw the amplitudes of one cylinder's torque; return the axes.
-
-        At one speed over order, at several a map over speed and order.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones.
-        cylinder : int, default 1
-            Number of the cylinder.
-        part : {"gas", "inertia", "torque"}, optional
-            Part of the torque; by default all three at one speed, and their sum at several.
-        log : bool, optional
-            Whether amplitudes are on a logarithmic scale; by default those of a map.
-        **style : dict, optional
-            ``label`` and properties of matplotlib lines; of a map properties of ``pcolormesh``,
-            such as ``cmap``.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The axes.
-
-        Raises
-        ------
-        InputError
-            If there is no such cylinder or part.
-        ImportError
-            If matplotlib is not installed.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> excitation = cp.torsional_excitation(cp.Engine.preset("i4"), rpm=3000)
-        >>> ax = excitation.plot()
-        """
-        options = {"cylinder": cylinder, "part": part, "log": log}
-        return draw(self, ax, **options, **style)  # type: ignore[no-any-return]
 
     @property
     def table(self) -> Table:

@@ -271,20 +271,33 @@ class VanishingOrders(Tabled):
 
     # --- tables ---------------------------------------------------------------------------------
 
-    def tidy(self) -> Table:
+    def tidy(self, *quantities: str) -> Table:
         """Return the long form, a row for each order, quantity and component.
 
         Columns are order, quantity, component, verdict and within_rounding.
+
+        Parameters
+        ----------
+        *quantities : str, optional
+            ``"force"``, ``"moment"``, ``"torque"`` or ``"gas"``; by default all.
 
         Returns
         -------
         Table
             The rows; its ``to_pandas`` and ``to_csv`` write them.
+
+        Raises
+        ------
+        InputError
+            If there is no such quantity.
         """
+        names = dict.fromkeys(quantity for quantity, _ in self.sums)
+        chosen = [inputs.one_of("quantities", name, names) for name in quantities] or names
         rows = [
             (order, *sums, self._word(k, column), bool(self.within_rounding[k, column]))
             for k, order in enumerate(self.orders)
             for column, sums in enumerate(self.sums)
+            if sums[0] in chosen
         ]
         heads = ("order", "quantity", "component", "verdict", "within_rounding")
         return Table.from_rows(f"{labels.name_of(self.engine)}: verdicts", heads, rows)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Generic
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
-from crankpin._support.drawing import draw
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import read_only
 from crankpin._support.tables import Table
@@ -20,7 +19,6 @@ from crankpin.analysis.request import Request, check_request, engine_core
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order, Orders, Spectrum
@@ -188,49 +186,6 @@ class Waveform(OverAngle[float]):
         return {"engine": self.engine.name, "rpm": self.rpm}
 
     # --- tables and pictures --------------------------------------------------------------------
-
-    def plot(
-        self,
-        ax: Axes | None = None,
-        *,
-        kind: Literal["curves", "orbit"] = "curves",
-        quantity: str | None = None,
-        **options: object,
-    ) -> Axes:
-        """Draw a quantity over crank angle, or the curve that its tip traces; return the axes.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones.
-        kind : {"curves", "orbit"}, default "curves"
-            ``"curves"``: a curve over crank angle for each axis; ``"orbit"``: the tip of force or
-            moment in the cross-section plane, arrows in its direction, a dot every 30°.
-        quantity : str, optional
-            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment, or
-            else the first that is not zero.
-        **options : dict, optional
-            ``label``, for a legend of several results on the same axes; colour, line width and
-            other properties of matplotlib lines.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The axes.
-
-        Raises
-        ------
-        InputError
-            If there is no such picture of the quantity: a torque has no orbit.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> v6 = cp.Engine.preset("v6-60")
-        >>> ax = v6.waveform(rpm=6000).plot(label="60°")
-        >>> ax = v6.with_bank_angle(90, hold="pins").waveform(rpm=6000).plot(ax, label="90°")
-        """
-        return draw(self, ax, kind=kind, quantity=quantity, **options)  # type: ignore[no-any-return]
 
     @property
     def table(self) -> Table:

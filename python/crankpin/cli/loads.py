@@ -268,7 +268,7 @@ class OfCylinders(NamedTuple):
     def plot(self) -> Axes:
         """Draw the mean of each cylinder in the band of its cycles."""
         first, *others = self.prepared
-        ax = first.traces.plot(label="cylinder 1")
+        ax: Axes = first.traces.plot(label="cylinder 1")
         for k, each in enumerate(others, 2):
             each.traces.plot(ax, label=f"cylinder {k}")
         return ax

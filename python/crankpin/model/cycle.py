@@ -12,7 +12,6 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import ATMOSPHERE
 from crankpin._support import inputs, labels, units
-from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.parameters import documented
 from crankpin._support.record import Input, read_only
@@ -26,7 +25,6 @@ if TYPE_CHECKING:
     from pathlib import Path
     from typing import Unpack
 
-    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order
@@ -455,38 +453,3 @@ class Cycle(Tabled, Input, ComputedCycles):
             ),
             note=self.origin,
         )
-
-    def plot(
-        self,
-        ax: Axes | None = None,
-        *,
-        cylinder: Cylinder | None = None,
-        label: str | None = None,
-        **style: object,
-    ) -> Axes:
-        """Draw pressure over crank angle, or over volume.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones.
-        cylinder : Cylinder, optional
-            Cylinder with a bore, to draw pressure over the volume swept.
-        label : str, optional
-            Entry of the legend; by default the name.
-        **style : dict, optional
-            Properties of the line, as matplotlib takes them.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The axes.
-
-        Raises
-        ------
-        InputError
-            If the cylinder has no bore.
-        ImportError
-            If matplotlib is not installed.
-        """
-        return draw(self, ax, cylinder=cylinder, label=label, **style)  # type: ignore[no-any-return]

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from types import FunctionType
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from crankpin._support import labels, units
-from crankpin._support.drawing import draw, inline_svg
+from crankpin._support.drawing import inline_svg
+from crankpin._support.frames import Framed
 from crankpin._support.parameters import documented
 from crankpin._support.record import AbsentError
 from crankpin._support.tables import Table
@@ -25,8 +26,6 @@ from crankpin.model.builders import Builders
 from crankpin.model.data import EngineData, Hold
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import FigureBase
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Orders, Spectrum
@@ -38,7 +37,7 @@ if TYPE_CHECKING:
 __all__ = ["Engine", "Hold"]
 
 
-class Engine(Builders):
+class Engine(Framed, Builders):
     """Cylinders on one or several crankshafts, with hardware, gas pressure and loads.
 
     Three lists describe it: the crank angle of each cylinder's top dead centre, the direction of
@@ -610,99 +609,13 @@ class Engine(Builders):
         listed = [f"{split:.6g}" for split in splits]
         return f"{throws}, pins split by {listed[0] if len({*listed}) == 1 else ', '.join(listed)}°"
 
-    def __repr__(self) -> str:
-        return repr(self.table)
-
     def _repr_html_(self) -> str:
         """Return a picture above the table, where matplotlib is installed."""
-        table, picture = self.table._repr_html_() or "", self._picture()
+        table, picture = super()._repr_html_() or "", self._picture()
         return table if picture is None else f"<div>{picture}</div>{table}"
 
     def _picture(self) -> str | None:
         return inline_svg(self)
-
-    @overload
-    def plot(
-        self,
-        ax: Axes,
-        *,
-        figure: None = None,
-        kind: Literal["section", "star", "side"] | None = None,
-        theta_deg: float = 0.0,
-        **style: object,
-    ) -> Axes: ...
-
-    @overload
-    def plot(
-        self,
-        ax: None = None,
-        *,
-        figure: None = None,
-        kind: Literal["section", "star", "side"],
-        theta_deg: float = 0.0,
-        **style: object,
-    ) -> Axes: ...
-
-    @overload
-    def plot(
-        self,
-        ax: None = None,
-        *,
-        figure: FigureBase | None = None,
-        kind: None = None,
-        theta_deg: float = 0.0,
-        **style: object,
-    ) -> NDArray[Any]: ...
-
-    def plot(
-        self,
-        ax: Axes | None = None,
-        *,
-        figure: FigureBase | None = None,
-        kind: Literal["section", "star", "side"] | None = None,
-        theta_deg: float = 0.0,
-        **style: object,
-    ) -> Axes | NDArray[Any]:
-        """Draw the engine at a crank angle: cross-section, crank star, crank from the side.
-
-        Seen from the flywheel; the side view from x < 0, front to flywheel. Numbers are those of
-        the cylinders. An unbalance is a sector whose area is proportional to its amount. A bore
-        that is not known is drawn as wide as the stroke is long, but at most 0.9 of the distance to
-        the next cylinder of the bank, and at least 0.6 of the stroke. Crankpins at one place along
-        the crank are drawn side by side.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes for one picture; without ``kind`` the cross-section.
-        figure : Figure or SubFigure, optional
-            Figure or SubFigure for all three; by default a new one.
-        kind : {"section", "star", "side"}, optional
-            ``"section"``, ``"star"`` or ``"side"`` for one picture; None for all three.
-        theta_deg : float, default 0.0
-            Crank angle, degrees.
-        **style : dict, optional
-            Passed on to the main parts, such as ``facecolor=``: pistons and rods of the section,
-            throws of the star, webs of the side view.
-
-        Returns
-        -------
-        matplotlib.axes.Axes or ndarray of Axes, shape (3,)
-            The axes; of all three pictures an array.
-
-        Raises
-        ------
-        InputError
-            If ``ax`` and ``figure`` are combined, or an argument is out of range.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> ax = cp.Engine.preset("v8-crossplane").plot(kind="star", theta_deg=45)
-        """
-        return draw(  # type: ignore[no-any-return]
-            self, ax, figure=figure, kind=kind, theta_deg=theta_deg, **style
-        )
 
 
 # Errors of arguments name what people call.

@@ -11,7 +11,6 @@ import numpy as np
 
 from crankpin._core import ATMOSPHERE
 from crankpin._support import inputs, labels, units
-from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.parameters import documented
 from crankpin._support.record import AbsentError, Input, changed, item_key, read_only
@@ -25,7 +24,6 @@ if TYPE_CHECKING:
     from pathlib import Path
     from typing import Self, SupportsIndex, Unpack
 
-    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order
@@ -502,30 +500,6 @@ class Traces(Tabled, Input):
             ),
             note=self.origin,
         )
-
-    def plot(self, ax: Axes | None = None, *, label: str | None = None, **style: object) -> Axes:
-        """Draw the mean pressure over crank angle, in the band of all cycles.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones.
-        label : str, optional
-            Entry of the legend; by default the name.
-        **style : dict, optional
-            Properties of the line, as matplotlib takes them.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The axes.
-
-        Raises
-        ------
-        ImportError
-            If matplotlib is not installed.
-        """
-        return draw(self, ax, label=label, **style)  # type: ignore[no-any-return]
 
 
 def _deviation(values: NDArray[np.float64] | NDArray[np.complex128]) -> float:

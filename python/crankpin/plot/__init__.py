@@ -20,6 +20,7 @@ from crankpin.plot import (  # noqa: F401 - they register their pictures
     phasors,
     ranking,
     sweep,
+    table,
     tolerances,
     torsional_excitation,
     waveform,

@@ -22,6 +22,13 @@ UNCHANGED = "as without"
 
 @picture.register(Cancellation)
 def _cancellation(result: Cancellation, ax: Axes | None = None, **style: object) -> Axes:
+    """Draw what is left of the rms values: at places, or over speed.
+
+    Parameters
+    ----------
+    **style : dict, optional
+        Properties of matplotlib bars or lines.
+    """
     ax = axes_or_new(ax)
     places = [*result.receivers, *result._elsewhere()]
     ratios = []

@@ -9,16 +9,18 @@ import numpy as np
 from matplotlib.transforms import ScaledTranslation
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balance import Balance
 from crankpin.plot.layout import (
     Drawn,
+    Kinds,
     add_legend,
     axes_or_new,
+    draw_kind,
     label_x,
     label_y,
     note_zero,
-    register_kinds,
     reject_figure,
     set_panel_title,
     set_title,
@@ -229,4 +231,49 @@ def direction(order: OrderBalance, name: str) -> str:
 # --- balance -------------------------------------------------------------------------------------
 
 
-register_kinds(Balance, {"spectrum": spectrum, "ellipses": ellipses, "phasors": phasors})
+KINDS: Kinds = {"spectrum": spectrum, "ellipses": ellipses, "phasors": phasors}
+
+
+@picture.register(Balance)
+def _balance(
+    result: Balance,
+    ax: object = None,
+    *,
+    figure: object = None,
+    kind: str = "spectrum",
+    quantity: str | None = None,
+    orders: object = None,
+    log: bool | None = None,
+    label: str | None = None,
+    **style: object,
+) -> Drawn:
+    """Draw the orders.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw on; by default new ones. ``"ellipses"`` draws all orders on them.
+    kind : {"spectrum", "ellipses", "phasors"}, default "spectrum"
+        ``"spectrum"``: peaks along (about) x and y over order, exact zeros as hollow circles,
+        up to the last order that matters, or of all orders given; ``"ellipses"``: the ellipse
+        that force or moment traces in each of the four largest orders, with its direction and,
+        as a dot, the place at θ = 0; ``"phasors"``: what cylinders, counterweights and shafts
+        add to each order, head to tail, and their sum.
+    quantity : str, optional
+        ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment, or
+        else the first that is not zero.
+    orders : sequence of float, optional
+        Orders of ``"phasors"``; by default those given to the balance, or else 1 and 2.
+    log : bool, optional
+        True for a logarithmic ``"spectrum"``.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> b = cp.Engine.preset("v6-60").balance(rpm=6000)
+    >>> ax = b.plot(quantity="torque", log=True, color="black")
+    >>> b.plot(kind="ellipses").shape
+    (2, 2)
+    """
+    options = {"quantity": quantity, "orders": orders, "log": log, "label": label}
+    return draw_kind(KINDS, kind, result, ax, figure, **options, **style)

@@ -73,6 +73,16 @@ def _balance_shafts(
     label: str | None = None,
     **style: object,
 ) -> Axes:
+    """Draw a quantity with and without the shafts, part by part.
+
+    Parameters
+    ----------
+    quantity : str, optional
+        ``"force"``, ``"moment"`` or ``"torque"``, all over ω²; by default the moment, or else
+        the first that there is.
+    **style : dict, optional
+        Passed on to the markers; ``label`` names the result in a legend.
+    """
     every = result.parts()
     shaken = {each.quantity for each in every if max(each.before, each.after) > 0.0}
     name = drawn_quantity(quantity, shaken.__contains__, SHAKEN)
@@ -116,6 +126,13 @@ SMALLEST = 5.0
 def _balancers(
     result: BalancerOptions, ax: Axes | None = None, *, label: str | None = None, **style: object
 ) -> Axes:
+    """Draw the residuals of the front in per cent of the engine's own.
+
+    Parameters
+    ----------
+    **style : dict, optional
+        Passed on to the markers; ``label`` names the result in a legend.
+    """
     ax = axes_or_new(ax)
     alone = not count_series(ax)
     room = _room(ax)
@@ -215,6 +232,15 @@ def _bob_weight(
     label: str | None = None,
     **style: object,
 ) -> Axes:
+    """Draw the residual of order 1 over the factor: longest, shortest vector.
+
+    Parameters
+    ----------
+    quantity : str, optional
+        ``"force"`` or ``"moment"``; by default the force, or the moment if there is no force.
+    **style : dict, optional
+        Keywords of the lines, such as ``color`` or ``linewidth``; ``label`` names the engine.
+    """
     name = _chosen(result, quantity)
     ax = axes_or_new(ax)
     if label is None and count_series(ax):

@@ -7,16 +7,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.drawing import picture
 from crankpin._support.quantities import LOADS
 from crankpin.analysis.bearings import PARTS, BearingLoads
 from crankpin.plot.layout import (
     Drawn,
+    Kinds,
     add_legend,
     axes_or_new,
+    draw_kind,
     label_x,
     label_y,
     note_zero,
-    register_kinds,
     reject_figure,
     set_panel_title,
     set_title,
@@ -182,4 +184,53 @@ def _names(load: str, places: list[int], label: str | None) -> list[str]:
     return [f"{before}{LOADS[load].words} {place + 1}" for place in places]
 
 
-register_kinds(BearingLoads, {"polar": polar, "curves": curves, "bending": bending})
+KINDS: Kinds = {"polar": polar, "curves": curves, "bending": bending}
+
+
+@picture.register(BearingLoads)
+def _bearings(
+    result: BearingLoads,
+    ax: object = None,
+    *,
+    figure: object = None,
+    kind: str = "polar",
+    load: str | None = None,
+    numbers: object = None,
+    axes: str | None = None,
+    part: str | None = None,
+    label: str | None = None,
+    **style: object,
+) -> Drawn:
+    """Draw loads.
+
+    Parameters
+    ----------
+    kind : {"polar", "curves", "bending"}, default "polar"
+        ``"polar"``: the tip of a load, a panel for each bearing in colours of the crank angle,
+        or with ``ax`` or a colour of yours with crank angles beside it. ``"curves"``:
+        magnitudes over crank angle. ``"bending"``: largest bending moment along z.
+    load : str, optional
+        Load of ``"polar"`` and ``"curves"``, as in :meth:`read`; by default the main bearings.
+    numbers : sequence of int, optional
+        Bearings or cylinders of these kinds, from 1; by default all.
+    axes : {"engine", "crank", "rod"}, optional
+        Axes of ``"polar"``, as in :meth:`turned`; by default those of the engine.
+    part : {"crank", "crankcase"}, optional
+        Part of ``"bending"``; by default both.
+
+    Returns
+    -------
+    matplotlib.axes.Axes or ndarray of Axes
+        The axes; of several bearings the panels, (n_rows, n_columns).
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> loads = cp.bearing_loads(cp.Engine.preset("i4"), rpm=6000)
+    >>> loads.plot().shape
+    (2, 3)
+    >>> ax = loads.plot(load="crankpin", numbers=[1], axes="crank")
+    >>> ax = loads.plot(kind="bending", part="crankcase")
+    """
+    options = {"load": load, "numbers": numbers, "axes": axes, "part": part, "label": label}
+    return draw_kind(KINDS, kind, result, ax, figure, **options, **style)

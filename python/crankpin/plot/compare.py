@@ -49,6 +49,25 @@ def _comparison(
     quantity: str | None = None,
     **style: object,
 ) -> Drawn:
+    """Draw peaks of both engines over order, and the curves that force or moment trace.
+
+    Above each order stands by how much it fell or rose. A torque is drawn over crank angle.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw on; the peaks alone then.
+    quantity : str, optional
+        ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment, or
+        else the first that is not zero.
+    **style : dict, optional
+        Passed on to the bars, such as ``linewidth=``.
+
+    Returns
+    -------
+    matplotlib.axes.Axes or ndarray of Axes
+        The axes; without ``ax`` an array: (1, 2), or (2, 1) in a narrow figure.
+    """
     name = drawn_quantity(quantity, nonzero_in(result.before, result.after))
     result.before.request.check(name, result.before)
     beside = width_for(figure) >= SIDE_BY_SIDE

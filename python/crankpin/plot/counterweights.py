@@ -58,6 +58,23 @@ def _counterweights(
     quantity: str | None = None,
     **style: object,
 ) -> Drawn:
+    """Draw the weights, and what order 1 does before and after.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw on; by default new ones. ``"summary"`` draws the weights on them.
+    kind : {"summary", "weights", "ellipses"}, default "summary"
+        ``"summary"``: panels of weights and of the ellipses of force and moment, those that
+        are not zero; ``"weights"``: mass·radius of each plane over its place, with an arrow in
+        its direction at θ = 0 seen from the flywheel, and below it arrows of the crankpins;
+        ``"ellipses"``: what order 1 traces before and after.
+    quantity : str, optional
+        ``"force"`` or ``"moment"``, for ``"ellipses"``; by default the moment, or else the
+        force.
+    **style : dict, optional
+        ``label`` and properties of matplotlib lines.
+    """
     chosen = inputs.one_of("kind", kind, KINDS)
     exists = nonzero_in(over_square(result.engine, [1])[1], result.residual[1])
     name = drawn_quantity(quantity, exists, PLANE_VECTORS)

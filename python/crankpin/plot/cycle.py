@@ -43,6 +43,15 @@ def _cycle(
     label: str | None = None,
     **style: object,
 ) -> Axes:
+    """Draw pressure over crank angle, or over volume.
+
+    Parameters
+    ----------
+    cylinder : Cylinder, optional
+        Cylinder with a bore, to draw pressure over the volume swept.
+    **style : dict, optional
+        Properties of the line, as matplotlib takes them.
+    """
     ax = axes_or_new(ax)
     first = not count_series(ax)
     name = optional_text("label", label) or labels.printable(result.name) or "pressure"
@@ -74,6 +83,13 @@ def _cycle(
 def _traces(
     result: Traces, ax: Axes | None = None, *, label: str | None = None, **style: object
 ) -> Axes:
+    """Draw the mean pressure over crank angle, in the band of all cycles.
+
+    Parameters
+    ----------
+    **style : dict, optional
+        Properties of the line, as matplotlib takes them.
+    """
     ax = axes_or_new(ax)
     first = not count_series(ax)
     named = labels.printable(result.name)
@@ -112,6 +128,13 @@ def _prepared(
     label: str | None = None,
     **style: object,
 ) -> Drawn:
+    """Draw the mean as measured and prepared, in the band of all cycles, and below it the change.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes, optional
+        Axes for the upper panel alone; by default both are drawn in a new figure.
+    """
     panels = make_panels(ax, figure, 2, 1, row_height=0.55, sharex=True)
     before, after = result.stages[0], result.traces
     pressures = panels.axes[0, 0]
@@ -162,6 +185,13 @@ def _flywheel(
     label: str | None = None,
     **style: object,
 ) -> Drawn:
+    """Draw the torque, and below it the speed, over crank angle.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes, optional
+        Axes for the speed alone; by default both are drawn in a new figure.
+    """
     panels = make_panels(ax, figure, 2, 1, row_height=0.55, sharex=True)
     theta = result.theta_deg
     gas = "torque" if result.engine is None else "gas"

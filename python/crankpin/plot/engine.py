@@ -123,6 +123,36 @@ def _engine(
     theta_deg: float = 0.0,
     **style: object,
 ) -> Drawn:
+    """Draw the engine at a crank angle: cross-section, crank star, crank from the side.
+
+    Seen from the flywheel; the side view from x < 0, front to flywheel. Numbers are those of
+    the cylinders. An unbalance is a sector whose area is proportional to its amount. A bore
+    that is not known is drawn as wide as the stroke is long, but at most 0.9 of the distance to
+    the next cylinder of the bank, and at least 0.6 of the stroke. Crankpins at one place along
+    the crank are drawn side by side.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes, optional
+        Axes for one picture; without ``kind`` the cross-section.
+    kind : {"section", "star", "side"}, optional
+        ``"section"``, ``"star"`` or ``"side"`` for one picture; None for all three.
+    theta_deg : float, default 0.0
+        Crank angle, degrees.
+    **style : dict, optional
+        Passed on to the main parts, such as ``facecolor=``: pistons and rods of the section,
+        throws of the star, webs of the side view.
+
+    Returns
+    -------
+    matplotlib.axes.Axes or ndarray of Axes, shape (3,)
+        The axes; of all three pictures an array.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> ax = cp.Engine.preset("v8-crossplane").plot(kind="star", theta_deg=45)
+    """
     theta = crank_angle(theta_deg)
     if kind is not None:
         inputs.one_of("kind", kind, PANELS)

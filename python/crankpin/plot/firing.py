@@ -57,6 +57,19 @@ class Kind(NamedTuple):
 def _firing(
     result: Firing, ax: Axes | None = None, *, timing: Timing | None = None, **style: object
 ) -> Axes:
+    """Draw strokes, and with a timing open valves or ports, over a cycle.
+
+    A row for each cylinder, bank by bank: its strokes with a mark where it fires, and below
+    them intake valves (transfer ports) and exhausts. Exhausts that are open at one time in
+    one bank are hatched.
+
+    Parameters
+    ----------
+    timing : ValveTiming or PortTiming, optional
+        When valves or ports open and close; by default they are not drawn.
+    **style : dict, optional
+        Passed on to the bars, such as ``edgecolor=``.
+    """
     rows = [cylinder for bank in result.banks for cylinder in bank]
     room = 1.0 if ax is None else 0.55  # the legend of given axes will take its part
     new, ax = ax is None, axes_or_new(ax)

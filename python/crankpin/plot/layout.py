@@ -15,7 +15,6 @@ from matplotlib.text import Text
 from matplotlib.transforms import Bbox, ScaledTranslation
 
 from crankpin._support import inputs, units
-from crankpin._support.drawing import picture
 from crankpin.plot.style import font_of, muted
 from crankpin.plot.words import plain_text
 
@@ -81,27 +80,12 @@ class Panels(NamedTuple):
             add_figure_legend(self.figure, handles, title if handles else "")
 
 
-def register_kinds(result_class: type, kinds: Kinds) -> None:
-    """Register pictures of a class, of which ``kind=`` chooses one; the first by default.
-
-    Parameters
-    ----------
-    result_class
-        The class.
-    kinds
-        Kind → the function that draws it.
-    """
-
-    @picture.register(result_class)
-    def draw_kind(
-        result: object,
-        ax: object = None,
-        *,
-        figure: object = None,
-        kind: str = next(iter(kinds)),
-        **options: object,
-    ) -> Drawn:
-        return kinds[inputs.one_of("kind", kind, kinds)](result, ax, figure, **options)
+def draw_kind(
+    kinds: Kinds, kind: object, result: object, ax: object, figure: object, **options: object
+) -> Drawn:
+    """Draw the picture of a kind; an option that is None has the default of the kind."""
+    chosen = {name: value for name, value in options.items() if value is not None}
+    return kinds[inputs.one_of("kind", kind, kinds)](result, ax, figure, **chosen)
 
 
 def axes_or_new(ax: object) -> Axes:

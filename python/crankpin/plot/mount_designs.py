@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from crankpin._support.drawing import picture
 from crankpin.analysis.mounts.design_mounts import MountDesign
 from crankpin.analysis.mounts.design_responses import DesignResponses
 from crankpin.analysis.mounts.modes import RollAxes
+from crankpin.analysis.mounts.powertrain import Powertrain
 from crankpin.analysis.mounts.robustness import MountRobustness
 from crankpin.plot.layout import (
     add_legend,
@@ -28,10 +30,13 @@ from crankpin.plot.ticks import from_zero, numeric, span
 from crankpin.plot.words import joined, rounded
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Order
+    from crankpin.plot.layout import Panels
 
 THIN = 0.45
 """Strength of the lines of many designs."""
@@ -39,7 +44,13 @@ THIN = 0.45
 
 @picture.register(MountDesign)
 def _design(result: MountDesign, ax: Axes | None = None, **style: object) -> Axes:
-    """Draw the six natural frequencies before and after, a row each, and their window."""
+    """Draw the natural frequencies before and after.
+
+    Parameters
+    ----------
+    **style : dict, optional
+        Properties of matplotlib lines.
+    """
     ax = axes_or_new(ax)
     at = AT if result.powertrain._varies else None
     pair = [each.modes(at).frequency for each in (result.powertrain, result.fitted)]
@@ -82,7 +93,22 @@ def _designs(
     count: int = 60,
     **style: object,
 ) -> Axes:
-    """Draw the force over speed of many designs, thin, and of one of them."""
+    """Draw a force over speed of many designs, and of one of them bold.
+
+    Parameters
+    ----------
+    design : int, optional
+        Index of the design that is drawn bold; by default that of the least rms force on the
+        body.
+    order : float, optional
+        Order of which peaks are drawn; by default all orders together.
+    mount : str, optional
+        Name of a mount; by default the sum of all.
+    count : int, default 60
+        Most designs that are drawn, evenly spread over all.
+    **style : dict, optional
+        Properties of the bold line.
+    """
     name = mount if mount is None else inputs.one_of("mount", mount, result.powertrain.names)
     hint = f"is not among its orders: {labels.orders_text(result.orders)}"
     try:
@@ -136,7 +162,13 @@ def _designs(
 
 @picture.register(MountRobustness)
 def _robustness(result: MountRobustness, ax: Axes | None = None, **style: object) -> Axes:
-    """Draw a bar for each mode and cause, from its least to its largest frequency."""
+    """Draw the range of each natural frequency, by cause.
+
+    Parameters
+    ----------
+    **style : dict, optional
+        Properties of matplotlib bars.
+    """
     ax = axes_or_new(ax)
     causes = [("stiffness", result.frequency_bounds)] if any(result.stiffness) else []
     if result.mass or result.inertia:
@@ -179,17 +211,22 @@ VIEWS = (("from the side", 2, 1), ("from the flywheel", 0, 1), ("from above", 2,
 def _axes(
     result: RollAxes, ax: Axes | None = None, *, figure: object = None, **style: object
 ) -> Any:  # noqa: ANN401 - axes, or an array of them
-    """Draw both axes, the mounts and their polygon, and the CG, in three views."""
+    """Draw the axes with mounts, their polygon and the CG, from three sides.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw the view from the side on.
+    **style : dict, optional
+        Properties of the lines of both axes.
+    """
     panels = make_panels(ax, figure, 3, 1, row_height=0.6)
-    views = VIEWS[:1] if panels.single else VIEWS
     powertrain = result.powertrain
     cg = np.array(powertrain.body.cg)
     places = {mount.name: np.array(mount.at) for mount in powertrain.mounts}
-    corners = np.array([places[name] for name in powertrain.static().support_polygon])
-    everything = np.array([*places.values(), cg, result.elastic_foot])
+    corners = [places[name] for name in powertrain.static().support_polygon]
     own, dynamic = result.roll_stiffness, result.dynamic_roll_stiffness
     is_dynamic = abs(dynamic - own) > SAME * own
-    reach = 0.5 * float(np.ptp(everything, axis=0).max()) or 0.1
     lines = [
         ("torque roll axis", cg, result.torque_roll),
         ("elastic roll axis", result.elastic_foot, result.elastic),
@@ -197,18 +234,62 @@ def _axes(
             [("with dynamic stiffness", result.dynamic_elastic_foot, result.dynamic_elastic)]
             * is_dynamic
         ),
-        ("crank", np.zeros(3), np.array([0.0, 0.0, 1.0])),
     ]
+    words = f"{rounded(result.angle_deg)}° and {rounded(1e3 * result.distance)} mm between the axes"
+    words += " at rest" if is_dynamic else ""
+    panels.set_title(
+        labels.name_of(powertrain.engine), joined("axes of roll", units.in_text(words))
+    )
+    _views(panels, powertrain, lines, corners, style)
+    return panels.drawn
+
+
+@picture.register(Powertrain)
+def _powertrain(
+    result: Powertrain, ax: Axes | None = None, *, figure: object = None, **style: object
+) -> Any:  # noqa: ANN401 - axes, or an array of them
+    """Draw the mounts, the CG and the axis of the crank, from three sides.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw the view from the side on.
+    **style : dict, optional
+        Properties of the marks of the mounts.
+    """
+    panels = make_panels(ax, figure, 3, 1, row_height=0.6)
+    _views(panels, result, [], [], {}, style)
+    panels.set_title(labels.name_of(result.engine), "engine on its mounts")
+    return panels.drawn
+
+
+Line: TypeAlias = "tuple[str, NDArray[np.float64], NDArray[np.float64]]"
+"""Name of a line, a point on it, and its direction."""
+
+
+def _views(
+    panels: Panels,
+    powertrain: Powertrain,
+    lines: list[Line],
+    corners: list[NDArray[np.float64]],
+    style: Mapping[str, object],
+    of_mounts: Mapping[str, object] = MappingProxyType({}),
+) -> None:
+    """Draw lines and the crank, mounts, their polygon and the CG, on panels or from the side."""
+    views = VIEWS[:1] if panels.single else VIEWS
+    places = {mount.name: np.array(mount.at) for mount in powertrain.mounts}
+    cg = np.array(powertrain.body.cg)
+    everything = np.array([*places.values(), cg, *(foot for _, foot, _ in lines[1:2])])
+    reach = 0.5 * float(np.ptp(everything, axis=0).max()) or 0.1
+    lines = [*lines, ("crank", np.zeros(3), np.array([0.0, 0.0, 1.0]))]
     for place, (name, right, up) in zip(panels.axes.flat, views, strict=True):
         looks = series(place, len(lines) - 1, style)
         looks.append({"color": muted(place, 0.6), "linestyle": ":", "linewidth": 1.2})
-        outline: dict[str, Any] = {"color": muted(place, 0.15), "zorder": 0, "linewidth": 1.0}
-        place.fill(corners[:, right], corners[:, up], label="polygon of the mounts", **outline)
-        place.plot(
-            *np.array([*corners, corners[0]])[:, [right, up]].T,
-            color=muted(place, 0.4),
-            linewidth=0.8,
-        )
+        if corners:
+            outline: dict[str, Any] = {"color": muted(place, 0.15), "zorder": 0, "linewidth": 1.0}
+            closed = np.array([*corners, corners[0]])[:, [right, up]].T
+            place.fill(*closed, label="polygon of the mounts", **outline)
+            place.plot(*closed, color=muted(place, 0.4), linewidth=0.8)
         for (label, through, along), look in zip(lines, looks, strict=True):
             middle = through + along * float((everything.mean(axis=0) - through) @ along)
             ends = np.array([middle - 1.5 * reach * along, middle + 1.5 * reach * along])
@@ -219,7 +300,8 @@ def _axes(
                 place.plot(through[right], through[up], label=label, **(look | point))
         mounts = np.array([*places.values()])
         mark: dict[str, Any] = {"color": foreground(place), "linestyle": "", "zorder": 3}
-        place.plot(mounts[:, right], mounts[:, up], marker="s", label="mounts", **mark)
+        squares = mark | {"marker": "s", "label": "mounts"} | dict(of_mounts)
+        place.plot(mounts[:, right], mounts[:, up], **squares)
         place.plot(cg[right], cg[up], marker="o", label="centre of gravity", **mark)
         equal_scales(place)
         numeric(place.xaxis)
@@ -228,10 +310,4 @@ def _axes(
         label_y(place, f"{'xyz'[up]}, m")
         if not panels.single:
             set_panel_title(place, name)
-    words = f"{rounded(result.angle_deg)}° and {rounded(1e3 * result.distance)} mm between the axes"
-    words += " at rest" if is_dynamic else ""
-    panels.set_title(
-        labels.name_of(powertrain.engine), joined("axes of roll", units.in_text(words))
-    )
     panels.add_legend(panels.axes.flat[0].get_legend_handles_labels()[0])
-    return panels.drawn

@@ -67,7 +67,13 @@ SEEN = 1e-3
 
 @picture.register(MountModes)
 def _modes(result: MountModes, ax: Axes | None = None, **style: object) -> Axes:
-    """Draw a row for each mode, darker where more of its kinetic energy is."""
+    """Draw the kinetic energy of each mode by coordinate.
+
+    Parameters
+    ----------
+    **style : dict, optional
+        ``cmap`` and other properties of matplotlib images.
+    """
     ax = axes_or_new(ax)
     energy, names = result.energy[list(PLACES)].T, list(COORDINATES)
     if len(result.energy) > 6:
@@ -114,13 +120,46 @@ def _response(
     result: MountResponse,
     ax: Axes | None = None,
     *,
+    kind: str | None = None,
     mount: str | None = None,
-    **options: Any,  # noqa: ANN401 - as `_picture` takes them
+    orders: Orders | None = None,
+    **style: Any,  # noqa: ANN401 - as `_picture` takes them
 ) -> Axes:
+    """Draw the force on the body, or of one mount.
+
+    Parameters
+    ----------
+    kind : {"cuts", "map", "waterfall", "spectrum"}, optional
+        ``"cuts"``, the default of several speeds: the longest vector of all orders together and
+        of the largest orders over speed; ``"map"``: a row of cells for each order over speed,
+        with the natural frequencies; ``"waterfall"``: a spectrum over frequency for each speed,
+        one above the other, of at most 40 speeds; ``"spectrum"``, that of one speed: peaks
+        along x, y and z over order.
+    mount : str, optional
+        Name of a mount; by default the sum of all.
+    orders : sequence of float, optional
+        Orders that are drawn; by default those given to the response, or else those that are
+        not zero, of ``"cuts"`` the largest.
+    **style : dict, optional
+        ``label``, for a legend of several results on the same axes; colour, line width and
+        other properties of what is drawn.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> body = cp.RigidBody(mass=150, cg=(0, 0.06, 0.15), inertia=(7, 8, 4.5))
+    >>> mounts = [
+    ...     cp.Mount(name, at=at, stiffness=2e5, loss_factor=0.1)
+    ...     for name, at in [("a", (0.3, 0, 0)), ("b", (-0.3, 0, 0)), ("c", (0, 0, 0.7))]
+    ... ]
+    >>> r = cp.Powertrain(cp.Engine.preset("i4"), body, mounts).response(rpm=[800, 900, 1000])
+    >>> ax = r.plot(kind="map")
+    >>> ax = r.sel(rpm=900).plot(mount="a")
+    """
     name = mount if mount is None else inputs.one_of("mount", mount, result.powertrain.names)
     force = result.body_force if name is None else result.mount_force[name]
     words = "force on the body" if name is None else f"force of mount {name}"
-    return _picture(result, Drawn(force), words, ax, **options)
+    return _picture(result, Drawn(force), words, ax, kind=kind, orders=orders, **style)
 
 
 @picture.register(PointMotion)
@@ -128,13 +167,38 @@ def _point(
     motion: PointMotion,
     ax: Axes | None = None,
     *,
+    kind: str | None = None,
     quantity: str = "velocity",
-    **options: Any,  # noqa: ANN401 - as above
+    orders: Orders | None = None,
+    **style: Any,  # noqa: ANN401 - as above
 ) -> Axes:
+    """Draw the motion over speed or order.
+
+    Parameters
+    ----------
+    kind : {"cuts", "map", "waterfall", "spectrum"}, optional
+        ``"cuts"``, the default of several speeds: all orders together and the largest over speed;
+        ``"map"``: a row of cells for each order over speed; ``"waterfall"``: a spectrum for each
+        speed, one above the other; ``"spectrum"``, that of one speed: peaks over order.
+    quantity : {"displacement", "velocity", "acceleration"}, default "velocity"
+        What is drawn: peaks in µm, mm/s or m/s².
+    orders : sequence of float, optional
+        Orders that are drawn; by default those given to the response, or else those that are
+        not zero; of the motion in one order, that.
+    """
     name = inputs.one_of("quantity", quantity, READ)
-    given = {"orders": None if motion.order == ALL else motion.order} | options
+    if orders is None and motion.order != ALL:
+        orders = motion.order
     words = plain_text(f"{name} of {motion._words}")
-    return _picture(motion.result, Drawn(Quantity(motion, name), *READ[name]), words, ax, **given)
+    return _picture(
+        motion.result,
+        Drawn(Quantity(motion, name), *READ[name]),
+        words,
+        ax,
+        kind=kind,
+        orders=orders,
+        **style,
+    )
 
 
 def _picture(

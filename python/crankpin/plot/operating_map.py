@@ -32,6 +32,24 @@ def _operating_map(
     label: str | None = None,
     **style: object,
 ) -> Axes:
+    """Draw a quantity over speed and load.
+
+    A map, or a curve where there is one load or one speed.
+
+    Parameters
+    ----------
+    quantity : str, default "main"
+        A load of :meth:`peak`, the largest of all bearings or cylinders, or
+        ``"irregularity"`` or ``"swing_deg"``.
+    **style : dict, optional
+        Properties of ``pcolormesh``, such as ``cmap``; of a curve ``label`` and properties of
+        matplotlib lines.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> ax = cp.operating_map(cp.Engine.preset("i4"), range(1000, 7000, 500)).plot()
+    """
     what, unit, values = _quantity(result, quantity)
     ax = axes_or_new(ax)
     load = np.zeros(1) if result.load is None else result.load

@@ -315,6 +315,19 @@ def _star(
     order: Order | None = None,
     **style: object,
 ) -> Drawn:
+    """Draw the vectors of the orders from the centre, with their sums.
+
+    A panel for each star: orders whose vectors are the same share one.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw one order on: the first whose sum remains and which is no major order.
+    order : number, optional
+        One of ``orders``, to draw it alone.
+    **style : dict, optional
+        Passed on to the vectors, such as ``color=``.
+    """
     if order is not None and figure is not None:
         raise inputs.rejected("figure", figure, "one order has one panel; give ax")
     if ax is not None or order is not None:

@@ -49,6 +49,17 @@ FORBIDDEN = "needs a pin split that is not allowed"
 def _ranking(
     ranking: Ranking, ax: Axes | None = None, *, label: str | None = None, **style: object
 ) -> Axes:
+    """Draw the first objective over bank angle, the best angles ringed.
+
+    Engines ranked without bank angles are listed, the best first. Of many engines the best
+    are named, the others thin lines.
+
+    Parameters
+    ----------
+    **style : dict, optional
+        ``label``, put before the names in the legend; colour, line width and other properties
+        of matplotlib lines.
+    """
     ax = axes_or_new(ax)
     names, shared = short_names(list(ranking.names))
     title, _, common = shared.rpartition(", ")
@@ -133,6 +144,18 @@ def _designs(
     label: str | None = None,
     **style: object,
 ) -> Axes:
+    """Draw the first objective of the best designs over bank angle.
+
+    A ring marks each design. Designs without banks, or by a function, are drawn as a dot each,
+    below each other.
+
+    Parameters
+    ----------
+    count : int, default 4
+        Number of designs.
+    **style : dict, optional
+        Properties of the curves, or of the dots.
+    """
     number = inputs.whole("count", count, 1)
     ax = axes_or_new(ax)
     best = designs.designs[:number]
@@ -213,6 +236,14 @@ def _over_bank_angle(
 def _search(
     result: ArrangementSearch, ax: Axes | None = None, *, label: str | None = None, **style: object
 ) -> Axes:
+    """Draw the second-order moment that remains over the bank angles.
+
+    Parameters
+    ----------
+    **style : dict, optional
+        ``label``, for a legend of several searches on the same axes; colour, marker and other
+        properties of matplotlib lines.
+    """
     ax = axes_or_new(ax)
     arrangements = list(result)
     angles = np.array([each.bank_angle_deg for each in arrangements])

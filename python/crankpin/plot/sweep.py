@@ -11,7 +11,7 @@ from crankpin._support.drawing import picture
 from crankpin._support.quantities import QUANTITIES
 from crankpin.analysis.sweeps.sweep import Sweep
 from crankpin.plot.curves import curves
-from crankpin.plot.layout import Drawn, Kinds, label_x, make_panels
+from crankpin.plot.layout import Drawn, Kinds, draw_kind, label_x, make_panels
 from crankpin.plot.maps import heat_map, order_map
 from crankpin.plot.parts import parts
 from crankpin.plot.rows import given_orders, largest, words_of
@@ -150,24 +150,74 @@ def _sweep(
     *,
     figure: object = None,
     kind: str | None = None,
+    quantity: str | None = None,
     x: str | None = None,
-    **options: object,
+    orders: object = None,
+    log: bool | None = None,
+    label: str | None = None,
+    **style: object,
 ) -> Drawn:
-    if options.get("quantity", "") is None:
-        del options["quantity"]  # each kind has its own default
+    """Draw peaks over what was swept.
+
+    A row of panels for all orders together and for each of the three largest orders, a column
+    for each axis.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw on: a single panel with the longest vector of all orders together, or of
+        the one in ``orders``; with ``"bars"`` of one quantity.
+    kind : {"curves", "parts", "map", "orders", "bars"}, optional
+        ``"curves"``: over one dimension, a curve for each combination of the others, with the
+        points where an order is exactly zero, and the minimum, marked; ``"parts"``: of
+        force or moment what turns with the crank and what turns against it, over one numeric
+        dimension, a panel for each order and what else was swept; ``"map"``: over two
+        numeric dimensions, in colours; ``"orders"``: over one numeric dimension, such as speed,
+        and order, in colours; ``"bars"``: over engines, force beside moment in the orders up to
+        4, with the class of each engine. By default bars for engines alone, a map for two long
+        numeric dimensions, otherwise curves.
+    quantity : str, optional
+        ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment,
+        or else the first that is not zero, of bars force and moment.
+    x : str, optional
+        The dimension along the horizontal axis; by default the longest.
+    orders : number, sequence of numbers or "auto", optional
+        Orders to draw, a row for each; by default as above.
+    log : bool, optional
+        Whether the scale is logarithmic; by default that of ``"orders"`` alone.
+    label : str, optional
+        Put before the names in the legend.
+    **style : dict, optional
+        Colour, line width and other properties of matplotlib lines, of maps those of
+        ``pcolormesh``.
+
+    Returns
+    -------
+    matplotlib.axes.Axes or ndarray of Axes
+        The panels, (n_rows, 2), of torque (n_rows, 1), of parts (n_orders, n_others); with
+        ``ax`` the axes given.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> v6 = cp.Engine.preset("v6-60")
+    >>> s = cp.sweep(v6, rpm=5000, bank_angle_deg=range(10, 180, 10), hold="pins")
+    >>> s.plot(orders=[1, 2]).shape
+    (2, 2)
+    """
     if not result.coords:
         hint = "give an array, such as bank_angle_deg=[60, 75, 90]"
         raise inputs.faulty("sweep", "is of one point", hint)
     if x is not None:
         x = inputs.one_of("x", x, result.coords)
-    chosen = _chosen(result, x) if kind is None else inputs.one_of("kind", kind, KINDS)
+    chosen = _chosen(result, x) if kind is None else kind
     if chosen == "bars":
-        for name, value in (("x", x), ("log", options.get("log"))):
+        for name, value in (("x", x), ("log", log)):
             if value is not None:
                 hint = 'has no meaning for kind="bars"; leave it out'
                 raise inputs.rejected(name, value, hint)
-        return KINDS[chosen](result, ax, figure, **options)
-    return KINDS[chosen](result, ax, figure, x=x, **options)
+    options = {"quantity": quantity, "x": x, "orders": orders, "log": log, "label": label}
+    return draw_kind(KINDS, chosen, result, ax, figure, **options, **style)
 
 
 def _chosen(sweep: Sweep, x: str | None) -> str:

@@ -39,6 +39,18 @@ def _tolerances(
     label: str | None = None,
     **style: object,
 ) -> Axes:
+    """Draw the distribution of a value, or the shares of the tolerances.
+
+    Parameters
+    ----------
+    kind : {"histogram", "ecdf", "shares"}, default "histogram"
+        ``"histogram"`` or ``"ecdf"`` (the part of the samples up to a value), with the nominal
+        value and the 5, 50 and 95 % quantiles; ``"shares"``: bars of each tolerance's share.
+    by : str, optional
+        A name as in :func:`crankpin.rank`; by default the first of ``by``, of shares all.
+    **style : dict, optional
+        Keywords of the histogram's, curve's or bars' artists, such as ``label`` and ``color``.
+    """
     kinds = {"histogram": _histogram, "ecdf": _ecdf, "shares": None}
     distribution = kinds[inputs.one_of("kind", kind, kinds)]
     if distribution is None:

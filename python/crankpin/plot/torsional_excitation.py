@@ -36,6 +36,28 @@ def _torsional_excitation(
     label: str | None = None,
     **style: object,
 ) -> Axes:
+    """Draw the amplitudes of one cylinder's torque.
+
+    At one speed over order, at several a map over speed and order.
+
+    Parameters
+    ----------
+    cylinder : int, default 1
+        Number of the cylinder.
+    part : {"gas", "inertia", "torque"}, optional
+        Part of the torque; by default all three at one speed, and their sum at several.
+    log : bool, optional
+        Whether amplitudes are on a logarithmic scale; by default those of a map.
+    **style : dict, optional
+        ``label`` and properties of matplotlib lines; of a map properties of ``pcolormesh``,
+        such as ``cmap``.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> excitation = cp.torsional_excitation(cp.Engine.preset("i4"), rpm=3000)
+    >>> ax = excitation.plot()
+    """
     count = len(result.engine)
     place = inputs.whole("cylinder", cylinder, 1) - 1
     if place >= count:

@@ -90,6 +90,35 @@ def _sweep_waveform(
     quantity: str | None = None,
     **style: object,
 ) -> Drawn:
+    """Draw a quantity over crank angle, a panel for each axis.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw on: of a force or moment the length of the vector.
+    kind : {"curves", "envelope"}, optional
+        ``"curves"``: a curve for each point of the sweep; ``"envelope"``: the range of all
+        points, the range of their middle half, and the median. By default curves if colours and
+        dashes distinguish them.
+    quantity : str, optional
+        ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment, or
+        else the first that is not zero.
+    **style : dict, optional
+        ``label``, put before the names in the legend; colour, line width and other properties
+        of matplotlib lines.
+
+    Returns
+    -------
+    matplotlib.axes.Axes or ndarray of Axes
+        The panels, (1, 2), of torque (1, 1); with ``ax`` the axes given.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> s = cp.sweep(cp.Engine.preset("v6-60"), rpm=5000, rod_ratio=[0.25, 0.3, 0.35])
+    >>> s.waveform().plot(quantity="moment").shape
+    (1, 2)
+    """
     name = drawn_quantity(quantity, nonzero_in(result))
     count = math.prod(len(values) for values in result.sweep.coords.values())
     chosen = "curves" if count <= DISTINCT else "envelope"
@@ -184,9 +213,35 @@ def _limit(ax: Axes, values: NDArray[np.float64]) -> None:
 
 @picture.register(Waveform)
 def _waveform(
-    result: Waveform, ax: Axes | None = None, *, kind: str = "curves", **options: object
+    result: Waveform,
+    ax: Axes | None = None,
+    *,
+    kind: str = "curves",
+    quantity: str | None = None,
+    **style: object,
 ) -> Axes:
-    return _KINDS[inputs.one_of("kind", kind, _KINDS)](result, ax, **options)
+    """Draw a quantity over crank angle, or the curve that its tip traces.
+
+    Parameters
+    ----------
+    kind : {"curves", "orbit"}, default "curves"
+        ``"curves"``: a curve over crank angle for each axis; ``"orbit"``: the tip of force or
+        moment in the cross-section plane, arrows in its direction, a dot every 30°.
+    quantity : str, optional
+        ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment, or
+        else the first that is not zero.
+    **style : dict, optional
+        ``label``, for a legend of several results on the same axes; colour, line width and
+        other properties of matplotlib lines.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> v6 = cp.Engine.preset("v6-60")
+    >>> ax = v6.waveform(rpm=6000).plot(label="60°")
+    >>> ax = v6.with_bank_angle(90, hold="pins").waveform(rpm=6000).plot(ax, label="90°")
+    """
+    return _KINDS[inputs.one_of("kind", kind, _KINDS)](result, ax, quantity=quantity, **style)
 
 
 def curves(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
+from crankpin._support.frames import Framed
 from support import in_turn
 
 if TYPE_CHECKING:
@@ -162,7 +163,7 @@ NEEDED: dict[str, dict[str, Any]] = {
 """Arguments without which a reading cannot be called."""
 REJECTED = {"designs", "design_mounts", "save_html"}
 """Readings of mounts on what does not move alone."""
-NOT_READINGS = {"load", "save", "on", "replace", "without", "view"}
+NOT_READINGS = {"load", "save", "on", "replace", "without", "view", *dir(Framed)}
 """Methods that compute no figure; a view is the page of `save_html` in a notebook."""
 
 

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 from crankpin import _core
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
-from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.record import Record, changed, item_key
 from crankpin._support.tables import Item, Table
@@ -22,7 +21,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     import numpy as np
-    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Angles
@@ -381,29 +379,6 @@ class ArrangementSearch(Tabled):
         least = _LISTED if callable(by) else by
         arrangements = (self._least(k, least) for k in range(len(self)))
         return tuple(heapq.nsmallest(wanted, arrangements, key=measure))
-
-    def plot(self, ax: Axes | None = None, **options: object) -> Axes:
-        """Draw the second-order moment that remains over the bank angles; return the axes.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones.
-        **options : dict, optional
-            ``label``, for a legend of several searches on the same axes; colour, marker and other
-            properties of matplotlib lines.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The axes.
-
-        Raises
-        ------
-        ImportError
-            If matplotlib is not installed.
-        """
-        return draw(self, ax, **options)  # type: ignore[no-any-return]
 
     @property
     def table(self) -> Table:

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin._support import inputs, labels
-from crankpin._support.drawing import draw
 from crankpin._support.frames import SHOWN, Tabled
 from crankpin._support.record import AbsentError, Listed
 from crankpin._support.tables import Item, Table
@@ -18,8 +17,6 @@ from crankpin.analysis.ranking.objectives import ByObjectives
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-
-    from matplotlib.axes import Axes
 
     from crankpin.analysis.balance import Balance
     from crankpin.analysis.ranking.objectives import Objective
@@ -132,16 +129,28 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
 
     # --- tables and pictures --------------------------------------------------------------------
 
-    def tidy(self) -> Table:
+    def tidy(self, *objectives: str) -> Table:
         """Return all sets in long form, a row for each set and objective.
 
         Columns are name, n_shafts, unbalance, on_front, reaches, objective, value and unit.
+
+        Parameters
+        ----------
+        *objectives : str, optional
+            Names of objectives, those of ``by``; by default all.
 
         Returns
         -------
         Table
             The rows; its ``to_pandas`` and ``to_csv`` write them.
+
+        Raises
+        ------
+        InputError
+            If there is no such objective.
         """
+        names = {each.label: each for each in self.objectives}
+        chosen = [inputs.one_of("objectives", name, names) for name in objectives] or names
         rows = [
             (
                 each.name, len(each.shafts), each.unbalance, each.on_front, each.reaches,
@@ -149,6 +158,7 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
             )
             for each in self.options
             for objective, value in zip(self.objectives, each.values, strict=True)
+            if objective.label in chosen
         ]  # fmt: skip
         heads = (
             "name", "n_shafts", ("unbalance", "kg·m"), "on_front", "reaches", "objective", "value",
@@ -158,28 +168,6 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
         return Table.from_rows(
             title, heads, rows, loads=self.loads_counted, row_units=[str(row[-1]) for row in rows]
         )
-
-    def plot(self, ax: Axes | None = None, **style: object) -> Axes:
-        """Draw the residuals of the front in per cent of the engine's own; return the axes.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones.
-        **style : dict, optional
-            Passed on to the markers; ``label`` names the result in a legend.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The axes.
-
-        Raises
-        ------
-        ImportError
-            If matplotlib is not installed.
-        """
-        return draw(self, ax, **style)  # type: ignore[no-any-return]
 
     @property
     def table(self) -> Table:

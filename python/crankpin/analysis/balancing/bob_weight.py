@@ -11,7 +11,6 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
-from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import read_only
@@ -34,7 +33,6 @@ from crankpin.model.crankpins import Crankpin, crankpins
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin.analysis.balance import Balance
@@ -449,32 +447,6 @@ class BobWeight(Tabled):
             ),
             weights,
         )
-
-    def plot(self, ax: Axes | None = None, *, quantity: str | None = None, **style: object) -> Axes:
-        """Draw the residual of order 1 over the factor: longest, shortest vector; return the axes.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones.
-        quantity : str, optional
-            ``"force"`` or ``"moment"``; by default the force, or the moment if there is no force.
-        **style : dict, optional
-            Keywords of the lines, such as ``color`` or ``linewidth``; ``label`` names the engine.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The axes.
-
-        Raises
-        ------
-        InputError
-            If there is no such quantity.
-        ImportError
-            If matplotlib is not installed.
-        """
-        return draw(self, ax, quantity=quantity, **style)  # type: ignore[no-any-return]
 
 
 def _vector(quantity: object) -> str:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import itertools
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import TYPE_CHECKING
 
 from crankpin import _core
 from crankpin._support import inputs, labels
-from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import read_only
@@ -25,8 +24,6 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     import numpy as np
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure, SubFigure
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Angles
@@ -351,78 +348,3 @@ class Counterweights(Tabled):
         heads = ["quantity", "state", "longest", "shortest"]
         units = [row[0].rpartition(", ")[2] for row in rows]
         return Table.from_rows(title, heads, rows, note=note, row_units=units)
-
-    @overload
-    def plot(
-        self,
-        ax: Axes,
-        *,
-        figure: None = None,
-        kind: Literal["summary", "weights", "ellipses"] = "summary",
-        quantity: str | None = None,
-        **style: object,
-    ) -> Axes: ...
-
-    @overload
-    def plot(
-        self,
-        ax: None = None,
-        *,
-        figure: None = None,
-        kind: Literal["weights", "ellipses"],
-        quantity: str | None = None,
-        **style: object,
-    ) -> Axes: ...
-
-    @overload
-    def plot(
-        self,
-        ax: None = None,
-        *,
-        figure: Figure | SubFigure | None = None,
-        kind: Literal["summary"] = "summary",
-        quantity: str | None = None,
-        **style: object,
-    ) -> NDArray[Any]: ...
-
-    def plot(
-        self,
-        ax: Axes | None = None,
-        *,
-        figure: Figure | SubFigure | None = None,
-        kind: Literal["summary", "weights", "ellipses"] = "summary",
-        quantity: str | None = None,
-        **style: object,
-    ) -> Axes | NDArray[Any]:
-        """Draw the weights, and what order 1 does before and after; return the axes.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones. ``"summary"`` draws the weights on them.
-        figure : Figure or SubFigure, optional
-            Figure or SubFigure for the panels of ``"summary"``; by default a new one.
-        kind : {"summary", "weights", "ellipses"}, default "summary"
-            ``"summary"``: panels of weights and of the ellipses of force and moment, those that
-            are not zero; ``"weights"``: mass·radius of each plane over its place, with an arrow in
-            its direction at θ = 0 seen from the flywheel, and below it arrows of the crankpins;
-            ``"ellipses"``: what order 1 traces before and after.
-        quantity : str, optional
-            ``"force"`` or ``"moment"``, for ``"ellipses"``; by default the moment, or else the
-            force.
-        **style : dict, optional
-            ``label`` and properties of matplotlib lines.
-
-        Returns
-        -------
-        matplotlib.axes.Axes or ndarray of Axes
-            The axes; of ``"summary"`` without ``ax`` an array.
-
-        Raises
-        ------
-        InputError
-            If ``ax`` and ``figure`` are both given, or there is no such picture.
-        ImportError
-            If matplotlib is not installed.
-        """
-        return draw(self, ax, figure=figure, kind=kind, quantity=quantity, **style)  # type: ignore[no-any-return]

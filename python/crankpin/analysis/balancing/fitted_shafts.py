@@ -11,7 +11,6 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
-from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import Listed, read_only
@@ -25,7 +24,6 @@ from crankpin.model.shafts import Shaft
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Order
@@ -189,33 +187,6 @@ class BalanceShafts(Listed[Shaft], Tabled):
         return read_only(np.array(loads))
 
     # --- tables and pictures --------------------------------------------------------------------
-
-    def plot(self, ax: Axes | None = None, *, quantity: str | None = None, **style: object) -> Axes:
-        """Draw a quantity with and without the shafts, part by part; return the axes.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones.
-        quantity : str, optional
-            ``"force"``, ``"moment"`` or ``"torque"``, all over ω²; by default the moment, or else
-            the first that there is.
-        **style : dict, optional
-            Passed on to the markers; ``label`` names the result in a legend.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The axes.
-
-        Raises
-        ------
-        InputError
-            If there is no such quantity.
-        ImportError
-            If matplotlib is not installed.
-        """
-        return draw(self, ax, quantity=quantity, **style)  # type: ignore[no-any-return]
 
     @property
     def table(self) -> Table:

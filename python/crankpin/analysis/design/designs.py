@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels
-from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.record import Listed
 from crankpin._support.tables import Item, Table
@@ -22,7 +21,6 @@ from crankpin.analysis.sweeps.sweep import sweep
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin.analysis.design.question import Question
@@ -155,33 +153,6 @@ class Designs(ByObjectives, Listed[Design], Tabled):
         return named(self.by[0]).values(swept).reshape(len(designs), -1)
 
     # --- tables and pictures --------------------------------------------------------------------
-
-    def plot(self, ax: Axes | None = None, *, count: int = 4, **style: object) -> Axes:
-        """Draw the first objective of the best designs over bank angle; return the axes.
-
-        A ring marks each design. Designs without banks, or by a function, are drawn as a dot each,
-        below each other.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones.
-        count : int, default 4
-            Number of designs.
-        **style : dict, optional
-            Properties of the curves, or of the dots.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The axes.
-
-        Raises
-        ------
-        ImportError
-            If matplotlib is not installed.
-        """
-        return draw(self, ax, count=count, **style)  # type: ignore[no-any-return]
 
     def _description(self, objectives: int | None = None) -> str:
         """Return the objectives, all or the first few, the speed and the balancers in words."""

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
 from crankpin._support import inputs, labels
-from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
-from crankpin._support.record import changed, read_only
+from crankpin._support.record import changed, computed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.mounts.adaptive import MOST_UPDATE_DELAYS, AdaptiveLaw
 from crankpin.analysis.mounts.phasors import least_largest, optimal
@@ -99,6 +99,13 @@ class Cancellation(Tabled):
     """Share by which all forces are too large."""
     phase_error_deg: float = 0.0
     """Angle by which all forces are ahead, degrees."""
+    forces: NDArray[np.complex128] = computed()
+    """Peak phasors of the actuators' forces on the powertrain, N, of ``before.orders``.
+
+    Of shape (…, n_orders, n_actuators); zero of orders that are not cancelled.
+    """
+    _effect: NDArray[np.complex128] = computed()
+    _target: NDArray[np.complex128] = computed()
 
     def __post_init__(self) -> None:
         if not isinstance(self.before, MountResponse):
@@ -119,7 +126,7 @@ class Cancellation(Tabled):
         error = (1.0 + self.amplitude_error) * np.exp(1j * np.radians(self.phase_error_deg))
         forces = np.zeros_like(found)
         forces[..., places, :] = found[..., places, :] * error
-        self.__dict__.update(_forces=read_only(forces), _effect=effect, _target=target)
+        self.__dict__.update(forces=read_only(forces), _effect=effect, _target=target)
         super().__post_init__()
 
     def _frequency(self) -> NDArray[np.float64]:
@@ -143,20 +150,10 @@ class Cancellation(Tabled):
         unit = np.ones((*np.shape(self._frequency()), 1), dtype=complex)
         return self._driven((actuator,), unit, engine_runs=False)
 
-    @property
-    def forces(self) -> NDArray[np.complex128]:
-        """Peak phasors of the actuators' forces on the powertrain, N, of ``before.orders``.
-
-        Of shape (…, n_orders, n_actuators); zero of orders that are not cancelled.
-        """
-        return self.__dict__["_forces"]  # type: ignore[no-any-return]
-
-    @property
+    @cached_property
     def response(self) -> DrivenResponse:
         """Response with the actuators: forces, points, power, as one without them."""
-        if "_after" not in self.__dict__:
-            self.__dict__["_after"] = self._driven(self.actuators, self.forces)
-        return self.__dict__["_after"]  # type: ignore[no-any-return]
+        return self._driven(self.actuators, self.forces)
 
     @property
     def residual(self) -> NDArray[np.float64]:
@@ -166,7 +163,7 @@ class Cancellation(Tabled):
         largest of the receivers over the largest.
         """
         places = [self.before.orders.index(order) for order in self.orders]
-        target, effect = self.__dict__["_target"], self.__dict__["_effect"]
+        target, effect = self._target, self._effect
         left = target + (effect @ self.forces[..., None])[..., 0]
         return read_only(_ratio(self._size(left), self._size(target))[..., places])
 
@@ -390,28 +387,6 @@ class Cancellation(Tabled):
         )
         listed = tuple(Column(name, values, unit) for (name, unit), values in columns)
         return Table(title, listed, "", self.loads_counted)
-
-    def plot(self, ax: object = None, **style: object) -> Any:  # noqa: ANN401 - axes
-        """Draw what is left of the rms values: at places, or over speed.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones.
-        **style : dict, optional
-            Properties of matplotlib bars or lines.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The axes.
-
-        Raises
-        ------
-        ImportError
-            If matplotlib is not installed.
-        """
-        return draw(self, ax, **style)
 
 
 def _values(result: MountResponse, place: Place) -> NDArray[np.complex128]:

@@ -111,7 +111,7 @@ class AdaptiveLaw(Tabled):
         return np.where(sizes > 1e-24, sizes, 0.0)
 
     def _effect(self) -> NDArray[np.complex128]:
-        effect: NDArray[np.complex128] = self.cancellation.__dict__["_effect"]
+        effect = self.cancellation._effect
         return np.moveaxis(self._cancelled(np.moveaxis(effect, -3, -1)), -1, -3)
 
     def residual(self, updates: int) -> NDArray[np.float64]:
@@ -133,7 +133,7 @@ class AdaptiveLaw(Tabled):
             If it is below zero, or too large.
         """
         count = inputs.whole("updates", updates, 0, MOST_UPDATES)
-        target: NDArray[np.complex128] = self.cancellation.__dict__["_target"]
+        target = self.cancellation._target
         target = np.moveaxis(self._cancelled(np.moveaxis(target, -1, 0)), 0, -1)
         left = np.linalg.svd(self._effect(), full_matrices=False)[0]
         parts = np.abs((np.swapaxes(left.conj(), -1, -2) @ target[..., None])[..., 0]) ** 2

@@ -16,7 +16,6 @@ import numpy as np
 
 from crankpin._support import inputs, labels, lazy, optional
 from crankpin._support import progress as progress_bar
-from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
@@ -25,7 +24,6 @@ from crankpin.analysis.mounts.powertrain import Powertrain
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order
@@ -130,31 +128,6 @@ class MountDesign(Tabled):
     def frames(self) -> Frames:
         """``table``; ``mounts``: places, tilt and dynamic stiffness of the design."""
         return self._frames(mounts=self._of_mounts)
-
-    def plot(self, ax: Axes | None = None, **style: object) -> Axes:
-        """Draw the natural frequencies before and after; return the axes.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones.
-        **style : dict, optional
-            Properties of matplotlib lines.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The axes: a row for each mode, the required window shaded. Stiffness that depends on
-            frequency is taken at 20 Hz.
-
-        Raises
-        ------
-        InputError
-            If an option is unknown.
-        ImportError
-            If matplotlib is not installed.
-        """
-        return draw(self, ax, **style)  # type: ignore[no-any-return]
 
     def _of_mounts(self) -> Table:
         pairs = list(zip(self.powertrain.mounts, self.fitted.mounts, strict=True))

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from crankpin._support import inputs, labels
-from crankpin._support.drawing import draw
 from crankpin._support.quantities import DESIGNS
 from crankpin._support.record import AbsentError, read_only
 from crankpin._support.tables import Column, Table
@@ -23,7 +22,6 @@ from crankpin.model.mounts import _vector
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order, Orders
@@ -215,49 +213,6 @@ class DesignResponses(Labelled):
             values = {name: values[number].tolist() for name, values in figures.items()}
             mounts.append(mount.replace(**values))
         return self.powertrain.replace(mounts=mounts)
-
-    def plot(
-        self,
-        ax: Axes | None = None,
-        *,
-        design: int | None = None,
-        order: Order | None = None,
-        mount: str | None = None,
-        count: int = 60,
-        **style: object,
-    ) -> Axes:
-        """Draw a force over speed of many designs, and of one of them bold; return the axes.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones.
-        design : int, optional
-            Index of the design that is drawn bold; by default that of the least rms force on the
-            body.
-        order : float, optional
-            Order of which peaks are drawn; by default all orders together.
-        mount : str, optional
-            Name of a mount; by default the sum of all.
-        count : int, default 60
-            Most designs that are drawn, evenly spread over all.
-        **style : dict, optional
-            Properties of the bold line.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The axes.
-
-        Raises
-        ------
-        InputError
-            If there is no such design, order or mount.
-        ImportError
-            If matplotlib is not installed.
-        """
-        options: dict[str, Any] = {"design": design, "order": order, "mount": mount}
-        return draw(self, ax, count=count, **(options | style))  # type: ignore[no-any-return]
 
     @property
     def table(self) -> Table:

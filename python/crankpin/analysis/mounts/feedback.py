@@ -15,7 +15,7 @@ import numpy as np
 
 from crankpin._support import inputs
 from crankpin._support.frames import Tabled
-from crankpin._support.record import read_only
+from crankpin._support.record import computed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.mounts.active import DrivenResponse
 from crankpin.analysis.request import Request
@@ -55,6 +55,17 @@ class VelocityFeedback(Tabled):
     """The inertial actuator; the velocity is that of its place along its direction."""
     gain: float | None = None
     """Gain, N·s/m; None for half of the largest."""
+    onset: float | None = computed()
+    """Frequency at which it becomes unstable, Hz; None if it does not."""
+    largest_gain: float = computed()
+    """Gain from which on it is unstable, N·s/m; infinite if it is stable at any.
+
+    Of mounts with tables it is that within their frequencies.
+    """
+    _modes: list[float] = computed()
+    _grid: NDArray[np.float64] = computed()
+    _on_grid: NDArray[np.complex128] = computed()
+    _cut: tuple[float, float] | None = computed()
 
     def __post_init__(self) -> None:
         low, high = self._range()
@@ -75,13 +86,10 @@ class VelocityFeedback(Tabled):
         if is_cut and onset is None:
             raise self._beyond(low, high)
         known = [f for f in own[:-1] if low <= f <= high]
-        values = {
-            "_modes": known,
-            "_grid": grid,
-            "_on_grid": mobility,
-            "_cut": (low, high) if is_cut else None,
-        }
-        self.__dict__.update(values, _largest=largest, _onset=onset)
+        self.__dict__.update(
+            largest_gain=largest, onset=onset, _modes=known, _grid=grid, _on_grid=mobility,
+            _cut=(low, high) if is_cut else None,
+        )  # fmt: skip
         super().__post_init__()
 
     def _range(self) -> tuple[float, float]:
@@ -170,19 +178,6 @@ class VelocityFeedback(Tabled):
         return float(-1.0 / at[first]), float(low[first])
 
     @property
-    def largest_gain(self) -> float:
-        """Gain from which on it is unstable, N·s/m; infinite if it is stable at any.
-
-        Of mounts with tables it is that within their frequencies.
-        """
-        return self.__dict__["_largest"]  # type: ignore[no-any-return]
-
-    @property
-    def onset(self) -> float | None:
-        """Frequency at which it becomes unstable, Hz; None if it does not."""
-        return self.__dict__["_onset"]  # type: ignore[no-any-return]
-
-    @property
     def used_gain(self) -> float:
         """The gain, N·s/m: that given, or half of the largest."""
         if self.gain is not None:
@@ -222,24 +217,24 @@ class VelocityFeedback(Tabled):
     @property
     def table(self) -> Table:
         """Velocity with over without feedback, at each mode and where it is worst."""
-        grid = self.__dict__["_grid"]
+        grid = self._grid
         if not np.isfinite(self.used_gain):
-            ratios: list[float | None] = [None] * (len(self.__dict__["_modes"]) + 1)
+            ratios: list[float | None] = [None] * (len(self._modes) + 1)
             at = None
         else:
-            whole = 1.0 / np.abs(1.0 + self.used_gain * self.__dict__["_on_grid"])
+            whole = 1.0 / np.abs(1.0 + self.used_gain * self._on_grid)
             k = int(np.argmax(whole))
-            ratios = [*self.ratio(self.__dict__["_modes"]).tolist(), float(whole[k])]
+            ratios = [*self.ratio(self._modes).tolist(), float(whole[k])]
             at = float(grid[k])
-        names = [f"mode {k + 1}" for k in range(len(self.__dict__["_modes"]))]
+        names = [f"mode {k + 1}" for k in range(len(self._modes))]
         columns = (
             Column("at", (*names, "worst")),
-            Column("f", (*self.__dict__["_modes"], at), "Hz"),
+            Column("f", (*self._modes, at), "Hz"),
             Column("with/without", tuple(ratios)),
         )
         onset = "" if self.onset is None else f", where {self.onset:.5g} Hz grows"
         state = "stable" if self.margin_db > 0.0 else "unstable"
-        if (cut := self.__dict__["_cut"]) is not None:
+        if (cut := self._cut) is not None:
             onset += f", within the tables of stiffness, {cut[0]:g} to {cut[1]:g} Hz"
         note = (
             f"Gain {self.used_gain:.6g} N·s/m, {state}: margin {self.margin_db:.4g} dB to "

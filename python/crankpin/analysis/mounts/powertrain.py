@@ -6,9 +6,11 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 from crankpin import _core
-from crankpin._support import files, inputs, labels
+from crankpin._support import files, inputs, labels, units
+from crankpin._support.frames import Framed
 from crankpin._support.parameters import documented
 from crankpin._support.record import Input
+from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.mounts import active, feedback, static_state
 from crankpin.analysis.mounts import design_responses as many
@@ -38,7 +40,7 @@ if TYPE_CHECKING:
     from crankpin.view.widget import PowertrainWidget
 
 
-class Powertrain(Input):
+class Powertrain(Framed, Input):
     """An engine on its mounts: the engine, the rigid body that moves with it, and the mounts.
 
     Every load of the engine counts: pistons, rods, counterweights, balance shafts, and gas pressure
@@ -135,6 +137,24 @@ class Powertrain(Input):
     def _carried(self) -> str:
         """Flexible support of the mounts, in titles."""
         return "" if self.support is None else f" and a {type(self.support).__name__.lower()}"
+
+    @property
+    def table(self) -> Table:
+        """Places and static stiffness of the mounts, under the mass of the body."""
+        place, stiffness = (
+            [*zip(*(getattr(mount, name) for mount in self.mounts), strict=True)]
+            for name in ("at", "stiffness")
+        )
+        columns = (
+            Column("mount", self.names),
+            *(Column(axis, values, "m") for axis, values in zip("xyz", place, strict=True)),
+            *(
+                Column(f"stiffness along axis {k}", values, "N/m")
+                for k, values in enumerate(stiffness, 1)
+            ),
+        )
+        mass = units.figure(self.body.mass, "kg", 6)
+        return Table(f"{self._title}\nbody of {mass}", columns, loads=self.engine.loads_counted)
 
     # --- questions --------------------------------------------------------------------------------
 

@@ -10,7 +10,6 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, units
-from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import COMPONENTS_OF_LOADS, MOUNTED
 from crankpin._support.record import AbsentError, changed, read_only
@@ -29,7 +28,6 @@ from crankpin.model.supports import Receptance, Subframe
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order, Orders
@@ -216,33 +214,6 @@ class PointMotion(Labelled):
         which = "" if order in (None, ALL) else f", order {order}"
         title = result._title(f"motion of {self._words}{which}")
         return Table(title, tuple(columns), note, loads=self.loads_counted)
-
-    def plot(self, ax: Axes | None = None, *, quantity: str = "velocity", **options: Any) -> Axes:  # noqa: ANN401 - as MountResponse.plot documents them
-        """Draw the motion over speed or order; return the axes.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones.
-        quantity : {"displacement", "velocity", "acceleration"}, default "velocity"
-            What is drawn: peaks in µm, mm/s or m/s².
-        **options : dict, optional
-            ``kind``, ``orders`` and others of :meth:`MountResponse.plot`: ``kind="map"`` is a map
-            of orders over speed.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The axes.
-
-        Raises
-        ------
-        InputError
-            If there is no such picture of the speeds, or no such quantity.
-        ImportError
-            If matplotlib is not installed.
-        """
-        return draw(self, ax, quantity=quantity, **options)  # type: ignore[no-any-return]
 
 
 def _require_subframe(powertrain: Powertrain, name: str) -> None:
@@ -867,62 +838,6 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         if self.dims:
             return self._frames()
         return self._frames(loads=self._of_loads, power=self._of_power)
-
-    def plot(
-        self,
-        ax: Axes | None = None,
-        *,
-        kind: Literal["cuts", "map", "waterfall", "spectrum"] | None = None,
-        mount: str | None = None,
-        orders: Orders | None = None,
-        **options: object,
-    ) -> Axes:
-        """Draw the force on the body, or of one mount; return the axes.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones.
-        kind : {"cuts", "map", "waterfall", "spectrum"}, optional
-            ``"cuts"``, the default of several speeds: the longest vector of all orders together and
-            of the largest orders over speed; ``"map"``: a row of cells for each order over speed,
-            with the natural frequencies; ``"waterfall"``: a spectrum over frequency for each speed,
-            one above the other, of at most 40 speeds; ``"spectrum"``, that of one speed: peaks
-            along x, y and z over order.
-        mount : str, optional
-            Name of a mount; by default the sum of all.
-        orders : sequence of float, optional
-            Orders that are drawn; by default those given to the response, or else those that are
-            not zero, of ``"cuts"`` the largest.
-        **options : dict, optional
-            ``label``, for a legend of several results on the same axes; colour, line width and
-            other properties of what is drawn.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The axes.
-
-        Raises
-        ------
-        InputError
-            If there is no such picture of the speeds, or no such mount.
-        ImportError
-            If matplotlib is not installed.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> body = cp.RigidBody(mass=150, cg=(0, 0.06, 0.15), inertia=(7, 8, 4.5))
-        >>> mounts = [
-        ...     cp.Mount(name, at=at, stiffness=2e5, loss_factor=0.1)
-        ...     for name, at in [("a", (0.3, 0, 0)), ("b", (-0.3, 0, 0)), ("c", (0, 0, 0.7))]
-        ... ]
-        >>> r = cp.Powertrain(cp.Engine.preset("i4"), body, mounts).response(rpm=[800, 900, 1000])
-        >>> ax = r.plot(kind="map")
-        >>> ax = r.sel(rpm=900).plot(mount="a")
-        """
-        return draw(self, ax, kind=kind, mount=mount, orders=orders, **options)  # type: ignore[no-any-return]
 
     def _of_loads(self) -> Table:
         places, note = self._shown()

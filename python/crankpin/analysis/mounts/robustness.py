@@ -5,16 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from crankpin._support import inputs, units
-from crankpin._support.drawing import draw
 from crankpin._support.frames import Frames, Tabled
-from crankpin._support.record import read_only
+from crankpin._support.record import computed, read_only
 from crankpin._support.tables import Column, Table
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     import numpy as np
-    from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
     from crankpin.analysis.mounts.powertrain import Powertrain
@@ -45,30 +43,42 @@ class MountRobustness(Tabled):
     """True if the axes of a mount are at either end each by itself in corners."""
     at_frequency: float | None
     """Frequency at which dynamic stiffness is taken, Hz; None where it does not depend on it."""
+    frequency: NDArray[np.float64] = computed()
+    """Natural frequencies without tolerances, Hz, ascending: (n_modes,)."""
+    purity: NDArray[np.float64] = computed()
+    """Purity of each mode without tolerances, %: (n_modes,)."""
+    cg_slope: NDArray[np.float64] = computed()
+    """Derivatives of the frequencies by the place of the CG, Hz/m: (n_axes, n_modes).
+
+    Of modes of one frequency the mean.
+    """
+    least_purity: NDArray[np.float64] = computed()
+    """Least purity of each mode found within the tolerance of stiffness, %: (n_modes,).
+
+    By a search: at all corners, at 4096 random points, and from the worst of them along lines.
+    """
+    _ends: tuple[NDArray[np.float64], ...] = computed()
+    _factors: Any = computed()
 
     def __post_init__(self) -> None:
         given = (list(self.stiffness), self.mass, self.inertia, self.cg, self.by_axis)
         nominal, ends, slope, factors = self.powertrain._core.robustness(given, self.at_frequency)
         frequency, purity, least = map(read_only, nominal)
-        values: dict[str, Any] = {"_frequency": frequency, "_purity": purity, "_least": least}
-        values |= {"_ends": ends, "_slope": slope, "_factors": factors}
-        self.__dict__.update(values)
+        self.__dict__.update(
+            frequency=frequency, purity=purity, least_purity=least, cg_slope=slope, _ends=ends,
+            _factors=factors,
+        )  # fmt: skip
         super().__post_init__()
-
-    @property
-    def frequency(self) -> NDArray[np.float64]:
-        """Natural frequencies without tolerances, Hz, ascending: (n_modes,)."""
-        return self.__dict__["_frequency"]  # type: ignore[no-any-return]
 
     @property
     def frequency_bounds(self) -> NDArray[np.float64]:
         """Least and largest frequencies within the tolerance of stiffness, Hz: (2, n_modes)."""
-        return self.__dict__["_ends"][0]  # type: ignore[no-any-return]
+        return self._ends[0]
 
     @property
     def mass_bounds(self) -> NDArray[np.float64]:
         """Least and largest frequencies within those of mass and inertia, Hz: (2, n_modes)."""
-        return self.__dict__["_ends"][1]  # type: ignore[no-any-return]
+        return self._ends[1]
 
     @property
     def cg_range(self) -> NDArray[np.float64]:
@@ -77,28 +87,7 @@ class MountRobustness(Tabled):
         The corners of the cube ± ``cg`` about its place, and that; frequencies are not monotone in
         it, so that these are no bounds.
         """
-        return self.__dict__["_ends"][2]  # type: ignore[no-any-return]
-
-    @property
-    def cg_slope(self) -> NDArray[np.float64]:
-        """Derivatives of the frequencies by the place of the CG, Hz/m: (n_axes, n_modes).
-
-        Of modes of one frequency the mean.
-        """
-        return self.__dict__["_slope"]  # type: ignore[no-any-return]
-
-    @property
-    def purity(self) -> NDArray[np.float64]:
-        """Purity of each mode without tolerances, %: (n_modes,)."""
-        return self.__dict__["_purity"]  # type: ignore[no-any-return]
-
-    @property
-    def least_purity(self) -> NDArray[np.float64]:
-        """Least purity of each mode found within the tolerance of stiffness, %: (n_modes,).
-
-        By a search: at all corners, at 4096 random points, and from the worst of them along lines.
-        """
-        return self.__dict__["_least"]  # type: ignore[no-any-return]
+        return self._ends[2]
 
     def least_pure(self, mode: int) -> Mapping[str, tuple[float, ...]]:
         """Return the stiffnesses at which a mode was found least pure.
@@ -121,7 +110,7 @@ class MountRobustness(Tabled):
         number, count = inputs.whole("mode", mode), len(self.frequency)
         if not 1 <= number <= count:
             raise inputs.rejected("mode", mode, f"give a number from 1 to {count}")
-        factors = self.__dict__["_factors"][number - 1]
+        factors = self._factors[number - 1]
         return dict(zip(self.powertrain.names, map(tuple, factors), strict=False))
 
     @property
@@ -150,30 +139,6 @@ class MountRobustness(Tabled):
 
     def _modes(self) -> list[Column]:
         return [Column("mode", tuple(range(1, len(self.frequency) + 1)))]
-
-    def plot(self, ax: Axes | None = None, **style: object) -> Axes:
-        """Draw the range of each natural frequency, by cause; return the axes.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones.
-        **style : dict, optional
-            Properties of matplotlib bars.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The axes: bars for each mode, beside it its purity and the least that was found.
-
-        Raises
-        ------
-        InputError
-            If an option is unknown.
-        ImportError
-            If matplotlib is not installed.
-        """
-        return draw(self, ax, **style)  # type: ignore[no-any-return]
 
     @property
     def frames(self) -> Frames:

@@ -8,7 +8,7 @@ import numpy as np
 
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Tabled
-from crankpin._support.record import read_only
+from crankpin._support.record import computed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.model.mounts import _vector
 
@@ -40,52 +40,48 @@ class StaticState(Tabled):
     """Force of a propeller's shaft on the unit, N."""
     thrust_at: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """Place where it acts, m."""
+    sag: NDArray[np.float64] = computed()
+    """Displacement of the centre of gravity under the weight, m: (n_axes,)."""
+    sag_deg: NDArray[np.float64] = computed()
+    """Rotation about x, y and z under the weight, degrees: (n_axes,)."""
+    wind_up: NDArray[np.float64] = computed()
+    """Displacement of the centre of gravity under the torque, m: (n_axes,)."""
+    wind_up_deg: NDArray[np.float64] = computed()
+    """Rotation about x, y and z under the torque, degrees: (n_axes,)."""
+    thrust_shift: NDArray[np.float64] = computed()
+    """Displacement of the centre of gravity under the thrust, m: (n_axes,)."""
+    thrust_deg: NDArray[np.float64] = computed()
+    """Rotation about x, y and z under the thrust, degrees: (n_axes,)."""
+    ground_preload: NDArray[np.float64] = computed()
+    """Force of each mount of a subframe on what carries it, of all causes, N.
+
+    Of shape (n_mounts, n_axes); empty without a subframe.
+    """
+    support_margin: float = computed()
+    """Distance of the centre of gravity from the edge of the polygon of the mounts, m.
+
+    Seen along gravity; above zero inside. Outside, some mount is pulled.
+    """
+    support_polygon: tuple[str, ...] = computed()
+    """Names of the mounts at the corners of their polygon, seen along gravity, in order."""
+    _forces: NDArray[np.float64] = computed()
 
     def __post_init__(self) -> None:
         core = self.powertrain._core
         push = [list(self.thrust), list(self.thrust_at)]
         displacement, forces, margin, corners = core.static(list(self.gravity), -self.torque, push)
         moved = np.array(displacement)
-        values = {
-            "_shift": read_only(moved[:, :3]),
-            "_turn_deg": read_only(np.degrees(moved[:, 3:])),
-            "_forces": read_only(np.array(forces)),
-            "_margin": margin,
-            "_ground": read_only(sum(np.array(forces)[:, len(self.powertrain.mounts) :])),
-            "_corners": tuple(self.powertrain.names[k] for k in corners),
-        }
-        self.__dict__.update(values)
+        shift = [read_only(row) for row in moved[:, :3]]
+        turn_deg = [read_only(row) for row in np.degrees(moved[:, 3:])]
+        self.__dict__.update(zip(("sag", "wind_up", "thrust_shift"), shift, strict=True))
+        self.__dict__.update(zip(("sag_deg", "wind_up_deg", "thrust_deg"), turn_deg, strict=True))
+        self.__dict__.update(
+            ground_preload=read_only(sum(np.array(forces)[:, len(self.powertrain.mounts) :])),
+            support_margin=margin,
+            support_polygon=tuple(self.powertrain.names[k] for k in corners),
+            _forces=read_only(np.array(forces)),
+        )
         super().__post_init__()
-
-    @property
-    def sag(self) -> NDArray[np.float64]:
-        """Displacement of the centre of gravity under the weight, m: (n_axes,)."""
-        return self.__dict__["_shift"][0]  # type: ignore[no-any-return]
-
-    @property
-    def sag_deg(self) -> NDArray[np.float64]:
-        """Rotation about x, y and z under the weight, degrees: (n_axes,)."""
-        return self.__dict__["_turn_deg"][0]  # type: ignore[no-any-return]
-
-    @property
-    def wind_up(self) -> NDArray[np.float64]:
-        """Displacement of the centre of gravity under the torque, m: (n_axes,)."""
-        return self.__dict__["_shift"][1]  # type: ignore[no-any-return]
-
-    @property
-    def wind_up_deg(self) -> NDArray[np.float64]:
-        """Rotation about x, y and z under the torque, degrees: (n_axes,)."""
-        return self.__dict__["_turn_deg"][1]  # type: ignore[no-any-return]
-
-    @property
-    def thrust_shift(self) -> NDArray[np.float64]:
-        """Displacement of the centre of gravity under the thrust, m: (n_axes,)."""
-        return self.__dict__["_shift"][2]  # type: ignore[no-any-return]
-
-    @property
-    def thrust_deg(self) -> NDArray[np.float64]:
-        """Rotation about x, y and z under the thrust, degrees: (n_axes,)."""
-        return self.__dict__["_turn_deg"][2]  # type: ignore[no-any-return]
 
     @property
     def weight_force(self) -> NDArray[np.float64]:
@@ -104,7 +100,7 @@ class StaticState(Tabled):
 
     def _of_cause(self, cause: int) -> NDArray[np.float64]:
         """Return forces of the powertrain's own mounts."""
-        forces: NDArray[np.float64] = self.__dict__["_forces"][cause]
+        forces: NDArray[np.float64] = self._forces[cause]
         return forces[: len(self.powertrain.mounts)]
 
     @property
@@ -113,32 +109,11 @@ class StaticState(Tabled):
         return read_only(self.weight_force + self.torque_force + self.thrust_force)
 
     @property
-    def ground_preload(self) -> NDArray[np.float64]:
-        """Force of each mount of a subframe on what carries it, of all causes, N.
-
-        Of shape (n_mounts, n_axes); empty without a subframe.
-        """
-        return self.__dict__["_ground"]  # type: ignore[no-any-return]
-
-    @property
-    def support_margin(self) -> float:
-        """Distance of the centre of gravity from the edge of the polygon of the mounts, m.
-
-        Seen along gravity; above zero inside. Outside, some mount is pulled.
-        """
-        return self.__dict__["_margin"]  # type: ignore[no-any-return]
-
-    @property
-    def support_polygon(self) -> tuple[str, ...]:
-        """Names of the mounts at the corners of their polygon, seen along gravity, in order."""
-        return self.__dict__["_corners"]  # type: ignore[no-any-return]
-
-    @property
     def table(self) -> Table:
         """Forces of the mounts on what carries them, by cause; also of those of a subframe."""
         columns = [Column("mount", tuple(self.powertrain._core.all_names))]
         causes = ["weight", "torque", *(["thrust"] if any(self.thrust) else [])]
-        for cause, forces in zip(causes, self.__dict__["_forces"], strict=False):
+        for cause, forces in zip(causes, self._forces, strict=False):
             for axis, values in zip("xyz", forces.T.tolist(), strict=True):
                 columns.append(Column(f"{cause} F_{axis}", tuple(values), "N"))
         x, y, z = 1e3 * self.sag

@@ -12,7 +12,6 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import labels
-from crankpin._support.drawing import draw
 from crankpin._support.frames import Tabled
 from crankpin._support.record import Listed, changed
 from crankpin._support.tables import Item, Table
@@ -21,7 +20,6 @@ from crankpin.analysis.ranking.objectives import ByObjectives, of_table
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
-    from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
     from crankpin.analysis.ranking.objectives import Objective
@@ -135,32 +133,6 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
         return MappingProxyType(columns)
 
     # --- tables and pictures --------------------------------------------------------------------
-
-    def plot(self, ax: Axes | None = None, **options: object) -> Axes:
-        """Draw the first objective over bank angle, the best angles ringed; return the axes.
-
-        Engines ranked without bank angles are listed, the best first. Of many engines the best
-        are named, the others thin lines.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones.
-        **options : dict, optional
-            ``label``, put before the names in the legend; colour, line width and other properties
-            of matplotlib lines.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The axes.
-
-        Raises
-        ------
-        ImportError
-            If matplotlib is not installed.
-        """
-        return draw(self, ax, **options)  # type: ignore[no-any-return]
 
     def _description(self, objectives: int | None = None) -> str:
         """Return the objectives, all or the first few, and the speed in words."""

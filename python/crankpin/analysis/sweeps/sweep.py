@@ -6,14 +6,13 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias, overload
+from typing import TYPE_CHECKING, Any, Self, TypeAlias
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
-from crankpin._support.drawing import draw
 from crankpin._support.parameters import documented
 from crankpin._support.quantities import QUANTITIES, kind_of
 from crankpin._support.record import changed, read_only
@@ -32,8 +31,6 @@ from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure, SubFigure
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Orders, Spectrum
@@ -582,100 +579,6 @@ class Sweep(ByOrder[Any]):
             hint = "use dask.diagnostics.ProgressBar"
             raise inputs.faulty("progress", "cannot be combined with to_dask", hint)
         return dask.dataset(self, chunks, self._chosen(quantities))
-
-    @overload
-    def plot(
-        self,
-        ax: Axes,
-        *,
-        figure: None = None,
-        kind: Literal["curves", "parts", "map", "orders", "bars"] | None = None,
-        quantity: str | None = None,
-        x: str | None = None,
-        orders: Orders | None = None,
-        **options: object,
-    ) -> Axes: ...
-
-    @overload
-    def plot(
-        self,
-        ax: None = None,
-        *,
-        figure: Figure | SubFigure | None = None,
-        kind: Literal["curves", "parts", "map", "orders", "bars"] | None = None,
-        quantity: str | None = None,
-        x: str | None = None,
-        orders: Orders | None = None,
-        **options: object,
-    ) -> NDArray[Any]: ...
-
-    def plot(
-        self,
-        ax: Axes | None = None,
-        *,
-        figure: Figure | SubFigure | None = None,
-        kind: Literal["curves", "parts", "map", "orders", "bars"] | None = None,
-        quantity: str | None = None,
-        x: str | None = None,
-        orders: Orders | None = None,
-        **options: object,
-    ) -> Axes | NDArray[Any]:
-        """Draw peaks over what was swept; return the axes.
-
-        A row of panels for all orders together and for each of the three largest orders, a column
-        for each axis.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on: a single panel with the longest vector of all orders together, or of
-            the one in ``orders``; with ``"bars"`` of one quantity.
-        figure : Figure or SubFigure, optional
-            Figure or SubFigure for the panels; by default a new one.
-        kind : {"curves", "parts", "map", "orders", "bars"}, optional
-            ``"curves"``: over one dimension, a curve for each combination of the others, with the
-            points where an order is exactly zero, and the minimum, marked; ``"parts"``: of
-            force or moment what turns with the crank and what turns against it, over one numeric
-            dimension, a panel for each order and what else was swept; ``"map"``: over two
-            numeric dimensions, in colours; ``"orders"``: over one numeric dimension, such as speed,
-            and order, in colours; ``"bars"``: over engines, force beside moment in the orders up to
-            4, with the class of each engine. By default bars for engines alone, a map for two long
-            numeric dimensions, otherwise curves.
-        quantity : str, optional
-            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment,
-            or else the first that is not zero, of bars force and moment.
-        x : str, optional
-            The dimension along the horizontal axis; by default the longest.
-        orders : number, sequence of numbers or "auto", optional
-            Orders to draw, a row for each; by default as above.
-        **options : dict, optional
-            ``log=True`` for a logarithmic scale of curves, parts and maps, ``log=False`` for a
-            linear one of ``"orders"``; ``label``, put before the names in the legend; colour, line
-            width and other properties of matplotlib lines, of maps those of ``pcolormesh``.
-
-        Returns
-        -------
-        matplotlib.axes.Axes or ndarray of Axes
-            The panels, (n_rows, 2), of torque (n_rows, 1), of parts (n_orders, n_others); with
-            ``ax`` the axes given.
-
-        Raises
-        ------
-        InputError
-            If nothing was swept, the kind does not fit what was swept, an argument names no swept
-            dimension or order, or ``ax`` and ``figure`` are both given.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> v6 = cp.Engine.preset("v6-60")
-        >>> s = cp.sweep(v6, rpm=5000, bank_angle_deg=range(10, 180, 10), hold="pins")
-        >>> s.plot(orders=[1, 2]).shape
-        (2, 2)
-        """
-        chosen_options = {"figure": figure, "kind": kind, "quantity": quantity, "x": x}
-        chosen = {} if orders is None else {"orders": orders}
-        return draw(self, ax, **chosen_options, **chosen, **options)  # type: ignore[no-any-return]
 
     @property
     def table(self) -> Table:

@@ -5,19 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
-from crankpin._support.drawing import draw
 from crankpin.analysis.waveform import OverAngle
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure, SubFigure
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Order
@@ -176,75 +173,6 @@ class SweepWaveform(OverAngle["NDArray[np.float64]"]):
         return self.sweep._by_point(title, lambda name: self.read(name, "peak"))
 
     # --- pictures -------------------------------------------------------------------------------
-
-    @overload
-    def plot(
-        self,
-        ax: Axes,
-        *,
-        figure: None = None,
-        kind: Literal["curves", "envelope"] | None = None,
-        quantity: str | None = None,
-        **options: object,
-    ) -> Axes: ...
-
-    @overload
-    def plot(
-        self,
-        ax: None = None,
-        *,
-        figure: Figure | SubFigure | None = None,
-        kind: Literal["curves", "envelope"] | None = None,
-        quantity: str | None = None,
-        **options: object,
-    ) -> NDArray[Any]: ...
-
-    def plot(
-        self,
-        ax: Axes | None = None,
-        *,
-        figure: Figure | SubFigure | None = None,
-        kind: Literal["curves", "envelope"] | None = None,
-        quantity: str | None = None,
-        **options: object,
-    ) -> Axes | NDArray[Any]:
-        """Draw a quantity over crank angle, a panel for each axis; return the axes.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on: of a force or moment the length of the vector.
-        figure : Figure or SubFigure, optional
-            Figure or SubFigure for the panels; by default a new one.
-        kind : {"curves", "envelope"}, optional
-            ``"curves"``: a curve for each point of the sweep; ``"envelope"``: the range of all
-            points, the range of their middle half, and the median. By default curves if colours and
-            dashes distinguish them.
-        quantity : str, optional
-            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment, or
-            else the first that is not zero.
-        **options : dict, optional
-            ``label``, put before the names in the legend; colour, line width and other properties
-            of matplotlib lines.
-
-        Returns
-        -------
-        matplotlib.axes.Axes or ndarray of Axes
-            The panels, (1, 2), of torque (1, 1); with ``ax`` the axes given.
-
-        Raises
-        ------
-        InputError
-            If ``ax`` and ``figure`` are both given.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> s = cp.sweep(cp.Engine.preset("v6-60"), rpm=5000, rod_ratio=[0.25, 0.3, 0.35])
-        >>> s.waveform().plot(quantity="moment").shape
-        (1, 2)
-        """
-        return draw(self, ax, figure=figure, kind=kind, quantity=quantity, **options)  # type: ignore[no-any-return]
 
     @property
     def _brief(self) -> str:

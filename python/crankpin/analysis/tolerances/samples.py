@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
-from crankpin._support.drawing import draw
 from crankpin._support.parameters import documented
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import changed, read_only
@@ -33,7 +32,6 @@ from crankpin.analysis.tolerances.spreads import (
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order
@@ -486,42 +484,6 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         )
 
     # --- tables and pictures --------------------------------------------------------------------
-
-    def plot(
-        self,
-        ax: Axes | None = None,
-        *,
-        kind: Literal["histogram", "ecdf", "shares"] = "histogram",
-        by: str | None = None,
-        **style: object,
-    ) -> Axes:
-        """Draw the distribution of a value, or the shares of the tolerances; return the axes.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw on; by default new ones.
-        kind : {"histogram", "ecdf", "shares"}, default "histogram"
-            ``"histogram"`` or ``"ecdf"`` (the part of the samples up to a value), with the nominal
-            value and the 5, 50 and 95 % quantiles; ``"shares"``: bars of each tolerance's share.
-        by : str, optional
-            A name as in :func:`crankpin.rank`; by default the first of ``by``, of shares all.
-        **style : dict, optional
-            Keywords of the histogram's, curve's or bars' artists, such as ``label`` and ``color``.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The axes.
-
-        Raises
-        ------
-        InputError
-            If there is no such picture or objective.
-        ImportError
-            If matplotlib is not installed.
-        """
-        return draw(self, ax, kind=kind, by=by, **style)  # type: ignore[no-any-return]
 
     @property
     def table(self) -> Table:
