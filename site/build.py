@@ -15,7 +15,7 @@ from string import Template
 from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
-from crankpin._support import units
+from crankpin._support import parameters, units
 from crankpin.analysis import explain
 from crankpin.model import presets
 from crankpin.view import page
@@ -51,6 +51,16 @@ LZMA = {
     "pb": 0,
 }
 """What `lzma.mjs` reads."""
+
+DECLARING: dict[Any, str] = {
+    cp.Cylinder.from_bore_stroke: "bore stroke rod_length reciprocating_mass pin_offset",
+    cp.Engine.vee: "throws_deg bank_angle_deg pin_split_deg spacing bank_stagger absent odd_bank "
+    "numbering rotating_mass firing_order strokes",
+    cp.Engine.radial: "cylinders rows",
+    cp.Engine.from_lists: "bank_deg tdc_deg z",
+    cp.flywheel: "inertia",
+}
+"""Function → its arguments that are fields of the form."""
 
 GROUPS = {
     "Singles and twins": ("single", "i2-", "v-twin-", "boxer-2"),
@@ -130,10 +140,23 @@ def tables() -> dict[str, Any]:
             "drawn": {setting: drawn(setting) for setting in SETTINGS[1:]} | {SETTINGS[0]: {}},
             "said": {setting: said(setting) for setting in SETTINGS[1:]} | {SETTINGS[0]: {}},
         },
+        "declared": declared(),
         "presets": {name: preset(name) for name in presets.presets()},
         "page": page.template(),
         "groups": {title: names for title in GROUPS if (names := group(title))},
     }
+
+
+def declared() -> dict[str, dict[str, Any]]:
+    """Return what functions declare of the arguments that are fields: unit, meaning, choices."""
+    result = dict[str, dict[str, Any]]()
+    for function, names in DECLARING.items():
+        for name in names.split():
+            of = parameters.parameter(function, name)
+            text = of.meaning.replace("``", "").replace('"', "")
+            result[name] = {"said": text[0].lower() + text[1:], "choices": of.choices}
+            result[name] |= {"unit": of.unit.replace("degrees", "°")} if of.unit else {}
+    return result
 
 
 def shown(setting: str) -> dict[str, tuple[str, float]]:

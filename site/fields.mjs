@@ -1,48 +1,47 @@
 // What can be typed of an engine: the arguments of the library's builders, by their names.
 
+import { DECLARED } from "./tables.mjs";
+
 /** Example cycles: their kinds and loads. */
 export const GASES = {
   "petrol 1": "example: petrol, full load", "petrol 0.3": "example: petrol, part load", "diesel 1": "example: diesel, full load",
 };
 
+/** What the function that takes an argument declares of it, and how it is typed. */
+const declared = (name, field) => {
+  const { unit, said } = DECLARED[name];
+  return { ...(unit && { unit }), said, ...field };
+};
+
 /** Of each field its label, the library's unit, and what it means; `choices` of those that are chosen. */
 export const FIELDS = {
   name: { label: "Name", text: true, optional: true },
-  bore: { label: "Bore", unit: "m", optional: true, said: "drawn only; gas pressure acts on it" },
-  stroke: { label: "Stroke", unit: "m", said: "twice the crank radius" },
-  rod_length: { label: "Rod length", unit: "m", said: "between centres" },
-  reciprocating_mass: {
-    label: "Reciprocating mass", unit: "kg", said: "piston, pin, rings, clips and the rod’s small end, of one cylinder",
-  },
-  rotating_mass: {
-    label: "Rotating mass", unit: "kg", optional: true, said: "big end and bearing, of one cylinder; and its share of the crankpin",
-  },
-  pin_offset: {
-    label: "Pin offset", unit: "m", optional: true, said: "of the piston pin, towards the side to which the crankpin swings",
-  },
-  throws_deg: {
-    label: "Throws", unit: "°", listed: true, said: "crankpin angles in the direction of rotation, front to flywheel",
-  },
-  bank_angle_deg: { label: "Bank angle", unit: "°", range: [0, 180, 0.5], said: "between the banks" },
-  pin_split_deg: {
-    label: "Pin split", unit: "°", optional: true, range: [-180, 180, 0.5],
-    said: "left pin minus right pin; even firing needs bank angle − firing interval",
-  },
-  spacing: { label: "Spacing", unit: "m", several: true, said: "between neighbouring throws, or of each throw from the one before it" },
-  bank_stagger: { label: "Bank stagger", unit: "m", optional: true, said: "how far each bank stands behind the one before it, the left one behind the right" },
-  absent: { label: "Absent cylinders", whole: true, listed: true, optional: true, said: "numbers in the whole V of those that are not there: 6 makes a V5 of three throws" },
+  bore: declared("bore", { label: "Bore", optional: true, said: "drawn only; gas pressure acts on it" }),
+  stroke: declared("stroke", { label: "Stroke" }),
+  rod_length: declared("rod_length", { label: "Rod length" }),
+  reciprocating_mass: declared("reciprocating_mass", { label: "Reciprocating mass" }),
+  rotating_mass: declared("rotating_mass", {
+    label: "Rotating mass", optional: true, said: "big end and bearing, of one cylinder; and its share of the crankpin",
+  }),
+  pin_offset: declared("pin_offset", { label: "Pin offset", optional: true }),
+  throws_deg: declared("throws_deg", { label: "Throws", listed: true }),
+  bank_angle_deg: declared("bank_angle_deg", { label: "Bank angle", range: [0, 180, 0.5] }),
+  pin_split_deg: declared("pin_split_deg", { label: "Pin split", optional: true, range: [-180, 180, 0.5] }),
+  spacing: declared("spacing", { label: "Spacing", several: true }),
+  bank_stagger: declared("bank_stagger", {
+    label: "Bank stagger", optional: true, said: "how far each bank stands behind the one before it, the left one behind the right",
+  }),
+  absent: declared("absent", { label: "Absent cylinders", whole: true, listed: true, optional: true }),
   odd_bank: { label: "Cylinder 1 is in", choices: { right: "the right bank", left: "the left bank" } },
   numbering: { label: "Numbering", choices: { alternating: "from bank to bank", "by-bank": "bank by bank" } },
-  cylinders: { label: "Cylinders", whole: true, said: "of all rows" },
-  rows: { label: "Rows", whole: true, optional: true },
-  bank_deg: { label: "Bores", unit: "°", listed: true, said: "directions from the right, counter-clockwise; 90 is upright, 30, 90, 150 a W" },
-  tdc_deg: { label: "Top dead centres", unit: "°", listed: true, said: "crank angle of each cylinder" },
-  z: { label: "Places along the crank", unit: "m", listed: true, said: "from the front to the flywheel" },
-  firing_order: { label: "Firing order", text: true, optional: true, said: "such as 1-3-4-2" },
+  cylinders: declared("cylinders", { label: "Cylinders", whole: true }),
+  rows: declared("rows", { label: "Rows", whole: true, optional: true }),
+  bank_deg: declared("bank_deg", { label: "Bores", listed: true }),
+  tdc_deg: declared("tdc_deg", { label: "Top dead centres", listed: true }),
+  z: declared("z", { label: "Places along the crank", listed: true }),
+  firing_order: declared("firing_order", { label: "Firing order", text: true, optional: true, said: "such as 1-3-4-2" }),
   gas: { label: "Gas pressure", choices: { "": "not counted", ...GASES } },
-  inertia: {
-    label: "Flywheel inertia", unit: "kg·m²", optional: true, said: "moment of inertia that turns with the crank; for its speed over a cycle",
-  },
+  inertia: declared("inertia", { label: "Flywheel inertia", optional: true }),
   strokes: { label: "Cycle", choices: { 4: "four-stroke", 2: "two-stroke" } },
 };
 

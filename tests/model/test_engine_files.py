@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 import re
 import tomllib
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import crankpin as cp
 import numpy as np
 import pytest
+from crankpin._support.parameters import parameter
 from crankpin.model import computed_cycles, engine_files
 from support import in_turn
 
@@ -93,6 +95,39 @@ def test_changed_copies_keep_their_crankshafts() -> None:
     unbalanced = engine.replace(rotating_mass=0.5).balance(600, orders=1).force
     pull = 0.5 * 0.05 * (20 * np.pi) ** 2
     np.testing.assert_allclose(unbalanced.peak_xy[0], [0.0, 4.0 * pull], rtol=1e-15, atol=1e-13)
+
+
+DECLARED: dict[str, Any] = {
+    "cylinder": cp.Cylinder, "rod": cp.Rod, "unbalance": cp.Unbalance, "shaft": cp.Shaft,
+    "load": cp.PeriodicLoad, "mount": cp.Mount, "body": cp.RigidBody, "cycle": cp.Cycle,
+    "powertrain": cp.Powertrain, "subframe": cp.Subframe, "receptance": cp.Receptance,
+}  # fmt: skip
+"""Part of the schema → the class whose arguments it has."""
+OTHERWISE = {
+    "rod": {"length"},  # the cylinder's
+    "load": {"scaling", "rpm", "over_speed", "x", "y", "axis"},
+    "cycle": {"example", "origin"},
+    "powertrain": {"engine", "support", "subframe", "receptance"},
+    "receptance": {"table", "frequency", "real", "imaginary"},
+}
+"""Entries and arguments that the other does not have: what one writes otherwise than the other."""
+UNIT = re.compile(r"(?:^|, )(kg·m²|kg·m|kg|N·s/m|N·m|N/m|N|Pa|Hz|m|degrees)(?![\w·/²])")
+
+
+@pytest.mark.parametrize("part", DECLARED)
+def test_entries_are_the_arguments_of_the_class_in_its_units(part: str) -> None:
+    properties = SCHEMA["$defs"][part]["properties"]
+    arguments = {*inspect.signature(DECLARED[part]).parameters}
+    assert properties.keys() ^ arguments == OTHERWISE.get(part, set())
+    for name in properties.keys() & arguments - {"table"}:  # a pair of two units
+        unit = UNIT.search(properties[name]["description"])
+        assert (unit[1] if unit else "") == parameter(DECLARED[part], name).unit, name
+
+
+def test_every_part_with_arguments_of_a_class_is_compared() -> None:
+    classes = [getattr(cp, name) for name in cp.__all__ if inspect.isclass(getattr(cp, name))]
+    named = {kind.__name__.lower(): kind for kind in classes}
+    assert {*DECLARED.values()} >= {named[part] for part in SCHEMA["$defs"] if part in named}
 
 
 TABLES = {  # where an unknown entry is put → the part of the schema that lists the known ones

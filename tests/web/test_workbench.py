@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import base64
+import inspect
 import json
 import shutil
 import tomllib
 import zlib
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
 import numpy as np
 import pytest
+from crankpin._support.parameters import parameter
 from crankpin.model import presets
 from support.building import SITE, cells, choose, engine, faults, field, settle, take_file, type_in
 from support.chromium import ARGUMENTS, NAMES
@@ -31,6 +33,36 @@ UNLABELLED = """() => [...document.querySelectorAll(".bench :is(input, select, b
     .filter(each => !(each.ariaLabel || each.textContent.trim() || each.title))
     .map(each => each.outerHTML)"""
 """Controls without a name for those who do not see the page."""
+
+
+BUILDERS: dict[str, Any] = {
+    "inline": cp.Engine.inline, "vee": cp.Engine.vee, "flat": cp.Engine.flat,
+    "boxer": cp.Engine.boxer, "fan": cp.Engine.from_banks, "radial": cp.Engine.radial,
+    "lists": cp.Engine.from_lists,
+}  # fmt: skip
+"""Kind of the form → the builder that takes its fields."""
+ELSEWHERE = {
+    "cylinder", "rotating_mass", "name", "source",  # of every kind
+    "first_tdc_deg", "counterweights", "shafts", "mains", "reference_z", "pin_deg", "cranks",
+    "crank",  # of engine files
+}  # fmt: skip
+"""Arguments of builders that are no fields of a layout."""
+
+
+def test_fields_are_the_arguments_of_builders(open_workbench: Open) -> None:
+    fields, kinds = open_workbench().evaluate("[FIELDS, KINDS]")
+    assert kinds.keys() == BUILDERS.keys()
+    for kind, builder in BUILDERS.items():
+        typed = {*kinds[kind]["fields"]} - {"gas", "inertia"}
+        assert typed == {*inspect.signature(builder).parameters} - ELSEWHERE, kind
+        for name in typed:
+            declared = parameter(builder, name)
+            unit = declared.unit.replace("degrees", "°")
+            assert fields[name].get("unit", "") == unit, name
+            if declared.choices:
+                assert fields[name]["choices"].keys() == {*declared.choices}, name
+            else:
+                assert fields[name]["said"], name
 
 
 # --- tasks --------------------------------------------------------------------------------------

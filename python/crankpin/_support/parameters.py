@@ -17,7 +17,7 @@ SHARED = """
 Parameters
 ----------
 bank_deg : sequence of number or str, shape (n_cylinders,)
-    Directions of the bores from +x, degrees; 90 is upright.
+    Directions of the bores from +x, degrees; 90 is upright, and 30, 90, 150 a W.
 z : array_like, shape (n_cylinders,)
     Places along the crank, from the front to the flywheel, m.
 tdc_deg : sequence of number or str, shape (n_cylinders,)
@@ -104,7 +104,7 @@ class Entry(NamedTuple):
 
 
 _ROLE = re.compile(r":\w+:`~?([^`]*)`")
-_UNIT = re.compile(r", (kg·m²|kg·m|kg|g·mm|m|N·m|N/m|N|Pa|Hz|rpm|degrees)(?![\w·/²])")
+_UNIT = re.compile(r", (kg·m²|kg·m|kg|g·mm|m|N·m|N·s/m|N/m|N|Pa|Hz|rpm|degrees)(?![\w·/²])")
 
 
 class Parameter(NamedTuple):
@@ -123,6 +123,11 @@ class Parameter(NamedTuple):
     def words(self) -> tuple[str, ...]:
         """Words that are taken, of a set of them or besides numbers."""
         return tuple(re.findall(r'"([^"]*)"', self.type))
+
+    @property
+    def meaning(self) -> str:
+        """The text without the unit."""
+        return _UNIT.sub("", self.text)
 
     @property
     def choices(self) -> tuple[str, ...]:

@@ -86,7 +86,7 @@ LAYOUT = {
     for each in (
         _of_shape(Engine.vee, "bank_angle_deg"),
         _of_shape(Engine.vee, "throws_deg"),
-        _of_shape(Engine.vee, "pin_split_deg", read=_pin_split, more=", or even for even firing"),
+        _of_shape(Engine.vee, "pin_split_deg", read=_pin_split, more=", or type even"),
         _of_shape(
             Engine.vee,
             "spacing",

@@ -201,12 +201,12 @@ class Builders(EngineData):
         spacing : float or array_like
             Distance between neighbouring throws, m, or of each from the one before it.
         pin_split_deg : number or str, default 0.0
-            Left pin minus right pin, in the direction of rotation, degrees; 0 for shared pins.
-            Even firing needs bank angle − firing interval: −60 for a 60° V6, −30 for a 90° V6.
+            Left pin minus right pin, in the direction of rotation, degrees; even firing needs bank
+            angle − firing interval. That is −60 for a 60° V6, −30 for a 90° V6; shared pins have 0.
         absent : sequence of int, optional
-            Cylinders that are not there, by their numbers in the whole vee; those that are there
-            are numbered anew from 1. Of three throws ``[6]`` leaves a V5, ``[2, 3, 6]`` a V3 with
-            a cylinder on each throw, by turns right and left.
+            Cylinders that are not there, by their numbers in the whole vee: of three throws 6
+            leaves a V5. Those that are there are numbered anew from 1; ``[2, 3, 6]`` leaves a V3
+            with a cylinder on each throw, by turns right and left.
 
         Returns
         -------

@@ -43,15 +43,15 @@ class Cylinder:
     crank_radius : float
         Crank radius r, half the stroke, m.
     rod_length : float
-        Rod length l between its centres, m; r < l − ``|pin_offset|``. ``math.inf`` is that of a
-        Scotch yoke, whose piston moves by r cos θ: it has neither pin offset nor rod inertia.
+        Rod length l between its centres, m. It is above r + ``|pin_offset|``. ``math.inf`` is that
+        of a Scotch yoke, whose piston moves by r cos θ: it has neither pin offset nor rod inertia.
     reciprocating_mass : float
-        Mass that moves with the piston, kg.
+        Mass that moves with the piston, kg: piston, pin, rings, clips and the rod's small end.
     pin_offset : float, default 0.0
         Offset e (désaxé) of the piston pin's path from the crank's axis, m; positive on the side to
         which the crankpin swings after top dead centre.
     rod_inertia_excess : float, default 0.0
-        J = I - m·a·b, kg m²: the moment of inertia of the rod about its centre of mass less that
+        J = I - m·a·b, kg·m²: the moment of inertia of the rod about its centre of mass less that
         of its two masses there, a and b their distances from it. Mostly negative, as a rod's mass
         is not all at its ends. Torques depend on it, forces and moments do not.
     bore : float, optional
@@ -480,7 +480,7 @@ class Rod(Input):
     mass : float
         Mass m, kg.
     inertia : float
-        Moment of inertia I about the centre of mass, about an axis parallel to the crank, kg m².
+        Moment of inertia I about the centre of mass, about an axis parallel to the crank, kg·m².
     length : float
         Length l between the centres of its eyes, m.
     to_crankpin : float
@@ -553,7 +553,7 @@ class Rod(Input):
 
     @property
     def inertia_excess(self) -> float:
-        """Inertia beyond that of the two masses, I - m·a·(l - a), kg m²; mostly negative.
+        """Inertia beyond that of the two masses, I - m·a·(l - a), kg·m²; mostly negative.
 
         Zero where the two are equal within rounding.
         """

@@ -89,14 +89,14 @@ def design(
         Quantity to minimise, as in :func:`crankpin.rank`: names of objectives, the later
         ones breaking ties. Functions of a :class:`Balance` only where no angle varies.
     bank_angle_deg : number, str or pair of these, optional
-        Bank angle of a vee, degrees, or the lowest and the highest to choose from:
+        Bank angle of a vee, degrees, or the lowest and the highest to choose from. A pair such as
         ``(60, 120)``.
     shared_pins : bool, optional
         True, the default, for crankpins that the two cylinders of a throw share; False for pins
         that are split by any angle.
     pin_split_deg : number, str or pair of these, optional
-        Left pin minus right pin, degrees, or the lowest and the highest, −180 to 180, in place
-        of ``shared_pins``.
+        Left pin minus right pin, degrees, or the lowest and the highest to choose from. From −180
+        to 180, in place of ``shared_pins``.
     same_split : bool, default True
         False for a split of each throw's own.
     throws_deg : sequence of number or str, or "free", optional
