@@ -15,6 +15,7 @@ export class Bench extends Full {
   constructor(figures, stage, kept = {}) {
     super(figures, { keysOn: stage });
     this.set(Object.fromEntries(Object.entries(kept).filter(([, value]) => value !== undefined)));
+    /** @type {Record<string, any>} */
     this.kept = { ...kept };
     this.listeners.add((changed) => {
       for (const key of KEPT) {

@@ -20,6 +20,10 @@ export async function load(source) {
   return new Core(await WebAssembly.compile(bytes));
 }
 
+/**
+ * @param {ArrayBuffer | Uint8Array<ArrayBuffer> | Response | string} source
+ * @returns {Promise<BufferSource>}
+ */
 async function bytesOf(source) {
   if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return source;
   const response = source instanceof Response ? source : await fetch(source);
@@ -74,12 +78,17 @@ export class Core {
   }
 }
 
-/** A typed array goes beside the text, unchanged. */
+/**
+ * A typed array goes beside the text, unchanged.
+ *
+ * @param {any} value
+ * @param {any[]} numbers
+ */
 function pointed(value, numbers) {
   if (!ArrayBuffer.isView(value)) return value;
   const start = numbers.reduce((sum, each) => sum + each.length, 0);
   numbers.push(value);
-  return { column: [start, value.length] };
+  return { column: [start, numbers.at(-1).length] };
 }
 
 function columned(value, numbers) {

@@ -26,6 +26,12 @@ const PLACE_DIGITS = 12;
 const WRITTEN_IN = { m: ["mm", 3], kg: ["g", 3] };
 
 export class Design {
+  kind;
+  file;
+  preset;
+  extra;
+  rpm;
+
   /**
    * `file` is an engine's file as an object, of other kinds than `lists` what it has besides cylinders; `loads` texts of
    * periodic loads, by default the file's; `extra` what panes fitted to the engine.
@@ -70,7 +76,7 @@ export class Design {
 
   /** The same figures as another kind of engine. */
   as(kind) {
-    const { name, ...fields } = this.fields;
+    const { name: _, ...fields } = this.fields;
     const shared = KINDS[kind].fields;
     const kept = Object.fromEntries(Object.entries(fields).filter(([key]) => this.names.includes(key)
       && (shared.includes(key) ? key !== "firing_order" : groupsOf(kind)[1][1].includes(key))));
@@ -175,6 +181,13 @@ function loadOf(core, texts, k, units, faults) {
   return { name, ...rest, ...over, ...crank, turning: turning === "yes", axis: [x, y] };
 }
 
+/**
+ * @param {any} core
+ * @param {string} typed
+ * @param {string} name
+ * @param {Record<string, any>} field
+ * @param {string} units
+ */
 function loadValue(core, typed, name, { unit, amplitudes, speeds, ratio, whole }, units) {
   if (amplitudes) return core.call("amplitudes", { text: typed, unit, name });
   if (speeds) return quantity(core, typed.replaceAll("/", "; "), { unit, plain: unit, name, form: "list" }).values;

@@ -184,11 +184,21 @@ export class Form {
   }
 }
 
-/** An error as it is said: one without the library's hint is the page's own mistake. */
-const spoken = (error) => (error instanceof Error && error.hint === undefined && !error.isLimit
-  ? { message: WORDS.mistake(error.message) } : error);
+/**
+ * An error as it is said: one without the library's hint is the page's own mistake.
+ *
+ * @param {any} error
+ */
+const spoken = (error) => {
+  const { hint, isLimit } = error;
+  return error instanceof Error && hint === undefined && !isLimit ? { message: WORDS.mistake(error.message) } : error;
+};
 
-/** What a field means. */
+/**
+ * What a field means.
+ *
+ * @param {Record<string, any>} field
+ */
 const saidOf = ({ said, optional, unit } = {}) => (said ? `${said}${optional && unit ? `; ${WORDS.mayBeEmpty}` : ""}` : "");
 
 /** An error in the words of the fields; a length or mass that a hint ends with, which is the library's, as the setting has it. */

@@ -9,7 +9,13 @@ import { UNITS } from "./tables.mjs";
 /** Longest text that a packed file may have, bytes: as the library's. */
 const MOST_BYTES = 1 << 24;
 
-/** The fragment of designs: of the first one, and the others behind it. */
+/**
+ * The fragment of designs: of the first one, and the others behind it.
+ *
+ * @param {Design[]} designs
+ * @param {string} units
+ * @returns {Promise<string>}
+ */
 export async function fragmentOf([design, ...others], units) {
   const found = new URLSearchParams();
   if (design.preset) found.set("preset", design.preset);

@@ -13,7 +13,7 @@ export class TypingError extends Error {
  *
  * `plain` is the unit of numbers without one; `form` is "number", "list", "range" or "several", one number or a list.
  */
-export function quantity(core, text, { unit, plain = "", name = "value", form = "number", what }) {
+export function quantity(core, text, { unit, plain = "", name = "value", form = "number", what = undefined }) {
   try {
     return core.call("quantity", { text, unit, plain, name, form, ...(what ? { what } : {}) });
   } catch (error) {

@@ -17,6 +17,13 @@ const CONTROLS = ["crank_angle", "rpm", "rocking", "sound", "view"];
 const MOST_DRAWN = 64;
 
 export class Slot {
+  core;
+  design;
+  units;
+  changed;
+  speed;
+  turned;
+
   /** `core` answers at once; `changed` is told when another engine is shown, `speed` of a speed, `turned` of a turn. */
   constructor(core, design, { units, changed, speed, turned }) {
     Object.assign(this, { core, design, units, changed, speed, turned });

@@ -35,7 +35,8 @@ export class Workbench {
   }
 
   constructor(core, module, script, { designs, units }, trouble) {
-    Object.assign(this, { core, units });
+    this.core = core;
+    this.units = units;
     this.jobs = new Jobs(script, module, (share) => this.busy(share));
     this.said = html("p", { class: "said", role: "status" }, trouble);
     this.share = html("span", {});
@@ -132,10 +133,10 @@ export class Workbench {
     const [first] = this.slots;
     const slot = new Slot(this.core, design ?? first.design.copy(), {
       units: this.units,
-      changed: (one) => this.changed(one),
+      changed: () => this.changed(),
       speed: (one) => {
         for (const other of this.slots) if (other !== one) other.turnAt(one.design.rpm);
-        this.changed(one);
+        this.changed();
       },
       turned: (one, changed) => {
         if (!changed.includes("angle_deg") && !changed.includes("playing")) return;

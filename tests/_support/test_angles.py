@@ -148,7 +148,6 @@ def test_singles_of_other_libraries_are_decimals_too() -> None:
     assert cylinder == cp.Cylinder(0.04, 0.14, 0.5)
 
 
-@pytest.mark.slow
 def test_a_vee_has_the_banks_that_are_typed() -> None:
     """Bank angles of whole hundredths, computed by the builder and typed in a list.
 

@@ -116,6 +116,7 @@ def with_rod(engine: cp.Engine, rod_ratio: float, offset: float) -> cp.Engine:
 # --- the bound ----------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @in_turn("offset", [0.0, 0.1])
 @in_turn("name", cp.presets())
 def test_the_bound_is_true_and_tight(name: str, offset: float) -> None:

@@ -248,6 +248,7 @@ def test_a_crank_without_cylinders_changes_nothing(seed: int) -> None:
     assert cp.bob_weight(after).table == cp.bob_weight(before).table
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", [random_engine, fired_engine])
 @in_turn("seed", SEEDS)
 def test_a_balance_is_a_sweep_of_one_point(seed: int, make: Callable[[int], cp.Engine]) -> None:
@@ -275,6 +276,7 @@ def test_a_balance_is_a_sweep_of_one_point(seed: int, make: Callable[[int], cp.E
 # --- bounds about another point -------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", [random_engine, fired_engine])
 @in_turn("seed", SEEDS)
 def test_bounds_hold_about_any_point(seed: int, make: Callable[[int], cp.Engine]) -> None:

@@ -192,6 +192,7 @@ def _files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     np.savetxt("run.csv", np.c_[theta, bar], header="angle [deg] absolute pressure [bar]")
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("_files")
 @in_turn("command", [name for name in ORDER if numeric(name)])
 def test_numbers_are_read_or_rejected_by_name(command: str, capsys: CAPTURE) -> None:

@@ -116,6 +116,7 @@ def listed(kind: str) -> list[str]:
 KINDS = [*BUILDERS, *presets.aliases(), *presets.Presets()]
 
 
+@pytest.mark.slow
 @in_turn("kind", KINDS)
 def test_every_option_in_the_help_of_a_kind_is_taken(
     kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

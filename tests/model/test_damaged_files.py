@@ -187,6 +187,7 @@ def cases() -> Iterator[Any]:
             yield pytest.param(layout, change, False, id=f"{name}-{damage}")
 
 
+@pytest.mark.slow
 @in_turn("reader", READERS)
 @in_turn(("layout", "damage", "cell"), list(cases()))
 def test_no_damage_is_silent(

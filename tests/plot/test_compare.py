@@ -33,7 +33,6 @@ def heights(ax: Axes) -> list[dict[int, float]]:
     ]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("quantity", ["force", "moment", "torque", "crank_torque"])
 def test_bars_are_the_peaks_of_both(quantity: str) -> None:
     bars, _ = BANKS.plot(quantity=quantity).flat
@@ -73,7 +72,6 @@ def test_changes_in_words(pair: tuple[float, float], text: str) -> None:
     assert changed(*pair) == text.replace(" %", "\N{NO-BREAK SPACE}%")
 
 
-@pytest.mark.slow
 def test_curves_are_both_orbits_or_both_torques() -> None:
     for quantity in ("force", "moment"):
         _, orbit = BANKS.plot(quantity=quantity).flat
@@ -109,7 +107,6 @@ def test_torque_of_gas_is_drawn_over_a_cycle_one_curve_for_each_engine() -> None
     assert orbit.get_title(loc="left") == "over a turn"
 
 
-@pytest.mark.slow
 def test_titles_and_legend_name_both() -> None:
     figure = BANKS.plot().flat[0].get_figure(root=True)
     first, second = figure.get_suptitle().split("\n")

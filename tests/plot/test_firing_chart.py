@@ -69,7 +69,6 @@ def test_it_shows_strokes_and_open_valves() -> None:
     assert found["exhaust open"] == wrapped(V8.valves()["exhaust"], 720.0)
 
 
-@pytest.mark.slow
 def test_cylinders_stand_bank_by_bank_and_fire_where_marked() -> None:
     ax = V8.plot()
     rows = [1, 3, 5, 7, 2, 4, 6, 8]

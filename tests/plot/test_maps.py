@@ -43,7 +43,6 @@ def test_the_axis_named_is_along_x_and_values_may_come_in_any_order() -> None:
     assert ax.get_xlabel() == "rod ratio"
 
 
-@pytest.mark.slow
 def test_scales_of_colours_begin_at_zero_with_round_numbers() -> None:
     panels = over_two().plot()
     figure_of(panels).canvas.draw()
@@ -174,7 +173,6 @@ def test_map_of_nothing_has_no_scale_of_colours() -> None:
     assert figure_of(panels).axes == [*panels.ravel()]
 
 
-@pytest.mark.slow
 def test_map_of_nothing_is_drawn() -> None:
     s = cp.sweep(V6, rpm=[1000, 2000], orders=[1])
     figure_of(s.plot(kind="orders", quantity="force")).canvas.draw()

@@ -143,7 +143,6 @@ def test_orders_are_those_given_or_the_first_two() -> None:
     assert orders(V6.balance(5000, orders=[3]).plot(kind="phasors", orders=[1, 6])) == ["1", "6"]
 
 
-@pytest.mark.slow
 def test_arrows_that_would_cover_each_other_are_moved_aside() -> None:
     """The four of an inline-4 lie on one line: two lanes show them all."""
     ax = I4.balance(3000).plot(kind="phasors", quantity="force", orders=[1])[0, 0]

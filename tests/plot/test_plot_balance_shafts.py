@@ -146,7 +146,6 @@ def test_drawn_where_told_with_style_and_label(name: str) -> None:
         PLOTS[name]("here")  # type: ignore[call-overload]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("look", ["default", "dark_background", "column"])
 @pytest.mark.parametrize("name", PLOTS)
 def test_legend_and_rows_stay_off_each_other(name: str, look: str) -> None:

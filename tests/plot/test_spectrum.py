@@ -53,7 +53,6 @@ def test_zeros_are_hollow_and_small_values_are_not() -> None:
     assert "12\N{NO-BREAK SPACE}000 rpm" in title_of(ax)
 
 
-@pytest.mark.slow
 def test_logarithmic_spectrum_shows_the_smallest_peak() -> None:
     b = V6.balance(5000, orders=range(1, 11))
     ax = b.plot(log=True)

@@ -175,7 +175,6 @@ def test_of_many_engines_the_best_are_named() -> None:
     assert legend_texts(figure_of(panels))[:6] == [*names, "5 others"]
 
 
-@pytest.mark.slow
 def test_two_more_dimensions_get_colours_and_dashes() -> None:
     s = cp.sweep(
         FAMILY[:2],

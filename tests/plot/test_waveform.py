@@ -23,7 +23,6 @@ def test_curves_are_the_values() -> None:
     assert low < 0 < high
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("theta", "ticks"),
     [
@@ -43,7 +42,6 @@ def test_ticks_are_parts_of_a_turn(theta: np.ndarray, ticks: list[str]) -> None:
     assert xtick_texts(V6.waveform(5000, theta_deg=theta).plot()) == ticks
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("angle", [30, 60, 90, 120, 150])
 def test_figures_of_the_ijesc_paper(angle: int) -> None:
     """Figures 4-8: primary and secondary moments over a turn, an order on the same axes each."""

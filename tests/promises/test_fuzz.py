@@ -200,7 +200,6 @@ def test_fuzz_calls(call: Call) -> None:
     call_hostile(call)
 
 
-@pytest.mark.slow
 @hostile(400)
 @given(DAMAGED)
 @example(("\ufeff" + TOML, "\ufeff" + JSON))

@@ -33,7 +33,7 @@ def test_its_two_commands_are_there() -> None:
     commands = re.findall(r'^pip install "\..*$', README, re.MULTILINE)
     assert len(commands) == 2
     assert commands[0].startswith('pip install ".[plot]" && python -m crankpin sweep ')
-    assert commands[1] == 'pip install ".[test]" && pytest -n auto'
+    assert commands[1] == 'pip install ".[test]" && pytest'
 
 
 def test_what_it_links_to_is_there() -> None:

@@ -1,6 +1,6 @@
 """Do six engines look as they did?
 
-To keep new pictures on purpose, and look at each: CRANKPIN_KEEP_PICTURES=1 pytest this file.
+To keep new pictures on purpose, and look at each: CRANKPIN_KEEP_PICTURES=1 pytest -m '' this file.
 """
 
 from __future__ import annotations

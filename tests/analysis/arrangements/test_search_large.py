@@ -12,8 +12,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from support import long_calls
 
-pytestmark = pytest.mark.slow
-
 V22 = cp.search_arrangements(22)
 """(11!)² pairs."""
 
@@ -101,6 +99,7 @@ print(found.hexdigest())
 """
 
 
+@pytest.mark.slow
 def test_any_number_of_threads_finds_the_same_bits() -> None:
     found = {long_calls.printed(threads, "-c", PROGRAM) for threads in ("1", "2", "3", "7")}
     assert len(found) == 1

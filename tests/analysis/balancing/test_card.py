@@ -190,7 +190,6 @@ def test_the_page_has_every_number_and_prints(tmp_path: Path) -> None:
     assert not re.search(r"(src|href)=", text)  # it loads nothing
 
 
-@pytest.mark.slow  # a browser
 @pytest.mark.parametrize("name", ["v8-crossplane", "v12-60", "v16-45"])
 def test_parts_of_every_cylinder_fit_on_a_sheet(name: str, open_file: Open, tmp_path: Path) -> None:
     engine, file = cp.Engine.preset(name), tmp_path / "card.html"

@@ -777,6 +777,7 @@ def random_fit(seed: int) -> dict[str, Any]:
     }
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:.*which vanishes without this hardware")
 @in_turn("seed", [None, *range(120)])
 def test_weights_at_drilling_places_are_the_least_of_a_conic_solver(seed: int | None) -> None:

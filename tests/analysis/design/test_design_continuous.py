@@ -88,7 +88,6 @@ def test_its_objectives_are_the_library_s(asked: Any, by: str) -> None:  # noqa:
     assert (expected <= scale * (1 + 1e-12)).all()
 
 
-@pytest.mark.slow
 @in_turn("by", [*BY, "[1].moment.peak_xy,[2].force.forward,total.moment.peak"])
 @in_turn("asked", QUESTIONS.values())
 def test_gradients_are_finite_differences(asked: Any, by: str) -> None:  # noqa: ANN401
@@ -165,7 +164,6 @@ def test_every_dip_is_found(throws: list[int], limits: tuple[int, int], by: str)
             assert np.abs(np.array(listed) - dip).min() < 0.2
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, 7])
 def test_free_throws_of_an_inline_5_are_equally_spaced(seed: int) -> None:
     by = "[1].force.peak,[2].force.peak,[1].moment.peak"
@@ -178,7 +176,6 @@ def test_free_throws_of_an_inline_5_are_equally_spaced(seed: int) -> None:
     assert all(each.isolated for each in free)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, 7])
 def test_free_angles_find_the_split_of_a_60_degree_v6(seed: int) -> None:
     found = design(
@@ -282,7 +279,6 @@ def test_an_angle_that_is_no_round_number_is_not_rounded() -> None:
         assert (each.value <= beside[0] * (1 + 1e-9)).all()
 
 
-@pytest.mark.slow
 def test_the_best_few_are_the_first_of_all() -> None:
     # Between two angles of the grid, 90.25°, first-order couples vanish: only there the second
     # order, whose sequence of cranks is the reverse, decides.

@@ -112,6 +112,7 @@ def test_phasors_are_optimal_within_their_bounds(seed: int) -> None:
     assert again.dual_gap(target.astype(complex), effect, bounds, weight, found) < 1e-10
 
 
+@pytest.mark.slow
 @in_turn("seed", range(24))
 def test_the_largest_receiver_is_the_least_that_there_is(seed: int) -> None:
     """Weights of the receivers give a bound from below, which the largest meets (Lawson)."""

@@ -120,8 +120,8 @@ def test_other_processes() -> None:
     assert moment.compute(scheduler="processes", num_workers=2).identical(alone)
 
 
-@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="ports")
+@pytest.mark.slow
 def test_a_cluster() -> None:
     distributed = pytest.importorskip("distributed")
     moment = in_chunks(AXES["every axis"]).moment

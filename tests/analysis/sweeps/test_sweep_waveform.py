@@ -276,7 +276,6 @@ print(digest.hexdigest())
 """
 
 
-@pytest.mark.slow
 def test_bits_do_not_depend_on_threads() -> None:
     digests = {long_calls.printed(threads, "-c", THREADS) for threads in ("1", "2", "3", "7")}
     assert len(digests) == 1

@@ -282,6 +282,7 @@ def test_the_parts_given_stay_writable() -> None:
     assert not match.parts.pistons.flags.writeable
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "masses"), [("i4", 4), ("v12-60", 12), ("v16-45", 32)])
 def test_progress_is_reported_and_all_of_twelve_pistons_are_compared(
     name: str, masses: int

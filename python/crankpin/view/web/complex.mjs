@@ -2,9 +2,13 @@
 
 export const DEGREE = Math.PI / 180;
 
+/** @type {(a: number[], b: number[]) => number[]} */
 export const add = ([a, b], [c, d]) => [a + c, b + d];
+/** @type {(a: number[], b: number[]) => number[]} */
 export const multiply = ([a, b], [c, d]) => [a * c - b * d, a * d + b * c];
+/** @type {(value: number[], factor: number) => number[]} */
 export const scale = ([a, b], factor) => [a * factor, b * factor];
+/** @type {(value: number[]) => number} */
 export const magnitude = ([a, b]) => Math.hypot(a, b);
 
 /** e^{i·angle}, exact at multiples of 90° and as accurate at large angles as at small ones. */

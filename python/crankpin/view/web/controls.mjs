@@ -162,7 +162,11 @@ function write(field, value) {
   field.value = String(Number(value.toFixed(6)));
 }
 
-/** Act on every number that is typed; mark others until the field is left, and tell `settle` of one. */
+/**
+ * Act on every number that is typed; mark others until the field is left, and tell `settle` of one.
+ *
+ * @param {(value: number) => boolean} allowed
+ */
 function typed(field, act, settle, allowed = () => true) {
   field.addEventListener("input", () => {
     const text = field.value.trim().replace("−", "-").replace(",", ".");

@@ -44,20 +44,36 @@ export function path(points, closed = false) {
   return closed && d ? `${d}Z` : d;
 }
 
-/** Put an element at a place in pixels. */
+/**
+ * Put an element at a place in pixels.
+ *
+ * @param {Element} element
+ * @param {number[]} place
+ */
 export function place(element, [x, y]) {
   element.setAttribute("x", x.toFixed(2));
   element.setAttribute("y", y.toFixed(2));
 }
 
-/** Move an element to a place in pixels, turned by a small angle in radians; it is not laid out anew. */
+/**
+ * Move an element to a place in pixels, turned by a small angle in radians; it is not laid out anew.
+ *
+ * @param {Element} element
+ * @param {number[]} place
+ * @param {number} turn
+ */
 export function translate(element, [x, y], turn = 0) {
   const [by, at] = [turn.toFixed(5), `${x.toFixed(2)} ${y.toFixed(2)}`];
   const to = turn ? `matrix(1 ${-by} ${by} 1 ${at})` : `translate(${at})`;
   if (element.getAttribute("transform") !== to) element.setAttribute("transform", to);
 }
 
-/** Put a circle at a place in pixels. */
+/**
+ * Put a circle at a place in pixels.
+ *
+ * @param {Element} circle
+ * @param {number[]} place
+ */
 export function centre(circle, [x, y]) {
   circle.setAttribute("cx", x.toFixed(2));
   circle.setAttribute("cy", y.toFixed(2));

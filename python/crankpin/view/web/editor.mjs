@@ -4,7 +4,6 @@ import { pair } from "./controls.mjs";
 import { html, numbered, show } from "./dom.mjs";
 import { fieldUnit } from "./format.mjs";
 import { MOUNT_STRINGS } from "./mount_strings.mjs";
-import { STRINGS } from "./strings.mjs";
 
 /** Places that can be typed, m, how far sliders reach, and the least that is shown. */
 const FARTHEST = 5;
@@ -28,7 +27,7 @@ export class Editor {
       show(label, name, name);
       const button = html("button", { type: "button" }, label);
       button.addEventListener("click", () => choose(k));
-      const numbers = [...["x", "y", "z"], ...[1, 2, 3].map((axis) => `k${axis}`)].map((part) =>
+      const numbers = ["x", "y", "z", "k1", "k2", "k3"].map((part) =>
         numbered(html, "td", `mount-${k + 1}-${part}`));
       return { button, numbers, element: html("tr", {}, html("th", { scope: "row" }, button), ...numbers) };
     });
@@ -82,7 +81,7 @@ export class Editor {
     const { at, stiffness } = mounts[chosen];
     const settle = () => this.settle(this.mounts);
     const along = (values, axis) => (value) => values().map((each, k) => (k === axis ? value : each));
-    this.places = at.map((value, axis) => {
+    this.places = at.map((_, axis) => {
       const act = along(() => this.mounts[chosen].at, axis);
       const own = this.figures[chosen].at[axis];
       return pair("xyz"[axis], `${name}: ${"xyz"[axis]}, ${length.name}`, `mount-${"xyz"[axis]}`,
@@ -91,7 +90,7 @@ export class Editor {
     });
     const largest = Math.max(...(this.figures[chosen].stiffness ?? [0])) || 1e5;
     const most = Math.ceil(rate.shown(MULTIPLE * largest));
-    this.stiffnesses = (stiffness ?? []).map((value, axis) => {
+    this.stiffnesses = (stiffness ?? []).map((_, axis) => {
       const act = along(() => this.mounts[chosen].stiffness, axis);
       return pair(MOUNT_STRINGS.axes[axis], `${name}: ${MOUNT_STRINGS.axes[axis]}, ${rate.name}`, `mount-k${axis + 1}`, 0, most,
         rate.step, rate.name, (typed) => this.change(chosen, { stiffness: act(typed) }), settle, [0, rate.whole(STIFFEST)], rate);

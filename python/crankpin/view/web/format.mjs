@@ -3,6 +3,7 @@
 /** Significant digits of the largest value. */
 const DIGITS = 4;
 
+/** @type {[number, string][]} */
 const PREFIXES = [[1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"]];
 
 /** A way of writing values up to `largest`: text without the unit, and the unit, prefixed if it has no factor. */

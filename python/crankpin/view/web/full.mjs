@@ -148,6 +148,7 @@ export class Full extends View {
       name: "xy"[k], span: turn, label: STRINGS.components[quantity][k],
       samples: curve[quantity].map((each) => each[k]), value: (pose) => pose[quantity][k],
     });
+    /** @type {any[]} */
     const histories = ["force", "moment"].map((quantity) => ({
       title: STRINGS[quantity], range: about(largest[quantity]), scale: scales[quantity],
       curves: [component(quantity, 0), component(quantity, 1)],

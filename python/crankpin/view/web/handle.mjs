@@ -26,7 +26,7 @@ export class Handle {
     const [cx, cy] = projection.point([0, 0, 0]);
     const reach = dimensions.radius * projection.scale;
     this.centre = [cx, cy];
-    centre(this.hit, this.centre);
+    centre(this.hit, [cx, cy]);
     this.hit.setAttribute("r", 1.7 * reach);
     this.pins = pinNumbers(engine);
     const outside = PIN_NUMBER + LINE * (1.5 + Math.max(0, ...this.pins.map(({ level }) => level)));

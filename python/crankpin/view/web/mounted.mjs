@@ -214,7 +214,7 @@ export class Mounted extends Turning {
 
   /** Values over speed: of the order chosen, or of all. */
   layoutRunUp(indices = this.indices) {
-    const { state, figures: { mounted } } = this;
+    const { state } = this;
     this.indices = indices;
     const one = state.order === ALL ? null : state.order;
     const key = state.quantity === "force" ? "force" : "motion";

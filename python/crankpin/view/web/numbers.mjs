@@ -109,7 +109,7 @@ export class Numbers {
 }
 
 /** The first value of each order, ascending. */
-const first = (values) => new Map([...values].map(([n, [value]]) => [n, value]).sort(([a], [b]) => a - b));
+const first = (values) => new Map([...values].sort(([a], [b]) => a - b).map(([n, [value]]) => [n, value]));
 
 const isHalf = (order) => !Number.isInteger(order);
 

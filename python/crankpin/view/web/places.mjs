@@ -142,7 +142,12 @@ function cylinderPlaces(cylinder, crank) {
   return { height, crankpin, foot, wrist };
 }
 
-/** Height of the piston pin along its bore: that of the crankpin and that of the rod above it. */
+/**
+ * Height of the piston pin along its bore: that of the crankpin and that of the rod above it.
+ *
+ * @param {any} cylinder
+ * @param {number[]} crank
+ */
 function pistonHeight({ crank_radius: r, rod_length: l, pin_offset: e, yoke }, [cos, sin]) {
   if (yoke) return r * cos + l;
   // 1 − sin θ and 1 + sin θ, the smaller one from cos² θ: the rod may be barely long enough.

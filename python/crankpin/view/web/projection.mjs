@@ -1,6 +1,8 @@
 // Parallel projections of the engine, and outlines of what is drawn in them.
 
+/** @type {(a: number[], b: number[]) => number} */
 const cross = ([a, b], [c, d]) => a * d - b * c;
+/** @type {(a: number[], b: number[]) => number[]} */
 const product = ([a, b, c], [d, e, f]) => [b * f - c * e, c * d - a * f, a * e - b * d];
 const unitVector = (vector) => {
   const length = Math.hypot(...vector);
@@ -43,6 +45,10 @@ export function hull(points) {
 
 /** A projection: metres to pixels of a picture, y downwards. */
 export class Projection {
+  toward;
+  right;
+  up;
+
   constructor(name) {
     Object.assign(this, FRAMES[name]);
     this.name = name;
@@ -51,7 +57,13 @@ export class Projection {
     this.stretch = 1;
   }
 
-  /** Fit points into a picture; z is stretched for engines whose cylinders stand close together. */
+  /**
+   * Fit points into a picture; z is stretched for engines whose cylinders stand close together.
+   *
+   * @param {number[][]} points
+   * @param {number[]} size
+   * @param {number[]} margins
+   */
   fit(points, [width, height], [aside, above], stretch) {
     Object.assign(this, { scale: 1, origin: [0, 0], stretch });
     const seen = points.map((point) => this.point(point));
@@ -74,7 +86,11 @@ export class Projection {
     return [this.origin[0] + x, this.origin[1] + y];
   }
 
-  /** A displacement in metres as pixels. */
+  /**
+   * A displacement in metres as pixels.
+   *
+   * @param {number[]} displacement
+   */
   vector([x, y, z]) {
     const { right, up, scale } = this;
     const along = z * this.stretch;
@@ -84,7 +100,11 @@ export class Projection {
     ];
   }
 
-  /** Places with larger depths are nearer to the reader. */
+  /**
+   * Places with larger depths are nearer to the reader.
+   *
+   * @param {number[]} place
+   */
   depth([x, y, z]) {
     return this.toward[0] * x + this.toward[1] * y + this.toward[2] * z * this.stretch;
   }

@@ -8,6 +8,7 @@ const VECTORS = ["force", "moment"];
 const AXES = ["x", "y"];
 
 export class Readouts {
+  /** @param {Record<string, any>} units */
   constructor(units = STRINGS.units) {
     this.units = units;
     const output = (name) => numbered(html, "output", name, { "aria-live": "off" });

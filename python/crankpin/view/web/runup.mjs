@@ -15,6 +15,9 @@ const DECADES = 4;
 const LEVELS = 2;
 
 export class RunUp {
+  range;
+  right;
+
   /** `choose` takes the speed that the reader points at, if he may. */
   constructor(choose) {
     this.frame = svg("path", { class: "frame" });

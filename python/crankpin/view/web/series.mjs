@@ -51,7 +51,12 @@ export function summed(rows, factor, turn) {
 /** A crank angle: e^{iθ}, and behind it e^{iθ/2}, which turns by half orders are of. */
 export const crankAt = (thetaDeg) => [...unit(thetaDeg), ...unit(0.5 * thetaDeg)];
 
-/** e^{inθ} of a crank angle, or of e^{iθ} alone for a whole n. */
+/**
+ * e^{inθ} of a crank angle, or of e^{iθ} alone for a whole n.
+ *
+ * @param {number[]} crank
+ * @param {number} n
+ */
 export function turnedBy([cos, sin, ...half], n) {
   let [x, y] = Number.isInteger(n) ? [1, 0] : half;
   for (let k = 1; k <= Math.abs(n); k++) [x, y] = [x * cos - y * sin, x * sin + y * cos];

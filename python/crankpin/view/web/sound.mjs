@@ -45,6 +45,7 @@ export function samples(angles, cycle, count) {
 export class Sound {
   constructor(before) {
     this.before = before;
+    this.context = null;
     this.sources = [];
     this.switch = html("input", { type: "checkbox" });
     this.switch.addEventListener("change", () => this.play());

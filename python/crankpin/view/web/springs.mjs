@@ -28,6 +28,11 @@ const EDGES = [0, 1, 2].flatMap((axis) => Array.from({ length: 8 }, (_, k) => k)
 const KEYS = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 export class Springs {
+  scene;
+  figures;
+  move;
+  inUnit;
+
   /** `move` takes a mount's number, its new place in metres and whether it is still held; `choose` takes a number. */
   constructor(scene, figures, { choose, move }, length) {
     Object.assign(this, { scene, figures, move, inUnit: fieldUnit(length, STEP_BY_KEY) });

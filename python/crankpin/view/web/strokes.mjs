@@ -10,6 +10,10 @@ export const STROKES = ["power", "exhaust", "intake", "compression"];
 
 /** Marks of one kind are one path for all cylinders: hundreds of elements would take their time. */
 export class Strokes {
+  /**
+   * @param {any[]} cylinders
+   * @param {any[]} unit
+   */
   constructor(cylinders, unit = STRINGS.units.length) {
     this.unit = unit;
     this.paths = Object.fromEntries(["zero-line", ...STROKES, "tdc", "fires"].map((name) =>

@@ -121,7 +121,13 @@ class Terms {
     this.forceIm = new Float64Array(3 * SIX);
   }
 
-  /** Add a direction of a complex stiffness: its deflection by the motion, and by coordinates of unit mass. */
+  /**
+   * Add a direction of a complex stiffness: its deflection by the motion, and by coordinates of unit mass.
+   *
+   * @param {number[]} deflection
+   * @param {number[]} unit
+   * @param {number[]} stiffness
+   */
   add(deflection, unit, [k, loss]) {
     for (let j = 0; j < SIX; j++) {
       const [stiff, lossy] = [k * unit[j], loss * unit[j]];
@@ -186,7 +192,12 @@ function inGroups(modes) {
 export const effective = (parts, key) => [0, 1, 2].map((axis) =>
   Math.sqrt(parts.reduce((sum, part) => sum + part[key][axis][0] ** 2 + part[key][axis][1] ** 2, 0) / 2));
 
-/** Displacement of the body's points and its rotation, of a displacement of its CG and a small rotation. */
+/**
+ * Displacement of the body's points and its rotation, of a displacement of its CG and a small rotation.
+ *
+ * @param {number[]} motion
+ * @param {number[]} cg
+ */
 export function rigid([u, v, w, about, along, turn], [x0, y0, z0]) {
   return {
     at: ([x, y, z]) => {

@@ -11,6 +11,9 @@ const AXIS = 22;
 const NARROW = 560;
 
 export class Timeline {
+  width;
+  cycle;
+
   /** `turnTo` is told of the angle within the cycle that the reader points at; pistons' heights are in `unit`. */
   constructor(turnTo, unit) {
     this.unit = unit;

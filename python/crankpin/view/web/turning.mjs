@@ -13,9 +13,15 @@ import { STRINGS } from "./strings.mjs";
  * `scenes`; `follow` takes new entries of the state, `configure` all of it, and `pose` a crank angle.
  */
 export class Turning {
+  /**
+   * @param {any} figures
+   * @param {{keysOn?: HTMLElement}} options
+   * @param {any} state
+   */
   constructor(figures, { keysOn } = {}, state = {}) {
     this.figures = figures;
     this.listeners = new Set();
+    /** @type {any} */
     this.state = { angle_deg: 0, playing: false, reverse: false, pace: 20, step: 1, ...state };
     this.core = null;
     const title = figures.name || STRINGS.unnamed;

@@ -82,6 +82,7 @@ export class View extends Turning {
   pose() {
     const { curve: { speed }, engine, numbers, state } = this;
     const { angle_deg: angle } = state;
+    /** @type {any} */
     const pose = { ...placesAt(engine, angle), ...numbers.at(angle) };
     const within = reduced(angle, engine.cycle);
     if (speed) pose.speed = between(speed, numbers.span, reduced(angle, numbers.span));
