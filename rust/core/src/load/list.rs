@@ -17,7 +17,9 @@ use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::error::Result;
 use crate::numbers::index::List;
 use crate::numbers::order::Order;
-use crate::source::{ExactFactor, INERTIA, Parts, Point, Repeats, Scaling, Source, at_point};
+use crate::source::{
+    ExactFactor, INERTIA, Parts, Point, Repeats, Scaling, Series, Source, at_point,
+};
 
 /// Largest magnitudes of the weights of some loads.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -32,6 +34,9 @@ pub(crate) struct LargestWeights {
 
 /// The sources of loads.
 pub(crate) type Sources = List<SourceIndex, Arc<dyn Source>>;
+
+/// Series of the sources of loads.
+pub(crate) type KnownSeries = List<SourceIndex, Series>;
 
 /// Sources that are counted together: of one name and scaling.
 #[derive(Debug, Clone, PartialEq)]
@@ -125,7 +130,7 @@ impl LoadList {
             if let Some(((gas, place), roll)) = cycle.zip(engine.swept_by_radius(i)) {
                 let (mechanism, cycle) = (mechanism(i), Arc::clone(&gas.cycles[place]));
                 let crankcase = gas.crankcase;
-                let gas = GasPressure { mechanism, cycle, place, crankcase, known: None };
+                let gas = GasPressure { mechanism, cycle, place, crankcase };
                 let mut place = along_bore(i);
                 if gas.parts().repeats == Repeats::EveryTwoTurns {
                     place.phase = engine.firing_phase(i).half();

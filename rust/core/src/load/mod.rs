@@ -34,7 +34,7 @@ mod rod;
 mod spectrum;
 mod unbalance;
 
-pub(crate) use self::list::{Group, LargestWeights, LoadList, Sources};
+pub(crate) use self::list::{Group, KnownSeries, LargestWeights, LoadList, Sources};
 pub(crate) use self::place::Place;
 use crate::Complex64;
 use crate::engine::Hold;

@@ -16,7 +16,7 @@ use crate::numbers::UNIT_RPM;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
-use crate::source::Scaling;
+use crate::source::{Scaling, resolved};
 
 /// Highest order of the pistons whose phasors are listed.
 pub const HIGHEST_LISTED: u32 = 24;
@@ -189,8 +189,10 @@ fn load_orders(engine: &Engine) -> Result<Vec<Order>> {
         return Ok(Vec::new());
     }
     let loads = LoadList::of(engine, engine.reference(None)?)?;
-    let orders = |(_, load)| loads.source(load).orders(Order::HIGHEST);
-    let own: BTreeSet<Order> = loads.further().flat_map(orders).collect();
+    let mut own = BTreeSet::new();
+    for (_, load) in loads.further() {
+        own.extend(resolved(loads.source(load), &Cancel::new())?);
+    }
     Ok(own.into_iter().collect())
 }
 

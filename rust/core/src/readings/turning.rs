@@ -2,7 +2,7 @@
 
 use crate::Complex64;
 use crate::engine::{CrankIndex, Engine};
-use crate::load::LoadList;
+use crate::load::{KnownSeries, LoadList};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::ListIndex;
@@ -54,7 +54,8 @@ pub(crate) fn over_square(
     engine.check_speeds(rpm.as_slice())?;
     let loads = LoadList::of(engine, engine.reference(None)?)?;
     let torque = torque && engine.spectrum().is_none();
-    let (by_group, _) = wrenches(&loads, &loads.sources, torque, &[order], cancel)?;
+    let (by_group, _) =
+        wrenches(&loads, (&loads.sources, &KnownSeries::default()), torque, &[order], cancel)?;
     let mut sum = Wrench::default();
     for (group, wrench) in loads.groups.iter().zip(&by_group) {
         let factor = match (group.scaling, omega) {

@@ -54,7 +54,7 @@ use crate::numbers::order::{Order, check_list};
 use crate::numbers::ring::RootSum;
 use crate::readings::balance::{self, Orders, Request, Vector};
 use crate::readings::quantity::Part;
-use crate::source::ForcePart;
+use crate::source::{ExactFactor, ForcePart, Source};
 
 /// Sums of weights in doubles of angles within this part of Σ|weights| may be of one exact angle.
 const ROUNDED_ANGLES: f64 = 16.0 * f64::EPSILON;
@@ -550,8 +550,9 @@ fn evaluated(
     let loads = LoadList::of(engine, engine.reference(reference_z)?)?;
     let weights = loads.torque_weights();
     let of_sources = weights.iter().zip(&loads.sources);
-    let largest: f64 =
-        of_sources.map(|(weight, source)| weight.size * source.largest_torque()).sum();
+    let of_cycles = of_sources.filter(|(_, source)| source.exact() == ExactFactor::Cycle);
+    let torque = |source: &dyn Source| source.scale().torque.unwrap_or(0.0);
+    let largest: f64 = of_cycles.map(|(weight, source)| weight.size * torque(&**source)).sum();
     let zero = |k: usize| {
         let of = |vector: Vector| {
             let [x, y] = found.xy(vector, k);
