@@ -1,5 +1,5 @@
 use super::*;
-use crate::load::LoadList;
+use crate::load::Scene;
 use crate::load::tests::fired;
 use crate::mechanism::DrivenMechanism;
 use crate::source::over_angle::{AngleBlock, Columns, LoadSum, Quantities};
@@ -85,7 +85,7 @@ fn sources_of_the_house_are_counted_by_every_reading() {
         torque: amplitudes,
         ..PeriodicLoad::new("numbers", ActsOn::Block)
     };
-    let loads = LoadList::new(&engine.with_loads(vec![numbers]).unwrap(), 0.0);
+    let loads = Scene::anew(&engine.with_loads(vec![numbers]).unwrap(), 0.0);
     let mut kinds = Vec::new();
     for source in &loads.sources {
         let kind = format!("{source:?}").split([' ', '(']).next().unwrap_or_default().to_owned();

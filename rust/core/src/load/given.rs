@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use super::{LoadList, Place};
+use super::{Place, Scene};
 use crate::Complex64;
 use crate::engine::{ActsOn, Crank, CrankIndex, Engine, Origin, OverSpeed, PeriodicLoad};
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
@@ -31,7 +31,7 @@ pub(super) struct GivenLoad {
 }
 
 /// Adds the loads that an engine was given to a list.
-pub(super) fn push(loads: &mut LoadList, engine: &Engine) {
+pub(super) fn push(loads: &mut Scene, engine: &Engine) {
     for (k, load) in engine.loads().iter().enumerate() {
         let axis = load.shaft(engine).axis;
         for (source, direction) in directed(load, engine) {
@@ -74,7 +74,7 @@ pub(crate) fn shaft_forces(
     cancel: &Cancel,
 ) -> Result<Vec<ShaftForce>> {
     let mut forces = Vec::new();
-    for load in LoadList::of(engine, 0.0)?.list.iter().filter(|load| load.is_turning()) {
+    for load in Scene::of(engine, Some(0.0))?.list.iter().filter(|load| load.is_turning()) {
         let place = &load.place;
         let crank = engine.crank_with(place.origin);
         let force = load.weight * omega * omega * place.speed_squared();

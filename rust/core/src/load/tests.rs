@@ -74,8 +74,8 @@ pub(crate) fn engine() -> Engine {
         .unwrap()
 }
 
-fn loads(engine: &Engine) -> LoadList {
-    LoadList::new(engine, REFERENCE)
+fn loads(engine: &Engine) -> Scene {
+    Scene::anew(engine, REFERENCE)
 }
 
 fn whole(order: u32) -> Order {
@@ -83,7 +83,7 @@ fn whole(order: u32) -> Order {
 }
 
 /// Sums of one order.
-fn sums(loads: &LoadList, order: u32, by_bank: bool) -> Vec<Term<PhasorSum>> {
+fn sums(loads: &Scene, order: u32, by_bank: bool) -> Vec<Term<PhasorSum>> {
     loads.sums(&loads.list, whole(order), Wanted { planar: true, roll: true, by_bank })
 }
 
@@ -321,7 +321,7 @@ fn equal_pistons_share_a_source() {
     assert_eq!(loads(&halved).sources.len(), 4);
     // A spectrum has the masses in it.
     let spectrum = Spectrum::new([(1, Complex64::new(2.0, 0.0))]).unwrap();
-    let given = LoadList::new(&engine().with_spectrum(spectrum.clone()), REFERENCE);
+    let given = Scene::anew(&engine().with_spectrum(spectrum.clone()), REFERENCE);
     assert!(given.sources.iter().all(|source| source.mechanism().is_none()));
     let orders = Order::all_whole(&[1, 2, 3]).unwrap();
     let force = given.sources[SourceIndex::default()].force(&orders, &Cancel::new()).unwrap();

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use crate::Complex64;
 use crate::load::{
-    GroupIndex, Harmonic, KnownSeries, Load, LoadList, Phasors, SourceIndex, Sources, Wanted,
-    count, superpose,
+    GroupIndex, Harmonic, KnownSeries, Load, Phasors, Scene, SourceIndex, Sources, Wanted, count,
+    superpose,
 };
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -24,7 +24,7 @@ pub(crate) type Means = List<GroupIndex, [f64; 2]>;
 /// Torque is zero where it is not wanted; a spectrum of forces does not determine it. `sources` are those
 /// of the loads, whose series may be known.
 pub(crate) fn wrenches(
-    loads: &LoadList,
+    loads: &Scene,
     (sources, known): (&Sources, &KnownSeries),
     torque: bool,
     orders: &[Order],
@@ -90,7 +90,7 @@ impl SourceAmplitudes {
     /// Wrenches of some of an engine's loads at the orders of these amplitudes; as [`wrenches`].
     pub fn wrenches(
         &self,
-        loads: &LoadList,
+        loads: &Scene,
         some: &[Load],
         torque: bool,
         orders: &[Order],
@@ -130,7 +130,7 @@ impl SourceAmplitudes {
     }
 
     /// Mean torques on the block and on the crank, of some of an engine's loads, by group.
-    pub fn means(&self, loads: &LoadList, some: &[Load]) -> Means {
+    pub fn means(&self, loads: &Scene, some: &[Load]) -> Means {
         let mut means = loads.groups.map_to(|_| [0.0; 2]);
         for load in some {
             let Some(torque) = &self.torque[load.source] else { continue };

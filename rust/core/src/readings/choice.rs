@@ -8,9 +8,8 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use crate::engine::Engine;
 use crate::load::{
-    Group, GroupIndex, KnownSeries, LargestWeights, Load, LoadList, SourceIndex, Sources, count,
+    Group, GroupIndex, KnownSeries, LargestWeights, Load, Scene, SourceIndex, Sources, count,
 };
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -46,7 +45,7 @@ pub(crate) struct Chosen {
 
 impl Chosen {
     /// What the orders that are left out add at most at some speeds, rad/s.
-    pub fn error_bound(&self, loads: &LoadList, omegas: &[f64]) -> ErrorBounds {
+    pub fn error_bound(&self, loads: &Scene, omegas: &[f64]) -> ErrorBounds {
         let at = |&omega: &f64| bounds(&self.left_out, &loads.groups, omega);
         omegas.iter().map(at).fold(ErrorBounds::default(), ErrorBounds::max)
     }
@@ -67,7 +66,7 @@ impl Chosen {
     }
 
     /// The balance at a speed, rad/s.
-    pub fn at_speed(&self, loads: &LoadList, omega: f64) -> Result<Balance> {
+    pub fn at_speed(&self, loads: &Scene, omega: f64) -> Result<Balance> {
         let Self { orders, kept, wrenches, means, left_out } = self;
         let all = Balance::of(loads, &loads.list, orders.clone(), wrenches, means, omega)?;
         Ok(all.keep(kept, bounds(left_out, &loads.groups, omega)))
@@ -124,8 +123,7 @@ pub(crate) fn bounds(left_out: &[OrderSums], groups: &[Group], omega: f64) -> Er
 /// An engine whose orders are chosen: its loads, their sources, of which tolerances are parts, and the same where
 /// harmonics decrease most slowly.
 pub(crate) struct Candidate<'a> {
-    pub engine: &'a Engine,
-    pub loads: &'a LoadList,
+    pub loads: &'a Scene,
     pub own: Cow<'a, Sources>,
     pub sources: Cow<'a, Sources>,
 }
@@ -147,9 +145,9 @@ impl Choice {
     pub fn new(rtol: f64, candidates: &[Candidate], torque: bool, cancel: &Cancel) -> Result<Self> {
         let rtol = limits::tolerance(rtol)?;
         let (mut orders, mut series, mut allowed) = (Vec::new(), Vec::new(), Vec::new());
-        for Candidate { engine, loads, own, sources } in candidates {
+        for Candidate { loads, own, sources } in candidates {
             cancel.check()?;
-            let scales = scales(engine, loads, own, torque);
+            let scales = scales(loads, own, torque);
             let known = self::candidates(rtol, &scales, loads, sources, torque, cancel)?;
             orders.extend(known.iter().flat_map(|series| &series.orders));
             series.push(known);
@@ -181,33 +179,25 @@ impl Choice {
     }
 }
 
-/// Orders of all loads of an engine that are given, or chosen; the last ones are kept with it, since they
+/// Orders of all loads of an engine that are given, or chosen; the last ones are kept with them, since they
 /// serve any speed.
 pub(crate) fn evaluated(
-    engine: &Engine,
-    loads: &LoadList,
+    loads: &Scene,
     orders: &Orders,
     torque: bool,
     cancel: &Cancel,
 ) -> Result<Arc<Chosen>> {
-    type Known = ((f64, bool), Orders, Arc<Chosen>);
-    let new = || Ok(Arc::new(evaluated_anew(engine, loads, orders, torque, cancel)?));
+    type Known = (bool, Orders, Arc<Chosen>);
+    let new = || Ok(Arc::new(evaluated_anew(loads, orders, torque, cancel)?));
     if matches!(orders, Orders::Given(orders) if orders.len() > MOST_ORDERS_KEPT) {
         return new();
     }
-    let of = (loads.reference, torque);
-    let is_such = |(own, known, _): &Known| *own == of && known == orders;
-    let known = engine.kept().get(is_such, || Ok((of, orders.clone(), new()?)))?;
+    let is_such = |(with_torque, known, _): &Known| *with_torque == torque && known == orders;
+    let known = loads.kept.get(is_such, || Ok((torque, orders.clone(), new()?)))?;
     Ok(Arc::clone(&known.2))
 }
 
-fn evaluated_anew(
-    engine: &Engine,
-    loads: &LoadList,
-    orders: &Orders,
-    torque: bool,
-    cancel: &Cancel,
-) -> Result<Chosen> {
+fn evaluated_anew(loads: &Scene, orders: &Orders, torque: bool, cancel: &Cancel) -> Result<Chosen> {
     match orders {
         Orders::Given(orders) => {
             order::check_list(orders)?;
@@ -217,20 +207,14 @@ fn evaluated_anew(
             let kept = vec![true; orders.len()];
             Ok(Chosen { orders: orders.clone(), kept, wrenches, means, left_out })
         }
-        Orders::Auto { rtol } => within(*rtol, engine, loads, torque, cancel),
+        Orders::Auto { rtol } => within(*rtol, loads, torque, cancel),
     }
 }
 
 /// The orders of an engine that leave out at most `rtol`.
-pub(crate) fn within(
-    rtol: f64,
-    engine: &Engine,
-    loads: &LoadList,
-    torque: bool,
-    cancel: &Cancel,
-) -> Result<Chosen> {
+pub(crate) fn within(rtol: f64, loads: &Scene, torque: bool, cancel: &Cancel) -> Result<Chosen> {
     let own = Cow::Borrowed(&loads.sources);
-    let alone = Candidate { engine, loads, sources: own.clone(), own };
+    let alone = Candidate { loads, sources: own.clone(), own };
     let choice = Choice::new(rtol, &[alone], torque, cancel)?;
     let sources = (&loads.sources, &choice.series[0]);
     let (wrenches, means) = wrenches(loads, sources, torque, &choice.orders, cancel)?;
@@ -245,8 +229,7 @@ pub(crate) fn within(
 /// leave out.
 pub(crate) fn within_each(
     rtol: f64,
-    engine: &Engine,
-    loads: &LoadList,
+    loads: &Scene,
     (torque, omega): (bool, f64),
     cancel: &Cancel,
 ) -> Result<(Vec<Order>, ErrorBounds)> {
@@ -258,8 +241,8 @@ pub(crate) fn within_each(
     let (origins, by_origin) = distinct::<usize, _>(others.iter().map(|load| load.place.origin));
     for origin in origins.indices() {
         let own = others.iter().zip(&by_origin).filter(|(_, of)| **of == origin);
-        let alone = LoadList { list: own.map(|(load, _)| *load).collect(), ..loads.clone() };
-        let chosen = within(rtol, engine, &alone, torque, cancel)?;
+        let alone = Scene { list: own.map(|(load, _)| *load).collect(), ..loads.clone() };
+        let chosen = within(rtol, &alone, torque, cancel)?;
         let kept = chosen.orders.iter().zip(&chosen.kept).filter(|(_, kept)| **kept);
         orders.extend(kept.map(|(order, _)| *order));
         for (sum, lost) in left_out.iter_mut().zip(&chosen.left_out) {
@@ -305,7 +288,7 @@ fn few<S: AsRef<[f64]>>(sizes: &[S], allowed: &[f64], lost: &mut [f64]) -> Vec<b
 fn candidates(
     rtol: f64,
     scales: &List<GroupIndex, GroupScale>,
-    loads: &LoadList,
+    loads: &Scene,
     sources: &Sources,
     torque: bool,
     cancel: &Cancel,
@@ -357,7 +340,7 @@ fn counts(source: &dyn Source, torque: bool) -> bool {
 /// Bounds of what orders beyond those evaluated add to each source in place of one of the loads; series that do
 /// not reach the last of them are continued.
 pub(crate) fn rests(
-    loads: &LoadList,
+    loads: &Scene,
     sources: &Sources,
     known: &mut KnownSeries,
     evaluated: &[Order],
@@ -401,7 +384,7 @@ pub(crate) fn rest(
 /// Bounds over what groups scale with of what the rests of sources add to force, moment and torque, as if nothing
 /// cancelled.
 pub(crate) fn sum_of_rests(
-    loads: &LoadList,
+    loads: &Scene,
     rests: &List<SourceIndex, Tail>,
     torque: bool,
 ) -> List<GroupIndex, OrderSums> {
@@ -449,12 +432,7 @@ impl GroupScale {
 /// load that has weight; for torque the largest m·r², amplitude of a torque, largest torque of pressure, or force
 /// times crank radius or the distance of its axis from the crank. Where rod inertia makes more of order 1, what
 /// it makes: about J·r/l.
-fn scales(
-    engine: &Engine,
-    loads: &LoadList,
-    sources: &Sources,
-    torque: bool,
-) -> List<GroupIndex, GroupScale> {
+fn scales(loads: &Scene, sources: &Sources, torque: bool) -> List<GroupIndex, GroupScale> {
     let mut scales = loads.groups.map_to(|_| GroupScale::default());
     let mut levers = loads.groups.map_to(|_| 0.0_f64);
     let of_sources = sources.map_to(|source| counts(&**source, torque).then(|| source.scale()));
@@ -465,7 +443,7 @@ fn scales(
             continue;
         };
         let own = load.weight.abs() * of_force;
-        let arm = || engine.largest_crank_radius().max(place.axis.norm());
+        let arm = || loads.crank_radius.max(place.axis.norm());
         let of_torque = of_torque.map_or_else(|| own * arm(), |scale| load.roll.abs() * scale);
         let square = place.speed_squared();
         let scale = &mut scales[group];
@@ -489,7 +467,7 @@ mod tests {
     use proptest::sample::select;
 
     use super::*;
-    use crate::engine::{Crank, Station};
+    use crate::engine::{Crank, Engine, Station};
     use crate::load::SourceIndex;
     use crate::mechanism::cylinder::Cylinder;
     use crate::numbers::angle::Angle;
@@ -499,7 +477,7 @@ mod tests {
     fn orders_of(
         rtol: f64,
         scales: &List<GroupIndex, GroupScale>,
-        loads: &LoadList,
+        loads: &Scene,
         torque: bool,
     ) -> Result<Vec<Order>> {
         let series = candidates(rtol, scales, loads, &loads.sources, torque, &Cancel::new())?;
@@ -508,7 +486,7 @@ mod tests {
         Ok(orders)
     }
 
-    fn rests_of(loads: &LoadList, orders: &[u32]) -> List<GroupIndex, OrderSums> {
+    fn rests_of(loads: &Scene, orders: &[u32]) -> List<GroupIndex, OrderSums> {
         let evaluated = Order::all_whole(orders).unwrap();
         let mut known = loads.sources.map_to(|_| Series::default());
         let rests =
@@ -520,8 +498,8 @@ mod tests {
         series(source, UpTo::Halves(2 * order), &Cancel::new()).unwrap().rest
     }
 
-    fn sums_of(engine: &Engine, loads: &LoadList) -> OrderSums {
-        scales(engine, loads, &loads.sources, true)[GroupIndex::default()].sums
+    fn sums_of(loads: &Scene) -> OrderSums {
+        scales(loads, &loads.sources, true)[GroupIndex::default()].sums
     }
 
     #[test]
@@ -536,7 +514,7 @@ mod tests {
                 rotating_mass: 0.0,
             };
             let engine = Engine::new("", "", vec![place]).unwrap();
-            let loads = LoadList::new(&engine, 0.0);
+            let loads = Scene::anew(&engine, 0.0);
             // Against a scale of its own a heavier rod takes more orders.
             let sums = OrderSums { force: 1e9, moment: 1e9, torque: 4.0 };
             let scales = List::new(vec![GroupScale { sums, ..GroupScale::default() }]);
@@ -556,15 +534,14 @@ mod tests {
     #[test]
     fn loads_that_act_the_other_way_are_bounded_alike() {
         let engine = crate::load::tests::fired([Some(0); 3]).0;
-        let ahead = LoadList::new(&engine, 0.0);
-        let mut opposite = LoadList::new(&engine, 0.0);
+        let ahead = Scene::anew(&engine, 0.0);
+        let mut opposite = Scene::anew(&engine, 0.0);
         opposite.list.iter_mut().for_each(|load| {
             load.weight *= -1.0;
             load.roll *= -1.0;
         });
-        let bounds = |loads: &LoadList| {
-            (rests_of(loads, &[1, 2, 3, 4]), scales(&engine, loads, &loads.sources, true))
-        };
+        let bounds =
+            |loads: &Scene| (rests_of(loads, &[1, 2, 3, 4]), scales(loads, &loads.sources, true));
         let found = bounds(&opposite);
         assert_eq!(bounds(&ahead), found);
         let [inertia, gas] = [0, 1].map(|k| found.0[GroupIndex::new(k)].values());
@@ -581,7 +558,7 @@ mod tests {
             let place = Station { cylinder, tdc, bank, z: 0.3, rotating_mass: 0.4 };
             let engine = Engine::new("", "", vec![place]).unwrap();
             let engine = engine.with_cranks(vec![Crank::MAIN, crank], vec![1]).unwrap();
-            let loads = LoadList::new(&engine, 0.1);
+            let loads = Scene::anew(&engine, 0.1);
             rests_of(&loads, orders)[GroupIndex::default()]
         };
         let parts = [(0.5, 0.0, 0.0), (0.5, 0.01, 0.0), (0.0, 0.0, 1e-3), (0.5, 0.01, -1e-3)];
@@ -644,9 +621,9 @@ mod tests {
         let all = Order::all_whole(&(1..=100).collect::<Vec<_>>()).unwrap();
         let cancel = Cancel::new();
         for (engine, [weight, lever]) in engines.iter().zip(scales_of) {
-            let loads = LoadList::new(engine, 0.05);
+            let loads = Scene::anew(engine, 0.05);
             let one = GroupIndex::default();
-            let scales = sums_of(engine, &loads).values();
+            let scales = sums_of(&loads).values();
             let expected = [weight, weight * lever, weight * 0.05];
             for (scale, expected) in scales.into_iter().zip(expected) {
                 assert!((scale - expected).abs() < 1e-15, "{scales:?} {expected}");
@@ -654,7 +631,7 @@ mod tests {
             let sources = (&loads.sources, &KnownSeries::default());
             let (every, _) = wrenches(&loads, sources, true, &all, &cancel).unwrap();
             for rtol in [0.3, 1e-2, 1e-4, 1e-9] {
-                let chosen = within(rtol, engine, &loads, true, &cancel).unwrap();
+                let chosen = within(rtol, &loads, true, &cancel).unwrap();
                 let kept: Vec<Order> = chosen.kept().map(|(order, _)| order).collect();
                 let mut sums = [0.0; 3];
                 let mut of_kept = Vec::new();
@@ -689,7 +666,7 @@ mod tests {
     #[test]
     fn bounds_of_groups_add_up_by_what_they_scale_with() {
         let engine = crate::load::tests::fired([Some(0); 3]).0;
-        let loads = LoadList::new(&engine, 0.0);
+        let loads = Scene::anew(&engine, 0.0);
         assert_eq!(loads.groups.len(), 2);
         let of = |k: f64| OrderSums { force: k, moment: 2.0 * k, torque: 3.0 * k };
         let found = bounds(&[of(1.0), of(10.0)], &loads.groups, 5.0).values();
@@ -703,22 +680,22 @@ mod tests {
     #[test]
     fn orders_of_cylinders_alone_are_those_of_engines_of_one() {
         let engine = crate::load::tests::engine();
-        let (loads, cancel) = (LoadList::new(&engine, 0.03), Cancel::new());
+        let (loads, cancel) = (Scene::anew(&engine, 0.03), Cancel::new());
         for rtol in [1e-2, 1e-6] {
             let mut expected = Order::all_whole(&[1, 2]).unwrap();
             let mut sums = [0.0; 3];
             for station in engine.stations() {
                 let alone = Station { rotating_mass: 0.0, ..*station };
                 let alone = Engine::new("", "", vec![alone]).unwrap();
-                let loads = LoadList::new(&alone, 0.03);
-                let chosen = within(rtol, &alone, &loads, true, &cancel).unwrap();
+                let loads = Scene::anew(&alone, 0.03);
+                let chosen = within(rtol, &loads, true, &cancel).unwrap();
                 expected.extend(chosen.kept().map(|(order, _)| order));
                 let bound = chosen.error_bound(&loads, &[7.0]).values();
                 sums.iter_mut().zip(bound).for_each(|(sum, bound)| *sum += bound);
             }
             expected.sort_unstable();
             expected.dedup();
-            let (orders, bound) = within_each(rtol, &engine, &loads, (true, 7.0), &cancel).unwrap();
+            let (orders, bound) = within_each(rtol, &loads, (true, 7.0), &cancel).unwrap();
             assert_eq!(orders, expected);
             for (bound, sum) in bound.values().into_iter().zip(sums) {
                 assert!(sum > 0.0 && (bound - sum).abs() <= 1e-13 * sum, "{bound} {sum}");
@@ -732,8 +709,8 @@ mod tests {
         let (tdc, bank) = (Angle::ZERO, Angle::ZERO);
         let place = Station { cylinder, tdc, bank, z: 0.0, rotating_mass: 0.0 };
         let engine = Engine::new("", "", vec![place]).unwrap();
-        let loads = LoadList::new(&engine, 0.0);
-        let error = within(1e-9, &engine, &loads, true, &Cancel::new()).err().unwrap();
+        let loads = Scene::anew(&engine, 0.0);
+        let error = within(1e-9, &loads, true, &Cancel::new()).err().unwrap();
         let ratio = format!("at a rod ratio of {:?};", cylinder.mechanism().rod_ratio());
         assert!(error.to_string().contains(&ratio), "{error}");
     }
@@ -745,10 +722,10 @@ mod tests {
         let (tdc, bank) = (Angle::ZERO, Angle::ZERO);
         let place = Station { cylinder, tdc, bank, z: 0.0, rotating_mass: 0.0 };
         let engine = Engine::new("", "", vec![place; 2]).unwrap();
-        let loads = LoadList::new(&engine, 0.0);
+        let loads = Scene::anew(&engine, 0.0);
         let rest = rest_above(&*loads.sources[SourceIndex::new(0)], limits::HIGHEST_ORDER).force;
         assert!(rest > 0.0 && rest.is_finite());
-        let scales = scales(&engine, &loads, &loads.sources, false);
+        let scales = scales(&loads, &loads.sources, false);
         // Of two cylinders each leaves half of that.
         for (part, is_enough) in [(0.1, true), (0.12, true), (0.13, false), (0.3, false)] {
             let found = orders_of(rest / part, &scales, &loads, false);
@@ -765,7 +742,7 @@ mod tests {
         let (tdc, bank) = (Angle::ZERO, Angle::ZERO);
         let place = Station { cylinder, tdc, bank, z: 0.2, rotating_mass: 0.0 };
         let rod = Engine::new("", "", vec![place]).unwrap();
-        let scales_of = |engine: &Engine| sums_of(engine, &LoadList::new(engine, 0.05));
+        let scales_of = |engine: &Engine| sums_of(&Scene::anew(engine, 0.05));
         // About J·r/l.
         let torque = scales_of(&rod).torque;
         assert!((torque / (0.01 / 3.0) - 1.0).abs() < 0.1, "{torque}");
@@ -789,11 +766,10 @@ mod tests {
     #[test]
     fn bounds_of_loads_add_up() {
         let engine = crate::load::tests::fired([Some(0); 3]).0;
-        let once = LoadList::new(&engine, 0.0);
-        let mut twice = LoadList::new(&engine, 0.0);
+        let once = Scene::anew(&engine, 0.0);
+        let mut twice = Scene::anew(&engine, 0.0);
         twice.list = once.list.iter().chain(&once.list).copied().collect();
-        let rest =
-            |loads: &LoadList| rests_of(loads, &[1, 2, 3, 4])[GroupIndex::default()].values();
+        let rest = |loads: &Scene| rests_of(loads, &[1, 2, 3, 4])[GroupIndex::default()].values();
         for (one, both) in rest(&once).into_iter().zip(rest(&twice)) {
             assert!((both - 2.0 * one).abs() <= 1e-14 * one, "{both} {one}");
         }

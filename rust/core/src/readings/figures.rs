@@ -11,7 +11,7 @@ use super::quantity::Part;
 use super::terms::{LoadSums, terms};
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::{Load, LoadList};
+use crate::load::{Load, Scene};
 use crate::numbers::UNIT_RPM;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -188,7 +188,7 @@ fn load_orders(engine: &Engine) -> Result<Vec<Order>> {
     if engine.loads().is_empty() {
         return Ok(Vec::new());
     }
-    let loads = LoadList::of(engine, engine.reference(None)?)?;
+    let loads = Scene::of(engine, None)?;
     let mut own = BTreeSet::new();
     for (_, load) in loads.further() {
         own.extend(resolved(loads.source(load), &Cancel::new())?);

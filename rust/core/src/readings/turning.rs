@@ -2,7 +2,7 @@
 
 use crate::Complex64;
 use crate::engine::{CrankIndex, Engine};
-use crate::load::{KnownSeries, LoadList};
+use crate::load::{KnownSeries, Scene};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::ListIndex;
@@ -52,7 +52,7 @@ pub(crate) fn over_square(
         return Err(Error::figure("rpm", rpm, hint));
     }
     engine.check_speeds(rpm.as_slice())?;
-    let loads = LoadList::of(engine, engine.reference(None)?)?;
+    let loads = Scene::of(engine, None)?;
     let torque = torque && engine.spectrum().is_none();
     let (by_group, _) =
         wrenches(&loads, (&loads.sources, &KnownSeries::default()), torque, &[order], cancel)?;

@@ -44,7 +44,7 @@ use crate::Complex64;
 use crate::engine::Engine;
 use crate::firing::Firing;
 use crate::layout::Strokes;
-use crate::load::{Load, LoadIndex, LoadList};
+use crate::load::{Load, LoadIndex, Scene};
 use crate::mechanism::exact::TorqueKey;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
@@ -547,7 +547,7 @@ fn evaluated(
     let orders = Orders::Given(orders.to_vec());
     let all = balance::balance(engine, &request, &orders, cancel)?;
     let found = all.of_part(Part::INERTIA);
-    let loads = LoadList::of(engine, engine.reference(reference_z)?)?;
+    let loads = Scene::of(engine, reference_z)?;
     let weights = loads.torque_weights();
     let of_sources = weights.iter().zip(&loads.sources);
     let of_cycles = of_sources.filter(|(_, source)| source.exact() == ExactFactor::Cycle);

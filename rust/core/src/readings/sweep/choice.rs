@@ -60,7 +60,7 @@ impl Sweep {
         let [rod_ratio, pin_offset] = sweep.extremes;
         // Between the cycles of a map no sum is larger than the largest of theirs.
         let (mut candidates, nodes) = (Vec::new(), sweep.nodes.count());
-        for (engine, loads) in sweep.engines.iter().zip(&loads) {
+        for loads in &loads {
             for node in 0..nodes {
                 let cycles = sweep.cycles_at(node);
                 let own = match cycles {
@@ -68,7 +68,7 @@ impl Sweep {
                     None => Cow::Borrowed(&loads.sources),
                 };
                 let slowest = loads.at_point(&Point { rod_ratio, pin_offset, cycles })?;
-                candidates.push(Candidate { engine, loads, own, sources: Cow::Owned(slowest) });
+                candidates.push(Candidate { loads, own, sources: Cow::Owned(slowest) });
             }
         }
         let mut choice = Choice::new(rtol, &candidates, sweep.torque, cancel)?;
@@ -84,7 +84,7 @@ impl Sweep {
         let mut layouts = Vec::new();
         for (k, (candidate, series)) in candidates.iter().zip(&choice.series).enumerate() {
             cancel.check()?;
-            let Candidate { engine, loads, sources: slowest, .. } = candidate;
+            let Candidate { loads, sources: slowest, .. } = candidate;
             if is_one_point {
                 let sources = (&**slowest, series);
                 let (all, _) = wrenches(loads, sources, sweep.torque, &sweep.orders, cancel)?;
@@ -109,7 +109,7 @@ impl Sweep {
             // Another cycle changes amplitudes alone.
             if k % nodes == 0 {
                 let selections: Vec<Selection> = selected.iter().map(|(_, one)| *one).collect();
-                layouts = sweep.layouts(engine, loads, &selections)?;
+                layouts = sweep.layouts(&sweep.engines[k / nodes], loads, &selections)?;
             }
             let mut of_engine = vec![loads.groups.map_to(|_| OrderSums::default()); sizes.len()]; // bounded: orders
             for ((group, selection), layout) in selected.into_iter().zip(&layouts) {

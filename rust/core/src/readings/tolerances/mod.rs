@@ -8,7 +8,7 @@ mod terms;
 use self::terms::Terms;
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::LoadList;
+use crate::load::Scene;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -134,9 +134,9 @@ pub fn orders(
 ) -> Result<(Vec<Order>, ErrorBounds)> {
     check_without_gas(engine, request)?;
     let omega = angular_speed(request.rpm)?;
-    let loads = LoadList::of(engine, engine.reference(request.reference_z)?)?;
+    let loads = Scene::of(engine, request.reference_z)?;
     let wanted = (request.torque, omega);
-    let (mut orders, left_out) = choice::within_each(rtol, engine, &loads, wanted, cancel)?;
+    let (mut orders, left_out) = choice::within_each(rtol, &loads, wanted, cancel)?;
     if orders.first() != Some(&Order::FIRST) && !orders.contains(&Order::FIRST) {
         orders.push(Order::FIRST);
         orders.sort_unstable();
